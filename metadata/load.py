@@ -25,7 +25,7 @@ from metadata.model import (
     FaceNames,
     SkeletonProfile,
 )
-from metadata.tables import check_name, decoded, invalid
+from metadata.tables import check_name, decoded, invalid, label
 
 ROOT = Path(__file__).parent
 _KIND_FOLDERS = {
@@ -130,10 +130,10 @@ def read_expression(path: Path) -> Expression:
 
 def read_named_expression(path: Path) -> Expression:
     """Read and check an expression whose name need not be that of its file. Raises MapError."""
-    expression = _decode(path, Expression)
+    expression = decoded(path, Expression)
     if not expression.name.strip() or not expression.name.isprintable():
-        raise _invalid(path, "name", "must be a name on one line")
-    _check_morphs(path, "weights", expression.weights)
+        raise invalid(path, "name", "must be a name on one line")
+    _check_morphs(path, "weights", expression.weights, label(path))
     return expression
 
 
@@ -263,10 +263,10 @@ def _check_name(path: Path, name: str) -> None:
     check_name(path, name, path.name)
 
 
-def _check_morphs(path: Path, key: str, weights: Iterable[str]) -> None:
+def _check_morphs(path: Path, key: str, weights: Iterable[str], file: str | None = None) -> None:
     for morph in weights:
         if morph not in _MORPHS:
-            raise _invalid(path, f"{key}.{morph}", "not one of the 52 ARKit morph targets")
+            raise invalid(path, f"{key}.{morph}", "not one of the 52 ARKit morph targets", file or path.name)
 
 
 def _check_joints(path: Path, key: str, joints: tuple[str, ...], known: set[str]) -> None:

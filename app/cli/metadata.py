@@ -3,15 +3,19 @@
 from __future__ import annotations
 
 import argparse
+from collections.abc import Iterable
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from app.cli.options import Commands
 from app.cli.summary import columns
 from app.cli.terminal import say, warn
 from app.encoding import shown
-from app.errors import AppError, UsageError
+from app.errors import AppError, Message, UsageError
 from app.messages import text
+
+if TYPE_CHECKING:
+    from metadata.rules import Rule
 
 
 class InvalidMetadataError(AppError):
@@ -67,6 +71,7 @@ def list_all() -> None:
     from metadata.library import FOLDERS, metadata_library
 
     library = metadata_library()
+    strange = {name: _unknown_names(library.rules.items[name].rules) for name in library.rules.files}
     rows = [("kind", "name", "is")]
     shelves: tuple[Shelf[Any], ...] = library
     for folder, shelf in zip(FOLDERS, shelves, strict=True):
@@ -79,6 +84,9 @@ def list_all() -> None:
         say(f"  {shown(shelf.folder)}")
         for problems in shelf.problems.values():
             say(*(f"    {text(problem)}" for problem in problems))
+        if shelf is library.rules:
+            for name, unknown in strange.items():
+                say(*(f"    rules/{shown(name)}.toml: {text(message)}" for message in unknown))
 
 
 def check(file: Path) -> None:
@@ -89,15 +97,37 @@ def check(file: Path) -> None:
     UsageError
         ``metadata.no_kind``: the folder is called like no kind.
     AppError
-        What is wrong with it.
+        What is wrong with it: of rules also that they name what is not there.
     """
     from metadata.library import READERS
+    from metadata.rules import RuleSet
 
     folder = file.absolute().parent.name
     if folder not in READERS:
         raise UsageError("metadata.no_kind", folder=folder, known=", ".join(READERS))
-    READERS[folder](file)
+    found = READERS[folder](file)
+    unknown = _unknown_names(found.rules) if isinstance(found, RuleSet) else []
+    if unknown:
+        raise InvalidMetadataError(unknown[0].id, **unknown[0].arguments)
     say(f"{shown(file.name)}: valid")
+
+
+def _unknown_names(rules: Iterable[Rule]) -> list[Message]:
+    """Expressions, gestures, styles and habits that rules name and that are not there: such a rule does nothing."""
+    from app.plan.rules import unknown_in
+    from metadata.library import metadata_library
+
+    library, found = metadata_library(), list[Message]()
+    for rule in rules:
+        unknown = unknown_in(rule, library.expressions_by_name, library.gestures.items)
+        found += [] if unknown is None else [unknown]
+        for kind, names, known in (
+            ("style", (*rule.when.styles, *rule.when.not_styles), library.styles.items),
+            ("habit", rule.when.habits, library.habits.items),
+        ):
+            said = {"rule": rule.name, "known": ", ".join(sorted(known))}
+            found += [Message(f"rule.unknown_{kind}", {**said, "name": name}) for name in names if name not in known]
+    return found
 
 
 def save(piece: Path, file: Path) -> None:

@@ -37,6 +37,7 @@ from app.messages import (
     unreal,
     work,
 )
+from app.messages.details import detail_text
 from app.messages.pitches import pitch_name
 from app.messages.touches import touch_name
 
@@ -120,6 +121,8 @@ def text(message: Message, language: str = "en") -> str:
     arguments = dict(message.arguments)
     for name in PITCHES.get(message.id, ()):
         arguments[name] = pitch_name(float(arguments[name]))
+    if message.id == "table.invalid":
+        arguments["detail"] = detail_text(str(arguments["detail"]), language)
     if "touch" in arguments:
         arguments["touch"] = touch_name(str(arguments["touch"]), language)
     for name in TEXTS & arguments.keys():

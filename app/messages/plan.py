@@ -338,6 +338,14 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         "the rule {rule} makes the gesture {name!r}, which does not exist; choose one of: {known}",
         "ルール {rule} のジェスチャー {name!r} がありません。使えるもの: {known}",
     ),
+    "rule.unknown_style": (
+        "the rule {rule} is for the style {name!r}, which does not exist; choose of: {known}",
+        "ルール {rule} の演奏スタイル {name!r} がありません。使えるもの: {known}",
+    ),
+    "rule.unknown_habit": (
+        "the rule {rule} is for the habit {name!r}, which does not exist; choose of: {known}",
+        "ルール {rule} の癖 {name!r} がありません。使えるもの: {known}",
+    ),
     "gesture.unknown": (
         "the gesture {name!r} does not exist and does nothing; choose one of: {known}",
         "ジェスチャー {name!r} がないため、何も行いません。使えるもの: {known}",

@@ -1,7 +1,8 @@
 """What playing costs and where the music goes, as the face shows it: slow curves from the notes of a plan.
 
 All of it is worked out in whole numbers on a grid of absolute time, so that a note far away changes not even the last
-bit: after an edit only what is near it is another face.
+bit: after an edit only what is near it is another face. What lasts long (where the melody goes, a phrase, the air left,
+tired lips) follows the music as it was planned: lips set by hand for a note change its load alone.
 """
 
 from __future__ import annotations
@@ -85,10 +86,11 @@ def exertion_of(plan: PlayerPlan, face: FaceMotion, lungs: Lungs) -> Spline:
     ends_s = np.minimum(np.array([event.end_s for event in plan.embouchures]), np.append(starts_s[1:], np.inf))
     note = np.searchsorted(starts_s, at_s, side="right") - 1
     sounds = (note >= 0) & (at_s < ends_s[note])
-    tension, air, effort = _asked(plan, at_s, note, sounds)
-    share = face.load
-    cost = share.tension * tension + share.air * air + share.effort * effort - share.easy
-    load = _whole(np.clip(np.where(sounds, cost, 0.0), 0.0, 1.0))
+    tension, air, effort = _asked(plan, at_s, note, sounds, as_planned=False)
+    load = music = _load(face, tension, air, effort, sounds)
+    if any(event.corrected for event in plan.embouchures):
+        tension, air, effort = _asked(plan, at_s, note, sounds, as_planned=True)
+        music = _load(face, tension, air, effort, sounds)
     playing = sounds.astype(np.int64)
     arch = _arch(plan, starts_s, ends_s, at_s)
     rows = (
@@ -97,22 +99,35 @@ def exertion_of(plan: PlayerPlan, face: FaceMotion, lungs: Lungs) -> Spline:
         _apart(_whole(tension), playing),
         _apart(_whole(air), playing),
         _emptying(plan, lungs, air * sounds, sounds, at_s),
-        _mean(_whole(arch) * _mean(load, 0.8, 0.8) // (ONE // 2), 0.2, 0.2),
-        _tired(load),
+        _mean(_whole(arch) * _mean(music, 0.8, 0.8) // (ONE // 2), 0.2, 0.2),
+        _tired(music),
     )
     low = np.array([[-ONE if name in ("contour", "swell") else 0] for name in Exertion._fields])
     return Spline(first, STEP_S, np.clip(np.stack(rows), low, ONE).astype(np.int16), float(ONE))
 
 
+def _load(
+    face: FaceMotion, tension: FloatArray, air: FloatArray, effort: FloatArray, sounds: npt.NDArray[np.bool_]
+) -> IntArray:
+    """What the notes cost, on the grid."""
+    share = face.load
+    cost = share.tension * tension + share.air * air + share.effort * effort - share.easy
+    return _whole(np.clip(np.where(sounds, cost, 0.0), 0.0, 1.0))
+
+
 def _asked(
-    plan: PlayerPlan, at_s: FloatArray, note: IntArray, sounds: npt.NDArray[np.bool_]
+    plan: PlayerPlan, at_s: FloatArray, note: IntArray, sounds: npt.NDArray[np.bool_], *, as_planned: bool
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Tension, air and effort on the grid, 0 in silences: as they were recorded where they were, else by the notes."""
+    """Tension, air and effort on the grid, 0 in silences: as they were recorded where they were, else by the notes.
+
+    ``as_planned`` leaves out what was set by hand.
+    """
     events, traces = plan.embouchures, plan.traces
-    found = [
-        np.where(sounds, np.array([getattr(event, name) for event in events])[note], 0.0)
-        for name in ("tension", "air", "effort")
+    rows = [
+        (event.tension, event.effort, event.air) if event.planned is None or not as_planned else event.planned
+        for event in events
     ]
+    found = [np.where(sounds, column[note], 0.0) for column in np.array(rows).T[[0, 2, 1]]]
     if traces is not None:
         place = np.rint((at_s - traces.start_s) / traces.step_s).astype(np.int64)
         for number, values in enumerate((traces.tension, traces.air, traces.effort)):

@@ -309,7 +309,7 @@ def correct_embouchures(
             effort=event.effort if item.effort is None else item.effort,
             air=event.air if item.air is None else item.air,
             reason=BY_HAND,
-            corrected=True,
+            planned=(event.tension, event.effort, event.air),
         )
         if (item := by_note.get(event.note_id)) is not None
         else event

@@ -86,7 +86,13 @@ class TongueEvent(msgspec.Struct, frozen=True, gc=False):
 
 class EmbouchureEvent(msgspec.Struct, frozen=True, gc=False):
     """Lips during one note. All values 0..1: ``tension`` (register), ``effort`` (height, loudness, length), ``air``
-    (dynamics)."""
+    (dynamics).
+
+    Attributes
+    ----------
+    planned : (float, float, float) or None
+        Tension, effort and air as they were planned, where others were set by hand.
+    """
 
     note_id: str
     start_s: float
@@ -95,7 +101,12 @@ class EmbouchureEvent(msgspec.Struct, frozen=True, gc=False):
     effort: float
     air: float
     reason: Message
-    corrected: bool = False
+    planned: tuple[float, float, float] | None = None
+
+    @property
+    def corrected(self) -> bool:
+        """Whether it was set by hand."""
+        return self.planned is not None
 
     @property
     def id(self) -> str:

@@ -105,7 +105,7 @@ def plan_by_rules(
     for rule in rules:
         if not notes or not rule.enabled or not concerns(rule.when, in_styles, habits):
             continue
-        unknown = _unknown(rule, faces, gestures)
+        unknown = unknown_in(rule, faces, gestures)
         if unknown is not None:
             problems.append(Problem(unknown, None, frame.first_frame_s, frame.first_frame_s))
             continue
@@ -223,7 +223,7 @@ def concerns(when: When, styles: Collection[str], habits: Sequence[str]) -> bool
     return not when.habits or not set(when.habits).isdisjoint(habits)
 
 
-def _unknown(rule: Rule, faces: Mapping[str, Expression], gestures: Mapping[str, Gesture]) -> Message | None:
+def unknown_in(rule: Rule, faces: Mapping[str, Expression], gestures: Mapping[str, Gesture]) -> Message | None:
     """Why a rule cannot do what it says."""
     for kind, name, known in (("expression", rule.do.expression, faces), ("gesture", rule.do.gesture, gestures)):
         if name and name not in known:

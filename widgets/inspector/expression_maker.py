@@ -27,6 +27,7 @@ from widgets.common.morph_names import morph_name
 from widgets.common.number_slider import NumberSlider
 from widgets.common.plain import Label
 from widgets.common.section import Section
+from widgets.inspector.face_picture import FacePicture
 
 GROUPS: tuple[tuple[str, tuple[str, ...]], ...] = (
     ("brows", ("brow",)),
@@ -71,6 +72,7 @@ class ExpressionMaker(Retranslated, QWidget):
         self._title = named(QLineEdit(), "expression_name")
         self._playing = named(Check("expression_maker.may_show_while_playing"), "expression_while_playing")
         self._hint = Label()
+        self._picture = FacePicture(session)
         self._fades = {
             name: NumberSlider(session, 0.01, 60, step=0.05, fills=(0.0, 3.0), resets=False)
             for name in ("fade_in_s", "fade_out_s")
@@ -94,6 +96,7 @@ class ExpressionMaker(Retranslated, QWidget):
         body.addLayout(line)
         self._hint.setWordWrap(True)
         body.addWidget(self._hint)
+        body.addWidget(self._picture)
         body.addWidget(self._title)
         body.addWidget(self._playing)
         fades = QGridLayout()
@@ -138,6 +141,7 @@ class ExpressionMaker(Retranslated, QWidget):
         self._tools["keep"].clicked.connect(self._keep)
         self._tools["preview"].toggled.connect(self._preview)
         session.changed.connect(self._changed)
+        session.players_changed.connect(self._preview)
         session.theme_changed.connect(self._apply_theme)
 
     # Showing
@@ -223,7 +227,9 @@ class ExpressionMaker(Retranslated, QWidget):
     def _preview(self, *_: object) -> None:
         """Let the player in front wear the face, while the section is open."""
         expression = self.expression
-        live = self._section.is_open and self.isVisible() and self._tools["preview"].isChecked()
+        seen = self._section.is_open and self.isVisible() and expression is not None
+        live = seen and self._tools["preview"].isChecked()
+        self._picture.show_face(dict(expression.weights) if seen and expression is not None else None)
         self._session.set_preview_morphs(dict(expression.weights) if live and expression is not None else None)
 
     def _changed(self, change: Change) -> None:
@@ -369,4 +375,5 @@ class ExpressionMaker(Retranslated, QWidget):
     def hideEvent(self, event: QEvent) -> None:
         # A window that the program's end takes down hides what is in it after everything else is gone.
         if not QCoreApplication.closingDown() and shiboken6.isValid(self._session):
+            self._picture.show_face(None)
             self._session.set_preview_morphs(None)

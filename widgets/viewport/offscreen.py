@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator, Sequence
 from typing import TypeVar
 
 from PySide6.QtCore import QCoreApplication, QEvent
-from PySide6.QtGui import QColor, QFont, QFontMetrics, QImage, QPainter
+from PySide6.QtGui import QColor, QFont, QFontMetrics, QImage, QPainter, QTransform
 from PySide6.QtWidgets import QApplication
 
 from app.editor.session import Session
@@ -135,14 +135,13 @@ def captions(texts: Sequence[tuple[str, str]], width: int, theme: str) -> list[P
     font.setPixelSize(round(min(max(width * _CAPTION_PER_WIDTH, least), most)))
     metrics = QFontMetrics(font)
     step, margin = metrics.height(), metrics.descent()
-    lines = [((first, tokens.text), (second, tokens.text_dim)) for first, second in texts]
+    lines: list[tuple[tuple[str, str], ...]] = [
+        ((first, tokens.text), (second, tokens.text_dim)) for first, second in texts
+    ]
     if any(metrics.horizontalAdvance(first) > width - margin for first, _ in texts):
         lines = [
             (*((part, tokens.text) for part in first.split(_DOT)), (second, tokens.text_dim)) for first, second in texts
         ]
-        # What is still wider is set narrower.
-        widest = max(metrics.horizontalAdvance(line) for rows in lines for line, _ in rows)
-        font.setStretch(min(100, max(50, 100 * (width - 2 * margin) // widest)))
     height = step * max(map(len, lines), default=0) + margin
     found = []
     for rows in lines:
@@ -152,7 +151,10 @@ def captions(texts: Sequence[tuple[str, str]], width: int, theme: str) -> list[P
         painter.setFont(font)
         for row, (line, color) in enumerate(rows):
             painter.setPen(QColor(color))
-            painter.drawText(margin, metrics.ascent() + row * step, line)
+            # What is still wider than its picture is drawn narrower.
+            narrower = min(1.0, (width - 2.0 * margin) / max(metrics.horizontalAdvance(line), 1))
+            painter.setTransform(QTransform(narrower, 0.0, 0.0, 1.0, margin, metrics.ascent() + row * step))
+            painter.drawText(0, 0, line)
         painter.end()
         found.append(pixels(image))
     return found

@@ -6,6 +6,7 @@ import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QCheckBox, QComboBox, QLineEdit, QToolButton, QWidget
+from pytestqt.qtbot import QtBot
 
 from app.editor.session import Session
 from app.project import presets
@@ -15,6 +16,7 @@ from tests.gui.inspector.hands import child, click, drag, number, type_into
 from widgets.common.number_slider import NumberSlider
 from widgets.common.section import Section
 from widgets.inspector.expression_maker import GROUPS, mirrored
+from widgets.inspector.face_picture import FacePicture
 from widgets.inspector.panel import InspectorPanel
 
 
@@ -49,6 +51,18 @@ def test_the_face_is_live_only_while_it_is_looked_at(panel: InspectorPanel, plan
     assert planned.preview_morphs is not None
     unfold(panel)
     assert planned.preview_morphs is None
+
+
+def test_its_face_is_drawn_beside_the_sliders(panel: InspectorPanel, planned: Session, qtbot: QtBot) -> None:
+    unfold(panel)
+    choose(panel, "fierce")
+    drawn = child(panel, FacePicture, "expression_picture")
+    qtbot.waitUntil(lambda: not drawn.pixmap().isNull())
+    fierce = drawn.pixmap().toImage()
+    choose(panel, "smile")
+    qtbot.waitUntil(lambda: drawn.pixmap().toImage() != fierce)
+    unfold(panel)
+    assert drawn.weights is None
 
 
 def test_a_bundled_one_is_duplicated_then_changed(panel: InspectorPanel, planned: Session) -> None:

@@ -69,6 +69,28 @@ def test_a_table_is_checked_by_the_folder_it_is_in(run: Run, tmp_path: Path) -> 
     assert "gestures" in said
 
 
+@pytest.mark.parametrize(
+    ("when", "do", "name"),
+    [
+        ("longer_s = 1.0", 'expression = "smyle"', "smyle"),
+        ("longer_s = 1.0", 'gesture = "sallute"', "sallute"),
+        ('styles = ["jaz"]', 'gesture = "shrug"', "jaz"),
+        ('habits = ["noder"]', 'gesture = "shrug"', "noder"),
+    ],
+)
+def test_a_rule_that_names_what_is_not_there_is_not_valid(
+    run: Run, folders: Path, when: str, do: str, name: str
+) -> None:
+    (folders / "rules").mkdir(exist_ok=True)
+    file = folders / "rules" / "mine.toml"
+    rule = f'[[rules]]\nname = "a"\nwhen = {{ {when} }}\ndo = {{ {do} }}\n'
+    file.write_text(f'name = "mine"\ndescription = ""\n{rule}', encoding="utf-8")
+    status, _, said = run("metadata", "--check", file)
+    assert status == 1
+    assert repr(name) in said
+    assert "rules/mine.toml: the rule a " in run("metadata")[1]
+
+
 def test_a_piece_is_saved_compared_and_loaded(run: Run, tmp_path: Path) -> None:
     piece, other, file = tmp_path / "a.suisou", tmp_path / "b.suisou", tmp_path / "said.toml"
     project = small_project()

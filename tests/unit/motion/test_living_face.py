@@ -126,6 +126,20 @@ def test_only_what_is_near_an_edited_note_changes() -> None:
         assert found.max() < 100.5 + 17.0, "as long as lips stay tired"
 
 
+def test_lips_set_by_hand_change_the_face_for_seconds_only() -> None:
+    made = plan([(0.5 * i, 0.5 * i + 0.45, 0.6, 0.6) for i in range(60)])
+    note = made.embouchures[20]
+    by_hand = msgspec.structs.replace(note, tension=1.0, effort=1.0, planned=(note.tension, note.effort, note.air))
+    lips = (*made.embouchures[:20], by_hand, *made.embouchures[21:])
+    one, other = (
+        exertion_of(each, load_body().face, Lungs(9.0))
+        for each in (made, msgspec.structs.replace(made, embouchures=lips))
+    )
+    spans_s = one.changed_s(other)
+    assert note.start_s - 1.0 < spans_s.min() < note.start_s
+    assert note.end_s < spans_s.max() < note.end_s + 3.5
+
+
 def test_lips_are_firmest_at_an_attack_and_settle() -> None:
     made = plan([(0.0, 2.0, 0.5, 0.8), (2.0, 4.0, 0.5, 0.8), (5.0, 7.0, 0.5, 0.8)])
     made = msgspec.structs.replace(made, tongues=tuple(t for t in made.tongues if t.end_s != 2.0))

@@ -1,0 +1,70 @@
+"""What is wrong with a table, in Japanese: what schemas and the checks of `metadata` say; the rest stays as it is."""
+
+from __future__ import annotations
+
+import re
+from typing import Final
+
+_JAPANESE: Final = tuple(
+    (re.compile(pattern), wording)
+    for pattern, wording in (
+        (r"Object contains unknown field `(.*)`", r"`\1` という項目はありません"),
+        (r"Object missing required field `(.*)`", r"項目 `\1` がありません"),
+        (r"Invalid enum value (.*)", r"\1 は使えない値です"),
+        (r"Expected `(.*)`, got `(.*)`", r"`\1` が必要ですが、`\2` です"),
+        (r"Expected `(?:.*)` <= (.*)", r"\1 以下でなければなりません"),
+        (r"Expected `(?:.*)` >= (.*)", r"\1 以上でなければなりません"),
+        (r"Expected `(?:.*)` > (.*)", r"\1 より大きくなければなりません"),
+        (r"Expected `(?:.*)` < (.*)", r"\1 より小さくなければなりません"),
+        (r"Expected `array` of (?:at most )?length (?:<= )?(.*)", r"要素は \1 個までです"),
+        (r"(.*) is not the file's name (.*)", r"\1 がファイル名 \2 と一致しません"),
+        (r"(.*) must be letters, digits and underscores", r"\1 は英数字と下線だけにしてください"),
+        (r"(.*) appears twice", r"\1 が重複しています"),
+        (r"(.*) needs when\.(.*)", r"\1 には when.\2 が必要です"),
+        (r"must be (\d+) to (\d+)", r"\1～\2 個必要です"),
+        (r"at most (\d+)", r"最大 \1 個です"),
+        (
+            r"must be (\S+): a gesture begins at 0 and ends at 1",
+            r"\1 にしてください。ジェスチャーは 0 に始まり 1 に終わります",
+        ),
+        (
+            r"must be 0 and level: the body goes on from where it is",
+            "0 で傾きなしにしてください。元の姿勢に戻ります",
+        ),
+        (r"must be 0: the instrument is lowered before and after", "0 にしてください。前後では楽器を下ろしています"),
+        (r"must be on the grip: the hand goes back to where it was", "grip にしてください。手は元の位置に戻ります"),
+        (r"must be at least (\S+) after the key before", r"前のキーから \1 以上離してください"),
+        (r"must be a name on one line", "1 行の名前にしてください"),
+        (r"must be after the start", "start より後にしてください"),
+        (r"must be printable and without commas", "表示できる文字で、コンマなしにしてください"),
+        (r"must have an expression or a gesture, and not both", "expression か gesture のどちらか一方が必要です"),
+        (r"must have at least one factor other than 1", "1 以外の係数が 1 つ以上必要です"),
+        (r"must not fall, and be at most 3", "減らない値で、3 以下にしてください"),
+        (r"must say when", "条件を 1 つ以上書いてください"),
+        (r"not one of the 52 ARKit morph targets", "ARKit の 52 個のモーフターゲットにありません"),
+        (r'an elbow has only "up"', '肘にあるのは "up" だけです'),
+        (
+            r'must be "lowered" where a hand leaves the instrument, or it comes up',
+            '手が楽器を離れるか楽器が上がる場合は "lowered" にしてください',
+        ),
+        (r"a gesture ends when it is done", "ジェスチャーは終わると消えます"),
+        (r"a gesture has its fades in its keys", "ジェスチャーのフェードはキーで表します"),
+        (r"has nothing to grow with at a moment", "この時点には強さの基準がありません"),
+        (
+            r"is for expressions; say of a gesture where the note is",
+            "表情だけに使えます。ジェスチャーには音符の位置を指定してください",
+        ),
+        (r"the mouth belongs to the embouchure", "口はアンブシュアが動かします"),
+    )
+)
+
+
+def detail_text(detail: str, language: str) -> str:
+    """What is wrong, in a language."""
+    if language != "ja":
+        return detail
+    for pattern, wording in _JAPANESE:
+        found = pattern.fullmatch(detail)
+        if found is not None:
+            return found.expand(wording)
+    return detail

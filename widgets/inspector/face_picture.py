@@ -1,0 +1,78 @@
+"""The face of an expression from the front, beside its sliders: of the character of the player in front."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import lru_cache
+from typing import Final
+
+from PySide6.QtCore import Qt, QTimer
+from PySide6.QtGui import QImage, QPixmap
+from PySide6.QtWidgets import QWidget
+
+from app.editor.session import Session
+from app.editor.tasks import Progress, StopRequested
+from app.errors import Message
+from app.rig.character_library import character_named
+from app.rig.model import Character
+from widgets.common.character_picture import Seen, picture, seen
+from widgets.common.plain import Label
+
+SIZE_PX: Final = 200
+WAITS_MS: Final = 120
+"""A face that changes is drawn when it has not changed for so long: the player in the viewport follows at once."""
+
+
+class FacePicture(Label):
+    """Draws a face beside the window whenever its weights change."""
+
+    def __init__(self, session: Session, parent: QWidget | None = None) -> None:
+        super().__init__(parent=parent)
+        self._session = session
+        self._weights: dict[str, float] | None = None
+        self._drawn: tuple[str, dict[str, float]] | None = None
+        self._wait = QTimer(self, singleShot=True, interval=WAITS_MS)
+        self._wait.timeout.connect(self._draw)
+        self.setObjectName("expression_picture")
+        self.setAlignment(Qt.AlignmentFlag.AlignCenter)
+        self.setFixedHeight(SIZE_PX)
+
+    @property
+    def weights(self) -> Mapping[str, float] | None:
+        """Of the face that is drawn last of all."""
+        return self._weights
+
+    def show_face(self, weights: Mapping[str, float] | None) -> None:
+        """Show a face soon; None: no longer."""
+        self._weights = None if weights is None else dict(weights)
+        if weights is None:
+            self._wait.stop()
+        else:
+            self._wait.start()
+
+    def _draw(self) -> None:
+        session, weights = self._session, self._weights
+        players = session.project.players
+        if weights is None or not players:
+            return
+        chosen = next((one for one in players if one.id in session.players), players[0])
+        asked = (chosen.character_id, weights)
+        if asked == self._drawn:
+            return
+        ratio = self.devicePixelRatioF()
+        size_px = round(SIZE_PX * ratio)
+
+        def work(progress: Progress, stop_requested: StopRequested) -> QImage:
+            return picture(_seen(character_named(asked[0])), size_px, size_px, "head", weights)
+
+        def done(image: QImage) -> None:
+            self._drawn = asked
+            image.setDevicePixelRatio(ratio)
+            self.setPixmap(QPixmap.fromImage(image))
+
+        session.tasks.run(Message("work.portraits"), work, done, key="expression_picture")
+
+
+@lru_cache(maxsize=2)
+def _seen(character: Character) -> Seen:
+    return seen(character)
