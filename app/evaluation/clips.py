@@ -63,7 +63,7 @@ Stages: TypeAlias = Callable[[Performance, str, StopRequested, Posed | None], Ab
 
 
 @dataclass(frozen=True, eq=False)
-class Scene:
+class ClipScene:
     """What is shown of an excerpt, the same in every variant.
 
     Attributes
@@ -94,7 +94,7 @@ def draw_ours(
     project: Project,
     variant: Variant,
     framing: Framing,
-    files: Mapping[Path, Scene],
+    files: Mapping[Path, ClipScene],
     stages: Stages,
     report: Report,
     stop_requested: StopRequested,
@@ -120,7 +120,7 @@ def draw_ours(
 def cut_video(
     video: ImportedVideo,
     size: tuple[int, int],
-    files: Mapping[Path, Scene],
+    files: Mapping[Path, ClipScene],
     report: Report,
     stop_requested: StopRequested,
 ) -> None:
@@ -134,7 +134,7 @@ def cut_video(
 class _Shares:
     """Counts pictures."""
 
-    def __init__(self, files: Mapping[Path, Scene], report: Report) -> None:
+    def __init__(self, files: Mapping[Path, ClipScene], report: Report) -> None:
         self._count = sum(scene.span.count for scene in files.values())
         self._done, self._report = 0, report
 
@@ -144,7 +144,7 @@ class _Shares:
 
 
 def _write(
-    path: Path, scene: Scene, size: tuple[int, int], draw: Draw, shares: _Shares, stop_requested: StopRequested
+    path: Path, scene: ClipScene, size: tuple[int, int], draw: Draw, shares: _Shares, stop_requested: StopRequested
 ) -> None:
     span = scene.span
     step_s = span.fps.denominator / span.fps.numerator

@@ -38,9 +38,9 @@ def gather(files: Sequence[Path], key_file: Path | None = None) -> Gathered:
     AppError
         Those of `app.evaluation.answers`, `results`, `key` and `measures`; ``results.no_key`` (file, name).
     """
+    answers = [read_answers(path) for path in files]
     key_file = key_file or _key_of(files[0])
-    key = read_key(key_file)
-    results = tabulate(key, [read_answers(path) for path in files])
+    results = tabulate(read_key(key_file), answers)
     measured = key_file.with_name(MEASURES_FILE)
     return Gathered(results, read_measures(measured) if os.path.isfile(measured) else (), key_file)
 

@@ -18,7 +18,7 @@ from app.audio.mix import mixdown
 from app.audio.track import RATE_HZ, Block
 from app.encoding import restored
 from app.errors import AppError, Cancelled, FileError, Message
-from app.evaluation.clips import CRF, Framing, Scene, Stages, cut_video, draw_ours
+from app.evaluation.clips import CRF, ClipScene, Framing, Stages, cut_video, draw_ours
 from app.evaluation.design import codes, new_id, orders, pairs_of
 from app.evaluation.excerpts import Excerpt, choose_excerpts, practice_of
 from app.evaluation.imported import ImportedVideo, import_video
@@ -136,7 +136,7 @@ def _draw(
     request: Request,
     variants: Sequence[Variant],
     videos: Mapping[Variant, Imported],
-    scenes: Sequence[Scene],
+    scenes: Sequence[ClipScene],
     drawn: Sequence[Clip],
     clips: Path,
     stages: Stages,
@@ -215,7 +215,7 @@ def _scenes(
     videos: dict[Variant, Imported],
     report: Report,
     stop_requested: StopRequested,
-) -> list[Scene]:
+) -> list[ClipScene]:
     """Every excerpt, and after them what is shown for practice."""
     spans = _spans(performance, request, videos)
     film, sounds = videos.get("film"), list[Block]()
@@ -228,7 +228,7 @@ def _scenes(
             )
         report(0.25 + 0.05 * (number + 1) / len(spans), Message("evaluate.step_sound"))
     loud = equally_loud(sounds)
-    return [Scene(span, sound, {}) for span, sound in zip(spans, loud, strict=True)]
+    return [ClipScene(span, sound, {}) for span, sound in zip(spans, loud, strict=True)]
 
 
 def _spans(performance: Performance, request: Request, videos: dict[Variant, Imported]) -> list[FrameSpan]:
@@ -252,7 +252,7 @@ def _spans(performance: Performance, request: Request, videos: dict[Variant, Imp
     ]
 
 
-def _clips(project: Project, request: Request, variants: Sequence[Variant], scenes: Sequence[Scene]) -> list[Clip]:
+def _clips(project: Project, request: Request, variants: Sequence[Variant], scenes: Sequence[ClipScene]) -> list[Clip]:
     """The clips with their codes, excerpt by excerpt."""
     names = {performer.id: performer.name for performer in project.performers}
     player = names[request.player_ids[0]] if len(request.player_ids) == 1 else ""

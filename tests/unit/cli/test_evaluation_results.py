@@ -65,7 +65,9 @@ def test_errors_name_file_and_line(answers: list[str], capsys: Captured) -> None
     assert err.count("\n") == 1
     assert main(["evaluate", "results", answers[0], answers[0]]) == BAD_INPUT
     assert "of the same viewer" in capsys.readouterr().err
-    assert main(["evaluate", "results", "nowhere.csv", "--key", str(path)]) == BAD_INPUT
+    assert main(["evaluate", "results", "nowhere.csv"]) == BAD_INPUT
+    assert "nowhere.csv cannot be read" in capsys.readouterr().err
+    assert main(["evaluate", "results", answers[0], "--key", str(path)]) == BAD_INPUT
     assert "is not the key of an evaluation" in capsys.readouterr().err
     assert main(["evaluate", "results"]) == BAD_USE
 
