@@ -13,7 +13,7 @@ Factor: TypeAlias = Annotated[float, msgspec.Meta(ge=0.0, le=4.0)]
 SECTION_PLAYER = "section_player"
 """The style in which every factor is 1."""
 SEPARATOR = ","
-"""Between the names of habits in a text; no name has one."""
+"""Between names in a text; no name has one."""
 
 
 class Factors(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
@@ -33,6 +33,10 @@ class Factors(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     gaze: Factor = 1.0
     blinks: Factor = 1.0
     gestures: Factor = 1.0
+
+
+AMOUNTS = Factors.__struct_fields__
+"""The parameters that are amounts of layers: what styles and habits multiply."""
 
 
 class Style(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
@@ -77,14 +81,14 @@ def read_habit(path: Path) -> Habit:
     return habit
 
 
-def names_in(habits: str) -> tuple[str, ...]:
-    """The habits that a text names, each once, in the order of their names."""
-    return tuple(sorted({name for part in habits.split(SEPARATOR) if (name := part.strip())}))
+def names_in(text: str) -> tuple[str, ...]:
+    """The names in a text, of habits for one, each once, in their order."""
+    return tuple(sorted({name for part in text.split(SEPARATOR) if (name := part.strip())}))
 
 
-def as_text(habits: tuple[str, ...]) -> str:
-    """The text that names these habits."""
-    return SEPARATOR.join(sorted(set(habits)))
+def as_text(names: tuple[str, ...]) -> str:
+    """The text of these names."""
+    return SEPARATOR.join(sorted(set(names)))
 
 
 def _checked(path: Path, table: T) -> T:

@@ -127,6 +127,8 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
     "edit.player_character": ("Change Character of Players: {count}", "キャラクターを変更（{count} 人）"),
     "edit.player_colour": ("Change Colour of Players: {count}", "奏者の色を変更（{count} 人）"),
     "edit.parameter": ("{parameter}, players: {count}", "{parameter}: {count} 人"),
+    "edit.hide_layer": ("Hide Layer {parameter}, players: {count}", "レイヤー「{parameter}」を非表示: {count} 人"),
+    "edit.show_layer": ("Show Layer {parameter}, players: {count}", "レイヤー「{parameter}」を表示: {count} 人"),
     "edit.reset_parameters": ("Reset Players: {count}", "奏者をリセット（{count} 人）"),
     "edit.randomise_players": ("Randomise Players: {count}", "奏者をランダム化（{count} 人）"),
     "edit.place_players": ("Place Players: {count}", "奏者を配置（{count} 人）"),

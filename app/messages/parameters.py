@@ -209,6 +209,11 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         "Each number gives a different dance to the same music",
         "番号ごとに、同じ曲で別のダンスになります",
     ),
+    "parameter.layers_off": ("Layers off", "オフのレイヤー"),
+    "parameter.layers_off_tip": (
+        "Layers that are not shown, whatever their amounts",
+        "量にかかわらず表示しないレイヤー",
+    ),
     "dancer_parameter.delay_beats": ("Delay", "遅れ"),
     "dancer_parameter.delay_beats_tip": ("Delay after the music, for dancing in canon", "曲からの遅れ（カノン用）"),
     "dancer_parameter.source": ("Preferred source", "優先ソース"),

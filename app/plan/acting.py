@@ -9,7 +9,7 @@ import msgspec
 
 from app.chance import chance
 from app.plan.parameters import PlayerParameters
-from metadata.acting import Factors, Habit, Style, names_in
+from metadata.acting import AMOUNTS, Habit, Style, names_in
 
 
 class Acting(msgspec.Struct, frozen=True):
@@ -57,8 +57,6 @@ class Acting(msgspec.Struct, frozen=True):
     gestures: float = 1.0
 
 
-AMOUNTS: Final = Factors.__struct_fields__
-"""The parameters that are amounts of layers: what styles and habits multiply."""
 LAYERS: Final[Mapping[str, str]] = {
     "phrase_motion": "phrase",
     "toe_taps": "tap",
@@ -92,7 +90,8 @@ def with_style(
     styles: Mapping[str, Style],
     habits: Mapping[str, Habit],
 ) -> PlayerParameters:
-    """The parameters with what style, habits, the player's own variation and the whole section make of the amounts.
+    """The parameters with what style, habits, the player's own variation and the whole section make of the amounts;
+    those of layers that are off are 0.
 
     To be done once. A style or habit that is not there changes nothing.
 
@@ -112,4 +111,5 @@ def with_style(
             amount *= getattr(factor, name)
         amount *= 1.0 + variation * (2.0 * chance("acting", name, parameters.seed, player_id) - 1.0)
         amounts[name] = min(amount if name in _NOT_BY_SECTION else amount * section_intensity, MOST)
+    amounts.update(dict.fromkeys(names_in(parameters.layers_off), 0.0))
     return msgspec.structs.replace(parameters, **amounts)

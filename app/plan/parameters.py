@@ -13,7 +13,7 @@ from typing import Annotated, Any, Final, Literal, TypeAlias, get_args, get_orig
 
 import msgspec
 
-from metadata.acting import SECTION_PLAYER
+from metadata.acting import AMOUNTS, SECTION_PLAYER, as_text, names_in
 
 Bounds: TypeAlias = tuple[float, float]
 """Lowest and highest, both allowed."""
@@ -24,6 +24,8 @@ Decided: TypeAlias = Literal["breaths", "cues", "lips", "poses", "gestures", "ru
 SEED: Final = (0, 2**63 - 1)
 AUTOMATIC: Final = "auto"
 """None as a text."""
+NONE: Final = "none"
+"""No names, as a text."""
 
 
 @dataclass(frozen=True)
@@ -42,6 +44,8 @@ class Parameter:
         Of the control.
     choices : tuple of (value, word)
         A list instead of a slider; the words are ids of texts.
+    names : tuple of str
+        A text may hold any of these, with commas between them.
     section : str
         Which part of the panel shows it; empty: something else than a slider or a plain list does.
     row : int
@@ -70,6 +74,7 @@ class Parameter:
     step: float = 0.05
     decimals: int = 2
     choices: tuple[tuple[Value, str], ...] = ()
+    names: tuple[str, ...] = ()
     section: str = ""
     row: int = 0
     decides: frozenset[Decided] = frozenset({"motion"})
@@ -97,7 +102,7 @@ class Parameter:
         """What it may be, as a text for a message: numbers and words only."""
         if self.bounds is not None:
             return f"{self.bounds[0]} ... {self.bounds[1]}"
-        options: list[str] = []
+        options = [NONE, *self.names] if self.names else []
         for kind in get_args(self.kind) or (self.kind,):
             if isinstance(kind, str):
                 options.append(kind)
@@ -113,6 +118,8 @@ class Parameter:
             msgspec.convert(value, self.kind)
         except msgspec.ValidationError:
             return False
+        if self.names and not set(names_in(str(value))) <= set(self.names):
+            return False
         return not _is_number(value) or self.held(value) == value
 
     def held(self, value: Any) -> Any:
@@ -124,9 +131,11 @@ class Parameter:
 
     def read(self, text: str) -> Value:
         """The value that a text means. Raises ValueError where it is not possible."""
+        if self.names:
+            text = "" if text.casefold() in (AUTOMATIC, NONE) else as_text(names_in(text))
         try:
             value: Value = msgspec.convert(
-                None if text.casefold() in (AUTOMATIC, "none", "null") else text, self.kind, strict=False
+                None if text.casefold() in (AUTOMATIC, NONE, "null") else text, self.kind, strict=False
             )
         except msgspec.ValidationError as error:
             raise ValueError(text) from error
@@ -299,6 +308,11 @@ class PlayerParameters(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
         "parameter.gestures", "parameter.gestures_tip", "unit.times",
         bounds=_NATURAL, section="acting", spread=0.5, since=10,
     )] = 1.0
+    layers_off: Annotated[str, Parameter(
+        "parameter.layers_off", "parameter.layers_off_tip",
+        names=AMOUNTS, decides=frozenset({"gestures", "motion"}), since=13,
+    )] = ""
+    """Amounts whose layers are not shown, whatever they are, with commas between them."""
     # fmt: on
 
 

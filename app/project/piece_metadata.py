@@ -1,7 +1,7 @@
 """What an animator said of the acting in a piece, apart from its notes: saved, loaded into it again, and compared.
 
-A TOML file: the section's intensity, of each player by name style, habits and amounts, and what was corrected of
-gestures, expressions and poses, anchored in ticks; and the piece's own expressions.
+A TOML file: the section's intensity, of each player by name style, habits, amounts and layers that are off, and what
+was corrected of gestures, expressions and poses, anchored in ticks; and the piece's own expressions.
 
 Messages: ``metadata.newer``, ``metadata.no_player`` (players, known), ``table.invalid``.
 """
@@ -18,18 +18,18 @@ import msgspec
 from app.errors import MapError, Message
 from app.formats.atomic import atomic_write
 from app.formats.toml import header, read_toml, shaped, toml
-from app.plan.acting import AMOUNTS
 from app.plan.corrections import Correction, RemoveEvent, kind
 from app.project import limits
 from app.project.check import expression_faults
 from app.project.edit.players import set_parameters
 from app.project.model import Project
 from app.project.parameters import is_possible, range_text
+from metadata.acting import AMOUNTS
 from metadata.model import Expression
 
-VERSION: Final = 1
+VERSION: Final = 2
 SUFFIX: Final = ".toml"
-PARAMETER_NAMES: Final = ("amplitude", "style", "habits", *AMOUNTS)
+PARAMETER_NAMES: Final = ("amplitude", "style", "habits", "layers_off", *AMOUNTS)
 """What of a player's parameters is acting."""
 KINDS: Final = frozenset(
     {"add_gesture", "change_gesture", "add_expression", "change_expression", "pose", "vary", "additive", "play_style"}

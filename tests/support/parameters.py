@@ -13,6 +13,7 @@ NAMES = {
     "choreography": CHOREOGRAPHIES,
     "style": ("section_player", "reserved", "jazz"),
     "habits": ("", "swayer", "statue,tapper"),
+    "layers_off": ("", "gaze", "breath_motion,sway"),
 }
 """Some values of the parameters that name something."""
 

@@ -20,6 +20,7 @@ from app.project.model import Project
 from app.project.performers import Player
 from app.rig.character_library import bundled_characters, characters
 from instrument_maps.library import library
+from metadata.acting import AMOUNTS
 from widgets.common.combo import Combo, Option
 from widgets.common.controls import IconButton, Retranslated
 from widgets.common.instrument_name import character_name, instrument_name
@@ -30,6 +31,7 @@ from widgets.common.swatch import ColourSwatch
 from widgets.common.text import parameter_text
 from widgets.players.acting import ActingRows
 from widgets.players.body_dance import BodyDanceRows
+from widgets.players.layer_switch import LayerSwitch
 from widgets.players.parameter_rows import ParameterChoice, ParameterSlider, rows_of
 from widgets.players.portrait import portrait_of
 
@@ -59,6 +61,7 @@ class ParameterSections(Retranslated, QWidget):
         self._sections = {name: Section(session, f"players_{name}", self, folded=name in _FOLDED) for name in _SECTIONS}
         self._sliders: dict[str, ParameterSlider] = {}
         self._choices: dict[str, ParameterChoice] = {}
+        self._switches: list[LayerSwitch] = []
         self._body_dance = BodyDanceRows(session)
         self._acting = ActingRows(session)
         self._acting.shown.connect(self._show_acting)
@@ -122,6 +125,10 @@ class ParameterSections(Retranslated, QWidget):
             return  # In the rows of the style.
         elif parameter.name == "seed":
             body.addLayout(in_row((self._make_slider(parameter), 1), self._dice, spacing=4))
+        elif parameter.name in AMOUNTS:
+            slider = self._make_slider(parameter)
+            self._switches.append(LayerSwitch(self._session, parameter, slider))
+            body.addLayout(in_row(self._switches[-1], (slider, 1), spacing=4))
         else:
             body.addWidget(self._make_slider(parameter))
 
@@ -158,6 +165,8 @@ class ParameterSections(Retranslated, QWidget):
         self._colour.show_colours(tuple(dict.fromkeys(self._session.colour(player) for player in players)))
         self._body_dance.show_players(players)
         self._acting.show_players(players)
+        for switch in self._switches:
+            switch.show_players(players)
         casts = [edit.cast_parameters(project, player.id, edit.instrument_of(player)) for player in players]
         for name, slider in self._sliders.items():
             values = [float(getattr(player.parameters, name)) for player in players]

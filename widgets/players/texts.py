@@ -35,6 +35,7 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
     "dancers_section.none": ("None", "なし"),
     "dancers_section.remove_selected_dancer": ("Remove selected dancer", "選択したダンサーを削除"),
     "dancers_section.show_what_choreography_has_learned": ("Show choreography", "振り付けを表示"),
+    "layer_switch.show_layer": ("Show layer: {layer}", "レイヤーを表示: {layer}"),
     "parameter_sections.acting": ("Acting", "演技"),
     "parameter_sections.another_seed_for_each": ("Assign a different seed to each", "それぞれに別のシードを割り当てる"),
     "parameter_sections.breath": ("Breath", "ブレス"),

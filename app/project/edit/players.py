@@ -183,6 +183,16 @@ def set_habit(project: Project, player_ids: Collection[str], habit: str, has: bo
     return _each(project, musicians_of(project, player_ids), changed)
 
 
+def show_layer(project: Project, player_ids: Collection[str], amount: str, shown: bool) -> Project:
+    """Show a layer of players, as much as its amount says, or not; their other layers stay."""
+
+    def changed(player: Player) -> Player:
+        others = [name for name in names_in(player.parameters.layers_off) if name != amount]
+        return _with_parameters(player, {"layers_off": as_text((*others, *(() if shown else (amount,))))})
+
+    return _each(project, musicians_of(project, player_ids), changed)
+
+
 def parameter_edit(parameter: str, count: int) -> Message:
     """What the history calls a change of a parameter of so many players."""
     return Message("edit.parameter", {"parameter": PARAMETERS[parameter].label, "count": count})

@@ -7,14 +7,14 @@ from pathlib import Path
 import pytest
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication, QWidget
+from PySide6.QtWidgets import QApplication, QCheckBox, QWidget
 from pytestqt.qtbot import QtBot
 
 from app.editor.library_watch import watch_metadata
 from app.editor.session import Session
-from app.plan.acting import AMOUNTS
 from app.plan.parameters import PARAMETERS
 from app.shell.language import Texts
+from metadata.acting import AMOUNTS
 from metadata.library import FOLDERS, HABITS, STYLES
 from tests.support.windows import show_in_front
 from widgets.common.chip import Chip
@@ -95,6 +95,32 @@ def test_habits_are_switched_one_by_one_for_all_who_are_selected(panel: PlayersP
         session.document.undo()
     assert habits(session) == ["", "", "", ""]
     assert not chip(panel, "nodder").isChecked()
+
+
+def test_layers_are_shown_and_hidden_whatever_their_amounts(panel: PlayersPanel, session: Session) -> None:
+    first, second = session.project.players[:2]
+    box, slider = panel.findChild(QCheckBox, "layer_gaze"), panel.findChild(QWidget, "parameter_gaze")
+    assert box is not None
+    assert slider is not None
+    assert box.checkState() == Qt.CheckState.Checked
+    click(box)
+    assert [player.parameters.layers_off for player in session.project.players] == ["gaze", "", "", ""]
+    assert not slider.isEnabled()
+    assert session.project.player(first.id).parameters.gaze == 1.0, "the amount is kept"
+    session.set_players((first.id, second.id))
+    assert box.checkState() == Qt.CheckState.PartiallyChecked
+    assert slider.isEnabled()
+    QTest.keyClick(box, Qt.Key.Key_Space)
+    assert box.checkState() == Qt.CheckState.Checked, "shown by all"
+    click(box)
+    sway = panel.findChild(QCheckBox, "layer_sway")
+    assert sway is not None
+    click(sway)
+    assert [player.parameters.layers_off for player in session.project.players] == ["gaze,sway", "gaze,sway", "", ""]
+    for _ in range(4):
+        session.document.undo()
+    assert [player.parameters.layers_off for player in session.project.players] == [""] * 4
+    assert box.checkState() == Qt.CheckState.Checked
 
 
 def test_everything_is_within_the_panel_and_nothing_overlaps(panel: PlayersPanel) -> None:

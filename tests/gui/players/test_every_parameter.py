@@ -23,6 +23,9 @@ from widgets.common.number_slider import NumberSlider
 from widgets.common.text import sentence
 from widgets.players.panel import PlayersPanel
 
+SHOWN = {name: parameter for name, parameter in PARAMETERS.items() if name != "layers_off"}
+"""Layers that are off are boxes before the amounts: see test_acting."""
+
 
 @pytest.fixture
 def panel(session: Session, qt_app: QApplication, qtbot: QtBot) -> PlayersPanel:
@@ -53,7 +56,7 @@ def choose(control: QWidget, value: object) -> None:
         control.changed.emit(float(str(value)), None)
 
 
-@pytest.mark.parametrize("parameter", PARAMETERS.values(), ids=PARAMETERS)
+@pytest.mark.parametrize("parameter", SHOWN.values(), ids=SHOWN)
 def test_every_parameter_is_changed_for_all_who_are_selected(
     panel: PlayersPanel, session: Session, parameter: Parameter
 ) -> None:
@@ -86,7 +89,7 @@ def test_words_are_those_of_the_declaration_in_both_languages(panel: PlayersPane
         QApplication.installTranslator(translator)
         try:
             QApplication.processEvents()
-            for table, prefix in ((PARAMETERS, "parameter"), (DANCER_PARAMETERS, "dancer")):
+            for table, prefix in ((SHOWN, "parameter"), (DANCER_PARAMETERS, "dancer")):
                 for parameter in table.values():
                     control = panel.findChild(QWidget, f"{prefix}_{parameter.name}")
                     assert isinstance(control, QWidget)

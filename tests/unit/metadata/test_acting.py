@@ -9,9 +9,9 @@ from pathlib import Path
 import pytest
 
 from app.errors import MapError
-from app.plan.acting import AMOUNTS, LAYERS, Acting
+from app.plan.acting import LAYERS, Acting
 from app.plan.parameters import PARAMETERS
-from metadata.acting import SECTION_PLAYER, Factors, as_text, names_in, read_habit, read_style
+from metadata.acting import AMOUNTS, SECTION_PLAYER, Factors, as_text, names_in, read_habit, read_style
 from metadata.gestures import read_gesture
 from metadata.library import FOLDERS, READERS, metadata_library
 from metadata.load import ROOT

@@ -12,10 +12,10 @@ import pytest
 
 from app.motion.perform import frame_count
 from app.performance.ensemble import Performance
-from app.plan.acting import AMOUNTS
 from app.project.edit.piece import set_section_intensity
 from app.project.edit.players import randomise, set_habit, set_parameters
 from app.project.model import Project
+from metadata.acting import AMOUNTS
 from metadata.library import STYLES
 from tests.property.performance.edits import piece
 from tests.support.performed import playing_of

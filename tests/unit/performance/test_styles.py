@@ -12,7 +12,7 @@ import pytest
 
 from app.motion.perform import PerformanceCurves, frame_count
 from app.performance.ensemble import Performance
-from app.plan.acting import AMOUNTS, LAYERS, acting_of
+from app.plan.acting import LAYERS, acting_of
 from app.plan.corrections import PlayStyle
 from app.plan.styles import amount_at, shown_in_style, styles_at
 from app.project.edit.corrections import put
@@ -21,6 +21,7 @@ from app.project.edit.generation import vary_everyone
 from app.project.edit.players import set_parameters
 from app.project.model import Project
 from app.project.piece_metadata import load_metadata, metadata_of, save_metadata, with_metadata
+from metadata.acting import AMOUNTS
 from tests.property.performance.edits import piece
 from tests.support.performed import playing_of
 

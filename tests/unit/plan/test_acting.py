@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 from msgspec.structs import replace
 
-from app.plan.acting import AMOUNTS, MOST, Acting, acting_of, with_style
-from app.plan.parameters import PlayerParameters
-from metadata.acting import Factors, Habit, Style
+from app.plan.acting import MOST, Acting, acting_of, with_style
+from app.plan.parameters import PARAMETERS, PlayerParameters
+from metadata.acting import AMOUNTS, Factors, Habit, Style
 from metadata.library import metadata_library
 from metadata.tables import Title
 
@@ -44,6 +44,22 @@ def test_style_habits_parameter_and_section_multiply() -> None:
     assert shown.amplitude == said.amplitude
     nothing = acting_of(with_style(said, "a", 0.0, EXACT, SWAYS))
     assert [name for name in Acting.__struct_fields__ if getattr(nothing, name) > 0.0] == ["stillness", "blink"]
+
+
+def test_a_layer_that_is_off_is_not_shown() -> None:
+    said = PlayerParameters(layers_off="gaze,stillness", habits="swayer")
+    shown, without = (with_style(one, "a", 1.0, EXACT, SWAYS) for one in (said, replace(said, layers_off="")))
+    assert shown == replace(without, layers_off="gaze,stillness", gaze=0.0, stillness=0.0)
+
+
+def test_layers_are_named_as_there_are() -> None:
+    off = PARAMETERS["layers_off"]
+    assert off.read("sway, gaze") == "gaze,sway"
+    assert off.read("none") == ""
+    assert off.possible.startswith("none, sway, weight_shift")
+    assert not off.allows("gaze,walk")
+    with pytest.raises(ValueError, match="walk"):
+        off.read("walk")
 
 
 def test_what_is_not_there_changes_nothing() -> None:

@@ -7,7 +7,6 @@ from fractions import Fraction
 from msgspec.structs import replace
 
 from app.errors import Message
-from app.plan.acting import AMOUNTS
 from app.plan.additive_curve import AdditiveCurve, CurveKey, Tangent
 from app.plan.corrections import (
     AddExpression,
@@ -34,6 +33,7 @@ from app.score.metre_map import Metre
 from app.score.model import ControllerCurve, Marker, Note, Part, PercussionHit, Score, UnplayedPart
 from app.score.take import Cleaning, ControllerMapping, Take
 from app.score.tempo import TempoChange, TempoMap
+from metadata.acting import AMOUNTS
 from metadata.model import Expression
 
 ANGRY = Expression("angry", "brows down", {"browDownLeft": 0.8, "browDownRight": 0.8}, True, 0.2, 0.3)

@@ -1,0 +1,58 @@
+"""Whether a layer of the selected players is shown, before the slider of its amount."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QCheckBox, QWidget
+
+from app.editor.session import Session
+from app.errors import Message
+from app.plan.parameters import Parameter
+from app.project.edit.players import show_layer
+from app.project.performers import Player
+from metadata.acting import names_in
+from widgets.common.controls import Retranslated
+from widgets.common.text import parameter_text
+
+
+class LayerSwitch(Retranslated, QCheckBox):
+    """A box to tick; filled in part where only some of the players show the layer.
+
+    Parameters
+    ----------
+    amount : Parameter
+        That of the layer.
+    slider : QWidget
+        The control of the amount: dimmed while no one shows the layer.
+    """
+
+    def __init__(self, session: Session, amount: Parameter, slider: QWidget) -> None:
+        super().__init__()
+        self._session, self._amount, self._slider = session, amount, slider
+        self.setObjectName(f"layer_{amount.name}")
+        self.clicked.connect(self._switch)
+        self.retranslate()
+
+    def show_players(self, players: Sequence[Player]) -> None:
+        """Show what these players show, of whom there is at least one."""
+        shown = {self._amount.name not in names_in(player.parameters.layers_off) for player in players}
+        states = {True: Qt.CheckState.Checked, False: Qt.CheckState.Unchecked}
+        self.setCheckState(states[shown.pop()] if len(shown) == 1 else Qt.CheckState.PartiallyChecked)
+        self._slider.setEnabled(self.checkState() != Qt.CheckState.Unchecked)
+
+    def nextCheckState(self) -> None:
+        """From shown by some to shown by all."""
+        self.setChecked(self.checkState() != Qt.CheckState.Checked)
+
+    def _switch(self) -> None:
+        chosen, name, shown = self._session.players, self._amount.name, self.isChecked()
+        id = "edit.show_layer" if shown else "edit.hide_layer"
+        edit = Message(id, {"parameter": self._amount.label, "count": len(chosen)})
+        self._session.attempt(edit, lambda project: show_layer(project, chosen, name, shown), None, self)
+
+    def retranslate(self) -> None:
+        layer = parameter_text(self._amount.label)
+        self.setToolTip(self.tr("layer_switch.show_layer").format(layer=layer))
+        self.setAccessibleName(self.toolTip())
