@@ -9,6 +9,7 @@ import sys
 from collections.abc import Iterator
 from pathlib import Path
 from typing import IO, Any, Final
+from weakref import WeakSet
 
 if sys.platform == "win32":
     import msvcrt
@@ -17,6 +18,7 @@ else:
 
 _BYTE: Final = 2**30
 """The byte that is locked on Windows: far behind the content, which stays readable."""
+_held: Final = WeakSet[IO[Any]]()
 
 
 def lock(stream: IO[Any]) -> bool:
@@ -31,11 +33,26 @@ def lock(stream: IO[Any]) -> bool:
                 stream.seek(place)
         else:
             fcntl.flock(stream, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            _held.add(stream)
     except OSError as error:
         if error.errno in (errno.EACCES, errno.EAGAIN, errno.EDEADLK):
             return False
         raise
     return True
+
+
+def _let_go() -> None:
+    """Leave the locks to the process that was copied: the copy has nothing in place of their files."""
+    held = [stream for stream in _held if not stream.closed]
+    if held:
+        nothing = os.open(os.devnull, os.O_RDWR)
+        for stream in held:
+            os.dup2(nothing, stream.fileno(), inheritable=False)
+        os.close(nothing)
+
+
+if sys.platform != "win32":
+    os.register_at_fork(after_in_child=_let_go)
 
 
 @contextlib.contextmanager

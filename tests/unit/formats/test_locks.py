@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import contextlib
+import os
 import sys
 from pathlib import Path
 from types import SimpleNamespace
@@ -33,3 +35,26 @@ def test_windows_locks_a_byte_behind_the_content_and_leaves_the_position(
             assert locks.lock(stream) is is_free
         assert stream.tell() == 3
     assert locked == [2**30]
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="processes are not copied")
+def test_a_copied_process_does_not_keep_the_locks_of_the_other(tmp_path: Path) -> None:
+    path = tmp_path / "file"
+    path.write_bytes(b"content")
+    waits, ends = os.pipe()
+    with path.open("r+b") as stream:
+        assert locks.lock(stream)
+        stream.write(b"not")
+        copy = os.fork()
+        if not copy:
+            os.close(ends)
+            with contextlib.suppress(Exception):
+                stream.close()
+                os.read(waits, 1)
+            os._exit(0)
+        assert locks.is_locked(path)
+    assert not locks.is_locked(path)
+    os.close(ends)
+    os.waitpid(copy, 0)
+    os.close(waits)
+    assert path.read_bytes() == b"nottent"
