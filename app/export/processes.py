@@ -100,13 +100,13 @@ def export_players(
 def _children(request: Request, cast: ExportCast, folder: Path, count: int) -> list[Child]:
     """Processes that export the musicians whose ids are sent; fewer where no more can be started."""
     children: list[Child] = []
+    copies = can_fork()
+    job = b"" if copies or not count else msgspec.msgpack.encode(job_of(request, folder))
     with contextlib.suppress(OSError):
-        if can_fork():
-            for _ in range(count):
-                children.append(ForkedChild(partial(serve, request, cast, folder), tuple(children)))
-            return children
-        job = msgspec.msgpack.encode(job_of(request, folder))
         for _ in range(count):
+            if copies:
+                children.append(ForkedChild(partial(serve, request, cast, folder), tuple(children)))
+                continue
             children.append(StartedChild("app.export.worker"))
             with contextlib.suppress(BrokenPipeError):
                 send(children[-1].to, job)

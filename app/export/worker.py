@@ -9,6 +9,7 @@ same work again, and reports what is wrong.
 from __future__ import annotations
 
 import contextlib
+import os
 import sys
 from dataclasses import replace
 from fractions import Fraction
@@ -33,10 +34,10 @@ from app.project.storage import decode, encode
 
 
 class Job(msgspec.Struct, frozen=True):
-    """A `Request` without its players and dancers, as it is sent."""
+    """A `Request` without its players and dancers, as it is sent; paths are bytes, since not all are text."""
 
     project: bytes
-    folder: str
+    folder: bytes
     formats: frozenset[Format]
     fps: tuple[int, int]
     first: int
@@ -46,7 +47,7 @@ class Job(msgspec.Struct, frozen=True):
     creator: str
     skeleton: SkeletonChoice
     rig: RigOptions
-    asset: str | None
+    asset: bytes | None
     sound: bool
     bvh_names: str
     keys: KeyChoice
@@ -72,7 +73,7 @@ def job_of(request: Request, folder: Path) -> Job:
     span = request.span
     return Job(
         project=encode(request.performance.project, folder / "project"),
-        folder=str(folder),
+        folder=os.fsencode(folder),
         formats=request.formats,
         fps=span.fps.as_integer_ratio(),
         first=span.first,
@@ -82,7 +83,7 @@ def job_of(request: Request, folder: Path) -> Job:
         creator=request.creator,
         skeleton=request.skeleton,
         rig=request.rig,
-        asset=None if request.asset is None else str(request.asset.absolute()),
+        asset=None if request.asset is None else os.fsencode(request.asset.absolute()),
         sound=request.sound,
         bvh_names=request.bvh_names,
         keys=request.keys,
@@ -90,7 +91,7 @@ def job_of(request: Request, folder: Path) -> Job:
 
 
 def _request(job: Job) -> Request:
-    folder = Path(job.folder)
+    folder = Path(os.fsdecode(job.folder))
     return Request(
         performance=Performance(decode(job.project, folder / "project")),
         players=(),
@@ -102,7 +103,7 @@ def _request(job: Job) -> Request:
         creator=job.creator,
         skeleton=job.skeleton,
         rig=job.rig,
-        asset=None if job.asset is None else Path(job.asset),
+        asset=None if job.asset is None else Path(os.fsdecode(job.asset)),
         sound=job.sound,
         bvh_names=job.bvh_names,
         keys=job.keys,

@@ -11,6 +11,7 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
+import msgspec
 import pytest
 
 from app import own_process
@@ -25,6 +26,7 @@ from app.performance.span import bars_span
 from app.project.model import Project, map_choices, project_from_score
 from app.score.read import read_midi
 from instrument_maps.load import bundled_maps
+from tests.support.odd_names import odd, on_bytes
 
 ROOT = Path(__file__).parents[3]
 QUARTET = ROOT / "resources" / "examples" / "quartet.mid"
@@ -185,3 +187,12 @@ def test_each_process_goes_on_with_what_it_has_begun(tmp_path: Path) -> None:
 def test_more_processes_only_for_long_work(tmp_path: Path) -> None:
     short = request(tmp_path, quartet(), None)
     assert process_count(short, cast_of(short, text)) == 1
+
+
+@on_bytes
+def test_a_job_says_paths_that_are_no_text(tmp_path: Path) -> None:
+    folder = odd(tmp_path)
+    said = replace(request(folder, quartet(), 2), asset=odd(tmp_path, ".fbx"))
+    job = msgspec.msgpack.decode(msgspec.msgpack.encode(worker.job_of(said, folder)), type=worker.Job)
+    read = worker._request(job)
+    assert (read.folder, read.asset) == (folder, said.asset)
