@@ -182,13 +182,13 @@ def read_keyframes(
     """
     project = performance.project
     folder = os.path.isdir(path)
-    wanted = [body.id for body in project.bodies if not player_ids or body.id in player_ids]
+    requested = [body.id for body in project.bodies if not player_ids or body.id in player_ids]
     stems = {id: stem["character"] for id, stem in figure_stems(performance).items() if "character" in stem}
-    files = _in_folder(path, stems) if folder else _of_one(path, stems, wanted)
+    files = _in_folder(path, stems) if folder else _of_one(path, stems, requested)
     names = {body.id: body.name for body in project.bodies}
     if not files:
         raise FileError("evaluate.keyframes_player", file=str(path), players=", ".join(stems[id] for id in names))
-    for player_id in wanted:
+    for player_id in requested:
         if player_id not in files:
             raise FileError(
                 "evaluate.keyframes_lacking", file=str(path), player=names[player_id], name=f"{stems[player_id]}.bvh"
@@ -221,10 +221,10 @@ def _in_folder(folder: Path, stems: Mapping[str, str]) -> dict[str, Path]:
     return found
 
 
-def _of_one(path: Path, stems: Mapping[str, str], wanted: Sequence[str]) -> dict[str, Path]:
+def _of_one(path: Path, stems: Mapping[str, str], requested: Sequence[str]) -> dict[str, Path]:
     """Whose file it is: by its name, else the only one's whom the evaluation is about."""
     named = [player_id for player_id, stem in stems.items() if stem.casefold() == path.stem.casefold()]
-    owners = named or (list(wanted) if len(wanted) == 1 else [])
+    owners = named or (list(requested) if len(requested) == 1 else [])
     return {owners[0]: path} if owners else {}
 
 

@@ -93,7 +93,7 @@ def with_style(
     """The parameters with what style, habits, the player's own variation and the whole section make of the amounts;
     those of layers that are off are 0.
 
-    To be done once. A style or habit that is not there changes nothing.
+    To be done once. A style, habit or layer that is not there changes nothing.
 
     Parameters
     ----------
@@ -111,5 +111,5 @@ def with_style(
             amount *= getattr(factor, name)
         amount *= 1.0 + variation * (2.0 * chance("acting", name, parameters.seed, player_id) - 1.0)
         amounts[name] = min(amount if name in _NOT_BY_SECTION else amount * section_intensity, MOST)
-    amounts.update(dict.fromkeys(names_in(parameters.layers_off), 0.0))
+    amounts |= {name: 0.0 for name in names_in(parameters.layers_off) if name in amounts}
     return msgspec.structs.replace(parameters, **amounts)

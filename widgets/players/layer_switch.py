@@ -8,6 +8,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QCheckBox, QWidget
 
 from app.editor.session import Session
+from app.editor.tokens import LEAST_TARGET_PX
 from app.errors import Message
 from app.plan.parameters import Parameter
 from app.project.edit.players import show_layer
@@ -32,6 +33,7 @@ class LayerSwitch(Retranslated, QCheckBox):
         super().__init__()
         self._session, self._amount, self._slider = session, amount, slider
         self.setObjectName(f"layer_{amount.name}")
+        self.setMinimumSize(LEAST_TARGET_PX, LEAST_TARGET_PX)
         self.clicked.connect(self._switch)
         self.retranslate()
 

@@ -49,6 +49,7 @@ OTHERS: dict[str, Any] = {
     "interpolation": "linear",
     "expression": "smile",
     "label": "123",
+    "layers_off": "gestures,toe_taps",
     "reason": None,
     "numerator": 3,
     "denominator": 8,
