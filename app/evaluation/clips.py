@@ -12,7 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from app.audio.track import RATE_HZ, Block
-from app.errors import Cancelled
+from app.errors import raise_if_stopped
 from app.evaluation.imported import ImportedVideo, pictures_of
 from app.evaluation.key import Variant
 from app.evaluation.keyframes import Posed
@@ -150,7 +150,6 @@ def _write(
     step_s = span.fps.denominator / span.fps.numerator
     with video_into(path, size, span.fps, scene.sound, RATE_HZ, CRF) as film:
         for index in range(span.count):
-            if stop_requested():
-                raise Cancelled("work.stopped")
+            raise_if_stopped(stop_requested)
             film.write(draw(span.first_frame_s + index * step_s))
             shares.step()

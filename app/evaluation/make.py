@@ -17,7 +17,7 @@ from typing import Final, TypeAlias
 from app.audio.mix import mixdown
 from app.audio.track import RATE_HZ, Block
 from app.encoding import restored
-from app.errors import AppError, Cancelled, FileError, Message
+from app.errors import AppError, FileError, Message, raise_if_stopped
 from app.evaluation.clips import CRF, ClipScene, Framing, Stages, cut_video, draw_ours
 from app.evaluation.design import codes, new_id, orders, pairs_of
 from app.evaluation.excerpts import Excerpt, choose_excerpts, practice_of
@@ -171,8 +171,7 @@ def _draw(
 
 def _measured(report: Report, stop_requested: StopRequested) -> Callable[[float], None]:
     def measured(share: float) -> None:
-        if stop_requested():
-            raise Cancelled("work.stopped")
+        raise_if_stopped(stop_requested)
         report(0.95 + 0.05 * share, Message("evaluate.step_measures"))
 
     return measured

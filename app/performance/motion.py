@@ -10,7 +10,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from app.errors import Cancelled
+from app.errors import raise_if_stopped
 from app.identity_cache import IdentityCache
 from app.motion.danced import BodyLayer
 from app.motion.doubling import Doubling, doubled
@@ -144,8 +144,7 @@ def player_motion(
     def make(part: range) -> Motion:
         pieces = []
         for start in part[::CHUNK]:
-            if stop_requested():
-                raise Cancelled("work.stopped")
+            raise_if_stopped(stop_requested)
             end = min(start + CHUNK, part.stop)
             pieces.append(playing.motion(span.fps, span.first + start, end - start))
             if part is first:

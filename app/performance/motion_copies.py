@@ -13,6 +13,7 @@ from typing import IO, Final
 import msgspec
 import numpy as np
 
+from app.errors import AppError
 from app.motion.model import Motion
 from app.own_process import ForkedChild, can_fork, receive, send
 
@@ -59,9 +60,9 @@ def made_by_copies(make: Callable[[range], Motion], parts: Sequence[range]) -> I
 
 
 def _make(make: Callable[[range], Motion], part: range, asked: IO[bytes], answers: IO[bytes]) -> None:
-    data = _encoded(make(part))
-    with contextlib.suppress(BrokenPipeError):
-        send(answers, data)
+    # The process that was copied does again what fails, and reports what is wrong.
+    with contextlib.suppress(BrokenPipeError, AppError):
+        send(answers, _encoded(make(part)))
 
 
 _Array = tuple[str, list[int], bytes]

@@ -14,7 +14,7 @@ from app.editor.session import Session
 from app.editor.tasks import Progress, StopRequested
 from app.editor.tokens import THEMES, Tokens
 from app.editor.viewport_state import View
-from app.errors import AppError, Cancelled, Message
+from app.errors import AppError, Cancelled, Message, raise_if_stopped
 from app.evaluation.keyframes import Posed
 from app.export.pictures import Picture
 from app.performance.cast import LeftOut
@@ -179,8 +179,7 @@ class _MadePoses:
         live = self._live
         live.request(time_s, 0.0)
         while not live.is_seen:
-            if self._stop_requested():
-                raise Cancelled("work.stopped")
+            raise_if_stopped(self._stop_requested)
             # A player whom a fault of the program stops is excluded, with the reason.
             with contextlib.suppress(PlayerFault):
                 if not live.work():
