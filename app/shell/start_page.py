@@ -21,7 +21,7 @@ from widgets.common.layouts import STRETCH, in_column, in_row, panel
 from widgets.common.plain import Label, verbatim
 
 WIDTH_PX = 860
-RECENT_PX, LEAST_FOLDER_PX = 370, 90
+RECENT_PX, LEAST_FOLDER_PX = 360, 90
 """Room for a recent file's name with its folder, and what the folder has of it at least."""
 
 

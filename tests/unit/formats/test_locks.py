@@ -42,6 +42,7 @@ def test_a_copied_process_does_not_keep_the_locks_of_the_other(tmp_path: Path) -
     path = tmp_path / "file"
     path.write_bytes(b"content")
     waits, ends = os.pipe()
+    is_there, is_ready = os.pipe()
     with path.open("r+b") as stream:
         assert locks.lock(stream)
         stream.write(b"not")
@@ -50,11 +51,14 @@ def test_a_copied_process_does_not_keep_the_locks_of_the_other(tmp_path: Path) -
             os.close(ends)
             with contextlib.suppress(Exception):
                 stream.close()
+                os.write(is_ready, b"x")
                 os.read(waits, 1)
             os._exit(0)
+        assert os.read(is_there, 1)
         assert locks.is_locked(path)
     assert not locks.is_locked(path)
     os.close(ends)
     os.waitpid(copy, 0)
-    os.close(waits)
+    for end in (waits, is_there, is_ready):
+        os.close(end)
     assert path.read_bytes() == b"nottent"
