@@ -57,7 +57,6 @@ def run(arguments: Sequence[str]) -> int:
 
     from app.cli import main as command_line
     from app.cli import parser
-    from app.cli.display import example_hint, why_no_display
     from app.cli.status import BAD_USE, NO_DISPLAY
     from app.cli.terminal import warn
     from app.errors import Message
@@ -71,6 +70,8 @@ def run(arguments: Sequence[str]) -> int:
             warn(text(Message("file.cannot_open", {"file": requested[0], "kinds": ", ".join(OPENED)})))
             return BAD_USE
         return command_line(requested)
+    from app.cli.display import example_hint, why_no_display
+
     try:
         parsed = parser().parse_args(requested)
     except SystemExit as stop:  # argparse: --help ends with 0, bad use with 2

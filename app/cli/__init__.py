@@ -1,4 +1,5 @@
-"""The command line: parses, calls the rooms below, prints. Every sub-command is a module of this folder.
+"""The command line: parses, calls the rooms below, prints. Every sub-command is a module of this folder, which is
+loaded only when that command is asked for (`app.cli.commands`).
 
 Exit status: see `app.cli.status`.
 """
@@ -12,23 +13,9 @@ import signal
 import sys
 from collections.abc import Callable, Sequence
 from functools import cache
-from typing import Final, NoReturn
+from typing import Final
 
-import app.cli.align
-import app.cli.characters
-import app.cli.choreography
-import app.cli.edit
-import app.cli.evaluate
-import app.cli.evaluation_results
-import app.cli.export
-import app.cli.film
-import app.cli.inspect
-import app.cli.instruments
-import app.cli.metadata
-import app.cli.midi
-import app.cli.ports
-import app.cli.record
-import app.cli.stream
+from app.cli.commands import TWO_WORDS, CommandParser, add_commands
 from app.cli.status import BAD_INPUT, BAD_USE, DONE, STOPPED
 from app.cli.terminal import interrupted_by, warn
 from app.encoding import shown
@@ -66,37 +53,14 @@ examples:
 """
 
 
-class _Parser(argparse.ArgumentParser):
-    """Quotes the arguments that it refuses, names of files among them, as everything else is printed."""
-
-    def error(self, message: str) -> NoReturn:
-        super().error(shown(message))
-
-
 @cache
-def parser() -> argparse.ArgumentParser:
+def parser() -> CommandParser:
     """The whole command line."""
-    top: argparse.ArgumentParser = _Parser(
+    top = CommandParser(
         prog="suisou", description=_DESCRIPTION, epilog=_EPILOG, formatter_class=argparse.RawDescriptionHelpFormatter
     )
     top.add_argument("--version", action="version", version=f"suisou {program_version()}")
-    commands = top.add_subparsers(title="commands", dest="command", metavar="COMMAND")
-    app.cli.edit.add_command(commands)
-    app.cli.inspect.add_command(commands)
-    app.cli.export.add_command(commands)
-    app.cli.film.add_command(commands)
-    app.cli.evaluate.add_command(commands)
-    app.cli.evaluation_results.add_results(commands)
-    app.cli.evaluation_results.add_measures(commands)
-    app.cli.midi.add_command(commands)
-    app.cli.align.add_command(commands)
-    app.cli.instruments.add_command(commands)
-    app.cli.metadata.add_command(commands)
-    app.cli.characters.add_command(commands)
-    app.cli.choreography.add_command(commands)
-    app.cli.ports.add_command(commands)
-    app.cli.record.add_command(commands)
-    app.cli.stream.add_command(commands)
+    add_commands(top)
     return top
 
 
@@ -130,7 +94,7 @@ def main(arguments: Sequence[str]) -> int:
 def _joined(arguments: Sequence[str]) -> list[str]:
     """The arguments, with a command of two words as one."""
     first = " ".join(arguments[:2])
-    return [first, *arguments[2:]] if first in app.cli.evaluation_results.COMMANDS else list(arguments)
+    return [first, *arguments[2:]] if first in TWO_WORDS else list(arguments)
 
 
 _OTHERWISE_PLACED: Final = frozenset({"file", "folder", "host"})

@@ -7,7 +7,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
-from app.cli.options import LONGEST_S, Commands, add_file_options, open_project, within
+from app.cli.options import LONGEST_S, add_file_options, open_project, within
 from app.cli.progress import Progress
 from app.cli.terminal import say, warn
 from app.errors import FileError, Message, UsageError
@@ -24,15 +24,13 @@ _PROJECT: Final = ".suisou"
 _seconds = within(0.0, LONGEST_S, "a number of seconds", float)
 
 
-def add_command(commands: Commands) -> None:
+def add_arguments(command: argparse.ArgumentParser) -> None:
     """Declare the sub-command."""
-    command = commands.add_parser(
-        "align",
-        help="put the notes where a recording of the piece has them",
-        description="Finds when every beat sounds in a recording of the piece and rewrites the tempo so that the notes "
+    command.description = (
+        "Finds when every beat sounds in a recording of the piece and rewrites the tempo so that the notes "
         "lie there. The tempo moves from beat to beat, and with --notes single notes too. Bars that are doubtful, and "
         "what only the recording has, are listed; where the recording leaves bars out, or is of another piece, nothing "
-        "is written.",
+        "is written."
     )
     add_file_options(command)
     command.add_argument(

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from app.cli.options import Commands, within
+from app.cli.options import within
 from app.cli.terminal import say, say_json
 from app.encoding import restored, shown, stored
 from app.errors import AppError, Message, UsageError
@@ -20,14 +20,12 @@ class CannotPlayError(AppError):
     """A checked figure cannot play; why has been printed."""
 
 
-def add_command(commands: Commands) -> None:
+def add_arguments(command: argparse.ArgumentParser) -> None:
     """Declare the sub-command."""
-    command = commands.add_parser(
-        "characters",
-        help="list the characters, check whether a file's figure can play, add one",
-        description="Lists the characters the program knows, bundled and your own. 'characters check FILE' says which "
+    command.description = (
+        "Lists the characters the program knows, bundled and your own. 'characters check FILE' says which "
         "of its bones are which joints, which morphs make its face and what it will not play, 'characters add FILE' "
-        "copies a VRM, glTF (.glb) or FBX file into your own folder.",
+        "copies a VRM, glTF (.glb) or FBX file into your own folder."
     )
     command.add_argument("--json", action="store_true", help="print as JSON")
     command.set_defaults(run=list_characters)

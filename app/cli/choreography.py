@@ -10,7 +10,7 @@ from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
-from app.cli.options import Commands, frame_rate, seconds, whole_number, within
+from app.cli.options import frame_rate, seconds, whole_number, within
 from app.cli.progress import Progress
 from app.cli.summary import columns
 from app.cli.terminal import say, warn
@@ -28,13 +28,11 @@ MOST_STATES: Final = 1000
 MOST_DANCERS: Final = 32
 
 
-def add_command(commands: Commands) -> None:
+def add_arguments(command: argparse.ArgumentParser) -> None:
     """Declare the sub-command."""
-    command = commands.add_parser(
-        "choreography",
-        help="learn how dancers move to music, from motion capture, and let them dance",
-        description="Learns choreographies: basic motions of dancers, which of them follow each other and to what "
-        "percussion; and generates dances to other pieces from them.",
+    command.description = (
+        "Learns choreographies: basic motions of dancers, which of them follow each other and to what "
+        "percussion; and generates dances to other pieces from them."
     )
     actions = command.add_subparsers(title="actions", metavar="ACTION", required=True)
     _add_learn(actions)

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import argparse
 from pathlib import Path
 from typing import Final
 
-from app.cli.options import Commands, picture_size, seconds
+from app.cli.options import picture_size, seconds
 from app.messages import LANGUAGES
 
 VIEWS: Final = ("ensemble", "front", "side", "top", "hands", "mouth", "feet")
@@ -13,13 +14,9 @@ THEMES: Final = ("dark", "light")
 LEAST_PX, MOST_PX = (960, 600), (7680, 4320)
 
 
-def add_command(commands: Commands) -> None:
+def add_arguments(command: argparse.ArgumentParser) -> None:
     """Declare the sub-command."""
-    command = commands.add_parser(
-        "edit",
-        help="open the editor (also without any command)",
-        description="Opens the editor. With --screenshot it draws its window once, writes the picture and ends.",
-    )
+    command.description = "Opens the editor. With --screenshot it draws its window once, writes the picture and ends."
     command.add_argument("file", type=Path, nargs="?", metavar="FILE", help="a project (.suisou) or MIDI file")
     command.add_argument("--screenshot", type=Path, metavar="OUT.png", help="write a picture of the window and end")
     command.add_argument(

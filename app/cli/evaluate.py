@@ -14,7 +14,6 @@ from app.cli.display import virtual, why_no_display
 from app.cli.drawing import nearest, require_writable, seen, stoppable
 from app.cli.edit import THEMES, VIEWS
 from app.cli.options import (
-    Commands,
     add_players_option,
     add_source_options,
     frame_rate,
@@ -55,15 +54,13 @@ def variants(said: str) -> tuple[Variant, ...]:
     return found
 
 
-def add_command(commands: Commands) -> None:
+def add_arguments(command: argparse.ArgumentParser) -> None:
     """Declare the sub-command."""
-    command = commands.add_parser(
-        "evaluate",
-        help="make a questionnaire in which viewers judge the performance against real players",
-        description="Writes a folder with clips, a page that asks viewers about them, and a key that says which "
+    command.description = (
+        "Writes a folder with clips, a page that asks viewers about them, and a key that says which "
         "variant each clip shows. Viewers get the page (evaluation.html) alone; it works without a network and saves a "
         "CSV file for each viewer. 'suisou evaluate results' evaluates these files. Either everything is written or "
-        "nothing. It needs OpenGL 2, and on Linux a display: without one, 'xvfb-run -a suisou evaluate ...'.",
+        "nothing. It needs OpenGL 2, and on Linux a display: without one, 'xvfb-run -a suisou evaluate ...'."
     )
     add_source_options(command)
     command.add_argument(

@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING, Final
 
 from app.cli.bars import add_bar_options, requested_bars, requested_span
 from app.cli.options import (
-    Commands,
     add_players_option,
     add_rate_option,
     add_source_options,
@@ -39,14 +38,12 @@ if TYPE_CHECKING:
 SKELETONS: Final[tuple[SkeletonChoice, ...]] = ("own", "ue5", "suisou")
 
 
-def add_command(commands: Commands) -> None:
+def add_arguments(command: argparse.ArgumentParser) -> None:
     """Declare the sub-command."""
-    command = commands.add_parser(
-        "export",
-        help="write the players and their instruments as FBX, BVH, GLB or USD",
-        description="Writes per player a character that plays its part and its instrument, and a report.json that says "
+    command.description = (
+        "Writes per player a character that plays its part and its instrument, and a report.json that says "
         "what the files hold. Either all files appear or none. Players who cannot be exported are excluded and named; "
-        "the exit status is 4 then.",
+        "the exit status is 4 then."
     )
     add_source_options(command)
     add_title_option(command)

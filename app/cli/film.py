@@ -17,7 +17,6 @@ from app.cli.display import virtual, why_no_display
 from app.cli.drawing import StopRequested, nearest, require_writable, seen, stoppable
 from app.cli.edit import MOST_PX, THEMES, VIEWS
 from app.cli.options import (
-    Commands,
     add_players_option,
     add_source_options,
     frame_rate,
@@ -50,14 +49,12 @@ _every = within(Fraction(1, 120), Fraction(3600), "a number of seconds", exact_n
 _columns = within(1, MOST_COLUMNS, "a number of columns", int)
 
 
-def add_command(commands: Commands) -> None:
+def add_arguments(command: argparse.ArgumentParser) -> None:
     """Declare the sub-command."""
-    command = commands.add_parser(
-        "film",
-        help="draw the players: a film with sound, PNG frames or a contact sheet",
-        description="Draws what the editor's viewport shows, without opening a window. Either everything is written or "
+    command.description = (
+        "Draws what the editor's viewport shows, without opening a window. Either everything is written or "
         "nothing. Players who cannot be drawn are excluded and named; the exit status is 4 then. It needs OpenGL 2, "
-        "and on Linux a display: without one, 'xvfb-run -a suisou film ...'.",
+        "and on Linux a display: without one, 'xvfb-run -a suisou film ...'."
     )
     add_source_options(command)
     place = command.add_mutually_exclusive_group(required=True)

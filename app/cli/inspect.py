@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from app.cli.options import Commands, add_rate_option, add_source_options, add_title_option, open_project
+from app.cli.options import add_rate_option, add_source_options, add_title_option, open_project
 from app.cli.progress import find_holds
 from app.cli.status import report_left_out
 from app.cli.summary import columns, look_at
@@ -44,13 +44,9 @@ from instrument_maps.model import InstrumentMap
 Table = dict[str, Any]
 
 
-def add_command(commands: Commands) -> None:
+def add_arguments(command: argparse.ArgumentParser) -> None:
     """Declare the sub-command."""
-    command = commands.add_parser(
-        "inspect",
-        help="say what a MIDI file holds and what its players will do",
-        description="Reads a MIDI file and prints its players with fingerings, breaths, cues and gestures.",
-    )
+    command.description = "Reads a MIDI file and prints its players with fingerings, breaths, cues and gestures."
     add_source_options(command)
     add_title_option(command)
     add_rate_option(command)

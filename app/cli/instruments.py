@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from app.cli.options import Commands
 from app.cli.summary import columns
 from app.cli.terminal import say
 from app.encoding import shown
@@ -18,13 +17,11 @@ class InvalidMapError(AppError):
     """A checked map has problems; they have been printed."""
 
 
-def add_command(commands: Commands) -> None:
+def add_arguments(command: argparse.ArgumentParser) -> None:
     """Declare the sub-command."""
-    command = commands.add_parser(
-        "instruments",
-        help="list the instrument maps, show the fingerings of one, or check one",
-        description="Lists the instrument maps the program knows, bundled and your own. 'instruments scale ID' prints "
-        "all fingerings of an instrument, 'instruments check FILE' validates a map.",
+    command.description = (
+        "Lists the instrument maps the program knows, bundled and your own. 'instruments scale ID' prints "
+        "all fingerings of an instrument, 'instruments check FILE' validates a map."
     )
     command.set_defaults(run=list_maps)
     actions = command.add_subparsers(title="actions", metavar="ACTION")

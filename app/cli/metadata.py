@@ -7,7 +7,6 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from app.cli.options import Commands
 from app.cli.summary import columns
 from app.cli.terminal import say, warn
 from app.encoding import shown
@@ -22,14 +21,12 @@ class InvalidMetadataError(AppError):
     """A checked table has problems; they have been printed."""
 
 
-def add_command(commands: Commands) -> None:
+def add_arguments(command: argparse.ArgumentParser) -> None:
     """Declare the sub-command."""
-    command = commands.add_parser(
-        "metadata",
-        help="list styles, habits, expressions, gestures and rules; save, load and compare those of a piece",
-        description="Without a piece: lists the styles, habits, expressions, gestures and rules the program knows, "
+    command.description = (
+        "Without a piece: lists the styles, habits, expressions, gestures and rules the program knows, "
         "ours and your own, with your own folders and what is wrong in them. With a piece: saves what was said of its "
-        "acting to a file, loads that into it, or compares both.",
+        "acting to a file, loads that into it, or compares both."
     )
     command.add_argument("piece", type=Path, nargs="?", metavar="PIECE", help="a project (.suisou)")
     what = command.add_mutually_exclusive_group()

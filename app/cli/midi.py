@@ -5,19 +5,17 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from app.cli.options import Commands, add_file_options, add_title_option, open_project
+from app.cli.options import add_file_options, add_title_option, open_project
 from app.cli.terminal import say, warn
 from app.errors import FileError
 from app.messages import filled, text
 
 
-def add_command(commands: Commands) -> None:
+def add_arguments(command: argparse.ArgumentParser) -> None:
     """Declare the sub-command."""
-    command = commands.add_parser(
-        "midi",
-        help="write the piece as a MIDI file",
-        description="Writes the piece as a MIDI file of format 1, a track for every player, with everything that was "
-        "drawn and recorded: notes, breath, bite and other controllers, tempo, metres and pickup.",
+    command.description = (
+        "Writes the piece as a MIDI file of format 1, a track for every player, with everything that was "
+        "drawn and recorded: notes, breath, bite and other controllers, tempo, metres and pickup."
     )
     add_file_options(command)
     add_title_option(command)

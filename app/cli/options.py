@@ -6,7 +6,7 @@ import argparse
 from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
 from pathlib import Path
-from typing import Final, TypeAlias, TypeVar
+from typing import Final, TypeVar
 
 import msgspec
 
@@ -31,9 +31,6 @@ from app.score.read import assigned_score, read_contents
 from instrument_maps.library import library
 from instrument_maps.model import InstrumentMap
 from metadata.library import metadata_library
-
-Commands: TypeAlias = "argparse._SubParsersAction[argparse.ArgumentParser]"
-"""Where a sub-command declares itself."""
 
 _MOST_SHOWN = 40
 """Characters of a wrong number that its error repeats."""

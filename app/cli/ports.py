@@ -11,7 +11,6 @@ from typing import Final, Self
 
 from app.capture.link import RecorderLink
 from app.capture.protocol import News, Ports, Refused
-from app.cli.options import Commands
 from app.cli.terminal import say, say_json
 from app.errors import AppError, Message
 from app.messages import text
@@ -67,13 +66,10 @@ class Listening:
         raise NoDevice(reason.id)
 
 
-def add_command(commands: Commands) -> None:
+def add_arguments(command: argparse.ArgumentParser) -> None:
     """Declare the sub-command."""
-    command = commands.add_parser(
-        "ports",
-        help="list the MIDI devices that are there",
-        description="Lists the MIDI devices that can be recorded from, what each is taken for, and those that can be "
-        "sent to.",
+    command.description = (
+        "Lists the MIDI devices that can be recorded from, what each is taken for, and those that can be sent to."
     )
     command.add_argument("--json", action="store_true", help="print JSON")
     command.set_defaults(run=list_ports)

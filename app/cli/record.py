@@ -12,7 +12,7 @@ from typing import Final
 
 from app.capture.journal import Header, passes, read_journal
 from app.capture.protocol import Back, Finished, Lost, NotStarted, Opened, Refused, Restarted, Written
-from app.cli.options import LONGEST_S, Commands, within
+from app.cli.options import LONGEST_S, within
 from app.cli.ports import Listening, NoDevice
 from app.cli.terminal import count, say, warn
 from app.encoding import shown
@@ -36,14 +36,12 @@ class RecordError(AppError):
     """Nothing could be recorded."""
 
 
-def add_command(commands: Commands) -> None:
+def add_arguments(command: argparse.ArgumentParser) -> None:
     """Declare the sub-command."""
-    command = commands.add_parser(
-        "record",
-        help="record from a MIDI device into a MIDI file",
-        description="Records what is played on a MIDI device, with breath, bite and bending, until the time is over or "
+    command.description = (
+        "Records what is played on a MIDI device, with breath, bite and bending, until the time is over or "
         "Ctrl+C is pressed, and writes it as a MIDI file. Until that is written everything is in a journal beside it "
-        "(TAKE.mid.take-journal), at most a second behind; what a crash left of it is written with --rescue.",
+        "(TAKE.mid.take-journal), at most a second behind; what a crash left of it is written with --rescue."
     )
     command.add_argument("--port", metavar="NAME", help="a device as 'suisou ports' lists it, or a part of its name")
     command.add_argument("--to", type=Path, required=True, metavar="TAKE.mid", help="the MIDI file to write")

@@ -9,7 +9,7 @@ from collections.abc import Mapping
 from fractions import Fraction
 from typing import TYPE_CHECKING, Final
 
-from app.cli.options import Commands, add_players_option, add_source_options, frame_rate, open_project, seconds, within
+from app.cli.options import add_players_option, add_source_options, frame_rate, open_project, seconds, within
 from app.cli.progress import Progress, find_holds
 from app.cli.status import report_left_out
 from app.cli.summary import look_at
@@ -45,13 +45,11 @@ _USUAL_RATE: Final = Fraction(60)
 _REPORT_S: Final = 1.0
 
 
-def add_command(commands: Commands) -> None:
+def add_arguments(command: argparse.ArgumentParser) -> None:
     """Declare the sub-command."""
-    command = commands.add_parser(
-        "stream",
-        help="play a piece live to another program (VMC)",
-        description="Sends the poses of players and dancers in time by the VMC protocol (OSC over UDP), for Unreal, "
-        "VSeeFace, Warudo or Blender to follow: one character for each port. Ends with the piece, or at Ctrl+C.",
+    command.description = (
+        "Sends the poses of players and dancers in time by the VMC protocol (OSC over UDP), for Unreal, "
+        "VSeeFace, Warudo or Blender to follow: one character for each port. Ends with the piece, or at Ctrl+C."
     )
     add_source_options(command)
     add_players_option(command, "only this player or dancer; repeatable (default: all, each on a port of their own)")

@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 
 from app.cli import parser
+from app.cli.commands import CommandParser
 from app.cli.options import AUTOMATIC, beats, felt_beat, frame_rate, whole_number
 from app.errors import UsageError
 from app.project.parameters import parameter_names, parse_settings
@@ -43,8 +44,9 @@ def test_numbers() -> None:
     assert felt_beat("Auto") == AUTOMATIC
 
 
-def options(command: argparse.ArgumentParser, name: str = "") -> Iterator[tuple[str, argparse.Action]]:
+def options(command: CommandParser, name: str = "") -> Iterator[tuple[str, argparse.Action]]:
     """Every option of every command, by command and name."""
+    command.complete()
     for action in command._actions:
         if isinstance(action, argparse._SubParsersAction):
             for sub_name, sub in action.choices.items():

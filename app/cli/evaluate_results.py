@@ -1,12 +1,11 @@
-"""``suisou evaluate results``: what viewers answered, as tables and in words; ``suisou evaluate measures``."""
+"""``suisou evaluate results``: what viewers answered, as tables and in words."""
 
 from __future__ import annotations
 
 import argparse
 from pathlib import Path
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING
 
-from app.cli.options import Commands, add_file_options, open_project
 from app.cli.summary import columns
 from app.cli.terminal import say
 from app.encoding import shown
@@ -17,19 +16,11 @@ if TYPE_CHECKING:
     from app.evaluation.tables import Table
 
 
-RESULTS: Final = "evaluate results"
-MEASURES: Final = "evaluate measures"
-COMMANDS: Final = frozenset({RESULTS, MEASURES})
-"""Of two words; a piece with such a name is written "./results"."""
-
-
-def add_results(commands: Commands) -> None:
-    """Declare the sub-command ``evaluate results``."""
-    command = commands.add_parser(
-        RESULTS,
-        help="what viewers answered",
-        description="Reads the files that the page wrote, one for each viewer, and says how every variant was judged, "
-        "which differences are shown, how far viewers agree, and what may and may not be concluded.",
+def add_arguments(command: argparse.ArgumentParser) -> None:
+    """Declare the sub-command."""
+    command.description = (
+        "Reads the files that the page wrote, one for each viewer, and says how every variant was judged, "
+        "which differences are shown, how far viewers agree, and what may and may not be concluded."
     )
     command.add_argument("files", type=Path, nargs="+", metavar="FILE.csv", help="the answers of a viewer")
     command.add_argument(
@@ -43,18 +34,6 @@ def add_results(commands: Commands) -> None:
         "results_ja.md and .svg",
     )
     command.set_defaults(run=results)
-
-
-def add_measures(commands: Commands) -> None:
-    """Declare the sub-command ``evaluate measures``."""
-    command = commands.add_parser(
-        MEASURES,
-        help="what can be measured of a piece without viewers",
-        description="Measures every player: lag of what is seen behind what is heard, motion of the head, breaths that "
-        "show, and contact.",
-    )
-    add_file_options(command)
-    command.set_defaults(run=measures, settings=[])
 
 
 def results(arguments: argparse.Namespace) -> None:
@@ -74,7 +53,7 @@ def results(arguments: argparse.Namespace) -> None:
     found, measured = gathered.results, gathered.measures
     say(text(Message("results.title", {"piece": found.piece})))
     for table in tables(found, measured, "en"):
-        say("", *_lines(table))
+        say("", *table_lines(table))
     conclusions = conclude(found)
     for heading, said in (("results.may", conclusions.may), ("results.may_not", conclusions.may_not)):
         say("", f"{text(Message(heading))}:", *(f"- {text(message)}" for message in said))
@@ -83,16 +62,6 @@ def results(arguments: argparse.Namespace) -> None:
         say("", f"{shown(arguments.to)}: {', '.join(path.name for path in written)}")
 
 
-def measures(arguments: argparse.Namespace) -> None:
-    """Measure a piece and print the table."""
-    from app.evaluation.measures import measure
-    from app.evaluation.tables import measures_table
-    from app.performance.ensemble import Performance
-
-    performance = Performance(open_project(arguments))
-    say(*_lines(measures_table([measure(performance)], "en")))
-
-
-def _lines(table: Table) -> list[str]:
+def table_lines(table: Table) -> list[str]:
     """A table, numbers on the right of their columns."""
     return [table.title, *columns([table.head, *table.rows], names=table.names), f"({table.note})"]

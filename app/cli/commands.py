@@ -1,0 +1,78 @@
+"""The sub-commands: what each is called and does. Its module is loaded when its arguments are read."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Callable, Sequence
+from functools import partial
+from importlib import import_module
+from typing import Any, Final, NoReturn
+
+from app.encoding import shown
+
+_COMMANDS: Final = {
+    "edit": "open the editor (also without any command)",
+    "inspect": "say what a MIDI file holds and what its players will do",
+    "export": "write the players and their instruments as FBX, BVH, GLB or USD",
+    "film": "draw the players: a film with sound, PNG frames or a contact sheet",
+    "evaluate": "make a questionnaire in which viewers judge the performance against real players",
+    "evaluate results": "what viewers answered",
+    "evaluate measures": "what can be measured of a piece without viewers",
+    "midi": "write the piece as a MIDI file",
+    "align": "put the notes where a recording of the piece has them",
+    "instruments": "list the instrument maps, show the fingerings of one, or check one",
+    "metadata": "list styles, habits, expressions, gestures and rules; save, load and compare those of a piece",
+    "characters": "list the characters, check whether a file's figure can play, add one",
+    "choreography": "learn how dancers move to music, from motion capture, and let them dance",
+    "ports": "list the MIDI devices that are there",
+    "record": "record from a MIDI device into a MIDI file",
+    "stream": "play a piece live to another program (VMC)",
+}
+"""By name: the help. What ``evaluate results`` takes and does is in `app.cli.evaluate_results`."""
+
+TWO_WORDS: Final = frozenset(name for name in _COMMANDS if " " in name)
+"""A piece with such a name is written "./results"."""
+
+Declare = Callable[[argparse.ArgumentParser], None]
+
+
+class CommandParser(argparse.ArgumentParser):
+    """Quotes the arguments that it refuses, names of files among them, as everything else is printed.
+
+    Parameters
+    ----------
+    declare : callable, optional
+        Adds arguments and description; called when they are needed first.
+    options
+        Of `argparse`.
+    """
+
+    def __init__(self, *, declare: Declare | None = None, **options: Any) -> None:
+        super().__init__(**options)
+        self._declare = declare
+
+    def complete(self) -> None:
+        """Have all arguments."""
+        if self._declare is not None:
+            declare, self._declare = self._declare, None
+            declare(self)
+
+    def error(self, message: str) -> NoReturn:
+        super().error(shown(message))
+
+    def parse_known_args(  # type: ignore[override]
+        self, args: Sequence[str] | None = None, namespace: Any = None
+    ) -> tuple[Any, list[str]]:
+        self.complete()
+        return super().parse_known_args(args, namespace)
+
+
+def add_commands(top: argparse.ArgumentParser) -> None:
+    """Declare all sub-commands by name and help."""
+    commands = top.add_subparsers(title="commands", dest="command", metavar="COMMAND", parser_class=CommandParser)
+    for name, help in _COMMANDS.items():
+        commands.add_parser(name, help=help, declare=partial(_add_arguments, name))
+
+
+def _add_arguments(name: str, command: argparse.ArgumentParser) -> None:
+    import_module(f"app.cli.{name.replace(' ', '_')}").add_arguments(command)

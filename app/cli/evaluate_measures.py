@@ -1,0 +1,29 @@
+"""``suisou evaluate measures``: what can be measured of a piece without viewers."""
+
+from __future__ import annotations
+
+import argparse
+
+from app.cli.evaluate_results import table_lines
+from app.cli.options import add_file_options, open_project
+from app.cli.terminal import say
+
+
+def add_arguments(command: argparse.ArgumentParser) -> None:
+    """Declare the sub-command."""
+    command.description = (
+        "Measures every player: lag of what is seen behind what is heard, motion of the head, breaths that "
+        "show, and contact."
+    )
+    add_file_options(command)
+    command.set_defaults(run=measures, settings=[])
+
+
+def measures(arguments: argparse.Namespace) -> None:
+    """Measure a piece and print the table."""
+    from app.evaluation.measures import measure
+    from app.evaluation.tables import measures_table
+    from app.performance.ensemble import Performance
+
+    performance = Performance(open_project(arguments))
+    say(*table_lines(measures_table([measure(performance)], "en")))
