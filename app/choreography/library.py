@@ -9,7 +9,7 @@ from importlib.resources import files
 from pathlib import Path, PurePosixPath, PureWindowsPath
 from typing import Final
 
-from app.choreography.model_file import SUFFIX
+SUFFIX: Final = ".choreography"
 
 _NAME: Final = re.compile(r"[a-z0-9][a-z0-9_-]{0,59}", re.ASCII)
 

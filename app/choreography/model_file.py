@@ -30,7 +30,6 @@ from app.formats.json_data import decode_json
 
 FloatArray = npt.NDArray[np.float64]
 
-SUFFIX: Final = ".choreography"
 VERSION: Final = 1
 MOST_BYTES: Final = 128 * 2**20
 """About an hour and a half of motion."""

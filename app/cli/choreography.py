@@ -140,7 +140,8 @@ def _add_learn(actions: Actions) -> None:
 def learn(arguments: argparse.Namespace) -> None:
     """Learn from the pairs, write the file and print what it holds."""
     from app.choreography.learn import learn as learned
-    from app.choreography.model_file import SUFFIX, write_model
+    from app.choreography.library import SUFFIX
+    from app.choreography.model_file import write_model
     from app.choreography.read_motion import guesses
     from app.choreography.read_pair import read_pair
 

@@ -198,13 +198,15 @@ def export(arguments: argparse.Namespace) -> int:
     from app.export.request import Request
     from app.export.run import export as write
     from app.export.tree import clean_up
-    from app.export.unreal.project import find_project
-    from app.export.unreal.run import export_into
     from app.performance.ensemble import Performance
 
     formats = _requested_formats(arguments)
     # What is wrong with it is reported before anything is read.
-    unreal = None if arguments.unreal is None else find_project(arguments.unreal)
+    unreal = None
+    if arguments.unreal is not None:
+        from app.export.unreal.project import find_project
+
+        unreal = find_project(arguments.unreal)
     clean_up()
     project = open_project(arguments)
     performance = Performance(project)
@@ -242,6 +244,8 @@ def export(arguments: argparse.Namespace) -> int:
                 report = write(request, text, progress=progress)
                 reported = summary(report, arguments.to)
             else:
+                from app.export.unreal.run import export_into
+
                 written = export_into(request, unreal, text, progress=progress)
                 report = written.report
                 reported = project_summary(written, unreal, skeleton, chosen=arguments.skeleton is not None)

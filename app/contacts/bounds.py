@@ -9,7 +9,7 @@ import msgspec
 import numpy as np
 import numpy.typing as npt
 
-from app.rig.fit import GRIP_M, INSIDE_M, TOUCH_M
+from app.rig.fit_terms import GRIP_M, INSIDE_M, TOUCH_M
 from app.rig.hold import ContactFit
 from app.rig.stations import MOST_HOVER_M
 from instrument_maps.model import Contact, Control

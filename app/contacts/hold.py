@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from app.contacts.bounds import contact_name
 from app.errors import Message
-from app.rig.fit import GRIP_M, INSIDE_M, TOUCH_M
+from app.rig.fit_terms import GRIP_M, INSIDE_M, TOUCH_M
 from app.rig.hold import ContactFit, GripPose
 
 

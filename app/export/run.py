@@ -27,7 +27,6 @@ from app.export.report import (
     encode_report,
 )
 from app.export.request import ExportCast, Request, cast_of
-from app.export.sound import write_sound
 from app.export.stage import write_stage
 from app.formats.atomic import atomic_write
 from app.plan.problem_lines import problem_lines
@@ -102,6 +101,9 @@ def write_cast(
             report = export_dancer(request, cast, dancing, folder, partial(reported, dancer_id))
             dancers.append(report)
         if request.sound:
+            # So are those of sound.
+            from app.export.sound import write_sound
+
             sound = sound_name(request.source)
 
             def mixed(share: float) -> None:

@@ -18,8 +18,8 @@ from app.identity_cache import IdentityCache
 from app.motion.perform import lying
 from app.project.performers import Player
 from app.rig.character_library import bundled_characters, character_named, character_revision
+from app.rig.fit_terms import Progress, no_progress
 from app.rig.fitted_instrument import FittedInstrument, suited
-from app.rig.grip_search import Progress, no_progress
 from app.rig.hold import GripPose
 from app.rig.hold_file import bundled_path, hold_for
 from app.rig.instrument import load_instrument

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from app.choreography.library import is_choreography
-from app.choreography.model_file import SUFFIX
+from app.choreography.library import SUFFIX, is_choreography
 from app.project import limits
 from app.project.dance_corrections import DanceCorrection, ForbidState, PinState
 from app.project.fault import Fault, about, between, id_faults, look_faults, text_faults, unique

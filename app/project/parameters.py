@@ -15,8 +15,7 @@ from typing import Final
 
 import msgspec
 
-from app.choreography.library import bundled_choreographies, is_choreography
-from app.choreography.model_file import SUFFIX
+from app.choreography.library import SUFFIX, bundled_choreographies, is_choreography
 from app.errors import UsageError
 from app.plan.parameters import AUTOMATIC, PARAMETERS, PlayerParameters, Value
 from app.project import limits

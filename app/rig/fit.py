@@ -17,15 +17,15 @@ from dataclasses import replace
 import numpy as np
 import numpy.typing as npt
 
-from app.errors import UsageError
 from app.rig import quaternion
 from app.rig.carriage import Upright, upright
+from app.rig.fit_terms import GRIP_M, INSIDE_M, TOUCH_M, Progress, no_progress, require_landmarks
 from app.rig.grip_beside import leans_beside
 from app.rig.grip_fingers import MOVED_VALUES, STILL_VALUES, GripScene, finger_tables, solve_tables
 from app.rig.grip_judge import judge
 from app.rig.grip_lean import Leaning, lean_of, leanings, whole_hand
 from app.rig.grip_problem import Problem, grip_problem, joint_angles, travel, wrist_transform
-from app.rig.grip_search import Progress, finished, no_progress, search_knots, starts
+from app.rig.grip_search import finished, search_knots, starts
 from app.rig.grip_ways import lifted_ways
 from app.rig.hold import GripPose, HandHold, NodeMotion, StationTable
 from app.rig.lips import fit_lips
@@ -37,15 +37,6 @@ from instrument_maps.size import scaled
 from metadata.model import Body
 
 FloatArray = npt.NDArray[np.float64]
-
-TOUCH_M, GRIP_M, INSIDE_M = 0.002, 0.003, 0.003
-"""A hold ends well where what works a control is off by no more than this, what carries the instrument by no more than
-this, and no skin is deeper inside it than this."""
-
-FIT_VERSION = 15
-"""Part of the digest of stored holds (`app.rig.hold_file`): raise it when a fit comes out differently ..."""
-PLACES_VERSION = 3
-"""... and this one when it does so only where fingers wait over what they work, or work it at several places."""
 
 
 def fit_hold(
@@ -93,15 +84,6 @@ def fit_hold(
 def _part(progress: Progress, first: float, last: float) -> Progress:
     """Reports progress of a part of the work as a share of the whole."""
     return lambda share: progress(first + (last - first) * share)
-
-
-def require_landmarks(character: Character, instrument_map: InstrumentMap) -> None:
-    """Raise UsageError ``character.landmarks_missing`` where a body lacks a place the instrument touches."""
-    needed = {contact.part for contact in instrument_map.contacts}
-    needed |= {f"{seed.hand}.{place}" for seed in instrument_map.hands for place in ("palm", "hand")}
-    missing = sorted(needed - set(character.landmarks))
-    if missing:
-        raise UsageError("character.landmarks_missing", id=character.id, missing=", ".join(missing))
 
 
 def _fit_hand(

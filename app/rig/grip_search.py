@@ -2,22 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
+from app.rig.fit_terms import Progress, no_progress
 from app.rig.grip_problem import Problem, home_controls, nodes_at, start_at, travel
 from app.rig.grip_residuals import Residuals
 from app.rig.model import InstrumentModel
 from instrument_maps.model import Control, InstrumentMap
 
 FloatArray = npt.NDArray[np.float64]
-
-Progress = Callable[[float], None]
-"""Called with the share 0..1 that is done; what it raises stops the work."""
 
 KNOTS = (0.25, 0.0, 0.5, 0.75, 1.0)
 """Values of the control that carries a hand at which its hold is solved: the first from the seed, the others each from
@@ -38,10 +35,6 @@ TILTS = (
     (0.0, -0.25, -0.25),
 )
 """Turns of the seed (rotation vectors in the instrument's frame) that are tried."""
-
-
-def no_progress(share: float) -> None:
-    """Ignores the progress."""
 
 
 def starts(problem: Problem, progress: Progress = no_progress) -> list[FloatArray]:

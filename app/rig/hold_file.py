@@ -25,8 +25,7 @@ from app.formats.cache import cache_folder
 from app.formats.files import read_file
 from app.formats.json_data import decode_json
 from app.rig.carriage import usual_posture
-from app.rig.fit import FIT_VERSION, PLACES_VERSION, fit_hold, require_landmarks
-from app.rig.grip_search import Progress, no_progress
+from app.rig.fit_terms import FIT_VERSION, PLACES_VERSION, Progress, no_progress, require_landmarks
 from app.rig.hold import GripPose, HandHold, Lips
 from app.rig.lips import fit_lips
 from app.rig.model import Character, InstrumentModel
@@ -166,6 +165,8 @@ def hold_for(
         hold = read_hold(path, digest, lips)
         if hold is not None:
             return hold
+    from app.rig.fit import fit_hold  # heavy; holds are fitted seldom
+
     hold = stored(fit_hold(character, model, instrument, body, progress))
     # A cache that cannot be written costs the next run some seconds and nothing else.
     with contextlib.suppress(OSError, FileError):

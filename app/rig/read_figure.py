@@ -11,7 +11,6 @@ from typing import Final
 from app.errors import FileError
 from app.formats.files import open_file
 from app.rig.figure import Figure
-from app.rig.figure_fbx import fbx_figure
 from app.rig.figure_gltf import gltf_figure
 from app.rig.source import invalid
 
@@ -33,6 +32,9 @@ def read_figure(path: Path) -> Figure:
         if start.startswith(b"glTF") or start.lstrip(b"\xef\xbb\xbf \t\r\n").startswith(b"{"):
             return gltf_figure(path)
         if start.startswith(b"Kaydara FBX") or path.suffix.lower() == ".fbx":
+            # Reads by another process; our own characters are GLB files.
+            from app.rig.figure_fbx import fbx_figure
+
             return fbx_figure(path)
     except (KeyError, IndexError, TypeError, ValueError, OverflowError) as error:
         raise invalid(path, f"damaged: {error!r}") from error

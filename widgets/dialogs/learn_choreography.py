@@ -14,8 +14,9 @@ from PySide6.QtWidgets import QPushButton, QSpinBox, QTreeWidgetItem, QWidget
 
 from app.choreography.cuts_by_hand import Cuts
 from app.choreography.learn import Pair, analyse, learn, summary
+from app.choreography.library import SUFFIX
 from app.choreography.model import ChoreographyModel
-from app.choreography.model_file import SUFFIX, write_model
+from app.choreography.model_file import write_model
 from app.choreography.music_offset import CONFIDENT
 from app.choreography.read_pair import CREDITS_SUFFIX, read_pair
 from app.editor.session import Session

@@ -8,8 +8,7 @@ from pathlib import Path
 
 from PySide6.QtWidgets import QWidget
 
-from app.choreography.library import bundled_choreographies
-from app.choreography.model_file import SUFFIX
+from app.choreography.library import SUFFIX, bundled_choreographies
 from app.editor.session import Session
 from app.encoding import shown
 from app.plan.parameters import PARAMETERS

@@ -12,8 +12,8 @@ from PySide6.QtGui import QContextMenuEvent
 from PySide6.QtWidgets import QGridLayout, QWidget
 
 from app.chance import next_seed
-from app.choreography.library import bundled_choreographies, choreography_path
-from app.choreography.model_file import SUFFIX, read_model
+from app.choreography.library import SUFFIX, bundled_choreographies, choreography_path
+from app.choreography.model_file import read_model
 from app.editor.session import Session
 from app.editor.tokens import LEAST_TARGET_PX
 from app.encoding import shown
