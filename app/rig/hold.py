@@ -394,9 +394,9 @@ def interpolated(values: FloatArray, rotations: FloatArray, value: FloatArray) -
 
 def mixed(near: FloatArray, far: FloatArray, share: FloatArray) -> FloatArray:
     """Rotations between near (share 0) and far ones (share 1), the shorter way."""
-    sign = np.where(np.einsum("fnc,fnc->fn", near, far) < 0.0, -1.0, 1.0)[..., None]
+    sign = np.where(quaternion.dot(near, far) < 0.0, -1.0, 1.0)[..., None]
     mixed: FloatArray = near * (1.0 - share) + far * (sign * share)
-    mixed /= np.sqrt(np.einsum("fnc,fnc->fn", mixed, mixed))[..., None]
+    mixed /= np.sqrt(quaternion.dot(mixed, mixed))[..., None]
     return mixed
 
 

@@ -58,6 +58,11 @@ def columns(*components: ArrayLike) -> FloatArray:
     return _together(result)
 
 
+def repeated(vector: ArrayLike, count: int) -> FloatArray:
+    """Return one vector (n,) as many (count, n), as `columns` lays them out."""
+    return _together(np.broadcast_to(np.asarray(vector, np.float64)[:, None], (np.shape(vector)[0], count)).copy())
+
+
 def _together(components: npt.NDArray[Any]) -> FloatArray:
     vectors: FloatArray = np.moveaxis(components, 0, -1)
     return vectors
