@@ -174,7 +174,8 @@ def poses(
     ``upper`` is its upper body where that is known.
     """
     frames, joints = len(curves), len(player.skeleton.names)
-    rotations = np.zeros((frames, joints, 4), dtype=np.float32)
+    # Curve by curve in memory: so they are made, and so they are written to files.
+    rotations = np.zeros((joints, 4, frames), dtype=np.float32).transpose(2, 0, 1)
     rotations[..., 3] = 1.0
     hips_m = np.empty((frames, 3), dtype=np.float32)
     instrument_m = np.empty((frames, 3), dtype=np.float32)

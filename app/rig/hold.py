@@ -389,7 +389,9 @@ def interpolated(values: FloatArray, rotations: FloatArray, value: FloatArray) -
     place = np.interp(value, values, np.arange(len(values), dtype=np.float64))
     low = np.minimum(place.astype(np.intp), len(values) - 2)
     share = (place - low)[:, None, None]
-    return mixed(rotations[low], rotations[low + 1], share)
+    components = np.ascontiguousarray(rotations.transpose(1, 2, 0))
+    near, far = (components.take(index, axis=2).transpose(2, 0, 1) for index in (low, low + 1))
+    return mixed(near, far, share)
 
 
 def mixed(near: FloatArray, far: FloatArray, share: FloatArray) -> FloatArray:
@@ -403,8 +405,9 @@ def mixed(near: FloatArray, far: FloatArray, share: FloatArray) -> FloatArray:
 def _weighted(
     rest: FloatArray, deltas: Mapping[str, FloatArray], morphs: Mapping[str, npt.NDArray[np.floating]], frames: int
 ) -> FloatArray:
-    result = np.tile(rest, (frames, 1))
+    result = quaternion.repeated(rest, frames)
+    components = result.T
     for name, delta in deltas.items():
         if name in morphs:
-            result += np.multiply.outer(np.asarray(morphs[name], dtype=np.float64), delta)
+            components += np.multiply.outer(delta, np.asarray(morphs[name], dtype=np.float64))
     return result

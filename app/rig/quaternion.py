@@ -64,7 +64,7 @@ def repeated(vector: ArrayLike, count: int) -> FloatArray:
 
 
 def _together(components: npt.NDArray[Any]) -> FloatArray:
-    vectors: FloatArray = np.moveaxis(components, 0, -1)
+    vectors: FloatArray = components.transpose((*range(1, components.ndim), 0))
     return vectors
 
 
