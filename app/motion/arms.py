@@ -106,8 +106,9 @@ def _solve_arm(
     sign = 1.0 if side == "left" else -1.0
     held = shoulder(skeleton, side, body, motion)
     root_m = held.joint_m
-    out = np.tan(motion.elbows_rad + ELBOW_OUT * motion.protraction_rad[side])[:, None] * np.array([sign, 0.0, 0.0])
-    pole = quaternion.rotate(with_chest, hand.elbow_direction + out)
+    out = sign * np.tan(motion.elbows_rad + ELBOW_OUT * motion.protraction_rad[side])
+    aside, up, ahead = hand.elbow_direction
+    pole = quaternion.rotate(with_chest, quaternion.columns(aside + out, up, ahead))
     line = target_m - root_m
     line /= np.sqrt(quaternion.dot(line, line))[:, None]
     if side in motion.elbow_held_rad:

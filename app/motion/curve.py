@@ -29,7 +29,12 @@ def frame_times(first_frame_s: float, fps: Fraction, first_frame: int, frames: i
 
 def minimum_jerk(phase: FloatArray) -> FloatArray:
     """Progress 0..1 of a minimum-jerk move at ``phase`` 0..1 of its time (10u³ - 15u⁴ + 6u⁵)."""
-    return phase * phase * phase * (10.0 + phase * (6.0 * phase - 15.0))
+    way = 6.0 * phase
+    way -= 15.0
+    way *= phase
+    way += 10.0
+    way *= phase * phase * phase
+    return way
 
 
 NOWHERE: FloatArray = np.zeros((0, 2))
@@ -247,14 +252,16 @@ class Envelopes:
         result = np.zeros(len(times_s))
         first = np.searchsorted(times_s, self.start_s, side="left")
         last = np.searchsorted(times_s, self.end_s, side="right")
-        for index in np.flatnonzero(last > first):
-            here = slice(first[index], last[index])
-            t = times_s[here]
-            rise_s = max(self.full_s[index] - self.start_s[index], 1e-9)
-            fall_s = max(self.end_s[index] - self.fall_s[index], 1e-9)
-            up = minimum_jerk(np.clip((t - self.start_s[index]) / rise_s, 0.0, 1.0))
-            down = minimum_jerk(np.clip((self.end_s[index] - t) / fall_s, 0.0, 1.0))
-            np.maximum(result[here], self.height[index] * np.minimum(up, down), out=result[here])
+        shown = np.flatnonzero(last > first)
+        counts = (last - first)[shown]
+        # Frame by frame of every span that is there, one span after another.
+        span = np.repeat(shown, counts)
+        here = np.arange(len(span)) + np.repeat(first[shown] - (np.cumsum(counts) - counts), counts)
+        rise_s, fall_s = np.maximum(self.full_s - self.start_s, 1e-9), np.maximum(self.end_s - self.fall_s, 1e-9)
+        times_s = times_s[here]
+        up = minimum_jerk(np.clip((times_s - self.start_s[span]) / rise_s[span], 0.0, 1.0))
+        down = minimum_jerk(np.clip((self.end_s[span] - times_s) / fall_s[span], 0.0, 1.0))
+        np.maximum.at(result, here, self.height[span] * np.minimum(up, down))
         return result
 
 

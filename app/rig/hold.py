@@ -386,6 +386,12 @@ def interpolated(values: FloatArray, rotations: FloatArray, value: FloatArray) -
     """Interpolate rotations (S, n, 4), given at ascending values (S,), at ``value`` (F,): (F, n, 4)."""
     if len(values) == 1:
         return np.broadcast_to(rotations[0], (len(value), *rotations.shape[1:]))
+    starts = np.flatnonzero(np.concatenate(([True], value[1:] != value[:-1])))
+    if 2 * len(starts) < len(value):
+        # It rests most of the time.
+        resting = np.repeat(np.arange(len(starts)), np.diff(starts, append=len(value)))
+        few = np.ascontiguousarray(interpolated(values, rotations, value[starts]).transpose(1, 2, 0))
+        return few.take(resting, axis=2).transpose(2, 0, 1)
     place = np.interp(value, values, np.arange(len(values), dtype=np.float64))
     low = np.minimum(place.astype(np.intp), len(values) - 2)
     share = (place - low)[:, None, None]

@@ -52,7 +52,7 @@ def _are_few(a: npt.NDArray[Any], b: npt.NDArray[Any]) -> bool:
 
 def columns(*components: ArrayLike) -> FloatArray:
     """Return vectors (..., n) of n components (...), which are copied one after another in memory."""
-    result = np.empty((len(components), *np.broadcast_shapes(*map(np.shape, components))))
+    result = np.empty((len(components), *np.broadcast(*components).shape))
     for index, values in enumerate(components):
         result[index] = values
     return _together(result)
@@ -97,7 +97,7 @@ def multiply(a: ArrayLike, b: ArrayLike) -> FloatArray:
         product += terms[..., 3, :]
         return product
     left, right = [a[..., i] for i in (3, 0, 1, 2)], [b[..., i] for i in range(4)]
-    shape, kind = np.broadcast_shapes(left[0].shape, right[0].shape), np.result_type(a, b)
+    shape, kind = np.broadcast(left[0], right[0]).shape, np.result_type(a, b)
     result, term = np.empty((4, *shape), kind), np.empty(shape, kind)
     for component, (order, signs) in enumerate(_PRODUCT):
         total = result[component, ...]
@@ -137,7 +137,7 @@ def rotate(q: ArrayLike, v: ArrayLike) -> FloatArray:
     vx, vy, vz = v[..., 0], v[..., 1], v[..., 2]
     # v + 2 w (u x v) + 2 u x (u x v), with t = 2 u x v
     tx, ty, tz = _crossed(x, y, z, vx, vy, vz)
-    tx, ty, tz = tx * 2.0, ty * 2.0, tz * 2.0
+    tx, ty, tz = 2.0 * tx, 2.0 * ty, 2.0 * tz
     result = np.empty((3, *np.shape(tx)))
     for component, (start, along, plus, minus) in enumerate(
         ((vx, tx, (y, tz), (z, ty)), (vy, ty, (z, tx), (x, tz)), (vz, tz, (x, ty), (y, tx)))
@@ -189,7 +189,7 @@ def to_rotation_vector(q: ArrayLike) -> FloatArray:
 def from_axis_angle(axis: ArrayLike, angle_rad: ArrayLike) -> FloatArray:
     """Return quaternions that turn by angles (...) about unit axes (..., 3)."""
     axis, half = np.asarray(axis, dtype=np.float64), 0.5 * np.asarray(angle_rad, dtype=np.float64)
-    result = _together(np.empty((4, *np.broadcast_shapes(axis.shape[:-1], half.shape))))
+    result = _together(np.empty((4, *np.broadcast(axis[..., 0], half).shape)))
     np.multiply(axis, np.sin(half)[..., None], out=result[..., :3])
     result[..., 3] = np.cos(half)
     return result
@@ -234,13 +234,13 @@ def _from_entries(m: Sequence[FloatArray]) -> FloatArray:
         (sums[1], sums[0], diagonal[2], differences[2]),
         (*differences, diagonal[3]),
     )
-    best = np.argmax(np.stack(diagonal), axis=0)
-    result = np.empty((4, *best.shape))
-    for number, form in enumerate(forms):
-        here = best == number
-        if here.any():
+    result, greatest = np.stack(forms[0]), diagonal[0]
+    for form, divisor in zip(forms[1:], diagonal[1:], strict=True):
+        greater = divisor > greatest
+        if greater.any():
+            greatest = np.maximum(greatest, divisor)
             for component, values in enumerate(form):
-                np.copyto(result[component, ...], values, where=here)
+                np.copyto(result[component, ...], values, where=greater)
     rotations = normalize(_together(result))
     rotations *= np.where(rotations[..., 3] < 0.0, -1.0, 1.0)[..., None]
     return rotations
@@ -284,7 +284,11 @@ def cross(a: FloatArray, b: FloatArray) -> FloatArray:
 def _crossed(
     ax: FloatArray, ay: FloatArray, az: FloatArray, bx: FloatArray, by: FloatArray, bz: FloatArray
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
-    return ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx
+    x, y, z = ay * bz, az * bx, ax * by
+    x -= az * by
+    y -= ax * bz
+    z -= ay * bx
+    return x, y, z
 
 
 def between(a: ArrayLike, b: ArrayLike) -> FloatArray:
