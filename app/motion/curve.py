@@ -85,13 +85,17 @@ class Curve:
             start_s, before = self.start_s[here], self.before[here]
             phase = np.clip((times_s - start_s) / (self.end_s[here] - start_s), 0.0, 1.0)
             return before + (self.after[here] - before) * minimum_jerk(phase)
-        first = np.searchsorted(times_s, self.start_s, side="left")
-        counts = np.diff(np.concatenate(([0], first, [len(times_s)])))
-        segment = np.repeat(np.arange(-1, len(self.start_s)), counts)
-        np.maximum(segment, 0, out=segment)  # before the first segment the phase is clipped to 0
-        duration_s = self.end_s - self.start_s
-        phase = np.clip((times_s - self.start_s[segment]) / duration_s[segment], 0.0, 1.0)
-        return self.before[segment] + (self.after - self.before)[segment] * minimum_jerk(phase)
+        first, stops = np.searchsorted(times_s, self.start_s), np.searchsorted(times_s, self.end_s)
+        edges, way = np.concatenate(([0], first, [len(times_s)])), self.after - self.before
+        levels = np.concatenate((self.before[:1], self.before + way))
+        result = np.repeat(levels, np.diff(edges))
+        # The frames in which it moves, one segment after another.
+        counts = np.maximum(np.minimum(stops, edges[2:]) - first, 0)
+        segment = np.repeat(np.arange(len(first)), counts)
+        moving = np.arange(len(segment)) + np.repeat(first - (np.cumsum(counts) - counts), counts)
+        phase = (times_s[moving] - self.start_s[segment]) / (self.end_s - self.start_s)[segment]
+        result[moving] = self.before[segment] + way[segment] * minimum_jerk(np.clip(phase, 0.0, 1.0))
+        return result
 
     def between(self, times_s: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Of values that stand for places: the one before, the one after, and how far it is on its way, (F,) each."""
@@ -253,6 +257,8 @@ class Envelopes:
         first = np.searchsorted(times_s, self.start_s, side="left")
         last = np.searchsorted(times_s, self.end_s, side="right")
         shown = np.flatnonzero(last > first)
+        if not len(shown):
+            return result
         counts = (last - first)[shown]
         # Frame by frame of every span that is there, one span after another.
         span = np.repeat(shown, counts)

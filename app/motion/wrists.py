@@ -64,7 +64,7 @@ class Wrist:
     def _swing(self, hand: FloatArray) -> FloatArray:
         """The shortest turn from the axis of the twist to where that is taken: rotation vectors (F, 3)."""
         taken = quaternion.rotate(hand, self.twist)
-        across = quaternion.cross(np.broadcast_to(self.twist, taken.shape), taken)
+        across = quaternion.cross(self.twist, taken)
         sine = np.sqrt(quaternion.dot(across, across))
         swing: FloatArray = across * (np.arctan2(sine, np.ascontiguousarray(taken) @ self.twist) / np.maximum(sine, LEAST_SINE))[:, None]
         return swing

@@ -60,12 +60,13 @@ def columns(*components: ArrayLike) -> FloatArray:
 
 def repeated(vector: ArrayLike, count: int) -> FloatArray:
     """Return one vector (n,) as many (count, n), as `columns` lays them out."""
-    return _together(np.broadcast_to(np.asarray(vector, np.float64)[:, None], (np.shape(vector)[0], count)).copy())
+    components = np.empty((np.shape(vector)[0], count))
+    components[...] = np.asarray(vector)[:, None]
+    return _together(components)
 
 
 def _together(components: npt.NDArray[Any]) -> FloatArray:
-    vectors: FloatArray = components.transpose((*range(1, components.ndim), 0))
-    return vectors
+    return components.T if components.ndim == 2 else components.transpose((*range(1, components.ndim), 0))
 
 
 def dot(a: ArrayLike, b: ArrayLike) -> FloatArray:
@@ -265,7 +266,7 @@ def from_frames(x_axis: ArrayLike, y_axis: ArrayLike) -> FloatArray:
     z_axis = cross(x_axis, y_axis)
     if z_axis.size == 3:
         return from_matrix(np.stack(np.broadcast_arrays(x_axis, y_axis, z_axis), axis=-1))
-    return _from_entries([axis[..., i] for i in range(3) for axis in np.broadcast_arrays(x_axis, y_axis, z_axis)])
+    return _from_entries([axis[..., i] for i in range(3) for axis in (x_axis, y_axis, z_axis)])
 
 
 def cross(a: FloatArray, b: FloatArray) -> FloatArray:
