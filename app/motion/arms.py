@@ -106,10 +106,11 @@ def _solve_arm(
     sign = 1.0 if side == "left" else -1.0
     held = shoulder(skeleton, side, body, motion)
     root_m = held.joint_m
-    out = np.tan(motion.elbows_rad + ELBOW_OUT * motion.protraction_rad[side])[:, None] * np.array([sign, 0.0, 0.0])
-    pole = quaternion.rotate(with_chest, hand.elbow_direction + out)
+    out = sign * np.tan(motion.elbows_rad + ELBOW_OUT * motion.protraction_rad[side])
+    aside, up, ahead = hand.elbow_direction
+    pole = quaternion.rotate(with_chest, quaternion.columns(aside + out, up, ahead))
     line = target_m - root_m
-    line /= np.sqrt(np.einsum("fi,fi->f", line, line))[:, None]
+    line /= np.sqrt(quaternion.dot(line, line))[:, None]
     if side in motion.elbow_held_rad:
         pole = quaternion.rotate(quaternion.from_axis_angle(line, sign * motion.elbow_held_rad[side]), pole)
     if freely is not None:
@@ -152,4 +153,4 @@ def _relieve(
     relieved = swivelled(limb, there, turn, clavicle[bent], target)
     for own, turned in ((pose.upper, relieved.upper), (pose.lower, relieved.lower), (pose.end, relieved.end)):
         # Of the two quaternions of a rotation the one near to where it was: no frame flips.
-        own[bent] = np.where(np.einsum("fi,fi->f", own[bent], turned)[:, None] < 0.0, -turned, turned)
+        own[bent] = np.where(quaternion.dot(own[bent], turned)[:, None] < 0.0, -turned, turned)

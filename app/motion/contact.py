@@ -162,10 +162,14 @@ def carry(
     """
     lowering = motion.lowered
     frames = len(lowering)
-    contact_m, carried_m = hold.lips.contact_m(morphs, frames), hold.lips.carried_m(morphs, frames)
+    lips_m = hold.lips.contact_m(morphs, frames)
     # The jaw is far enough down to have left the rim long before the mouth is fully open.
     on_one = 1.0 - (1.0 - mouth_open) ** 4
-    lips_m = contact_m + (carried_m + grip_of_lips_m - contact_m) * on_one[:, None]
+    breathing = np.flatnonzero(on_one)
+    if len(breathing):
+        contact_m = lips_m[breathing]
+        carried_m = hold.lips.carried_m({name: weight[breathing] for name, weight in morphs.items()}, len(breathing))
+        lips_m[breathing] = contact_m + (carried_m + grip_of_lips_m - contact_m) * on_one[breathing, None]
     pitch, yaw, roll = held_angles(carriage, motion)
     with_head = quaternion.multiply(body.head, quaternion.conjugate(base.head))
     with_chest = quaternion.multiply(body.chest, quaternion.conjugate(base.chest))

@@ -29,7 +29,12 @@ def frame_times(first_frame_s: float, fps: Fraction, first_frame: int, frames: i
 
 def minimum_jerk(phase: FloatArray) -> FloatArray:
     """Progress 0..1 of a minimum-jerk move at ``phase`` 0..1 of its time (10u³ - 15u⁴ + 6u⁵)."""
-    return phase * phase * phase * (10.0 + phase * (6.0 * phase - 15.0))
+    way = 6.0 * phase
+    way -= 15.0
+    way *= phase
+    way += 10.0
+    way *= phase * phase * phase
+    return way
 
 
 NOWHERE: FloatArray = np.zeros((0, 2))
@@ -80,13 +85,17 @@ class Curve:
             start_s, before = self.start_s[here], self.before[here]
             phase = np.clip((times_s - start_s) / (self.end_s[here] - start_s), 0.0, 1.0)
             return before + (self.after[here] - before) * minimum_jerk(phase)
-        first = np.searchsorted(times_s, self.start_s, side="left")
-        counts = np.diff(np.concatenate(([0], first, [len(times_s)])))
-        segment = np.repeat(np.arange(-1, len(self.start_s)), counts)
-        np.maximum(segment, 0, out=segment)  # before the first segment the phase is clipped to 0
-        duration_s = self.end_s - self.start_s
-        phase = np.clip((times_s - self.start_s[segment]) / duration_s[segment], 0.0, 1.0)
-        return self.before[segment] + (self.after - self.before)[segment] * minimum_jerk(phase)
+        first, stops = np.searchsorted(times_s, self.start_s), np.searchsorted(times_s, self.end_s)
+        edges, way = np.concatenate(([0], first, [len(times_s)])), self.after - self.before
+        levels = np.concatenate((self.before[:1], self.before + way))
+        result = np.repeat(levels, np.diff(edges))
+        # The frames in which it moves, one segment after another.
+        counts = np.maximum(np.minimum(stops, edges[2:]) - first, 0)
+        segment = np.repeat(np.arange(len(first)), counts)
+        moving = np.arange(len(segment)) + np.repeat(first - (np.cumsum(counts) - counts), counts)
+        phase = (times_s[moving] - self.start_s[segment]) / (self.end_s - self.start_s)[segment]
+        result[moving] = self.before[segment] + way[segment] * minimum_jerk(np.clip(phase, 0.0, 1.0))
+        return result
 
     def between(self, times_s: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Of values that stand for places: the one before, the one after, and how far it is on its way, (F,) each."""
@@ -247,14 +256,18 @@ class Envelopes:
         result = np.zeros(len(times_s))
         first = np.searchsorted(times_s, self.start_s, side="left")
         last = np.searchsorted(times_s, self.end_s, side="right")
-        for index in np.flatnonzero(last > first):
-            here = slice(first[index], last[index])
-            t = times_s[here]
-            rise_s = max(self.full_s[index] - self.start_s[index], 1e-9)
-            fall_s = max(self.end_s[index] - self.fall_s[index], 1e-9)
-            up = minimum_jerk(np.clip((t - self.start_s[index]) / rise_s, 0.0, 1.0))
-            down = minimum_jerk(np.clip((self.end_s[index] - t) / fall_s, 0.0, 1.0))
-            np.maximum(result[here], self.height[index] * np.minimum(up, down), out=result[here])
+        shown = np.flatnonzero(last > first)
+        if not len(shown):
+            return result
+        counts = (last - first)[shown]
+        # Frame by frame of every span that is there, one span after another.
+        span = np.repeat(shown, counts)
+        here = np.arange(len(span)) + np.repeat(first[shown] - (np.cumsum(counts) - counts), counts)
+        rise_s, fall_s = np.maximum(self.full_s - self.start_s, 1e-9), np.maximum(self.end_s - self.fall_s, 1e-9)
+        times_s = times_s[here]
+        up = minimum_jerk(np.clip((times_s - self.start_s[span]) / rise_s[span], 0.0, 1.0))
+        down = minimum_jerk(np.clip((self.end_s[span] - times_s) / fall_s[span], 0.0, 1.0))
+        np.maximum.at(result, here, self.height[span] * np.minimum(up, down))
         return result
 
 

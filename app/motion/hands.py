@@ -113,7 +113,7 @@ def _at_key(
     out = quaternion.rotate(carried.rotation, np.asarray(water.normal))
     elbow_m = _shoulder_m(skeleton, side, base) + scale * _sided(ELBOW_M, side)
     along = key_m - elbow_m
-    along = along - np.einsum("fi,fi->f", along, out)[:, None] * out
+    along = along - quaternion.dot(along, out)[:, None] * out
     turned = _hand(side, along, -out)
     return key_m - quaternion.rotate(turned, tip_m(skeleton, side, "point")), turned
 
@@ -121,7 +121,7 @@ def _at_key(
 def _hand(side: Side, fingers: FloatArray, palm: FloatArray) -> FloatArray:
     """Rotation (F, 4) of a hand whose fingers go along (F, 3) and whose palm looks about so."""
     fingers = fingers / np.linalg.norm(fingers, axis=1, keepdims=True)
-    palm = palm - np.einsum("fi,fi->f", palm, fingers)[:, None] * fingers
+    palm = palm - quaternion.dot(palm, fingers)[:, None] * fingers
     palm = palm / np.linalg.norm(palm, axis=1, keepdims=True)
     return quaternion.from_frames(fingers if side == "left" else -fingers, -palm)
 

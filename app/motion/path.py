@@ -67,11 +67,13 @@ class Path:
         lasts_s = np.diff(self.times_s)
         way = np.diff(self.values)
         out, into = self.slopes[:-1] * lasts_s, self.slopes[1:] * lasts_s
-        third = (10.0 * way - 6.0 * out - 4.0 * into)[here]
-        fourth = (-15.0 * way + 8.0 * out + 7.0 * into)[here]
-        fifth = (6.0 * way - 3.0 * out - 3.0 * into)[here]
-        u = np.clip((times_s - self.times_s[here]) / lasts_s[here], 0.0, 1.0)
-        value: FloatArray = self.values[here] + u * (out[here] + u * u * (third + u * (fourth + u * fifth)))
+        powers = (
+            *(self.times_s[:-1], lasts_s, self.values[:-1], out),
+            *(10.0 * way - 6.0 * out - 4.0 * into, -15.0 * way + 8.0 * out + 7.0 * into, 6.0 * way - 3.0 * out - 3.0 * into),
+        )
+        begins_s, length_s, value, slope, third, fourth, fifth = np.stack(powers).take(here, axis=1)
+        u = np.clip((times_s - begins_s) / length_s, 0.0, 1.0)
+        value += u * (slope + u * u * (third + u * (fourth + u * fifth)))
         return value
 
     def changed_s(self, other: Path) -> FloatArray:

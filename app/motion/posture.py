@@ -112,17 +112,16 @@ def footing(place: Stance, side: Side, moved: Mapping[str, FloatArray], frames: 
     A heel lifts about the toes, which stay; toes lift about the heel; a step takes all of the foot.
     """
     parts = {name: moved[f"{side}_{name}"] for name in FOOT_PARTS if f"{side}_{name}" in moved}
-    ankle_m, foot = (np.broadcast_to(still, (frames, len(still))) for still in (place.ankles_m[side], place.feet[side]))
+    ankle_m, foot = (quaternion.repeated(still, frames) for still in (place.ankles_m[side], place.feet[side]))
     if not parts:
         return Footing(ankle_m, foot, None)
     # Most of the time a foot stands, to the bit.
     here = np.flatnonzero(np.logical_or.reduce([values != 0.0 for values in parts.values()]))
     lifted = _footing(place, side, {name: values[here] for name, values in parts.items()}, len(here))
-    ankle_m, foot = ankle_m.copy(), foot.copy()
     ankle_m[here], foot[here] = lifted.ankle_m, lifted.foot
     toes = None
     if lifted.toes is not None:
-        toes = np.tile(quaternion.from_axis_angle(X_AXIS, np.array([-0.0])), (frames, 1))
+        toes = quaternion.repeated(quaternion.from_axis_angle(X_AXIS, -0.0), frames)
         toes[here] = lifted.toes
     return Footing(ankle_m, foot, toes)
 
@@ -156,40 +155,34 @@ def hips_path(place: Stance, skeleton: Skeleton, motion: BodyMotion) -> tuple[Fl
     Standing, the hips come down as the knees bend and as far as the weight lies aside; neither leg is ever too short.
     Seated, the pelvis leans on the seat.
     """
-    frames = len(motion.hips_side_m)
-    hips_m = np.tile(place.hips_m, (frames, 1))
-    turn = np.zeros((frames, 3))
-    turn[:, 0] = motion.hips_forward_rad
     if place.seated:
-        turn[:, 2] = -motion.hips_roll_rad
+        turn = quaternion.columns(motion.hips_forward_rad, 0.0, -motion.hips_roll_rad)
         above_m = np.array([0.0, SIT_BONES_M * leg_size(skeleton), 0.0])
         rotation = quaternion.from_rotation_vector(turn)
-        return hips_m + quaternion.rotate(rotation, above_m) - above_m, rotation
-    turn[:, 1] = motion.hips_turn_rad
-    turn[:, 2] = -motion.hips_roll_rad
-    danced, ease_m = motion.hips_danced, np.full(frames, LEGS_BLEND_M)
-    hips_m[:, 0] += motion.hips_side_m
-    hips_m[:, 2] += motion.hips_ahead_m
+        return place.hips_m + quaternion.rotate(rotation, above_m) - above_m, rotation
+    danced, forward_rad, ease_m = motion.hips_danced, motion.hips_forward_rad, np.array(LEGS_BLEND_M)
+    side_m, ahead_m = place.hips_m[0] + motion.hips_side_m, place.hips_m[2] + motion.hips_ahead_m
     if danced:
-        turn[:, 0] += danced["forward_rad"]
-        hips_m[:, 2] += danced["ahead_m"]
-        ease_m += danced["ease_m"]
-    rotation = quaternion.from_rotation_vector(turn)
+        forward_rad, ahead_m = forward_rad + danced["forward_rad"], ahead_m + danced["ahead_m"]
+        ease_m = ease_m + danced["ease_m"]
+    rotation = quaternion.from_rotation_vector(
+        quaternion.columns(forward_rad, motion.hips_turn_rad, -motion.hips_roll_rad)
+    )
     heights = []
     for side in SIDES:
         limb = place.legs[side]
         a, b = np.linalg.norm(limb.upper_vector_m), np.linalg.norm(limb.lower_vector_m)
         joint_m = quaternion.rotate(rotation, skeleton.offsets_m[limb.upper])
-        ankle_m = footing(place, side, motion.feet, frames).ankle_m
-        across_m = hips_m[:, [0, 2]] + joint_m[:, [0, 2]] - ankle_m[:, [0, 2]]
+        ankle_m = footing(place, side, motion.feet, len(rotation)).ankle_m
+        across_m, along_m = side_m + joint_m[:, 0] - ankle_m[:, 0], ahead_m + joint_m[:, 2] - ankle_m[:, 2]
         length2 = a * a + b * b + 2.0 * a * b * np.cos(place.knee_rad + motion.knee_rad)
         length2 = np.minimum(length2, np.square(STRAIGHTEST * (a + b)))
-        rise_m = np.sqrt(np.maximum(length2 - np.einsum("fi,fi->f", across_m, across_m), 0.01))
+        rise_m = np.sqrt(np.maximum(length2 - (across_m * across_m + along_m * along_m), 0.01))
         heights.append(ankle_m[:, 1] + rise_m - joint_m[:, 1])
     lower = np.minimum(heights[0], heights[1])
     apart = np.abs(heights[0] - heights[1])
-    hips_m[:, 1] = lower - ease_m * np.log1p(np.exp(-apart / ease_m)) - motion.hips_bob_m
-    return hips_m, rotation
+    height_m = lower - ease_m * np.log1p(np.exp(-apart / ease_m)) - motion.hips_bob_m
+    return quaternion.columns(side_m, height_m, ahead_m), rotation
 
 
 def exact_target(limb: Limb, root_m: FloatArray, target_m: FloatArray) -> FloatArray:
@@ -198,7 +191,7 @@ def exact_target(limb: Limb, root_m: FloatArray, target_m: FloatArray) -> FloatA
     Up to `STRAIGHTEST` of the limb's length; what is farther away is approached.
     """
     line = target_m - root_m
-    distance = np.sqrt(np.einsum("fi,fi->f", line, line))
+    distance = np.sqrt(quaternion.dot(line, line))
     longest = limb.length_m
     band = SOFT_SHARE * longest
     left = np.maximum(longest - distance, (1.0 - STRAIGHTEST) * longest)
@@ -263,7 +256,7 @@ def trunk(skeleton: Skeleton, hips_m: FloatArray, hips_rotation: FloatArray, mot
         name = skeleton.names[joint]
         position = position + quaternion.rotate(rotation, skeleton.offsets_m[joint])
         if name in motion.forward_rad:
-            vector = np.stack([motion.forward_rad[name], motion.turn_rad[name], -motion.left_rad[name]], axis=-1)
+            vector = quaternion.columns(motion.forward_rad[name], motion.turn_rad[name], -motion.left_rad[name])
             local[joint] = quaternion.from_rotation_vector(vector)
             rotation = quaternion.multiply(rotation, local[joint])
         if joint == chest_joint:

@@ -143,10 +143,10 @@ def _girdle(skeleton: Skeleton, side: Side, body: Trunk, target_m: FloatArray) -
     """The clavicle coming forwards about an axis of the chest."""
     shoulder, clavicle = clavicle_of(skeleton, side)
     joint_m = body.chest_m + quaternion.rotate(body.chest, skeleton.offsets_m[shoulder])
-    there = quaternion.rotate(quaternion.conjugate(body.chest), target_m - joint_m)
+    there = np.ascontiguousarray(quaternion.rotate(quaternion.conjugate(body.chest), target_m - joint_m))
     ahead = quaternion.cross(forwards_axis(skeleton, side), clavicle)
     phase = np.arctan2(there @ ahead, there @ clavicle)
-    square_m2 = np.einsum("fi,fi->f", there, there) + clavicle @ clavicle
+    square_m2 = quaternion.dot(there, there) + clavicle @ clavicle
     return _Swing(square_m2, np.hypot(there @ ahead, there @ clavicle), phase)
 
 

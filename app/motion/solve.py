@@ -174,7 +174,8 @@ def poses(
     ``upper`` is its upper body where that is known.
     """
     frames, joints = len(curves), len(player.skeleton.names)
-    rotations = np.zeros((frames, joints, 4), dtype=np.float32)
+    # Curve by curve in memory: so they are made, and so they are written to files.
+    rotations = np.zeros((joints, 4, frames), dtype=np.float32).transpose(2, 0, 1)
     rotations[..., 3] = 1.0
     hips_m = np.empty((frames, 3), dtype=np.float32)
     instrument_m = np.empty((frames, 3), dtype=np.float32)
@@ -258,7 +259,7 @@ def _pose(
         arms |= letting_go
     local |= arms
     local |= solve_legs(player.place, skeleton, hips_m, hips, motion.feet)
-    looking = np.stack([motion.eyes_pitch_rad, motion.eyes_yaw_rad, np.zeros(len(curves))], axis=-1)
+    looking = quaternion.columns(motion.eyes_pitch_rad, motion.eyes_yaw_rad, 0.0)
     for name in ("leftEye", "rightEye"):
         if name in skeleton.names:
             local[skeleton.index(name)] = quaternion.from_rotation_vector(looking)
@@ -285,7 +286,7 @@ def _late(motion: BodyMotion) -> FloatArray | None:
     late = motion.elbows_late_rad
     if not late:
         return None
-    return quaternion.from_rotation_vector(np.stack([late["forward"], late["turn"], -late["left"]], axis=-1))
+    return quaternion.from_rotation_vector(quaternion.columns(late["forward"], late["turn"], -late["left"]))
 
 
 def needs(player: Player, curves: Curves) -> Help:

@@ -50,11 +50,17 @@ class Spline:
             (3.0 * (squared - cubed + share) + 1.0) / 6.0,
             cubed / 6.0,
         )
+        if not len(times_s):
+            return np.zeros((len(self.values), 0))
         row = before.astype(np.int64) - (self.first + 1)
         last = self.values.shape[1] - 1
+        low, high = (int(np.clip(end, 0, last)) for end in (row.min(), row.max() + len(weights) - 1))
+        values = self.values[:, low : high + 1] / self.one
         result = np.zeros((len(self.values), len(times_s)))
         for number, weight in enumerate(weights):
-            result += weight * (self.values[:, np.clip(row + number, 0, last)] / self.one)
+            part = values.take(np.clip(row + number, 0, last) - low, axis=1)
+            part *= weight
+            result += part
         return result
 
     def changed_s(self, other: Spline) -> FloatArray:

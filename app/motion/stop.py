@@ -18,6 +18,7 @@ from app.motion.contact import Carried
 from app.motion.curve import FloatArray
 from app.motion.posture import Trunk
 from app.motion.soft import softly_capped
+from app.rig import quaternion
 from app.rig.hold import GripPose, HandHold, Placed, hand_targets
 from app.rig.ik import arm
 from app.rig.model import Skeleton
@@ -45,7 +46,7 @@ class _Seen:
         controls = {self.hand.motion.control: values}
         wrist_m, _ = hand_targets(self.hand, self.carried.position_m, self.carried.rotation, controls, self.placed)
         away = wrist_m - self.shoulder_m
-        distance_m: FloatArray = np.sqrt(np.einsum("fi,fi->f", away, away))
+        distance_m: FloatArray = np.sqrt(quaternion.dot(away, away))
         return distance_m
 
     def value_at(self, distance_m: FloatArray, asked: FloatArray) -> FloatArray:

@@ -52,21 +52,21 @@ class Wrist:
 
     def aside_rad(self, hand: FloatArray) -> FloatArray:
         """Of ``forearm_from_hand`` (F, 4) the angle (F,) aside."""
-        aside: FloatArray = self._swing(hand) @ self.axes[1]
+        aside: FloatArray = np.ascontiguousarray(self._swing(hand)) @ self.axes[1]
         return aside
 
     def outside_rad(self, hand: FloatArray) -> FloatArray:
         """How far (F,) ``forearm_from_hand`` (F, 4) is bent beyond its ranges, any way."""
-        bent = self._swing(hand) @ self.axes.T
+        bent = np.ascontiguousarray(self._swing(hand)) @ self.axes.T
         outside: FloatArray = np.maximum(0.0, np.maximum(bent - self.high_rad, self.low_rad - bent)).max(axis=1)
         return outside
 
     def _swing(self, hand: FloatArray) -> FloatArray:
         """The shortest turn from the axis of the twist to where that is taken: rotation vectors (F, 3)."""
         taken = quaternion.rotate(hand, self.twist)
-        across = quaternion.cross(np.broadcast_to(self.twist, taken.shape), taken)
-        sine = np.sqrt(np.einsum("fi,fi->f", across, across))
-        swing: FloatArray = across * (np.arctan2(sine, taken @ self.twist) / np.maximum(sine, LEAST_SINE))[:, None]
+        across = quaternion.cross(self.twist, taken)
+        sine = np.sqrt(quaternion.dot(across, across))
+        swing: FloatArray = across * (np.arctan2(sine, np.ascontiguousarray(taken) @ self.twist) / np.maximum(sine, LEAST_SINE))[:, None]
         return swing
 
     def beyond_rad(self, aside_rad: FloatArray) -> FloatArray:

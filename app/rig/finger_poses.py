@@ -71,7 +71,7 @@ def finger_rotations(
     (F, len(hold.finger_joints), 4) float64
         ``parent_from_joint`` rotations in the order of ``hold.finger_joints``.
     """
-    result = np.empty((frames, len(hold.finger_joints), 4))
+    result = np.empty((len(hold.finger_joints), 4, frames)).transpose(2, 0, 1)
     height = np.broadcast_to(np.asarray(raised, dtype=np.float64), (frames,))
     start = 0
     for hand in hold.hands:

@@ -318,21 +318,20 @@ def hand_targets(
     positions_m, rotations : (F, 3) and (F, 4) float64
         ``world_from_hand``.
     """
-    frames = len(world_from_instrument_m)
     places, turns = np.atleast_2d(hand.instrument_from_hand_m), np.atleast_2d(hand.instrument_from_hand_rotation)
-    local, turn = np.broadcast_to(places[0], (frames, 3)), np.broadcast_to(turns[0], (frames, 4))
+    local, turn = places[0], turns[0]
     motion = hand.motion
     if motion is not None and motion.control in controls:
         value = np.clip(np.asarray(controls[motion.control], dtype=np.float64), 0.0, 1.0)
         if len(hand.values) > 1:
-            local = np.stack([np.interp(value, hand.values, places[:, axis]) for axis in range(3)], axis=1)
+            local = quaternion.columns(*(np.interp(value, hand.values, places[:, axis]) for axis in range(3)))
             turn = interpolated(hand.values, turns[:, None], value)[:, 0]
         if motion.angle_rad:
-            moved = quaternion.from_rotation_vector(np.multiply.outer(value * motion.angle_rad, motion.axis))
+            moved = quaternion.from_rotation_vector(np.multiply.outer(motion.axis, value * motion.angle_rad).T)
             local = motion.pivot_m + quaternion.rotate(moved, local - motion.pivot_m)
             turn = quaternion.multiply(moved, turn)
         else:
-            local = local + np.multiply.outer(value, motion.travel_m)
+            local = local + np.multiply.outer(motion.travel_m, value).T
     given = [(lean, weight) for lean in hand.leans for weight in [given_way(lean, placed)] if weight is not None]
     if given:
         local, turn = wrist_given(hand, given)
@@ -382,29 +381,42 @@ def wrist_given(hand: HandHold, given: Sequence[tuple[WristOffset, FloatArray]])
     return place + moved, quaternion.multiply(quaternion.from_rotation_vector(turned), turn)
 
 
+MANY = 64
+"""Of so many frames it is worth to look for those in which nothing moves."""
+
+
 def interpolated(values: FloatArray, rotations: FloatArray, value: FloatArray) -> FloatArray:
     """Interpolate rotations (S, n, 4), given at ascending values (S,), at ``value`` (F,): (F, n, 4)."""
     if len(values) == 1:
         return np.broadcast_to(rotations[0], (len(value), *rotations.shape[1:]))
+    starts = np.flatnonzero(np.concatenate(([True], value[1:] != value[:-1]))) if len(value) > MANY else value
+    if 2 * len(starts) < len(value):
+        # It rests most of the time.
+        resting = np.repeat(np.arange(len(starts)), np.diff(starts, append=len(value)))
+        few = np.ascontiguousarray(interpolated(values, rotations, value[starts]).transpose(1, 2, 0))
+        return few.take(resting, axis=2).transpose(2, 0, 1)
     place = np.interp(value, values, np.arange(len(values), dtype=np.float64))
     low = np.minimum(place.astype(np.intp), len(values) - 2)
     share = (place - low)[:, None, None]
-    return mixed(rotations[low], rotations[low + 1], share)
+    components = np.ascontiguousarray(rotations.transpose(1, 2, 0))
+    near, far = (components.take(index, axis=2).transpose(2, 0, 1) for index in (low, low + 1))
+    return mixed(near, far, share)
 
 
 def mixed(near: FloatArray, far: FloatArray, share: FloatArray) -> FloatArray:
     """Rotations between near (share 0) and far ones (share 1), the shorter way."""
-    sign = np.where(np.einsum("fnc,fnc->fn", near, far) < 0.0, -1.0, 1.0)[..., None]
+    sign = np.where(quaternion.dot(near, far) < 0.0, -1.0, 1.0)[..., None]
     mixed: FloatArray = near * (1.0 - share) + far * (sign * share)
-    mixed /= np.sqrt(np.einsum("fnc,fnc->fn", mixed, mixed))[..., None]
+    mixed /= np.sqrt(quaternion.dot(mixed, mixed))[..., None]
     return mixed
 
 
 def _weighted(
     rest: FloatArray, deltas: Mapping[str, FloatArray], morphs: Mapping[str, npt.NDArray[np.floating]], frames: int
 ) -> FloatArray:
-    result = np.tile(rest, (frames, 1))
+    result = quaternion.repeated(rest, frames)
+    components = result.T
     for name, delta in deltas.items():
         if name in morphs:
-            result += np.multiply.outer(np.asarray(morphs[name], dtype=np.float64), delta)
+            components += np.multiply.outer(delta, np.asarray(morphs[name], dtype=np.float64))
     return result

@@ -125,11 +125,11 @@ def solve_limb(
     """
     a, b = limb.upper_m, limb.lower_m
     line = target_m - root_m
-    requested = np.sqrt(np.einsum("fi,fi->f", line, line))
+    requested = np.sqrt(quaternion.dot(line, line))
     direction = line / np.maximum(requested, 1e-9)[:, None]
     distance = _soft_limit(requested, a + b, abs(a - b))
-    off = pole - direction * np.einsum("fi,fi->f", np.broadcast_to(pole, direction.shape), direction)[:, None]
-    off /= np.maximum(np.sqrt(np.einsum("fi,fi->f", off, off)), 1e-9)[:, None]
+    off = pole - direction * quaternion.dot(pole, direction)[:, None]
+    off /= np.maximum(np.sqrt(quaternion.dot(off, off)), 1e-9)[:, None]
     # Law of cosines: the middle joint lies `along` the line and `aside` of it.
     along = (a * a - b * b + distance * distance) / (2.0 * distance)
     aside = np.sqrt(np.maximum(a * a - along * along, 0.0))
