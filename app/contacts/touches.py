@@ -38,9 +38,9 @@ class Traces:
 
     def point_m(self, node: str, place_m: FloatArray) -> FloatArray:
         """A place (3,) or (F, 3) of a node in the world (F, 3)."""
-        turn, origin_m = self.nodes[node][:, :3, :3], self.nodes[node][:, :3, 3]
-        moved_m: FloatArray = turn @ place_m if place_m.ndim == 1 else np.einsum("fij,fj->fi", turn, place_m)
-        return moved_m + origin_m
+        rows, (x, y, z) = self.nodes[node][:, :3], place_m[..., None].swapaxes(0, -2)
+        moved_m: FloatArray = rows[..., 0] * x + rows[..., 1] * y + rows[..., 2] * z + rows[..., 3]
+        return moved_m
 
     def off_m(self, mark: str, point_m: FloatArray) -> FloatArray:
         """How far (F,) a landmark is from a point (F, 3)."""

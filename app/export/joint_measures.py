@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 
 import msgspec
 import numpy as np
@@ -15,7 +15,7 @@ from metadata.model import Body, JointLimits, SkeletonProfile
 
 FloatArray = npt.NDArray[np.float64]
 
-_CHUNK = 2048
+_CHUNK = 512
 _BEYOND_DEG = 0.01
 _AXES = ("flexion", "sideways", "twist")
 
@@ -36,21 +36,27 @@ def measure_joints(
     """The joint angle that goes furthest beyond its range, degrees (negative: inside all ranges by that much), and the
     angular acceleration that comes nearest to its human bound."""
     frames, limits = joints.playback.clip.frames, _limits(joints, body, profile)
-    bounds = np.array([limit.acceleration_rad_s2 for limit in limits.values()])
-    furthest, fastest = np.full((len(limits), len(_AXES)), -math.inf), np.zeros(len(limits))
+    bounds = np.array([limit.acceleration_rad_s2 for limit in limits.values()])[:, None]
+    low, high = _ranges_deg(limits.values())
+    axes = np.array([msgspec.structs.astuple(profile.joint_axes(joints.names[bone])) for bone in limits])
+    furthest, fastest = np.full((len(_AXES), len(limits)), -math.inf), np.zeros(len(limits))
     outside = too_fast = 0
-    # A chunk at a time, and two frames more for the accelerations: the rotations of a long file are many.
-    for first in range(0, frames, _CHUNK):
-        rotations = joints.rotations(first, min(first + _CHUNK + 2, frames))
-        for row, (bone, limit) in enumerate(limits.items()):
-            excess = _excess_deg(rotations[:_CHUNK, bone], joints.names[bone], limit, profile)
-            outside += int((excess > _BEYOND_DEG).sum())
-            furthest[row] = np.maximum(furthest[row], excess.max(axis=0))
-        accelerations = angular_accelerations(rotations[:, [*limits]], fps)
+    # A chunk at a time, and two frames more for the accelerations: what a chunk needs stays in a core's cache.
+    for first in range(0, frames if limits else 0, _CHUNK):
+        turns = joints.rotations(first, min(first + _CHUNK + 2, frames)).transpose(2, 1, 0)[:, [*limits]]
+        moves = (turns != turns[..., :1]).any(axis=(0, 2))
+        for rows, some in ((~moves, turns[:, ~moves, :1]), (moves, turns[:, moves])):
+            angles = np.degrees(anatomical_angles(some[..., :_CHUNK], axes[rows]))
+            excess = np.maximum(low[:, rows] - angles.min(axis=-1), angles.max(axis=-1) - high[:, rows])
+            furthest[:, rows] = np.maximum(furthest[:, rows], excess)
+            if (excess > _BEYOND_DEG).any():
+                beyond = np.maximum(low[:, rows, None] - angles, angles - high[:, rows, None]) > _BEYOND_DEG
+                outside += int(beyond.sum()) * (min(_CHUNK, frames - first) // angles.shape[-1])
+        accelerations = angular_accelerations(turns[:, moves], fps)
         if accelerations.size:
-            fastest = np.maximum(fastest, accelerations.max(axis=0))
-            too_fast += int((accelerations > bounds).sum())
-    return _furthest(joints, limits, furthest, outside), _fastest(joints, limits, fastest, bounds, too_fast)
+            fastest[moves] = np.maximum(fastest[moves], accelerations.max(axis=-1))
+            too_fast += int((accelerations > bounds[moves]).sum())
+    return _furthest(joints, limits, furthest.T, outside), _fastest(joints, limits, fastest, bounds[:, 0], too_fast)
 
 
 def _limits(joints: JointPlayback, body: Body, profile: SkeletonProfile) -> Mapping[int, JointLimits]:
@@ -60,15 +66,10 @@ def _limits(joints: JointPlayback, body: Body, profile: SkeletonProfile) -> Mapp
     return {bone: body.limits[kind] for bone, kind in kinds.items() if kind in body.limits}
 
 
-def _excess_deg(rotations: FloatArray, name: str, limits: JointLimits, profile: SkeletonProfile) -> FloatArray:
-    """How far (F, 3) the angles of a joint are beyond their ranges."""
-    axes = profile.joint_axes(name)
-    angles = np.degrees(
-        anatomical_angles(rotations, np.asarray(axes.flexion), np.asarray(axes.sideways), np.asarray(axes.twist))
-    )
-    low, high = np.array([limits.flexion_deg, limits.sideways_deg, limits.twist_deg]).T
-    excess_deg: FloatArray = np.maximum(low - angles, angles - high)
-    return excess_deg
+def _ranges_deg(limits: Iterable[JointLimits]) -> FloatArray:
+    """Least and greatest angles (2, 3, J)."""
+    rows = [(one.flexion_deg, one.sideways_deg, one.twist_deg) for one in limits]
+    return np.array(rows).reshape(-1, len(_AXES), 2).T
 
 
 def _furthest(

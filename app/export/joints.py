@@ -11,6 +11,10 @@ from app.rig import quaternion
 
 FloatArray = npt.NDArray[np.float64]
 
+_LEAST, _SMALL = 1e-24, 1e-9
+
+_LEAST, _SMALL = 1e-24, 1e-9
+
 
 def world_transforms(parents: Sequence[int], translations: FloatArray, rotations: FloatArray) -> FloatArray:
     """World transforms of a hierarchy.
@@ -39,59 +43,100 @@ def world_transforms(parents: Sequence[int], translations: FloatArray, rotations
     return local.swapaxes(0, 1)
 
 
-def anatomical_angles(
-    rotations: FloatArray, flexion: FloatArray, sideways: FloatArray, twist: FloatArray
-) -> FloatArray:
-    """Flexion, sideways and twist angles of one joint's local rotations, ``rotation = swing * twist``.
+def world_rows(parents: Sequence[int], local: Sequence[FloatArray], frames: int) -> FloatArray:
+    """World transforms of a hierarchy, component after component: a few long products per joint.
 
     Parameters
     ----------
-    rotations : (F, 4) float64
-        Unit quaternions xyzw.
-    flexion, sideways, twist : (3,) float64
-        Unit axes at right angles (`metadata.model.JointAxes`).
+    parents : sequence of int
+        As of `world_transforms`.
+    local : sequence of (3, 4, F) or (3, 4, 1) float64
+        ``parent_from_joint`` of each joint, without the last row; one value of those that are still.
+    frames : int
 
     Returns
     -------
-    (F, 3) float64
+    (3, 4, J, F) float64
+    """
+    result, product = np.empty((3, 4, len(parents), frames)), np.empty((3, 4, frames))
+    for joint, (parent, own) in enumerate(zip(parents, local, strict=True)):
+        world = result[:, :, joint]
+        if parent < 0:
+            world[:] = own
+            continue
+        above = result[:, :, parent, None]
+        np.multiply(above[:, 0], own[0], out=world)
+        world += np.multiply(above[:, 1], own[1], out=product)
+        world += np.multiply(above[:, 2], own[2], out=product)
+        world[:, 3] += above[:, 3, 0]
+    return result
+
+
+def matrix_rows(turns: FloatArray) -> FloatArray:
+    """Rotation matrices (3, 3, ...) of quaternions (4, ...) of any length; a zero quaternion is the identity."""
+    x, y, z, w = turns
+    twice = 2.0 / np.maximum(x * x + y * y + z * z + w * w, _LEAST)
+    sx, sy, sz = twice * x, twice * y, twice * z
+    xx, yy, zz, xy, xz, yz = sx * x, sy * y, sz * z, sx * y, sx * z, sy * z
+    xw, yw, zw = sx * w, sy * w, sz * w
+    result: FloatArray = np.empty((3, 3, *x.shape))
+    result[0, 0], result[1, 1], result[2, 2] = 1.0 - (yy + zz), 1.0 - (xx + zz), 1.0 - (xx + yy)
+    result[0, 1], result[0, 2], result[1, 2] = xy - zw, xz + yw, yz - xw
+    result[1, 0], result[2, 0], result[2, 1] = xy + zw, xz - yw, yz + xw
+    return result
+
+
+def anatomical_angles(turns: FloatArray, axes: FloatArray) -> FloatArray:
+    """Flexion, sideways and twist angles of joints' local rotations, ``rotation = swing * twist``.
+
+    Parameters
+    ----------
+    turns : (4, J, F) float64
+        Unit quaternions xyzw.
+    axes : (J, 3, 3) float64
+        Of each joint in that order unit axes at right angles (`metadata.model.JointAxes`).
+
+    Returns
+    -------
+    (3, J, F) float64
         Radians, in that order.
     """
-    vector, w = rotations[:, :3].T, rotations[:, 3]
-    axes = np.stack([flexion, sideways])
+    across, twist = axes[:, :2], axes[:, 2:]
+    sums = np.concatenate([across, np.cross(twist, across), twist], axis=1) @ turns[:3].transpose(1, 0, 2)
+    along, w = sums[:, 4], turns[3]
     # The twist has the part of the rotation that is about its axis, and the swing what is left.
-    along, square = twist @ vector, twist @ twist
-    length = np.sqrt(along * along * square + w * w)
+    length = np.sqrt(along * along + w * w)
     half_turn = length < 1e-12
-    length = np.where(half_turn, 1.0, length)
-    cosine, sine = np.where(half_turn, 1.0, w / length), along / length
+    length[half_turn] = 1.0
+    cosine, sine = w / length, along / length
+    cosine[half_turn] = 1.0
     # What the swing's quaternion has along the two other axes, and its scalar part.
-    swing = cosine * (axes @ vector) - sine * (np.outer(axes @ twist, w) + np.cross(twist, axes) @ vector)
     swing_w = cosine * w + sine * along
-    across = np.sqrt(np.maximum(1.0 - swing_w * swing_w, 0.0))
-    small = across < 1e-7
-    swing *= np.where(small, 2.0, 2.0 * np.arctan2(across, swing_w) / np.where(small, 1.0, across))
-    turn = 2.0 * np.arctan2(np.where(w < 0.0, -along, along) * square, np.abs(w))
-    return np.stack([*swing, turn], axis=-1)
+    scale = _angle_per_sine(np.sqrt(np.maximum(1.0 - swing_w * swing_w, 0.0)), swing_w)
+    result = np.empty((3, *w.shape))
+    for axis in range(2):
+        result[axis] = (cosine * sums[:, axis] - sine * sums[:, 2 + axis]) * scale
+    result[2] = 2.0 * np.arctan2(np.where(w < 0.0, -along, along), np.abs(w))
+    return result
 
 
-def angular_accelerations(rotations: FloatArray, fps: float) -> FloatArray:
+def angular_accelerations(turns: FloatArray, fps: float) -> FloatArray:
     """Size of the angular acceleration of local rotations, by second difference.
 
     Parameters
     ----------
-    rotations : (F, J, 4) float64
+    turns : (4, J, F) float64
+        Unit quaternions xyzw.
     fps : float
 
     Returns
     -------
-    (max(F - 2, 0), J) float64
+    (J, max(F - 2, 0)) float64
         rad/s2, at the frames 1 .. F - 2.
     """
-    x, y, z, w = np.ascontiguousarray(np.moveaxis(rotations, -1, 0))
-    before, after = ([part[steps] for part in (x, y, z, w)] for steps in (np.s_[:-1], np.s_[1:]))
-    (ax, ay, az, aw), (bx, by, bz, bw) = before, after
+    (ax, ay, az, aw), (bx, by, bz, bw) = turns[..., :-1], turns[..., 1:]
     # From each frame to the next: the first one's inverse, times the second.
-    turns = np.stack(
+    steps = np.stack(
         [
             aw * bx - ax * bw - ay * bz + az * by,
             aw * by + ax * bz - ay * bw - az * bx,
@@ -99,10 +144,14 @@ def angular_accelerations(rotations: FloatArray, fps: float) -> FloatArray:
         ]
     )
     cosine = aw * bw + ax * bx + ay * by + az * bz
-    sine = np.sqrt(np.einsum("i...,i...->...", turns, turns))
-    small = sine < 1e-9
-    scale = np.where(small, 2.0, 2.0 * np.arctan2(sine, np.abs(cosine)) / np.where(small, 1.0, sine))
-    turns *= np.where(cosine < 0.0, -fps, fps) * scale
-    changes = np.diff(turns, axis=1)
+    sine = np.sqrt(np.einsum("i...,i...->...", steps, steps))
+    steps *= np.where(cosine < 0.0, -fps, fps) * _angle_per_sine(sine, np.abs(cosine))
+    changes = np.diff(steps, axis=-1)
     result: FloatArray = np.sqrt(np.einsum("i...,i...->...", changes, changes)) * fps
     return result
+
+
+def _angle_per_sine(sine: FloatArray, cosine: FloatArray) -> FloatArray:
+    """The angle of a turn by the sine of its half, from that and the cosine; 2 where nothing turns."""
+    small = sine < _SMALL
+    return np.where(small, 2.0, 2.0 * np.arctan2(sine, cosine) / np.where(small, 1.0, sine))

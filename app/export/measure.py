@@ -14,7 +14,6 @@ from functools import partial
 
 import msgspec
 import numpy as np
-import numpy.typing as npt
 
 from app.contacts.bounds import (
     FEET_MM,
@@ -29,13 +28,13 @@ from app.contacts.bounds import (
     reported_least_m,
 )
 from app.contacts.controls import ControlMeasure, NoteFrames, notes_of
-from app.contacts.depths import HandDepths
-from app.contacts.touches import LIPS, UPPER_LIP, TouchJudge, Traces, distance_m, hole_values
+from app.contacts.touches import TouchJudge, Traces, distance_m, hole_values
 from app.export.joint_measures import JointMeasure, measure_joints
 from app.export.joint_playback import JointPlayback
-from app.export.playback import Playback, Surface
+from app.export.playback import Playback
 from app.export.target import TargetSkeleton, normalised_target
 from app.export.threads import in_threads
+from app.export.walk import SOLES, Walk, bone_deviation_m
 from app.formats.scene import Scene
 from app.plan.footwork import Foot, foot_of, lifted_s
 from app.plan.model import BreathEvent, PlayerPlan
@@ -43,7 +42,7 @@ from app.rig import quaternion
 from app.rig.fitted_instrument import mouth_opens
 from app.rig.lips import meeting
 from app.rig.model import Character
-from instrument_maps.model import ROOT, InstrumentMap
+from instrument_maps.model import InstrumentMap
 from metadata.model import Body, SkeletonProfile
 
 BONES_MM = 0.01
@@ -51,13 +50,10 @@ JAW_OPENS = 0.05
 TORSO_BACK_RAD = math.radians(0.3)
 """A breath shows where the jaw opens by this weight and the torso leans back by this angle."""
 
-_CHUNK = 1024
+_CHUNK = 512
 """Frames that are read at once ..."""
-_CHUNKS = 4
+_CHUNKS = 8
 """... and so many chunks before depths are judged, of all their frames together."""
-_TORSO = ("hips", "neck")
-_SOLES = ("left.foot.sole", "right.foot.sole")
-_HANDS = ("left.hand", "right.hand")
 
 
 class BreathMeasure(msgspec.Struct, frozen=True):
@@ -186,7 +182,7 @@ def measure_player(
         ),
         feet={
             name: Spread.of(slid_m(traces.marks_m[name], times_s, plan, name, body), FEET_MM)
-            for name in _SOLES
+            for name in SOLES
             if name in traces.marks_m
         },
         bones=Spread.of(found.bone_deviation_m, BONES_MM),
@@ -225,58 +221,27 @@ def _read(
     progress: Callable[[float], None],
 ) -> _Read:
     """One walk over all frames, some chunks at a time, while something else is done beside it."""
-    player = joints.playback
-    frames = player.clip.frames
-    requested = {contact.part for contact in instrument.contacts} | {*_SOLES, LIPS, UPPER_LIP}
-    requested &= character.landmarks.keys()
-    surfaces = {name: Surface(player, *joints.surface(character.landmarks[name])) for name in sorted(requested)}
-    there = [name for name in _HANDS if name in character.landmarks]
-    skins = [Surface(player, *joints.surface(character.landmarks[name])).skin for name in there]
-    hands = [HandDepths(skin, instrument.proxy) for skin in skins]
-    bone_of_node = {part.node: part.name for part in instrument.moving_parts} | {ROOT: held.bone_names[0]}
-    node_bones = {node: held.bone_names.index(bone) for node, bone in bone_of_node.items()}
-    landmarks = {name: np.empty((frames, 3)) for name in surfaces}
-    nodes = {node: np.empty((frames, 3, 4)) for node in node_bones}
-    torso, deviation_m = np.empty((frames, 2)), np.empty(frames)
+    frames = joints.playback.clip.frames
+    walk = Walk(joints, held, character, instrument)
     played = np.flatnonzero(sounding)
     depth_m = np.zeros(len(played))
-    low = joints.bone(_TORSO[0])
-    high = joints.bone(_TORSO[1], "head")  # VRM leaves the neck optional; the head is next above it.
-    lengths_m = np.linalg.norm(player.rest_m, axis=1)
-    parents = np.array(player.parents)
-
-    def read(span: slice) -> list[npt.NDArray[np.float32]]:
-        first, last = span.start, span.stop
-        world = player.world(first, last)
-        for name, surface in surfaces.items():
-            landmarks[name][span] = surface.positions_m(world, first, last).mean(axis=1)
-        held_world = held.world(first, last)
-        for node, bone in node_bones.items():
-            nodes[node][span] = held_world[:, bone, :3]
-        bones_m = world[..., :3, 3]
-        upright = bones_m[:, high] - bones_m[:, low]
-        torso[span] = np.arctan2(upright[:, [0, 2]], upright[:, 1:2])
-        found_m = np.linalg.norm(bones_m - bones_m[:, parents], axis=-1)
-        deviation_m[span] = np.abs(found_m - lengths_m)[:, joints.rigid].max(axis=1)
-        begin, end = np.searchsorted(played, [first, last]).tolist()
-        return [world[played[begin:end, None] - first, hand.joints, :3].astype(np.float32) for hand in hands]
 
     def judge(first: int) -> None:
         last = min(first + _CHUNKS * _CHUNK, frames)
-        read_back = [read(slice(at, min(at + _CHUNK, last))) for at in range(first, last, _CHUNK)]
+        read_back = [walk.read(at, min(at + _CHUNK, last), sounding) for at in range(first, last, _CHUNK)]
         own = slice(*np.searchsorted(played, [first, last]).tolist())
         at = played[own]
-        here = {node: _with_last_row(placed[at]) for node, placed in nodes.items()}
-        morphs = {name: weights[at - first] for name, weights in player.morphs(first, last).items()}
+        if not len(at):
+            return
+        morphs, nodes = walk.morphs(at), walk.nodes(at)
 
         def least_of(found_m: FloatArray) -> float:
             np.maximum(depth_m[own], found_m, out=depth_m[own])
             return reported_least_m(depth_m)
 
-        for hand, carriers in zip(hands, zip(*read_back, strict=True), strict=True):
-            if len(at):
-                least_m = np.maximum(depth_m[own], reported_least_m(depth_m))
-                depth_m[own] = hand.depths_m(np.concatenate(carriers), morphs, here, least_m, least_of)
+        for hand, carriers in zip(walk.hands, zip(*read_back, strict=True), strict=True):
+            least_m = np.maximum(depth_m[own], reported_least_m(depth_m))
+            depth_m[own] = hand.depths_m(np.concatenate(carriers), morphs, nodes, least_m, least_of)
 
     tasks: list[Callable[[], None]] = [
         beside,
@@ -284,12 +249,7 @@ def _read(
     ]
     done = itertools.count(1)
     in_threads(tasks, lambda index: progress(next(done) / len(tasks)))
-    return _Read(Traces(landmarks, nodes), torso, deviation_m, depth_m)
-
-
-def _with_last_row(matrices: FloatArray) -> FloatArray:
-    """Transforms (F, 3, 4) as (F, 4, 4)."""
-    return np.concatenate([matrices, np.broadcast_to([0.0, 0.0, 0.0, 1.0], (len(matrices), 1, 4))], axis=1)
+    return _Read(walk.traces, walk.torso_rad, bone_deviation_m(joints), depth_m)
 
 
 def slid_m(sole_m: FloatArray, times_s: FloatArray, plan: PlayerPlan, name: str, body: Body) -> FloatArray:

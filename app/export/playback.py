@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 import numpy.typing as npt
 
-from app.export.joints import world_transforms
+from app.export.joints import matrix_rows, world_rows
 from app.formats.scene import Clip, Scene, SkinnedMesh
 from app.rig import quaternion
 from app.rig.skinning import Skin, skin_of
@@ -61,9 +62,20 @@ class Playback:
             return np.tile(self.rest_m[bone], (self.clip.frames, 1))
         return self.clip.translations_cm[bone].astype(np.float64) * METRES
 
+    @cached_property
+    def still(self) -> npt.NDArray[np.bool_]:
+        """Bones (J,) that are where they are on their parents in all frames."""
+        rotations = self.clip.rotations_xyzw
+        still: npt.NDArray[np.bool_] = (rotations == rotations[:1]).all(axis=(0, 2))
+        still[[*self.clip.translations_cm]] = False
+        return still
+
     def world(self, first: int, last: int) -> FloatArray:
         """World transforms (n, J, 4, 4) of the frames ``first`` .. ``last - 1``."""
-        return world_transforms(self.parents, self.translations_m(first, last), self.rotations(first, last))
+        result = np.zeros((last - first, len(self.parents), 4, 4))
+        result[:, :, :3] = Limbs(self, range(len(self.parents))).world(first, last).transpose(3, 2, 0, 1)
+        result[..., 3, 3] = 1.0
+        return result
 
     def morphs(self, first: int, last: int) -> dict[str, npt.NDArray[np.floating]]:
         """Weights (n,) of the morphs at the frames ``first`` .. ``last - 1``."""
@@ -92,7 +104,7 @@ class Surface:
         carrying = np.unique(mesh.joint_indices[vertices])
         bone_from_mesh = np.zeros_like(binds)
         bone_from_mesh[carrying] = np.linalg.inv(binds[carrying])
-        weights = np.asarray(mesh.weights, np.float64)[vertices]
+        weights = np.asarray(mesh.weights[vertices], np.float64)
         shown = [morph for morph in mesh.morphs if morph.name in playback.clip.morph_weights]
         self._playback = playback
         self.skin: Skin = skin_of(
@@ -108,3 +120,95 @@ class Surface:
     def positions_m(self, world: FloatArray, first: int, last: int) -> FloatArray:
         """Deformed positions (n, V, 3); ``world`` is `Playback.world` of the same frames."""
         return self.skin.deformed(world, self._playback.morphs(first, last))
+
+
+class Limbs:
+    """Some bones of a playback, and all above them.
+
+    Parameters
+    ----------
+    playback : Playback
+    bones : iterable of int
+
+    Attributes
+    ----------
+    row_of : dict of int to int
+        The rows of `world` by bone.
+    """
+
+    def __init__(self, playback: Playback, bones: Iterable[int]) -> None:
+        parents, chosen = playback.parents, set[int]()
+        for bone in bones:
+            while bone >= 0 and bone not in chosen:
+                chosen.add(bone)
+                bone = parents[bone]
+        self.row_of = {bone: row for row, bone in enumerate(sorted(chosen))}
+        self._playback = playback
+        self._parents = [self.row_of.get(parents[bone], -1) for bone in self.row_of]
+        self._still = [bone for bone in self.row_of if playback.still[bone]]
+        self._moving = [bone for bone in self.row_of if not playback.still[bone]]
+        self._still_rows = self._local(self._still, 0, 1)
+
+    def rows(self, bones: Iterable[int]) -> list[int]:
+        """Rows of bones."""
+        return [self.row_of[bone] for bone in bones]
+
+    def world(self, first: int, last: int) -> FloatArray:
+        """World transforms (3, 4, R, n) without their last row, of the frames ``first`` .. ``last - 1``."""
+        moving = self._local(self._moving, first, last)
+        local = {bone: self._still_rows[:, :, row] for row, bone in enumerate(self._still)}
+        local |= {bone: moving[:, :, row] for row, bone in enumerate(self._moving)}
+        return world_rows(self._parents, [local[bone] for bone in self.row_of], last - first)
+
+    def _local(self, bones: Sequence[int], first: int, last: int) -> FloatArray:
+        """Transforms (3, 4, B, n) of bones on their parents."""
+        clip, result = self._playback.clip, np.empty((3, 4, len(bones), last - first))
+        turns = clip.rotations_xyzw[first:last, bones].astype(np.float64, copy=False)
+        result[:, :3] = matrix_rows(turns.transpose(2, 1, 0))
+        for row, bone in enumerate(bones):
+            moved_cm = clip.translations_cm.get(bone)
+            if moved_cm is None:
+                result[:, 3, row] = self._playback.rest_m[bone, :, None]
+            else:
+                result[:, 3, row] = moved_cm[first:last].T.astype(np.float64) * METRES
+        return result
+
+
+class Middles:
+    """Middles of surfaces. The mean of linearly blended vertices is linear in the bones' transforms, so that each is
+    kept as one weighted point per bone, and what each morph adds to that.
+
+    Parameters
+    ----------
+    skins : mapping of str to Skin
+        Of each surface.
+    limbs : Limbs
+        With all bones that carry any.
+    """
+
+    def __init__(self, skins: Mapping[str, Skin], limbs: Limbs) -> None:
+        self.names = tuple(skins)
+        self._points = np.zeros((len(skins), 4, len(limbs.row_of)))
+        self._shown = tuple(sorted({name for skin in skins.values() for name in skin.morphs}))
+        self._shapes: list[tuple[int, int, FloatArray]] = []
+        for index, skin in enumerate(skins.values()):
+            rows, shares = limbs.rows(skin.joints.tolist()), skin.weights.T / len(skin.positions_m)
+            points_m = np.c_[shares @ skin.positions_m, shares.sum(axis=1)]
+            self._points[index, :3, rows] = np.einsum("jik,jk->ji", skin.joint_from_mesh, points_m)
+            self._points[index, 3, rows] = points_m[:, 3]
+            deltas_m = np.array([shares @ skin.morphs[name] for name in self._shown if name in skin.morphs])
+            if len(deltas_m):
+                added = np.zeros((len(rows), 3, len(self._shown)))
+                columns = [column for column, name in enumerate(self._shown) if name in skin.morphs]
+                added[..., columns] = np.einsum("jik,mjk->jim", skin.joint_from_mesh[..., :3], deltas_m)
+                self._shapes += [(index, row, shapes) for row, shapes in zip(rows, added, strict=True)]
+
+    def places_m(self, world: FloatArray, morphs: Mapping[str, npt.NDArray[np.floating]]) -> FloatArray:
+        """Places (3, K, n); ``world`` is `Limbs.world` of some frames, and ``morphs`` are the weights (n,) there."""
+        frames = world.shape[-1]
+        result: FloatArray = self._points.reshape(len(self._points), -1) @ world.reshape(3, -1, frames)
+        if self._shapes:
+            weights = np.array([morphs[name] for name in self._shown], np.float64)
+            for index, row, shapes in self._shapes:
+                result[:, index] += np.einsum("ikn,kn->in", world[:, :3, row], shapes @ weights)
+        return result

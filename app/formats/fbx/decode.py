@@ -30,8 +30,10 @@ _LARGEST_RATIO = 1032
 _FREE_BYTES = 2**26
 _MOST_TIMES = 256
 
-_MOST_KEPT_BYTES, _LARGEST_KEPT_BYTES = 2**25, 2**21
+_MOST_KEPT_BYTES, _LARGEST_KEPT_BYTES = 2**26, 2**24
+_SMALL_BYTES = 1024
 _Packed = tuple[np.dtype[np.generic], int, bytes]
+"""What an array is packed as: type, number of values and compressed bytes."""
 
 _ARRAYS: Final = {
     ord(code): np.dtype(kind)
@@ -109,7 +111,10 @@ class _Reader:
         self._file = file
         self._left_bytes = _FREE_BYTES + _MOST_TIMES * len(data)
         self._unpacked: dict[_Packed, npt.NDArray[np.generic]] = {}
+        self._last: dict[tuple[np.dtype[np.generic], int, int], tuple[bytes, npt.NDArray[np.generic]]] = {}
+        self._known: dict[bytes, Element] = {}
         self._head = struct.Struct("<IIIB" if version < LARGE_VERSION else "<QQQB")
+        self._end_bytes = 4 if version < LARGE_VERSION else 8
 
     def _error(self, what: str, offset: int) -> FileError:
         return FileError(f"fbx.{what}", file=self._file, offset=offset)
@@ -137,6 +142,11 @@ class _Reader:
         stop = start + property_bytes
         if record_end > limit or stop > record_end:
             raise self._error("truncated" if record_end > len(self._data) else "bad_record", position)
+        # What is the same but for where it ends, in many records of a file, is the same record.
+        same = self._data[position + self._end_bytes : stop] if stop == record_end < position + _SMALL_BYTES else b""
+        known = self._known.get(same)
+        if known is not None:
+            return known
         name = self._data[start - name_length : start].decode("latin-1")
         properties: list[Property] = []
         at = start
@@ -145,12 +155,15 @@ class _Reader:
             properties.append(value)
         if at != stop:
             raise self._error("bad_record", position)
-        children = None
         if stop < record_end:
             children, at = self.block(stop, record_end, depth + 1)
             if at != record_end:
                 raise self._error("bad_record", position)
-        return Element(name, tuple(properties), children)
+            return Element(name, tuple(properties), children)
+        element = Element(name, tuple(properties))
+        if same:
+            self._known[same] = element
+        return element
 
     def _property(self, at: int, stop: int) -> tuple[Property, int]:
         code, body = self._data[at] if at < stop else -1, at + 1
@@ -180,21 +193,29 @@ class _Reader:
             self._left_bytes -= size
             if self._left_bytes < 0:
                 raise FileError("fbx.too_large", file=self._file)
-            # All curves of a clip have the same times.
-            packed = dtype, count, bytes(raw)
-            found = self._unpacked.get(packed)
-            if found is None:
-                found = _arrays.get(packed)
-                if found is None:
-                    found = self._values(dtype, size, self._inflated(raw, size, start), start)
-                    _arrays.keep(packed, found)
-                self._unpacked[packed] = found
-            return found
+            return self._unpack(dtype, count, bytes(raw), start)
         if encoding != 0:
             raise self._error("bad_array", start)
         return self._values(dtype, size, raw, start)
 
-    def _inflated(self, raw: memoryview, size: int, start: int) -> bytes:
+    def _unpack(self, dtype: np.dtype[np.generic], count: int, raw: bytes, start: int) -> npt.NDArray[np.generic]:
+        # All curves of a clip have the same times.
+        last, found = self._last.get((dtype, count, len(raw)), (b"", None))
+        if found is not None and last == raw:
+            return found
+        packed = dtype, count, raw
+        found = self._unpacked.get(packed)
+        if found is None:
+            found = _arrays.get(packed)
+            if found is None:
+                size = count * dtype.itemsize
+                found = self._values(dtype, size, self._inflated(raw, size, start), start)
+                _arrays.keep(packed, found)
+            self._unpacked[packed] = found
+        self._last[dtype, count, len(raw)] = raw, found
+        return found
+
+    def _inflated(self, raw: bytes, size: int, start: int) -> bytes:
         inflate = zlib.decompressobj()
         try:
             found = inflate.decompress(raw, size + 1)

@@ -75,8 +75,8 @@ class ObjectGraph:
         return values
 
     def floats(self, element: Element, name: str, width: int) -> Float64Array:
-        """Array of doubles in rows."""
-        return self.stored(element, name, width).astype(np.float64)
+        """Array of doubles in rows; not to be written to."""
+        return self.stored(element, name, width).astype(np.float64, copy=False)
 
     def stored(self, element: Element, name: str, width: int) -> npt.NDArray[np.floating]:
         """Array of numbers in rows, in the file's precision."""
@@ -86,8 +86,8 @@ class ObjectGraph:
         return values.reshape(-1, width)
 
     def integers(self, element: Element, name: str) -> npt.NDArray[np.int64]:
-        """Array of integers."""
-        return self._array(element, name, "i").astype(np.int64)
+        """Array of integers; not to be written to."""
+        return self._array(element, name, "i").astype(np.int64, copy=False)
 
     def matrix(self, element: Element, name: str) -> Float64Array:
         """A 4 x 4 matrix for column vectors."""

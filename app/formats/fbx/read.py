@@ -23,11 +23,13 @@ from app.formats.fbx.decode import read_elements
 from app.formats.fbx.encode import Element
 from app.formats.fbx.graph import FbxObject, Float64Array, ObjectGraph, numbers, properties_of
 from app.formats.fbx.materials import roughness_of
-from app.formats.fbx.take import MOST_VALUES, Take, read_take
+from app.formats.fbx.take import MOST_VALUES, Curve, Take, read_take
 from app.formats.files import read_file
 from app.formats.scene import Bone, Clip, Material, MorphTarget, Place, Scene, SkinnedMesh, checked_scenes
 
 MOST_BYTES = 2**30
+_BLOCK = 16384
+"""Frames times bones worked on at once, which stay in a core's cache."""
 
 _NOT_SUPPORTED = (
     "PreRotation", "PostRotation", "RotationOffset", "RotationPivot", "ScalingOffset", "ScalingPivot",
@@ -122,7 +124,7 @@ def _bones(graph: ObjectGraph, node: FbxObject | None) -> tuple[tuple[Bone, ...]
             raise FileError("fbx.unsupported", file=graph.file, what=f"a node above the bone {model.name}")
         parent_of[model.id] = (*bone_above, *(one.id for one in nodes), 0)[0]
     index: dict[int, int] = {top: -1}
-    bones: list[Bone] = []
+    found: list[tuple[FbxObject, int]] = []
     for model in models:
         chain = [model.id]
         while parent_of[chain[-1]] in is_bone and parent_of[chain[-1]] not in index:
@@ -133,16 +135,13 @@ def _bones(graph: ObjectGraph, node: FbxObject | None) -> tuple[tuple[Bone, ...]
             continue  # of another figure
         for key in reversed(chain):
             if key not in index:
-                index[key] = len(bones)
-                bones.append(_bone(graph, graph.objects[key], index[parent_of[key]]))
+                index[key] = len(found)
+                found.append((graph.objects[key], index[parent_of[key]]))
     del index[top]
-    return tuple(bones), index
-
-
-def _bone(graph: ObjectGraph, model: FbxObject, parent: int) -> Bone:
-    translation, rotation = _placement(graph, model)
-    quaternion = euler.quaternions(rotation[::-1], EULER_ORDER)
-    return Bone(model.name, parent, translation, quaternion)
+    places = [_placement(graph, model) for model, _ in found]
+    turns = euler.quaternions(np.array([rotation[::-1] for _, rotation in places]).reshape(-1, 3), EULER_ORDER)
+    rows = zip(found, places, np.ascontiguousarray(turns), strict=True)
+    return tuple(Bone(model.name, parent, place, turn) for (model, parent), (place, _), turn in rows), index
 
 
 def _placement(graph: ObjectGraph, model: FbxObject) -> tuple[Float64Array, Float64Array]:
@@ -214,7 +213,7 @@ def _uvs(graph: ObjectGraph, element: Element) -> Float64Array | None:
     uvs, indices = graph.floats(layer, "UV", 2), graph.integers(layer, "UVIndex")
     if indices.size and not 0 <= indices.min() <= indices.max() < len(uvs):
         raise FileError("fbx.contradiction", file=graph.file, detail="UVIndex beyond UV")
-    return uvs[indices]
+    return uvs.take(indices, axis=0)
 
 
 def _face_materials(graph: ObjectGraph, element: Element, face_count: int) -> npt.NDArray[np.int64]:
@@ -243,7 +242,9 @@ def _skin(
 ) -> tuple[npt.NDArray[np.int64], Float64Array, Float64Array]:
     """Joints and weights by vertex, the strongest first, and the bind pose of every bone."""
     binds = _bind_pose(graph, bone_of_model)
-    vertices, joints, weights = [], [], []
+    shares: list[tuple[int, npt.NDArray[np.int64], Float64Array]] = []
+    slots: list[npt.NDArray[np.int64]] = []
+    counts = np.zeros(vertex_count, dtype=np.int64)
     for skin in graph.below(shape, "Deformer", "Skin"):
         for cluster in graph.below(skin, "Deformer", "Cluster"):
             bones = [bone_of_model[child] for child, _ in graph.children.get(cluster.id, ()) if child in bone_of_model]
@@ -254,23 +255,24 @@ def _skin(
             values = graph.floats(cluster.element, "Weights", 1)[:, 0]
             if len(indices) != len(values) or (indices.size and not 0 <= indices.min() <= indices.max() < vertex_count):
                 raise FileError("fbx.contradiction", file=graph.file, detail=f"weights of {shape.name}")
-            vertices.append(indices)
-            joints.append(np.full(len(indices), bones[0]))
-            weights.append(values)
-    if not vertices:
-        return np.zeros((vertex_count, 0), dtype=np.int64), np.zeros((vertex_count, 0)), binds
-    vertex, joint, weight = np.concatenate(vertices), np.concatenate(joints), np.concatenate(weights)
-    order = np.lexsort((-weight, vertex))
-    vertex, joint, weight = vertex[order], joint[order], weight[order]
-    counts = np.bincount(vertex, minlength=vertex_count)
+            shares.append((bones[0], indices, values))
+            slots.append(counts[indices])
+            counts[indices] += 1
+    if counts.sum() != sum(map(len, slots)):
+        raise FileError("fbx.unsupported", file=graph.file, what=f"a vertex twice in a cluster of {shape.name}")
     width = int(counts.max(initial=0))
     if width * vertex_count > MOST_VALUES:
         raise FileError("fbx.unsupported", file=graph.file, what=f"{width} influences on a vertex of {shape.name}")
-    slot = np.arange(len(vertex)) - np.repeat(np.cumsum(counts) - counts, counts)
-    joint_indices = np.zeros((vertex_count, width), dtype=np.int64)
-    slot_weights = np.zeros((vertex_count, width))
-    joint_indices[vertex, slot], slot_weights[vertex, slot] = joint, weight
-    return joint_indices, slot_weights, binds
+    joint_indices = np.zeros((width, vertex_count), dtype=np.int64)
+    weights = np.zeros((width, vertex_count))
+    for slot, (bone, indices, values) in zip(slots, shares, strict=True):
+        joint_indices[slot, indices], weights[slot, indices] = bone, values
+    for end in range(width - 1, 0, -1):
+        for place in range(end):
+            both, weaker = np.s_[place : place + 2], np.flatnonzero(weights[place] < weights[place + 1])
+            weights[both, weaker] = weights[both, weaker][::-1]
+            joint_indices[both, weaker] = joint_indices[both, weaker][::-1]
+    return np.ascontiguousarray(joint_indices.T), np.ascontiguousarray(weights.T), binds
 
 
 def _bind_pose(graph: ObjectGraph, bone_of_model: dict[int, int]) -> Float64Array:
@@ -317,21 +319,37 @@ def _clip(
     frames = take.frames
     if frames * max(len(bones), len(name_of_channel)) > MOST_VALUES:
         raise FileError("fbx.unsupported", file=graph.file, what=f"{frames} frames of {len(bones)} bones")
-    rotations = np.empty((frames, len(bones), 4))
-    rotations[:] = [bone.rotation_xyzw for bone in bones]
+    rotations = np.empty((4, len(bones), frames))
+    rotations[:] = np.array([bone.rotation_xyzw for bone in bones]).T[..., None]
+    turning: list[tuple[int, list[Curve]]] = []
     translations: dict[int, Float64Array] = {}
     weights: dict[str, Float64Array] = {}
     for (target, to_property), channels in take.curves.items():
-        if target not in bone_of_model and target not in name_of_channel:
-            continue
-        values = np.stack([curve.at(frames) for curve in channels], axis=1)
         if target in bone_of_model and to_property == "Lcl Rotation":
-            rotations[:, bone_of_model[target]] = euler.quaternions(values[:, ::-1], EULER_ORDER)
+            turning.append((bone_of_model[target], channels[::-1]))
         elif target in bone_of_model:
-            translations[bone_of_model[target]] = values
-        else:
-            name, weight = name_of_channel[target], values[:, 0] / 100.0
+            translations[bone_of_model[target]] = np.stack([curve.at(frames) for curve in channels], axis=1)
+        elif target in name_of_channel:
+            name, weight = name_of_channel[target], channels[0].at(frames) / 100.0
             if name in weights and not np.array_equal(weights[name], weight):
                 raise FileError("fbx.contradiction", file=graph.file, detail=f"two different curves of {name}")
             weights[name] = weight
-    return Clip(take.name, take.fps, frames, rotations, translations, weights)
+    _turn(rotations, turning)
+    # In memory component after component: so they are computed with.
+    return Clip(take.name, take.fps, frames, rotations.transpose(2, 1, 0), translations, weights)
+
+
+def _turn(rotations: Float64Array, turning: list[tuple[int, list[Curve]]]) -> None:
+    """Set the rotations (4, B, F) of bones to what the curves of their angles say, some bones at a time."""
+    frames = rotations.shape[-1]
+    resting = [row for row in turning if all(curve.rests for curve in row[1])]
+    moving = [row for row in turning if not all(curve.rests for curve in row[1])]
+    for rows, count in ((resting, 1), (moving, frames)):
+        step = max(1, _BLOCK // count)
+        for some in (rows[first : first + step] for first in range(0, len(rows), step)):
+            angles = np.empty((3, len(some), count))
+            for row, (_, curves) in enumerate(some):
+                for axis, curve in enumerate(curves):
+                    angles[axis, row] = curve.values[:1] if count == 1 else curve.at(frames)
+            turns = euler.quaternions(np.moveaxis(angles, 0, -1), EULER_ORDER)
+            rotations[:, [bone for bone, _ in some]] = np.moveaxis(turns, -1, 0)

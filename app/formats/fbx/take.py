@@ -33,6 +33,11 @@ class Curve(NamedTuple):
     frames: npt.NDArray[np.int64]
     values: npt.NDArray[np.floating]
 
+    @property
+    def rests(self) -> bool:
+        """Whether it has one value at all frames."""
+        return bool((self.values == self.values[0]).all())
+
     def at(self, frames: int) -> Float64Array:
         """Its values at all frames: straight lines between the keys, at rest before and after them."""
         if len(self.frames) == frames:
@@ -80,19 +85,19 @@ def _curves(
 ) -> dict[tuple[int, str], list[Curve]]:
     """The curves of every animated property, channel by channel."""
     result: dict[tuple[int, str], list[Curve]] = {}
-    known: dict[bytes, npt.NDArray[np.int64]] = {}
+    # Equal arrays of a file are one array.
+    known: dict[int, tuple[npt.NDArray[np.int64], npt.NDArray[np.int64]]] = {}
     for layer in graph.below(stack, "AnimationLayer"):
         for node in graph.below(layer, "AnimationCurveNode"):
             channels = []
             for curve in graph.below(node, "AnimationCurve"):
                 key_ticks = graph.integers(curve.element, "KeyTime")
                 values = graph.stored(curve.element, "KeyValueFloat", 1)[:, 0]
-                stamp = key_ticks.tobytes()
-                if stamp not in known:
-                    known[stamp] = _key_frames(graph, key_ticks, frame_ticks, fps)
+                if id(key_ticks) not in known:
+                    known[id(key_ticks)] = key_ticks, _key_frames(graph, key_ticks, frame_ticks, fps)
                 if len(values) != len(key_ticks):
                     raise FileError("fbx.contradiction", file=graph.file, detail=f"times and values of {node.name}")
-                channels.append(Curve(known[stamp], values))
+                channels.append(Curve(known[id(key_ticks)][1], values))
             targets = [(target, to) for target, to in graph.parents.get(node.id, ()) if to]
             if len(targets) != 1 or not channels:
                 raise FileError("fbx.missing", file=graph.file, what=f"target or curve of {node.name}")

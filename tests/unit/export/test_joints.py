@@ -16,16 +16,16 @@ def test_angles_come_back(flexion: float, sideways: float, twist: float, seed: i
     swing = Rotation.from_rotvec(flexion * f_axis + sideways * s_axis)
     rotation = (swing * Rotation.from_rotvec(twist * t_axis)).as_quat()
     for sign in (1.0, -1.0):
-        angles = anatomical_angles(sign * rotation[None], f_axis, s_axis, t_axis)
-        np.testing.assert_allclose(angles[0], [flexion, sideways, twist], atol=1e-6)
+        angles = anatomical_angles(sign * rotation[:, None, None], np.array([[f_axis, s_axis, t_axis]]))
+        np.testing.assert_allclose(angles[:, 0, 0], [flexion, sideways, twist], atol=1e-6)
 
 
 def test_a_constant_acceleration_is_found() -> None:
     fps, acceleration = 60.0, 5.0
     time_s = np.arange(30) / fps
-    rotations = Rotation.from_rotvec(np.outer(acceleration * time_s**2 / 2, [0, 0.6, 0.8])).as_quat()[:, None]
+    rotations = Rotation.from_rotvec(np.outer(acceleration * time_s**2 / 2, [0, 0.6, 0.8])).as_quat().T[:, None]
     np.testing.assert_allclose(angular_accelerations(rotations, fps), acceleration, rtol=1e-6)
-    assert angular_accelerations(rotations[:1], fps).shape == (0, 1)
+    assert angular_accelerations(rotations[..., :1], fps).shape == (1, 0)
 
 
 def test_world_transforms_chain() -> None:

@@ -1,0 +1,120 @@
+"""What the files of a player and its instrument are asked for at every frame, read some frames at a time."""
+
+from __future__ import annotations
+
+from collections.abc import Set
+
+import numpy as np
+import numpy.typing as npt
+
+from app.contacts.depths import HandDepths
+from app.contacts.touches import LIPS, UPPER_LIP, Traces
+from app.export.joint_playback import JointPlayback
+from app.export.playback import Limbs, Middles, Playback, Surface
+from app.formats.scene import SkinnedMesh
+from app.rig.model import Character
+from app.rig.skinning import Skin
+from instrument_maps.model import ROOT, InstrumentMap
+
+FloatArray = npt.NDArray[np.float64]
+IntArray = npt.NDArray[np.integer]
+
+SOLES = ("left.foot.sole", "right.foot.sole")
+_TORSO = ("hips", "neck")
+_HANDS = ("left.hand", "right.hand")
+
+
+class Walk:
+    """Both files, read some frames at a time.
+
+    Parameters
+    ----------
+    joints : JointPlayback
+    held : Playback
+    character : Character
+    instrument : InstrumentMap
+    """
+
+    def __init__(self, joints: JointPlayback, held: Playback, character: Character, instrument: InstrumentMap) -> None:
+        self._player, self._held = joints.playback, held
+        frames = self._player.clip.frames
+        requested = {contact.part for contact in instrument.contacts} | {*SOLES, LIPS, UPPER_LIP}
+        skins = _skins(joints, character, requested | {*_HANDS})
+        self.hands = [HandDepths(skins[name], instrument.proxy) for name in _HANDS if name in skins]
+        low = joints.bone(_TORSO[0])
+        high = joints.bone(_TORSO[1], "head")  # VRM leaves the neck optional; the head is next above it.
+        self._limbs = Limbs(self._player, {low, high}.union(*(skin.joints.tolist() for skin in skins.values())))
+        self._low, self._high = self._limbs.rows([low, high])
+        self._carriers = [self._limbs.rows(hand.joints.tolist()) for hand in self.hands]
+        self._middles = Middles({name: skins[name] for name in sorted(requested & skins.keys())}, self._limbs)
+        bone_of_node = {part.node: part.name for part in instrument.moving_parts} | {ROOT: held.bone_names[0]}
+        self._nodes = tuple(bone_of_node)
+        bones = [held.bone_names.index(bone) for bone in bone_of_node.values()]
+        self._parts = Limbs(held, bones)
+        self._node_rows = self._parts.rows(bones)
+        self._marks_m = np.empty((3, len(self._middles.names), frames))
+        self._placed = np.empty((3, 4, len(bones), frames))
+        self._torso = np.empty((2, frames))
+
+    def read(self, first: int, last: int, chosen: npt.NDArray[np.bool_]) -> list[npt.NDArray[np.float32]]:
+        """Read the frames ``first`` .. ``last - 1``; returned is ``world_from_joint`` (N, J, 3, 4) of what carries each
+        hand, at those that are ``chosen`` (F,)."""
+        world = self._limbs.world(first, last)
+        self._marks_m[..., first:last] = self._middles.places_m(world, self._player.morphs(first, last))
+        self._placed[..., first:last] = self._parts.world(first, last)[:, :, self._node_rows]
+        upright = world[:, 3, self._high] - world[:, 3, self._low]
+        self._torso[:, first:last] = np.arctan2(upright[[0, 2]], upright[1])
+        at = np.flatnonzero(chosen[first:last])
+        shown = slice(None) if len(at) == last - first else at
+        # In memory (N, 3, J, 4), as depths are computed.
+        found = [world[:, :, rows][..., shown].transpose(3, 0, 2, 1) for rows in self._carriers]
+        return [rows.astype(np.float32, order="C").transpose(0, 2, 1, 3) for rows in found]
+
+    def morphs(self, frames: IntArray) -> dict[str, npt.NDArray[np.floating]]:
+        """Weights (N,) of the morphs at some frames."""
+        return {name: np.asarray(weights)[frames] for name, weights in self._player.clip.morph_weights.items()}
+
+    def nodes(self, frames: IntArray) -> dict[str, FloatArray]:
+        """``world_from_node`` (N, 4, 4) at some frames that were read."""
+        result = np.zeros((len(self._nodes), len(frames), 4, 4))
+        result[:, :, :3] = self._placed[..., frames].transpose(2, 3, 0, 1)
+        result[:, :, 3, 3] = 1.0
+        return dict(zip(self._nodes, result, strict=True))
+
+    @property
+    def torso_rad(self) -> FloatArray:
+        """Angles of the torso (F, 2)."""
+        return self._torso.T
+
+    @property
+    def traces(self) -> Traces:
+        """Where everything was."""
+        marks_m = {name: self._marks_m[:, row].T for row, name in enumerate(self._middles.names)}
+        nodes = {name: self._placed[:, :, row].transpose(2, 0, 1) for row, name in enumerate(self._nodes)}
+        return Traces(marks_m, nodes)
+
+
+def _skins(joints: JointPlayback, character: Character, names: Set[str]) -> dict[str, Skin]:
+    """The landmarks of these names that the character has, as the file's meshes have them."""
+    meshes: dict[int, tuple[SkinnedMesh, dict[str, npt.NDArray[np.int64]]]] = {}
+    for name in sorted(names & character.landmarks.keys()):
+        mesh, vertices = joints.surface(character.landmarks[name])
+        meshes.setdefault(id(mesh), (mesh, {}))[1][name] = vertices
+    skins: dict[str, Skin] = {}
+    for mesh, places in meshes.values():
+        whole, first = Surface(joints.playback, mesh, np.concatenate([*places.values()])).skin, 0
+        for name, vertices in places.items():
+            skins[name] = whole.part(np.arange(first, first + len(vertices)))
+            first += len(vertices)
+    return skins
+
+
+def bone_deviation_m(joints: JointPlayback) -> FloatArray:
+    """How much longer or shorter than at rest the bone is that changes most (F,): only those with a curve can."""
+    player = joints.playback
+    result = np.zeros(player.clip.frames)
+    for bone in player.clip.translations_cm:
+        if joints.rigid[bone]:
+            lengths_m = np.linalg.norm(player.bone_translations_m(bone), axis=1)
+            np.maximum(result, np.abs(lengths_m - np.linalg.norm(player.rest_m[bone])), out=result)
+    return result
