@@ -8,7 +8,6 @@ the FBX SDK's own reader, which takes a file for empty if FileId, CreationTime a
 from __future__ import annotations
 
 import struct
-import zlib
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
@@ -18,6 +17,7 @@ from typing import Any, Final, TypeAlias
 import msgspec
 import numpy as np
 import numpy.typing as npt
+from isal import isal_zlib
 
 MAGIC = b"Kaydara FBX Binary  \0\x1a\0"
 VERSION = 7400
@@ -34,7 +34,7 @@ _LARGEST_OFFSET = 2**31 - 1
 _RAW_ARRAY_BYTES = 128
 _SMALL_BYTES = 1024
 """Records with no more are put together."""
-_ZLIB_LEVEL = 1
+_LEVEL = 2
 
 _ARRAY_CODES = {"f4": b"f", "f8": b"d", "i4": b"i", "i8": b"l", "b1": b"b"}
 
@@ -89,7 +89,7 @@ def pack_array(values: npt.NDArray[np.generic], *, compress: bool = True) -> Pac
     raw = np.ascontiguousarray(values, dtype=values.dtype.newbyteorder("<")).tobytes()
     encoding = 0
     if compress and len(raw) > _RAW_ARRAY_BYTES:
-        raw, encoding = zlib.compress(raw, _ZLIB_LEVEL), 1
+        raw, encoding = isal_zlib.compress(raw, _LEVEL), 1
     return PackedArray(code + struct.pack("<III", len(values), encoding, len(raw)) + raw)
 
 
