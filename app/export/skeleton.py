@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from types import MappingProxyType
 
 import numpy as np
@@ -41,7 +41,7 @@ def scene_bvh(scene: Scene, names: Mapping[int, str] = MappingProxyType({})) -> 
     chosen = _without_props(scene, clip, _below(scene, first), first)
     place = {bone: index for index, bone in enumerate(chosen)}
     translation_cm, rotation = _world(scene, clip, first)
-    rotations = np.asarray(clip.rotations_xyzw)[:, chosen].copy()
+    rotations = np.take(clip.rotations_xyzw, chosen, axis=1)
     rotations[:, 0] = rotation
     offsets_cm = np.stack([np.asarray(scene.bones[bone].translation_cm, np.float64) for bone in chosen])
     offsets_cm[0] = 0.0
@@ -100,23 +100,32 @@ def _end_sites_cm(scene: Scene, chosen: list[int]) -> dict[int, FloatArray]:
         np.stack([np.asarray(bone.translation_cm, np.float64) for bone in scene.bones])[None],
         np.stack([np.asarray(bone.rotation_xyzw, np.float64) for bone in scene.bones])[None],
     )[0]
+    last = sorted(set(chosen) - set(parents))
+    points_cm = _own_points_cm(scene, last)
     ends = {}
-    for bone in sorted(set(chosen) - set(parents)):
+    for bone in last:
         rest = world_from_rest[bone]
         way = rest[:3, :3].T @ (rest[:3, 3] - world_from_rest[parents[bone], :3, 3])
         length = np.linalg.norm(way)
         direction = way / length if length > 0 else np.array([0.0, 1.0, 0.0])
-        lengths = [float(np.max(points @ direction)) for points in _own_points_cm(scene, bone)]
+        lengths = [float(np.max(points @ direction)) for points in points_cm[bone]]
         ends[bone] = direction * max([*lengths, _SHORTEST_CM])
     return ends
 
 
-def _own_points_cm(scene: Scene, bone: int) -> list[FloatArray]:
-    """Vertices that a bone carries, in its frame, of every mesh that has some."""
-    found = []
+def _own_points_cm(scene: Scene, bones: Sequence[int]) -> dict[int, list[FloatArray]]:
+    """Vertices that each of some bones carries, in its frame, of every mesh that has some."""
+    found: dict[int, list[FloatArray]] = {bone: [] for bone in bones}
+    requested = np.zeros(len(scene.bones), bool)
+    requested[list(bones)] = True
     for mesh in scene.meshes:
-        own = np.where(mesh.joint_indices == bone, mesh.weights, 0.0).sum(axis=1) > OWN_VERTEX
-        if own.any():
-            bind = np.asarray(mesh.world_from_bone_bind[bone], np.float64)
-            found.append((mesh.vertices_cm[own] - bind[:3, 3]) @ bind[:3, :3])
+        vertices, slots = np.nonzero(requested[mesh.joint_indices])
+        joints, weights = mesh.joint_indices[vertices, slots], mesh.weights[vertices, slots]
+        for bone in bones:
+            here = joints == bone
+            shares = np.bincount(vertices[here], weights[here])
+            own = np.flatnonzero(shares > OWN_VERTEX)
+            if own.size:
+                bind = np.asarray(mesh.world_from_bone_bind[bone], np.float64)
+                found[bone].append((mesh.vertices_cm[own] - bind[:3, 3]) @ bind[:3, :3])
     return found

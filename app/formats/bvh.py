@@ -34,7 +34,7 @@ _ORDER = "ZXY"
 _AXES = "XYZ"
 _POSITIONS = [f"{axis}position" for axis in _AXES]
 _DEEPEST = 512
-_ROWS = 1024
+_ROWS = 256
 """Frames whose text is made at once."""
 _FREE_ROTATIONS = 2**20
 MOST_BYTES = 2**29
@@ -93,7 +93,7 @@ def write_bvh(path: str | os.PathLike[str], clip: BvhClip) -> None:
         stream.writelines(pieces)
 
 
-def bvh_pieces(clip: BvhClip) -> Iterator[bytes]:
+def bvh_pieces(clip: BvhClip) -> Iterator[bytes | bytearray]:
     """The file's bytes, one piece after the other, made when they are asked for."""
     _check(clip)
     children: list[list[int]] = [[] for _ in clip.names]
@@ -108,7 +108,7 @@ def bvh_pieces(clip: BvhClip) -> Iterator[bytes]:
     return itertools.chain(["\n".join(lines).encode("utf-8")], _table_pieces(clip, order))
 
 
-def _table_pieces(clip: BvhClip, order: list[int]) -> Iterator[bytes]:
+def _table_pieces(clip: BvhClip, order: list[int]) -> Iterator[bytearray]:
     """The channels frame by frame, with joints in this order."""
     angles = euler.euler_degrees(clip.rotations_xyzw, _ORDER)
     frames = angles.shape[-1]

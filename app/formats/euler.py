@@ -18,8 +18,14 @@ Float64Array = npt.NDArray[np.float64]
 # the first one, so that any choice gives the exact rotation; the middle angle is then wrong by less than this (rad).
 _GIMBAL_COSINE = 1e-8
 
+# Triples of which no angle changes by more are the nearest: the first and the third angle of another triple are half a
+# turn away.
+_SMOOTH_TURNS = 1 / 8
+
 # Frames times joints worked on at once: about fifteen arrays of this many doubles stay in a core's cache.
-_BLOCK = 16384
+_BLOCK = 8192
+_JOINTS = 8
+"""Joints taken out of the clip at once, whose values lie apart in it."""
 
 
 def euler_degrees(rotations_xyzw: npt.NDArray[np.floating], order: str) -> npt.NDArray[np.float64]:
@@ -43,9 +49,14 @@ def euler_degrees(rotations_xyzw: npt.NDArray[np.floating], order: str) -> npt.N
     frame_count, joint_count, _ = rotations_xyzw.shape
     angles = np.empty((joint_count, 3, frame_count))
     step = max(1, _BLOCK // max(1, frame_count))
-    for first in range(0, joint_count, step):
-        block = rotations_xyzw[:, first : first + step].transpose(2, 1, 0).astype(np.float64, order="C")
-        angles[first : first + step] = _unroll(_angles(block, order)).transpose(1, 0, 2)
+    for joints in (slice(first, first + _JOINTS) for first in range(0, joint_count, _JOINTS)):
+        components = rotations_xyzw[:, joints].transpose(2, 1, 0).astype(np.float64, order="C")
+        found = angles[joints].transpose(1, 0, 2)
+        rests = (components == components[..., :1]).all(axis=-1).all(axis=0)
+        found[:, rests] = _unrolled(_angles(components[:, rests, :1], order))
+        moving = np.flatnonzero(~rests)
+        for block in (moving[first : first + step] for first in range(0, len(moving), step)):
+            found[:, block] = _unrolled(_angles(components[:, block], order))
     return angles
 
 
@@ -102,6 +113,14 @@ def matrices(rotations_xyzw: npt.NDArray[np.floating]) -> npt.NDArray[np.float64
 
 def _angles(q: Float64Array, order: str) -> Float64Array:
     """Principal angles in radians, shape (3, J, F), of quaternions (4, J, F)."""
+    parts = [_part_angles(q[..., :_BLOCK], order)]
+    for start in range(_BLOCK, q.shape[-1], _BLOCK):
+        parts.append(_part_angles(q[..., start : start + _BLOCK], order, parts[-1][0, :, -1]))
+    return parts[0] if len(parts) == 1 else np.concatenate(parts, axis=-1)
+
+
+def _part_angles(q: Float64Array, order: str, before: Float64Array | None = None) -> Float64Array:
+    """Principal angles of some frames; ``before`` has the first angles (J,) of the frame before them."""
     i, j, k = ("XYZ".index(axis) for axis in order)
     sign = 1.0 if (j - i) % 3 == 1 else -1.0
     w = q[3]
@@ -109,31 +128,44 @@ def _angles(q: Float64Array, order: str) -> Float64Array:
     sqi, sqj, sqk = s * q[i], s * q[j], s * q[k]
     ij, ik, jk = sqi * q[j], sqi * q[k], sqj * q[k]
     ii, jj, kk = sqi * q[i], sqj * q[j], sqk * q[k]
-    iw, jw, kw = sign * sqi * w, sign * sqj * w, sign * sqk * w
+    w = sign * w
+    iw, jw, kw = sqi * w, sqj * w, sqk * w
     # The needed entries m[row, column] of the rotation matrix, named by the axes.
     m_ik, m_jk, m_kk = ik + jw, jk - iw, 1 - (ii + jj)
     m_ji, m_jj, m_ki, m_kj = ij + kw, 1 - (ii + kk), ik - jw, jk + iw
 
     middle_cosine = np.sqrt(m_jk * m_jk + m_kk * m_kk)
-    first = np.arctan2(-sign * m_jk, m_kk)
+    sine = -sign * m_jk
+    first = np.arctan2(sine, m_kk)
     locked = middle_cosine < _GIMBAL_COSINE
     if locked.any():
         last_free = np.where(locked, 0, np.arange(q.shape[-1]))
         np.maximum.accumulate(last_free, axis=-1, out=last_free)
+        if before is not None:
+            first[:, 0] = np.where(locked[:, 0], before, first[:, 0])
         first = np.take_along_axis(first, last_free, axis=-1)
         cosine, sine = np.cos(first), np.sin(first)
     else:
-        cosine, sine = m_kk / middle_cosine, -sign * m_jk / middle_cosine
+        cosine, sine = m_kk / middle_cosine, sine / middle_cosine
     middle = np.arctan2(sign * m_ik, middle_cosine)
     # What is left when the first turn is undone is Rj Rk, whose row j holds the third angle alone.
     third = np.arctan2(sign * cosine * m_ji + sine * m_ki, cosine * m_jj + sign * sine * m_kj)
     return np.stack([first, middle, third])
 
 
-def _unroll(angles: Float64Array) -> Float64Array:
+def _unrolled(angles: Float64Array) -> Float64Array:
     """Degrees without jumps along the last axis, from principal radians, shape (3, J, F)."""
     turns = angles * (0.5 / np.pi)
     step = np.diff(turns, axis=-1)
+    smooth = ((step > -_SMOOTH_TURNS) & (step < _SMOOTH_TURNS)).all(axis=(0, 2))
+    if not smooth.all():
+        turns[:, ~smooth] = _without_jumps(turns[:, ~smooth], step[:, ~smooth])
+    turns *= 360.0
+    return turns
+
+
+def _without_jumps(turns: Float64Array, step: Float64Array) -> Float64Array:
+    """Turns (3, J, F), given their differences from frame to frame. Both arrays are used up."""
     same = np.abs(step - np.rint(step)).sum(axis=0)
     # The other triple of a rotation is (first + half a turn, half a turn - middle, third + half a turn). The distance
     # between two triples is the same if both are exchanged, so only the places where to change over matter.
@@ -148,5 +180,4 @@ def _unroll(angles: Float64Array) -> Float64Array:
         turns[1] = np.where(other, 0.5 - turns[1], turns[1])
         turns[2] += 0.5 * other
     turns[..., 1:] -= np.cumsum(np.rint(np.diff(turns, axis=-1)), axis=-1)
-    turns *= 360.0
     return turns

@@ -47,6 +47,7 @@ class Curves:
         self._layer = layer
         self._ticks = key_ticks
         self._at: dict[bytes, tuple[tuple[Element, ...], tuple[Element, ...]]] = {}
+        self._resting: dict[bytes, PackedArray] = {}
 
     def add_clip(self, clip: Clip, bones: list[int], channels: dict[str, list[int]]) -> None:
         """Animate the bones of a figure, and the channels of each of its morphs."""
@@ -85,7 +86,7 @@ class Curves:
             if frames is not None:
                 at = frames[:1] if (row[frames] == row[0]).all() else frames
             before, after = self._times(at)
-            keys = Element("KeyValueFloat", (_pack_keys(row if at is None else row[at]),))
+            keys = Element("KeyValueFloat", (self._keys(row if at is None else row[at]),))
             children = (Element("Default", (float(row[0]),)), *before, keys, *after)
             curve = self._assembly.add("AnimationCurve", "", "AnimCurve", "", children)
             self._assembly.connect(curve, node, f"d|{channel}")
@@ -106,7 +107,14 @@ class Curves:
             )
         return self._at[known]
 
+    def _keys(self, row: npt.NDArray[np.float32]) -> PackedArray:
+        """Keys of one channel.
 
-def _pack_keys(row: npt.NDArray[np.float32]) -> PackedArray:
-    """Keys of one channel. One that rests is compressed to nothing; the noise of a moving one is not worth the time."""
-    return pack_array(row, compress=bool((row == row[0]).all()))
+        One that rests is compressed to nothing; the noise of a moving one is not worth the time.
+        """
+        if not (row == row[0]).all():
+            return pack_array(row, compress=False)
+        known = row.tobytes()
+        if known not in self._resting:
+            self._resting[known] = pack_array(row)
+        return self._resting[known]

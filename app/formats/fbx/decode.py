@@ -10,13 +10,13 @@ Messages (all with ``file`` and the ``offset`` of the trouble in bytes): ``fbx.n
 from __future__ import annotations
 
 import struct
-import zlib
 from collections.abc import Callable
 from threading import Lock
 from typing import Any, Final
 
 import numpy as np
 import numpy.typing as npt
+from isal import isal_zlib
 
 from app.errors import FileError
 from app.formats.fbx.encode import LARGE_VERSION, MAGIC, Element, Property
@@ -216,10 +216,10 @@ class _Reader:
         return found
 
     def _inflated(self, raw: bytes, size: int, start: int) -> bytes:
-        inflate = zlib.decompressobj()
+        inflate = isal_zlib.decompressobj()
         try:
             found = inflate.decompress(raw, size + 1)
-        except zlib.error as error:
+        except isal_zlib.error as error:  # type: ignore[misc]  # its stubs name an instance
             raise self._error("bad_array", start) from error
         if not inflate.eof and len(found) <= size:
             raise self._error("bad_array", start)

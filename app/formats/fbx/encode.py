@@ -8,17 +8,16 @@ the FBX SDK's own reader, which takes a file for empty if FileId, CreationTime a
 from __future__ import annotations
 
 import struct
-import zlib
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
-from hashlib import blake2b
 from operator import attrgetter
 from typing import Any, Final, TypeAlias
 
 import msgspec
 import numpy as np
 import numpy.typing as npt
+from isal import isal_zlib
 
 MAGIC = b"Kaydara FBX Binary  \0\x1a\0"
 VERSION = 7400
@@ -35,10 +34,7 @@ _LARGEST_OFFSET = 2**31 - 1
 _RAW_ARRAY_BYTES = 128
 _SMALL_BYTES = 1024
 """Records with no more are put together."""
-_ZLIB_LEVEL = 1
-_MOST_KEPT, _LARGEST_KEPT_BYTES = 4096, 2**20
-_packed: dict[bytes, bytes] = {}
-"""Compressed arrays by the digest of what they hold."""
+_LEVEL = 2
 
 _ARRAY_CODES = {"f4": b"f", "f8": b"d", "i4": b"i", "i8": b"l", "b1": b"b"}
 
@@ -93,24 +89,11 @@ def pack_array(values: npt.NDArray[np.generic], *, compress: bool = True) -> Pac
     raw = np.ascontiguousarray(values, dtype=values.dtype.newbyteorder("<")).tobytes()
     encoding = 0
     if compress and len(raw) > _RAW_ARRAY_BYTES:
-        raw, encoding = _compressed(raw), 1
+        raw, encoding = isal_zlib.compress(raw, _LEVEL), 1
     return PackedArray(code + struct.pack("<III", len(values), encoding, len(raw)) + raw)
 
 
-def _compressed(raw: bytes) -> bytes:
-    """Kept, since all players with the same body have the same meshes, and all files of a piece the same key times."""
-    known = blake2b(raw, digest_size=32).digest()
-    packed = _packed.get(known)
-    if packed is None:
-        packed = zlib.compress(raw, _ZLIB_LEVEL)
-        if len(_packed) >= _MOST_KEPT:
-            _packed.clear()
-        if len(packed) <= _LARGEST_KEPT_BYTES:
-            _packed[known] = packed
-    return packed
-
-
-def element_pieces(elements: Sequence[Element]) -> list[bytes | bytearray]:
+def element_pieces(elements: Sequence[Element]) -> list[bytes]:
     """A whole file in pieces; big arrays are not copied.
 
     Parameters
@@ -140,7 +123,7 @@ class _Writer:
         self._version = version
         self._head = struct.Struct("<IIIB" if version < LARGE_VERSION else "<QQQB")
         self._null = bytes(self._head.size)
-        self.chunks: list[bytes | bytearray] = []
+        self.chunks: list[bytes] = []
         self.position = 0
 
     def file(self, elements: Sequence[Element]) -> None:
@@ -152,35 +135,33 @@ class _Writer:
         self._add(bytes(16 - self.position % 16))
         self._add(struct.pack("<I", self._version) + bytes(120) + FOOTER_END)
 
-    def _add(self, chunk: bytes | bytearray) -> None:
+    def _add(self, chunk: bytes) -> None:
         self.chunks.append(chunk)
         self.position += len(chunk)
 
     def _record(self, element: Element) -> None:
         name, properties = element.name.encode("ascii"), [_encode_property(value) for value in element.properties]
         property_bytes = sum(map(len, properties))
+        start = len(self.chunks)
+        self.position += self._head.size + len(name) + property_bytes
         if element.children is None:
-            end = self.position + self._head.size + len(name) + property_bytes
-            head = bytearray(self._head.size)
-            self._fill(head, end, properties, property_bytes, name)
+            head = self._head_of(properties, property_bytes, name)
             if property_bytes < _SMALL_BYTES:
                 self.chunks.append(b"".join((head, name, *properties)))
             else:
                 self.chunks += (head, name, *properties)
-            self.position = end
             return
-        head = bytearray(self._head.size)  # filled in once the end of the record is known
-        self.chunks += (head, name, *properties)
-        self.position += len(head) + len(name) + property_bytes
+        self.chunks += (b"", name, *properties)
         for child in element.children:
             self._record(child)
         self._add(self._null)
-        self._fill(head, self.position, properties, property_bytes, name)
+        self.chunks[start] = self._head_of(properties, property_bytes, name)
 
-    def _fill(self, head: bytearray, end: int, properties: list[bytes], property_bytes: int, name: bytes) -> None:
-        """Say how long a record is, where this version can."""
-        if end <= _LARGEST_OFFSET or self._version >= LARGE_VERSION:
-            self._head.pack_into(head, 0, end, len(properties), property_bytes, len(name))
+    def _head_of(self, properties: list[bytes], property_bytes: int, name: bytes) -> bytes:
+        """The head of a record that ends here; it says how long the record is where this version can."""
+        if self.position > _LARGEST_OFFSET and self._version < LARGE_VERSION:
+            return self._null
+        return self._head.pack(self.position, len(properties), property_bytes, len(name))
 
 
 def _encode_property(value: Property) -> bytes:

@@ -20,8 +20,8 @@ from app.formats.fbx import encode, ticks
 from app.formats.fbx.assembly import Assembly
 from app.formats.fbx.curves import EULER_ORDER, Curves
 from app.formats.fbx.encode import Element, element_pieces
-from app.formats.fbx.geometry import geometry, morph_geometry, skin_clusters
 from app.formats.fbx.materials import PHYSICAL_MATERIAL, SHADING_MODEL, phong
+from app.formats.fbx.packed import PackedMesh, packed_mesh
 from app.formats.fbx.sections import (
     definitions,
     documents,
@@ -117,8 +117,9 @@ def _add_figure(graph: Assembly, scene: Scene) -> _Figure:
         figure.node = graph.add("Model", scene.name, "Model", "Null", _placed(scene.place))
         graph.connect(figure.node, 0)
         world_from_node = scene.place.matrix
-    for bone in scene.bones:
-        _add_bone(graph, figure, bone)
+    turned = euler_degrees(np.stack([bone.rotation_xyzw for bone in scene.bones])[None], EULER_ORDER)[:, ::-1, 0]
+    for bone, rotation_degrees in zip(scene.bones, turned, strict=True):
+        _add_bone(graph, figure, bone, rotation_degrees)
     if scene.meshes:
         binds = world_from_node @ _unconnected_binds(scene)
         mesh_ids = [_add_mesh(graph, figure, mesh, binds, world_from_node) for mesh in scene.meshes]
@@ -131,10 +132,10 @@ def _add_figure(graph: Assembly, scene: Scene) -> _Figure:
     return figure
 
 
-def _add_bone(graph: Assembly, figure: _Figure, bone: Bone) -> None:
+def _add_bone(graph: Assembly, figure: _Figure, bone: Bone, rotation_degrees: FloatArray) -> None:
     flags = (Element("TypeFlags", ("Skeleton",)),)
     attribute = graph.add("NodeAttribute", bone.name, "NodeAttribute", "LimbNode", flags)
-    model = graph.add("Model", bone.name, "Model", "LimbNode", _placed(Place(bone.translation_cm, bone.rotation_xyzw)))
+    model = graph.add("Model", bone.name, "Model", "LimbNode", _model(bone.translation_cm, rotation_degrees))
     graph.connect(model, figure.node if bone.parent < 0 else figure.bone_ids[bone.parent])
     figure.bone_ids.append(model)
     graph.connect(attribute, model)
@@ -184,17 +185,18 @@ def _add_mesh(
     binds: npt.NDArray[np.float64],
     world_from_node: npt.NDArray[np.float64],
 ) -> int:
+    packed = packed_mesh(mesh)
     model = graph.add("Model", mesh.name, "Model", "Mesh", _model(np.zeros(3), np.zeros(3)))
     graph.connect(model, figure.node)
-    shape = graph.add("Geometry", mesh.name, "Geometry", "Mesh", geometry(mesh))
+    shape = graph.add("Geometry", mesh.name, "Geometry", "Mesh", packed.geometry)
     graph.connect(shape, model)
     for material in mesh.materials:
         if material not in graph.materials:
             graph.materials[material] = graph.add("Material", material.name, "Material", "", _material(material))
         graph.connect(graph.materials[material], model)
-    _add_skin(graph, figure, mesh, shape, binds, world_from_node)
+    _add_skin(graph, figure, mesh.name, packed, shape, binds, world_from_node)
     if mesh.morphs:
-        _add_morphs(graph, figure, mesh, shape)
+        _add_morphs(graph, figure, mesh, packed, shape)
     return model
 
 
@@ -251,25 +253,26 @@ def _material(surface: Material) -> tuple[Element, ...]:
 def _add_skin(
     graph: Assembly,
     figure: _Figure,
-    mesh: SkinnedMesh,
+    name: str,
+    packed: PackedMesh,
     shape: int,
     binds: npt.NDArray[np.float64],
     world_from_node: npt.NDArray[np.float64],
 ) -> None:
     skin_children = (integer("Version", 101), Element("Link_DeformAcuracy", (50.0,)))
-    skin = graph.add("Deformer", mesh.name, "Deformer", "Skin", skin_children)
+    skin = graph.add("Deformer", name, "Deformer", "Skin", skin_children)
     graph.connect(skin, shape)
-    for bone, indices, weights in skin_clusters(mesh):
+    for bone, indices, weights in packed.clusters:
         bind = binds[bone]
         children = (
             integer("Version", 100),
             Element("UserData", ("", "")),
-            Element("Indexes", (indices,)),
-            Element("Weights", (weights,)),
+            indices,
+            weights,
             _matrix("Transform", np.linalg.inv(bind) @ world_from_node),
             _matrix("TransformLink", bind),
         )
-        cluster = graph.add("Deformer", mesh.name, "SubDeformer", "Cluster", children)
+        cluster = graph.add("Deformer", name, "SubDeformer", "Cluster", children)
         graph.connect(cluster, skin)
         graph.connect(figure.bone_ids[bone], cluster)
 
@@ -283,18 +286,18 @@ def _pose_node(node: int, world_from_node: FloatArray) -> Element:
     return Element("PoseNode", (), (Element("Node", (np.int64(node),)), _matrix("Matrix", world_from_node)))
 
 
-def _add_morphs(graph: Assembly, figure: _Figure, mesh: SkinnedMesh, shape: int) -> None:
+def _add_morphs(graph: Assembly, figure: _Figure, mesh: SkinnedMesh, packed: PackedMesh, shape: int) -> None:
     # Unreal cuts the deformer's name off the front of a channel's name, so it must not be one.
     deformer = graph.add("Deformer", f"{mesh.name}_morphs", "Deformer", "BlendShape", (integer("Version", 100),))
     graph.connect(deformer, shape)
-    for morph in mesh.morphs:
+    for morph, geometry in zip(mesh.morphs, packed.morphs, strict=True):
         children = (
             integer("Version", 100),
             Element("DeformPercent", (0.0,)),
             Element("FullWeights", (np.array([100.0]),)),
         )
         channel = graph.add("Deformer", morph.name, "SubDeformer", "BlendShapeChannel", children)
-        target = graph.add("Geometry", morph.name, "Geometry", "Shape", morph_geometry(morph))
+        target = graph.add("Geometry", morph.name, "Geometry", "Shape", geometry)
         graph.connect(channel, deformer)
         graph.connect(target, channel)
         figure.channel_ids.setdefault(morph.name, []).append(channel)

@@ -1,0 +1,112 @@
+"""Meshes in their file form, kept by what they hold: players with the same body have the same meshes."""
+
+from __future__ import annotations
+
+import hashlib
+from collections import OrderedDict
+from threading import Lock
+from typing import Final
+
+import msgspec
+import numpy as np
+
+from app.formats.fbx.encode import Element, PackedArray, pack_array
+from app.formats.fbx.geometry import geometry, morph_geometry, skin_clusters
+from app.formats.scene import SkinnedMesh
+
+_MOST_KEPT_BYTES: Final = 2**26
+
+
+class PackedMesh(msgspec.Struct, frozen=True, eq=False):
+    """What a file holds of a mesh beside names, materials and the bind pose.
+
+    Attributes
+    ----------
+    geometry : tuple of Element
+        Children of its Geometry record.
+    clusters : tuple of (int, Element, Element)
+        Bones that move it, with their vertices and weights.
+    morphs : tuple of tuple of Element
+        Children of the Geometry records of its morphs, in their order.
+    """
+
+    geometry: tuple[Element, ...]
+    clusters: tuple[tuple[int, Element, Element], ...]
+    morphs: tuple[tuple[Element, ...], ...]
+
+
+def packed_mesh(mesh: SkinnedMesh) -> PackedMesh:
+    """The file form of a mesh, made once for all meshes that hold the same."""
+    known = _digest(mesh)
+    packed = _meshes.get(known)
+    if packed is None:
+        packed = PackedMesh(
+            tuple(map(_packed, geometry(mesh))),
+            tuple(
+                (bone, _packed(Element("Indexes", (indices,))), _packed(Element("Weights", (weights,))))
+                for bone, indices, weights in skin_clusters(mesh)
+            ),
+            tuple(tuple(map(_packed, morph_geometry(morph))) for morph in mesh.morphs),
+        )
+        _meshes.keep(known, packed)
+    return packed
+
+
+class _Meshes:
+    """Packed meshes by digest; those unused for longest go first."""
+
+    def __init__(self) -> None:
+        self._kept: OrderedDict[bytes, tuple[PackedMesh, int]] = OrderedDict()
+        self._bytes = 0
+        self._lock = Lock()
+
+    def get(self, known: bytes) -> PackedMesh | None:
+        with self._lock:
+            if known not in self._kept:
+                return None
+            self._kept.move_to_end(known)
+            return self._kept[known][0]
+
+    def keep(self, known: bytes, packed: PackedMesh) -> None:
+        records = [*packed.geometry]
+        records += [record for _, *own in packed.clusters for record in own]
+        records += [record for morph in packed.morphs for record in morph]
+        size = sum(map(_size, records))
+        with self._lock:
+            if known not in self._kept:
+                self._kept[known] = packed, size
+                self._bytes += size
+            while self._bytes > _MOST_KEPT_BYTES:
+                self._bytes -= self._kept.popitem(last=False)[1][1]
+
+
+_meshes = _Meshes()
+
+
+def _digest(mesh: SkinnedMesh) -> bytes:
+    """Of all that `PackedMesh` is made from."""
+    arrays = [mesh.vertices_cm, mesh.faces, mesh.normals, mesh.uvs, mesh.face_materials]
+    arrays += [mesh.joint_indices, mesh.weights]
+    for morph in mesh.morphs:
+        arrays += [morph.vertex_indices, morph.position_deltas_cm, morph.normal_deltas]
+    digest = hashlib.sha256()
+    for array in arrays:
+        if array is None:
+            digest.update(b"none")
+        else:
+            digest.update(f"{array.dtype.str}{array.shape}".encode())
+            digest.update(np.ascontiguousarray(array).reshape(-1).view(np.uint8).data)
+    return digest.digest()
+
+
+def _packed(record: Element) -> Element:
+    """A record whose arrays are in their file form."""
+    properties = tuple(pack_array(value) if isinstance(value, np.ndarray) else value for value in record.properties)
+    children = None if record.children is None else tuple(map(_packed, record.children))
+    return Element(record.name, properties, children)
+
+
+def _size(record: Element) -> int:
+    """Bytes of a record's arrays."""
+    own = sum(len(value.encoded) for value in record.properties if isinstance(value, PackedArray))
+    return own + sum(map(_size, record.children or ()))
