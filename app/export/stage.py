@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import replace
+from itertools import chain, count
 from pathlib import Path
 
 from app.export.attachment import attached, own_path
@@ -18,7 +19,7 @@ from app.export.report import StageFigure, StageReport, stage_place
 from app.export.request import ExportCast, Request
 from app.export.rig import ORIGIN, floor_place
 from app.export.target import TargetSkeleton
-from app.formats.scene import Scene
+from app.formats.scene import Material, Scene
 from app.performance.motion import player_motion
 from app.project.casting import StagePosition
 from app.project.names import file_stem
@@ -46,15 +47,36 @@ def write_stage(
     for number, (name, file) in enumerate(files.items()):
 
         def scenes(begun: int = number, name: Format = name) -> Iterator[Scene]:
+            materials: dict[str, Material] = {}
             for here, scene in _figures(request, cast, name, lambda share: reported((begun + share) / len(files))):
                 figures.update({figure.node: figure for figure in here})
-                yield scene
+                yield with_own_names(scene, materials)
 
         write = FILE_FORMATS[name].write_stage
         assert write is not None, "a format without it has no such file"
         write(folder / file, scenes(), beside)
     reported(1.0)
     return StageReport(dict(files), tuple(figures.values()))
+
+
+def with_own_names(scene: Scene, known: dict[str, Material]) -> Scene:
+    """The scene with another name for each material that another figure has otherwise: ``skin``, ``skin_2`` ...
+
+    Programs that find materials by name would show one figure in another's colours, and the others would each make up
+    another name.
+
+    Parameters
+    ----------
+    known : dict of str to Material
+        Materials of the figures before; this one's are added.
+    """
+
+    def named(material: Material) -> Material:
+        others = (replace(material, name=f"{material.name}_{number}") for number in count(2))
+        return next(one for one in chain((material,), others) if known.setdefault(one.name, one) == one)
+
+    meshes = tuple(replace(mesh, materials=tuple(map(named, mesh.materials))) for mesh in scene.meshes)
+    return replace(scene, meshes=meshes)
 
 
 def _figures(

@@ -22,7 +22,7 @@ Readers         install with                                          for
     ufbx        pip install ufbx==0.0.5   (NOT beside pyufbx: both own the folder ufbx/)   .fbx
     pufbx       pip install pufbx                                     .fbx (transforms only)
     blender     pip install bpy                                       .fbx .bvh .glb/.gltf
-    assimp      apt-get install assimp-utils                          .fbx .bvh (transforms only)
+    assimp      apt-get install assimp-utils                          .fbx .bvh .glb (transforms only)
     three       npm i three                                           .fbx .bvh .glb
     bvhio, bvh, pybvh   pip install bvhio bvh pybvh                   .bvh (pybvh refuses position channels off the root)
     gltf        nothing (built-in evaluator)                          .glb
@@ -609,7 +609,7 @@ def r_assimp(a):
             walk(c, n['name'])
     walk(js['rootnode'], None)
     bones = sorted({b['name'] for m in js.get('meshes', []) for b in m.get('bones', [])})
-    pos = []
+    pos, s = [], 100.0 if a['ext'] == '.glb' else 1.0    # glTF is in metres
     for t in a['times']:
         o, tt = {}, t + a.get('t0', 0)
 
@@ -625,7 +625,7 @@ def r_assimp(a):
             for k in n.get('children', []):
                 ev(k, w)
         ev(js['rootnode'], None)
-        pos.append({k: a['to_canon'](v) if a['ext'] == '.fbx' else v for k, v in o.items()})
+        pos.append({k: a['to_canon'](v) if a['ext'] == '.fbx' else [s * x for x in v] for k, v in o.items()})
     helper = sum('$AssimpFbx$' in n for n in flat)
     return {'bones': bones, 'parent': par, 'animated': len(tr), 'duration': dur, 'fps': None, 'pos': pos, 'weights': {},
             'note': 'no morph weights through assjson' + ('; %d pivot helper nodes' % helper if helper else '')}
@@ -814,7 +814,7 @@ def r_usd(a):
 
 
 READERS = {'structure': (r_structure, ('.fbx',), None), 'fbxsdk': (r_fbxsdk, ('.fbx',), None), 'ufbx': (r_ufbx, ('.fbx',), 'ufbx'),
-           'pufbx': (r_pufbx, ('.fbx',), 'pufbx'), 'blender': (r_blender, ('.fbx', '.bvh', '.glb', '.gltf'), 'bpy'), 'assimp': (r_assimp, ('.fbx', '.bvh'), None),
+           'pufbx': (r_pufbx, ('.fbx',), 'pufbx'), 'blender': (r_blender, ('.fbx', '.bvh', '.glb', '.gltf'), 'bpy'), 'assimp': (r_assimp, ('.fbx', '.bvh', '.glb'), None),
            'three': (r_three, ('.fbx', '.bvh', '.glb'), None), 'bvhio': (r_bvhio, ('.bvh',), 'bvhio'), 'bvh': (r_bvh, ('.bvh',), 'bvh'),
            'pybvh': (r_pybvh, ('.bvh',), 'pybvh'), 'gltf': (r_gltf, ('.glb', '.gltf'), None), 'gltfvalid': (r_gltfvalid, ('.glb', '.gltf'), None),
            'usd': (r_usd, ('.usd', '.usda', '.usdc'), 'pxr')}

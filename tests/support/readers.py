@@ -30,7 +30,7 @@ SLOW_FBX = ("fbxsdk", "blender", "assimp", "three", "pufbx")
 QUICK_BVH = ("bvhio",)
 SLOW_BVH = ("blender", "assimp", "three", "bvh", "pybvh")
 QUICK_GLB = ("gltf",)
-SLOW_GLB = ("gltfvalid", "three", "blender")
+SLOW_GLB = ("gltfvalid", "three", "blender", "assimp")
 QUICK_USD = ("usd",)
 
 _MODULES = {"ufbx": "ufbx", "pufbx": "pufbx", "blender": "bpy", "bvhio": "bvhio", "bvh": "bvh", "pybvh": "pybvh",

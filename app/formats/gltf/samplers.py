@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from typing import Any, Protocol
 
 import numpy as np
@@ -10,7 +10,7 @@ import numpy.typing as npt
 import pygltflib as gltf
 
 from app.formats.continuous import continuous
-from app.formats.scene import Clip, IntArray, Scene
+from app.formats.scene import Clip, IntArray, Scene, SkinnedMesh
 
 METRES = 0.01
 
@@ -46,8 +46,8 @@ class Samplers:
         )
         document.gltf.animations.append(self._animation)
 
-    def add_clip(self, scene: Scene, clip: Clip, first: int) -> None:
-        """Add what the bones of a scene, from that node on, and the meshes after them do."""
+    def add_clip(self, scene: Scene, clip: Clip, first: int, mesh_nodes: Sequence[int]) -> None:
+        """Add what the bones of a scene, from the node `first` on, and the meshes on their nodes do."""
         keys = clip.keys
         for bone in range(len(scene.bones)):
             frames = None if keys is None else keys.bones[bone]
@@ -55,11 +55,11 @@ class Samplers:
                 places = (np.asarray(clip.translations_cm[bone]) * METRES).astype(np.float32)
                 self._add(first + bone, "translation", places, frames)
             self._add(first + bone, "rotation", continuous(clip.rotations_xyzw[:, bone]), frames)
-        for number, mesh in enumerate(scene.meshes):
-            if any(morph.name in clip.morph_weights for morph in mesh.morphs):
+        for node, mesh in zip(mesh_nodes, scene.meshes, strict=True):
+            if weights_move(clip, mesh):
                 weights = _weights(clip, (morph.name for morph in mesh.morphs))
                 frames = None if keys is None else keys.face
-                self._add(first + len(scene.bones) + number, "weights", weights, frames, flat=True)
+                self._add(node, "weights", weights, frames, flat=True)
 
     def _add(
         self, node: int, path: str, values: npt.NDArray[np.float32], frames: IntArray | None, flat: bool = False
@@ -83,6 +83,11 @@ class Samplers:
             seconds = self._seconds if frames is None else self._seconds[frames]
             self._times[known] = self._document.accessor("times", seconds, bounds=True)
         return self._times[known]
+
+
+def weights_move(clip: Clip | None, mesh: SkinnedMesh) -> bool:
+    """Whether a clip has weights of a mesh's morph targets."""
+    return clip is not None and any(morph.name in clip.morph_weights for morph in mesh.morphs)
 
 
 def _weights(clip: Clip, names: Iterable[str]) -> npt.NDArray[np.float32]:

@@ -1,11 +1,13 @@
 """Scenes -> binary glTF 2.0 file (GLB).
 
 Metres, Y up, facing +Z; the bones are nodes below one root, the meshes lie beside it and share one skin. Of several
-scenes each root is below a node of the scene's name at its place. A mesh keeps
-one primitive per material. Influences beyond the fourth are in a second set, the strongest in the first, so that a
-reader that knows only one set shows the nearest skin there is. The clip is one animation with keys on frames at
-``n / fps`` seconds; glTF knows times as float32 only, which is within 0.12 ms of the frame after an hour. What glTF has
-no place for, the rate and the number of frames, is in the animation's extras.
+scenes each root is below a node of the scene's name at its place. A mesh whose morph targets move is on that node:
+Blender leaves an empty where a node with keys had a mesh, unless it makes the armature of it. Where the node stands
+does not count, since only joints move a skinned mesh. A mesh keeps one primitive per material. Influences beyond the
+fourth are in a second set, the strongest in the first, so that a reader that knows only one set shows the nearest skin
+there is. The clip is one animation with keys on frames at ``n / fps`` seconds; glTF knows times as float32 only, which
+is within 0.12 ms of the frame after an hour. What glTF has no place for, the rate and the number of frames, is in the
+animation's extras.
 
 Source: Khronos, "glTF 2.0 Specification", sections 3.6, 3.7, 3.11 and 4.
 """
@@ -25,7 +27,7 @@ import pygltflib as gltf
 from app.errors import FileError
 from app.formats.atomic import atomic_write
 from app.formats.gltf.primitives import Primitive, primitives
-from app.formats.gltf.samplers import METRES, Samplers
+from app.formats.gltf.samplers import METRES, Samplers, weights_move
 from app.formats.scene import (
     FloatArray,
     IntArray,
@@ -163,9 +165,12 @@ class _Document:
 
     def sparse(self, count: int, rows: IntArray, values: npt.NDArray[np.float32]) -> int:
         """Index of an accessor of vectors (count, 3) of which only some rows are not zero."""
-        bounds: npt.NDArray[np.float32] = np.zeros((1, 3), np.float32)
-        if len(rows):
-            bounds = values if len(rows) == count else np.concatenate([bounds, values])
+        if not len(rows):  # legal without any, but assimp refuses an accessor that has no bytes
+            rows, values = np.zeros(1, np.int64), np.zeros((1, 3), np.float32)
+        bounds = values if len(rows) == count else np.concatenate([np.zeros((1, 3), np.float32), values])
+        indices = rows.astype(np.uint16 if count <= 2**16 else np.uint32)
+        index_view, index_start = self.buffer.add("sparse indices", indices, None, None)
+        value_view, value_start = self.buffer.add("sparse values", values, None, None)
         accessor = gltf.Accessor(
             # No view, so no offset either, which the library would set.
             byteOffset=None,
@@ -174,18 +179,14 @@ class _Document:
             type=gltf.VEC3,
             min=_listed(bounds.min(axis=0)),
             max=_listed(bounds.max(axis=0)),
-        )
-        if len(rows):
-            indices = rows.astype(np.uint16 if count <= 2**16 else np.uint32)
-            index_view, index_start = self.buffer.add("sparse indices", indices, None, None)
-            value_view, value_start = self.buffer.add("sparse values", values, None, None)
-            accessor.sparse = gltf.Sparse(
+            sparse=gltf.Sparse(
                 count=len(rows),
                 indices=gltf.AccessorSparseIndices(
                     bufferView=index_view, byteOffset=index_start, componentType=_COMPONENTS[indices.dtype]
                 ),
                 values=gltf.AccessorSparseValues(bufferView=value_view, byteOffset=value_start),
-            )
+            ),
+        )
         return self._add(accessor)
 
     def _add(self, accessor: gltf.Accessor) -> int:
@@ -208,10 +209,10 @@ def _document(scenes: Iterable[Scene]) -> _Document:
     samplers: Samplers | None = None
     for scene in checked_scenes(scenes):
         out.asset.generator = scene.creator
-        first = _add_figure(document, scene, roots, materials)
+        first, mesh_nodes = _add_figure(document, scene, roots, materials)
         if scene.clip is not None:
             samplers = Samplers(document, scene.clip) if samplers is None else samplers
-            samplers.add_clip(scene, scene.clip, first)
+            samplers.add_clip(scene, scene.clip, first, mesh_nodes)
     out.materials = [_material(material) for material in materials]
     out.scenes.append(gltf.Scene(nodes=roots))
     out.scene = 0
@@ -219,8 +220,11 @@ def _document(scenes: Iterable[Scene]) -> _Document:
     return document
 
 
-def _add_figure(document: _Document, scene: Scene, roots: list[int], materials: dict[Material, int]) -> int:
-    """Add the nodes of a scene: one at its place, bones, meshes, in this order; the number of the first bone."""
+def _add_figure(
+    document: _Document, scene: Scene, roots: list[int], materials: dict[Material, int]
+) -> tuple[int, list[int]]:
+    """Add the nodes of a scene: one at its place, bones, meshes, in this order; the numbers of the first bone and of
+    the node that each mesh is on."""
     out = document.gltf
     roots.append(len(out.nodes))
     if scene.place is not None:
@@ -232,15 +236,20 @@ def _add_figure(document: _Document, scene: Scene, roots: list[int], materials: 
         if bone.parent >= 0:
             parent = out.nodes[first + bone.parent]
             parent.children = [*(parent.children or []), len(out.nodes) - 1]
+    placed = None if scene.place is None else next((one for one in scene.meshes if weights_move(scene.clip, one)), None)
+    mesh_nodes: list[int] = []
     for mesh in scene.meshes:
         out.meshes.append(_mesh(document, mesh, len(scene.bones), materials))
-        # What stands above a skinned mesh does not move it: only the joints do.
-        roots.append(len(out.nodes))
-        out.nodes.append(gltf.Node(name=mesh.name, mesh=len(out.meshes) - 1, skin=len(out.skins)))
+        mesh_nodes.append(first - 1 if mesh is placed else len(out.nodes))
+        if mesh is not placed:
+            roots.append(len(out.nodes))
+            out.nodes.append(gltf.Node(name=mesh.name))
+        node = out.nodes[mesh_nodes[-1]]
+        node.mesh, node.skin = len(out.meshes) - 1, len(out.skins)
     if scene.meshes:
         # Programs call the armature as the skin.
         out.skins.append(_skin(document, scene.meshes[0].world_from_bone_bind, scene.title, first))
-    return first
+    return first, mesh_nodes
 
 
 def _node(name: str, place: Place) -> gltf.Node:

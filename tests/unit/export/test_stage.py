@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import json
 import math
+from dataclasses import replace
+from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
@@ -15,10 +17,12 @@ from scipy.spatial.transform import Rotation
 from app.cli import main
 from app.export.file_names import figure_stems, stage_names
 from app.export.playback import Playback
+from app.export.stage import with_own_names
 from app.formats.fbx.read import read_scene, read_scenes
-from app.formats.scene import Scene
+from app.formats.scene import Material, Scene
 from app.performance.ensemble import Performance
 from tests.unit.export.unreal.conftest import quartet, renamed
+from tests.unit.formats.scenes import character
 
 QUARTET = Path(__file__).parents[3] / "resources" / "examples" / "quartet.mid"
 PLAYERS = ("Trumpet 1", "Trombone 2")
@@ -57,6 +61,20 @@ def test_the_report_names_the_files_and_what_they_hold(folder: Path, report: dic
     places = {player["name"]: player["stage"] for player in report["players"]}
     assert [figure["place"] for figure in figures] == [places[figure["performer"]] for figure in figures]
     assert len({figure["place"]["x_m"] for figure in figures}) == 2
+
+
+def test_a_materials_name_is_one_surface_only_and_the_same_in_every_file() -> None:
+    """Man and woman both have a skin; programs find materials by name or make up another."""
+    figure = character(Fraction(24), frames=2)
+    light, dark = Material("skin", (0.8, 0.6, 0.5, 1.0)), Material("skin", (0.3, 0.2, 0.1, 1.0))
+    known: dict[str, Material] = {}
+    found = []
+    for skin in (light, dark, light, dark):
+        mesh = replace(figure.meshes[1], materials=(skin, Material("shoes", (0.0, 0.0, 0.0, 1.0))))
+        given = with_own_names(replace(figure, meshes=(mesh,)), known)
+        found.append([material.name for material in given.meshes[0].materials])
+    assert found == [["skin", "shoes"], ["skin_2", "shoes"]] * 2
+    assert known["skin_2"] == replace(dark, name="skin_2")
 
 
 def test_everyone_moves_as_in_the_own_files_at_the_place(folder: Path, report: dict[str, Any]) -> None:

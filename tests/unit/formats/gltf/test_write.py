@@ -20,7 +20,7 @@ from app.formats.gltf.model import GltfModel, GltfPrimitive
 from app.formats.gltf.primitives import primitives
 from app.formats.gltf.read import decode_gltf
 from app.formats.gltf.write import write_glb
-from app.formats.scene import MorphTarget, Scene, SkinnedMesh
+from app.formats.scene import MorphTarget, Place, Scene, SkinnedMesh
 from app.formats.skin import influences
 from tests.support.encoded import encode_glb
 from tests.unit.formats import scenes
@@ -227,6 +227,28 @@ def test_normals_of_morphs_are_there_for_all_or_none() -> None:
     found = model.meshes[0].primitives[0].morphs[0]
     assert found.normal_deltas is not None
     np.testing.assert_allclose(found.normal_deltas, found.position_deltas * 10, atol=1e-6)
+
+
+def test_a_mesh_whose_morphs_move_is_on_the_node_at_the_place() -> None:
+    """Blender leaves an empty where another node with keys had a mesh; the joints alone move it, so it stays there."""
+    scene = scenes.character(Fraction(24), frames=2)
+    placed = replace(scene, name="Ana", place=Place(np.array([10.0, 0.0, 5.0]), np.array([0.0, 0.0, 0.0, 1.0])))
+    top = _document(encode_glb(placed))["nodes"][0]
+    assert (top["name"], top["mesh"], top["skin"], top["children"]) == ("Ana", 0, 0, [1])
+    still = _document(encode_glb(replace(placed, clip=None)))["nodes"][0]
+    assert "mesh" not in still
+
+
+def test_a_morph_that_leaves_a_part_alone_has_bytes_for_it() -> None:
+    """Legal without them, but assimp does not open such a file."""
+    scene = scenes.character(Fraction(24), frames=2)
+    body = scene.meshes[0]
+    front = np.setdiff1d(body.faces[body.face_materials == 0], body.faces[body.face_materials == 1])
+    morph = MorphTarget("jawOpen", front, np.ones((len(front), 3)))
+    data = encode_glb(replace(scene, clip=None, meshes=(replace(body, morphs=(morph,)),)))
+    assert all("bufferView" in one or "sparse" in one for one in _document(data)["accessors"])
+    found = decode_gltf(data, "scene.glb").meshes[0].primitives
+    assert not found[1].morphs[0].position_deltas.any()
 
 
 def test_bare_skeletons_single_frames_and_no_clip() -> None:
