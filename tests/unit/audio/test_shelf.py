@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import tempfile
 from typing import Any
 
 import numpy as np
@@ -30,8 +29,6 @@ def test_no_memory_of_the_process_holds_it() -> None:
     kept = shelved(b"\x05")
     assert not kept.flags.owndata
     assert not kept.flags.writeable
-
-
 
 
 def test_where_no_file_can_be_made_memory_keeps_it(monkeypatch: pytest.MonkeyPatch) -> None:
