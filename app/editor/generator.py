@@ -73,11 +73,15 @@ class Generator(QObject):
     -------
     motion_changed()
         Poses are there that were not, or are other ones.
+    front_changed()
+        The player in front does what an edit changed. It is drawn before the panels follow the new plans, which takes
+        them longer than making it.
     ready_changed(float)
         Share 0..1 of the motion that is made.
     """
 
     motion_changed = Signal()
+    front_changed = Signal()
     ready_changed = Signal(float)
 
     def __init__(self, session: Session, tasks: Tasks) -> None:
@@ -188,6 +192,7 @@ class Generator(QObject):
             self.live.show(performance)
             for player_id in self._session.players[:1]:
                 self.live.make_now(player_id, self._session.playhead_s)
+            self.front_changed.emit()
 
     def _hold_reported(self, performance: Performance) -> None:
         """Find out how instruments are held that no one held before; the others play on meanwhile. Where the user

@@ -11,6 +11,7 @@ from PySide6.QtCore import QObject, QTimer, Signal
 
 from app.audio.mix import player_gains, player_phrases
 from app.audio.render_process import RenderProcess
+from app.audio.shelf import Shelved
 from app.audio.synth import Phrase, Synthesiser
 from app.audio.track import RATE_HZ, Track
 from app.editor.tasks import Progress, StopRequested, Tasks
@@ -70,7 +71,7 @@ class Stems(QObject):
     def __init__(self, tasks: Tasks, parent: QObject) -> None:
         super().__init__(parent)
         self._tasks = tasks
-        self._synthesiser = Synthesiser(RenderProcess())
+        self._synthesiser = Synthesiser(Shelved(RenderProcess()))
         self._made: dict[str, _Made] = {}
         self._job: _Job | None = None
         self._requested: tuple[Project, float] | None = None

@@ -24,7 +24,8 @@ from metadata.face_model import FaceMotion
 IntArray: TypeAlias = npt.NDArray[np.int64]
 
 STEP_S: Final = 0.05
-ONE: Final = 4096
+BITS: Final = 12
+ONE: Final = 1 << BITS
 """What 1 is in whole numbers."""
 WORKING_S: Final = 0.10
 """A face works as hard as the notes so far before and after, ..."""
@@ -88,7 +89,7 @@ def exertion_of(plan: PlayerPlan, face: FaceMotion, lungs: Lungs) -> Spline:
     sounds = (note >= 0) & (at_s < ends_s[note])
     tension, air, effort = _asked(plan, at_s, note, sounds, as_planned=False)
     load = music = _load(face, tension, air, effort, sounds)
-    if any(event.corrected for event in plan.embouchures):
+    if any(event.planned is not None for event in plan.embouchures):
         tension, air, effort = _asked(plan, at_s, note, sounds, as_planned=True)
         music = _load(face, tension, air, effort, sounds)
     playing = sounds.astype(np.int64)
@@ -143,10 +144,11 @@ def _whole(values: FloatArray) -> IntArray:
 def _sum(values: IntArray, before_s: float, after_s: float) -> IntArray:
     """Of the values from so long before to so long after each."""
     before, after = (max(round(width_s / STEP_S), 0) for width_s in (before_s, after_s))
-    total = np.concatenate(([0], np.cumsum(values)))
-    place = np.arange(len(values))
-    last = len(values)
-    sums: IntArray = total[np.minimum(place + after + 1, last)] - total[np.maximum(place - before, 0)]
+    total = np.zeros(before + 1 + len(values) + after, np.int64)
+    upto = total[before + 1 : before + 1 + len(values)]
+    np.cumsum(values, out=upto)
+    total[before + 1 + len(values) :] = upto[-1]
+    sums: IntArray = total[before + after + 1 :] - total[: len(values)]
     return sums
 
 
@@ -159,9 +161,14 @@ def _mean(values: IntArray, before_s: float, after_s: float) -> IntArray:
 
 def _apart(values: IntArray, playing: IntArray) -> IntArray:
     """How far what is played here is above what is played around it; nothing in a rest."""
-    here = _sum(values, CONTOUR_S, CONTOUR_S) // np.maximum(_sum(playing, CONTOUR_S, CONTOUR_S), 1)
-    around = _sum(values, AROUND_S, AROUND_S) // np.maximum(_sum(playing, AROUND_S, AROUND_S), 1)
-    return _mean(np.clip(round(CONTOUR) * (here - around), -ONE, ONE) * playing, CONTOUR_S, CONTOUR_S)
+    sounds = np.flatnonzero(playing)
+    here, around = (
+        _sum(values, width_s, width_s)[sounds] // _sum(playing, width_s, width_s)[sounds]
+        for width_s in (CONTOUR_S, AROUND_S)
+    )
+    apart = np.zeros(len(values), np.int64)
+    apart[sounds] = np.clip(round(CONTOUR) * (here - around), -ONE, ONE)
+    return _mean(apart, CONTOUR_S, CONTOUR_S)
 
 
 def _strain(load: IntArray, rise_s: float, decay_s: float) -> IntArray:
@@ -169,11 +176,15 @@ def _strain(load: IntArray, rise_s: float, decay_s: float) -> IntArray:
     heavy = np.maximum(load - round(LIGHT * ONE), 0)
     grown = _mean(heavy, rise_s / 2.0, 0.0) * ONE // round((1.0 - LIGHT) * ONE)
     steps = round(decay_s / STEP_S)
-    strain = grown.copy()
+    # A product of two of these has 24 bits, and small numbers are multiplied several times as fast.
+    small = grown.astype(np.int32)
+    strain, passed = small.copy(), np.empty_like(small)
     for step in range(1, steps):
-        left = round(ONE * (1.0 - step / steps) ** 2)
-        np.maximum(strain[step:], grown[:-step] * left // ONE, out=strain[step:])
-    return _mean(strain, 0.1, 0.1)
+        left = np.int32(round(ONE * (1.0 - step / steps) ** 2))
+        np.multiply(small[:-step], left, out=passed[step:])
+        np.right_shift(passed[step:], BITS, out=passed[step:])
+        np.maximum(strain[step:], passed[step:], out=strain[step:])
+    return _mean(strain.astype(np.int64), 0.1, 0.1)
 
 
 def _emptying(

@@ -159,6 +159,7 @@ class Window(Retranslated, QMainWindow):
 
     def _connect(self, generator: Generator) -> None:
         generator.motion_changed.connect(self.viewport.poses_changed)
+        generator.front_changed.connect(self.viewport.draw_now)
         generator.ready_changed.connect(self.status.set_ready)
         for dock in self.docks.values():
             dock.visibilityChanged.connect(self._table.refresh_soon)

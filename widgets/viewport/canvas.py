@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from math import inf
+from time import perf_counter
 from typing import Any
 
 import numpy as np
@@ -61,6 +63,8 @@ class Canvas(vispy_app.Canvas):  # type: ignore[misc]
         self._renderer: Renderer | None = None
         self._broken = False
         self._prepare: Callable[[Renderer], None] | None = None
+        self.drawing_s = inf
+        """How long the last picture took."""
         vispy_app.use_app("pyside6")
         super().__init__(
             config={"samples": SAMPLES, "depth_size": 24, "double_buffer": True},
@@ -78,7 +82,13 @@ class Canvas(vispy_app.Canvas):  # type: ignore[misc]
     def on_draw(self, event: Any) -> None:
         """Called by vispy when Qt paints."""
         width, height = self.physical_size
+        began_s = perf_counter()
         self._draw(int(width), int(height))
+        self.drawing_s = perf_counter() - began_s
+
+    def draw_now(self) -> None:
+        """Draw before anything else is done."""
+        self.native.repaint()
 
     def _draw(self, width: int, height: int) -> None:
         if self._broken:

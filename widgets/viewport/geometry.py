@@ -6,7 +6,7 @@ Everything here is plain numpy, made once for each character and instrument, awa
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from itertools import pairwise
 
@@ -15,8 +15,9 @@ import numpy.typing as npt
 
 from app.rig.mesh import Mesh
 from app.rig.model import Character, InstrumentModel
+from widgets.viewport.kept_shapes import kept
+from widgets.viewport.shape_model import BONES_PER_VERTEX, SHAPE, SURFACE, Face, Floats, Geometry, numbers
 
-Floats = npt.NDArray[np.float32]
 Ints = npt.NDArray[np.int64]
 
 BODY_CELLS_M = (0.0, 0.0055, 0.02)
@@ -27,81 +28,8 @@ PLAIN_FACTOR, PLAIN_LEAST_M = 1.4, 0.08
 THIN_SHARES = (0.0, 0.1, 0.34)
 """What is thin (brows, eyes) is at most so coarse, by level, as a share of its smallest side."""
 LEVELS = len(BODY_CELLS_M)
-BONES_PER_VERTEX = 4
 _MOST_SHORT = 2**16 - 1
 """Vertices whose numbers have 16 bits."""
-
-SHAPE = np.dtype([("a_position", np.float32, 3), ("a_normal", np.float32, 3)])
-SURFACE = np.dtype(
-    [
-        ("a_bones", np.float32, BONES_PER_VERTEX),
-        ("a_weights", np.float32, BONES_PER_VERTEX),
-        ("a_color", np.float32, 4),
-        ("a_metallic", np.float32),
-    ]
-)
-
-
-@dataclass(frozen=True, eq=False)
-class Face:
-    """Morph targets over the first vertices of a geometry.
-
-    Attributes
-    ----------
-    count : int
-        Vertices that any of them moves: the first ones.
-    names : tuple of str
-    targets : tuple of ((K,) int32, (K, 6) float32)
-        By name: the vertices that it moves, and how: displacement and change of normal as in `SHAPE`. Most move few.
-    rest : (count, 6) float32
-    """
-
-    count: int
-    names: tuple[str, ...]
-    targets: tuple[tuple[npt.NDArray[np.int32], Floats], ...]
-    rest: Floats
-
-    def morphed(self, weights: npt.NDArray[np.float32]) -> npt.NDArray[np.void]:
-        """The first vertices under these weights (len(names),), as `SHAPE` records."""
-        shape = self.rest.copy()
-        for index in np.flatnonzero(np.abs(weights) > 1e-4).tolist():
-            vertices, deltas = self.targets[index]
-            shape[vertices] += weights[index] * deltas
-        return shape.view(SHAPE).reshape(-1)
-
-
-@dataclass(frozen=True, eq=False)
-class Geometry:
-    """One level of detail of a thing.
-
-    Attributes
-    ----------
-    shape : (V,) SHAPE
-        At rest, in the space the bones' matrices take from.
-    surfaces : (S,) SURFACE
-        Bones as indices into a player's matrices; base colour (linear) with the roughness beside it; metallic.
-    triangles : (T, 3) uint16 or uint32
-        Those that are seen from one side only come first.
-    one_sided : int
-        How many these are.
-    face : Face or None
-    surface_of : (V,) uint16 or None
-        Which of the surfaces each vertex has: those of what does not bend are few. None: each its own.
-    """
-
-    shape: npt.NDArray[np.void]
-    surfaces: npt.NDArray[np.void]
-    triangles: npt.NDArray[np.uint16] | npt.NDArray[np.uint32]
-    one_sided: int
-    face: Face | None = None
-    surface_of: npt.NDArray[np.uint16] | None = None
-
-    @property
-    def surface(self) -> npt.NDArray[np.void]:
-        """The surface of every vertex: (V,) SURFACE."""
-        if self.surface_of is None:
-            return self.surfaces
-        return _numbers(self.surfaces).take(self.surface_of, axis=0).view(SURFACE).reshape(-1)
 
 
 @dataclass(frozen=True, eq=False)
@@ -131,7 +59,7 @@ class Crowd:
 @lru_cache(maxsize=16)
 def character_levels(character: Character) -> tuple[Geometry, ...]:
     """All levels of detail of a character; the coarsest has no morphs."""
-    return _levels(character.meshes, BODY_CELLS_M, 0, PLAIN_FACTOR)
+    return _levels(character.meshes, BODY_CELLS_M, PLAIN_FACTOR)
 
 
 @lru_cache(maxsize=128)
@@ -141,7 +69,14 @@ def instrument_levels(model: InstrumentModel, first_bone: int) -> tuple[Geometry
     More are kept than there are instruments: in an orchestra with one more than these, all would be made again with
     every player that comes or goes, which takes seconds.
     """
-    return _levels(model.meshes, INSTRUMENT_CELLS_M, first_bone, 1.0)
+    return tuple(_moving_with(level, first_bone) for level in _levels(model.meshes, INSTRUMENT_CELLS_M, 1.0))
+
+
+def _moving_with(geometry: Geometry, first_bone: int) -> Geometry:
+    """A geometry whose bones begin with another than 0."""
+    surfaces = geometry.surfaces.copy()
+    surfaces["a_bones"] += first_bone * (surfaces["a_weights"] > 0.0)
+    return replace(geometry, surfaces=surfaces)
 
 
 def stool(bone: int, height_m: float) -> Geometry:
@@ -198,8 +133,8 @@ def crowd(parts: Sequence[tuple[int, Geometry]]) -> Crowd:
     for row, part in parts:
         here = slice(start, start + len(part.shape))
         # Plain numbers are copied ten times as fast as records of them.
-        _numbers(shape)[here] = _numbers(part.shape)
-        _numbers(surface)[here] = _numbers(part.surface)
+        numbers(shape)[here] = numbers(part.shape)
+        numbers(surface)[here] = numbers(part.surface)
         rows[here] = row
         for place, own in ((first, part.triangles[: part.one_sided]), (second, part.triangles[part.one_sided :])):
             np.add(own, np.uint32(start), dtype=np.uint32, out=triangles[place : place + len(own)])
@@ -213,11 +148,6 @@ def crowd_edges(parts: Sequence[tuple[int, Geometry]]) -> npt.NDArray[np.uint32]
     known = {id(part): edges(part) for part in {id(part): part for _, part in parts}.values()}
     starts = np.cumsum([0, *(len(part.shape) for _, part in parts)])
     return np.concatenate([known[id(part)] + np.uint32(start) for (_, part), start in zip(parts, starts, strict=False)])
-
-
-def _numbers(records: npt.NDArray[np.void]) -> Floats:
-    """Records of float32 as rows of them; the same memory."""
-    return records.view(np.float32).reshape(len(records), -1)
 
 
 def edges(geometry: Geometry) -> npt.NDArray[np.uint32]:
@@ -261,14 +191,15 @@ def _turned(
     return Geometry(shape, surface, whole, len(whole))
 
 
-def _levels(
-    meshes: Sequence[Mesh], cells_m: Sequence[float], first_bone: int, plain_factor: float
-) -> tuple[Geometry, ...]:
-    whole = _Whole([_split(mesh) for mesh in meshes], first_bone, plain_factor)
-    return tuple(
-        whole.level(cell_m, share, morphs=index < len(cells_m) - 1)
-        for index, (cell_m, share) in enumerate(zip(cells_m, THIN_SHARES, strict=True))
-    )
+def _levels(meshes: Sequence[Mesh], cells_m: Sequence[float], plain_factor: float) -> tuple[Geometry, ...]:
+    def make() -> tuple[Geometry, ...]:
+        whole = _Whole([_split(mesh) for mesh in meshes], plain_factor)
+        return tuple(
+            whole.level(cell_m, share, morphs=index < len(cells_m) - 1)
+            for index, (cell_m, share) in enumerate(zip(cells_m, THIN_SHARES, strict=True))
+        )
+
+    return kept(meshes, (tuple(cells_m), plain_factor), make)
 
 
 @dataclass(frozen=True, eq=False)
@@ -292,7 +223,7 @@ def _split(mesh: Mesh) -> _Split:
 class _Whole:
     """All meshes of a thing end to end."""
 
-    def __init__(self, splits: Sequence[_Split], first_bone: int, plain_factor: float) -> None:
+    def __init__(self, splits: Sequence[_Split], plain_factor: float) -> None:
         counts = [len(split.vertices) for split in splits]
         self._starts = np.cumsum([0, *counts])
         self._splits = splits
@@ -313,7 +244,7 @@ class _Whole:
             self._shape["a_position"][own] = mesh.positions_m[split.vertices]
             self._shape["a_normal"][own] = mesh.normals[split.vertices]
             bones, weights = _strongest(mesh.joints[split.vertices], mesh.weights[split.vertices])
-            self._surface["a_bones"][own, : bones.shape[1]] = bones + first_bone
+            self._surface["a_bones"][own, : bones.shape[1]] = bones
             self._surface["a_weights"][own, : bones.shape[1]] = weights
             colors = np.array(
                 [(*material.base_color[:3], material.roughness) for material in mesh.materials], np.float32
@@ -352,8 +283,8 @@ class _Whole:
         """`Geometry.surfaces` of some vertices, and `Geometry.surface_of`."""
         if self._bends:
             return self._surface[order], None
-        numbers = _numbers(self._surface)[order]
-        keys = row_keys(*np.ascontiguousarray(numbers.T[np.ptp(numbers, axis=0) > 0.0]).view(np.int32), size=len(order))
+        rows = numbers(self._surface)[order]
+        keys = row_keys(*np.ascontiguousarray(rows.T[np.ptp(rows, axis=0) > 0.0]).view(np.int32), size=len(order))
         _, first, surface_of = np.unique(keys, return_index=True, return_inverse=True)
         if len(first) > np.iinfo(np.uint16).max:
             return self._surface[order], None

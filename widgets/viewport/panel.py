@@ -43,6 +43,8 @@ Floats = npt.NDArray[np.float64]
 Draw = Callable[[float], npt.NDArray[np.uint8]]
 """Draws a film's picture of a time in seconds (height, width, 4)."""
 
+QUICK_S = 0.02
+"""A picture that takes less may be drawn twice."""
 FRAME_MS = 16
 WAIT_MS = 90
 """Between two looks whether a pose that is not there yet has been made."""
@@ -183,6 +185,13 @@ class ViewportPanel(Retranslated, QWidget):
             self.refresh()
         else:
             self._wait()
+
+    def draw_now(self) -> None:
+        """Draw the poses at the playhead before anything else is done, unless a picture takes long: it is drawn again
+        once the panels have followed."""
+        if self._canvas is not None and self._canvas.drawing_s < QUICK_S:
+            self.scene.pose(self._session.playhead_s)
+            self._canvas.draw_now()
 
     def refresh(self) -> None:
         """Show the poses at the playhead."""

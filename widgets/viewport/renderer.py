@@ -23,7 +23,6 @@ from widgets.viewport.cast import Member, Stage
 from widgets.viewport.geometry import (
     LEVELS,
     Crowd,
-    Geometry,
     character_levels,
     crowd,
     crowd_edges,
@@ -34,6 +33,7 @@ from widgets.viewport.geometry import (
 )
 from widgets.viewport.limbs import HELD, LIMBS, SHADING, Limbs
 from widgets.viewport.look import Color, Look
+from widgets.viewport.shape_model import Geometry
 
 Floats = npt.NDArray[np.float64]
 

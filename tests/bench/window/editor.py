@@ -215,7 +215,7 @@ class LargeEditor:
     def is_right(self, player_id: str) -> bool:
         """Whether the viewport has a player's newest pose at the playhead."""
         live, at_s = self.program.generator.live, self.session.playhead_s
-        if live.performance is not self.session.performance or not self.is_planned():
+        if live.performance.project is not self.session.project:
             return False
         if not any(start_s <= at_s < end_s for start_s, end_s in ready_spans(live, player_id)):
             return False

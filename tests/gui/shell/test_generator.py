@@ -117,8 +117,12 @@ def test_the_picture_of_the_player_in_front_is_right_before_a_small_edit_returns
     session.set_playhead(at_s)
     before = generator.live.pose(player.id, at_s)
     seen = list[Pose | None]()
-    session.performance_changed.connect(lambda: seen.append(generator.live.pose(player.id, at_s)))
+    order = list[str]()
+    generator.front_changed.connect(lambda: seen.append(generator.live.pose(player.id, at_s)))
+    generator.front_changed.connect(lambda: order.append("picture"))
+    session.performance_changed.connect(lambda: order.append("panels"))
     _correct(session, 0.9)
+    assert order == ["picture", "panels"]
     fresh = LiveMotion(Performance(session.project)).pose_now(player.id, at_s)
     assert before is not None
     assert fresh is not None

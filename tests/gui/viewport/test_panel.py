@@ -32,6 +32,7 @@ from tests.gui.conftest import quartet_project
 from tests.gui.viewport.conftest import AT_S, SIZE, MadeNow
 from tests.support.dances import model
 from tests.support.windows import show
+from widgets.viewport.canvas import Canvas
 from widgets.viewport.panel import ViewportPanel
 
 ROOT = Path(__file__).parents[3]
@@ -653,6 +654,25 @@ def test_a_driver_that_fails_while_drawing_leaves_the_reason(
     with pytest.raises(AppError, match="lost the device"):
         viewport.render_image(32, 32, AT_S)
     viewport.refresh()
+
+
+def test_what_an_edit_made_is_drawn_at_once_unless_a_picture_takes_long(
+    viewport: ViewportPanel, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    drawn, draw = list[float](), Canvas._draw
+
+    def watched(own: Canvas, width: int, height: int) -> None:
+        drawn.append(own.drawing_s)
+        draw(own, width, height)
+
+    monkeypatch.setattr(Canvas, "_draw", watched)
+    assert viewport._canvas is not None
+    for last_s, count in ((0.001, 1), (10.0, 0)):
+        drawn.clear()
+        viewport._canvas.drawing_s = last_s
+        viewport.draw_now()
+        assert len(drawn) == count
+        assert viewport._canvas.drawing_s > 0.0
 
 
 def test_a_picture_needs_no_visible_window(qtbot: QtBot, session: Session, poses: MadeNow, shot: Shot) -> None:

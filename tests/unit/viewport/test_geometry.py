@@ -11,7 +11,6 @@ from app.rig.character_library import bundled_characters, character_named
 from instrument_maps.load import bundled_maps
 from tests.support.models import bundled_instrument
 from widgets.viewport.geometry import (
-    Geometry,
     character_levels,
     crowd,
     crowd_edges,
@@ -21,6 +20,7 @@ from widgets.viewport.geometry import (
     row_keys,
     stool,
 )
+from widgets.viewport.shape_model import Geometry
 
 CHARACTERS = tuple(bundled_characters())
 

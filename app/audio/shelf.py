@@ -1,0 +1,72 @@
+"""Sound that was made and may be heard again, kept in files without a name: the system reads from them what is heard,
+and memory that only keeps it is free for others."""
+
+from __future__ import annotations
+
+import mmap
+import tempfile
+import weakref
+from collections.abc import Callable
+from dataclasses import dataclass
+from threading import Lock
+from typing import IO, Final
+
+import numpy as np
+
+from app.audio.track import Samples
+
+_FILE_BYTES: Final = 16 * 1024 * 1024
+"""A file goes once nothing in it is needed any more, so that many small ones take less room on the disk."""
+
+
+@dataclass(eq=False)
+class _File:
+    """A file without a name, as memory: it is there as long as any of its sound is."""
+
+    file: IO[bytes]
+    memory: mmap.mmap
+    used: int = 0
+
+    @classmethod
+    def of(cls, size: int) -> _File:
+        file = tempfile.TemporaryFile()  # noqa: SIM115 - it stays open while there is room in it
+        file.truncate(size)
+        made = cls(file, mmap.mmap(file.fileno(), size, access=mmap.ACCESS_READ))
+        weakref.finalize(made, file.close)
+        return made
+
+    def added(self, samples: Samples) -> Samples:
+        # Written as a file: into memory that the disk has no room for, a write would end the program.
+        self.file.seek(self.used)
+        self.file.write(samples.tobytes())
+        self.file.flush()
+        found = np.frombuffer(self.memory, samples.dtype, samples.size, self.used).reshape(samples.shape)
+        self.used += samples.nbytes
+        return found
+
+
+class Shelved:
+    """What renders sound, with all that it has rendered put into files; where there is no room, memory keeps it.
+
+    Parameters
+    ----------
+    render : callable
+        May be called from any thread, as this may be.
+    """
+
+    def __init__(self, render: Callable[[bytes], Samples]) -> None:
+        self._render = render
+        self._lock = Lock()
+        self._file: _File | None = None
+
+    def __call__(self, midi: bytes) -> Samples:
+        """A MIDI file as sound."""
+        samples = self._render(midi)
+        with self._lock:
+            try:
+                if self._file is None or self._file.used + samples.nbytes > len(self._file.memory):
+                    self._file = _File.of(max(_FILE_BYTES, samples.nbytes))
+                return self._file.added(samples)
+            except OSError:
+                self._file = None
+                return samples

@@ -1,0 +1,187 @@
+"""Shapes for the graphics card in the user's cache: making those of fifty players takes seconds, and keeping them in
+memory as much as their motion. The file is mapped: the system reads from it what is sent to the card.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import hashlib
+import mmap
+import struct
+import zlib
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any, BinaryIO, Final
+
+import msgspec
+import numpy as np
+import numpy.typing as npt
+
+from app.errors import FileError
+from app.formats.atomic import atomic_write
+from app.formats.cache import cache_folder
+from app.rig.mesh import Mesh
+from app.version import program_version
+from widgets.viewport.shape_model import SHAPE, SURFACE, Face, Geometry
+
+MOST_FILES: Final = 128
+"""Of characters and instruments, and of what they were before; the oldest go."""
+_CODE: Final = ("geometry.py", "kept_shapes.py", "shape_model.py")
+_ALIGNED: Final = 64
+_BEGINNING: Final = struct.Struct("<II")
+"""Length of the head, and the CRC-32 of all that follows."""
+_KINDS: Final = {
+    "shape": SHAPE,
+    "surface": SURFACE,
+    **{name: np.dtype(name) for name in ("uint16", "uint32", "int32", "float32")},
+}
+_NAMES: Final = {kind: name for name, kind in _KINDS.items()}
+
+
+class _Array(msgspec.Struct, frozen=True, array_like=True):
+    """Where an array is in the file, counted from the end of its head."""
+
+    start: int
+    kind: str
+    size: tuple[int, ...]
+
+
+class _Face(msgspec.Struct, frozen=True):
+    count: int
+    names: tuple[str, ...]
+    targets: tuple[tuple[_Array, _Array], ...]
+    rest: _Array
+
+
+class _Level(msgspec.Struct, frozen=True):
+    shape: _Array
+    surfaces: _Array
+    triangles: _Array
+    one_sided: int
+    face: _Face | None
+    surface_of: _Array | None
+
+
+class _Head(msgspec.Struct, frozen=True):
+    levels: tuple[_Level, ...]
+
+
+# Worked out here, under the import's lock: two threads that use a type for the first time at once crash msgspec.
+_DECODER: Final = msgspec.msgpack.Decoder(_Head)
+
+
+def kept(
+    meshes: Sequence[Mesh], made_with: tuple[object, ...], make: Callable[[], tuple[Geometry, ...]]
+) -> tuple[Geometry, ...]:
+    """What ``make`` makes of meshes: from the user's cache where it is there.
+
+    Parameters
+    ----------
+    made_with : tuple
+        All else that it depends on, besides the code beside this.
+    """
+    path = cache_folder("shapes") / f"{_digest(meshes, made_with)}.shapes"
+    found = _read(path)
+    if found is not None:
+        return found
+    made = make()
+    # A cache that cannot be written costs the next start some tenths of a second and nothing else.
+    with contextlib.suppress(OSError, FileError):
+        path.parent.mkdir(parents=True, exist_ok=True)
+        with atomic_write(path) as file:
+            _write(file, made)
+        files = sorted(path.parent.glob("*.shapes"), key=lambda one: one.stat().st_mtime)
+        for older in files[:-MOST_FILES]:
+            older.unlink(missing_ok=True)
+    return _read(path) or made
+
+
+def _digest(meshes: Sequence[Mesh], made_with: tuple[object, ...]) -> str:
+    digest = hashlib.blake2b(repr((program_version(), made_with)).encode(), digest_size=16)
+    for name in _CODE:
+        # A program that is packed into one file has no other code than its version says.
+        with contextlib.suppress(OSError):
+            digest.update(Path(__file__).with_name(name).read_bytes())
+    for mesh in meshes:
+        digest.update(repr(mesh.materials).encode())
+        arrays = [mesh.positions_m, mesh.normals, mesh.triangles, mesh.triangle_materials, mesh.joints, mesh.weights]
+        for morph in mesh.morphs:
+            digest.update(morph.name.encode())
+            arrays += [morph.vertices, morph.deltas_m]
+        for array in arrays:
+            digest.update(repr((array.shape, array.dtype.str)).encode())
+            digest.update(np.ascontiguousarray(array).data)
+    return digest.hexdigest()
+
+
+def _write(file: BinaryIO, levels: Sequence[Geometry]) -> None:
+    blocks = list[bytes]()
+    place = 0
+
+    def put(array: npt.NDArray[Any]) -> _Array:
+        nonlocal place
+        content = array.tobytes()
+        content += bytes(-len(content) % _ALIGNED)
+        blocks.append(content)
+        place += len(content)
+        return _Array(place - len(content), _NAMES[array.dtype], array.shape)
+
+    def put_face(face: Face) -> _Face:
+        targets = tuple((put(vertices), put(deltas)) for vertices, deltas in face.targets)
+        return _Face(face.count, face.names, targets, put(face.rest))
+
+    stored = tuple(
+        _Level(
+            put(level.shape),
+            put(level.surfaces),
+            put(level.triangles),
+            level.one_sided,
+            None if level.face is None else put_face(level.face),
+            None if level.surface_of is None else put(level.surface_of),
+        )
+        for level in levels
+    )
+    head = msgspec.msgpack.encode(_Head(stored))
+    blocks.insert(0, head + bytes(-(_BEGINNING.size + len(head)) % _ALIGNED))
+    check = 0
+    for block in blocks:
+        check = zlib.crc32(block, check)
+    file.write(_BEGINNING.pack(len(head), check))
+    file.writelines(blocks)
+
+
+def _read(path: Path) -> tuple[Geometry, ...] | None:
+    """The levels of a file; None where it is not there, or damaged."""
+    try:
+        with path.open("rb") as file:
+            length, expected = _BEGINNING.unpack(file.read(_BEGINNING.size))
+            check = 0
+            while block := file.read(2**20):
+                check = zlib.crc32(block, check)
+            if check != expected:
+                return None
+            file.seek(_BEGINNING.size)
+            head = _DECODER.decode(file.read(length))
+            first = file.tell() + -file.tell() % _ALIGNED
+            memory = mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ)
+    except (OSError, ValueError, struct.error, msgspec.MsgspecError):
+        return None
+
+    def got(array: _Array) -> npt.NDArray[Any]:
+        return np.ndarray(array.size, _KINDS[array.kind], memory, first + array.start)
+
+    def face_of(face: _Face) -> Face:
+        targets = tuple((got(vertices), got(deltas)) for vertices, deltas in face.targets)
+        return Face(face.count, face.names, targets, got(face.rest))
+
+    return tuple(
+        Geometry(
+            got(level.shape),
+            got(level.surfaces),
+            got(level.triangles),
+            level.one_sided,
+            None if level.face is None else face_of(level.face),
+            None if level.surface_of is None else got(level.surface_of),
+        )
+        for level in head.levels
+    )

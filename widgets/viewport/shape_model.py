@@ -1,0 +1,89 @@
+"""What one thing is drawn from: vertices, surfaces and triangles for the graphics card, and the face's morphs."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+Floats = npt.NDArray[np.float32]
+
+BONES_PER_VERTEX = 4
+
+SHAPE = np.dtype([("a_position", np.float32, 3), ("a_normal", np.float32, 3)])
+SURFACE = np.dtype(
+    [
+        ("a_bones", np.float32, BONES_PER_VERTEX),
+        ("a_weights", np.float32, BONES_PER_VERTEX),
+        ("a_color", np.float32, 4),
+        ("a_metallic", np.float32),
+    ]
+)
+
+
+@dataclass(frozen=True, eq=False)
+class Face:
+    """Morph targets over the first vertices of a geometry.
+
+    Attributes
+    ----------
+    count : int
+        Vertices that any of them moves: the first ones.
+    names : tuple of str
+    targets : tuple of ((K,) int32, (K, 6) float32)
+        By name: the vertices that it moves, and how: displacement and change of normal as in `SHAPE`. Most move few.
+    rest : (count, 6) float32
+    """
+
+    count: int
+    names: tuple[str, ...]
+    targets: tuple[tuple[npt.NDArray[np.int32], Floats], ...]
+    rest: Floats
+
+    def morphed(self, weights: npt.NDArray[np.float32]) -> npt.NDArray[np.void]:
+        """The first vertices under these weights (len(names),), as `SHAPE` records."""
+        shape = self.rest.copy()
+        for index in np.flatnonzero(np.abs(weights) > 1e-4).tolist():
+            vertices, deltas = self.targets[index]
+            shape[vertices] += weights[index] * deltas
+        return shape.view(SHAPE).reshape(-1)
+
+
+@dataclass(frozen=True, eq=False)
+class Geometry:
+    """One level of detail of a thing.
+
+    Attributes
+    ----------
+    shape : (V,) SHAPE
+        At rest, in the space the bones' matrices take from.
+    surfaces : (S,) SURFACE
+        Bones as indices into a player's matrices; base colour (linear) with the roughness beside it; metallic.
+    triangles : (T, 3) uint16 or uint32
+        Those that are seen from one side only come first.
+    one_sided : int
+        How many these are.
+    face : Face or None
+    surface_of : (V,) uint16 or None
+        Which of the surfaces each vertex has: those of what does not bend are few. None: each its own.
+    """
+
+    shape: npt.NDArray[np.void]
+    surfaces: npt.NDArray[np.void]
+    triangles: npt.NDArray[np.uint16] | npt.NDArray[np.uint32]
+    one_sided: int
+    face: Face | None = None
+    surface_of: npt.NDArray[np.uint16] | None = None
+
+    @property
+    def surface(self) -> npt.NDArray[np.void]:
+        """The surface of every vertex: (V,) SURFACE."""
+        if self.surface_of is None:
+            return self.surfaces
+        return numbers(self.surfaces).take(self.surface_of, axis=0).view(SURFACE).reshape(-1)
+
+
+def numbers(records: npt.NDArray[np.void]) -> Floats:
+    """Records of float32 as rows of them; the same memory."""
+    return records.view(np.float32).reshape(len(records), -1)
