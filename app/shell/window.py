@@ -386,6 +386,8 @@ class Window(Retranslated, QMainWindow):
             dock.setWindowTitle(titles[name])
             dock.set_tip(self.tr("dock.drag_with_ctrl"))
         self.palette_field.setAccessibleName(self.tr("window.search_commands"))
+        # Qt names it after the window, which is to have room for what it says now.
+        self.workspace_switch.retranslate()
         self._fit_corner()
         self._report_title()
 

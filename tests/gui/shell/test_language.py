@@ -6,9 +6,11 @@ import re
 from collections.abc import Iterator
 
 import pytest
+from PySide6.QtCore import Qt
 from PySide6.QtGui import QAction, QFont, QFontDatabase, QRawFont
 from PySide6.QtWidgets import (
     QAbstractButton,
+    QApplication,
     QComboBox,
     QDockWidget,
     QGroupBox,
@@ -98,6 +100,20 @@ def test_a_switch_leaves_no_english(program: Program, qtbot: QtBot) -> None:
     program.editor.speak("en")
     qtbot.wait(20)
     assert program.window.menus.menu("file").title() == "&File"
+
+
+def test_all_menus_stay_in_a_small_window(program: Program) -> None:
+    program.window.resize(1280, 800)
+    bar = program.window.menuBar()
+    for language in ("ja", "en", "ja"):
+        program.editor.speak(language)
+        QApplication.processEvents()
+        corner = bar.cornerWidget(Qt.Corner.TopRightCorner)
+        assert corner is not None
+        for menu in bar.actions():
+            place = bar.actionGeometry(menu)
+            assert place.width() > 0, (language, menu.text())
+            assert place.right() < corner.x(), (language, menu.text())
 
 
 @pytest.mark.drawn
