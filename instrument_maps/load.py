@@ -5,8 +5,6 @@ Messages: ``map.unreadable``, ``table.invalid`` and what `app.formats.toml` says
 
 from __future__ import annotations
 
-import contextlib
-import hashlib
 import os
 from collections.abc import Mapping
 from functools import cache, lru_cache
@@ -15,12 +13,10 @@ from typing import Any
 
 import msgspec
 
-from app.errors import AppError, FileError, MapError, Message
-from app.formats.atomic import atomic_write
-from app.formats.cache import cache_folder
-from app.formats.files import files_in, read_file
+from app.errors import AppError, MapError, Message
+from app.formats.files import files_in
+from app.formats.kept import kept
 from app.formats.toml import parse_toml, shaped, toml_text
-from app.version import program_version
 from instrument_maps.extend import BASE, WITHOUT, extended, not_there
 from instrument_maps.fingering_label import controls_of
 from instrument_maps.model import InstrumentMap
@@ -36,9 +32,6 @@ NOT_MAPS = frozenset({"vocabulary.toml"})
 
 MOST_BASES = 16
 """How many maps may extend one another in a row."""
-
-MOST_KEPT_BYTES = 2**24
-"""Of the parsed maps in the cache, which have a tenth of it."""
 
 
 def parse_map(text: str, file: str) -> InstrumentMap:
@@ -98,34 +91,8 @@ def check_map(path: Path | str) -> tuple[Message, ...]:
 
 @cache
 def bundled_maps() -> Mapping[str, InstrumentMap]:
-    """Return the maps that come with the program, by id, in the order of their ids.
-
-    Parsing and validating them takes ten times as long as reading the result of that, which is kept in the user's
-    cache under the digest of the maps and of what reads them.
-    """
-    kept = cache_folder("maps") / f"maps-{_digest()}.msgpack"
-    try:
-        return {instrument.id: instrument for instrument in _KEPT.decode(read_file(kept, MOST_KEPT_BYTES))}
-    except (FileError, msgspec.MsgspecError, ValueError, RecursionError):
-        maps = _folder_maps(FOLDER)
-    # A cache that cannot be written costs the next start some tenths of a second and nothing else.
-    with contextlib.suppress(OSError, FileError):
-        kept.parent.mkdir(parents=True, exist_ok=True)
-        for older in kept.parent.glob("maps-*.msgpack"):
-            older.unlink(missing_ok=True)
-        with atomic_write(kept) as file:
-            file.write(msgspec.msgpack.encode(tuple(maps.values())))
-    return maps
-
-
-def _digest() -> str:
-    """Of the bundled maps, and of the code that makes of them what they are."""
-    digest = hashlib.blake2b(program_version().encode(), digest_size=16)
-    for path in sorted((*FOLDER.glob("*.toml"), *FOLDER.glob("*.py"))):
-        content = path.read_bytes()
-        digest.update(f"{path.name} {len(content)}\n".encode())
-        digest.update(content)
-    return digest.hexdigest()
+    """Return the maps that come with the program, by id, in the order of their ids."""
+    return kept("maps", "maps", FOLDER, _KEPT, lambda: _folder_maps(FOLDER))
 
 
 def model_path(instrument: InstrumentMap) -> Path:
@@ -191,4 +158,4 @@ def _extended(table: dict[str, Any], file: str, above: tuple[Path, ...]) -> dict
 
 
 # Worked out here, under the import's lock: two threads that use a type for the first time at once crash msgspec.
-_KEPT = msgspec.msgpack.Decoder(tuple[InstrumentMap, ...])
+_KEPT = msgspec.msgpack.Decoder(dict[str, InstrumentMap])

@@ -19,6 +19,7 @@ from typing import Literal
 import msgspec
 
 from app.errors import MapError
+from app.formats.kept import kept
 from app.formats.toml import read_toml, shaped
 from instrument_maps.name_words import is_katakana, is_wide, words_of
 
@@ -128,6 +129,8 @@ class Vocabulary:
         The same families, from the top of a score to its foot.
     prefixes : tuple of str
         Words that may be joined to a name and do not change its meaning ("Soloflöte", "ソロホルン").
+    words_known : mapping of str to tuple of str
+        What `words_of` says of names, where it is known already.
 
     Raises
     ------
@@ -145,12 +148,17 @@ class Vocabulary:
         clefs: Mapping[str, tuple[str, ...]] = MappingProxyType({}),
         prefixes: tuple[str, ...] = (),
         score_order: tuple[str, ...] = (),
+        words_known: Mapping[str, tuple[str, ...]] = MappingProxyType({}),
     ) -> None:
         self.seating, self.score_order = seating, score_order
         self.instruments = {instrument.id: instrument for instrument in instruments}
         self._by_program: dict[int, Instrument] = {}
         self._by_tokens: dict[tuple[str, ...], Instrument] = {}
-        words = cache(words_of)
+
+        @cache
+        def words(name: str) -> tuple[str, ...]:
+            return words_known.get(name) or words_of(name)
+
         for instrument in instruments:
             for program in instrument.programs:
                 if self._by_program.setdefault(program, instrument) is not instrument:
@@ -171,13 +179,13 @@ class Vocabulary:
             for name in (*instrument.names, *instrument.vague_names, *instrument.keyed_names)
             if sum(map(str.isalpha, name)) >= _NAME_LETTERS or is_wide(name[0])
         )
-        self._keyed = {words_of(name): each for each in instruments for name in each.keyed_names}
+        self._keyed = {words(name): each for each in instruments for name in each.keyed_names}
         self._longest = max(map(len, (*self._by_tokens, *self._keyed)), default=0)
         self._marks = {
-            words_of(word): mark for table in (sizes, keys, clefs) for mark, words in table.items() for word in words
+            words(word): mark for table in (sizes, keys, clefs) for mark, called in table.items() for word in called
         }
         self._keys, self._clefs = frozenset(keys), frozenset(clefs)
-        self._prefixes = frozenset(map(words_of, prefixes))
+        self._prefixes = frozenset(map(words, prefixes))
         self._short_kana = frozenset(
             words(name)
             for instrument in instruments
@@ -404,6 +412,13 @@ class Vocabulary:
         return found
 
 
+class _Kept(msgspec.Struct, frozen=True):
+    """The table, and the words of everything named in it."""
+
+    table: _Table
+    words: dict[str, tuple[str, ...]]
+
+
 @cache
 def vocabulary() -> Vocabulary:
     """The bundled vocabulary.
@@ -413,7 +428,8 @@ def vocabulary() -> Vocabulary:
     MapError
         If the table is not valid.
     """
-    table = shaped(read_toml(PATH, PATH.name), _Table, PATH.name)
+    found = kept("maps", "vocabulary", PATH.parent, _DECODER, _read)
+    table = found.table
     return Vocabulary(
         table.instruments,
         PATH.name,
@@ -423,8 +439,16 @@ def vocabulary() -> Vocabulary:
         table.clefs,
         table.prefixes,
         table.score_order,
+        found.words,
     )
 
 
+def _read() -> _Kept:
+    table = shaped(read_toml(PATH, PATH.name), _Table, PATH.name)
+    names = [name for one in table.instruments for name in (*one.names, *one.vague_names, *one.keyed_names)]
+    marks = [word for marks in (table.sizes, table.keys, table.clefs) for words in marks.values() for word in words]
+    return _Kept(table, {name: words_of(name) for name in (*names, *marks, *table.prefixes)})
+
+
 # Worked out here, under the import's lock: two threads that use a type for the first time at once crash msgspec.
-msgspec.json.Decoder(_Table)
+_DECODER = msgspec.msgpack.Decoder(_Kept)

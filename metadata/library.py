@@ -15,9 +15,10 @@ from app.errors import Message
 from app.formats.user_folder import Read, Shelf, UserFolder
 from metadata.acting import Habit, Style, read_habit, read_style
 from metadata.gestures import Gesture, read_gesture
-from metadata.load import ROOT, load_expressions, read_named_expression
+from metadata.load import load_expressions, read_named_expression
 from metadata.model import Expression
 from metadata.rules import Rule, RuleSet, read_rules
+from metadata.tables import bundled
 
 T = TypeVar("T")
 
@@ -26,21 +27,11 @@ def _folder(name: str, read: Callable[[Path], T], bundled: Callable[[], Mapping[
     return UserFolder(name, (), Shelf, bundled, lambda path: Read(read(path)))
 
 
-def bundled(name: str, read: Callable[[Path], T]) -> Callable[[], Mapping[str, T]]:
-    """The tables of a folder of ours by name, read once."""
-
-    @cache
-    def found() -> Mapping[str, T]:
-        return {path.stem: read(path) for path in sorted((ROOT / name).glob("*.toml"))}
-
-    return found
-
-
-STYLES: Final = _folder("styles", read_style, bundled("styles", read_style))
-HABITS: Final = _folder("habits", read_habit, bundled("habits", read_habit))
+STYLES: Final = _folder("styles", read_style, bundled("styles", read_style, Style))
+HABITS: Final = _folder("habits", read_habit, bundled("habits", read_habit, Habit))
 EXPRESSIONS: Final = _folder("expressions", read_named_expression, load_expressions)
-_OUR_GESTURES: Final = bundled("gestures", read_gesture)
-_OUR_RULES: Final = bundled("rules", read_rules)
+_OUR_GESTURES: Final = bundled("gestures", read_gesture, Gesture)
+_OUR_RULES: Final = bundled("rules", read_rules, RuleSet)
 GESTURES: Final = _folder("gestures", read_gesture, _OUR_GESTURES)
 RULES: Final = _folder("rules", read_rules, _OUR_RULES)
 FOLDERS: Final[tuple[UserFolder[Any, Any], ...]] = (STYLES, HABITS, EXPRESSIONS, GESTURES, RULES)

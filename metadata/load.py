@@ -6,12 +6,9 @@ Messages: ``metadata.missing``, ``table.invalid`` and what `app.formats.toml` sa
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
-from functools import cache
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import TypeVar, get_args
-
-import msgspec
 
 from app.errors import MapError
 from metadata.face_model import EMBOUCHURE_WEIGHTS, FACE_WEIGHTS, UPPER_FACE, FaceMotion
@@ -25,9 +22,8 @@ from metadata.model import (
     FaceNames,
     SkeletonProfile,
 )
-from metadata.tables import check_name, decoded, invalid, label
+from metadata.tables import ROOT, bundled, check_name, decoded, invalid, label
 
-ROOT = Path(__file__).parent
 _KIND_FOLDERS = {
     "expression": "expressions",
     "body": "bodies",
@@ -51,48 +47,42 @@ def names(kind: str) -> tuple[str, ...]:
 
 def load_expressions() -> dict[str, Expression]:
     """Every bundled expression, by name."""
-    return {name: load_expression(name) for name in names("expression")}
+    return dict(_EXPRESSIONS())
 
 
-@cache
 def load_expression(name: str) -> Expression:
     """The bundled expression of this name. Raises MapError."""
-    return read_expression(_path("expression", name))
+    return _named("expression", _EXPRESSIONS(), name)
 
 
-@cache
 def load_skeleton(name: str = "vrm1") -> SkeletonProfile:
     """The bundled skeleton profile of this name. Raises MapError."""
-    return read_skeleton(_path("skeleton", name))
+    return _named("skeleton", _SKELETONS(), name)
 
 
-@cache
-def load_bone_names() -> dict[str, BoneNames]:
+def load_bone_names() -> Mapping[str, BoneNames]:
     """Every bundled table of bone names, by name. Raises MapError."""
-    return {name: read_bone_names(_path("bone_names", name)) for name in names("bone_names")}
+    return _BONE_NAMES()
 
 
-@cache
-def load_face_names() -> dict[str, FaceNames]:
+def load_face_names() -> Mapping[str, FaceNames]:
     """Every bundled table of names of faces' morphs, by name. Raises MapError."""
-    return {name: read_face_names(_path("face_names", name)) for name in names("face_names")}
+    return _FACE_NAMES()
 
 
-@cache
 def load_body(name: str = "adult") -> Body:
     """The bundled body of this name. Raises MapError."""
-    return read_body(_path("body", name))
+    return _named("body", _BODIES(), name)
 
 
-@cache
 def load_controller(name: str = GENERIC_CONTROLLER) -> Controller:
     """The bundled controller of this name. Raises MapError."""
-    return read_controller(_path("controller", name))
+    return _named("controller", _CONTROLLERS(), name)
 
 
-def load_controllers() -> dict[str, Controller]:
+def load_controllers() -> Mapping[str, Controller]:
     """Every bundled controller, by name."""
-    return {name: load_controller(name) for name in names("controller")}
+    return _CONTROLLERS()
 
 
 def recognised_controller(port: str) -> Controller:
@@ -244,11 +234,11 @@ def _check_face(path: Path, face: FaceMotion) -> None:
         raise _invalid(path, "face.left_right", "the smallest difference comes first")
 
 
-def _path(kind: str, name: str) -> Path:
-    known = names(kind)
-    if name not in known:
-        raise MapError("metadata.missing", kind=kind, name=name, known=", ".join(known))
-    return ROOT / _KIND_FOLDERS[kind] / f"{name}.toml"
+def _named(kind: str, tables: Mapping[str, T], name: str) -> T:
+    try:
+        return tables[name]
+    except KeyError:
+        raise MapError("metadata.missing", kind=kind, name=name, known=", ".join(tables)) from None
 
 
 def _decode(path: Path, type_: type[T]) -> T:
@@ -283,7 +273,9 @@ def _check_axes(path: Path, key: str, axes: tuple[tuple[float, float, float], ..
                 raise _invalid(path, key, "axes must be unit vectors at right angles")
 
 
-# msgspec works a type out when it is first used, and two threads that do so at once crash it: it is done here, under
-# the import's lock.
-for _type in (Body, BoneNames, Controller, Expression, FaceNames, SkeletonProfile):
-    msgspec.json.Decoder(_type)
+_EXPRESSIONS = bundled(_KIND_FOLDERS["expression"], read_expression, Expression)
+_BODIES = bundled(_KIND_FOLDERS["body"], read_body, Body)
+_SKELETONS = bundled(_KIND_FOLDERS["skeleton"], read_skeleton, SkeletonProfile)
+_BONE_NAMES = bundled(_KIND_FOLDERS["bone_names"], read_bone_names, BoneNames)
+_FACE_NAMES = bundled(_KIND_FOLDERS["face_names"], read_face_names, FaceNames)
+_CONTROLLERS = bundled(_KIND_FOLDERS["controller"], read_controller, Controller)

@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
+from functools import cache
 from pathlib import Path
-from typing import TypeVar
+from typing import Any, TypeVar
 
 import msgspec
 
 from app.errors import MapError
+from app.formats.kept import kept
 from app.formats.toml import read_toml, shaped
 
 T = TypeVar("T")
+
+ROOT = Path(__file__).parent
 
 
 class Title(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
@@ -22,6 +27,21 @@ class Title(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     def in_language(self, language: str) -> str:
         """The name in ``"en"`` or ``"ja"``."""
         return (self.ja or self.en) if language == "ja" else self.en
+
+
+def bundled(folder: str, read: Callable[[Path], T], kind: type[T]) -> Callable[[], Mapping[str, T]]:
+    """Our tables of a kind by the names of their files, read once."""
+    # Worked out here, under the import's lock: two threads that use a type for the first time at once crash msgspec.
+    decoder: msgspec.msgpack.Decoder[Any] = msgspec.msgpack.Decoder(dict[str, kind])  # type: ignore[valid-type]
+
+    def made() -> Mapping[str, T]:
+        return {path.stem: read(path) for path in sorted((ROOT / folder).glob("*.toml"))}
+
+    @cache
+    def found() -> Mapping[str, T]:
+        return kept("metadata", folder, ROOT, decoder, made)
+
+    return found
 
 
 def label(path: Path) -> str:

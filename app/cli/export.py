@@ -25,9 +25,13 @@ from app.cli.terminal import interrupted_by, say
 from app.encoding import shown
 from app.errors import UsageError
 from app.export.formats import FILE_FORMATS, USUAL_FORMATS, Format
+from app.export.request import Request
 from app.export.rig_options import ATTACHMENTS, DEFAULT_RIG, REST_POSES, ROOT_BONES, RigOptions
+from app.export.run import export as write
+from app.export.tree import clean_up
 from app.formats.keys import KEY_CHOICES
 from app.messages import text
+from app.performance.ensemble import Performance
 from app.project.parameters import select_players
 from app.version import program_version
 from metadata.load import names
@@ -195,11 +199,6 @@ def export(arguments: argparse.Namespace) -> int:
             return export_folder(arguments)
     elif arguments.scheduler is not None:
         raise UsageError("dask.one_piece")
-    from app.export.request import Request
-    from app.export.run import export as write
-    from app.export.tree import clean_up
-    from app.performance.ensemble import Performance
-
     formats = _requested_formats(arguments)
     # What is wrong with it is reported before anything is read.
     unreal = None

@@ -26,8 +26,8 @@ from app.rig.model import Skeleton
 from app.rig.placements import local_placements
 from app.rig.skeleton import rest_positions
 from app.rig.t_pose import rest_of, turns_to_t_pose, upright
-from metadata.load import ROOT
 from metadata.model import REQUIRED_JOINTS
+from metadata.tables import ROOT
 
 FloatArray = npt.NDArray[np.float64]
 

@@ -56,12 +56,16 @@ def build_mesh(source: Source, index: int, name: str) -> tuple[Mesh, bool]:
     primitives = source.gltf.meshes[index].primitives
     blocks: list[tuple[int, GltfPrimitive]] = []
     starts: list[int] = []
+    # Those that share their positions share the joints too.
+    alone = len({id(primitive.positions) for primitive in primitives}) == 1
     known: dict[bytes, int] = {}
     digests: dict[int, bytes] = {}
     count = 0
     for primitive in primitives:
-        own = id(primitive.positions)  # Those that share them share the joints too.
-        digest = digests[own] = digests.get(own) or _digest(primitive)
+        own = id(primitive.positions)
+        if own not in digests:
+            digests[own] = b"" if alone else _digest(primitive)
+        digest = digests[own]
         if digest not in known:
             blocks.append((count, primitive))
             known[digest], count = count, count + len(primitive.positions)

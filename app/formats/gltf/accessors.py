@@ -247,5 +247,5 @@ class Accessors:
         else:
             deltas = self.real(number, 3)
             rows = np.arange(count)
-        moved = deltas.any(axis=1)
+        moved = (deltas[:, 0] != 0.0) | (deltas[:, 1] != 0.0) | (deltas[:, 2] != 0.0)
         return rows[moved], deltas[moved]

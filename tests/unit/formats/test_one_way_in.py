@@ -15,9 +15,9 @@ OUR_OWN = {
     # Bundled with the program.
     "app/audio/rendering.py": {"read_bytes"},
     "app/export/unreal/plugin.py": {"read_bytes"},
+    "app/formats/kept.py": {"read_bytes"},
     "app/evaluation/page.py": {"read_text", "read_bytes"},  # and clips that were drawn a moment ago
     "app/shell/theme.py": {"read_text"},
-    "instrument_maps/load.py": {"read_bytes"},
     "widgets/common/icons.py": {"read_text"},
     # A file that this process has made: a lock, or what it copies to its backup.
     "app/formats/locks.py": {"open"},

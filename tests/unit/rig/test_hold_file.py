@@ -122,7 +122,7 @@ def test_a_new_pair_is_fitted_once(
         return shipped[1]
 
     monkeypatch.setenv(CACHE_VARIABLE, str(tmp_path / "cache"))
-    monkeypatch.setattr(hold_file, "fit_hold", fit)
+    monkeypatch.setattr("app.rig.fit.fit_hold", fit)
     monkeypatch.setattr(hold_file, "bundled_path", lambda *pair: tmp_path / "none.json")
     given = inputs(*PAIRS[0])
     assert same(hold_for(*given), shipped[1])
@@ -135,6 +135,6 @@ def test_a_cache_that_cannot_be_written_does_not_matter(
 ) -> None:
     (tmp_path / "file").write_bytes(b"")
     monkeypatch.setenv(CACHE_VARIABLE, str(tmp_path / "file"))
-    monkeypatch.setattr(hold_file, "fit_hold", lambda *given: shipped[1])
+    monkeypatch.setattr("app.rig.fit.fit_hold", lambda *given: shipped[1])
     monkeypatch.setattr(hold_file, "bundled_path", lambda *pair: tmp_path / "none.json")
     assert same(hold_for(*inputs(*PAIRS[0])), shipped[1])
