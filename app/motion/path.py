@@ -67,14 +67,13 @@ class Path:
         lasts_s = np.diff(self.times_s)
         way = np.diff(self.values)
         out, into = self.slopes[:-1] * lasts_s, self.slopes[1:] * lasts_s
-        powers = (
-            *(self.times_s[:-1], lasts_s, self.values[:-1], out),
-            *(10.0 * way - 6.0 * out - 4.0 * into, -15.0 * way + 8.0 * out + 7.0 * into, 6.0 * way - 3.0 * out - 3.0 * into),
-        )
-        begins_s, length_s, value, slope, third, fourth, fifth = np.stack(powers).take(here, axis=1)
+        third, fourth = 10.0 * way - 6.0 * out - 4.0 * into, -15.0 * way + 8.0 * out + 7.0 * into
+        fifth = 6.0 * way - 3.0 * out - 3.0 * into
+        powers = np.stack((self.times_s[:-1], lasts_s, self.values[:-1], out, third, fourth, fifth))
+        begins_s, length_s, value, slope, third, fourth, fifth = powers.take(here, axis=1)
         u = np.clip((times_s - begins_s) / length_s, 0.0, 1.0)
-        value += u * (slope + u * u * (third + u * (fourth + u * fifth)))
-        return value
+        moved: FloatArray = value + u * (slope + u * u * (third + u * (fourth + u * fifth)))
+        return moved
 
     def changed_s(self, other: Path) -> FloatArray:
         """Spans (K, 2) outside of which both have the very same values."""

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
+import numpy.typing as npt
 
 from app.motion.body import BodyMotion
 from app.motion.curve import FloatArray
@@ -111,42 +112,59 @@ def footing(place: Stance, side: Side, moved: Mapping[str, FloatArray], frames: 
 
     A heel lifts about the toes, which stay; toes lift about the heel; a step takes all of the foot.
     """
-    parts = {name: moved[f"{side}_{name}"] for name in FOOT_PARTS if f"{side}_{name}" in moved}
+    parts = _moved_parts(side, moved)
     ankle_m, foot = (quaternion.repeated(still, frames) for still in (place.ankles_m[side], place.feet[side]))
-    if not parts:
-        return Footing(ankle_m, foot, None)
-    # Most of the time a foot stands, to the bit.
-    here = np.flatnonzero(np.logical_or.reduce([values != 0.0 for values in parts.values()]))
-    lifted = _footing(place, side, {name: values[here] for name, values in parts.items()}, len(here))
-    ankle_m[here], foot[here] = lifted.ankle_m, lifted.foot
     toes = None
-    if lifted.toes is not None:
+    if "heel" in parts and side in place.toes:
         toes = quaternion.repeated(quaternion.from_axis_angle(X_AXIS, -0.0), frames)
-        toes[here] = lifted.toes
+    here = _where_moved(parts)
+    if len(here):
+        parts = {name: values[here] for name, values in parts.items()}
+        ankle_m[here], turned = _lifted(place, side, parts)
+        if toes is not None:
+            toes[here] = quaternion.from_axis_angle(X_AXIS, -parts["heel"])
+        if "push" in parts:
+            turned = quaternion.multiply(turned, quaternion.from_axis_angle(X_AXIS, parts["push"]))
+        foot[here] = turned
     return Footing(ankle_m, foot, toes)
 
 
-def _footing(place: Stance, side: Side, parts: Mapping[str, FloatArray], frames: int) -> Footing:
-    """The foot in frames in which it is moved."""
-    ankle_m = np.broadcast_to(place.ankles_m[side], (frames, 3))
-    foot = np.broadcast_to(place.feet[side], (frames, 4))
-    heel, toes, ahead_m, up_m, push = (parts.get(name) for name in FOOT_PARTS)
-    bent = None
+def _ankle_m(place: Stance, side: Side, moved: Mapping[str, FloatArray], frames: int) -> FloatArray:
+    """The ankle (F, 3) of that footing alone."""
+    parts = _moved_parts(side, moved)
+    ankle_m, here = quaternion.repeated(place.ankles_m[side], frames), _where_moved(parts)
+    if len(here):
+        ankle_m[here], _ = _lifted(place, side, {name: values[here] for name, values in parts.items()})
+    return ankle_m
+
+
+def _moved_parts(side: Side, moved: Mapping[str, FloatArray]) -> dict[str, FloatArray]:
+    return {name: moved[f"{side}_{name}"] for name in FOOT_PARTS if f"{side}_{name}" in moved}
+
+
+def _where_moved(parts: Mapping[str, FloatArray]) -> npt.NDArray[np.intp]:
+    """The frames in which a foot is moved: most of the time it stands, to the bit."""
+    if not parts:
+        return np.zeros(0, np.intp)
+    return np.flatnonzero(np.logical_or.reduce([values != 0.0 for values in parts.values()]))
+
+
+def _lifted(place: Stance, side: Side, parts: Mapping[str, FloatArray]) -> tuple[FloatArray, FloatArray]:
+    """Ankle and foot, before it pushes off, in frames in which it is moved."""
+    ankle_m, foot = place.ankles_m[side], place.feet[side]
+    heel, toes, ahead_m, up_m, _ = (parts.get(name) for name in FOOT_PARTS)
     for angle, pivot_m in ((heel, place.balls_m[side]), (None if toes is None else -toes, place.heels_m[side])):
         if angle is not None:
             turned = quaternion.multiply(foot, quaternion.from_axis_angle(X_AXIS, angle))
             # The difference first: a foot that stands is then where it stands to the bit.
             ankle_m = ankle_m + (quaternion.rotate(foot, pivot_m) - quaternion.rotate(turned, pivot_m))
             foot = turned
-    if heel is not None and side in place.toes:
-        bent = quaternion.from_axis_angle(X_AXIS, -heel)
-    if push is not None:
-        foot = quaternion.multiply(foot, quaternion.from_axis_angle(X_AXIS, push))
     if ahead_m is not None:
-        ankle_m = ankle_m + np.multiply.outer(ahead_m, quaternion.rotate(place.feet[side], np.array([0.0, 0.0, 1.0])))
+        ahead = quaternion.rotate(place.feet[side], np.array([0.0, 0.0, 1.0]))
+        ankle_m = ankle_m + np.multiply.outer(ahead, ahead_m).T
     if up_m is not None:
-        ankle_m = ankle_m + np.multiply.outer(up_m, np.array([0.0, 1.0, 0.0]))
-    return Footing(ankle_m, foot, bent)
+        ankle_m = ankle_m + np.multiply.outer(np.array([0.0, 1.0, 0.0]), up_m).T
+    return ankle_m, foot
 
 
 def hips_path(place: Stance, skeleton: Skeleton, motion: BodyMotion) -> tuple[FloatArray, FloatArray]:
@@ -173,7 +191,7 @@ def hips_path(place: Stance, skeleton: Skeleton, motion: BodyMotion) -> tuple[Fl
         limb = place.legs[side]
         a, b = np.linalg.norm(limb.upper_vector_m), np.linalg.norm(limb.lower_vector_m)
         joint_m = quaternion.rotate(rotation, skeleton.offsets_m[limb.upper])
-        ankle_m = footing(place, side, motion.feet, len(rotation)).ankle_m
+        ankle_m = _ankle_m(place, side, motion.feet, len(rotation))
         across_m, along_m = side_m + joint_m[:, 0] - ankle_m[:, 0], ahead_m + joint_m[:, 2] - ankle_m[:, 2]
         length2 = a * a + b * b + 2.0 * a * b * np.cos(place.knee_rad + motion.knee_rad)
         length2 = np.minimum(length2, np.square(STRAIGHTEST * (a + b)))

@@ -66,7 +66,8 @@ class Wrist:
         taken = quaternion.rotate(hand, self.twist)
         across = quaternion.cross(self.twist, taken)
         sine = np.sqrt(quaternion.dot(across, across))
-        swing: FloatArray = across * (np.arctan2(sine, np.ascontiguousarray(taken) @ self.twist) / np.maximum(sine, LEAST_SINE))[:, None]
+        angle = np.arctan2(sine, np.ascontiguousarray(taken) @ self.twist)
+        swing: FloatArray = across * (angle / np.maximum(sine, LEAST_SINE))[:, None]
         return swing
 
     def beyond_rad(self, aside_rad: FloatArray) -> FloatArray:
