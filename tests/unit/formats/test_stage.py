@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pygltflib
 import pytest
 from scipy.spatial.transform import Rotation
 
@@ -115,6 +116,20 @@ def test_everyone_stands_and_moves_at_the_own_place(suffix: str, readers: tuple[
     figures = stage()
     WRITERS[suffix](tmp_path / f"stage.{suffix}", figures)
     judge(tmp_path / f"stage.{suffix}", _expected(figures), readers)
+
+
+def test_players_of_one_body_share_its_mesh(tmp_path: Path) -> None:
+    first = stage()[0]
+    write_glbs(tmp_path / "one.glb", (first,))
+    second = replace(first, name="Ana 2", place=_place(65.0, -139.4, -100.0))
+    write_glbs(tmp_path / "two.glb", (first, second))
+    models = [read_glb(tmp_path / name) for name in ("one.glb", "two.glb")]
+    shown = [[part.positions for mesh in model.meshes for part in mesh.primitives] for model in models]
+    for given, found in zip(2 * shown[0], shown[1], strict=True):
+        np.testing.assert_array_equal(found, given)
+    # The names and nodes of the second, but none of its vertices.
+    sizes = [pygltflib.GLTF2().load(str(tmp_path / name)).buffers[0].byteLength for name in ("one.glb", "two.glb")]
+    assert sizes[0] == sizes[1]
 
 
 @pytest.mark.readers
