@@ -18,6 +18,7 @@ import os
 import struct
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
+from hashlib import blake2b
 from typing import Any
 
 import numpy as np
@@ -101,11 +102,12 @@ def _size(piece: bytes | memoryview) -> int:
 
 @dataclass
 class _Buffer:
-    """The binary chunk while it is put together: a view for every kind of data."""
+    """The binary chunk while it is put together: a view for every kind of data, and equal data once."""
 
     views: list[gltf.BufferView] = field(default_factory=list)
     _index: dict[str, int] = field(default_factory=dict)
     _parts: list[list[npt.NDArray[Any]]] = field(default_factory=list)
+    _starts: dict[tuple[str, bytes], int] = field(default_factory=dict)
 
     def add(self, kind: str, values: npt.NDArray[Any], target: int | None, stride: int | None) -> tuple[int, int]:
         """Index of the view of a kind and a stride, and where in it the values are."""
@@ -115,8 +117,11 @@ class _Buffer:
             self.views.append(gltf.BufferView(buffer=0, byteLength=0, byteStride=stride, target=target))
             self._parts.append([])
         view = self._index[kind]
-        start: int = self.views[view].byteLength
         data = np.ascontiguousarray(values).reshape(-1).view(np.uint8)
+        there: int = self.views[view].byteLength
+        start = self._starts.setdefault((kind, blake2b(data.data).digest()), there)
+        if start != there:
+            return view, start
         padding = -len(data) % 4
         self._parts[view] += [data, np.zeros(padding, np.uint8)] if padding else [data]
         self.views[view].byteLength += len(data) + padding
