@@ -20,6 +20,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Sequence
+from functools import lru_cache
 
 import numpy as np
 import numpy.typing as npt
@@ -150,7 +151,7 @@ def weight_shifts(
         amount = 2.0 * seeds.chance_at("shift to", tick) - 1.0
         amount = float(np.copysign(0.25 + 0.75 * abs(amount), amount))
         amount = grown(amount, vigour)
-        reason = Message("gesture.weight_shift", {"side": "left" if amount > 0.0 else "right"})
+        reason = _shifted("left" if amount > 0.0 else "right")
         events.append(
             GestureEvent(
                 f"weight_shift:@{tick}", "weight_shift", tick, end_tick, start_s, end_s, round(amount, 4), reason
@@ -223,12 +224,28 @@ def bell_heights(notes: tuple[Note, ...], times: LineTimes, piece: Piece, dynami
             start_s,
             end_s,
             round(amount, 4),
-            Message("gesture.bell_accent", {"more": round(accented[place], 2)})
-            if accented[place]
-            else Message("gesture.bell_height", {"pitch": round(pitches[place], 1), "mean_pitch": mean}),
+            _accented(round(accented[place], 2)) if accented[place] else _at_height(round(pitches[place], 1), mean),
         )
         for place, note, start_tick, end_tick, start_s, end_s, amount in rows
     ]
+
+
+# Equal reasons are kept once: there are tens of thousands.
+
+
+@lru_cache(maxsize=2)
+def _shifted(side: str) -> Message:
+    return Message("gesture.weight_shift", {"side": side})
+
+
+@lru_cache(maxsize=256)
+def _accented(more: float) -> Message:
+    return Message("gesture.bell_accent", {"more": more})
+
+
+@lru_cache(maxsize=8192)
+def _at_height(pitch: float, mean_pitch: float) -> Message:
+    return Message("gesture.bell_height", {"pitch": pitch, "mean_pitch": mean_pitch})
 
 
 def _bell_starts(heights: list[float], vigour: list[float], breaks: list[bool], accented: list[float]) -> list[int]:

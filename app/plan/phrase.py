@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from bisect import bisect_left
 from collections.abc import Sequence
+from functools import lru_cache
 from itertools import pairwise
 from typing import NamedTuple
 
@@ -24,6 +25,7 @@ from app.score.tempo import TempoMap
 
 BoolArray = npt.NDArray[np.bool_]
 
+LEAN_BACK, ACCENT, LOUD = Message("gesture.lean_back"), Message("gesture.accent"), Message("gesture.accent_loud")
 REST_S = 0.9
 """A silence so long divides phrases, breath or none."""
 LONGEST_S = 12.0
@@ -123,11 +125,16 @@ def leans(
             top_s = low + 0.5 * (high - low)
             top_tick = round(clock.ticks(top_s))
         tick, end, amount = int(ticks[place]), int(ends[place]), float(amounts[place])
-        reason = Message("gesture.lean", {"length_s": round(end_s - start_s, 1)})
-        events.append(_event("lean", tick, top_tick, start_s, top_s, amount, reason))
+        events.append(_event("lean", tick, top_tick, start_s, top_s, amount, _leant(round(end_s - start_s, 1))))
         home = -0.15 * amount * float(rests[place])
-        events.append(_event("lean", top_tick, end, top_s, end_s, home, Message("gesture.lean_back")))
+        events.append(_event("lean", top_tick, end, top_s, end_s, home, LEAN_BACK))
     return events
+
+
+@lru_cache(maxsize=256)
+def _leant(length_s: float) -> Message:
+    """Equal ones are kept once."""
+    return Message("gesture.lean", {"length_s": length_s})
 
 
 def accents(
@@ -188,7 +195,7 @@ def accents(
         start_s = float(at_s[place]) - ACCENT_AT * length_s
         end_s, amount = start_s + length_s, round(float(amounts[place]), 4)
         start, end = round(clock.ticks(start_s)), round(clock.ticks(end_s))
-        reason = Message("gesture.accent_loud" if loud[candidates[place]] else "gesture.accent")
+        reason = LOUD if loud[candidates[place]] else ACCENT
         events.append(GestureEvent(f"accent:@{ticks[place]}", "accent", start, end, start_s, end_s, amount, reason))
     return events
 

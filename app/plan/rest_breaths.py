@@ -6,6 +6,7 @@ Their messages are those of `app.plan.breath`.
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import lru_cache
 from typing import Literal, NamedTuple
 
 import numpy as np
@@ -163,14 +164,14 @@ def _blown_reason(id: str, gaps: Silences, index: int) -> Message:
 
 
 def _preparation_reason(rest: float, parameters: PlayerParameters) -> Message:
-    return Message("breath.preparation", {"rest_beats": rest, "prepare_beats": parameters.breath_prepare_beats})
+    return _preparation(rest, parameters.breath_prepare_beats)
 
 
 def _rest_reason(index: int, rest: float, long: bool, prepared: bool, parameters: PlayerParameters) -> Message:
     if index == 0:
         return Message("breath.first", {"beats": rest})
     if prepared:
-        return Message("breath.prepared", {"rest_beats": rest, "prepare_beats": parameters.breath_prepare_beats})
+        return _prepared(rest, parameters.breath_prepare_beats)
     last = parameters.breath_last_beat_beats
     if long:
         return Message(
@@ -190,3 +191,16 @@ def blown_catch(note: Note, piece: Piece, gaps: Silences, index: int) -> BreathE
 def within_note(note: Note, piece: Piece, start_s: float, end_s: float) -> BreathEvent:
     reason = Message("breath.blown", {"gap_s": round(end_s - start_s, 2)})
     return breath_at(f"{WITHIN}:{note.id}", piece, start_s, end_s, reason)
+
+
+# Equal reasons are kept once: there are thousands. Of equal numbers a whole one is said otherwise.
+
+
+@lru_cache(maxsize=1024, typed=True)
+def _preparation(rest_beats: float, prepare_beats: float) -> Message:
+    return Message("breath.preparation", {"rest_beats": rest_beats, "prepare_beats": prepare_beats})
+
+
+@lru_cache(maxsize=1024, typed=True)
+def _prepared(rest_beats: float, prepare_beats: float) -> Message:
+    return Message("breath.prepared", {"rest_beats": rest_beats, "prepare_beats": prepare_beats})

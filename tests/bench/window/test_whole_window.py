@@ -74,6 +74,7 @@ def test_whole_window(editor: LargeEditor, capsys: pytest.CaptureFixture[str]) -
         session.set_playhead(60.0)
         axis.show(50.0, 80.0)
         print(editor.rest())
+        print("memory with everyone drawn {:.0f} MB, at most {:.0f} MB".format(*memory_mb()))
         with editor.still_gl():
             editor.phase = "frames"
             floor_s = editor.floor_s()

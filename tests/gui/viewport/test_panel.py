@@ -657,7 +657,7 @@ def test_a_driver_that_fails_while_drawing_leaves_the_reason(
 
 
 def test_what_an_edit_made_is_drawn_at_once_unless_a_picture_takes_long(
-    viewport: ViewportPanel, monkeypatch: pytest.MonkeyPatch
+    qtbot: QtBot, viewport: ViewportPanel, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     drawn, draw = list[float](), Canvas._draw
 
@@ -668,6 +668,8 @@ def test_what_an_edit_made_is_drawn_at_once_unless_a_picture_takes_long(
     monkeypatch.setattr(Canvas, "_draw", watched)
     assert viewport._canvas is not None
     for last_s, count in ((0.001, 1), (10.0, 0)):
+        # Qt composes a window once a frame.
+        qtbot.wait(40)
         drawn.clear()
         viewport._canvas.drawing_s = last_s
         viewport.draw_now()
