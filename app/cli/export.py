@@ -52,7 +52,13 @@ def add_arguments(command: argparse.ArgumentParser) -> None:
     add_source_options(command)
     add_title_option(command)
     place = command.add_mutually_exclusive_group(required=True)
-    place.add_argument("--to", type=Path, metavar="DIR", help="folder for the files; made if needed")
+    place.add_argument(
+        "--to",
+        type=Path,
+        metavar="DIR",
+        help="folder for the files; made if needed. FILE may be a folder: each piece in it gets a folder of its own "
+        "there, one that fails stops no other, and what was exported before and has not changed is passed over",
+    )
     place.add_argument(
         "--unreal",
         type=Path,

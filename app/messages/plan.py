@@ -6,7 +6,7 @@ from typing import Final
 
 WORDINGS: Final[dict[str, tuple[str, str]]] = {
     # Problems as lines of a report
-    "note.place": ("{pitch} ({place})", "{pitch}（{place}）"),
+    "note.place": ("{pitch} ({place})", "{pitch} ({place})"),
     "problem.at": ("{problem} (at {place})", "{problem}（{place}）"),
     "problem.repeated": (
         "{problem}; the same kind occurs {count} more {count:time|times}: {places}",

@@ -11,7 +11,7 @@ from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QBoxLayout, QFrame, QPushButton, QWidget
 
 from app.editor.session import Session
-from widgets.common.controls import IconButton, Retranslated, named, small, wrapped
+from widgets.common.controls import IconButton, Retranslated, named, selectable, small, wrapped
 from widgets.common.icons import pixmap
 from widgets.common.layouts import STRETCH, in_row
 from widgets.common.plain import Label
@@ -36,7 +36,7 @@ class Banner(Retranslated, QFrame):
         self._buttons: list[QPushButton] = []
         self._line = QBoxLayout(QBoxLayout.Direction.LeftToRight, self)
         self._line.setContentsMargins(12, 5, 6, 5)
-        self._mark, self._text = Label(), wrapped(named(Label(), "banner_text"))
+        self._mark, self._text = Label(), selectable(wrapped(named(Label(), "banner_text")))
         close = small(IconButton(session, "close", "banner.not_now", self.hide, "banner_close"))
         self._answers = in_row(STRETCH, close)
         self._line.addLayout(in_row(self._mark, (self._text, 1)), 1)

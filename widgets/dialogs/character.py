@@ -19,7 +19,7 @@ from app.encoding import shown
 from app.errors import AppError, Message
 from app.rig.figure import Figure
 from widgets.common.character_picture import Crop, Seen, picture, seen
-from widgets.common.controls import Button, ColumnList, OkCancel, Retranslated, named, wrapped
+from widgets.common.controls import Button, ColumnList, OkCancel, Retranslated, named, selectable, wrapped
 from widgets.common.icons import icon
 from widgets.common.layouts import STRETCH, in_column, in_form, in_row, panel
 from widgets.common.plain import Label, verbatim, verbatim_title
@@ -77,7 +77,7 @@ class CharacterDialog(Retranslated, QDialog):
         self._drawing = False
         self._picture_requested = False
         self.title = named(QLineEdit(draft.title), "character_title")
-        self._source, self._picture = wrapped(Label()), named(Label(), "character_picture")
+        self._source, self._picture = selectable(wrapped(Label())), named(Label(), "character_picture")
         self._reported = named(wrapped(Label()), "character_status")
         self._legend = [(Label(sign), Label()) for sign in ("●", "◉", "○")]
         self.body = BodyMap(session, self._joint_text)

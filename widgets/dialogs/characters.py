@@ -14,7 +14,7 @@ from app.errors import Message
 from app.rig.character_library import character_library, character_named, character_problems
 from app.rig.read_figure import SUFFIXES
 from widgets.common.character_picture import picture, seen
-from widgets.common.controls import Button, Caption, Retranslated, named
+from widgets.common.controls import Button, Caption, Retranslated, named, selectable
 from widgets.common.instrument_name import character_name
 from widgets.common.layouts import STRETCH, in_column, in_row
 from widgets.common.paths import dropped_paths
@@ -48,7 +48,7 @@ class CharactersDialog(Retranslated, QDialog):
         self.setAcceptDrops(True)
         self._session = session
         self._pictures: dict[str, QIcon] = {}
-        self._explained, self._wrong = Caption("characters_dialog.your_own_characters_from_vrm"), Label()
+        self._explained, self._wrong = Caption("characters_dialog.your_own_characters_from_vrm"), selectable(Label())
         self.list = named(QListWidget(), "character_list")
         self.list.setIconSize(_PICTURE_PX)
         self._add = Button("characters_dialog.add", self.add_asked.emit, "characters_add")

@@ -26,7 +26,7 @@ from widgets.common.layouts import in_column, in_form, in_row
 from widgets.common.paths import PathEdit, ask_for_file, ask_for_folder, show_folder
 from widgets.common.plain import ComboBox, Label
 from widgets.common.text import message_text
-from widgets.dialogs.export_range import RangeChooser
+from widgets.dialogs.export_range import TEXT_MARGIN_PX, RangeChooser
 from widgets.dialogs.working import WorkingDialog
 
 Make: TypeAlias = Callable[[Project, Request, Report, StopRequested], Finished]
@@ -107,6 +107,7 @@ class EvaluationDialog(WorkingDialog):
             session, session.project.score, prefix="evaluation", otherwise_id="evaluation_dialog.chosen_excerpts"
         )
         self._excerpts = named(QSpinBox(), "evaluation_excerpts")
+        self._excerpts.lineEdit().setTextMargins(TEXT_MARGIN_PX, 0, 0, 0)
         self._excerpts.setRange(1, MOST_EXCERPTS)
         self._excerpts.setValue(EXCERPTS)
         self._length = _seconds(LEAST_S, MOST_S, SECONDS, "evaluation_length")
@@ -333,6 +334,7 @@ class EvaluationDialog(WorkingDialog):
 
 def _seconds(least: float, most: float, value: float, name: str) -> QDoubleSpinBox:
     box = named(QDoubleSpinBox(), name)
+    box.lineEdit().setTextMargins(TEXT_MARGIN_PX, 0, 0, 0)
     box.setRange(least, most)
     box.setDecimals(2)
     box.setSingleStep(0.5)

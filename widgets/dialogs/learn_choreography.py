@@ -23,7 +23,7 @@ from app.editor.session import Session
 from app.editor.tasks import Progress, StopRequested
 from app.encoding import shown
 from app.errors import AppError, Cancelled, Message
-from widgets.common.controls import Button, Caption, ColumnList, named
+from widgets.common.controls import Button, Caption, ColumnList, named, selectable
 from widgets.common.layouts import STRETCH, begin_with_size, in_column, in_form, in_row, panel
 from widgets.common.paths import PathEdit, ask_for_files, ask_where_to_save, dropped_paths
 from widgets.common.plain import Label
@@ -125,7 +125,7 @@ class LearnDialog(WorkingDialog):
         self._seed = named(QSpinBox(), "learn_seed")
         self._file = named(PathEdit(folder / f"choreography{SUFFIX}"), "learn_file")
         self._choose = Button("learn_dialog.choose", self._ask_where, "learn_file_choose")
-        self._state = named(Label(), "learn_state")
+        self._state = selectable(named(Label(), "learn_state"))
         self._use = named(QPushButton(), "learn_use")
         self._learn = Button("learn_dialog.learn", self.start, "learn_start")
         self.fields = (self.list, self._add, self._states, self._seed, self._file, self._choose)

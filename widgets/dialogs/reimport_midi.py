@@ -21,7 +21,7 @@ from app.plan.corrections import Correction
 from app.project.model import Project
 from app.project.reimport import Conflict, Reimport
 from app.score.model import Note
-from widgets.common.controls import Caption, OkCancel, Retranslated, named, wrapped
+from widgets.common.controls import Caption, OkCancel, Retranslated, named, selectable, wrapped
 from widgets.common.layouts import in_column
 from widgets.common.plain import Label
 
@@ -55,7 +55,7 @@ class ReimportDialog(Retranslated, QDialog):
         self.setObjectName("reimport_midi")
         self._before, self._outcome, self._file = before, outcome, file
         self._title, self._note_title, self._tokens = title, note_title, tokens
-        self._heading = wrapped(Label())
+        self._heading = selectable(wrapped(Label()))
         self._table = named(QTableWidget(0, 5), "reimport_parts")
         self._table.verticalHeader().hide()
         self._table.setShowGrid(False)

@@ -25,7 +25,7 @@ from app.errors import AppError, Message
 from metadata.library import RULES, metadata_library
 from metadata.rule_draft import Draft, added, changed, duplicated, listed, removed, sets_of, write
 from metadata.rules import Rule, RuleFault, rule_faults
-from widgets.common.controls import Button, Check, Retranslated, named, wrapped
+from widgets.common.controls import Button, Check, Retranslated, named, selectable, wrapped
 from widgets.common.instrument_name import language
 from widgets.common.layouts import begin_with_size, in_column, in_row, panel
 from widgets.common.plain import Label
@@ -68,11 +68,11 @@ class RulesDialog(Retranslated, QDialog):
         self._saved = self._draft
         self._list = named(_Rules(), "rules_list")
         self._form = RuleForm(session, metadata_library())
-        self._problem = named(wrapped(Label()), "rules_problem")
+        self._problem = selectable(named(wrapped(Label()), "rules_problem"))
         self._problem.setMinimumHeight(PROBLEM_PX)
         self._problem.setAlignment(Qt.AlignmentFlag.AlignTop | Qt.AlignmentFlag.AlignLeft)
         self._problem.setStyleSheet(f"color: {session.tokens.error};")
-        self._folder = named(wrapped(Label()), "rules_folder")
+        self._folder = selectable(named(wrapped(Label()), "rules_folder"))
         self._add = Button("rules_dialog.add", self._add_rule, "rules_add", "rules_dialog.add_tip")
         self._copy = Button("rules_dialog.duplicate", self._duplicate, "rules_duplicate", "rules_dialog.duplicate_tip")
         self._remove = named(QPushButton(), "rules_remove")

@@ -98,7 +98,7 @@ def test_an_anchor_is_a_note_an_event_or_a_name(session: Session, note: Note) ->
 @pytest.mark.usefixtures("japanese")
 def test_in_japanese_no_english_word_is_left(session: Session, note: Note) -> None:
     reported = message_text(Message("breath.inside_note", {"note": note.id}), session)
-    assert "F4（2.2.000）" in reported
+    assert "F4 (2.2.000)" in reported
     for message in (
         Message("cue.start", {"leader_reason": "melody", "beat_s": 0.5}),
         Message("gesture.weight_shift", {"side": "left"}),

@@ -7,6 +7,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QApplication, QCheckBox, QHBoxLayout, QLabel, QPushButton, QTabBar, QToolButton, QWidget
 from pytestqt.qtbot import QtBot
 
@@ -94,3 +95,12 @@ def test_a_banner_pushes_no_panel_aside(program: Program, qtbot: QtBot) -> None:
     assert (window.docks["players"].width(), window.docks["inspector"].width()) == before
     buttons = window.banner.findChildren(QPushButton)
     assert all(window.banner.rect().contains(button.geometry()) for button in buttons)
+
+
+def test_paths_can_be_copied_from_banners_and_dialogs(program: Program) -> None:
+    program.window._ask_to_save_over(Path("project.suisou"), None)
+    for action in ("file.rules", "application.characters"):
+        program.session.actions[action].trigger()
+    labels = {label.objectName(): label for top in QApplication.topLevelWidgets() for label in top.findChildren(QLabel)}
+    for name in ("banner_text", "rules_folder", "rules_problem", "characters_wrong"):
+        assert labels[name].textInteractionFlags() & Qt.TextInteractionFlag.TextSelectableByMouse, name

@@ -17,7 +17,7 @@ EXPECTED = (
     *("sax_soprano_Bb", "sax_alto_Eb", "sax_tenor_Bb", "sax_baritone_Eb", "horn_F_single", "horn_double_F_Bb"),
     *("trumpet_C", "trumpet_Bb", "cornet_Bb", "flugelhorn_Bb", "trombone_tenor_F_attachment", "trombone_bass_F_Gb"),
     *("baritone_Bb", "euphonium_Bb_bassclef", "euphonium_baritone_Bb_treble"),
-    *("tuba_F", "tuba_Eb", "sousaphone_BBb", "tuba_CC", "tuba_BBb", "recorder_soprano_C", "recorder_alto_F", "ewi"),
+    *("tuba_F", "tuba_Eb", "tuba_CC", "tuba_BBb", "sousaphone_BBb", "recorder_soprano_C", "recorder_alto_F", "ewi"),
 )
 """As on a band's score: woodwinds, brass, the others; in a family from high to low."""
 
