@@ -109,7 +109,9 @@ class JointPlayback:
             world.append(quaternion.multiply(bones[self._bones[joint]], quaternion.conjugate(own)))
             turn = quaternion.multiply(quaternion.conjugate(above), world[joint])
             together = self._together(joint)
-            result[:, together] = quaternion.slerp(quaternion.IDENTITY, turn, 1.0 / len(together))[:, None]
+            if len(together) > 1:
+                turn = quaternion.slerp(quaternion.IDENTITY, turn, 1.0 / len(together))
+            result[:, together] = turn[:, None]
         return result
 
     def _together(self, joint: int) -> list[int]:

@@ -43,7 +43,7 @@ def world_transforms(parents: Sequence[int], translations: FloatArray, rotations
     return local.swapaxes(0, 1)
 
 
-def world_rows(parents: Sequence[int], local: Sequence[FloatArray], frames: int) -> FloatArray:
+def world_rows(parents: Sequence[int], local: Sequence[FloatArray], world: FloatArray) -> None:
     """World transforms of a hierarchy, component after component: a few long products per joint.
 
     Parameters
@@ -52,38 +52,34 @@ def world_rows(parents: Sequence[int], local: Sequence[FloatArray], frames: int)
         As of `world_transforms`.
     local : sequence of (3, 4, F) or (3, 4, 1) float64
         ``parent_from_joint`` of each joint, without the last row; one value of those that are still.
-    frames : int
-
-    Returns
-    -------
-    (3, 4, J, F) float64
+    world : (J, 3, 4, F) float64
+        To be filled.
     """
-    result, product = np.empty((3, 4, len(parents), frames)), np.empty((3, 4, frames))
+    product = np.empty(world.shape[1:])
     for joint, (parent, own) in enumerate(zip(parents, local, strict=True)):
-        world = result[:, :, joint]
         if parent < 0:
-            world[:] = own
+            world[joint] = own
             continue
-        above = result[:, :, parent, None]
-        np.multiply(above[:, 0], own[0], out=world)
-        world += np.multiply(above[:, 1], own[1], out=product)
-        world += np.multiply(above[:, 2], own[2], out=product)
-        world[:, 3] += above[:, 3, 0]
-    return result
+        above = world[parent]
+        placed = np.multiply(above[:, 0, None], own[0], out=world[joint])
+        placed += np.multiply(above[:, 1, None], own[1], out=product)
+        placed += np.multiply(above[:, 2, None], own[2], out=product)
+        placed[:, 3] += above[:, 3]
 
 
-def matrix_rows(turns: FloatArray) -> FloatArray:
-    """Rotation matrices (3, 3, ...) of quaternions (4, ...) of any length; a zero quaternion is the identity."""
+def matrix_rows(turns: FloatArray, rows: FloatArray) -> None:
+    """Rotation matrices of quaternions (4, ...) of any length, into rows (3, 3, ...); a zero quaternion is the
+    identity."""
     x, y, z, w = turns
     twice = 2.0 / np.maximum(x * x + y * y + z * z + w * w, _LEAST)
     sx, sy, sz = twice * x, twice * y, twice * z
     xx, yy, zz, xy, xz, yz = sx * x, sy * y, sz * z, sx * y, sx * z, sy * z
     xw, yw, zw = sx * w, sy * w, sz * w
-    result: FloatArray = np.empty((3, 3, *x.shape))
-    result[0, 0], result[1, 1], result[2, 2] = 1.0 - (yy + zz), 1.0 - (xx + zz), 1.0 - (xx + yy)
-    result[0, 1], result[0, 2], result[1, 2] = xy - zw, xz + yw, yz - xw
-    result[1, 0], result[2, 0], result[2, 1] = xy + zw, xz - yw, yz + xw
-    return result
+    for axis, (one, other) in enumerate(((yy, zz), (xx, zz), (xx, yy))):
+        np.subtract(1.0, one + other, out=rows[axis, axis])
+    for (row, column), even, odd in (((0, 1), xy, zw), ((2, 0), xz, yw), ((1, 2), yz, xw)):
+        np.subtract(even, odd, out=rows[row, column])
+        np.add(even, odd, out=rows[column, row])
 
 
 def anatomical_angles(turns: FloatArray, axes: FloatArray) -> FloatArray:

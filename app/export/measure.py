@@ -50,10 +50,8 @@ JAW_OPENS = 0.05
 TORSO_BACK_RAD = math.radians(0.3)
 """A breath shows where the jaw opens by this weight and the torso leans back by this angle."""
 
-_CHUNK = 512
-"""Frames that are read at once ..."""
-_CHUNKS = 8
-"""... and so many chunks before depths are judged, of all their frames together."""
+_CHUNK = 4096
+"""Frames that are read and whose depths are judged at once."""
 
 
 class BreathMeasure(msgspec.Struct, frozen=True):
@@ -220,15 +218,15 @@ def _read(
     beside: Callable[[], None],
     progress: Callable[[float], None],
 ) -> _Read:
-    """One walk over all frames, some chunks at a time, while something else is done beside it."""
+    """One walk over all frames, a chunk at a time, while something else is done beside it."""
     frames = joints.playback.clip.frames
     walk = Walk(joints, held, character, instrument)
     played = np.flatnonzero(sounding)
     depth_m = np.zeros(len(played))
 
     def judge(first: int) -> None:
-        last = min(first + _CHUNKS * _CHUNK, frames)
-        read_back = [walk.read(at, min(at + _CHUNK, last), sounding) for at in range(first, last, _CHUNK)]
+        last = min(first + _CHUNK, frames)
+        read_back = walk.read(first, last, sounding)
         own = slice(*np.searchsorted(played, [first, last]).tolist())
         at = played[own]
         if not len(at):
@@ -239,13 +237,13 @@ def _read(
             np.maximum(depth_m[own], found_m, out=depth_m[own])
             return reported_least_m(depth_m)
 
-        for hand, carriers in zip(walk.hands, zip(*read_back, strict=True), strict=True):
+        for hand, carriers in zip(walk.hands, read_back, strict=True):
             least_m = np.maximum(depth_m[own], reported_least_m(depth_m))
-            depth_m[own] = hand.depths_m(np.concatenate(carriers), morphs, nodes, least_m, least_of)
+            depth_m[own] = hand.depths_m(carriers, morphs, nodes, least_m, least_of)
 
     tasks: list[Callable[[], None]] = [
         beside,
-        *(partial(judge, first) for first in range(0, frames, _CHUNKS * _CHUNK)),
+        *(partial(judge, first) for first in range(0, frames, _CHUNK)),
     ]
     done = itertools.count(1)
     in_threads(tasks, lambda index: progress(next(done) / len(tasks)))

@@ -73,7 +73,7 @@ class Playback:
     def world(self, first: int, last: int) -> FloatArray:
         """World transforms (n, J, 4, 4) of the frames ``first`` .. ``last - 1``."""
         result = np.zeros((last - first, len(self.parents), 4, 4))
-        result[:, :, :3] = Limbs(self, range(len(self.parents))).world(first, last).transpose(3, 2, 0, 1)
+        result[:, :, :3] = Limbs(self, range(len(self.parents))).world(first, last).transpose(3, 0, 1, 2)
         result[..., 3, 3] = 1.0
         return result
 
@@ -147,31 +147,42 @@ class Limbs:
         self._parents = [self.row_of.get(parents[bone], -1) for bone in self.row_of]
         self._still = [bone for bone in self.row_of if playback.still[bone]]
         self._moving = [bone for bone in self.row_of if not playback.still[bone]]
-        self._still_rows = self._local(self._still, 0, 1)
+        self._still_rows = np.empty((len(self._still), 3, 4, 1))
+        self._place(self._still, 0, 1, self._still_rows)
 
     def rows(self, bones: Iterable[int]) -> list[int]:
         """Rows of bones."""
         return [self.row_of[bone] for bone in bones]
 
-    def world(self, first: int, last: int) -> FloatArray:
-        """World transforms (3, 4, R, n) without their last row, of the frames ``first`` .. ``last - 1``."""
-        moving = self._local(self._moving, first, last)
-        local = {bone: self._still_rows[:, :, row] for row, bone in enumerate(self._still)}
-        local |= {bone: moving[:, :, row] for row, bone in enumerate(self._moving)}
-        return world_rows(self._parents, [local[bone] for bone in self.row_of], last - first)
+    def room(self, frames: int) -> tuple[FloatArray, FloatArray]:
+        """Arrays for `world` of so many frames: to get them anew for every few takes longer than to fill them."""
+        return np.empty((len(self.row_of), 3, 4, frames)), np.empty((len(self._moving), 3, 4, frames))
 
-    def _local(self, bones: Sequence[int], first: int, last: int) -> FloatArray:
-        """Transforms (3, 4, B, n) of bones on their parents."""
-        clip, result = self._playback.clip, np.empty((3, 4, len(bones), last - first))
+    def world(self, first: int, last: int, room: tuple[FloatArray, FloatArray] | None = None) -> FloatArray:
+        """World transforms (R, 3, 4, n) without their last row, of the frames ``first`` .. ``last - 1``.
+
+        Parameters
+        ----------
+        room : pair of arrays, optional
+            From `room`, of as many frames or more: overwritten, and part of it is returned.
+        """
+        result, moving = (rows[..., : last - first] for rows in room or self.room(last - first))
+        self._place(self._moving, first, last, moving)
+        local = dict(zip(self._still, self._still_rows, strict=True)) | dict(zip(self._moving, moving, strict=True))
+        world_rows(self._parents, [local[bone] for bone in self.row_of], result)
+        return result
+
+    def _place(self, bones: Sequence[int], first: int, last: int, rows: FloatArray) -> None:
+        """Set rows (B, 3, 4, n) to the transforms of bones on their parents."""
+        clip = self._playback.clip
         turns = clip.rotations_xyzw[first:last, bones].astype(np.float64, copy=False)
-        result[:, :3] = matrix_rows(turns.transpose(2, 1, 0))
-        for row, bone in enumerate(bones):
+        matrix_rows(turns.transpose(2, 1, 0), rows[:, :, :3].transpose(1, 2, 0, 3))
+        for row, bone in zip(rows, bones, strict=True):
             moved_cm = clip.translations_cm.get(bone)
             if moved_cm is None:
-                result[:, 3, row] = self._playback.rest_m[bone, :, None]
+                row[:, 3] = self._playback.rest_m[bone, :, None]
             else:
-                result[:, 3, row] = moved_cm[first:last].T.astype(np.float64) * METRES
-        return result
+                row[:, 3] = moved_cm[first:last].T.astype(np.float64) * METRES
 
 
 class Middles:
@@ -188,27 +199,28 @@ class Middles:
 
     def __init__(self, skins: Mapping[str, Skin], limbs: Limbs) -> None:
         self.names = tuple(skins)
-        self._points = np.zeros((len(skins), 4, len(limbs.row_of)))
         self._shown = tuple(sorted({name for skin in skins.values() for name in skin.morphs}))
+        self._points: list[tuple[int, int, FloatArray]] = []
         self._shapes: list[tuple[int, int, FloatArray]] = []
         for index, skin in enumerate(skins.values()):
             rows, shares = limbs.rows(skin.joints.tolist()), skin.weights.T / len(skin.positions_m)
             points_m = np.c_[shares @ skin.positions_m, shares.sum(axis=1)]
-            self._points[index, :3, rows] = np.einsum("jik,jk->ji", skin.joint_from_mesh, points_m)
-            self._points[index, 3, rows] = points_m[:, 3]
-            deltas_m = np.array([shares @ skin.morphs[name] for name in self._shown if name in skin.morphs])
-            if len(deltas_m):
+            points_m[:, :3] = np.einsum("jik,jk->ji", skin.joint_from_mesh, points_m)
+            self._points += [(index, row, point_m) for row, point_m in zip(rows, points_m, strict=True)]
+            if skin.morphs:
+                columns = [self._shown.index(name) for name in skin.morphs]
+                deltas_m = np.array([shares @ deltas for deltas in skin.morphs.values()])
                 added = np.zeros((len(rows), 3, len(self._shown)))
-                columns = [column for column, name in enumerate(self._shown) if name in skin.morphs]
                 added[..., columns] = np.einsum("jik,mjk->jim", skin.joint_from_mesh[..., :3], deltas_m)
                 self._shapes += [(index, row, shapes) for row, shapes in zip(rows, added, strict=True)]
 
     def places_m(self, world: FloatArray, morphs: Mapping[str, npt.NDArray[np.floating]]) -> FloatArray:
-        """Places (3, K, n); ``world`` is `Limbs.world` of some frames, and ``morphs`` are the weights (n,) there."""
-        frames = world.shape[-1]
-        result: FloatArray = self._points.reshape(len(self._points), -1) @ world.reshape(3, -1, frames)
+        """Places (K, 3, n); ``world`` is `Limbs.world` of some frames, and ``morphs`` are the weights (n,) there."""
+        result = np.zeros((len(self.names), 3, world.shape[-1]))
+        for index, row, point_m in self._points:
+            result[index] += point_m @ world[row]
         if self._shapes:
             weights = np.array([morphs[name] for name in self._shown], np.float64)
             for index, row, shapes in self._shapes:
-                result[:, index] += np.einsum("ikn,kn->in", world[:, :3, row], shapes @ weights)
+                result[index] += np.einsum("ikn,kn->in", world[row, :, :3], shapes @ weights)
         return result

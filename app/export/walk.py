@@ -20,6 +20,8 @@ FloatArray = npt.NDArray[np.float64]
 IntArray = npt.NDArray[np.integer]
 
 SOLES = ("left.foot.sole", "right.foot.sole")
+_CHUNK = 512
+"""Frames that are read at once: what they need stays in a core's cache."""
 _TORSO = ("hips", "neck")
 _HANDS = ("left.hand", "right.hand")
 
@@ -52,23 +54,30 @@ class Walk:
         bones = [held.bone_names.index(bone) for bone in bone_of_node.values()]
         self._parts = Limbs(held, bones)
         self._node_rows = self._parts.rows(bones)
-        self._marks_m = np.empty((3, len(self._middles.names), frames))
-        self._placed = np.empty((3, 4, len(bones), frames))
+        self._marks_m = np.empty((len(self._middles.names), 3, frames))
+        self._placed = np.empty((len(bones), 3, 4, frames))
         self._torso = np.empty((2, frames))
 
     def read(self, first: int, last: int, chosen: npt.NDArray[np.bool_]) -> list[npt.NDArray[np.float32]]:
         """Read the frames ``first`` .. ``last - 1``; returned is ``world_from_joint`` (N, J, 3, 4) of what carries each
         hand, at those that are ``chosen`` (F,)."""
-        world = self._limbs.world(first, last)
-        self._marks_m[..., first:last] = self._middles.places_m(world, self._player.morphs(first, last))
-        self._placed[..., first:last] = self._parts.world(first, last)[:, :, self._node_rows]
-        upright = world[:, 3, self._high] - world[:, 3, self._low]
-        self._torso[:, first:last] = np.arctan2(upright[[0, 2]], upright[1])
-        at = np.flatnonzero(chosen[first:last])
-        shown = slice(None) if len(at) == last - first else at
+        at = np.flatnonzero(chosen[first:last]) + first
         # In memory (N, 3, J, 4), as depths are computed.
-        found = [world[:, :, rows][..., shown].transpose(3, 0, 2, 1) for rows in self._carriers]
-        return [rows.astype(np.float32, order="C").transpose(0, 2, 1, 3) for rows in found]
+        found = [np.empty((len(at), 3, len(rows), 4), np.float32) for rows in self._carriers]
+        room = self._limbs.room(_CHUNK)
+        for begin in range(first, last, _CHUNK):
+            end = min(begin + _CHUNK, last)
+            world = self._limbs.world(begin, end, room)
+            self._marks_m[..., begin:end] = self._middles.places_m(world, self._player.morphs(begin, end))
+            self._placed[..., begin:end] = self._parts.world(begin, end)[self._node_rows]
+            upright = world[self._high, :, 3] - world[self._low, :, 3]
+            self._torso[:, begin:end] = np.arctan2(upright[[0, 2]], upright[1])
+            own = slice(*np.searchsorted(at, [begin, end]).tolist())
+            shown = slice(None) if own.stop - own.start == end - begin else at[own] - begin
+            for joints, rows in zip(found, self._carriers, strict=True):
+                for joint, row in enumerate(rows):
+                    joints[own, :, joint] = world[row][..., shown].transpose(2, 0, 1)
+        return [joints.swapaxes(1, 2) for joints in found]
 
     def morphs(self, frames: IntArray) -> dict[str, npt.NDArray[np.floating]]:
         """Weights (N,) of the morphs at some frames."""
@@ -77,7 +86,7 @@ class Walk:
     def nodes(self, frames: IntArray) -> dict[str, FloatArray]:
         """``world_from_node`` (N, 4, 4) at some frames that were read."""
         result = np.zeros((len(self._nodes), len(frames), 4, 4))
-        result[:, :, :3] = self._placed[..., frames].transpose(2, 3, 0, 1)
+        result[:, :, :3] = self._placed[..., frames].transpose(0, 3, 1, 2)
         result[:, :, 3, 3] = 1.0
         return dict(zip(self._nodes, result, strict=True))
 
@@ -89,8 +98,8 @@ class Walk:
     @property
     def traces(self) -> Traces:
         """Where everything was."""
-        marks_m = {name: self._marks_m[:, row].T for row, name in enumerate(self._middles.names)}
-        nodes = {name: self._placed[:, :, row].transpose(2, 0, 1) for row, name in enumerate(self._nodes)}
+        marks_m = {name: self._marks_m[row].T for row, name in enumerate(self._middles.names)}
+        nodes = {name: self._placed[row].transpose(2, 0, 1) for row, name in enumerate(self._nodes)}
         return Traces(marks_m, nodes)
 
 
