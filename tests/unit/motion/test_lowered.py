@@ -115,10 +115,10 @@ def test_wrists_stay_in_their_range(rest: Case) -> None:
         joint = rest.character.skeleton.index(f"{side}Hand")
         axes, bound = profile.joint_axes(f"{side}Hand"), limits[profile.joint(f"{side}Hand").kind]
         rotations = rest.motion.rotations[rest.frames, joint].astype(np.float64)
-        degrees = np.degrees(anatomical_angles(rotations, *map(np.asarray, (axes.flexion, axes.sideways, axes.twist))))
-        for angles, (low, high) in zip(
-            degrees.T, (bound.flexion_deg, bound.sideways_deg, bound.twist_deg), strict=True
-        ):
+        degrees = np.degrees(
+            anatomical_angles(rotations.T[:, None], np.array([[axes.flexion, axes.sideways, axes.twist]]))
+        )[:, 0]
+        for angles, (low, high) in zip(degrees, (bound.flexion_deg, bound.sideways_deg, bound.twist_deg), strict=True):
             beyond = np.maximum(low - angles, angles - high)
             # A small body's wrist that is a little beyond while playing cannot jump back at once.
             assert beyond[1:-1].max() <= max(BEYOND_DEG, beyond[0] + 0.5), (side, angles)

@@ -60,8 +60,10 @@ def test_bells_lift_and_dip_no_further_than_wrists_follow(
     for hand in curves.player.hold.hands:
         axes, joint = load_skeleton().joint_axes(f"{hand.side}Hand"), skeleton.index(f"{hand.side}Hand")
         rotations = motion.rotations[:, joint].astype(np.float64)
-        degrees = np.degrees(anatomical_angles(rotations, *map(np.asarray, (axes.flexion, axes.sideways, axes.twist))))
-        for angles, (low, high) in zip(degrees.T[:2], (limits.flexion_deg, limits.sideways_deg), strict=True):
+        degrees = np.degrees(
+            anatomical_angles(rotations.T[:, None], np.array([[axes.flexion, axes.sideways, axes.twist]]))
+        )[:, 0]
+        for angles, (low, high) in zip(degrees[:2], (limits.flexion_deg, limits.sideways_deg), strict=True):
             assert low - BEYOND_DEG < angles.min() <= angles.max() < high + BEYOND_DEG, hand.side
         place = motion.instrument_position_m.astype(np.float64), motion.instrument_rotation.astype(np.float64)
         requested_m, _ = hand_targets(hand, *place, {})
@@ -80,8 +82,8 @@ def test_the_angle_aside_is_the_anatomical_one(side: Side) -> None:
     wrist, axes = wrists_of(load_body(), load_skeleton())[side], load_skeleton().joint_axes(f"{side}Hand")
     rotations = np.random.default_rng(1).normal((0.0, 0.0, 0.0, 4.0), 1.0, (200, 4))
     rotations /= np.linalg.norm(rotations, axis=1)[:, None]
-    known = anatomical_angles(rotations, *map(np.asarray, (axes.flexion, axes.sideways, axes.twist)))
-    assert np.abs(wrist.aside_rad(rotations) - known[:, 1]).max() < 1e-9
+    known = anatomical_angles(rotations.T[:, None], np.array([[axes.flexion, axes.sideways, axes.twist]]))
+    assert np.abs(wrist.aside_rad(rotations) - known[1, 0]).max() < 1e-9
 
 
 @pytest.mark.parametrize("side", ["left", "right"])

@@ -205,6 +205,7 @@ def _within_bounds(motion: Motion, without: Motion, playing: PerformanceCurves) 
 def _beyond_deg(motion: Motion, wrist: int, axes: JointAxes, body: Body) -> float:
     """How far a wrist is out of its range at most."""
     local = motion.rotations[:, wrist].astype(np.float64)
-    degrees = np.degrees(anatomical_angles(local, *map(np.asarray, (axes.flexion, axes.sideways, axes.twist))))
+    turns, of_axes = local.T[:, None], np.array([[axes.flexion, axes.sideways, axes.twist]])
+    degrees = np.degrees(anatomical_angles(turns, of_axes))[:, 0].T
     low, high = np.array([getattr(body.limits["hand"], f"{name}_deg") for name in ("flexion", "sideways", "twist")]).T
     return float(np.maximum(np.maximum(low - degrees, degrees - high), 0.0).max())
