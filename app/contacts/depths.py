@@ -3,9 +3,9 @@
 The deepest vertex of every frame is found by branch and bound. A block of frames is judged by its middle frame: how far
 a vertex moves from there is bounded by how far its joints and the instrument's parts move, and a distance changes by no
 more than a point moves. Vertices that cannot be the deepest in any frame of a block are dropped; for the others shorter
-blocks are judged, down to single frames. A block holds frames in which the hand is alike, whenever they are. While a
-hand moves too far within a block, its vertices are judged in groups. Hand and parts are judged in the frame of the part
-on which the hand is steadiest: a hand goes with the slide it holds.
+blocks are judged, down to single frames. A block holds frames in which hand and parts are alike, whenever they are.
+While a hand moves too far within a block, its vertices are judged in groups. Hand and parts are judged in the frame of
+the part on which the hand is steadiest: a hand goes with the slide it holds.
 """
 
 from __future__ import annotations
@@ -28,6 +28,7 @@ from app.contacts.hand_poses import (
     SingleArray,
     carried,
     joints_in_node,
+    moving_parts_m,
     steadiest,
 )
 from app.rig.skinning import Skin
@@ -108,15 +109,17 @@ class HandDepths:
         base = steadiest([world_from_node[node] for node in self._nodes], joints)
         # Whole blocks: the last frame is repeated.
         order = np.minimum(np.arange(-(-frames // sizes[0]) * sizes[0]), frames - 1)
-        local = joints_in_node(world_from_node[self._nodes[base]], joints)[:, :, order]
-        features = (local[:, 3] + local[:, 0] * np.float32(_ARM_M)).transpose(1, 0, 2).reshape(len(order), -1)
-        order = order[alike(features, sizes[0], 4)]
+        local = joints_in_node(world_from_node[self._nodes[base]], joints)
+        features = (local[:, 3] + local[:, 0] * np.float32(_ARM_M)).transpose(1, 0, 2).reshape(frames, -1)
+        parts_m = moving_parts_m([world_from_node[node] for node in self._nodes], base, local[:, 3].mean(axis=(1, 2)))
+        order = order[alike(np.concatenate([features, parts_m], axis=1)[order], sizes[0], 4)]
         depths_m = np.zeros(len(order), dtype=np.float32)
         if least_m is not None:
             depths_m[:] = least_m[order]
         weights = {name: np.asarray(morphs[name], np.float32)[order] for name in self._hand.morphs if name in morphs}
         nodes = [world_from_node[node][order] for node in self._nodes]
-        search = _Search(self._hand, self._groups, self._field, joints[order], weights, nodes, base)
+        poses = Poses(self._hand, local[:, :, order], weights)
+        search = _Search(self._hand, self._groups, self._field, poses, joints[order], weights, nodes, base)
         search.begin(sizes[0], depths_m.reshape(-1, sizes[0]))
         found_m = np.empty(frames)
         for size in sizes:
@@ -182,6 +185,8 @@ class _Search:
     hand : Carried
     groups : _Groups
     field : DistanceField
+    poses : Poses
+        In the frame of the base.
     world_from_joint : (F, 3, J, 4) float32
     morphs : dict of str to (F,) float32
         Weights.
@@ -196,6 +201,7 @@ class _Search:
         hand: Carried,
         groups: _Groups,
         field: DistanceField,
+        poses: Poses,
         world_from_joint: SingleArray,
         morphs: Mapping[str, SingleArray],
         world_from_node: list[FloatArray],
@@ -203,7 +209,7 @@ class _Search:
     ) -> None:
         self._hand, self._groups, self._field = hand, groups, field
         self._world_from_joint, self._morphs, self._world_from_node = world_from_joint, morphs, world_from_node
-        self._poses = Poses(hand, joints_in_node(world_from_node[base], world_from_joint), morphs)
+        self._poses = poses
         self._parts = Parts(world_from_node, base, field.reaches_m)
         self._moved = self._parts.moves(1)
         self._grouped = self._single = _NONE

@@ -1,7 +1,8 @@
 """Signed distance to the closed bodies of some nodes: roughly on a grid for each, exactly near them.
 
 The grids' bricks are computed when something is first there: hands are near a small part of an instrument. How far the
-middle of a brick is from the bodies tells enough of most; the cells of a brick are computed only for what may be near.
+middle of a brick is from the bodies tells enough of most; its cells are computed only for what may be near, each when
+something is first in it.
 """
 
 from __future__ import annotations
@@ -32,6 +33,10 @@ _BRICK_M = BRICK_CELLS * CELL_M
 _EDGE = 1e-3
 """Of a cell, at the end of a grid."""
 _HALF_DIAGONAL = math.sqrt(3.0) / 2.0
+_CELL_MIDDLES_M = (
+    np.stack(np.unravel_index(np.arange(BRICK_CELLS**3), (BRICK_CELLS,) * 3), axis=-1) + np.float64(0.5)
+) * CELL_M
+"""From the lowest corner of a brick."""
 
 
 class DistanceField:
@@ -69,8 +74,12 @@ class DistanceField:
         """Number of the brick at each place of each node's grid; -1 where nothing has been computed."""
         self._middle_m = np.full(ends[-1], np.nan, dtype=np.float32)
         """Distance of the middle of each brick; NaN where it has not been computed."""
+        self._place_of = np.zeros(0, dtype=np.int32)
+        """By brick: its place."""
         self._about_m = np.zeros((0, BRICK_CELLS**3), dtype=np.float32)
-        """By brick."""
+        """By brick, of its cells; NaN where nothing has been computed."""
+        self._nearest: list[IntArray] = []
+        """By brick: the bodies that may be the nearest to something in it."""
         self._touching: list[IntArray] = []
         """By brick: the bodies that a point in it may be near."""
         self._lock = Lock()
@@ -151,7 +160,13 @@ class DistanceField:
         x, y, z = cells - places * BRICK_CELLS
         brick = self._bricks(self._flat(places, nodes))
         cell = ((brick * BRICK_CELLS + x) * BRICK_CELLS + y) * BRICK_CELLS + z
-        return self._about_m.reshape(-1).take(cell), _off_middle(inside, cells, 1)
+        found: SingleArray = self._about_m.reshape(-1).take(cell)
+        missing = np.isnan(found)
+        if missing.any():
+            with self._lock:
+                self._compute_cells(np.unique(cell[missing]))
+                found[missing] = self._about_m.reshape(-1)[cell[missing]]
+        return found, _off_middle(inside, cells, 1)
 
     def _flat(self, places: npt.NDArray[np.int32], nodes: IntArray) -> npt.NDArray[np.int32]:
         """Where bricks at places (3, N) of nodes (N,) are among those of all nodes."""
@@ -207,24 +222,32 @@ class DistanceField:
         if not len(flat):
             return
         nodes, corners_m = self._nodes_of(flat), self._corners_of(flat)
-        steps = (np.arange(BRICK_CELLS) + 0.5) * CELL_M
-        cells_m = np.stack(np.meshgrid(steps, steps, steps, indexing="ij"), axis=-1).reshape(-1, 3)
         radius_m = _HALF_DIAGONAL * _BRICK_M
         middle_m, body, firsts = self._from_middles_m(corners_m, nodes)
         brick = np.repeat(np.arange(len(flat)), self._owned[nodes])
         # What is nearest somewhere in a brick is no further from its middle than the nearest and the brick's diagonal.
         nearest_m = np.minimum(np.minimum.reduceat(middle_m, firsts) + 2.0 * radius_m, FAR_M + radius_m)
-        rows = np.flatnonzero(middle_m < nearest_m[brick])
-        points_m = (corners_m[brick[rows], None] + cells_m).reshape(-1, 3)
-        found_m = distances(self._bodies, points_m, np.repeat(body[rows], len(cells_m)))
-        about_m = np.full((len(flat), len(cells_m)), FAR_M)
-        np.minimum.at(about_m, brick[rows], found_m.reshape(-1, len(cells_m)))
-        near = middle_m < NEAR_M + radius_m
         count = len(self._touching)
-        self._about_m = np.concatenate([self._about_m, about_m.astype(np.float32)])
-        self._touching += np.split(body[near], np.cumsum(np.add.reduceat(near, firsts, dtype=np.intp))[:-1])
+        for lists, near in (
+            (self._nearest, middle_m < nearest_m[brick]),
+            (self._touching, middle_m < NEAR_M + radius_m),
+        ):
+            lists += np.split(body[near], np.cumsum(np.add.reduceat(near, firsts, dtype=np.intp))[:-1])
+        self._place_of = np.concatenate([self._place_of, flat.astype(np.int32)])
+        cells_m = np.full((len(flat), BRICK_CELLS**3), np.nan, dtype=np.float32)
+        self._about_m = np.concatenate([self._about_m, cells_m])
         # Last, since other threads look here without a lock.
         self._brick_at[flat] = count + np.arange(len(flat), dtype=np.int32)
+
+    def _compute_cells(self, cells: npt.NDArray[np.integer]) -> None:
+        """Compute cells (N,), numbered brick by brick."""
+        bricks, within = np.divmod(cells, BRICK_CELLS**3)
+        bodies_of = [self._nearest[brick] for brick in bricks.tolist()]
+        cell = np.repeat(np.arange(len(cells)), [len(some) for some in bodies_of])
+        middles_m = self._corners_of(self._place_of[bricks]) + _CELL_MIDDLES_M[within]
+        about_m = np.full(len(cells), FAR_M)
+        np.minimum.at(about_m, cell, distances(self._bodies, middles_m[cell], np.concatenate(bodies_of)))
+        self._about_m.reshape(-1)[cells] = about_m
 
 
 def _off_middle(inside: SingleArray, numbers: npt.NDArray[np.int32], cells: int) -> SingleArray:

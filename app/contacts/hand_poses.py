@@ -18,6 +18,9 @@ FloatArray = npt.NDArray[np.float64]
 SingleArray = npt.NDArray[np.float32]
 IntArray = npt.NDArray[np.intp]
 
+MOVES_M = 0.001
+"""A part that moves less where the hand is tells nothing of which frames are alike."""
+
 
 @dataclass(frozen=True, eq=False)
 class Carried:
@@ -196,6 +199,19 @@ def steadiest(world_from_node: Sequence[FloatArray], world_from_joint: SingleArr
         local_m = np.einsum("fji,fj->fi", here[:, :3, :3], middle_m - here[:, :3, 3])
         ways_m.append(np.abs(np.diff(local_m, axis=0)).sum())
     return int(np.argmin(ways_m))
+
+
+def moving_parts_m(world_from_node: Sequence[FloatArray], base: int, point_m: SingleArray) -> SingleArray:
+    """How far the nodes (each (F, 4, 4)) move that do so at a point of one of them, the base: (F, M), a coordinate of
+    that point in the frame of each."""
+    world_m = world_from_node[base][:, :3] @ np.append(point_m, 1.0)
+    moving = [np.empty((0, len(world_m)), dtype=np.float32)]
+    for node, here in enumerate(world_from_node):
+        local_m = np.einsum("fji,fj->if", here[:, :3, :3], world_m - here[:, :3, 3])
+        ranges_m = np.ptp(local_m, axis=1)
+        if node != base and ranges_m.max() > MOVES_M:
+            moving.append(local_m[None, np.argmax(ranges_m)].astype(np.float32))
+    return np.concatenate(moving).T
 
 
 class Parts:
