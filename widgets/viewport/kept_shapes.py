@@ -20,13 +20,13 @@ import numpy.typing as npt
 from app.errors import FileError
 from app.formats.atomic import atomic_write
 from app.formats.cache import cache_folder
+from app.formats.files import open_file
+from app.formats.kept import digest_of
 from app.rig.mesh import Mesh
-from app.version import program_version
 from widgets.viewport.shape_model import SHAPE, SURFACE, Face, Geometry
 
 MOST_FILES: Final = 128
 """Of characters and instruments, and of what they were before; the oldest go."""
-_CODE: Final = ("geometry.py", "kept_shapes.py", "shape_model.py")
 _ALIGNED: Final = 64
 _BEGINNING: Final = struct.Struct("<II")
 """Length of the head, and the CRC-32 of all that follows."""
@@ -78,7 +78,7 @@ def kept(
     Parameters
     ----------
     made_with : tuple
-        All else that it depends on, besides the code beside this.
+        All else that it depends on, besides the code in this folder.
     """
     path = cache_folder("shapes") / f"{_digest(meshes, made_with)}.shapes"
     found = _read(path)
@@ -97,11 +97,7 @@ def kept(
 
 
 def _digest(meshes: Sequence[Mesh], made_with: tuple[object, ...]) -> str:
-    digest = hashlib.blake2b(repr((program_version(), made_with)).encode(), digest_size=16)
-    for name in _CODE:
-        # A program that is packed into one file has no other code than its version says.
-        with contextlib.suppress(OSError):
-            digest.update(Path(__file__).with_name(name).read_bytes())
+    digest = hashlib.blake2b(repr((digest_of(Path(__file__).parent), made_with)).encode(), digest_size=16)
     for mesh in meshes:
         digest.update(repr(mesh.materials).encode())
         arrays = [mesh.positions_m, mesh.normals, mesh.triangles, mesh.triangle_materials, mesh.joints, mesh.weights]
@@ -153,7 +149,7 @@ def _write(file: BinaryIO, levels: Sequence[Geometry]) -> None:
 def _read(path: Path) -> tuple[Geometry, ...] | None:
     """The levels of a file; None where it is not there, or damaged."""
     try:
-        with path.open("rb") as file:
+        with open_file(path) as file:
             length, expected = _BEGINNING.unpack(file.read(_BEGINNING.size))
             check = 0
             while block := file.read(2**20):
@@ -164,7 +160,7 @@ def _read(path: Path) -> tuple[Geometry, ...] | None:
             head = _DECODER.decode(file.read(length))
             first = file.tell() + -file.tell() % _ALIGNED
             memory = mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ)
-    except (OSError, ValueError, struct.error, msgspec.MsgspecError):
+    except (FileError, OSError, ValueError, struct.error, msgspec.MsgspecError):
         return None
 
     def got(array: _Array) -> npt.NDArray[Any]:
