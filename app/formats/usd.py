@@ -12,11 +12,14 @@ Message: ``usd.missing``: "USD files need the package usd-core, which is not ins
 
 from __future__ import annotations
 
+import ctypes
 import importlib.util
 import os
 import shutil
+import sys
 from collections.abc import Iterable
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 from threading import Lock
 from typing import Any, Final
@@ -34,6 +37,8 @@ from app.formats.scratch import scratch_folder
 from app.formats.skin import influences
 
 METERS_PER_UNIT = 0.01
+_MODULES: Final = ("Tf", "Gf", "Kind", "Sdf", "Usd", "UsdGeom", "UsdMedia", "UsdShade", "UsdSkel", "UsdUtils", "Vt")
+"""Of the package, those that are used here."""
 
 
 @dataclass(frozen=True)
@@ -93,6 +98,7 @@ def write_usds(path: str | os.PathLike[str], scenes: Iterable[Scene], sound: Sou
     """Write scenes into one file as `write_usd`; each is let go when the next is asked for."""
     refuse_without_usd()
     with _ONE_AT_A_TIME:
+        _open_libraries()
         from pxr import Tf, UsdUtils
 
         layer = _stage_layer(scenes, sound)
@@ -110,6 +116,25 @@ def write_usds(path: str | os.PathLike[str], scenes: Iterable[Scene], sound: Sou
         except (OSError, Tf.ErrorException) as error:
             reason = getattr(error, "strerror", None) or str(error)
             raise FileError("file.cannot_write", file=os.fspath(path), reason=reason) from error
+
+
+@cache
+def _open_libraries() -> None:
+    """Open the package's libraries without the interpreter's lock, as an import does not.
+
+    While it opens them the system's loader is locked, and they wait for the interpreter's lock. numpy has that when it
+    asks the loader in another thread where a function is, as it does now and then: both would wait for ever.
+    """
+    found = importlib.util.find_spec("pxr")
+    if sys.platform != "linux" or found is None:
+        return
+    # What cannot be opened is reported by the import that follows.
+    system = ctypes.CDLL(None)
+    system.dlopen.argtypes, system.dlopen.restype = (ctypes.c_char_p, ctypes.c_int), ctypes.c_void_p
+    for folder in found.submodule_search_locations or ():
+        for name in _MODULES:
+            library = Path(folder) / name / f"_{name[0].lower()}{name[1:]}.so"
+            system.dlopen(os.fsencode(library), os.RTLD_NOW)
 
 
 def _stage_layer(scenes: Iterable[Scene], sound: Sound | None) -> Any:

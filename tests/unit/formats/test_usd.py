@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
 from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
@@ -172,3 +174,27 @@ def test_without_usd_core_the_remedy_is_reported(tmp_path: Path, monkeypatch: py
         write_usd(tmp_path / "scene.usdc", scenes.instrument(Fraction(24)))
     assert "pip install usd-core" in text(reported.value.message)
     assert not list(tmp_path.iterdir())
+
+
+@needs_usd
+@pytest.mark.skipif(sys.platform != "linux", reason="numpy asks the system's loader on Linux only")
+def test_the_package_is_loaded_while_another_thread_asks_the_loader(tmp_path: Path) -> None:
+    """The other thread does so with the interpreter's lock, as numpy when it looks who calls it."""
+    script = f"""
+import ctypes, faulthandler, threading
+from fractions import Fraction
+from app.formats.usd import write_usd
+from tests.unit.formats import scenes
+
+faulthandler.dump_traceback_later(60, exit=True)
+python, answer = ctypes.PyDLL(None), ctypes.create_string_buffer(64)
+place = ctypes.cast(python.PyNumber_Or, ctypes.c_void_p)
+thread = threading.Thread(target=write_usd, args=({str(tmp_path / "scene.usdc")!r}, scenes.instrument(Fraction(24))))
+thread.start()
+while thread.is_alive():
+    python.dladdr(place, answer)
+"""
+    root = Path(__file__).parents[3]
+    done = subprocess.run([sys.executable, "-c", script], cwd=root, capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert (tmp_path / "scene.usdc").stat().st_size > 0
