@@ -76,7 +76,7 @@ def add_commands(top: argparse.ArgumentParser) -> None:
 
 
 def _add_arguments(name: str, command: argparse.ArgumentParser) -> None:
-    # All that modules make lasts: to look for rubbish in it takes a tenth of the time that loading takes.
+    # All that modules make lasts: collecting garbage takes a tenth of the time that loading them takes.
     collects = gc.isenabled()
     gc.disable()
     try:

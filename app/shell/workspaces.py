@@ -20,14 +20,15 @@ from widgets.timeline.panel import TimelinePanel
 LAYOUT_VERSION: Final = 2
 """Another set of panels makes layouts of before useless: they are passed over."""
 SHORT_PX: Final = 880
-"""In a window lower than this the inspector has the whole height: above the timeline it could show two rows."""
+"""In a window lower than this the inspector has the whole height: above the timeline it could show two rows; and the
+players have none of it, so that the timeline is wide."""
 
 CHROME_PX: Final = 105
 """About the height of what is above and below the panels: menus, transport, status line, and the line between two."""
 
 Area = Qt.DockWidgetArea
 LEFT, RIGHT, BOTTOM = Area.LeftDockWidgetArea, Area.RightDockWidgetArea, Area.BottomDockWidgetArea
-Whole = Literal["always", "never", "if_low"]
+Whole = Literal["always", "never", "if_high", "if_low"]
 
 
 @dataclass(frozen=True)
@@ -74,7 +75,7 @@ WORKSPACES: Final = (
         left_px=300,
         right_px=320,
         timeline_share=0.45,
-        left_whole="always",
+        left_whole="if_high",
         right_whole="if_low",
         lists_share=0.4,
         lanes=LaneState(
@@ -265,7 +266,7 @@ class Workspaces(QObject):
     def _size(self, workspace: Workspace) -> None:
         """As large as panels are in a window of this size by default."""
         window, low = self._window, self._window.height() < SHORT_PX
-        whole = {"always": True, "never": False, "if_low": low}
+        whole = {"always": True, "never": False, "if_high": not low, "if_low": low}
         left = LEFT if whole[workspace.left_whole] else BOTTOM
         right = RIGHT if whole[workspace.right_whole] else BOTTOM
         window.setCorner(Qt.Corner.BottomLeftCorner, left)

@@ -78,21 +78,6 @@ def test_in_a_new_window_players_are_large_and_parameters_many(start: Start) -> 
             assert seen_wholly(window.timeline.lanes[id].header, lanes), id
 
 
-def test_a_small_window_shows_all_players_and_many_parameters(start: Start) -> None:
-    program = at_size(start, 1280, 800)
-    window = program.window
-    for language in ("en", "ja"):
-        program.editor.speak(language)
-        trigger(program, "workspace.reset")
-        settle()
-        scroll = window.players._scroll.viewport()
-        rows = [*window.players.findChildren(ParameterSlider), *window.players.findChildren(ParameterChoice)]
-        assert sum(seen_wholly(row, scroll) for row in rows if row.isVisible()) >= 10
-        assert window.players.list.verticalScrollBar().maximum() == 0
-        assert window.viewport.height() >= 330
-        assert window.timeline.width() >= 640
-
-
 @pytest.mark.parametrize(("width", "height"), [(1280, 800), (1600, 1000)])
 def test_what_each_workspace_shows(start: Start, width: int, height: int) -> None:
     program = at_size(start, width, height)
