@@ -1,8 +1,8 @@
 """Signed distance to the closed bodies of some nodes: roughly on a grid for each, exactly near them.
 
 The grids' bricks are computed when something is first there: hands are near a small part of an instrument. How far the
-middle of a brick is from the bodies tells enough of most; its cells are computed only for what may be near, each when
-something is first in it.
+middle of a brick is from the bodies is enough for most points; its cells are computed only for what may be near, each
+when something is first in it.
 """
 
 from __future__ import annotations

@@ -19,7 +19,7 @@ SingleArray = npt.NDArray[np.float32]
 IntArray = npt.NDArray[np.intp]
 
 MOVES_M = 0.001
-"""A part that moves less where the hand is tells nothing of which frames are alike."""
+"""Frames are not compared by a part that moves less where the hand is."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,4 +1,4 @@
-"""What a fit of a hold (`app.rig.fit`) needs and keeps to, for those who ask for one or use its results.
+"""What a fit of a hold (`app.rig.fit`) needs and keeps to, for what starts one or uses its results.
 
 Messages: ``character.landmarks_missing``.
 """

@@ -11,7 +11,6 @@ from __future__ import annotations
 
 import struct
 from collections.abc import Callable
-from threading import Lock
 from typing import Any, Final
 
 import numpy as np
@@ -19,6 +18,7 @@ import numpy.typing as npt
 from isal import isal_zlib
 
 from app.errors import FileError
+from app.formats.fbx.byte_cache import ByteCache
 from app.formats.fbx.encode import LARGE_VERSION, MAGIC, Element, Property
 
 _DEEPEST = 32
@@ -78,31 +78,8 @@ def read_elements(data: bytes, file: str) -> Element:
     return Element("", (np.int32(version & 0x7FFFFFFF),), children)
 
 
-class _Arrays:
-    """Arrays by what they are packed as, some of those that were unpacked last: players with the same body have the
-    same meshes."""
-
-    def __init__(self) -> None:
-        self._kept: dict[_Packed, npt.NDArray[np.generic]] = {}
-        self._bytes = 0
-        self._lock = Lock()
-
-    def get(self, packed: _Packed) -> npt.NDArray[np.generic] | None:
-        return self._kept.get(packed)
-
-    def keep(self, packed: _Packed, values: npt.NDArray[np.generic]) -> None:
-        size = values.nbytes + len(packed[2])
-        if size > _LARGEST_KEPT_BYTES:
-            return
-        with self._lock:
-            if self._bytes + size > _MOST_KEPT_BYTES:
-                self._kept, self._bytes = {}, 0
-            if packed not in self._kept:
-                self._kept[packed] = values
-                self._bytes += size
-
-
-_arrays = _Arrays()
+_arrays: Final = ByteCache[_Packed, npt.NDArray[np.generic]](_MOST_KEPT_BYTES, _LARGEST_KEPT_BYTES)
+"""Unpacked arrays: players with the same body have the same meshes."""
 
 
 class _Reader:
@@ -210,7 +187,7 @@ class _Reader:
             if found is None:
                 size = count * dtype.itemsize
                 found = self._values(dtype, size, self._inflated(raw, size, start), start)
-                _arrays.keep(packed, found)
+                _arrays.keep(packed, found, found.nbytes + len(raw))
             self._unpacked[packed] = found
         self._last[dtype, count, len(raw)] = raw, found
         return found

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import hashlib
-from collections import OrderedDict
-from threading import Lock
 from typing import Final
 
 import msgspec
 import numpy as np
 
+from app.formats.fbx.byte_cache import ByteCache
 from app.formats.fbx.encode import Element, PackedArray, pack_array
 from app.formats.fbx.geometry import geometry, morph_geometry, skin_clusters
 from app.formats.scene import SkinnedMesh
@@ -48,39 +47,14 @@ def packed_mesh(mesh: SkinnedMesh) -> PackedMesh:
             ),
             tuple(tuple(map(_packed, morph_geometry(morph))) for morph in mesh.morphs),
         )
-        _meshes.keep(known, packed)
-    return packed
-
-
-class _Meshes:
-    """Packed meshes by digest; those unused for longest go first."""
-
-    def __init__(self) -> None:
-        self._kept: OrderedDict[bytes, tuple[PackedMesh, int]] = OrderedDict()
-        self._bytes = 0
-        self._lock = Lock()
-
-    def get(self, known: bytes) -> PackedMesh | None:
-        with self._lock:
-            if known not in self._kept:
-                return None
-            self._kept.move_to_end(known)
-            return self._kept[known][0]
-
-    def keep(self, known: bytes, packed: PackedMesh) -> None:
         records = [*packed.geometry]
         records += [record for _, *own in packed.clusters for record in own]
         records += [record for morph in packed.morphs for record in morph]
-        size = sum(map(_size, records))
-        with self._lock:
-            if known not in self._kept:
-                self._kept[known] = packed, size
-                self._bytes += size
-            while self._bytes > _MOST_KEPT_BYTES:
-                self._bytes -= self._kept.popitem(last=False)[1][1]
+        _meshes.keep(known, packed, sum(map(_size, records)))
+    return packed
 
 
-_meshes = _Meshes()
+_meshes: Final = ByteCache[bytes, PackedMesh](_MOST_KEPT_BYTES, _MOST_KEPT_BYTES)
 
 
 def _digest(mesh: SkinnedMesh) -> bytes:

@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 import pytest
 
-from app.formats.fbx import packed
 from app.formats.fbx.packed import packed_mesh
 from tests.unit.formats.scenes import character
 
@@ -31,12 +30,3 @@ def test_a_mesh_that_differs_in_one_value_is_packed_by_itself(changed: str) -> N
 def test_a_mesh_without_its_last_morph_is_packed_by_itself() -> None:
     fewer = packed_mesh(replace(MESH, morphs=MESH.morphs[:-1]))
     assert len(fewer.morphs) == len(packed_mesh(MESH).morphs) - 1
-
-
-def test_meshes_unused_for_longest_are_let_go(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(packed, "_meshes", packed._Meshes())
-    first = packed_mesh(MESH)
-    monkeypatch.setattr(packed, "_MOST_KEPT_BYTES", packed._meshes._bytes)
-    assert packed_mesh(MESH) is first
-    packed_mesh(replace(MESH, weights=MESH.weights * 0.5))
-    assert packed_mesh(MESH) is not first

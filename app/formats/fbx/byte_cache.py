@@ -1,0 +1,47 @@
+"""Values by key, as many as there is room for in bytes."""
+
+from __future__ import annotations
+
+from collections import OrderedDict
+from collections.abc import Hashable
+from threading import Lock
+from typing import Generic, TypeVar
+
+K = TypeVar("K", bound=Hashable)
+V = TypeVar("V")
+
+
+class ByteCache(Generic[K, V]):
+    """Values by key; those unused for longest go first. Any thread may use it.
+
+    Parameters
+    ----------
+    most_bytes : int
+        Of all values together.
+    largest_bytes : int
+        A larger value is not kept.
+    """
+
+    def __init__(self, most_bytes: int, largest_bytes: int) -> None:
+        self._most_bytes, self._largest_bytes = most_bytes, largest_bytes
+        self._kept: OrderedDict[K, tuple[V, int]] = OrderedDict()
+        self._bytes = 0
+        self._lock = Lock()
+
+    def get(self, key: K) -> V | None:
+        with self._lock:
+            if key not in self._kept:
+                return None
+            self._kept.move_to_end(key)
+            return self._kept[key][0]
+
+    def keep(self, key: K, value: V, size: int) -> None:
+        """Keep a value that takes so many bytes."""
+        if size > self._largest_bytes:
+            return
+        with self._lock:
+            if key not in self._kept:
+                self._kept[key] = value, size
+                self._bytes += size
+            while self._bytes > self._most_bytes:
+                self._bytes -= self._kept.popitem(last=False)[1][1]
