@@ -117,7 +117,8 @@ def shared_with(memo: Memo, line: SharedLine, others: tuple[SharedLine, ...], br
     """
     caught: set[int] = set()
     for number, other in enumerate(breathed):
-        caught |= memo.step(f"unison:{number}", caught_in_unison, line, other.line, other.caught)
+        if not other.caught.isdisjoint(line.known):
+            caught |= memo.step(f"unison:{number}", caught_in_unison, line, other.line, other.caught)
     held = []
     for index, length_s in line.held_s:
         place = line.places[index]

@@ -103,7 +103,7 @@ def test_what_others_keep_clear_of_is_found_again_only_for_who_breathes_elsewher
 ) -> None:
     clock = PlainClock()
     parameters = PlayerParameters(lung_s=7.0)
-    parts = [running(0, 64, 60 + number) for number in range(5)]
+    parts = [running(0, 64, 60) for _ in range(5)]
     lines = [
         MonophonicPart(f"p{number}", line_of(*rows, track=number), valves(), parameters)
         for number, rows in enumerate(parts, 1)
@@ -120,7 +120,9 @@ def test_what_others_keep_clear_of_is_found_again_only_for_who_breathes_elsewher
     assert not ASKED
     lines[2] = msgspec.structs.replace(lines[2], corrections=(SetBreath(lines[2].notes[9].id, -240),))
     last = plan_ensemble(piece, tuple(lines), frame, before=after)
-    assert len(ASKED) == 2
+    elsewhere = [n for n in range(5) if caught(last.plans[f"p{n + 1}"]) != caught(after.plans[f"p{n + 1}"])]
+    assert elsewhere[0] == 2
+    assert len(ASKED) == sum(4 - n for n in elsewhere) < 10
     assert last.plans == make_plans(piece, tuple(lines), frame)
 
 
