@@ -13,9 +13,9 @@ import struct
 from collections.abc import Callable
 from typing import Any, Final
 
+import deflate
 import numpy as np
 import numpy.typing as npt
-from isal import isal_zlib
 
 from app.errors import FileError
 from app.formats.fbx.byte_cache import ByteCache
@@ -193,14 +193,10 @@ class _Reader:
         return found
 
     def _inflated(self, raw: bytes, size: int, start: int) -> bytes:
-        inflate = isal_zlib.decompressobj()
         try:
-            found = inflate.decompress(raw, size + 1)
-        except isal_zlib.error as error:  # type: ignore[misc]  # its stubs name an instance
+            return bytes(deflate.zlib_decompress(raw, size))
+        except deflate.DeflateError as error:
             raise self._error("bad_array", start) from error
-        if not inflate.eof and len(found) <= size:
-            raise self._error("bad_array", start)
-        return found
 
     def _values(
         self, dtype: np.dtype[np.generic], size: int, raw: bytes | memoryview, start: int

@@ -14,10 +14,10 @@ from functools import lru_cache
 from operator import attrgetter
 from typing import Any, Final, TypeAlias
 
+import deflate
 import msgspec
 import numpy as np
 import numpy.typing as npt
-from isal import isal_zlib
 
 MAGIC = b"Kaydara FBX Binary  \0\x1a\0"
 VERSION = 7400
@@ -34,7 +34,7 @@ _LARGEST_OFFSET = 2**31 - 1
 _RAW_ARRAY_BYTES = 128
 _SMALL_BYTES = 1024
 """Records with no more are put together."""
-_LEVEL = 2
+_LEVEL = 1
 
 _ARRAY_CODES = {"f4": b"f", "f8": b"d", "i4": b"i", "i8": b"l", "b1": b"b"}
 
@@ -89,7 +89,7 @@ def pack_array(values: npt.NDArray[np.generic], *, compress: bool = True) -> Pac
     raw = np.ascontiguousarray(values, dtype=values.dtype.newbyteorder("<")).tobytes()
     encoding = 0
     if compress and len(raw) > _RAW_ARRAY_BYTES:
-        raw, encoding = isal_zlib.compress(raw, _LEVEL), 1
+        raw, encoding = bytes(deflate.zlib_compress(raw, _LEVEL)), 1
     return PackedArray(code + struct.pack("<III", len(values), encoding, len(raw)) + raw)
 
 
