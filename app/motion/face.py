@@ -5,8 +5,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -14,7 +14,7 @@ from app.motion.curve import Curve, Envelopes, FloatArray, Trace, moves, moves_t
 from app.motion.exertion import Exertion, Lungs, exertion_of
 from app.motion.held_notes import easing, firmness, vibrato_size
 from app.motion.spline import Spline
-from app.plan.model import EmbouchureEvent, PlayerPlan, same_events
+from app.plan.model import PlayerPlan, same_events
 from metadata.face_model import FaceMotion
 
 FORM_S = 0.26
@@ -29,25 +29,26 @@ TONGUE_RELEASE_S = 0.05
 SWELL_S = 0.35
 """Effort and air swell and fade slowly, over several notes."""
 
+START, END, TENSION, EFFORT, AIR = range(5)
+"""Columns of `Asked.notes`."""
+
 SHALLOWEST = 0.5
 """However shallow a breath, the mouth opens by this share of a full one's."""
 
 
-def _tracked(
-    events: Sequence[EmbouchureEvent], values: Sequence[float], shift_s: float, rest_value: float | None
-) -> Curve:
-    """A value that is reached at each onset, held, and (``rest_value``) left in rests longer than `HOLD_S`."""
+def _tracked(notes: FloatArray, targets: FloatArray, shift_s: float, rest_value: float | None) -> Curve:
+    """A value (N,) that is reached at each onset, held, and (``rest_value``) left in rests longer than `HOLD_S`; notes
+    as of `Asked.notes`."""
     initial = rest_value or 0.0
-    if not events:
+    if not len(notes):
         return moves((), initial)
-    onsets_s = np.array([event.start_s for event in events])
-    lasts_s = np.minimum(np.array([event.end_s for event in events]), np.append(onsets_s[1:], np.inf))
-    targets = np.array(values, dtype=np.float64)
+    onsets_s = notes[:, START]
+    lasts_s = np.minimum(notes[:, END], np.append(onsets_s[1:], np.inf))
     before = np.append(initial, targets[:-1])
     free_s = np.append(-np.inf, np.maximum(onsets_s, lasts_s - SHIFT_SHARE * (lasts_s - onsets_s))[:-1])
     left_s = np.append(-np.inf, lasts_s[:-1])
     # Two rows for every note: back to rest where there is one before it, and to its own value.
-    rows = np.empty((len(events), 2, 3))
+    rows = np.empty((len(notes), 2, 3))
     if rest_value is not None:
         gap_s = onsets_s - left_s
         rests = np.isfinite(left_s) & (gap_s > HOLD_S)
@@ -63,19 +64,20 @@ def _tracked(
     return moves_to(table[:, 0], table[:, 1], table[:, 2], initial)
 
 
-def _strains(plan: PlayerPlan, embouchure_tension: float) -> tuple[Curve | Trace, Curve | Trace, Curve | Trace]:
-    """Tension, effort and air: as they were recorded where they were, else from note to note."""
-    events, traces = plan.embouchures, plan.traces
+def _tension(asked: Asked) -> Curve | Trace:
+    """As it was recorded where it was, else from note to note; so are effort and air."""
+    traces, scale = asked.plan.traces, asked.embouchure_tension
     if traces is None:
-        tensions = [min(1.0, embouchure_tension * event.tension) for event in events]
-        tension: Curve | Trace = _tracked(events, tensions, SHIFT_S, None)
-    else:
-        tension = Trace(traces.start_s, traces.step_s, np.minimum(embouchure_tension * traces.tension, 1.0))
+        return _tracked(asked.notes, np.minimum(scale * asked.notes[:, TENSION], 1.0), SHIFT_S, None)
+    return Trace(traces.start_s, traces.step_s, np.minimum(scale * traces.tension, 1.0))
+
+
+def _strain(asked: Asked, column: int) -> Curve | Trace:
+    """Effort or air."""
+    traces = asked.plan.traces
     if traces is None or traces.air is None or traces.effort is None:
-        effort = _tracked(events, [event.effort for event in events], SWELL_S, 0.0)
-        return tension, effort, _tracked(events, [event.air for event in events], SWELL_S, 0.0)
-    recorded = [Trace(traces.start_s, traces.step_s, values) for values in (traces.effort, traces.air)]
-    return tension, recorded[0], recorded[1]
+        return _tracked(asked.notes, asked.notes[:, column], SWELL_S, 0.0)
+    return Trace(traces.start_s, traces.step_s, traces.effort if column == EFFORT else traces.air)
 
 
 def breath_opening(plan: PlayerPlan) -> Envelopes:
@@ -145,6 +147,13 @@ class Asked:
     motion: FaceMotion
     lungs: Lungs
 
+    @cached_property
+    def notes(self) -> FloatArray:
+        """(N, 5): start and end (seconds), tension, effort and air of every embouchure."""
+        events = self.plan.embouchures
+        rows = [(event.start_s, event.end_s, event.tension, event.effort, event.air) for event in events]
+        return np.array(rows, np.float64).reshape(-1, 5)
+
     def same(self, other: Asked, *kinds: str) -> bool:
         """Whether what is made of these events of the plan is the same."""
         mine, others = (one.plan.time_frame for one in (self, other))
@@ -184,31 +193,42 @@ class Face:
     def of(cls, asked: Asked, before: tuple[Face, Asked] | None = None) -> Face:
         """From a whole plan, or from what is the same as in the plan ``before``."""
         plan = asked.plan
-        events = plan.embouchures
-        if before is not None and asked.same(before[1], "embouchures", "traces"):
-            face, other = before
-            tongues, breaths = (same_events(plan, other.plan, kind) for kind in ("tongues", "breaths"))
-            return replace(
-                face,
-                tongue=face.tongue if tongues else _tongue(plan),
-                firm=face.firm if tongues else firmness(plan),
-                mouth_open=face.mouth_open if breaths else breath_opening(plan),
-                exertion=face.exertion if breaths else exertion_of(plan, asked.motion, asked.lungs),
-                expressions=face.expressions if same_events(plan, other.plan, "expressions") else _shown(plan),
+        if before is None or not asked.same(before[1], "traces"):
+            return cls(
+                at_lips=_tracked(asked.notes, np.ones(len(asked.notes)), FORM_S, 0.0),
+                tension=_tension(asked),
+                effort=_strain(asked, EFFORT),
+                air=_strain(asked, AIR),
+                tongue=_tongue(plan),
+                mouth_open=breath_opening(plan),
+                firm=firmness(plan),
+                eased=easing(plan),
+                vibrato=vibrato_size(plan),
+                exertion=exertion_of(plan, asked.motion, asked.lungs),
+                expressions=_shown(plan),
             )
-        tension, effort, air = _strains(plan, asked.embouchure_tension)
+        face, other = before
+        lips, tongues, breaths, shown = (
+            same_events(plan, other.plan, kind) for kind in ("embouchures", "tongues", "breaths", "expressions")
+        )
+        # Most of what an edit of a note leaves as it was is found out by comparing: that costs less than making it.
+        times = lips or np.array_equal(asked.notes[:, :TENSION], other.notes[:, :TENSION])
+        tension, effort, air = (
+            times and (lips or np.array_equal(asked.notes[:, column], other.notes[:, column]))
+            for column in (TENSION, EFFORT, AIR)
+        )
         return cls(
-            at_lips=_tracked(events, [1.0] * len(events), FORM_S, 0.0),
-            tension=tension,
-            effort=effort,
-            air=air,
-            tongue=_tongue(plan),
-            mouth_open=breath_opening(plan),
-            firm=firmness(plan),
-            eased=easing(plan),
-            vibrato=vibrato_size(plan),
-            exertion=exertion_of(plan, asked.motion, asked.lungs),
-            expressions=_shown(plan),
+            at_lips=face.at_lips if times else _tracked(asked.notes, np.ones(len(asked.notes)), FORM_S, 0.0),
+            tension=face.tension if tension else _tension(asked),
+            effort=face.effort if effort else _strain(asked, EFFORT),
+            air=face.air if air else _strain(asked, AIR),
+            tongue=face.tongue if tongues else _tongue(plan),
+            mouth_open=face.mouth_open if breaths else breath_opening(plan),
+            firm=face.firm if air and tongues else firmness(plan),
+            eased=face.eased if times else easing(plan),
+            vibrato=face.vibrato if air else vibrato_size(plan),
+            exertion=face.exertion if lips and breaths else exertion_of(plan, asked.motion, asked.lungs),
+            expressions=face.expressions if shown else _shown(plan),
         )
 
     def sample(self, times_s: FloatArray) -> Drivers:

@@ -61,7 +61,7 @@ class _Track:
     playing : PerformanceCurves, Dancing or None
         None until it is first needed, and for who cannot play.
     chunks : dict of int to Chunk
-        Made from ``playing``.
+        Made from ``playing``, or from ``prepared`` before the others are proven.
     basis : PerformanceCurves, Dancing or None
         What ``unproven`` was made from: chunks of the performance before, some of which are still right.
     unproven, outdated : dict of int to Chunk
@@ -113,13 +113,15 @@ class _Track:
     def after(self, player: Player | Dancer, plan: PlayerPlan, known: tuple[Problem, ...], same_chunks: int) -> _Track:
         """The track of the same performer after an edit; chunks from ``same_chunks`` on have other frames now."""
         proven = self.playing is not None
+        # What is newest is shown: of a performance that is not compared yet, too.
+        left = {index: chunk for index, chunk in self.unproven.items() if index not in self.chunks}
         return _Track(
             player,
             plan,
             known,
             basis=self.playing if proven else self.basis,
-            unproven=self.chunks if proven else self.unproven,
-            outdated=self.outdated,
+            unproven=self.chunks if proven else left,
+            outdated=self.outdated if proven else self.outdated | self.chunks,
             judged={index for index in tuple(self.judged) if index < same_chunks},
             breaks=dict(self.breaks),
             problems=self.problems,
@@ -307,7 +309,9 @@ class LiveMotion:
         """Make a player's frames around a time here and now, in any thread.
 
         Not of players that were never shown, or whose dance is not generated: that takes long. Nor while the worker
-        thread makes something of the very player, since it makes next what is shown. Raises PlayerFault.
+        thread makes something of the very player, since it makes next what is shown. What of the performance before is
+        still right is left to the worker: a picture waits for this, and comparing takes as long as making. Raises
+        PlayerFault.
         """
         shown = self._shown
         track = shown.tracks.get(player_id)
@@ -315,20 +319,22 @@ class LiveMotion:
             return
         try:
             if (track.playing or track.basis) is not None and _soon_made(shown, track):
-                self._make(shown, track, shown.grid.place(time_s)[0] // shown.grid.length)
+                index = shown.grid.place(time_s)[0] // shown.grid.length
+                self._make(shown, track, index, prove=isinstance(track.player, Dancer))
         finally:
             track.making.release()
 
-    def _make(self, shown: _Shown, track: _Track, index: int) -> bool | None:
+    def _make(self, shown: _Shown, track: _Track, index: int, *, prove: bool = True) -> bool | None:
         """Make a chunk: None where that is not needed or not possible, False where there is no room for it."""
         with self._own_fault(track):
-            if track.playing is None or track.basis is not None:
+            if prove and (track.playing is None or track.basis is not None):
                 self._prove(shown, track)
-            if track.playing is None or track.error is not None or index in track.chunks:
+            playing = self._playing(shown, track)
+            if playing is None or track.error is not None or index in track.chunks:
                 return None
             if not self._make_room(shown, track, index):
                 return False
-            motion = track.playing.motion(shown.grid.fps, *shown.grid.span(index))
+            motion = playing.motion(shown.grid.fps, *shown.grid.span(index))
             chunk = Chunk.of(motion)
             if isinstance(track.player, Dancer):
                 self._name_problems(track)
@@ -348,8 +354,12 @@ class LiveMotion:
             shown, unjudged = self._shown, self._made
             self._made = []
         for track, index, motion in unjudged:
-            if shown.tracks.get(track.player.id) is track and index in track.chunks and track.error is None:
-                with self._own_fault(track):
+            if shown.tracks.get(track.player.id) is not track:
+                continue
+            with track.making, self._own_fault(track):
+                if track.playing is None or track.basis is not None:
+                    self._prove(shown, track)
+                if index in track.chunks and track.error is None:
                     self._judge(track, index, motion)
 
     def judge(self, stop_requested: StopRequested = lambda: False) -> bool:
@@ -511,7 +521,8 @@ class LiveMotion:
             track.judged -= {index for index in track.judged if index >= len(touched) or touched[index]}
             track.breaks = {index: breaks for index, breaks in track.breaks.items() if index < shown.grid.chunks}
         with self._lock:
-            track.playing, track.chunks, track.basis, track.unproven = playing, kept, None, {}
+            # What is there already was made from the very same.
+            track.playing, track.chunks, track.basis, track.unproven = playing, kept | track.chunks, None, {}
         if track.breaks or track.problems:
             self._name_problems(track)
 

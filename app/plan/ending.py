@@ -28,13 +28,15 @@ def ending_of(all_times: tuple[LineTimes, ...], piece: Piece) -> Ending:
     lines = [times for times in all_times if len(times.onset_tick)]
     if not lines:
         return Ending(False, 0.0)
-    onset, end = (
-        np.concatenate([getattr(times, name) for times in lines]) for name in ("onset_tick", "played_end_tick")
-    )
-    pitch, loudness = (np.concatenate([getattr(times, name) for times in lines]) for name in ("pitch", "loudness"))
-    last = int(end.max())
+    last = max(int(times.played_end_tick[-1]) for times in lines)
     beat = int(piece.beat_ticks_at(np.array([last]))[0])
-    first = max(last - BARS * piece.metre_map.bar_ticks_at(last), int(onset.min()))
+    first = max(last - BARS * piece.metre_map.bar_ticks_at(last), min(int(times.onset_tick[0]) for times in lines))
+    # Notes end in their order, and those that end before the last bars count for nothing.
+    begins = [int(np.searchsorted(times.played_end_tick, first, "right")) for times in lines]
+    onset, end, pitch, loudness = (
+        np.concatenate([getattr(times, name)[begin:] for times, begin in zip(lines, begins, strict=True)])
+        for name in ("onset_tick", "played_end_tick", "pitch", "loudness")
+    )
     lasts_s = piece.clock.seconds(float(last)) - piece.clock.seconds(float(first))
     bpm = 60.0 * (last - first) / beat / max(lasts_s, 1e-9)
     tonic = int(pitch[end > last - beat].min()) % 12

@@ -19,8 +19,10 @@ Messages: ``gesture.weight_shift``, ``gesture.bell_height``, ``gesture.bell_acce
 from __future__ import annotations
 
 import itertools
+from bisect import bisect_right
 from collections.abc import Sequence
 from functools import lru_cache
+from operator import attrgetter
 
 import numpy as np
 import numpy.typing as npt
@@ -124,7 +126,13 @@ def plan_gestures(
 
 
 def _in_order(*kinds: Sequence[GestureEvent]) -> tuple[GestureEvent, ...]:
-    return tuple(sorted(itertools.chain(*kinds), key=lambda event: (event.start_s, event.id)))
+    """By start, then by id. Nearly all begin at times of their own, and numbers are compared much faster than pairs."""
+    events = sorted(itertools.chain(*kinds), key=attrgetter("start_s"))
+    starts_s = [event.start_s for event in events]
+    for first in [place for place, pair in enumerate(itertools.pairwise(starts_s)) if pair[0] == pair[1]]:
+        end = bisect_right(starts_s, starts_s[first])
+        events[first:end] = sorted(events[first:end], key=attrgetter("id"))
+    return tuple(events)
 
 
 def weight_shifts(

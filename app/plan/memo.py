@@ -57,11 +57,13 @@ class Memo:
         if getattr(function, "__closure__", None):
             raise TypeError(f"step {name!r} reads more than its arguments")
         known = self._before.get(name)
-        if known is not None and _equal(known.inputs, inputs):
+        # Items that are the same objects are not compared.
+        if known is not None and known.inputs == inputs:
             # The inputs of the run before: equal ones that are the same objects are distinguished from others at once.
             self._steps[name] = known
             # What was done within it is needed where the next run has other inputs.
-            self._steps.update((inner, self._before[inner]) for inner in known.within)
+            for inner in known.within:
+                self._steps[inner] = self._before[inner]
             return known.result  # type: ignore[no-any-return]
         count = len(self._steps)
         result: T = function(*given, *inputs)
@@ -73,7 +75,3 @@ class Memo:
     def close(self) -> None:
         """Forget the run before."""
         self._before = {}
-
-
-def _equal(before: tuple[object, ...], inputs: tuple[object, ...]) -> bool:
-    return len(before) == len(inputs) and all(a is b or a == b for a, b in zip(before, inputs, strict=True))

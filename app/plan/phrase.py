@@ -189,15 +189,24 @@ def accents(
     amounts = np.where(inhaled, AFTER_BREATH * amounts, amounts)
     lengths_s = np.clip(ACCENT_BEATS * beat_s[candidates], SHORTEST_ACCENT_S, ACCENT_S)
     lengths_s = np.where(inhaled, SHORTEST_ACCENT_S, lengths_s)
-    events = []
-    for place in chosen:
-        length_s = float(lengths_s[place])
-        start_s = float(at_s[place]) - ACCENT_AT * length_s
-        end_s, amount = start_s + length_s, round(float(amounts[place]), 4)
-        start, end = round(clock.ticks(start_s)), round(clock.ticks(end_s))
-        reason = LOUD if loud[candidates[place]] else ACCENT
-        events.append(GestureEvent(f"accent:@{ticks[place]}", "accent", start, end, start_s, end_s, amount, reason))
-    return events
+    starts_s = (at_s - ACCENT_AT * lengths_s)[chosen]
+    ends_s = starts_s + lengths_s[chosen]
+    rows = zip(
+        ticks[chosen].tolist(),
+        np.rint(clock.ticks(starts_s)).astype(np.int64).tolist(),
+        np.rint(clock.ticks(ends_s)).astype(np.int64).tolist(),
+        starts_s.tolist(),
+        ends_s.tolist(),
+        amounts[chosen].tolist(),
+        loud[candidates[chosen]].tolist(),
+        strict=True,
+    )
+    return [
+        GestureEvent(
+            f"accent:@{tick}", "accent", start, end, start_s, end_s, round(amount, 4), LOUD if is_loud else ACCENT
+        )
+        for tick, start, end, start_s, end_s, amount, is_loud in rows
+    ]
 
 
 def _apart(at_s: FloatArray, scores: FloatArray, loud: BoolArray, beat_s: FloatArray) -> list[int]:

@@ -35,6 +35,8 @@ FROM_EDGES_S = 1.0
 """No one breathes so soon after a held note begins, or before it ends."""
 TRIED = 17
 """Times that are compared for each breath."""
+COMPARED = 8
+"""So many players' catch breaths are one step of the plan: it is done again after an edit of one of them only."""
 
 Place: TypeAlias = int
 """Where a note stands (`PLACES` a quarter) and its pitch class, as one number."""
@@ -49,12 +51,15 @@ class SharedLine(NamedTuple):
         Of its notes.
     known : frozenset of Place
         The same without order.
+    notes_at : dict of Place to tuple of int
+        Its notes by their places.
     held_s : tuple of (int, float)
         Notes that last at least `HELD_S`, and how long.
     """
 
     places: tuple[Place, ...]
     known: frozenset[Place]
+    notes_at: dict[Place, tuple[int, ...]]
     held_s: tuple[tuple[int, float], ...]
 
     def holds(self, place: Place, length_s: float) -> bool:
@@ -93,14 +98,17 @@ ALONE = Shared()
 def shared_line(times: LineTimes, piece: Piece) -> SharedLine:
     """The places of a line's notes, as a score would have them."""
     if not len(times.onset_tick):
-        return SharedLine((), frozenset(), ())
+        return SharedLine((), frozenset(), {}, ())
     quarter = piece.clock.ticks_per_quarter
     onsets = np.rint(notated(times, piece).onset_tick * PLACES / quarter).astype(np.int64)
     places = tuple((onsets * 12 + times.pitch % 12).tolist())
     held_s = tuple(
         (index, float(times.duration_s[index])) for index in np.flatnonzero(times.duration_s >= HELD_S).tolist()
     )
-    return SharedLine(places, frozenset(places), held_s)
+    notes_at: dict[Place, tuple[int, ...]] = {}
+    for index, place in enumerate(places):
+        notes_at[place] = (*notes_at.get(place, ()), index)
+    return SharedLine(places, frozenset(places), notes_at, held_s)
 
 
 def shared_with(memo: Memo, line: SharedLine, others: tuple[SharedLine, ...], breathed: tuple[Breathed, ...]) -> Shared:
@@ -116,9 +124,8 @@ def shared_with(memo: Memo, line: SharedLine, others: tuple[SharedLine, ...], br
         Of those whose breaths are placed already.
     """
     caught: set[int] = set()
-    for number, other in enumerate(breathed):
-        if not other.caught.isdisjoint(line.known):
-            caught |= memo.step(f"unison:{number}", caught_in_unison, line, other.line, other.caught)
+    for first in range(0, len(breathed), COMPARED):
+        caught |= memo.nested(f"unison:{first}", _caught_by_some, line, breathed[first : first + COMPARED], first)
     held = []
     for index, length_s in line.held_s:
         place = line.places[index]
@@ -126,6 +133,14 @@ def shared_with(memo: Memo, line: SharedLine, others: tuple[SharedLine, ...], br
             taken = (at_s for other in breathed for own, at_s in other.within if own == place)
             held.append((index, tuple(sorted(taken))))
     return Shared(frozenset(caught), tuple(held))
+
+
+def _caught_by_some(memo: Memo, line: SharedLine, some: tuple[Breathed, ...], first: int) -> frozenset[int]:
+    caught: set[int] = set()
+    for number, other in enumerate(some, first):
+        if not other.caught.isdisjoint(line.known):
+            caught |= memo.step(f"unison with {number}", caught_in_unison, line, other.line, other.caught)
+    return frozenset(caught)
 
 
 def caught_in_unison(line: SharedLine, other: SharedLine, caught: frozenset[Place]) -> frozenset[int]:
@@ -137,10 +152,7 @@ def caught_in_unison(line: SharedLine, other: SharedLine, caught: frozenset[Plac
         Where the other player's catch breaths are.
     """
     met = caught & line.known
-    if not met:
-        return frozenset()
-    places = (index for index, place in enumerate(line.places) if place in met)
-    return frozenset(index for index in places if _in_unison(line, other, index))
+    return frozenset(index for place in met for index in line.notes_at[place] if _in_unison(line, other, index))
 
 
 def _in_unison(line: SharedLine, other: SharedLine, index: int) -> bool:
