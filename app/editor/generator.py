@@ -402,7 +402,7 @@ class _Worker:
         clock, requests = self._clock, self._requests
         start_s, others_s = clock.monotonic(), clock.process_time() - clock.thread_time()
         try:
-            more = self._live.work(lambda: self._closed or self._pending is not None)
+            more = self._live.work(lambda: self._closed or self._paused or self._pending is not None)
         except PlayerFault as fault:
             # The others go on.
             self._report(partial(Generator._fell, fault=fault))

@@ -22,6 +22,8 @@ from instrument_maps.model import Air
 from metadata.face_model import FaceMotion
 
 IntArray: TypeAlias = npt.NDArray[np.int64]
+Whole: TypeAlias = npt.NDArray[np.int32]
+"""Whole numbers on the grid, `ONE` for 1: a product of two has 24 bits, and wider ones take twice as long."""
 
 STEP_S: Final = 0.05
 BITS: Final = 12
@@ -92,7 +94,7 @@ def exertion_of(plan: PlayerPlan, face: FaceMotion, lungs: Lungs) -> Spline:
     if any(event.planned is not None for event in plan.embouchures):
         tension, air, effort = _asked(plan, at_s, note, sounds, as_planned=True)
         music = _load(face, tension, air, effort, sounds)
-    playing = sounds.astype(np.int64)
+    playing = sounds.astype(np.int32)
     arch = _arch(plan, starts_s, ends_s, at_s)
     rows = (
         _mean(load, WORKING_S, WORKING_S),
@@ -109,7 +111,7 @@ def exertion_of(plan: PlayerPlan, face: FaceMotion, lungs: Lungs) -> Spline:
 
 def _load(
     face: FaceMotion, tension: FloatArray, air: FloatArray, effort: FloatArray, sounds: npt.NDArray[np.bool_]
-) -> IntArray:
+) -> Whole:
     """What the notes cost, on the grid."""
     share = face.load
     cost = share.tension * tension + share.air * air + share.effort * effort - share.easy
@@ -137,65 +139,64 @@ def _asked(
     return found[0], found[1], found[2]
 
 
-def _whole(values: FloatArray) -> IntArray:
-    return np.rint(values * ONE).astype(np.int64)
+def _whole(values: FloatArray) -> Whole:
+    return np.rint(values * ONE).astype(np.int32)
 
 
-def _sum(values: IntArray, before_s: float, after_s: float) -> IntArray:
-    """Of the values from so long before to so long after each."""
+def _sum(values: Whole, before_s: float, after_s: float) -> Whole:
+    """Of the values from so long before to so long after each. What is summed up to a place of a very long piece may
+    run over: the difference of two is right all the same."""
     before, after = (max(round(width_s / STEP_S), 0) for width_s in (before_s, after_s))
-    total = np.zeros(before + 1 + len(values) + after, np.int64)
+    total = np.zeros(before + 1 + len(values) + after, np.int32)
     upto = total[before + 1 : before + 1 + len(values)]
-    np.cumsum(values, out=upto)
+    np.cumsum(values, dtype=np.int32, out=upto)
     total[before + 1 + len(values) :] = upto[-1]
-    sums: IntArray = total[before + after + 1 :] - total[: len(values)]
+    sums: Whole = total[before + after + 1 :] - total[: len(values)]
     return sums
 
 
-def _mean(values: IntArray, before_s: float, after_s: float) -> IntArray:
+def _mean(values: Whole, before_s: float, after_s: float) -> Whole:
     """Averaged twice: over a window that falls off to both sides."""
     for _ in range(2):
         values = _sum(values, before_s, after_s) // (round(before_s / STEP_S) + round(after_s / STEP_S) + 1)
     return values
 
 
-def _apart(values: IntArray, playing: IntArray) -> IntArray:
+def _apart(values: Whole, playing: Whole) -> Whole:
     """How far what is played here is above what is played around it; nothing in a rest."""
     sounds = np.flatnonzero(playing)
     here, around = (
         _sum(values, width_s, width_s)[sounds] // _sum(playing, width_s, width_s)[sounds]
         for width_s in (CONTOUR_S, AROUND_S)
     )
-    apart = np.zeros(len(values), np.int64)
+    apart = np.zeros(len(values), np.int32)
     apart[sounds] = np.clip(round(CONTOUR) * (here - around), -ONE, ONE)
     return _mean(apart, CONTOUR_S, CONTOUR_S)
 
 
-def _strain(load: IntArray, rise_s: float, decay_s: float) -> IntArray:
+def _strain(load: Whole, rise_s: float, decay_s: float) -> Whole:
     """Grows with the mean of a heavy load, and passes when it is over."""
     heavy = np.maximum(load - round(LIGHT * ONE), 0)
     grown = _mean(heavy, rise_s / 2.0, 0.0) * ONE // round((1.0 - LIGHT) * ONE)
     steps = round(decay_s / STEP_S)
-    # A product of two of these has 24 bits, and small numbers are multiplied several times as fast.
-    small = grown.astype(np.int32)
-    strain, passed = small.copy(), np.empty_like(small)
+    strain, passed = grown.copy(), np.empty_like(grown)
     for step in range(1, steps):
         left = np.int32(round(ONE * (1.0 - step / steps) ** 2))
-        np.multiply(small[:-step], left, out=passed[step:])
+        np.multiply(grown[:-step], left, out=passed[step:])
         np.right_shift(passed[step:], BITS, out=passed[step:])
         np.maximum(strain[step:], passed[step:], out=strain[step:])
-    return _mean(strain.astype(np.int64), 0.1, 0.1)
+    return _mean(strain, 0.1, 0.1)
 
 
 def _emptying(
     plan: PlayerPlan, lungs: Lungs, loudness: FloatArray, sounds: npt.NDArray[np.bool_], at_s: FloatArray
-) -> IntArray:
+) -> Whole:
     """How much of the last breath's air is used up."""
     rate = _whole(np.where(sounds, air_rate(loudness, lungs.air), 0.0))
-    used = np.cumsum(rate)
+    used = np.cumsum(rate, dtype=np.int64)
     breaths = [event for event in plan.breaths if event.kind == "breath"]
     if not breaths:
-        return np.zeros(len(at_s), np.int64)
+        return np.zeros(len(at_s), np.int32)
     ends_s = np.maximum.accumulate(np.array([event.end_s for event in breaths]))
     filled = np.searchsorted(ends_s, at_s, side="right") - 1
     begins = np.searchsorted(at_s, ends_s, side="left")
@@ -204,7 +205,7 @@ def _emptying(
     spent = np.where(filled >= 0, used - before, 0) * STEP_S / (depths * lungs.full_s)
     # Little is seen of the first half.
     left = _whole(np.square(np.clip(spent / ONE, 0.0, 1.0)))
-    return _mean(np.where(_sum(sounds.astype(np.int64), 0.5, 0.0) > 0, left, 0), 0.15, 0.15)
+    return _mean(np.where(_sum(sounds.astype(np.int32), 0.5, 0.0) > 0, left, np.int32(0)), 0.15, 0.15)
 
 
 def _arch(plan: PlayerPlan, starts_s: FloatArray, ends_s: FloatArray, at_s: FloatArray) -> FloatArray:
@@ -222,7 +223,7 @@ def _arch(plan: PlayerPlan, starts_s: FloatArray, ends_s: FloatArray, at_s: Floa
     return arch
 
 
-def _tired(load: IntArray) -> IntArray:
+def _tired(load: Whole) -> Whole:
     """After a long time without a rest; in steps, so that one other note is often none."""
     mean = _sum(load, TIRES_S, 0.0) // round(TIRES_S / STEP_S)
     more = (mean - round(TIRED_FROM * ONE)) * ONE // round((TIRED_AT - TIRED_FROM) * ONE)

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from itertools import zip_longest
 
 import numpy as np
 
-from app.motion.curve import Curve, moves
+from app.motion.curve import Curve, FloatArray, moves_to
 from app.motion.path import Path
 from app.plan.model import GestureEvent, GestureKind
 
@@ -17,7 +16,7 @@ QUICK_S = 0.6
 
 def follow(events: Sequence[GestureEvent], kind: GestureKind, transition_s: float) -> Curve:
     """A value that goes to each gesture's amount within ``transition_s`` of its start, and stays."""
-    return moves(_targets(events, kind, transition_s))
+    return moves_to(*_targets(events, kind, transition_s).T)
 
 
 def path(events: Sequence[GestureEvent], kind: GestureKind) -> Path:
@@ -25,25 +24,24 @@ def path(events: Sequence[GestureEvent], kind: GestureKind) -> Path:
     return Path.through(_targets(events, kind, None))
 
 
-def _targets(
-    events: Sequence[GestureEvent], kind: GestureKind, transition_s: float | None
-) -> list[tuple[float, float, float]]:
-    """Where gestures go and when, ``(start_s, end_s, value)``.
+def _targets(events: Sequence[GestureEvent], kind: GestureKind, transition_s: float | None) -> FloatArray:
+    """Where gestures go and when: ``start_s``, ``end_s`` and value, (S, 3).
 
     It goes back to 0 where the next gesture is more than its own length (at least a second) away.
     """
-    chosen = [event for event in events if event.kind == kind]
-    segments: list[tuple[float, float, float]] = []
-    for event, following in zip_longest(chosen, chosen[1:]):
-        end_s = event.end_s if following is None else min(event.end_s, following.start_s)
-        length_s = end_s - event.start_s
-        if length_s <= 0.0:
-            continue
-        move_s = length_s if transition_s is None else min(transition_s, length_s)
-        size = min(1.0, move_s / QUICK_S)
-        amount = min(max(event.amount * size, -1.0), 1.0)
-        segments.append((event.start_s, event.start_s + move_s, amount))
-        pause_s = np.inf if following is None else following.start_s - end_s
-        if pause_s > max(1.0, length_s):
-            segments.append((end_s, end_s + min(max(length_s, 1.0), 2.0, pause_s), 0.0))
-    return segments
+    rows = [(event.start_s, event.end_s, event.amount) for event in events if event.kind == kind]
+    start_s, end_s, amount = np.array(rows, np.float64).reshape(-1, 3).T
+    next_s = np.append(start_s[1:], np.inf)[: len(start_s)]
+    end_s = np.minimum(end_s, next_s)
+    length_s = end_s - start_s
+    move_s = length_s if transition_s is None else np.minimum(transition_s, length_s)
+    amount = np.clip(amount * np.minimum(1.0, move_s / QUICK_S), -1.0, 1.0)
+    pause_s = next_s - end_s
+    back_s = np.minimum(np.clip(length_s, 1.0, 2.0), pause_s)
+    table = np.empty((len(rows), 2, 3))
+    table[:, 0] = np.stack((start_s, start_s + move_s, amount), axis=1)
+    table[:, 1] = np.stack((end_s, end_s + back_s, np.zeros(len(rows))), axis=1)
+    lasts = length_s > 0.0
+    goes_back = lasts & (pause_s > np.maximum(1.0, length_s))
+    targets: FloatArray = table[np.stack((lasts, goes_back), axis=1)]
+    return targets

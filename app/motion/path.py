@@ -28,8 +28,8 @@ class Path:
     slopes: FloatArray
 
     @classmethod
-    def through(cls, segments: Sequence[tuple[float, float, float]]) -> Path:
-        """From ``(start_s, end_s, value)``: it goes to each value over its span, from where it was, 0 at first.
+    def through(cls, segments: Sequence[tuple[float, float, float]] | FloatArray) -> Path:
+        """From rows ``(start_s, end_s, value)``: it goes to each value over its span, from where it was, 0 at first.
 
         Raises ValueError where spans overlap or take no time.
         """

@@ -290,6 +290,8 @@ class LiveMotion:
         """Make the most requested chunk that is missing; whether there was one. Raises PlayerFault, once for a
         player."""
         self._judge_made()
+        if stop_requested():
+            return True
         with self._lock:
             shown = self._shown
             if self._todo is None:
@@ -343,7 +345,8 @@ class LiveMotion:
             track.outdated.pop(index, None)
             self._chunk_bytes = chunk.bytes
             self._made_chunks += 1
-            self._seen += index == self._in_sight(shown.grid)[0]
+            # Who has it made at once shows it, too.
+            self._seen += prove and index == self._in_sight(shown.grid)[0]
             if index not in track.judged and isinstance(track.player, Player):
                 self._made.append((track, index, motion))
         return True
@@ -389,7 +392,7 @@ class LiveMotion:
 
     @property
     def seen(self) -> int:
-        """Another number once poses around the time that is requested were made."""
+        """Another number once `work` has made poses around the time that is requested."""
         return self._seen
 
     @property

@@ -107,11 +107,15 @@ class LargeEditor:
         self._timed.start()
 
     def _drawn(self) -> None:
-        if self._awaited is not None and self.is_right(self._awaited[0]):
+        if self._awaited is None:
+            return
+        # Before it is asked whether the picture is right, which takes some milliseconds with fifty players.
+        cpu_s, wall_s = time.thread_time(), time.perf_counter()
+        if self.is_right(self._awaited[0]):
             began = self._awaited[1]
             self.seen = Turn(
-                time.thread_time() - began.cpu_s,
-                time.perf_counter() - began.wall_s,
+                cpu_s - began.cpu_s,
+                wall_s - began.wall_s,
                 self._drawing_s - began.drawing_s,
                 self._drawing_wall_s - began.drawing_wall_s,
             )

@@ -154,20 +154,23 @@ def test_motion_is_made_by_itself_and_again_where_an_edit_touched_it(
 def test_the_viewport_is_reported_only_of_poses_at_the_playhead(
     session: Session, generator: Generator, qtbot: QtBot
 ) -> None:
-    player, score = session.project.players[0], session.project.score
+    score = session.project.score
+    front, other = session.project.players[:2]
+    assert session.players[0] == front.id
     qtbot.waitUntil(lambda: generator.ready_share == 1.0)
     session.set_playhead(4.0)
     qtbot.wait(100)
     reported: list[bool] = []
     generator.motion_changed.connect(lambda: reported.append(generator.live.is_seen))
-    for at_s, expected in ((30.0, 1), (4.5, 2)):
+    for player, at_s, expected in ((front, 30.0, 1), (front, 4.5, 1), (other, 30.0, 1), (other, 4.5, 2)):
         reported.clear()
         start = round(score.tempo_map.ticks(at_s))
         session.apply(EDIT, put(session.project, player.id, [AddExpression("x", "strained", start, start + 480)]))
         qtbot.waitUntil(lambda: generator.ready_share == 1.0)
         qtbot.wait(100)
-        # Once that there are other plans; then, where the playhead is in what changed, that its pose is right.
-        assert len(reported) == expected, at_s
+        # Once that there are other plans: the player in front is right by then. Then that the pose of another is, where
+        # the playhead is in what changed.
+        assert len(reported) == expected, (player.name, at_s)
 
 
 class Clock:

@@ -176,6 +176,33 @@ def test_after_an_edit_a_player_who_was_seen_is_made_at_once(performance: Perfor
     assert live.ready_share == 1.0
 
 
+def test_edits_that_follow_each_other_show_the_newest_pose_there_is(performance: Performance) -> None:
+    live = LiveMotion(performance)
+    player = performance.project.players[0]
+    live.request(8.0, 1.0, (player.id,))
+    all_made(live)
+    before = live.pose(player.id, 8.0)
+    strained = put(performance.project, player.id, [AddExpression("x", "strained", 6 * 960, 40 * 960)])
+    live.show(Performance(strained, performance))
+    live.make_now(player.id, 8.0)
+    made = live.pose(player.id, 8.0)
+    # Another edit comes before the worker has compared anything.
+    smiling = put(strained, player.id, [AddExpression("y", "smile", 6 * 960, 40 * 960)])
+    after = Performance(smiling, live.performance)
+    live.show(after)
+    shown = live.pose(player.id, 8.0)
+    assert before is not None
+    assert made is not None
+    assert shown is not None
+    assert shown.morphs == made.morphs != before.morphs
+    all_made(live)
+    last, anew = live.pose(player.id, 8.0), LiveMotion(after).pose_now(player.id, 8.0)
+    assert last is not None
+    assert anew is not None
+    assert last.morphs == {**dict.fromkeys(last.morphs, 0.0), **anew.morphs}
+    assert last.morphs != made.morphs
+
+
 def test_after_an_edit_the_player_in_front_does_not_wait_for_another_that_is_being_made(
     performance: Performance, monkeypatch: pytest.MonkeyPatch
 ) -> None:
