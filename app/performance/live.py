@@ -347,7 +347,8 @@ class LiveMotion:
             self._made_chunks += 1
             # Who has it made at once shows it, too.
             self._seen += prove and index == self._in_sight(shown.grid)[0]
-            if index not in track.judged and isinstance(track.player, Player):
+            # What was judged may have changed as long as that is not compared.
+            if isinstance(track.player, Player) and (index not in track.judged or not prove):
                 self._made.append((track, index, motion))
         return True
 
@@ -362,7 +363,7 @@ class LiveMotion:
             with track.making, self._own_fault(track):
                 if track.playing is None or track.basis is not None:
                     self._prove(shown, track)
-                if index in track.chunks and track.error is None:
+                if index in track.chunks and index not in track.judged and track.error is None:
                     self._judge(track, index, motion)
 
     def judge(self, stop_requested: StopRequested = lambda: False) -> bool:

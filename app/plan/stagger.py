@@ -105,9 +105,10 @@ def shared_line(times: LineTimes, piece: Piece) -> SharedLine:
     held_s = tuple(
         (index, float(times.duration_s[index])) for index in np.flatnonzero(times.duration_s >= HELD_S).tolist()
     )
-    notes_at: dict[Place, tuple[int, ...]] = {}
+    found: dict[Place, list[int]] = {}
     for index, place in enumerate(places):
-        notes_at[place] = (*notes_at.get(place, ()), index)
+        found.setdefault(place, []).append(index)
+    notes_at = {place: tuple(indices) for place, indices in found.items()}
     return SharedLine(places, frozenset(places), notes_at, held_s)
 
 

@@ -198,3 +198,16 @@ def test_live_motion_reports_as_it_is_made_and_again_after_an_edit(budget_bytes:
     live.show(Performance(project, again))
     all_made(live)
     assert live.broken == {}
+
+
+def test_what_an_edit_shows_at_once_is_judged_first() -> None:
+    project = project_of(LUTKIN)
+    player, at_s = project.players[0], project.score.tempo_map.seconds(8500.0)
+    first = Performance(project)
+    live = LiveMotion(first)
+    live.request(at_s, 1.0, (player.id,))
+    all_made(live)
+    live.show(Performance(put(project, player.id, [LOWERED]), first))
+    live.make_now(player.id, at_s)
+    live.work()
+    assert player.id in live.broken
