@@ -318,7 +318,7 @@ def _plan_line(memo: Memo, given: _Given) -> tuple[PlayerPlan, Breathed]:
     breaths = memo.step(
         "breaths",
         plan_breaths,
-        without_sound(notes),
+        memo.step("without sound", without_sound, notes),
         times.contour,
         piece,
         restricted(parameters, "breaths"),
