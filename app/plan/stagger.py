@@ -6,6 +6,7 @@ Messages: ``breath.staggered``.
 from __future__ import annotations
 
 import math
+from bisect import bisect_left, bisect_right
 from collections.abc import Sequence
 from typing import NamedTuple, TypeAlias
 
@@ -51,16 +52,21 @@ class SharedLine(NamedTuple):
         Of its notes.
     known : frozenset of Place
         The same without order.
-    notes_at : dict of Place to tuple of int
-        Its notes by their places.
+    ordered : tuple of int
+        Its notes in the order of their places.
     held_s : tuple of (int, float)
         Notes that last at least `HELD_S`, and how long.
     """
 
     places: tuple[Place, ...]
     known: frozenset[Place]
-    notes_at: dict[Place, tuple[int, ...]]
+    ordered: tuple[int, ...]
     held_s: tuple[tuple[int, float], ...]
+
+    def notes_at(self, place: Place) -> tuple[int, ...]:
+        """The notes at a place."""
+        first = bisect_left(self.ordered, place, key=self.places.__getitem__)
+        return self.ordered[first : bisect_right(self.ordered, place, first, key=self.places.__getitem__)]
 
     def holds(self, place: Place, length_s: float) -> bool:
         """Whether a note of this length is held here about as long."""
@@ -98,18 +104,15 @@ ALONE = Shared()
 def shared_line(times: LineTimes, piece: Piece) -> SharedLine:
     """The places of a line's notes, as a score would have them."""
     if not len(times.onset_tick):
-        return SharedLine((), frozenset(), {}, ())
+        return SharedLine((), frozenset(), (), ())
     quarter = piece.clock.ticks_per_quarter
     onsets = np.rint(notated(times, piece).onset_tick * PLACES / quarter).astype(np.int64)
     places = tuple((onsets * 12 + times.pitch % 12).tolist())
     held_s = tuple(
         (index, float(times.duration_s[index])) for index in np.flatnonzero(times.duration_s >= HELD_S).tolist()
     )
-    found: dict[Place, list[int]] = {}
-    for index, place in enumerate(places):
-        found.setdefault(place, []).append(index)
-    notes_at = {place: tuple(indices) for place, indices in found.items()}
-    return SharedLine(places, frozenset(places), notes_at, held_s)
+    ordered = tuple(sorted(range(len(places)), key=places.__getitem__))
+    return SharedLine(places, frozenset(places), ordered, held_s)
 
 
 def shared_with(memo: Memo, line: SharedLine, others: tuple[SharedLine, ...], breathed: tuple[Breathed, ...]) -> Shared:
@@ -153,7 +156,7 @@ def caught_in_unison(line: SharedLine, other: SharedLine, caught: frozenset[Plac
         Where the other player's catch breaths are.
     """
     met = caught & line.known
-    return frozenset(index for place in met for index in line.notes_at[place] if _in_unison(line, other, index))
+    return frozenset(index for place in met for index in line.notes_at(place) if _in_unison(line, other, index))
 
 
 def _in_unison(line: SharedLine, other: SharedLine, index: int) -> bool:
