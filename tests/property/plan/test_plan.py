@@ -124,6 +124,9 @@ def test_events_are_unique_ordered_reasoned_and_repeatable(drawn: tuple[Piece, t
             assert starts == sorted(starts)
             if name != "tongues":
                 assert all(event.reason.id for event in getattr(plan, name))
+        # What begins together is in the order of its ids; what rules add comes after it.
+        played = [(event.start_s, event.id) for event in plan.gestures if ":rule:" not in event.id]
+        assert played == sorted(played)
         assert len(plan.fingerings) == len(plan.embouchures) == len(line.notes)
         for lips in plan.embouchures:
             assert all(0.0 <= value <= 1.0 for value in (lips.tension, lips.effort, lips.air))
