@@ -192,43 +192,31 @@ class Face:
     @classmethod
     def of(cls, asked: Asked, before: tuple[Face, Asked] | None = None) -> Face:
         """From a whole plan, or from what is the same as in the plan ``before``."""
-        plan = asked.plan
-        if before is None or not asked.same(before[1], "traces"):
-            return cls(
-                at_lips=_tracked(asked.notes, np.ones(len(asked.notes)), FORM_S, 0.0),
-                tension=_tension(asked),
-                effort=_strain(asked, EFFORT),
-                air=_strain(asked, AIR),
-                tongue=_tongue(plan),
-                mouth_open=breath_opening(plan),
-                firm=firmness(plan),
-                eased=easing(plan),
-                vibrato=vibrato_size(plan),
-                exertion=exertion_of(plan, asked.motion, asked.lungs),
-                expressions=_shown(plan),
+        plan, face = asked.plan, None
+        lips = tongues = breaths = shown = times = tension = effort = air = False
+        if before is not None and asked.same(before[1], "traces"):
+            face, other = before
+            lips, tongues, breaths, shown = (
+                same_events(plan, other.plan, kind) for kind in ("embouchures", "tongues", "breaths", "expressions")
             )
-        face, other = before
-        lips, tongues, breaths, shown = (
-            same_events(plan, other.plan, kind) for kind in ("embouchures", "tongues", "breaths", "expressions")
-        )
-        # Most of what an edit of a note leaves as it was is found out by comparing: that costs less than making it.
-        times = lips or np.array_equal(asked.notes[:, :TENSION], other.notes[:, :TENSION])
-        tension, effort, air = (
-            times and (lips or np.array_equal(asked.notes[:, column], other.notes[:, column]))
-            for column in (TENSION, EFFORT, AIR)
-        )
+            # Most of what an edit of a note leaves as it was is found out by comparing: that costs less than making it.
+            times = lips or np.array_equal(asked.notes[:, :TENSION], other.notes[:, :TENSION])
+            tension, effort, air = (
+                times and (lips or np.array_equal(asked.notes[:, column], other.notes[:, column]))
+                for column in (TENSION, EFFORT, AIR)
+            )
         return cls(
-            at_lips=face.at_lips if times else _tracked(asked.notes, np.ones(len(asked.notes)), FORM_S, 0.0),
-            tension=face.tension if tension else _tension(asked),
-            effort=face.effort if effort else _strain(asked, EFFORT),
-            air=face.air if air else _strain(asked, AIR),
-            tongue=face.tongue if tongues else _tongue(plan),
-            mouth_open=face.mouth_open if breaths else breath_opening(plan),
-            firm=face.firm if air and tongues else firmness(plan),
-            eased=face.eased if times else easing(plan),
-            vibrato=face.vibrato if air else vibrato_size(plan),
-            exertion=face.exertion if lips and breaths else exertion_of(plan, asked.motion, asked.lungs),
-            expressions=face.expressions if shown else _shown(plan),
+            at_lips=face.at_lips if face and times else _tracked(asked.notes, np.ones(len(asked.notes)), FORM_S, 0.0),
+            tension=face.tension if face and tension else _tension(asked),
+            effort=face.effort if face and effort else _strain(asked, EFFORT),
+            air=face.air if face and air else _strain(asked, AIR),
+            tongue=face.tongue if face and tongues else _tongue(plan),
+            mouth_open=face.mouth_open if face and breaths else breath_opening(plan),
+            firm=face.firm if face and air and tongues else firmness(plan),
+            eased=face.eased if face and times else easing(plan),
+            vibrato=face.vibrato if face and air else vibrato_size(plan),
+            exertion=face.exertion if face and lips and breaths else exertion_of(plan, asked.motion, asked.lungs),
+            expressions=face.expressions if face and shown else _shown(plan),
         )
 
     def sample(self, times_s: FloatArray) -> Drivers:
