@@ -2,15 +2,12 @@
 
 What was done is noted in ``exported.json`` in the folder of the exports: where a run was stopped, the next one goes on.
 
-Messages: ``batch.no_pieces`` (folder); ``batch.unreal``; ``batch.bad_notes`` (file); ``dask.missing``;
-``dask.unreachable`` (address, reason).
+Messages: ``batch.no_pieces`` (folder); ``batch.unreal``; ``batch.bad_notes`` (file); those of `app.cli.cluster`.
 """
 
 from __future__ import annotations
 
 import argparse
-import hashlib
-import json
 import os
 import subprocess
 import sys
@@ -18,12 +15,13 @@ import time
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from concurrent.futures import Executor, Future, ThreadPoolExecutor, as_completed
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, Final
 
 import msgspec
 
+from app.cli.batch_inputs import own_digests, piece_digest
 from app.cli.progress import Progress
 from app.cli.status import BAD_INPUT, DONE, PARTIAL, STOPPED
 from app.cli.summary import columns
@@ -35,14 +33,14 @@ from app.formats.atomic import atomic_write
 from app.formats.files import read_file
 from app.messages import filled
 from app.own_process import core_count, own_process
-from app.version import program_version
 
 NOTES: Final = "exported.json"
 SUFFIXES: Final = (".mid", ".midi", ".suisou")
 _STOP_S: Final = 10.0
 """How long a process may take to remove what it has not finished."""
 _MOST_BYTES: Final = 64 * 2**20
-CONNECT_S: Final = 10.0
+_DASK_VARIABLES: Final = ("MALLOC_TRIM_THRESHOLD_",)
+"""What Dask sets for its workers' own sake: a process that inherits it takes 1.6 times as long for its memory."""
 
 
 class Outcome(msgspec.Struct, frozen=True):
@@ -58,6 +56,8 @@ class Outcome(msgspec.Struct, frozen=True):
         How many were written, were not, and lines to look at.
     seconds : float
         Of motion.
+    incomplete : str
+        What is missing of the piece's file, which was exported as far as it goes; empty where nothing is.
     """
 
     status: int
@@ -66,11 +66,17 @@ class Outcome(msgspec.Struct, frozen=True):
     excluded: int = 0
     warnings: int = 0
     seconds: float = 0.0
+    incomplete: str = ""
 
     @property
     def done(self) -> bool:
         """Whether the files are there."""
         return self.status in (DONE, PARTIAL)
+
+    @property
+    def whole(self) -> bool:
+        """Whether every player of a complete file was exported."""
+        return self.status == DONE and not self.incomplete
 
 
 class _Note(msgspec.Struct, frozen=True):
@@ -87,6 +93,7 @@ class _Reported(msgspec.Struct):
     left_out: list[msgspec.Raw]
     dancers: list[msgspec.Raw]
     warnings: list[msgspec.Raw]
+    incomplete: list[str]
     frames: int
     fps: float
 
@@ -114,7 +121,8 @@ def export_folder(arguments: argparse.Namespace) -> int:
         raise FileError("batch.no_pieces", folder=str(arguments.file))
     target.mkdir(parents=True, exist_ok=True)
     notes = _read_notes(target / NOTES)
-    digests = {piece: _digest(source / piece, arguments) for piece in pieces}
+    own = own_digests()
+    digests = {piece: piece_digest(source / piece, arguments, own) for piece in pieces}
     known = {
         piece: notes[piece].outcome
         for piece, folder in pieces.items()
@@ -149,7 +157,7 @@ def export_folder(arguments: argparse.Namespace) -> int:
         return STOPPED
     if not any(outcome.done for outcome in outcomes.values()):
         return BAD_INPUT
-    return max(DONE if outcome.status == DONE else PARTIAL for outcome in outcomes.values())
+    return DONE if all(outcome.whole for outcome in outcomes.values()) else PARTIAL
 
 
 def folders_of(source: Path) -> dict[str, str]:
@@ -180,6 +188,8 @@ def export_piece(given: Sequence[str], piece: str, folder: str) -> Outcome:
         The file, and where to.
     """
     command = own_process("app", *given, "--piece", piece, "--to", folder, "--jobs", "1")
+    for variable in _DASK_VARIABLES:
+        command["env"].pop(variable, None)
     with _Children.started(command) as child:
         _, printed = child.communicate()
     lines = [line for line in printed.decode("utf-8", "replace").splitlines() if line.strip()]
@@ -193,6 +203,7 @@ def export_piece(given: Sequence[str], piece: str, folder: str) -> Outcome:
         excluded=len(report.left_out),
         warnings=len(report.warnings),
         seconds=report.frames / report.fps,
+        incomplete=report.incomplete[0] if report.incomplete else "",
     )
 
 
@@ -229,22 +240,17 @@ class _Children:
 def _executor(scheduler: str | None, jobs: int | None) -> Iterator[Executor]:
     """What runs `export_piece`: threads here, each waiting for a process, or the machines of a Dask scheduler."""
     if scheduler is None:
-        executor = ThreadPoolExecutor(jobs or core_count())
+        threads = ThreadPoolExecutor(jobs or core_count())
         try:
-            yield executor
+            yield threads
         finally:
-            executor.shutdown(cancel_futures=True)
+            threads.shutdown(cancel_futures=True)
         return
-    try:
-        from distributed import Client
-    except ImportError as error:
-        raise UsageError("dask.missing") from error
-    try:
-        client = Client(scheduler, timeout=CONNECT_S)  # type: ignore[no-untyped-call]
-    except (OSError, ValueError) as error:
-        raise UsageError("dask.unreachable", address=scheduler, reason=str(error)) from error
-    with client:
-        yield client.get_executor(pure=False)  # type: ignore[no-untyped-call]
+    # Only where it is asked for: its modules take long to load.
+    from app.cli.cluster import cluster_executor
+
+    with cluster_executor(scheduler) as executor:
+        yield executor
 
 
 def _outcome(future: Future[Outcome]) -> Outcome:
@@ -253,19 +259,6 @@ def _outcome(future: Future[Outcome]) -> Outcome:
         return future.result()
     except Exception as error:  # noqa: BLE001 - a scheduler's errors have no common base; one piece stops no other
         return Outcome(BAD_INPUT, str(error) or type(error).__name__)
-
-
-def _digest(piece: Path, arguments: argparse.Namespace) -> str:
-    """What the files that are exported depend on: the piece's file, the options and the program."""
-    options = {
-        name: repr(value)
-        for name, value in sorted(vars(arguments).items())
-        if name not in ("file", "to", "jobs", "scheduler", "piece", "run", "given", "command")
-    }
-    digest = hashlib.sha256(json.dumps([program_version(), options]).encode())
-    with suppress(FileError):  # its export reports what is wrong with the file
-        digest.update(read_file(piece, _MOST_BYTES))
-    return digest.hexdigest()
 
 
 def _read_notes(file: Path) -> dict[str, _Note]:
@@ -293,13 +286,23 @@ def _table(pieces: dict[str, str], outcomes: dict[str, Outcome], known: dict[str
             rows.append((piece, "", "", "", "", outcome.reason))
         else:
             numbers = (outcome.players, round(outcome.seconds), outcome.excluded, outcome.warnings)
-            rows.append((piece, *map(str, numbers), "up to date" if piece in known else "exported"))
+            result = "up to date" if piece in known else "exported"
+            rows.append(
+                (
+                    piece,
+                    *map(str, numbers),
+                    f"{result}, incomplete: {outcome.incomplete}" if outcome.incomplete else result,
+                )
+            )
     failed = sum(not outcome.done for outcome in outcomes.values())
     done = len(outcomes) - failed
     lines = columns([row[:-1] for row in rows])
     width = max(map(len, lines))
     table = [f"{line.ljust(width)}  {shown(row[-1])}" for line, row in zip(lines, rows, strict=True)]
     count = filled("{done} of {count} {count:piece|pieces} exported", {"done": done, "count": len(pieces)})
+    incomplete = sum(bool(outcome.incomplete) for outcome in outcomes.values())
+    if incomplete:
+        count += filled("; {count} of them {count:is|are} incomplete", {"count": incomplete})
     if stopped:
         count += "; stopped: the same command goes on where it was"
     return [*table, "", count]

@@ -200,6 +200,8 @@ class Report(msgspec.Struct, frozen=True):
     dancers: tuple[DancerReport, ...] = ()
     stage: StageReport | None = None
     """None where none was asked for."""
+    incomplete: tuple[str, ...] = ()
+    """What is missing of the piece's file, which was read as far as it goes; these are among the warnings."""
     keys: KeyChoice = "every"
     """Which frames have keys; how many that are is said of each performer."""
 

@@ -30,6 +30,7 @@ from app.export.request import ExportCast, Request, cast_of
 from app.export.stage import write_stage
 from app.formats.atomic import atomic_write
 from app.plan.problem_lines import problem_lines
+from app.score.chunks import INCOMPLETE
 
 Progress = Callable[[float, str], None]
 """Called with the share 0..1 that is done and whose work it is."""
@@ -170,6 +171,7 @@ def _report(
         seed=project.seed,
         players=_compared(players),
         warnings=(*(wording(message) for message in project.score.warnings), *warnings),
+        incomplete=tuple(wording(message) for message in project.score.warnings if message.id in INCOMPLETE),
         unplayed=tuple(
             UnplayedPart(part.name, wording(part.reason), part.note_count) for part in project.score.unplayed
         ),

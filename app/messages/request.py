@@ -25,6 +25,26 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         "no Dask scheduler answers at {address}: {reason}",
         "{address} の Dask スケジューラーに接続できません: {reason}",
     ),
+    "dask.no_workers": (
+        "the Dask scheduler at {address} has no workers; start some with: dask worker {address}",
+        "{address} の Dask スケジューラーにワーカーがありません。次のコマンドで起動してください: dask worker {address}",
+    ),
+    "dask.silent_workers": (
+        "the workers of the Dask scheduler at {address} do not answer; restart them",
+        "{address} の Dask スケジューラーのワーカーが応答しません。再起動してください",
+    ),
+    "dask.no_program": (
+        "the Dask worker {worker} has no Suisou, or another version; install this one there and restart the worker",
+        "Dask ワーカー {worker} に Suisou がないか、版が違います。同じ版をインストールし、ワーカーを再起動してください",
+    ),
+    "dask.other_program": (
+        "the Dask worker {worker} has another Suisou ({version}; here {own}); install the same one and restart it",
+        "Dask ワーカー {worker} の Suisou が異なります（{version}、こちらは {own}）。同じものを入れてください",
+    ),
+    "dask.other_files": (
+        "the Dask worker {worker} does not have the same files of your own ({kinds}); copy these folders to it",
+        "Dask ワーカー {worker} のユーザーファイル（{kinds}）が異なります。フォルダーをコピーしてください",
+    ),
     "dask.one_piece": (
         "--scheduler is for a folder of pieces",
         "--scheduler は曲のフォルダーに使います",

@@ -73,6 +73,16 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         "the length of track {track} (byte {byte}) is wrong; the track was read to its actual end",
         "トラック {track} の長さ（バイト {byte}）が誤っています。実際の終わりまで読み込みました",
     ),
+    "midi.track_cut_off": (
+        (
+            "the file ends within track {track}, after {found} of its {length} bytes (its length is at byte {byte}); "
+            "what is there was read"
+        ),
+        (
+            "ファイルがトラック {track} の途中で終わっています（{length} バイト中 {found} バイト、"
+            "長さはバイト {byte}）。そこまでを読み込みました"
+        ),
+    ),
     "midi.tracks_missing": (
         "the header states {expected} tracks, but the file has {found}",
         "ヘッダーには {expected} トラックとありますが、実際は {found} です",

@@ -25,6 +25,8 @@ midi.format_0_tracks : tracks
     "The file says it has one track (format 0) and has {tracks}; they were taken as simultaneous"
 midi.track_length : track, byte
     "The length of track {track} (byte {byte}) is wrong; the track was read up to its real end"
+midi.track_cut_off : track, byte, length, found
+    "Track {track} (byte {byte}) says that it is {length} bytes long, and the file ends after {found}"
 midi.tracks_missing : expected, found
     "The header promises {expected} tracks, the file has {found}"
 midi.bytes_left_out : byte, count
@@ -34,6 +36,7 @@ midi.bytes_left_out : byte, count
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Final
 
 import msgspec
 
@@ -42,6 +45,8 @@ from app.formats.files import read_file
 
 MOST_BYTES = 2**26
 """Of a file; a symphony has some hundreds of kilobytes."""
+INCOMPLETE: Final = frozenset({"midi.track_cut_off", "midi.track_truncated", "midi.tracks_missing"})
+"""Warnings of a file of which music is missing."""
 _END_OF_TRACK = b"\xff\x2f\x00"
 
 
@@ -126,7 +131,12 @@ def _tracks(data: bytes, first: int, file: str) -> tuple[list[Track], list[Messa
         if kind == b"MTrk":
             real = _real_end(data, begin, end)
             if real != end:
-                warnings.append(Message("midi.track_length", {"track": len(tracks) + 1, "byte": at + 4}))
+                number, byte = len(tracks) + 1, at + 4
+                if end > len(data) == real and not data[begin:].endswith(_END_OF_TRACK):
+                    lengths = {"length": end - begin, "found": real - begin}
+                    warnings.append(Message("midi.track_cut_off", {"track": number, "byte": byte, **lengths}))
+                else:
+                    warnings.append(Message("midi.track_length", {"track": number, "byte": byte}))
                 end = real
             tracks.append(Track(data[begin:end], begin))
         elif end > len(data):

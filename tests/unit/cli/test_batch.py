@@ -2,19 +2,32 @@
 
 from __future__ import annotations
 
+import argparse
+import os
 import shutil
 import signal
 import subprocess
 import sys
 import time
+from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
+import cloudpickle
 import pytest
 from distributed import LocalCluster
 
 from app.cli import main
-from app.cli.batch import folders_of
+from app.cli.batch import export_piece, folders_of
+from app.cli.batch_inputs import OWN_FOLDERS, own_digests, piece_digest
+from app.cli.cluster import check_worker, machine_facts, probe
 from app.cli.status import BAD_INPUT, BAD_USE, DONE, PARTIAL, STOPPED
+from app.errors import UsageError
+from app.project.model import map_choices, project_from_score
+from app.project.recording import AudioTrack
+from app.project.storage import save
+from app.score.read import read_midi
+from instrument_maps.load import bundled_maps
 
 ROOT = Path(__file__).parents[3]
 QUARTET = ROOT / "resources" / "examples" / "quartet.mid"
@@ -61,6 +74,86 @@ def test_one_bad_file_stops_nothing_and_is_tried_again(
     # Other options, other files.
     assert main([*command, "--seed", "5"]) == DONE
     assert set(results(capsys.readouterr().out).values()) == {"exported"}
+
+
+@pytest.fixture(autouse=True)
+def _own_folders(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The user has a folder for each kind of own files, for the processes of the pieces too."""
+    for kind in OWN_FOLDERS:
+        monkeypatch.setenv(kind.variable, str(tmp_path / "own" / kind.name))
+
+
+@pytest.mark.parametrize("kind", [kind.name for kind in OWN_FOLDERS])
+def test_own_files_that_changed_change_the_digest(kind: str, pieces: Path, tmp_path: Path) -> None:
+    file = tmp_path / "own" / kind / "mine.toml"
+    file.parent.mkdir(parents=True)
+    digests = [digest(pieces / "one.mid")]
+    for content in ("a = 1", "a = 2"):
+        file.write_text(content)
+        os.utime(file, ns=(0, 0))  # The content decides, not the time.
+        digests.append(digest(pieces / "one.mid"))
+    assert len(set(digests)) == 3
+    file.unlink()
+    assert digest(pieces / "one.mid") == digests[0]
+
+
+def digest(piece: Path, **options: object) -> str:
+    return piece_digest(piece, argparse.Namespace(**options), own_digests())
+
+
+def test_what_a_project_names_changes_its_digest(tmp_path: Path) -> None:
+    recording, asset = tmp_path / "take.wav", tmp_path / "asset.fbx"
+    maps = bundled_maps()
+    quartet = project_from_score(read_midi(QUARTET, maps=map_choices(maps.values())), maps)
+    project = replace(quartet, audio=AudioTrack(str(recording)))
+    piece = tmp_path / "piece.suisou"
+    save(project, piece)
+    digests = [digest(piece)]
+    recording.write_bytes(b"sound")
+    digests.append(digest(piece))
+    recording.write_bytes(b"other")
+    digests.append(digest(piece))
+    digests.append(digest(piece, check_skeleton=asset))
+    asset.write_bytes(b"bones")
+    digests.append(digest(piece, check_skeleton=asset))
+    digests.append(digest(piece, check_skeleton=asset, fps="24"))
+    assert len(set(digests)) == len(digests)
+    # Where the exports go and who makes them is no part of them.
+    assert digest(piece, to=tmp_path, jobs=7, scheduler="tcp://x:1") == digests[2]
+
+
+def test_own_rules_export_every_piece_again(pieces: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (pieces / "bad.mid").unlink()
+    (pieces / "more" / "TWO.MIDI").unlink()
+    command = ["export", str(pieces), "--to", str(tmp_path / "out"), *SHORT]
+    assert main(command) == DONE
+    own = tmp_path / "own" / "expressions" / "calm.toml"
+    own.parent.mkdir(parents=True)
+    own.write_bytes((ROOT / "metadata" / "expressions" / "bright.toml").read_bytes())
+    capsys.readouterr()
+    assert main(command) == DONE
+    assert results(capsys.readouterr().out) == {"one.mid": "exported"}
+    assert main(command) == DONE
+    assert results(capsys.readouterr().out) == {"one.mid": "up to date"}
+
+
+@pytest.mark.parametrize("cut", ["within an event", "between events", "before a track"])
+def test_a_truncated_piece_is_marked(
+    cut: str, pieces: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    for name in ("one.mid", "more/TWO.MIDI"):
+        (pieces / name).unlink()
+    whole = QUARTET.read_bytes()
+    last = whole.rindex(b"MTrk")
+    event = whole.index(b"\x93", last + 100)
+    end = {"within an event": event + 2, "between events": event + 3, "before a track": last}[cut]
+    (pieces / "bad.mid").write_bytes(whole[:end])
+    command = ["export", str(pieces), "--to", str(tmp_path / "out"), *SHORT]
+    for first in ("exported, incomplete: ", "up to date, incomplete: "):
+        assert main(command) == PARTIAL
+        printed = capsys.readouterr().out
+        assert results(printed)["bad.mid"].startswith(first)
+        assert "1 of 1 piece exported; 1 of them is incomplete" in printed
 
 
 def test_what_stopped_in_the_middle_goes_on(pieces: Path, tmp_path: Path) -> None:
@@ -134,10 +227,69 @@ def test_one_piece_needs_no_scheduler(capsys: pytest.CaptureFixture[str], tmp_pa
 def test_a_scheduler_that_does_not_answer(
     pieces: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("app.cli.batch.CONNECT_S", 0.5)
+    monkeypatch.setattr("app.cli.cluster.CONNECT_S", 0.5)
     command = ["export", str(pieces), "--to", str(tmp_path / "out"), "--scheduler", "tcp://127.0.0.1:1"]
     assert main(command) == BAD_USE
     assert "no Dask scheduler answers at tcp://127.0.0.1:1" in capsys.readouterr().err
+
+
+def test_a_scheduler_without_workers(
+    pieces: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("app.cli.cluster.CONNECT_S", 1.0)
+    with LocalCluster(
+        n_workers=0, processes=False, protocol="tcp", host="127.0.0.1", dashboard_address=None
+    ) as cluster:
+        command = ["export", str(pieces), "--to", str(tmp_path / "out"), *SHORT]
+        assert main([*command, "--scheduler", cluster.scheduler_address]) == BAD_USE
+    assert "has no workers; start some with: dask worker tcp://" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("changed", "id"),
+    [
+        ({}, None),
+        ({"program": "0"}, "dask.other_program"),
+        ({"own": {**own_digests(), "styles": "0"}}, "dask.other_files"),
+        (None, "dask.no_program"),
+    ],
+)
+def test_workers_are_checked(changed: dict[str, object] | None, id: str | None) -> None:
+    answer = {} if changed is None else {**machine_facts(), **changed}
+    if id is None:
+        check_worker("tcp://a:1", answer)
+        return
+    with pytest.raises(UsageError) as raised:
+        check_worker("tcp://a:1", answer)
+    assert raised.value.message.id == id
+    assert raised.value.message.arguments["worker"] == "tcp://a:1"
+    if id == "dask.other_files":
+        assert raised.value.message.arguments["kinds"] == "styles"
+
+
+def test_a_worker_without_the_program_answers(tmp_path: Path) -> None:
+    sent = tmp_path / "sent"
+    sent.write_bytes(cloudpickle.dumps(probe()))
+    code = f"import sys; sys.path.append({str(Path(cloudpickle.__file__).parents[1])!r}); import pickle; " + (
+        f"print(pickle.load(open({str(sent)!r}, 'rb'))())"
+    )
+    # Without site, an editable installation of the program is not found.
+    answered = subprocess.run([sys.executable, "-I", "-S", "-c", code], capture_output=True, text=True, check=True)
+    assert answered.stdout == "{}\n"
+
+
+def test_processes_of_pieces_use_memory_as_ours_do(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    started: list[dict[str, Any]] = []
+
+    def start(**command: Any) -> Any:
+        started.append(command)
+        raise ProcessLookupError
+
+    monkeypatch.setattr(subprocess, "Popen", start)
+    monkeypatch.setenv("MALLOC_TRIM_THRESHOLD_", "65536")
+    with pytest.raises(ProcessLookupError):
+        export_piece(["export", "pieces"], "one.mid", str(tmp_path))
+    assert "MALLOC_TRIM_THRESHOLD_" not in started[0]["env"]
 
 
 def test_a_cluster_exports_the_pieces(pieces: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

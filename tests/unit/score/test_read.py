@@ -236,7 +236,7 @@ def test_a_track_that_breaks_off_keeps_what_came_before(cut: int) -> None:
     score = score_of(data[:-cut])
     whole = (len(SCALE_BYTES + END) - cut) // 8
     assert notes_of(score)[:whole] == SCALE_NOTES[:whole]
-    assert "midi.track_length" in ids(score)
+    assert "midi.track_cut_off" in ids(score)
     if cut not in (4, 8, 12):
         truncated = next(warning for warning in score.warnings if warning.id == "midi.track_truncated")
         assert truncated.arguments["track"] == 1

@@ -1,0 +1,99 @@
+"""The machines of a Dask scheduler, checked before any work is given to them.
+
+Messages (`UsageError`): ``dask.missing``; ``dask.unreachable`` (address, reason); ``dask.no_workers`` (address);
+``dask.silent_workers`` (address); ``dask.no_program`` (worker); ``dask.other_program`` (worker, version, own);
+``dask.other_files`` (worker, kinds).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from concurrent.futures import Executor, ThreadPoolExecutor
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any, Final
+
+from app.cli.batch_inputs import own_digests, program_digest
+from app.errors import UsageError
+from app.version import program_version
+
+if TYPE_CHECKING:
+    from distributed import Client
+
+CONNECT_S: Final = 10.0
+"""The longest that scheduler and workers are waited for, each."""
+
+
+@contextmanager
+def cluster_executor(address: str) -> Iterator[Executor]:
+    """An executor on the workers of a scheduler, all of which have this program and the user's own files.
+
+    Raises
+    ------
+    UsageError
+        See the module.
+    """
+    try:
+        from distributed import Client
+    except ImportError as error:
+        raise UsageError("dask.missing") from error
+    try:
+        client = Client(address, timeout=CONNECT_S)  # type: ignore[no-untyped-call]
+    except (OSError, ValueError) as error:
+        raise UsageError("dask.unreachable", address=address, reason=str(error)) from error
+    with client:
+        _check_workers(client, address)
+        yield client.get_executor(pure=False)  # type: ignore[no-untyped-call]
+
+
+def _check_workers(client: Client, address: str) -> None:
+    try:
+        client.wait_for_workers(1, timeout=CONNECT_S)
+    except TimeoutError as error:
+        raise UsageError("dask.no_workers", address=address) from error
+    asking = ThreadPoolExecutor(1)
+    try:
+        answers = asking.submit(client.run, probe(), on_error="return").result(CONNECT_S)
+    except TimeoutError as error:
+        raise UsageError("dask.silent_workers", address=address) from error
+    finally:
+        asking.shutdown(wait=False)
+    for worker, answer in answers.items():
+        check_worker(worker, answer)
+
+
+def check_worker(worker: str, answer: Mapping[str, Any] | BaseException) -> None:
+    """Raise UsageError where a worker would export something else than this machine.
+
+    Parameters
+    ----------
+    worker : str
+        Address of the worker.
+    answer : mapping or exception
+        The answer of `probe`, or what happened instead.
+    """
+    if not isinstance(answer, Mapping) or "program" not in answer:
+        raise UsageError("dask.no_program", worker=worker)
+    if answer["program"] != program_digest():
+        raise UsageError("dask.other_program", worker=worker, version=answer["version"], own=program_version())
+    own, theirs = own_digests(), answer["own"]
+    kinds = [kind for kind in own if theirs.get(kind) != own[kind]]
+    if kinds:
+        raise UsageError("dask.other_files", worker=worker, kinds=", ".join(kinds))
+
+
+def machine_facts() -> dict[str, Any]:
+    """What a worker says of the machine that it runs on: its program and the user's own files there."""
+    return {"version": program_version(), "program": program_digest(), "own": own_digests()}
+
+
+def probe() -> Callable[[], dict[str, Any]]:
+    """Return a function that is sent by value, since a worker may not have this module; it answers `machine_facts`."""
+
+    def facts() -> dict[str, Any]:
+        try:
+            from app.cli.cluster import machine_facts
+        except ImportError:
+            return {}
+        return machine_facts()
+
+    return facts
