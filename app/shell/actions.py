@@ -14,6 +14,7 @@ from app.editor.session import Session
 from app.editor.settings import Settings
 from app.editor.translated import tr
 from app.shell.action import Row, without_dots
+from widgets.common.clicks import on_click
 from widgets.common.icons import icon
 from widgets.common.plain import verbatim
 from widgets.common.text import message_text
@@ -60,7 +61,7 @@ class RowAction(QAction):
         self.setMenuRole(QAction.MenuRole.NoRole)
         if row.context != "window":
             self.setShortcutContext(Qt.ShortcutContext.WidgetWithChildrenShortcut)
-        self.triggered.connect(self._run)
+        on_click(self, self._run)
         table.session.language_changed.connect(self.retranslate)
         table.session.theme_changed.connect(self._apply_theme)
         self._apply_theme()

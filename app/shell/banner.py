@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
-from functools import partial
 
 from PySide6.QtCore import QSize
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QBoxLayout, QFrame, QPushButton, QWidget
 
 from app.editor.session import Session
+from widgets.common.clicks import on_click
 from widgets.common.controls import IconButton, Retranslated, named, selectable, small, wrapped
 from widgets.common.icons import pixmap
 from widgets.common.layouts import STRETCH, in_row
@@ -54,7 +54,7 @@ class Banner(Retranslated, QFrame):
         self._texts = texts
         for place, answer in enumerate(answers):
             button = named(QPushButton(), f"banner_answer_{place}")
-            button.clicked.connect(partial(self._answered, answer))
+            on_click(button, self._answered, answer)
             self._answers.insertWidget(1 + place, button)
             self._buttons.append(button)
         self.retranslate()

@@ -15,6 +15,7 @@ from app.editor.session import Session
 from app.editor.settings import Settings
 from app.encoding import shown
 from app.project.recovery import Recoverable
+from widgets.common.clicks import on_click
 from widgets.common.controls import IconButton, Retranslated, named, sized, wrapped
 from widgets.common.icons import icon
 from widgets.common.layouts import STRETCH, in_column, in_row, panel
@@ -44,7 +45,7 @@ class StartPage(Retranslated, QScrollArea):
             "file.open_danced_example": _row_button("start_danced_example"),
         }
         for action_id, button in self._buttons.items():
-            button.clicked.connect(partial(self._trigger, action_id))
+            on_click(button, self._trigger, action_id)
         self._lessons = [wrapped(_label(f"start_lesson_{number}", 9.5)) for number in range(3)]
         self._begin_heading = _label("start_begin", 10)
         self._teaching_heading = _label("start_teaching_heading", 10)
@@ -122,8 +123,8 @@ class StartPage(Retranslated, QScrollArea):
             go_on = named(QPushButton(self.tr("start_page.recover")), "recover")
             throw = named(QPushButton(self.tr("start_page.discard")), "discard")
             throw.setFlat(True)
-            go_on.clicked.connect(partial(self._files.recover, item))
-            throw.clicked.connect(partial(self._discard, item))
+            on_click(go_on, self._files.recover, item)
+            on_click(throw, self._discard, item)
             in_row((wrapped(Label(reported)), 1), throw, go_on, of=card, margins=(12, 8, 8, 8))
             self._recovery.addWidget(card)
         if self._offers:
@@ -152,7 +153,7 @@ class StartPage(Retranslated, QScrollArea):
         button.setIcon(icon("piece", tokens))
         button.setToolTip(shown(path))
         button.setEnabled(there)
-        button.clicked.connect(partial(self._files.open, path))
+        on_click(button, self._files.open, path)
         forget_tip = "start_page.remove_from_this_list"
         forget = IconButton(self._session, "close", forget_tip, partial(self._forget, str(path)), "forget_recent")
         forget.setFixedSize(26, 26)

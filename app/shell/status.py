@@ -18,6 +18,7 @@ from app.editor.tasks import Task, ThreadTasks
 from app.errors import Message
 from app.shell.notices import NoticeList, severity_colour
 from instrument_maps.library import library
+from widgets.common.clicks import on_click
 from widgets.common.controls import IconButton, Retranslated, named, small
 from widgets.common.icons import icon
 from widgets.common.layouts import STRETCH, in_row, panel
@@ -388,7 +389,7 @@ def _flat(name: str, run: Callable[[], object]) -> QPushButton:
     button = named(QPushButton(), name)
     button.setFlat(True)
     button.setStyleSheet("padding: 3px 6px;")
-    button.clicked.connect(lambda _checked: run())
+    on_click(button, run)
     return button
 
 

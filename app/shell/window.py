@@ -33,6 +33,7 @@ from app.shell.start_page import StartPage
 from app.shell.status import StatusLine
 from app.shell.workspace_switch import WorkspaceSwitch
 from app.shell.workspaces import LAYOUT_VERSION, Workspaces
+from widgets.common.clicks import on_click
 from widgets.common.controls import Retranslated, named
 from widgets.common.icons import icon
 from widgets.common.layouts import in_column, in_row, panel
@@ -164,7 +165,7 @@ class Window(Retranslated, QMainWindow):
         for dock in self.docks.values():
             dock.visibilityChanged.connect(self._table.refresh_soon)
         self.workspaces.changed.connect(self._table.refresh_soon)
-        self.palette_field.clicked.connect(self.show_palette)
+        on_click(self.palette_field, self.show_palette)
         self.menus.menu("file/open_recent").aboutToShow.connect(self._fill_recent)
         self._files.changed.connect(self._report_title)
         self._files.opened.connect(self._show_page)
@@ -292,7 +293,7 @@ class Window(Retranslated, QMainWindow):
             path = Path(text)
             row = menu.addAction(verbatim(f"{shown(path.name)}    {shown(path.parent)}"))
             row.setEnabled(os.path.isfile(path))
-            row.triggered.connect(lambda _checked, path=path: self._files.open(path))
+            on_click(row, self._files.open, path)
         if menu.isEmpty():
             menu.addAction(self.tr("window.nothing_yet")).setEnabled(False)
 

@@ -11,6 +11,7 @@ from PySide6.QtWidgets import QCheckBox, QDialogButtonBox, QHeaderView, QPushBut
 
 from app.editor.session import Session
 from app.editor.tokens import LEAST_TARGET_PX
+from widgets.common.clicks import on_click
 from widgets.common.icons import icon
 from widgets.common.plain import Label
 
@@ -103,7 +104,7 @@ class Button(Retranslated, QPushButton):
         self._text_id, self._tip_id = text_id, tip_id
         self.setObjectName(name)
         self.setAutoDefault(False)
-        self.clicked.connect(lambda _checked: run())
+        on_click(self, run)
         self.retranslate()
 
     def retranslate(self) -> None:
@@ -159,7 +160,7 @@ class IconButton(Retranslated, QToolButton):
         super().__init__()
         self._session, self._picture, self._tip_id, self._dim = session, picture, tip_id, dim
         self.setObjectName(name)
-        self.clicked.connect(lambda _checked: run())
+        on_click(self, run)
         session.theme_changed.connect(self._draw)
         self._draw()
         self.retranslate()

@@ -25,6 +25,7 @@ from PySide6.QtWidgets import QLineEdit, QMenu, QSizePolicy, QWidget
 
 from app.editor.session import Session
 from app.editor.tokens import LEAST_TARGET_PX, Tokens
+from widgets.common.clicks import on_click
 from widgets.common.controls import named
 from widgets.common.numbers import MIXED, number_from, number_text
 
@@ -333,9 +334,9 @@ class NumberSlider(QWidget):
             (self.tr("number_slider.copy_value"), self.copy),
             (self.tr("number_slider.paste_value"), self.paste),
         ):
-            menu.addAction(text, slot)
+            on_click(menu.addAction(text), slot)
         if self._resets:
-            menu.addAction(self.tr("number_slider.reset"), self.reset_value)
+            on_click(menu.addAction(self.tr("number_slider.reset")), self.reset_value)
         return menu
 
     # Drawing

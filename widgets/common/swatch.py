@@ -8,6 +8,7 @@ from PySide6.QtWidgets import QColorDialog, QMenu, QPushButton, QWidget
 
 from app.editor.session import Session
 from app.editor.tokens import LEAST_TARGET_PX
+from widgets.common.clicks import on_click
 from widgets.common.controls import named
 
 
@@ -28,7 +29,7 @@ class ColourSwatch(QPushButton):
         self._colours: tuple[str, ...] = ()
         self.setFixedSize(44, LEAST_TARGET_PX + 1)
         self.setCursor(Qt.CursorShape.PointingHandCursor)
-        self.clicked.connect(self.offer)
+        on_click(self, self.offer)
         session.theme_changed.connect(self.update)
 
     def show_colours(self, colours: tuple[str, ...]) -> None:
@@ -41,7 +42,7 @@ class ColourSwatch(QPushButton):
         """Open the list of colours."""
         menu = named(QMenu(self), "colour_menu")
         menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        menu.addAction(self.tr("colour_swatch.automatic"), lambda: self.chosen.emit(""))
+        on_click(menu.addAction(self.tr("colour_swatch.automatic")), self.chosen.emit, "")
         menu.addSeparator()
         names = (
             self.tr("colour_swatch.sky_blue"),
@@ -55,9 +56,9 @@ class ColourSwatch(QPushButton):
         )
         for name, colour in zip(names, self._session.tokens.players, strict=False):
             action = menu.addAction(_spot(colour), name)
-            action.triggered.connect(lambda _=False, colour=colour: self.chosen.emit(colour))
+            on_click(action, self.chosen.emit, colour)
         menu.addSeparator()
-        menu.addAction(self.tr("colour_swatch.other_colour"), self._ask)
+        on_click(menu.addAction(self.tr("colour_swatch.other_colour")), self._ask)
         menu.popup(self.mapToGlobal(self.rect().bottomLeft()))
 
     def _ask(self) -> None:

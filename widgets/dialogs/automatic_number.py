@@ -5,6 +5,7 @@ from __future__ import annotations
 from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QCheckBox, QDoubleSpinBox, QWidget
 
+from widgets.common.clicks import on_switch
 from widgets.common.layouts import in_row
 
 TEXT_MARGIN_PX = 6
@@ -42,7 +43,7 @@ class AutomaticNumber(QWidget):
         self.number.lineEdit().setAcceptDrops(False)
         self.setFocusProxy(self.check)
         in_row(self.check, (self.number, 1), of=self, margins=0)
-        self.check.clicked.connect(self._toggled)
+        on_switch(self.check, self._toggled)
         self.number.valueChanged.connect(lambda _: self.changed.emit())
         self.show_value(None, None)
 

@@ -15,6 +15,7 @@ from app.audio.track import Mix
 from app.capture.latency import LATEST_S, LEAST_HITS, Measured, hits, measured, placed
 from app.capture.protocol import Events
 from app.editor.session import Session
+from widgets.common.clicks import on_click
 from widgets.common.controls import Button, Caption, Retranslated, named
 from widgets.common.layouts import STRETCH, in_column, in_row
 from widgets.common.plain import Label
@@ -81,7 +82,7 @@ class LatencyDialog(Retranslated, QDialog):
         self._timer = QTimer(self, interval=_LOOK_MS, timerType=Qt.TimerType.PreciseTimer)
         self._timer.timeout.connect(self._look)
         self._build()
-        self._start.clicked.connect(self.toggle)
+        on_click(self._start, self.toggle)
         self.value.valueChanged.connect(self._show)
         self.finished.connect(self._stop)
         session.recording.received.connect(self._on_received)

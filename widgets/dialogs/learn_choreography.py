@@ -23,6 +23,7 @@ from app.editor.session import Session
 from app.editor.tasks import Progress, StopRequested
 from app.encoding import shown
 from app.errors import AppError, Cancelled, Message
+from widgets.common.clicks import on_click
 from widgets.common.controls import Button, Caption, ColumnList, named, selectable
 from widgets.common.layouts import STRETCH, begin_with_size, in_column, in_form, in_row, panel
 from widgets.common.paths import PathEdit, ask_for_files, ask_where_to_save, dropped_paths
@@ -168,7 +169,7 @@ class LearnDialog(WorkingDialog):
         self._states.changed.connect(self._edited)
         self._seed.valueChanged.connect(lambda _: self._edited())
         self._file.textChanged.connect(lambda _: self._edited())
-        self._use.clicked.connect(self._use_it)
+        on_click(self._use, self._use_it)
         self._timer.timeout.connect(lambda: self._show_share(self._share[0]))
         # A method: a function would outlive the dialog.
         session.changed.connect(self._show_use)

@@ -13,6 +13,7 @@ from app.choreography.read_motion import guesses
 from app.choreography.read_pair import CREDITS_SUFFIX
 from app.encoding import shown
 from app.formats.rates import exact_rate
+from widgets.common.clicks import on_click
 from widgets.common.controls import Retranslated, named, wrapped
 from widgets.common.paths import PathEdit, ask_for_file
 from widgets.common.plain import Label
@@ -67,7 +68,7 @@ class PairForm(Retranslated, QWidget):
             grid.addWidget(path, row, 1)
             grid.addWidget(button, row, 2)
             path.editingFinished.connect(lambda name=name: self._typed(name))
-            button.clicked.connect(lambda _=False, name=name: self._ask(name))
+            on_click(button, self._ask, name)
         for row, (name, field) in enumerate({"offset": self._offset, "fps": self._fps}.items(), start=len(_FILES)):
             self._labels[name].setBuddy(field)
             grid.addWidget(self._labels[name], row, 0)

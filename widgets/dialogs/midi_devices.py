@@ -18,6 +18,7 @@ from app.capture.protocol import Events
 from app.editor.session import Session
 from metadata.load import load_controllers
 from metadata.model import BiteSource
+from widgets.common.clicks import on_click
 from widgets.common.combo import Combo, Option
 from widgets.common.controls import Button, Caption, ColumnList, Retranslated, named, wrapped
 from widgets.common.instrument_name import language
@@ -123,7 +124,7 @@ class MidiDevicesDialog(Retranslated, QDialog):
         self._channel.chosen.connect(lambda id: self._wire(channel=int(id)))
         self._breath.chosen.connect(lambda id: self._wire(breath=id))
         self._bite.chosen.connect(lambda id: self._wire(bite=id))
-        self._learn.clicked.connect(self._toggle_learning)
+        on_click(self._learn, self._toggle_learning)
         # However it is closed.
         self.finished.connect(self._playback.stop)
         recording.changed.connect(self._show)

@@ -23,6 +23,7 @@ from app.editor.session import Session
 from app.editor.translated import tr
 from app.encoding import shown
 from instrument_maps.library import library, own_folder
+from widgets.common.clicks import on_click
 from widgets.common.controls import Caption, Retranslated, named
 from widgets.common.layouts import STRETCH, in_column, in_row, panel
 from widgets.common.paths import show_folder
@@ -128,7 +129,7 @@ class PreferencesDialog(Retranslated, QDialog):
         field = panel(in_row(*radios, STRETCH, margins=0, spacing=16))
         group = QButtonGroup(field)
         for radio, (value, _) in zip(radios, choice.options, strict=True):
-            radio.clicked.connect(lambda _checked, choose=choice.choose, value=value: choose(value))
+            on_click(radio, choice.choose, value)
             group.addButton(radio)
         self._radios[choice.name] = radios
         return field
@@ -140,7 +141,7 @@ class PreferencesDialog(Retranslated, QDialog):
         self._folder = named(QLineEdit(shown(own_folder())), "preferences_instruments")
         self._folder.setReadOnly(True)
         self._open = named(QPushButton(), "preferences_instruments_open")
-        self._open.clicked.connect(self._open_folder)
+        on_click(self._open, self._open_folder)
         for label in (self._own, self._found):
             label.setWordWrap(True)
         self._found.setObjectName("preferences_instruments_found")

@@ -11,6 +11,7 @@ from PySide6.QtWidgets import QCheckBox, QDoubleSpinBox, QMenu, QPushButton, QSi
 
 from app.editor.translated import tr
 from metadata.rules import Place, When
+from widgets.common.clicks import on_click
 from widgets.common.controls import named
 from widgets.common.plain import verbatim
 from widgets.dialogs.automatic_number import TEXT_MARGIN_PX
@@ -111,7 +112,7 @@ class Asked:
         self.check = named(QCheckBox(), f"rule_{field.name}_asked")
         self.number = Number(f"rule_{field.name}", field.low, field.high, field.step)
         self.check.toggled.connect(self.number.setEnabled)
-        self.check.clicked.connect(lambda _checked: changed())
+        on_click(self.check, changed)
         self.number.valueChanged.connect(lambda _value: changed())
         self.number.setEnabled(False)
 
@@ -177,7 +178,7 @@ class Several(QPushButton):
             entry.setObjectName(id)
             entry.setCheckable(True)
             entry.setChecked(id in self._chosen)
-            entry.triggered.connect(lambda _=False, id=id: self._toggle(id))
+            on_click(entry, self._toggle, id)
         self._say()
 
     def _toggle(self, id: str) -> None:

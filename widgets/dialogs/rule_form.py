@@ -13,6 +13,7 @@ from app.editor.session import Session
 from metadata.library import MetadataLibrary
 from metadata.rules import Rule
 from metadata.tables import Title
+from widgets.common.clicks import on_click
 from widgets.common.combo import Combo, Option
 from widgets.common.controls import Check, Retranslated, named
 from widgets.common.event_names import expression_name, gesture_name, habit_name, style_name
@@ -72,7 +73,7 @@ class RuleForm(Retranslated, QWidget):
         self._apart = self._number("apart_s", 0.0, 600.0, 0.5)
         self._end, self._fade_in, self._fade_out = (Asked(field, self._edited) for field in (_END, _FADE_IN, _FADE_OUT))
         self._puff = named(Check("rules_dialog.scaled_by_puff"), "rule_scaled_by")
-        self._puff.clicked.connect(lambda _checked: self._edited())
+        on_click(self._puff, self._edited)
         for combo in (self._moment, self._does, self._start, self._end_of):
             combo.chosen.connect(lambda _id: self._edited())
         for several in (self._places, self._styles, self._not_styles, self._habits, self._growth):

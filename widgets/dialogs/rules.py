@@ -25,6 +25,7 @@ from app.errors import AppError, Message
 from metadata.library import RULES, metadata_library
 from metadata.rule_draft import Draft, added, changed, duplicated, listed, removed, sets_of, write
 from metadata.rules import Rule, RuleFault, rule_faults
+from widgets.common.clicks import on_click
 from widgets.common.controls import Button, Check, Retranslated, named, selectable, wrapped
 from widgets.common.instrument_name import language
 from widgets.common.layouts import begin_with_size, in_column, in_row, panel
@@ -77,7 +78,7 @@ class RulesDialog(Retranslated, QDialog):
         self._copy = Button("rules_dialog.duplicate", self._duplicate, "rules_duplicate", "rules_dialog.duplicate_tip")
         self._remove = named(QPushButton(), "rules_remove")
         self._remove.setAutoDefault(False)
-        self._remove.clicked.connect(lambda _checked: self._remove_rule())
+        on_click(self._remove, self._remove_rule)
         self._preview = named(Check("rules_dialog.preview"), "rules_preview")
         self._save = Button("rules_dialog.save", self._write, "rules_save", "rules_dialog.save_tip")
         self._cancel = Button("rules_dialog.cancel", self.reject, "rules_cancel")
@@ -87,7 +88,7 @@ class RulesDialog(Retranslated, QDialog):
         self._list.currentRowChanged.connect(lambda _row: self._show_current())
         self._list.itemChanged.connect(self._switched)
         self._form.changed.connect(self._take)
-        self._preview.clicked.connect(lambda _checked: self._play())
+        on_click(self._preview, self._play)
         self._list.keys = {
             QKeySequence("Del"): self._remove_rule,
             QKeySequence("Ins"): self._add_rule,

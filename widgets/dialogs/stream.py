@@ -12,6 +12,7 @@ from PySide6.QtWidgets import QDialog, QLineEdit, QPushButton, QSpinBox, QTreeWi
 from app.editor.session import Session
 from app.editor.streaming import RATES_HZ
 from app.stream.sender import LEAST_PORT, LOOPBACK, MOST_PORT, TO_MANY, is_loopback
+from widgets.common.clicks import on_click
 from widgets.common.combo import Combo, Option
 from widgets.common.controls import Button, Caption, ColumnList, Retranslated, named, wrapped
 from widgets.common.layouts import STRETCH, in_column, in_form, in_row
@@ -50,7 +51,7 @@ class StreamDialog(Retranslated, QDialog):
         self._who.chosen.connect(lambda who: self._state.set(everyone=who == "everyone"))
         self._faces.chosen.connect(lambda faces: self._state.set(faces=faces))
         self._rate.chosen.connect(lambda rate: self._state.set(rate_hz=int(rate)))
-        self._toggle.clicked.connect(lambda: self._state.set(on=not self._state.on))
+        on_click(self._toggle, lambda: self._state.set(on=not self._state.on))
         self._state.changed.connect(self._show)
         session.changed.connect(self._show)
         session.players_changed.connect(self._show)

@@ -8,6 +8,7 @@ from collections.abc import Callable
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QDialog, QDialogButtonBox, QProgressBar, QPushButton, QWidget
 
+from widgets.common.clicks import on_click
 from widgets.common.controls import Button, Retranslated, named
 
 _PARTS = 1000
@@ -40,7 +41,7 @@ class WorkingDialog(Retranslated, QDialog):
         self._progress.setRange(0, _PARTS)
         self._progress.hide()
         self._close = named(QPushButton(), f"{prefix}_close")
-        self._close.clicked.connect(self.reject)
+        on_click(self._close, self.reject)
 
     def _box(self, start_id: str, start: Callable[[], object], show_folder: Callable[[], object]) -> QDialogButtonBox:
         """Buttons to start, to look at what was written, and to cancel or close."""

@@ -7,6 +7,7 @@ from PySide6.QtGui import QColor, QPainter, QPaintEvent
 from PySide6.QtWidgets import QToolButton, QWidget
 
 from app.editor.session import Session
+from widgets.common.clicks import on_click
 from widgets.common.controls import named, wrapped
 from widgets.common.icons import icon
 from widgets.common.layouts import in_row
@@ -31,7 +32,7 @@ class ByHandLine(QWidget):
         self._yours = ""
         self._text = wrapped(Label())
         self._button = named(QToolButton(), "revert")
-        self._button.clicked.connect(self.reverted)
+        on_click(self._button, self.reverted.emit)
         in_row((self._text, 1), (self._button, 0, Qt.AlignmentFlag.AlignTop), of=self, margins=(10, 2, 0, 2), spacing=4)
         session.theme_changed.connect(self._apply_theme)
         self._apply_theme()

@@ -18,6 +18,7 @@ from app.project.edit.players import free_name
 from app.project.model import Project
 from metadata.load import load_expressions
 from metadata.model import ARKIT_MORPHS, Expression
+from widgets.common.clicks import on_click, on_switch
 from widgets.common.combo import Combo, Option
 from widgets.common.controls import Check, Retranslated, named
 from widgets.common.event_names import expression_name
@@ -132,13 +133,13 @@ class ExpressionMaker(Retranslated, QWidget):
         self._section.header.toggled.connect(self._unfolded)
         self._choice.chosen.connect(self._choose)
         self._title.editingFinished.connect(self._rename)
-        self._playing.clicked.connect(lambda playing: self._put(None, while_playing=playing))
+        on_switch(self._playing, lambda playing: self._put(None, while_playing=playing))
         for name, slider in self._fades.items():
             slider.changed.connect(lambda value, token, name=name: self._put(token, **{name: value}))
             slider.released.connect(session.document.end_gesture)
-        self._tools["duplicate"].clicked.connect(self.duplicate)
-        self._tools["remove"].clicked.connect(self._remove)
-        self._tools["keep"].clicked.connect(self._keep)
+        on_click(self._tools["duplicate"], self.duplicate)
+        on_click(self._tools["remove"], self._remove)
+        on_click(self._tools["keep"], self._keep)
         self._tools["preview"].toggled.connect(self._preview)
         session.changed.connect(self._changed)
         session.players_changed.connect(self._preview)

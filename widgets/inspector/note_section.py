@@ -16,6 +16,7 @@ from app.project.performers import Player
 from instrument_maps.library import find_map
 from instrument_maps.model import Fingering, InstrumentMap
 from widgets.common.chip import Chip
+from widgets.common.clicks import on_click
 from widgets.common.controls import Caption, Retranslated, named
 from widgets.common.fingering_diagram import FingeringDiagram
 from widgets.common.fingering_tags import words_of_tags
@@ -190,7 +191,7 @@ class NoteSection(Retranslated, QWidget):
             self._chip_of = {label: Chip(self._session, short_label(label), cents) for label, cents in labels}
             for label, chip in self._chip_of.items():
                 chip.setObjectName(f"chip_{label}")
-                chip.clicked.connect(lambda _=False, label=label: self._pin(label))
+                on_click(chip, self._pin, label)
                 self._chips.addWidget(chip)
         for fingering in fingerings:
             chosen = fingering.label == event.label

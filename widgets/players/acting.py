@@ -14,6 +14,7 @@ from app.project.performers import Player
 from metadata.acting import names_in
 from metadata.library import HABITS, STYLES
 from widgets.common.chip import Chip
+from widgets.common.clicks import on_switch
 from widgets.common.combo import Combo, Option
 from widgets.common.controls import Retranslated, named
 from widgets.common.event_names import habit_name, style_name
@@ -91,7 +92,7 @@ class ActingRows(Retranslated, QWidget):
 
     def _chip(self, name: str) -> Chip:
         chip = named(Chip(self._session, habit_name(name), parent=self._habits), f"habit_{name}")
-        chip.clicked.connect(lambda on: self._switch(name, on))
+        on_switch(chip, lambda on: self._switch(name, on))
         self._flow.addWidget(chip)
         chip.show()
         return chip

@@ -23,6 +23,7 @@ from app.project.edit import dancers as edit
 from app.project.model import DANCER_PARAMETERS, Project
 from app.project.performers import Dancer
 from app.rig.character_library import characters
+from widgets.common.clicks import on_click, on_switch
 from widgets.common.combo import Combo, Option
 from widgets.common.controls import Check, IconButton, Retranslated, named
 from widgets.common.instrument_name import character_name
@@ -137,7 +138,7 @@ class DancersSection(Retranslated, QWidget):
         self._choreography.chosen.connect(self._choose_choreography)
         self._character.chosen.connect(lambda id: self._change("character", character_id=id))
         self._source.chosen.connect(lambda number: self._change("source", source=int(number)))
-        self._mirrored.clicked.connect(lambda on: self._change("mirrored", mirrored=bool(on)))
+        on_switch(self._mirrored, lambda on: self._change("mirrored", mirrored=bool(on)))
         for name, number in self._numbers.items():
             number.changed.connect(
                 lambda value, token, name=name, kind=number.parameter.kind: self._change(
@@ -216,8 +217,8 @@ class DancersSection(Retranslated, QWidget):
         """Ask which choreography another dancer is to dance."""
         menu = passing_menu(self, "choreography_menu")
         for name in bundled_choreographies():
-            menu.addAction(verbatim(name)).triggered.connect(lambda _=False, name=name: self.add(name))
-        menu.addAction(self.tr("dancers_section.from_file")).triggered.connect(self._add_from_file)
+            on_click(menu.addAction(verbatim(name)), self.add, name)
+        on_click(menu.addAction(self.tr("dancers_section.from_file")), self._add_from_file)
         learn = self._session.actions.get("dancers.learn")
         if learn is not None:
             menu.addAction(learn)

@@ -14,6 +14,7 @@ from app.plan.parameters import Parameter
 from app.project.edit.players import show_layer
 from app.project.performers import Player
 from metadata.acting import names_in
+from widgets.common.clicks import on_click
 from widgets.common.controls import Retranslated
 from widgets.common.text import parameter_text
 
@@ -34,7 +35,7 @@ class LayerSwitch(Retranslated, QCheckBox):
         self._session, self._amount, self._slider = session, amount, slider
         self.setObjectName(f"layer_{amount.name}")
         self.setMinimumSize(LEAST_TARGET_PX, LEAST_TARGET_PX)
-        self.clicked.connect(self._switch)
+        on_click(self, self._switch)
         self.retranslate()
 
     def show_players(self, players: Sequence[Player]) -> None:

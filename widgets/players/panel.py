@@ -16,6 +16,7 @@ from app.project.document import Change
 from app.project.edit import players as edit
 from app.project.edit.generation import vary_players
 from instrument_maps.library import all_maps, library
+from widgets.common.clicks import on_click
 from widgets.common.controls import Caption, IconButton, PictureButton, Retranslated, named, wrapped
 from widgets.common.instrument_name import instrument_name
 from widgets.common.layouts import STRETCH, in_column, in_row, panel
@@ -273,7 +274,7 @@ class PlayersPanel(Retranslated, QWidget):
         menu = passing_menu(self, "instrument_menu")
         for instrument in library().in_score_order:
             action = menu.addAction(verbatim(instrument_name(instrument)))
-            action.triggered.connect(lambda _=False, id=instrument.id: self.add(id))
+            on_click(action, self.add, instrument.id)
         button = self._tools["add"]
         menu.popup(button.mapToGlobal(button.rect().bottomLeft()))
 

@@ -13,6 +13,7 @@ from PySide6.QtWidgets import QHBoxLayout, QMenu, QWidget
 from app.editor.selection import Selection
 from app.editor.session import Session
 from app.project.document import Change
+from widgets.common.clicks import on_click
 from widgets.timeline.axis import TimeAxis
 from widgets.timeline.hands import mouse_at
 from widgets.timeline.lane_header import GUTTER_PX, LaneHeader
@@ -80,7 +81,7 @@ class Lane(QWidget):
         self.header = LaneHeader(self)
         self.fold_button, self.title = self.header.fold_button, self.header.title
         self.title_row, self.controls = self.header.title_row, self.header.controls
-        self.fold_button.clicked.connect(self._toggle_fold)
+        on_click(self.fold_button, self._toggle_fold)
         self.header.double_clicked.connect(self._toggle_fold)
 
         self.plot = Plot(self, self)

@@ -12,6 +12,7 @@ from app.editor.timeline_view import Ghosts
 from app.errors import FileError
 from app.formats.json_data import decode_json
 from app.project.document import Change
+from widgets.common.clicks import on_click
 from widgets.common.menus import passing_menu
 from widgets.timeline.lane import Lane
 from widgets.timeline.roll import PianoRoll
@@ -155,8 +156,8 @@ class LaneLayout(QObject):
             action.setChecked(self.is_shown(lane.id))
             action.toggled.connect(lambda shown, id=lane.id: self.show_lane(id, shown))
         self.menu.addSeparator()
-        self.menu.addAction(self.tr("timeline_panel.unfold_all")).triggered.connect(lambda: self.fold_all(False))
-        self.menu.addAction(self.tr("timeline_panel.fold_all")).triggered.connect(lambda: self.fold_all(True))
+        on_click(self.menu.addAction(self.tr("timeline_panel.unfold_all")), lambda: self.fold_all(False))
+        on_click(self.menu.addAction(self.tr("timeline_panel.fold_all")), lambda: self.fold_all(True))
 
     def offer(self, lane: Lane, place: QPoint) -> None:
         """Open the menu of a lane at a place of its header."""
@@ -164,14 +165,14 @@ class LaneLayout(QObject):
         menu = passing_menu(self._parent)
         up = menu.addAction(self.tr("timeline_panel.move_up"))
         up.setEnabled(at > 0)
-        up.triggered.connect(lambda: self._stack.shift(lane, -1))
+        on_click(up, lambda: self._stack.shift(lane, -1))
         down = menu.addAction(self.tr("timeline_panel.move_down"))
         down.setEnabled(at < last)
-        down.triggered.connect(lambda: self._stack.shift(lane, 1))
+        on_click(down, lambda: self._stack.shift(lane, 1))
         menu.addSeparator()
         fold = menu.addAction(self.tr("timeline_panel.unfold") if lane.folded else self.tr("timeline_panel.fold"))
-        fold.triggered.connect(lambda: self.open_lane(lane.id, lane.folded))
-        menu.addAction(self.tr("timeline_panel.hide")).triggered.connect(lambda: self.show_lane(lane.id, False))
+        on_click(fold, lambda: self.open_lane(lane.id, lane.folded))
+        on_click(menu.addAction(self.tr("timeline_panel.hide")), lambda: self.show_lane(lane.id, False))
         menu.popup(lane.header.mapToGlobal(place))
 
 

@@ -11,6 +11,7 @@ from PySide6.QtWidgets import QCheckBox, QFrame, QGridLayout, QPushButton, QWidg
 from app.editor.session import Session
 from app.errors import Message
 from app.project.edit import notes
+from widgets.common.clicks import on_click
 from widgets.common.controls import Retranslated
 from widgets.common.layouts import STRETCH, in_row
 from widgets.common.number_slider import NumberSlider
@@ -64,7 +65,7 @@ class QuantisePopover(Retranslated, QFrame):
         self.grid_box.currentIndexChanged.connect(self._show)
         self.onsets.toggled.connect(self._show)
         self.ends.toggled.connect(self._show)
-        self.keep_button.clicked.connect(self._keep)
+        on_click(self.keep_button, self._keep)
         self.retranslate()
 
     def retranslate(self) -> None:

@@ -24,6 +24,7 @@ from PySide6.QtWidgets import QApplication, QMenu, QWidget
 from app.editor.selection import Selection
 from app.editor.session import Session, Severity, TimeDisplay
 from app.errors import Message
+from widgets.common.clicks import on_click
 from widgets.common.controls import Retranslated
 from widgets.common.menus import add_actions
 from widgets.timeline.axis import TimeAxis
@@ -238,27 +239,25 @@ class Ruler(Retranslated, Strip):
             change = menu.addAction(
                 self.tr("ruler.change_tempo") if mark.kind == "tempo" else self.tr("ruler.change_metre")
             )
-            change.triggered.connect(lambda: self.edit_mark(mark.kind, mark.tick))
+            on_click(change, lambda: self.edit_mark(mark.kind, mark.tick))
             remove = menu.addAction(
                 self.tr("ruler.remove_tempo") if mark.kind == "tempo" else self.tr("ruler.remove_metre")
             )
             remove.setEnabled(mark.tick > 0)
-            remove.triggered.connect(lambda: self._remove(mark.kind, mark.tick))
+            on_click(remove, lambda: self._remove(mark.kind, mark.tick))
             menu.addSeparator()
         score = self.session.project.score
         tick = max(
             self.session.grid.snap(score.metre_map, score.tempo_map.ticks(self.axis.seconds(place.x() - GUTTER_PX))), 0
         )
         bar_tick = max(score.metre_map.tick_of_bar(score.metre_map.bar_of_tick(tick)), 0)
-        menu.addAction(self.tr("ruler.add_tempo_here")).triggered.connect(lambda: self.edit_mark("tempo", tick))
-        menu.addAction(self.tr("ruler.add_metre_at_this_bar")).triggered.connect(
-            lambda: self.edit_mark("metre", bar_tick)
-        )
+        on_click(menu.addAction(self.tr("ruler.add_tempo_here")), lambda: self.edit_mark("tempo", tick))
+        on_click(menu.addAction(self.tr("ruler.add_metre_at_this_bar")), lambda: self.edit_mark("metre", bar_tick))
         felt = [action for id, action in self.session.actions.items() if id.startswith("beat.")]
         if felt:
             menu.addMenu(self.tr("ruler.felt_beat")).addActions(felt)
         menu.addSeparator()
-        menu.addAction(self.tr("ruler.select_this_bar")).triggered.connect(lambda: self._select_bar(tick))
+        on_click(menu.addAction(self.tr("ruler.select_this_bar")), lambda: self._select_bar(tick))
         add_actions(menu, self.session, ("play.loop", "notes.select_span", "timeline.zoom_selection", "timeline.fit"))
         return menu
 

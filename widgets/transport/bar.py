@@ -14,6 +14,7 @@ from app.editor.session import Session
 from app.editor.tokens import LEAST_TARGET_PX
 from app.project.document import Change
 from app.project.grid import Grid
+from widgets.common.clicks import on_click, on_switch
 from widgets.common.combo import Combo, Option
 from widgets.common.controls import Caption, Retranslated, named
 from widgets.common.icons import icon, pixmap
@@ -81,7 +82,7 @@ class TransportBar(Retranslated, QWidget):
 
     def _button(self, action_id: str) -> QToolButton:
         button = self._tool(action_id.replace(".", "_"))
-        button.clicked.connect(lambda: self._trigger(action_id))
+        on_click(button, lambda: self._trigger(action_id))
         return button
 
     def _tool(self, name: str) -> QToolButton:
@@ -154,7 +155,7 @@ class TransportBar(Retranslated, QWidget):
         self.volume.changed.connect(lambda percent, _: listening.set(volume=percent / 100))
         self.source.chosen.connect(self._choose_source)
         self.snap.chosen.connect(lambda name: self._session.set_grid(Grid(GRIDS[name])))
-        self.snap_button.clicked.connect(lambda on: self._session.set_grid(Grid(self._session.grid.quarters, on)))
+        on_switch(self.snap_button, lambda on: self._session.set_grid(Grid(self._session.grid.quarters, on)))
 
     # What the user does
 

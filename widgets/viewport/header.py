@@ -12,6 +12,7 @@ from PySide6.QtWidgets import QButtonGroup, QMenu, QSizePolicy, QToolButton, QWi
 from app.editor.session import Session
 from app.editor.tokens import LEAST_TARGET_PX
 from app.editor.viewport_state import SHOWN, VIEWS, Shown, View
+from widgets.common.clicks import on_click, on_switch
 from widgets.common.controls import Retranslated, named
 from widgets.common.icons import icon
 from widgets.common.layouts import in_row
@@ -61,13 +62,13 @@ class Header(Retranslated, QWidget):
         rows = QActionGroup(self)
         for view in VIEWS:
             button = self._button(f"viewport_view_{view}", checkable=True)
-            button.clicked.connect(partial(session.viewport.set_view, view))
+            on_click(button, session.viewport.set_view, view)
             self._group.addButton(button)
             segments.addWidget(button)
             self._views[view] = button
             row = self._view_menu.addAction("")
             row.setCheckable(True)
-            row.triggered.connect(partial(session.viewport.set_view, view))
+            on_click(row, session.viewport.set_view, view)
             rows.addAction(row)
             self._view_rows[view] = row
         self._folded = self._button("viewport_view", "camera")
@@ -81,21 +82,21 @@ class Header(Retranslated, QWidget):
         self._note.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
         self._pose = self._button("viewport_pose", "pose", checkable=True)
         self._pose.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
-        self._pose.clicked.connect(session.viewport.set_posing)
+        on_switch(self._pose, session.viewport.set_posing)
         self._frame = self._button("viewport_frame", "frame")
-        self._frame.clicked.connect(partial(session.viewport.frame, True))
+        on_click(self._frame, session.viewport.frame, True)
         self._show_menu = named(QMenu(self), "viewport_show_menu")
         self._show_rows: dict[Shown, QAction] = {}
         for what in SHOWN:
             row = self._show_menu.addAction("")
             row.setCheckable(True)
-            row.triggered.connect(partial(session.viewport.show, what))
+            on_switch(row, partial(session.viewport.show, what))
             self._show_rows[what] = row
         self._show = self._button("viewport_show", "eye")
         self._show.setMenu(self._show_menu)
         self._show.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
         self._full = self._button("viewport_full_screen", "full_screen")
-        self._full.clicked.connect(self._toggle_full_screen)
+        on_click(self._full, self._toggle_full_screen)
         in_row(
             self._segments,
             self._folded,

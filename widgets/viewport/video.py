@@ -17,6 +17,7 @@ from app.formats.video import Picture
 from app.project.document import Change
 from app.project.edit.piece import set_video_offset
 from app.project.limits import OFFSET_S
+from widgets.common.clicks import on_click
 from widgets.common.controls import Retranslated, named
 from widgets.common.flow import FlowLayout
 from widgets.common.icons import icon
@@ -144,7 +145,7 @@ class VideoStrip(Retranslated, QWidget):
         for placement in _BUTTONS:
             button = self._button(f"video_{placement}")
             button.setCheckable(True)
-            button.clicked.connect(partial(session.video.set, placement=placement))
+            on_click(button, partial(session.video.set, placement=placement))
             self._placements.addButton(button)
             self._buttons[placement] = button
         self._opacity = named(NumberSlider(session, default=DEFAULT_OPACITY, parent=self), "video_opacity")
@@ -159,9 +160,9 @@ class VideoStrip(Retranslated, QWidget):
             slider.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Fixed)
             slider.setFixedWidth(150)
         self._estimate = self._button("video_estimate")
-        self._estimate.clicked.connect(lambda: session.actions["video.estimate_offset"].trigger())
+        on_click(self._estimate, lambda: session.actions["video.estimate_offset"].trigger())
         self._hide = self._button("video_hide")
-        self._hide.clicked.connect(partial(session.video.set, placement="hidden"))
+        on_click(self._hide, partial(session.video.set, placement="hidden"))
         # What the viewport has no room for comes into a second line, with its whole text.
         parts = FlowLayout()
         for part in (self._title, *self._buttons.values(), self._opacity, self._offset, self._estimate):

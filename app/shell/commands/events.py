@@ -35,6 +35,7 @@ from app.project.edit.notes import erase
 from app.project.model import Project
 from app.shell.action import Action
 from app.shell.commands.chosen import events_by_player, has_player, has_something, notes_by_player
+from widgets.common.clicks import on_click
 from widgets.common.controls import named
 from widgets.common.event_names import expression_name, gesture_name, style_name
 from widgets.common.plain import verbatim
@@ -86,7 +87,7 @@ def choose_gesture(session: Session) -> None:
     for name in sorted(session.performance.metadata.gestures.items, key=gesture_name):
         entry = menu.addAction(verbatim(gesture_name(name)))
         entry.setObjectName(f"gesture_{name}")
-        entry.triggered.connect(lambda _=False, name=name: add_named_gestures(session, name, _spans(session)))
+        on_click(entry, lambda name: add_named_gestures(session, name, _spans(session)), name)
     menu.popup(QCursor.pos())
 
 
@@ -97,7 +98,7 @@ def choose_expression(session: Session) -> None:
     for name in sorted(session.performance.expressions, key=lambda name: (name in own, name)):
         entry = menu.addAction(verbatim(expression_name(name)))
         entry.setObjectName(f"expression_{name}")
-        entry.triggered.connect(lambda _=False, name=name: add_expressions(session, name, _spans(session)))
+        on_click(entry, lambda name: add_expressions(session, name, _spans(session)), name)
     menu.popup(QCursor.pos())
 
 
@@ -109,7 +110,7 @@ def choose_style(session: Session) -> None:
     for name in sorted(session.performance.metadata.styles.items, key=style_name):
         entry = menu.addAction(verbatim(style_name(name)))
         entry.setObjectName(f"style_{name}")
-        entry.triggered.connect(lambda _=False, name=name: _choose_style(session, name, regions))
+        on_click(entry, _choose_style, session, name, regions)
     menu.popup(QCursor.pos())
 
 

@@ -20,6 +20,7 @@ from app.project.edit.found_events import event_id_of
 from app.project.edit.generation import variations
 from app.project.model import Project
 from app.score.tempo import TempoMap
+from widgets.common.clicks import on_click
 from widgets.common.event_names import expression_name, gesture_name, kind_name, pose_name, style_name
 from widgets.common.menus import passing_menu
 from widgets.common.plain import verbatim
@@ -337,15 +338,13 @@ class ActingLane(RegionLane):
         gestures = menu.addMenu(self.tr("acting_lane.add_gesture_here"))
         for kind in OWN_KINDS:
             entry = gestures.addAction(kind_name(kind))
-            entry.triggered.connect(lambda _=False, kind=kind: add_gestures(self.session, kind, self._spans(mouse)))
+            on_click(entry, lambda kind: add_gestures(self.session, kind, self._spans(mouse)), kind)
         gestures.addSeparator()
         for name in sorted(self.session.performance.metadata.gestures.items, key=gesture_name):
             entry = gestures.addAction(verbatim(gesture_name(name)))
-            entry.triggered.connect(
-                lambda _=False, name=name: add_named_gestures(self.session, name, self._spans(mouse))
-            )
+            on_click(entry, lambda name: add_named_gestures(self.session, name, self._spans(mouse)), name)
         add_styles_menus(menu, self.session, region, mouse.tick)
-        menu.addAction(self.tr("acting_lane.add_cue_here")).triggered.connect(lambda _=False: self._add_cue(mouse))
+        on_click(menu.addAction(self.tr("acting_lane.add_cue_here")), lambda: self._add_cue(mouse))
 
     def _expression_entries(self, menu: QMenu, chosen: Callable[[str], None], now: Region | None = None) -> None:
         own = {expression.name for expression in self.session.project.expressions}
@@ -354,7 +353,7 @@ class ActingLane(RegionLane):
             if name in own and not menu.isEmpty() and name == next(item for item in names if item in own):
                 menu.addSeparator()
             entry = menu.addAction(verbatim(expression_name(name)))
-            entry.triggered.connect(lambda _=False, name=name: chosen(name))
+            on_click(entry, chosen, name)
             entry.setCheckable(now is not None)
             entry.setChecked(now is not None and now.label == expression_name(name))
 

@@ -11,6 +11,7 @@ from PySide6.QtWidgets import QMenu
 from app.editor.translated import tr
 from app.plan.additive_curve import INTERPOLATIONS, AdditiveCurve, CurveKey, Interpolation
 from widgets.common.channel_names import body_groups, face_groups, way_name
+from widgets.common.clicks import on_click, on_switch
 from widgets.common.plain import verbatim
 
 MARKED = "• "
@@ -47,7 +48,7 @@ def fill_channels(menu: QMenu, channel: str, used: Collection[str], chosen: Call
             entry.setCheckable(True)
             entry.setChecked(each == channel)
             group.addAction(entry)
-            entry.triggered.connect(lambda _=False, each=each: chosen(each))
+            on_click(entry, chosen, each)
 
     def marked(name: str, channels: Collection[str]) -> str:
         return (MARKED if any(each in used for each in channels) else "") + verbatim(name)
@@ -74,7 +75,7 @@ def add_key_entries(menu: QMenu, lane: Curves) -> None:
         entry.setObjectName(f"interpolation_{interpolation}")
         entry.setCheckable(True)
         entry.setChecked(all(key.interpolation == interpolation for key in keys))
-        entry.triggered.connect(lambda _=False, each=interpolation: lane.interpolate(each))
+        on_click(entry, lane.interpolate, interpolation)
     tangents = menu.addMenu(tr("additive_lane.tangents"))
     automatic = add_entry(tangents, "tangents_automatic", tr("additive_lane.automatic"), lane.free)
     automatic.setCheckable(True)
@@ -94,7 +95,7 @@ def add_curve_entries(menu: QMenu, lane: Curves, curve: AdditiveCurve) -> None:
     enabled.setObjectName("curve_enabled")
     enabled.setCheckable(True)
     enabled.setChecked(curve.enabled)
-    enabled.triggered.connect(lambda checked: lane.enable(name, checked))
+    on_switch(enabled, lambda checked: lane.enable(name, checked))
     add_entry(menu, "curve_weight", tr("additive_lane.weight"), lambda: lane.type_weight(name))
     add_entry(menu, "curve_title", tr("additive_lane.rename"), lambda: lane.type_title(name))
     add_entry(menu, "delete_curve", tr("additive_lane.delete_curve"), lambda: lane.delete_curve(name))
@@ -104,5 +105,5 @@ def add_entry(menu: QMenu, name: str, text: str, run: Callable[[], None]) -> QAc
     """An entry that does something, to be found by its name."""
     entry = menu.addAction(text)
     entry.setObjectName(name)
-    entry.triggered.connect(lambda _=False: run())
+    on_click(entry, run)
     return entry

@@ -13,6 +13,7 @@ from app.plan.model import FingeringEvent
 from app.project.edit.events import corrections_of, give_back, pin_fingerings
 from instrument_maps.model import Fingering
 from widgets.common.chip import Chip
+from widgets.common.clicks import on_click
 from widgets.common.controls import named
 from widgets.common.fingering_tags import words_of_tags
 from widgets.common.icons import icon
@@ -76,7 +77,7 @@ class Alternates(QFrame):
             )
             chip.setChecked(now)
             chip.setToolTip(self.tr("alternates.choice").format(rank=fingering.rank))
-            chip.clicked.connect(lambda _=False, label=fingering.label: self.choose(label))
+            on_click(chip, self.choose, fingering.label)
             self._row.addWidget(chip)
         if pinned:
             back = named(
@@ -86,7 +87,7 @@ class Alternates(QFrame):
             back.setMinimumHeight(LEAST_TARGET_PX)
             back.setIconSize(QSize(16, 16))
             back.setToolTip(self.tr("alternates.back_to_generators_choice"))
-            back.clicked.connect(lambda _=False: self.give_back())
+            on_click(back, self.give_back)
             self._row.addWidget(back)
         window = self._lane.window()
         self.setParent(window)
@@ -142,9 +143,7 @@ class Alternates(QFrame):
             entry = menu.addAction(verbatim(f"{fingering.label}   {note}" if note else fingering.label))
             entry.setCheckable(True)
             entry.setChecked(fingering.label == event.label)
-            entry.triggered.connect(
-                lambda _=False, label=fingering.label: self._choose_from_menu(player_id, event, label)
-            )
+            on_click(entry, self._choose_from_menu, player_id, event, fingering.label)
 
     def _choose_from_menu(self, player_id: str, event: FingeringEvent, label: str) -> None:
         self.player_id, self.event_shown = player_id, event

@@ -10,6 +10,7 @@ from PySide6.QtWidgets import QMenu
 from app.errors import Message
 from app.project.edit.pins import pin_beat, recording_second, remove_pins
 from app.project.model import Project
+from widgets.common.clicks import on_click
 from widgets.common.numbers import number_text
 from widgets.timeline.drawing import shade
 from widgets.timeline.lane import Lane, LaneMouse
@@ -192,10 +193,11 @@ class Anchors:
         tick = self.chosen if anchor is None else anchor.tick
         if tick is not None:
             name = "waveform_lane.remove_pin" if tick in pins else "waveform_lane.pin_here"
-            menu.addAction(lane.tr(name)).triggered.connect(lambda _=False: self._toggle(tick))
+            on_click(menu.addAction(lane.tr(name)), lambda: self._toggle(tick))
         if pins:
-            menu.addAction(lane.tr("waveform_lane.remove_all_pins")).triggered.connect(
-                lambda _=False: lane.session.attempt(Message("edit.remove_pins"), remove_pins)
+            on_click(
+                menu.addAction(lane.tr("waveform_lane.remove_all_pins")),
+                lambda: lane.session.attempt(Message("edit.remove_pins"), remove_pins),
             )
         if not menu.isEmpty():
             menu.addSeparator()

@@ -11,6 +11,7 @@ from app.editor.session import Session
 from app.errors import Message
 from app.plan.model import PlayerPlan
 from app.project.edit.events import toggle_preparation
+from widgets.common.clicks import on_click
 from widgets.common.event_names import kind_name
 from widgets.timeline.axis import TimeAxis
 from widgets.timeline.drawing import draw_mark, draw_text, shade
@@ -103,7 +104,7 @@ class BreathLane(RegionLane):
         add_breaths(self.session, [] if plan is None else [(plan, round(mouse.tick))])
 
     def menu_entries(self, menu: QMenu, region: Region | None, mouse: LaneMouse) -> None:
-        menu.addAction(self.tr("breath_lane.add_breath_here")).triggered.connect(lambda _=False: self.add_at(mouse))
+        on_click(menu.addAction(self.tr("breath_lane.add_breath_here")), lambda: self.add_at(mouse))
         if region is None or (region.removed and region.kind == "breath"):
             return
         note_id = region.event_id.split(":", 1)[1]
@@ -114,7 +115,7 @@ class BreathLane(RegionLane):
         entry = menu.addAction(self.tr("breath_lane.prepared"))
         entry.setCheckable(True)
         entry.setChecked(has)
-        entry.triggered.connect(lambda _=False: self._toggle(plan, note_id))
+        on_click(entry, lambda: self._toggle(plan, note_id))
 
     def _toggle(self, plan: PlayerPlan, note_id: str) -> None:
         self.session.attempt(

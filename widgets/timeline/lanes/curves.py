@@ -16,6 +16,7 @@ from app.errors import Message
 from app.plan.model import EmbouchureEvent, PlayerPlan
 from app.project.document import Change
 from app.score.model import CurveKind, Part
+from widgets.common.clicks import on_click
 from widgets.common.controls import named
 from widgets.common.menus import add_actions
 from widgets.common.plain import ComboBox, verbatim
@@ -324,7 +325,7 @@ class CurvesLane(Lane):
             entry = menu.addAction(verbatim(self.curve_name(curve)))
             entry.setCheckable(True)
             entry.setChecked(curve == self.curve)
-            entry.triggered.connect(lambda _=False, curve=curve: self.set_curve(curve))
+            on_click(entry, self.set_curve, curve)
         if event is not None:
             add_actions(menu, self.session, ("", "events.give_back"))
         return menu

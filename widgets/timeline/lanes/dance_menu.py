@@ -12,6 +12,7 @@ from PySide6.QtWidgets import QMenu, QWidget
 
 from app.editor.session import Session
 from app.project.dance_corrections import DanceCorrection
+from widgets.common.clicks import on_click
 from widgets.common.controls import named
 from widgets.common.dance_figures import ICON_PX, Floats, figure_icon
 from widgets.common.plain import verbatim
@@ -124,7 +125,7 @@ class DanceMenu(QMenu):
 
     def _add(self, menu: QMenu, text: str, do: Callable[[], None]) -> QAction:
         action = menu.addAction(text)
-        action.triggered.connect(lambda _=False: do())
+        on_click(action, do)
         return action
 
     def _icon(self, segment: int) -> QIcon:

@@ -9,6 +9,7 @@ from app.editor.session import Session
 from app.errors import Message
 from app.project.edit.givers import set_giver, set_takers
 from app.project.model import Project
+from widgets.common.clicks import on_click
 from widgets.common.plain import verbatim
 from widgets.timeline.model.region import Region
 
@@ -21,7 +22,7 @@ def add_givers(menu: QMenu, session: Session, cue: Region, title: str) -> None:
         entry = givers.addAction(verbatim(player.name))
         entry.setCheckable(True)
         entry.setChecked(player.id == cue.player_id)
-        entry.triggered.connect(lambda _=False, giver_id=player.id: _give(session, cue, giver_id))
+        on_click(entry, _give, session, cue, player.id)
 
 
 def add_takers(menu: QMenu, session: Session, cue: Region, title: str, automatic: str) -> None:
@@ -40,9 +41,9 @@ def add_takers(menu: QMenu, session: Session, cue: Region, title: str, automatic
         entry = takers.addAction(verbatim(player.name))
         entry.setCheckable(True)
         entry.setChecked(player.id in taking)
-        entry.triggered.connect(lambda _=False, other=player.id: _take(session, cue, taking ^ {other}))
+        on_click(entry, _take, session, cue, taking ^ {player.id})
     takers.addSeparator()
-    takers.addAction(automatic).triggered.connect(lambda _=False: _take(session, cue, None))
+    on_click(takers.addAction(automatic), _take, session, cue, None)
 
 
 def _take(session: Session, cue: Region, takers: frozenset[str] | None) -> None:

@@ -10,6 +10,7 @@ from PySide6.QtWidgets import QMenu
 from app.editor.additions import add_styles, bars_of, change_styles
 from app.editor.session import Session
 from app.editor.translated import tr
+from widgets.common.clicks import on_click
 from widgets.common.event_names import style_name
 from widgets.common.plain import verbatim
 from widgets.timeline.model.acting import STYLE
@@ -38,5 +39,5 @@ def _add(menu: QMenu, title: str, name: str, session: Session, chosen: Callable[
     for style in sorted(session.performance.metadata.styles.items, key=style_name):
         entry = styles.addAction(verbatim(style_name(style)))
         entry.setObjectName(f"style_{style}")
-        entry.triggered.connect(lambda _=False, style=style: chosen(style))
+        on_click(entry, chosen, style)
     return styles

@@ -15,6 +15,7 @@ from app.errors import Message
 from app.project.document import Change
 from app.project.edit.piece import set_offset
 from app.project.model import Project
+from widgets.common.clicks import on_click
 from widgets.common.menus import add_actions
 from widgets.common.numbers import number_text
 from widgets.timeline.axis import TimeAxis
@@ -215,7 +216,7 @@ class WaveformLane(Lane):
         menu = QMenu(self)
         if self.session.project.audio is not None:
             self.anchors.fill_menu(menu, mouse)
-            menu.addAction(self.tr("waveform_lane.type_offset")).triggered.connect(lambda _=False: self._type_offset())
+            on_click(menu.addAction(self.tr("waveform_lane.type_offset")), self._type_offset)
         add_actions(
             menu,
             self.session,
