@@ -26,6 +26,8 @@ from metadata.library import FOLDERS
 OWN_FOLDERS: Final[tuple[UserFolder[Any, Any], ...]] = (INSTRUMENTS, CHARACTERS, *FOLDERS)
 _ROOMS: Final = ("app", "instrument_maps", "metadata", "resources")
 """Packages that decide what an export holds."""
+_NOT_INSTALLED: Final = frozenset({"__pycache__", "build"})
+"""Folders that a checkout has and an installation does not."""
 _ELSEWHERE: Final = frozenset({"file", "to", "jobs", "scheduler", "piece", "run", "given", "command"})
 """Arguments that say where and how an export is made, not what it holds."""
 
@@ -36,7 +38,11 @@ def program_digest() -> str:
     digest = hashlib.sha256(program_version().encode())
     for room in _ROOMS:
         folder = Path(str(files(room)))
-        _add_files(digest, folder, (path for path in folder.rglob("*") if "__pycache__" not in path.parts))
+        _add_files(
+            digest,
+            folder,
+            (path for path in folder.rglob("*") if _NOT_INSTALLED.isdisjoint(path.relative_to(folder).parts)),
+        )
     return digest.hexdigest()
 
 
