@@ -21,6 +21,7 @@ import numpy.typing as npt
 from app.audio.rendering import rendered, soundfont
 from app.audio.track import RATE_HZ, Piece, Samples
 from app.performance.loudness import sounding_curve
+from app.score.bend_range import USUAL_SEMITONES, range_controls, range_for, wheel
 from app.score.model import CurveKind, Note, Part
 from app.score.tempo import TempoMap
 from instrument_maps.model import InstrumentMap
@@ -120,12 +121,14 @@ def phrases(part: Part, tempo_map: TempoMap, program: int) -> tuple[Phrase, ...]
     onset_ticks = np.array([note.onset_tick for note in part.notes], np.int64)
     onsets = _samples(tempo_map, onset_ticks)
     ends = _samples(tempo_map, np.array([note.end_tick for note in part.notes], np.int64))
-    controls = _controls(part, tempo_map)
+    bent = range_for([value for curve in part.curves if curve.kind == "pitch_bend" for value in curve.values])
+    controls = _controls(part, tempo_map, bent)
+    opening = _opening(program, bent)
     windows = onset_ticks // (_WINDOW_QUARTERS * tempo_map.ticks_per_quarter)
     # The notes stand by onset, so that those of a window follow one another.
     firsts = np.flatnonzero(np.diff(windows, prepend=windows[0] - 1))
     return tuple(
-        _phrase(part.notes[first:last], onsets[first:last], ends[first:last], controls, program)
+        _phrase(part.notes[first:last], onsets[first:last], ends[first:last], controls, opening)
         for first, last in zip(firsts.tolist(), [*firsts[1:].tolist(), len(part.notes)], strict=True)
     )
 
@@ -158,8 +161,19 @@ def programs() -> frozenset[int]:
     return frozenset([row[1] for row in rows][:-1])
 
 
-def _controls(part: Part, tempo_map: TempoMap) -> tuple[tuple[Integers, tuple[bytes, ...]], ...]:
-    """The audible curves, as samples and messages: the player's loudness as expression, volume, pitch bend."""
+def _opening(program: int, bent: int) -> bytes:
+    """The messages that a phrase begins with: its sound, and the range of its bends in semitones."""
+    messages = [bytes((0xC0, program))]
+    if bent != USUAL_SEMITONES:
+        messages += [bytes((0xB0, *control)) for control in range_controls(bent)]
+    return b"\0".join(messages)
+
+
+def _controls(part: Part, tempo_map: TempoMap, bent: int) -> tuple[tuple[Integers, tuple[bytes, ...]], ...]:
+    """The audible curves, as samples and messages: the player's loudness as expression, volume, pitch bend.
+
+    ``bent`` is the range of the bends in semitones.
+    """
     loudness = sounding_curve(part)
     audible = [curve for curve in part.curves if curve.kind in ("volume", "pitch_bend")]
     if loudness is not None and loudness.kind != "volume":
@@ -167,15 +181,15 @@ def _controls(part: Part, tempo_map: TempoMap) -> tuple[tuple[Integers, tuple[by
     return tuple(
         (
             _samples(tempo_map, np.array(curve.ticks, np.int64)),
-            tuple(_control(curve.kind, value) for value in curve.values),
+            tuple(_control(curve.kind, value, bent) for value in curve.values),
         )
         for curve in audible
     )
 
 
-def _control(kind: CurveKind, value: float) -> bytes:
+def _control(kind: CurveKind, value: float, bent: int) -> bytes:
     if kind == "pitch_bend":
-        bend = min(max(round(8192 + 8192 * value), 0), 16383)
+        bend = 8192 + wheel(value, bent)
         return bytes((0xE0, bend & 127, bend >> 7))
     level = min(max(round(127 * value), 0), 127)
     return bytes((0xB0, _VOLUME if kind == "volume" else _EXPRESSION, level))
@@ -186,13 +200,14 @@ def _phrase(
     onsets: Integers,
     ends: Integers,
     controls: Sequence[tuple[Integers, tuple[bytes, ...]]],
-    program: int,
+    opening: bytes,
 ) -> Phrase:
-    """Notes that begin at ``onsets`` and end at ``ends``, in samples, as a MIDI file that begins with the first."""
+    """Notes that begin at ``onsets`` and end at ``ends``, in samples, as a MIDI file that begins with the first of them
+    and with ``opening``."""
     start = int(onsets.min()) // _BLOCK * _BLOCK
     last = int(ends.max())
     # (sample, order, message): what ends a note comes before what begins the next, controllers before both.
-    events = [(0, 0, bytes((0xC0, program)))]
+    events = [(0, 0, opening)]
     for samples, messages in controls:
         first = max(int(np.searchsorted(samples, onsets.min(), side="right")) - 1, 0)
         for step in range(first, max(int(np.searchsorted(samples, last)), first + 1)):

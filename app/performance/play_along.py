@@ -25,6 +25,7 @@ from app.performance.live_breath import LiveBreath, LiveLook
 from app.performance.live_hands import FRAMES, LiveHands
 from app.performance.live_help import LiveHelp
 from app.plan.model import AdditiveEvent, PoseEvent
+from app.score.bend_range import BendRanges
 from app.score.take import SILENCING, ControllerMapping, decoded, is_wired, said
 from instrument_maps.model import Fingering
 from metadata.load import load_expressions
@@ -69,6 +70,7 @@ class PlayAlong:
         self._poses, self._at_s = playing.layers.poses, -math.inf
         self._additive = playing.additive
         self._held: dict[int, int] = {}
+        self._ranges = BendRanges()
         """Notes that are held with their velocities, in the order they began."""
         self._ended_s = -math.inf
         self._now_s = -math.inf
@@ -139,9 +141,9 @@ class PlayAlong:
         self._breath.bite(min(max(value, 0.0), 1.0))
 
     def bend(self, time_s: float, value: float) -> None:
-        """How far the pitch is bent, -1 (down) .. 1 (up)."""
+        """How far the pitch is bent, in whole tones."""
         self._time(time_s)
-        self._breath.bend(min(max(value, -1.0), 1.0))
+        self._breath.bend(value)
 
     def receive(self, time_s: float, raw: str, wiring: ControllerMapping) -> bool:
         """Take a MIDI message, in hexadecimal, as takes keep them; what says nothing of notes, breath or lips is passed
@@ -161,7 +163,7 @@ class PlayAlong:
             self.note_off(time_s, message.note)
         elif message.type == "control_change" and message.control in SILENCING:
             self.all_off(time_s)
-        for kind, value in said(message, wiring):
+        for kind, value in said(message, wiring, self._ranges):
             if kind == "breath":
                 self.breath(time_s, value)
             elif kind == "bite":

@@ -14,8 +14,7 @@ from app.plan.line import Steps
 from app.score.model import Note
 
 LEAST_BEND: Final = 0.3
-"""Share of the bend range between a note's end and its middle: 60 cents on the usual range of two semitones, which is
-twice a wide vibrato."""
+"""Whole tones between a note's end and its middle: 60 cents, which is twice a wide vibrato."""
 
 
 def bends(notes: Sequence[Note], bend: Steps | None) -> list[tuple[str, ...]]:
@@ -27,7 +26,7 @@ def bends(notes: Sequence[Note], bend: Steps | None) -> list[tuple[str, ...]]:
     notes : sequence of Note
         By onset.
     bend : Steps or None
-        Pitch bend, -1..1.
+        Pitch bend in whole tones.
     """
     if bend is None:
         return [()] * len(notes)
@@ -50,4 +49,10 @@ def _of_note(bend: Steps, onset_tick: float, end_tick: float) -> tuple[str, ...]
     start, end = float(values[0] - middle), float(values[-1] - middle)
     before = ("scoop",) if start <= -LEAST_BEND else ("plop",) if start >= LEAST_BEND else ()
     after = ("fall",) if end <= -LEAST_BEND else ("doit",) if end >= LEAST_BEND else ()
+    # A slide through the whole note leaves its pitch or arrives at it; it does not do both.
+    if before and after and start * end < 0.0:
+        if abs(float(values[0])) < LEAST_BEND <= abs(float(values[-1])):
+            return after
+        if abs(float(values[-1])) < LEAST_BEND <= abs(float(values[0])):
+            return before
     return before + after

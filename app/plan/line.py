@@ -78,7 +78,7 @@ class ControllerInput:
     bite : Steps or None
         How hard the teeth press, 0..1.
     bend : Steps or None
-        Pitch bend, -1..1.
+        Pitch bend in whole tones.
     """
 
     breath: Steps | None = None

@@ -30,7 +30,7 @@ AIR_S, EFFORT_S, SHIFT_S, LIPS_S = 0.08, 0.4, 0.12, 0.04
 BITE_TENSION = 0.5
 """Tension from relaxed teeth to a full bite."""
 BEND_TENSION, MOST_BEND_TENSION = 1.4, 0.3
-"""Tension by a small pitch bend (a vibrato of 30 cents on a range of two semitones is 0.15 of it), and by any."""
+"""Tension by a small pitch bend, a whole tone (a vibrato of 30 cents is 0.15 of it), and by any."""
 
 
 def plan_traces(
@@ -114,7 +114,7 @@ def _pressed(
 
 
 def pressed_by(bite: FloatArray, bend: FloatArray) -> FloatArray:
-    """Tension added by a bite beyond the usual one (0..1) and a pitch bend (-1..1)."""
+    """Tension added by a bite beyond the usual one (0..1) and a pitch bend in whole tones."""
     pressed: FloatArray = BITE_TENSION * bite + MOST_BEND_TENSION * np.tanh(BEND_TENSION / MOST_BEND_TENSION * bend)
     return pressed
 

@@ -33,7 +33,7 @@ from app.project.recording import AudioTrack
 from app.project.video import VideoTrack
 from app.score.limits import too_long
 from app.score.metre_map import Metre
-from app.score.model import ControllerCurve, Marker, Note, Part, PercussionHit, Score
+from app.score.model import ControllerCurve, Marker, Note, Part, PercussionHit, Score, value_range
 from app.score.take import Take, is_message
 from app.score.tempo import TempoChange
 from metadata.model import ARKIT_MORPHS, Expression
@@ -198,10 +198,10 @@ def _curve_faults(curve: ControllerCurve, place: str) -> Iterator[Fault]:
             return
     if curve.ticks and not (curve.ticks[0] >= 0 and curve.ticks[-1] <= limits.LAST_TICK):
         yield f"{place}.ticks", f"must be from 0 to {limits.LAST_TICK}"
-    low = -1.0 if curve.kind == "pitch_bend" else 0.0
+    low, high = value_range(curve.kind)
     for index, value in enumerate(curve.values):
-        if not low <= value <= 1.0:
-            yield f"{place}.values[{index}]", f"must be from {low:g} to 1"
+        if not low <= value <= high:
+            yield f"{place}.values[{index}]", f"must be from {low:g} to {high:g}"
             return
 
 

@@ -17,6 +17,9 @@ from app.score.tempo import TempoMap
 MOST_VOICES: Final = 16
 """Players who share a track."""
 
+MOST_BEND: Final = 63.5
+"""Whole tones: 127 semitones, the widest whole range that MIDI can set."""
+
 CurveKind: TypeAlias = Literal["breath", "volume", "expression", "aftertouch", "pitch_bend", "bite"]
 
 
@@ -59,12 +62,23 @@ class ControllerCurve(msgspec.Struct, frozen=True):
     ticks : tuple of int
         Strictly ascending.
     values : tuple of float
-        0..1; pitch bend -1..1 of whatever range the instrument is set to.
+        0..1; pitch bend in whole tones, which are the range that MIDI gives an instrument, -`MOST_BEND`..`MOST_BEND`.
     """
 
     kind: CurveKind
     ticks: tuple[int, ...]
     values: tuple[float, ...]
+
+    @property
+    def shown_range(self) -> tuple[float, float]:
+        """The values between which it is drawn and edited: of a bend the usual ones, or as far as it goes."""
+        widest = max(1.0, *map(abs, self.values)) if self.kind == "pitch_bend" else 1.0
+        return (-widest if self.kind == "pitch_bend" else 0.0), widest
+
+
+def value_range(kind: CurveKind) -> tuple[float, float]:
+    """The lowest and highest value of a controller."""
+    return (-MOST_BEND, MOST_BEND) if kind == "pitch_bend" else (0.0, 1.0)
 
 
 class Marker(msgspec.Struct, frozen=True):

@@ -66,7 +66,8 @@ import msgspec
 
 from app.encoding import shown
 from app.errors import FileError, Message
-from app.score.choose import PERCUSSION_CHANNEL, MapChoice, TrackChannel, is_drum_kit, named_by_file
+from app.score.channels import curves_of, leading, players_channels, settle_bends, sounding_channels
+from app.score.choose import MapChoice, TrackChannel, is_drum_kit, named_by_file
 from app.score.chunks import Container, Track, read_container
 from app.score.doublings import doubled_instruments
 from app.score.limits import MOST_NAME, MOST_STREAMS, too_long
@@ -226,7 +227,7 @@ def read_contents(path: Path, *, encoding: str | None = None) -> MidiContents:
     tempo_map, tempo_warnings = _tempo_map(container, tracks)
     metres, pickup_ticks, metre_warnings = _metres(tracks, ticks_per_quarter)
     _require_length(Score("", ticks_per_quarter, tempo_map, metres, pickup_ticks), tracks, str(path))
-    streams = _streams(tracks, encoding)
+    streams = _streams(tracks, settle_bends(tracks), encoding)
     if len(streams) > MOST_STREAMS:
         raise FileError("midi.too_many_parts", file=str(path), parts=len(streams), most=MOST_STREAMS)
     stem = shown(path.stem)
@@ -381,7 +382,9 @@ def _title(tracks: Sequence[TrackEvents], encoding: str | None) -> str:
     return decoded(first.name, encoding)[:MOST_NAME]
 
 
-def _streams(tracks: Sequence[TrackEvents], encoding: str | None) -> list[TrackChannel]:
+def _streams(
+    tracks: Sequence[TrackEvents], zones: Sequence[Mapping[int, frozenset[int]]], encoding: str | None
+) -> list[TrackChannel]:
     lilypond = any(b"LilyPond" in text for _, text in tracks[0].texts)
     given: dict[int, set[int]] = {}
     for events in tracks:
@@ -394,12 +397,13 @@ def _streams(tracks: Sequence[TrackEvents], encoding: str | None) -> list[TrackC
             name = "" if match[1].startswith("\\") else match[1].strip()
         if len(tracks) == 1:
             name = name if len(events.channels) == 1 else ""
-        groups = _players_channels(events, name if len(tracks) > 1 else "")
+        groups = players_channels(events, name if len(tracks) > 1 else "", zones[index])
         said = [(tick, decoded(text, encoding)) for tick, text in (*events.texts, *events.markers)]
         for channels in groups:
             notes = events.notes(channels)
-            first = min(channels, key=lambda channel: events.channels[channel].numbers[0])
-            curves = events.curves(channels)
+            first = leading(events, channels)
+            sounding = sounding_channels(first, channels, zones[index])
+            curves = curves_of(events, channels, zones[index])
             played_on = doubled_instruments(events, channels, name, said if len(groups) == 1 else (), notes.onset_ticks)
             muted = muted_spans(events, channels, name, said if len(groups) == 1 else ())
             for change, instrument in enumerate(sorted(dict.fromkeys(played_on), key=bool)):
@@ -410,7 +414,7 @@ def _streams(tracks: Sequence[TrackEvents], encoding: str | None) -> list[TrackC
                         channel=first,
                         name=_doubled_name(name, instrument)[:MOST_NAME] if change else name,
                         instrument_name=decoded(events.instrument_name, encoding)[:MOST_NAME],
-                        program=_program(events, first, own.onset_ticks[0], given),
+                        program=_program(events, sounding, own.onset_ticks[0], given),
                         onset_ticks=own.onset_ticks,
                         end_ticks=own.end_ticks,
                         pitches=own.pitches,
@@ -431,25 +435,18 @@ def _doubled_name(name: str, instrument: str) -> str:
     return f"{spoken} ({name})" if name else spoken
 
 
-def _players_channels(events: TrackEvents, name: str) -> list[tuple[int, ...]]:
-    """The channels of a track that belong together: all where the track's name is an instrument's and they take turns,
-    for notation programs give one player's muted or plucked notes a channel of their own; else each for itself."""
-    channels = sorted(events.channels)
-    named = vocabulary().by_name(name) if len(channels) > 1 else None
-    if named is None or named.vague or PERCUSSION_CHANNEL in channels or not events.take_turns(channels):
-        return [(channel,) for channel in channels]
-    return [tuple(channels)]
-
-
-def _program(events: TrackEvents, channel: int, first_onset: int, given: Mapping[int, Set[int]]) -> int | None:
-    """The program with which a track's first note on a channel sounds.
+def _program(
+    events: TrackEvents, channels: Sequence[int], first_onset: int, given: Mapping[int, Set[int]]
+) -> int | None:
+    """The program with which the first note of some channels sounds, the likeliest channel first.
 
     It is the track's own if it gives any, for the channels of large scores are shared by tracks. Else it is
     what the other tracks give the channel, if they agree; ``given`` has the programs that the tracks give each.
     """
-    own = events.programs.get(channel)
-    if own:
-        before = [program for tick, program in own if tick <= first_onset]
-        return before[-1] if before else own[0][1]
-    others = given.get(channel, frozenset[int]())
+    for channel in channels:
+        own = events.programs.get(channel)
+        if own:
+            before = [program for tick, program in own if tick <= first_onset]
+            return before[-1] if before else own[0][1]
+    others = given.get(channels[0], frozenset[int]())
     return next(iter(others)) if len(others) == 1 else None

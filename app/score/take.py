@@ -17,6 +17,7 @@ import numpy as np
 import numpy.typing as npt
 
 from app.identity_cache import IdentityCache
+from app.score.bend_range import PARAMETERS, USUAL_SEMITONES, BendRanges
 from app.score.model import CurveKind
 from app.score.tempo import TempoMap
 from metadata.model import BiteSource, BreathSource
@@ -181,6 +182,7 @@ def _played(times_us: tuple[int, ...], messages: tuple[str, ...], wiring: Contro
     notes: list[tuple[float, float, int, int]] = []
     sounding: dict[int, tuple[float, int]] = {}
     sent: dict[CurveKind, tuple[list[float], list[float]]] = {}
+    ranges = BendRanges()
     for time_us, raw in zip(times_us, messages, strict=True):
         message = decoded(raw)
         if message is None or not is_wired(message, wiring):
@@ -196,7 +198,7 @@ def _played(times_us: tuple[int, ...], messages: tuple[str, ...], wiring: Contro
         elif kind == "control_change" and message.control in SILENCING:
             notes += [(onset_s, time_s, pitch, velocity) for pitch, (onset_s, velocity) in sounding.items()]
             sounding.clear()
-        for curve, value in said(message, wiring):
+        for curve, value in said(message, wiring, ranges):
             times, values = sent.setdefault(curve, ([], []))
             if times and times[-1] == time_s:
                 values[-1] = value
@@ -240,16 +242,28 @@ def is_message(raw: str) -> bool:
     return True
 
 
-def said(message: mido.Message, wiring: ControllerMapping) -> Iterator[tuple[CurveKind, float]]:
-    """What a message says of breath, bite and bend, as values of a part's curves."""
+def said(
+    message: mido.Message, wiring: ControllerMapping, ranges: BendRanges | None = None
+) -> Iterator[tuple[CurveKind, float]]:
+    """What a message says of breath, bite and bend, as values of a part's curves.
+
+    Parameters
+    ----------
+    ranges : BendRanges, optional
+        Of the controller's channels, which follow what the message says of them; without them the usual ones.
+    """
     source, value = _source(message)
+    ranges = BendRanges() if ranges is None else ranges
+    if message.type == "control_change" and message.control in PARAMETERS:
+        ranges.receive(message.channel, message.control, message.value)
     if source == wiring.bite:
         yield "bite", abs(value)
     if source == wiring.breath:
         yield "breath", value
     # Who bites to bend does both.
     elif source in _USUAL and (source != wiring.bite or source == "pitch_bend"):
-        yield _USUAL[source], value
+        share = ranges.semitones(message.channel) / USUAL_SEMITONES if source == "pitch_bend" else 1.0
+        yield _USUAL[source], share * value
 
 
 _USUAL: Final[Mapping[str, CurveKind]] = {

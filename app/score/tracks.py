@@ -7,24 +7,28 @@ from collections import deque
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from itertools import compress
 from operator import itemgetter
-from typing import Any, Final
+from typing import Any, Final, Literal, TypeAlias
 
 import msgspec
 
 from app.errors import Message
+from app.score.bend_range import PARAMETERS, RESET
 from app.score.limits import LAST_TICK, MOST_NAME
-from app.score.model import ControllerCurve, CurveKind
+from app.score.model import CurveKind
 from app.score.texts import decoded
 
 CONTROLLERS: Final[dict[CurveKind, int]] = {"breath": 2, "volume": 7, "expression": 11, "bite": 16}
 """The curves that are MIDI controllers, and their numbers."""
 LEAST_TEMPO: Final = 10_000
 """Microseconds per quarter: nothing is played at 6000 quarters a minute, so less is damage."""
-_KINDS: Final = {number: kind for kind, number in CONTROLLERS.items()}
-_MODULATION: Final = 1
-"""Controller 1: the dynamics of sampled winds and strings, or the depth of a vibrato."""
-_PLAYED_SHARE: Final = 0.8
-"""It is dynamics where it is up under such a share of the notes; a vibrato comes and goes."""
+SentKind: TypeAlias = CurveKind | Literal["modulation", "timbre"]
+"""Modulation is the dynamics of sampled winds and strings or the depth of a vibrato; timbre may be the breath of an MPE
+controller."""
+_KINDS: Final[dict[int, SentKind]] = {
+    1: "modulation",
+    74: "timbre",
+    **{number: kind for kind, number in CONTROLLERS.items()},
+}
 _NOTES_OFF = frozenset({120, 123})
 _TRACKS_NAMED: Final = 8
 """Of a file without notes so many tracks are named."""
@@ -65,9 +69,9 @@ class TrackEvents(msgspec.Struct):
     channels : dict of channel to ChannelNotes
         Channels with notes.
     controls : dict of (channel, kind) to dict of tick to value
-        The last value of each tick.
-    modulation : dict of channel to dict of tick to value
-        The same of controller 1, which may mean either of two things (`curves`).
+        The last value of each tick; of bends the share of the range their channel has.
+    parameters : list of (tick, channel, control, value)
+        Controllers that set the range (`app.score.bend_range`).
     hanging, zero_length : int
         Notes without an end, notes without a length.
     beyond : int
@@ -84,8 +88,8 @@ class TrackEvents(msgspec.Struct):
     markers: list[tuple[int, bytes]] = []
     programs: dict[int, list[tuple[int, int]]] = {}
     channels: dict[int, ChannelNotes] = {}
-    controls: dict[tuple[int, CurveKind], dict[int, float]] = {}
-    modulation: dict[int, dict[int, float]] = {}
+    controls: dict[tuple[int, SentKind], dict[int, float]] = {}
+    parameters: list[tuple[int, int, int, int]] = []
     hanging: int = 0
     zero_length: int = 0
     beyond: int = 0
@@ -119,39 +123,6 @@ class TrackEvents(msgspec.Struct):
                 return False
             ends[channel] = max(ends[channel], end)
         return True
-
-    def curves(self, channels: Collection[int]) -> tuple[ControllerCurve, ...]:
-        """The controller curves of some channels, by kind; where several speak, the last one holds.
-
-        Controller 1 is the expression where it is up while notes sound and neither breath nor expression moves.
-        """
-        kinds: dict[CurveKind, dict[int, float]] = {}
-        for (owner, kind), points in sorted(self.controls.items(), key=itemgetter(0)):
-            if owner in channels:
-                kinds.setdefault(kind, {}).update(points)
-        modulation = {tick: value for channel in channels for tick, value in self.modulation.get(channel, {}).items()}
-        spoken: tuple[CurveKind, ...] = ("breath", "expression")
-        if not any(_moves(kinds.get(kind, {})) for kind in spoken) and self._is_dynamics(modulation, channels):
-            kinds["expression"] = modulation
-        return tuple(
-            ControllerCurve(kind, tuple(sorted(points)), tuple(points[tick] for tick in sorted(points)))
-            for kind, points in sorted(kinds.items())
-        )
-
-    def _is_dynamics(self, modulation: Mapping[int, float], channels: Collection[int]) -> bool:
-        """Whether controller 1 moves and is up under most notes."""
-        if not _moves(modulation):
-            return False
-        ticks = sorted(modulation)
-        onsets = [tick for channel in channels for tick in self.channels[channel].onset_ticks]
-        up = sum(
-            modulation[ticks[place - 1]] > 0.0 for place in (bisect_right(ticks, tick) for tick in onsets) if place
-        )
-        return up >= _PLAYED_SHARE * len(onsets)
-
-
-def _moves(points: Mapping[int, float]) -> bool:
-    return len(set(points.values())) > 1
 
 
 def gather(messages: Iterable[Any], begin_tick: int, most_unended_ticks: int) -> TrackEvents:
@@ -215,10 +186,12 @@ def _note_other(events: TrackEvents, message: Any, kind: str, tick: int) -> None
     """Keep a message that is about no note."""
     if kind == "control_change":
         curve = _KINDS.get(message.control)
-        if message.control == _MODULATION:
-            events.modulation.setdefault(message.channel, {})[tick] = message.value / 127
-        elif curve is not None:
+        if curve is not None:
             events.controls.setdefault((message.channel, curve), {})[tick] = message.value / 127
+        elif message.control in PARAMETERS:
+            events.parameters.append((tick, message.channel, message.control, message.value))
+            if message.control == RESET and (bends := events.controls.get((message.channel, "pitch_bend"))):
+                bends[tick] = 0.0
     elif kind == "pitchwheel":
         events.controls.setdefault((message.channel, "pitch_bend"), {})[tick] = message.pitch / 8192
     elif kind in ("aftertouch", "polytouch"):

@@ -13,8 +13,8 @@ controller curves. What a MIDI file has no place for does not:
 - A channel that another part has already, or that is the percussion's: the part gets a free one as long as there is
   one; then channels repeat, and tracks keep the parts apart. Without a program a part gets its instrument's, for it
   would sound like a piano elsewhere.
-- Fractions: tempi are whole microseconds per quarter, controllers have 128 steps, pitch bends 16384 with +1 the
-  highest of them (8191/8192). Texts lose control characters and spaces around them.
+- Fractions: tempi are whole microseconds per quarter, controllers have 128 steps, pitch bends 16384 of the range that
+  the file sets for them, its end the highest of them (8191/8192). Texts lose control characters and spaces around them.
 - A metre that only restates the one before at a bar line; a short first bar is read as a pickup.
 
 The bite goes to controller 16 ("general purpose controller 1"): MIDI has no controller for it, and one that has a
@@ -49,6 +49,7 @@ import msgspec
 
 from app.errors import AppError, Message
 from app.formats.atomic import atomic_write
+from app.score.bend_range import range_controls, range_for, wheel
 from app.score.choose import PERCUSSION_CHANNEL, MapChoice, plays
 from app.score.model import ControllerCurve, CurveKind, Note, Part, Score
 from app.score.tempo import TempoChange
@@ -232,15 +233,29 @@ def _part(part: Part, name: str, instrument: Instrument | None, channel: int) ->
 
 
 def _steps(curve: ControllerCurve, channel: int) -> list[_Event]:
+    if curve.kind == "pitch_bend":
+        return _bends(curve, channel)
     return [
         (tick, _CONTROL, _step(curve.kind, value, channel))
         for tick, value in zip(curve.ticks, curve.values, strict=True)
     ]
 
 
+def _bends(curve: ControllerCurve, channel: int) -> list[_Event]:
+    """The steps of a pitch bend, after the range they need; said also where it is the usual one, since another part may
+    have set the channel's."""
+    semitones = range_for(curve.values)
+    events: list[_Event] = [
+        (0, _PROGRAM, mido.Message("control_change", channel=channel, control=control, value=value))
+        for control, value in range_controls(semitones)
+    ]
+    for tick, value in zip(curve.ticks, curve.values, strict=True):
+        bend = mido.Message("pitchwheel", channel=channel, pitch=wheel(value, semitones))
+        events.append((tick, _CONTROL, bend))
+    return events
+
+
 def _step(kind: CurveKind, value: float, channel: int) -> mido.Message:
-    if kind == "pitch_bend":
-        return mido.Message("pitchwheel", channel=channel, pitch=min(max(round(8192 * value), -8192), 8191))
     level = min(max(round(127 * value), 0), 127)
     if kind == "aftertouch":
         return mido.Message("aftertouch", channel=channel, value=level)

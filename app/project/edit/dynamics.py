@@ -71,8 +71,8 @@ def _shifted(
     for start, end in spans:
         away = np.maximum(np.maximum(start - places, places - end), 0)
         share = np.maximum(share, 1.0 - away / max(blend_ticks, 1.0))
-    low = -1.0 if curve.kind == "pitch_bend" else 0.0
-    values = np.where(share > 0.0, np.round(np.clip(held + by * share, low, 1.0) * _RESOLUTION) / _RESOLUTION, held)
+    low, high = curve.shown_range
+    values = np.where(share > 0.0, np.round(np.clip(held + by * share, low, high) * _RESOLUTION) / _RESOLUTION, held)
     kept = np.append(True, np.diff(values) != 0.0)
     return ControllerCurve(curve.kind, tuple(places[kept].tolist()), tuple(values[kept].tolist()))
 

@@ -147,12 +147,20 @@ def test_breath_shapes_the_sound_and_a_mixers_level_is_constant() -> None:
     sound = Synthesiser().render(phrases(part, TEMPO, 56)[0]).samples.astype(float)
     levels = [np.sqrt((sound[int(at * RATE_HZ) :][: RATE_HZ // 4] ** 2).mean()) for at in (0.15, 0.65, 1.15)]
     assert levels[0] < 0.5 * levels[1] < 0.5 * levels[2]
-    bend = ControllerCurve("pitch_bend", (0,), (1.0,))
+
+
+@pytest.mark.parametrize("semitones", [2.0, 1.0, -3.0, 5.0, -12.0, 24.0])
+def test_bends_sound_as_many_semitones_as_they_are_wide(semitones: float) -> None:
+    # The widest one sets the range; it comes while the note no longer sounds.
+    bend = ControllerCurve("pitch_bend", (0, 940), (semitones / 2.0, 1.3 * semitones / 2.0))
     bent = Synthesiser().render(phrases(melody((0, 960, 69), curves=(bend,)), TEMPO, 56)[0]).samples
-    part_spectrum = np.abs(np.fft.rfft(bent[RATE_HZ // 4 : RATE_HZ * 3 // 4].astype(float), 1 << 18))
+    spectrum = np.abs(np.fft.rfft(bent[RATE_HZ // 4 : RATE_HZ * 3 // 4].astype(float), 1 << 18))
     frequencies = np.fft.rfftfreq(1 << 18, 1 / RATE_HZ)
-    near = (frequencies > 400) & (frequencies < 540)
-    assert frequencies[near][part_spectrum[near].argmax()] == pytest.approx(440 * 2 ** (2 / 12), rel=0.01)
+    expected = 440 * 2 ** (semitones / 12)
+    near = (frequencies > 0.92 * expected) & (frequencies < 1.08 * expected)
+    assert frequencies[near][spectrum[near].argmax()] == pytest.approx(expected, rel=0.004)
+    around = (frequencies > 0.6 * expected) & (frequencies < 1.6 * expected)
+    assert spectrum[around].max() == spectrum[near].max()
 
 
 def test_programs_come_from_the_map_and_the_vocabulary() -> None:

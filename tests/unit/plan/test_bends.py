@@ -29,6 +29,9 @@ VIBRATO = [(480 + 10 * k, 0.2 * float(np.sin(k))) for k in range(48)]
         ([(0, 0.0), (800, -0.2), (850, -0.6), (900, -1.0), (960, 0.0)], ("fall",)),
         ([(0, 0.0), (800, 0.2), (900, 1.0), (960, 0.0)], ("doit",)),
         ([(470, -0.6), (540, 0.0), (900, -1.0), (960, 0.0)], ("scoop", "fall")),
+        # A slide through the note from its own pitch away, and one that arrives there.
+        ([(480, 0.0), (600, 0.0), *((600 + 10 * k, -0.05 * k) for k in range(1, 36))], ("fall",)),
+        ([(480 + 10 * k, 0.05 * k - 1.75) for k in range(36)], ("scoop",)),
         # A channel that is tuned elsewhere is not bent; a vibrato comes back; another note's fall is not this one's.
         ([(0, -0.5)], ()),
         (VIBRATO, ()),

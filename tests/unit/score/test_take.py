@@ -50,6 +50,12 @@ def test_breath_and_bite_are_what_the_wiring_says() -> None:
     assert bent["bite"].values.tolist() == bent["pitch_bend"].values.tolist() == [0.5]
 
 
+def test_a_take_is_bent_by_the_range_that_its_controller_sets() -> None:
+    messages = ("b06500", "b06400", "b0060c", "e00060", "e10060")
+    more = [(0.1 * place, message) for place, message in enumerate(messages)]
+    assert take_of([], more=more).played.curves["pitch_bend"].values.tolist() == [3.0, 0.5]
+
+
 def test_what_is_no_message_is_known() -> None:
     assert is_message("903c40")
     assert not any(map(is_message, ("", "90", "903c", "zz", "903cff", "f7", "40", "903c4000")))

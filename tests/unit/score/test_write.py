@@ -101,6 +101,19 @@ def test_every_curve_comes_back_within_a_step(tmp_path: Path) -> None:
         assert max(abs(a - b) for a, b in zip(curve.values, values, strict=True)) <= step + 1e-12
 
 
+@pytest.mark.parametrize("widest", [1.0, 1.5, 6.0, 24.0, 63.5])
+def test_wide_bends_are_written_with_their_range(widest: float, tmp_path: Path) -> None:
+    """Two parts on one channel: the range of the one is not that of the other."""
+    values = tuple(widest * (number / 10 - 1.0) for number in range(20))
+    wide = ControllerCurve("pitch_bend", tuple(range(20)), values)
+    usual = ControllerCurve("pitch_bend", (0, 5), (0.5, -1.0))
+    parts = [part(curves=(wide if place == 0 else usual,)) for place in range(16)]
+    read = again(score(*parts), tmp_path).parts
+    # The highest step of a wheel lies below its range, which has whole semitones.
+    assert read[0].curves[0].values == pytest.approx(values, abs=(widest + 0.5) / 8192)
+    assert [one.curves[0].values for one in read[1:]] == [usual.values] * 15
+
+
 def test_every_instrument_is_known_again_by_the_name_that_is_written() -> None:
     for id, instrument in vocabulary().instruments.items():
         found = vocabulary().by_name(instrument.names[0])

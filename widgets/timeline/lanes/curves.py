@@ -249,7 +249,9 @@ class CurvesLane(Lane):
         tick = max(round(mouse.tick), 0)
         spans = [(note.onset_tick, note.end_tick) for note in self._part.notes if note.id in chosen]
         spans, blend_beats = ([(tick, tick)], PLACE_BEATS) if mouse.alt else (spans, BESIDE_BEATS)
-        height_px = self.plot_rect.height() - 2 * MARGIN_PX
+        curve = next((curve for curve in self._part.curves if curve.kind == kind), None)
+        low, high = (0.0, 1.0) if curve is None else curve.shown_range
+        height_px = (self.plot_rect.height() - 2 * MARGIN_PX) / (high - low)
         return DragController(self.session, self, mouse, player_id, kind, spans, blend_beats, height_px)
 
     def drag(self, mouse: LaneMouse) -> None:

@@ -57,13 +57,12 @@ def _traces(plan: PlayerPlan, start_s: Floats, end_s: Floats) -> dict[str, Steps
 
 
 def controller_steps(part: Part, project: Project) -> dict[str, Steps]:
-    """The part's controllers over time, by kind; values are 0..1 (pitch bend: its middle is 0.5)."""
+    """The part's controllers over time, by kind; values are shares 0..1 of the range that is shown of them."""
     clock = project.score.tempo_map
     result: dict[str, Steps] = {}
     for curve in part.curves:
-        values = np.array(curve.values, np.float64)
-        if curve.kind == "pitch_bend":
-            values = (values + 1.0) / 2.0
+        low, high = curve.shown_range
+        values = (np.array(curve.values, np.float64) - low) / (high - low)
         result[curve.kind] = Steps(clock.seconds(np.array(curve.ticks, np.float64)), values)
     return result
 
@@ -83,7 +82,7 @@ class DragController(Gesture):
     blend_beats : float
         Over which it blends back.
     height_px : float
-        Of the range 0..1.
+        Of a change by 1.
     """
 
     def __init__(
@@ -104,8 +103,7 @@ class DragController(Gesture):
 
     def follow(self, mouse: LaneMouse) -> None:
         by = (self.at.y_px - mouse.y_px) / self._height_px * (FINE if mouse.shift else 1.0)
-        # Its middle is 0, and the ends are twice as far apart.
-        by = round(by * (2.0 if self._kind == "pitch_bend" else 1.0), 3)
+        by = round(by, 3)
         self._step.edit(
             Message("edit.change_level"),
             lambda project: change_level(project, self._player_id, self._kind, self._spans, by, self._blend_beats),

@@ -1,0 +1,219 @@
+"""The channels of one track: which of them one player plays, and what their controllers say together.
+
+Notation programs give one player's muted or plucked notes a channel of their own; a controller that follows MIDI
+Polyphonic Expression (MPE) gives each note the next channel, so that its bend and pressure are its own.
+"""
+
+from __future__ import annotations
+
+from bisect import bisect_left, bisect_right
+from collections.abc import Collection, Mapping, Sequence
+from itertools import pairwise
+from operator import add, itemgetter
+from typing import Final
+
+from app.score.bend_range import RangeHistory, bent
+from app.score.choose import PERCUSSION_CHANNEL
+from app.score.limits import LAST_TICK
+from app.score.model import MOST_BEND, ControllerCurve
+from app.score.tracks import SentKind, TrackEvents
+from instrument_maps.vocabulary import vocabulary
+
+_PLAYED_SHARE: Final = 0.8
+"""A controller is dynamics where it is up under such a share of the notes; a vibrato comes and goes."""
+_LEAST_ROTATING: Final = 5
+"""Notes of a track that say whether its channels rotate."""
+_ROTATING_SHARE: Final = 0.75
+"""Share of the notes that come on another channel than the one before, where the channels rotate."""
+_LEGATO_SHARE: Final = 0.5
+"""Share of the shorter one that two notes of a line overlap at most..."""
+_LEGATO_NOTES: Final = 0.9
+"""... in such a share of the notes at least."""
+
+_Points = dict[int, float]
+_Span = tuple[int, int, int]
+"""Onset, end and channel of a note."""
+
+
+def settle_bends(tracks: Sequence[TrackEvents]) -> list[dict[int, frozenset[int]]]:
+    """Bring the pitch bends of all tracks to the usual range, in place.
+
+    A track that sets the range of a channel goes by its own; for another one the other tracks say it.
+
+    Returns
+    -------
+    list of dict of int to frozenset of int
+        MPE zones of each track: members by manager channel.
+    """
+    rows = sorted((row for events in tracks for row in events.parameters), key=itemgetter(0))
+    shared = RangeHistory.of(rows)
+    zones = []
+    for events in tracks:
+        own = RangeHistory.of(events.parameters)
+        zones.append(own.zones or shared.zones)
+        for (channel, kind), raw in list(events.controls.items()):
+            if kind == "pitch_bend":
+                ranges = own.ranges.get(channel) or shared.ranges.get(channel, {})
+                events.controls[channel, kind] = bent(raw, ranges)
+    return zones
+
+
+def players_channels(events: TrackEvents, name: str, zones: Mapping[int, frozenset[int]]) -> list[tuple[int, ...]]:
+    """The channels of a track that belong together, each group by number.
+
+    Those of an MPE zone do; all do where the track's name is an instrument's and they take turns, or where they
+    take turns note by note with one sound. Else each is for itself.
+    """
+    channels = sorted(events.channels)
+    if len(channels) < 2:
+        return [(channel,) for channel in channels]
+    for manager, members in zones.items():
+        own = [channel for channel in channels if channel == manager or channel in members]
+        if len(own) > 1:
+            rest = [(channel,) for channel in channels if channel not in own]
+            return sorted([tuple(own), *rest])
+    named = vocabulary().by_name(name)
+    if PERCUSSION_CHANNEL in channels:
+        return [(channel,) for channel in channels]
+    if (named is not None and not named.vague and events.take_turns(channels)) or _rotate(events, channels):
+        return [tuple(channels)]
+    return [(channel,) for channel in channels]
+
+
+def leading(events: TrackEvents, channels: Collection[int]) -> int:
+    """The channel that stands for some: that of their first note; the percussion's only where it is alone."""
+    played = [channel for channel in channels if channel != PERCUSSION_CHANNEL] or channels
+    return min(played, key=lambda channel: events.channels[channel].numbers[0])
+
+
+def sounding_channels(first: int, channels: Collection[int], zones: Mapping[int, frozenset[int]]) -> tuple[int, ...]:
+    """The channels whose program may be that of a group, the likeliest first: the leading one, the manager of its zone,
+    the others."""
+    managers = [one for one, members in zones.items() if len(channels) > 1 and members & {*channels}]
+    return tuple(dict.fromkeys((first, *managers, *channels)))
+
+
+def _rotate(events: TrackEvents, channels: Collection[int]) -> bool:
+    """Whether a line goes through the channels note by note, all with one sound."""
+    programs = {tuple(sorted({program for _, program in events.programs.get(one, [])})) for one in channels}
+    spans = _spans(events, channels)
+    if len(programs - {()}) > 1 or len(spans) < _LEAST_ROTATING or not _is_line(spans):
+        return False
+    changes = sum(before[2] != after[2] for before, after in pairwise(spans))
+    return changes >= _ROTATING_SHARE * (len(spans) - 1)
+
+
+def _spans(events: TrackEvents, channels: Collection[int]) -> list[_Span]:
+    """The notes of some channels by onset."""
+    return sorted(
+        (onset, end, channel)
+        for channel in channels
+        for onset, end in zip(events.channels[channel].onset_ticks, events.channels[channel].end_ticks, strict=True)
+    )
+
+
+def _is_line(spans: Sequence[_Span]) -> bool:
+    """Whether notes follow one another, at most a legato overlapping."""
+    near = sum(
+        before[1] - after[0] <= _LEGATO_SHARE * min(before[1] - before[0], after[1] - after[0])
+        for before, after in pairwise(spans)
+    )
+    return near >= _LEGATO_NOTES * (len(spans) - 1)
+
+
+def curves_of(
+    events: TrackEvents, channels: Collection[int], zones: Mapping[int, frozenset[int]]
+) -> tuple[ControllerCurve, ...]:
+    """The controller curves of some channels, by kind.
+
+    Where several channels speak, that of the note which began last does. The manager channel of an MPE zone speaks for
+    its members: its bend is added to theirs, of the rest it has what they do not send. Of a zone in which notes sound
+    together, as a keyboard's, only the manager's curves are kept: the others are of single notes.
+
+    Modulation and, in a zone, timbre are the expression where they are up while notes sound and neither breath nor
+    expression moves.
+    """
+    spans = _spans(events, channels)
+    manager = next((one for one, members in zones.items() if len(channels) > 1 and members & {*channels}), None)
+    players = {*channels} - {manager} if len(channels) == 1 or _is_line(spans) else set[int]()
+    kinds = {kind for channel, kind in events.controls if channel in players or channel == manager}
+    curves = {kind: _curve(events, kind, players, manager, spans) for kind in kinds}
+    modulation, timbre = curves.pop("modulation", {}), curves.pop("timbre", {})
+    if not any(_moves(curves.get(kind, {})) for kind in ("breath", "expression")):
+        pressed = _moves(curves.get("aftertouch", {}))
+        if _is_dynamics(modulation, spans):
+            curves["expression"] = modulation
+        elif manager is not None and not pressed and _is_dynamics(timbre, spans):
+            curves["expression"] = timbre
+    return tuple(
+        ControllerCurve(kind, tuple(sorted(points)), tuple(points[tick] for tick in sorted(points)))
+        for kind, points in sorted(curves.items())
+        if kind != "modulation" and kind != "timbre"
+    )
+
+
+def _curve(
+    events: TrackEvents, kind: SentKind, players: Collection[int], manager: int | None, spans: Sequence[_Span]
+) -> _Points:
+    """The steps of one kind that some channels and the manager of their zone send."""
+    own = {channel: points for channel in players if (points := events.controls.get((channel, kind)))}
+    shared = events.controls.get((manager, kind), {}) if manager is not None else {}
+    if not own:
+        return dict(shared)
+    points = next(iter(own.values())) if len(players) == 1 else _by_turns(own, spans, kind)
+    if not shared or kind != "pitch_bend":
+        return points
+    ticks = sorted({*points, *shared})
+    sums = map(add, _held(points, ticks), _held(shared, ticks))
+    return {tick: max(-MOST_BEND, min(value, MOST_BEND)) for tick, value in zip(ticks, sums, strict=True)}
+
+
+def _held(points: _Points, ticks: Sequence[int]) -> list[float]:
+    """The value at ascending ticks; 0 before the first."""
+    at, now, values = sorted(points), 0.0, []
+    place = 0
+    for tick in ticks:
+        while place < len(at) and at[place] <= tick:
+            now = points[at[place]]
+            place += 1
+        values.append(now)
+    return values
+
+
+def _by_turns(own: Mapping[int, _Points], spans: Sequence[_Span], kind: SentKind) -> _Points:
+    """The steps of several channels, each from where one of its notes begins to where the next note of any does."""
+    at = {channel: sorted(points) for channel, points in own.items()}
+    merged: _Points = {}
+    starts = [-1, *(onset for onset, _, _ in spans[1:])]
+    for (onset, _, channel), start, stop in zip(spans, starts, [*starts[1:], LAST_TICK + 1], strict=True):
+        ticks = at.get(channel, [])
+        first, last = bisect_right(ticks, start), bisect_left(ticks, stop)
+        if start >= 0 and first:
+            merged[start] = own[channel][ticks[first - 1]]
+        elif start >= 0 and kind == "pitch_bend":
+            merged[onset] = 0.0
+        merged.update((tick, own[channel][tick]) for tick in ticks[first:last])
+    return _without_repeats(merged)
+
+
+def _without_repeats(points: _Points) -> _Points:
+    """The steps that change the value."""
+    changed: _Points = {}
+    before: float | None = None
+    for tick in sorted(points):
+        if points[tick] != before:
+            before = changed[tick] = points[tick]
+    return changed
+
+
+def _moves(points: Mapping[int, float]) -> bool:
+    return len(set(points.values())) > 1
+
+
+def _is_dynamics(points: Mapping[int, float], spans: Sequence[_Span]) -> bool:
+    """Whether a controller moves and is up under most notes."""
+    if not _moves(points):
+        return False
+    ticks = sorted(points)
+    up = sum(points[ticks[place - 1]] > 0.0 for place in (bisect_right(ticks, onset) for onset, _, _ in spans) if place)
+    return up >= _PLAYED_SHARE * len(spans)
