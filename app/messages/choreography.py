@@ -119,11 +119,11 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
     ),
     "learn.no_percussion": (
         (
-            "{file} has no percussion to learn from (notes on channel 10); pair the motion with a file that has a "
-            "drum part"
+            "{file} has no percussion to learn from (a drum kit on channel 10, or as GS, XG or GM2 set it); pair the "
+            "motion with a file that has a drum part"
         ),
         (
-            "{file} には学習に使う打楽器（チャンネル 10 の音符）がありません。"
+            "{file} には学習に使う打楽器（チャンネル 10、または GS・XG・GM2 のリズムパート）がありません。"
             "ドラムパートのあるファイルと組み合わせてください"
         ),
     ),

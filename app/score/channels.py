@@ -13,7 +13,6 @@ from operator import add, itemgetter
 from typing import Final
 
 from app.score.bend_range import RangeHistory, bent
-from app.score.choose import PERCUSSION_CHANNEL
 from app.score.limits import LAST_TICK
 from app.score.model import MOST_BEND, ControllerCurve
 from app.score.tracks import SentKind, TrackEvents
@@ -73,7 +72,7 @@ def players_channels(events: TrackEvents, name: str, zones: Mapping[int, frozens
             rest = [(channel,) for channel in channels if channel not in own]
             return sorted([tuple(own), *rest])
     named = vocabulary().by_name(name)
-    if PERCUSSION_CHANNEL in channels:
+    if not all(map(events.is_melodic, channels)):
         return [(channel,) for channel in channels]
     if (named is not None and not named.vague and events.take_turns(channels)) or _rotate(events, channels):
         return [tuple(channels)]
@@ -81,8 +80,8 @@ def players_channels(events: TrackEvents, name: str, zones: Mapping[int, frozens
 
 
 def leading(events: TrackEvents, channels: Collection[int]) -> int:
-    """The channel that stands for some: that of their first note; the percussion's only where it is alone."""
-    played = [channel for channel in channels if channel != PERCUSSION_CHANNEL] or channels
+    """The channel that stands for some: that of their first note; one of a rhythm part only where all are."""
+    played = list(filter(events.is_melodic, channels)) or channels
     return min(played, key=lambda channel: events.channels[channel].numbers[0])
 
 

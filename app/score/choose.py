@@ -15,9 +15,12 @@ import msgspec
 
 from app.errors import Argument, Message, UsageError
 from app.score.model import ControllerCurve, Note
+from app.score.sound_module import KIT_PROGRAMS, Use
 from instrument_maps.vocabulary import Instrument, vocabulary
 
-PERCUSSION_CHANNEL = 9
+_KIT, _EFFECT = "drums", "effect"
+"""Ids in the vocabulary."""
+_KIT_NOTES = range(35, 60)
 _NEEDED_SHARE = 0.5
 _OWN_SHARE = 0.96
 _FEW = 3
@@ -73,6 +76,12 @@ class TrackChannel(msgspec.Struct, frozen=True):
         Which of its player's instruments that is, from 0.
     muted : tuple of (start, end)
         Spans of ticks in which the track is played with a mute.
+    use : {"melodic", "rhythm", "effect"}
+        What its channel is on a sound module while it plays (`app.score.sound_module`).
+    certain : bool
+        A message says so that means nothing else.
+    struck : list of int
+        Of a rhythm part: the sounds of its notes as General MIDI numbers them; empty where they are its pitches.
     """
 
     track: int
@@ -90,6 +99,9 @@ class TrackChannel(msgspec.Struct, frozen=True):
     played_on: str = ""
     change: int = 0
     muted: tuple[tuple[int, int], ...] = ()
+    use: Use = "melodic"
+    certain: bool = False
+    struck: list[int] = []
 
     @property
     def place(self) -> tuple[int, int, int]:
@@ -205,18 +217,47 @@ def recognised(stream: TrackChannel) -> Instrument | None:
     return vocabulary().instruments[stream.reported[0]] if said is None and len(stream.reported) == 1 else said
 
 
+def use_of(stream: TrackChannel) -> Use:
+    """What a track is: a melody, a rhythm part, whose notes name the sounds of a drum kit, or sound effects.
+
+    What the sound module was set to decides, but where that is only what channel 10 or a bank usually is, a name of
+    anything but percussion makes it a melody. The name of a drum kit makes a rhythm part of any channel, if its
+    program may be a kit's and most notes are those of a kit.
+    """
+    telling, vague = _named(stream)
+    if stream.use == "melodic":
+        kit = telling is not None and telling.id == _KIT and (stream.program is None or stream.program in KIT_PROGRAMS)
+        return "rhythm" if kit and _names_kit(stream.pitches) else "melodic"
+    named = telling or vague
+    return stream.use if stream.certain or named is None or named.kind == "percussion" else "melodic"
+
+
+def _named(stream: TrackChannel) -> tuple[Instrument | None, Instrument | None]:
+    """What the names of a track mean: the first that tells, and the first that may mean a part of any instrument."""
+    words = vocabulary()
+    named = [found for text in (stream.name, stream.instrument_name) if text and (found := words.by_name(text))]
+    telling = next((found for found in named if not found.vague), None)
+    return telling, next(iter(named), None) if telling is None else None
+
+
+def _names_kit(pitches: Sequence[int]) -> bool:
+    """Whether most notes are bass drums, snare drums, toms, hi-hats and cymbals in General MIDI."""
+    return 2 * sum(map(_KIT_NOTES.__contains__, pitches)) > len(pitches)
+
+
 def _said(stream: TrackChannel) -> Instrument | None:
     """What a track says of itself."""
     words = vocabulary()
     if stream.played_on:
         return words.instruments[stream.played_on]
-    named = [words.by_name(text) for text in (stream.name, stream.instrument_name) if text]
-    telling = next((found for found in named if found is not None and not found.vague), None)
+    telling, vague = _named(stream)
+    use = use_of(stream)
+    if use == "rhythm":
+        return telling if telling is not None and telling.kind == "percussion" else words.instruments[_KIT]
+    if use == "effect":
+        return words.instruments[_EFFECT]
     if telling is not None:
         return telling
-    vague = next((found for found in named if found is not None), None)
-    if stream.channel == PERCUSSION_CHANNEL:
-        return vague or words.instruments["drums"]
     numbered = None if stream.program is None else words.by_program(stream.program)
     if vague is None or numbered is None:
         return numbered or vague
@@ -266,6 +307,8 @@ def candidates(streams: Sequence[TrackChannel], maps: Sequence[MapChoice]) -> Ca
 
 def refusal(stream: TrackChannel, maps: Sequence[MapChoice]) -> Message | None:
     """Why a track has no player; None if it has one."""
+    if use_of(stream) == "effect":
+        return Message("score.sound_effect")
     instrument = _said(stream)
     found = candidates([stream], maps)
     if instrument is not None and not instrument.any_pitch:
@@ -279,12 +322,6 @@ def refusal(stream: TrackChannel, maps: Sequence[MapChoice]) -> Message | None:
     if max((_share(stream.pitches, choice) for choice in found.maps), default=0.0) <= _NEEDED_SHARE:
         return Message("score.outside_ranges", range_)
     return None
-
-
-def is_drum_kit(stream: TrackChannel) -> bool:
-    """Whether its notes name the percussion sounds of General MIDI: a percussion track on channel 10."""
-    said = _said(stream)
-    return stream.channel == PERCUSSION_CHANNEL and said is not None and said.kind == "percussion"
 
 
 def plays(choice: MapChoice, instrument: Instrument) -> bool:

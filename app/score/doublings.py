@@ -9,7 +9,6 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
-from app.score.choose import PERCUSSION_CHANNEL
 from app.score.limits import MOST_NAME
 from app.score.tracks import TrackEvents
 from instrument_maps.vocabulary import Instrument, vocabulary
@@ -38,7 +37,7 @@ def doubled_instruments(
     onset_ticks : list of int
         Of the notes, ascending.
     """
-    if PERCUSSION_CHANNEL in channels:
+    if not all(map(events.is_melodic, channels)):
         return [""] * len(onset_ticks)
     programs = sorted({row for channel in channels for row in events.programs.get(channel, [])})
     changes = [(tick, 0, found) for tick, program in programs if (found := _doubling(vocabulary().by_program(program)))]

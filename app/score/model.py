@@ -89,12 +89,12 @@ class Marker(msgspec.Struct, frozen=True):
 
 
 class PercussionHit(msgspec.Struct, frozen=True, gc=False):
-    """A note of a percussion track, as the file has it: no player plays it, but dancers move to it.
+    """A note of a percussion track: no player plays it, but dancers move to it.
 
     Attributes
     ----------
     pitch : int
-        MIDI note 0..127: the sound of a drum kit that is struck.
+        MIDI note 0..127: the sound of a drum kit that is struck, as General MIDI numbers it.
     velocity : int
         1..127.
     """

@@ -1,7 +1,7 @@
 """Tracks to parts: which instrument a track is for, which map plays it, and how many players it needs.
 
-A name beats a program; what an instrument is called in the track's name beats its instrument name. Channel 10 is
-percussion unless a name says otherwise.
+A name beats a program; what an instrument is called in the track's name beats its instrument name. What is percussion
+and what sound effects `app.score.choose.use_of` says.
 
 Reasons for not playing a part
 ------------------------------
@@ -9,6 +9,8 @@ score.no_map : instrument
     "there is no instrument map for {instrument} yet"
 score.percussion : instrument
     "{instrument} is percussion"
+score.sound_effect
+    "sound effects have no player"
 score.not_wind : instrument
     "{instrument} is not a wind instrument"
 score.outside_ranges : lowest, highest

@@ -67,7 +67,7 @@ import msgspec
 from app.encoding import shown
 from app.errors import FileError, Message
 from app.score.channels import curves_of, leading, players_channels, settle_bends, sounding_channels
-from app.score.choose import MapChoice, TrackChannel, is_drum_kit, named_by_file
+from app.score.choose import MapChoice, TrackChannel, named_by_file, use_of
 from app.score.chunks import Container, Track, read_container
 from app.score.doublings import doubled_instruments
 from app.score.limits import MOST_NAME, MOST_STREAMS, too_long
@@ -76,6 +76,7 @@ from app.score.model import MOST_VOICES, Marker, Part, PercussionHit, Score, Unp
 from app.score.mutes import muted_spans
 from app.score.parts import PartAssignment, assigned_parts, parts_of, stream_name
 from app.score.repair import Repaired, last_suspicious, repaired
+from app.score.sound_module import FIRST_PORT, Port, Use, channel_sounds
 from app.score.tempo import TempoChange, TempoMap
 from app.score.texts import decoded
 from app.score.tracks import LEAST_TEMPO, TrackEvents, gather, no_notes
@@ -147,7 +148,7 @@ def assigned_score(
 
 
 def uncast_score(contents: MidiContents) -> Score:
-    """The score in which every track but the percussion is a part as it stands, without players, for
+    """The score in which every track but percussion and sound effects is a part as it stands, without players, for
     listening only. No part has an instrument map."""
     parts = tuple(
         Part(
@@ -163,7 +164,7 @@ def uncast_score(contents: MidiContents) -> Score:
             curves=stream.curves,
         )
         for stream in contents.streams
-        if not is_drum_kit(stream)
+        if use_of(stream) == "melodic"
     )
     return _score(contents, parts)
 
@@ -193,8 +194,8 @@ def _percussion(streams: Sequence[TrackChannel]) -> tuple[PercussionHit, ...]:
     hits = (
         hit
         for stream in streams
-        if is_drum_kit(stream)
-        for hit in zip(stream.onset_ticks, stream.pitches, stream.velocities, strict=True)
+        if use_of(stream) == "rhythm"
+        for hit in zip(stream.onset_ticks, stream.struck or stream.pitches, stream.velocities, strict=True)
     )
     return tuple(PercussionHit(tick, pitch, velocity) for tick, pitch, velocity in sorted(hits))
 
@@ -222,6 +223,8 @@ def read_contents(path: Path, *, encoding: str | None = None) -> MidiContents:
         warnings += _track_warnings(events, index)
         tracks.append(events)
         counts.append(sum(not message.is_meta for message in messages) if not events.channels else 0)
+    for events, sounds in zip(tracks, channel_sounds([one.said_of_sounds for one in tracks]), strict=True):
+        events.sounds = sounds
     if container.format == 2 and len(tracks) > 1:
         warnings.append(Message("midi.patterns", {"patterns": len(tracks)}))
     tempo_map, tempo_warnings = _tempo_map(container, tracks)
@@ -386,10 +389,11 @@ def _streams(
     tracks: Sequence[TrackEvents], zones: Sequence[Mapping[int, frozenset[int]]], encoding: str | None
 ) -> list[TrackChannel]:
     lilypond = any(b"LilyPond" in text for _, text in tracks[0].texts)
-    given: dict[int, set[int]] = {}
+    given: dict[tuple[Port, int], set[int]] = {}
     for events in tracks:
-        for channel, changes in events.programs.items():
-            given.setdefault(channel, set()).update(program for _, program in changes)
+        for channel in events.channels.keys() & events.programs.keys():
+            key = (events.port or FIRST_PORT, channel)
+            given.setdefault(key, set()).update(program for _, program in events.programs[channel])
     streams = []
     for index, events in enumerate(tracks):
         name = decoded(events.name, encoding)[:MOST_NAME]
@@ -406,15 +410,23 @@ def _streams(
             curves = curves_of(events, channels, zones[index])
             played_on = doubled_instruments(events, channels, name, said if len(groups) == 1 else (), notes.onset_ticks)
             muted = muted_spans(events, channels, name, said if len(groups) == 1 else ())
-            for change, instrument in enumerate(sorted(dict.fromkeys(played_on), key=bool)):
-                own = notes.where([one == instrument for one in played_on])
+            sounds = [events.sound_at(first, tick) for tick in notes.onset_ticks]
+            kinds = [(sound.use, instrument) for sound, instrument in zip(sounds, played_on, strict=True)]
+            for change, kind in enumerate(sorted(dict.fromkeys(kinds), key=_kind_order)):
+                use, instrument = kind
+                own = notes.where([one == kind for one in kinds])
+                mine = [sound for sound, one in zip(sounds, kinds, strict=True) if one == kind]
+                struck = [sound.struck(pitch) for sound, pitch in zip(mine, own.pitches, strict=True)]
                 streams.append(
                     TrackChannel(
                         track=index,
                         channel=first,
-                        name=_doubled_name(name, instrument)[:MOST_NAME] if change else name,
+                        name=_doubled_name(name, instrument)[:MOST_NAME] if change and instrument else name,
                         instrument_name=decoded(events.instrument_name, encoding)[:MOST_NAME],
                         program=_program(events, sounding, own.onset_ticks[0], given),
+                        use=use,
+                        certain=mine[0].certain,
+                        struck=struck if use == "rhythm" and struck != own.pitches else [],
                         onset_ticks=own.onset_ticks,
                         end_ticks=own.end_ticks,
                         pitches=own.pitches,
@@ -429,6 +441,12 @@ def _streams(
     return streams
 
 
+def _kind_order(kind: tuple[Use, str]) -> tuple[int, bool]:
+    """Melodies first, so that what a player has keeps its place; of these what the track is for."""
+    use, instrument = kind
+    return ("melodic", "rhythm", "effect").index(use), bool(instrument)
+
+
 def _doubled_name(name: str, instrument: str) -> str:
     """The name of what a track's player plays on another instrument, which comes first and so is what it is read as."""
     spoken = vocabulary().instruments[instrument].names[0]
@@ -436,17 +454,17 @@ def _doubled_name(name: str, instrument: str) -> str:
 
 
 def _program(
-    events: TrackEvents, channels: Sequence[int], first_onset: int, given: Mapping[int, Set[int]]
+    events: TrackEvents, channels: Sequence[int], first_onset: int, given: Mapping[tuple[Port, int], Set[int]]
 ) -> int | None:
     """The program with which the first note of some channels sounds, the likeliest channel first.
 
     It is the track's own if it gives any, for the channels of large scores are shared by tracks. Else it is
-    what the other tracks give the channel, if they agree; ``given`` has the programs that the tracks give each.
+    what the other tracks of its port give the channel, if those with notes there agree; ``given`` has what they give.
     """
     for channel in channels:
         own = events.programs.get(channel)
         if own:
             before = [program for tick, program in own if tick <= first_onset]
             return before[-1] if before else own[0][1]
-    others = given.get(channels[0], frozenset[int]())
-    return next(iter(others)) if len(others) == 1 else None
+    others = given.get((events.port or FIRST_PORT, channels[0]), frozenset[int]())
+    return None if len(others) > 1 else events.sound_at(channels[0], first_onset).program

@@ -1,5 +1,8 @@
 """Makes the bytes of a track such that mido can read them, losing only what cannot be understood.
 
+System exclusive messages that are split over several events (SMF 1.0, "F7 sysex events") become one where the last part
+stands; mido would take each for a message.
+
 What mido refuses or misreads: variable-length quantities of more than four bytes, which it makes numbers of any size
 of; system messages other than exclusive ones, running status after them or after an
 exclusive message, meta events with impossible contents, an event cut off by the end of the track. A value above 127 is
@@ -24,9 +27,11 @@ _CHANNEL_DATA = {0x8: 2, 0x9: 2, 0xA: 2, 0xB: 2, 0xC: 1, 0xD: 1, 0xE: 2}
 _SYSTEM_DATA = {0xF1: 1, 0xF2: 2, 0xF3: 1}
 
 # Meta events the score reads, and the lengths they may have.
-_END_OF_TRACK, _SET_TEMPO, _TIME_SIGNATURE = 0x2F, 0x51, 0x58
-_LENGTHS = {_SET_TEMPO: 3, _TIME_SIGNATURE: 4}
-_TEXTS = frozenset((1, 2, 3, 4, 6, 7))
+_PORT, _END_OF_TRACK, _SET_TEMPO, _TIME_SIGNATURE = 0x21, 0x2F, 0x51, 0x58
+_LENGTHS = {_PORT: 1, _SET_TEMPO: 3, _TIME_SIGNATURE: 4}
+_TEXTS = frozenset((1, 2, 3, 4, 6, 7, 9))
+_LONGEST_EXCLUSIVE = 1024
+"""Bytes of a message that is put together; what is longer says nothing that the score needs."""
 
 _SUSPICIOUS = tuple(bytes([status]) for status in range(0xF0, 0xFF))
 _OVERLONG = re.compile(rb"[\x80-\xff]{4}")
@@ -77,6 +82,7 @@ def repaired(data: bytes, until: int | None = None) -> Repaired:
         From the first event at or after this offset on, the bytes are taken as they are.
     """
     out = bytearray()
+    exclusive = bytearray()
     at, delta, status = 0, 0, 0
     skipped, first_skipped = 0, len(data)
     truncated_at = None
@@ -107,6 +113,17 @@ def repaired(data: bytes, until: int | None = None) -> Repaired:
                 if begin + length > end:
                     raise _TruncatedError
                 at = begin + length
+                if byte == 0xF0 or data[begin : begin + 1] == b"\xf0":
+                    exclusive.clear()
+                if len(exclusive) <= _LONGEST_EXCLUSIVE:
+                    exclusive += data[begin : min(at, begin + _LONGEST_EXCLUSIVE)]
+                # An unfinished message goes on in an F7 event that follows; many have no F7 at all.
+                if data[at - 1] == 0xF7 or not _goes_on(data, at):
+                    whole = bytes(value for value in exclusive if value < 0x80)
+                    exclusive.clear()
+                    if whole and len(whole) <= _LONGEST_EXCLUSIVE:
+                        out += encoded_length(delta) + b"\xf0" + encoded_length(len(whole) + 1) + whole + b"\xf7"
+                        delta = 0
             elif byte > 0xF0:
                 at = _after_system_message(data, at)
                 skipped, first_skipped = skipped + at - event_at, min(first_skipped, event_at)
@@ -128,6 +145,18 @@ def repaired(data: bytes, until: int | None = None) -> Repaired:
             break
     out += encoded_length(min(delta, 0x0FFFFFFF)) + bytes([0xFF, _END_OF_TRACK, 0])
     return Repaired(bytes(out), truncated_at, skipped, first_skipped)
+
+
+def _goes_on(data: bytes, at: int) -> bool:
+    """Whether the event at an offset continues a system exclusive message: an F7 event that begins none itself."""
+    try:
+        _, at = _variable_length(data, at)
+        if _byte(data, at) != 0xF7:
+            return False
+        _, begin = _variable_length(data, at + 1)
+    except _TruncatedError:
+        return False
+    return data[begin : begin + 1] != b"\xf0"
 
 
 def _after_system_message(data: bytes, at: int) -> int:

@@ -15,6 +15,7 @@ from app.errors import Message
 from app.score.bend_range import PARAMETERS, RESET
 from app.score.limits import LAST_TICK, MOST_NAME
 from app.score.model import CurveKind
+from app.score.sound_module import FIRST_PORT, ChannelSound, Port, Setup, Setups
 from app.score.texts import decoded
 
 CONTROLLERS: Final[dict[CurveKind, int]] = {"breath": 2, "volume": 7, "expression": 11, "bite": 16}
@@ -30,6 +31,12 @@ _KINDS: Final[dict[int, SentKind]] = {
     **{number: kind for kind, number in CONTROLLERS.items()},
 }
 _NOTES_OFF = frozenset({120, 123})
+_BANK: Final = 0
+"""Controller 0, the MSB of a bank."""
+_LONGEST_EXCLUSIVE: Final = 256
+"""Bytes of a message to a sound module; longer ones are dumps of its memory."""
+_SOUND_MODULES: Final = frozenset((0x41, 0x43, 0x7E))
+"""Roland, Yamaha, and what all makers share."""
 _TRACKS_NAMED: Final = 8
 """Of a file without notes so many tracks are named."""
 
@@ -68,6 +75,12 @@ class TrackEvents(msgspec.Struct):
     programs : dict of channel to list of (tick, program)
     channels : dict of channel to ChannelNotes
         Channels with notes.
+    setups : list of Setup
+        What changes the sounds of channels.
+    port : Port or None
+        Where the notes go; None: the track does not say.
+    sounds : dict of channel to list of (tick, ChannelSound)
+        What channels with notes sound like from each tick on, once it is known of all tracks.
     controls : dict of (channel, kind) to dict of tick to value
         The last value of each tick; of bends the share of the range their channel has.
     parameters : list of (tick, channel, control, value)
@@ -87,6 +100,9 @@ class TrackEvents(msgspec.Struct):
     metres: list[tuple[int, int, int]] = []
     markers: list[tuple[int, bytes]] = []
     programs: dict[int, list[tuple[int, int]]] = {}
+    setups: list[Setup] = []
+    port: Port | None = None
+    sounds: dict[int, list[tuple[int, ChannelSound]]] = {}
     channels: dict[int, ChannelNotes] = {}
     controls: dict[tuple[int, SentKind], dict[int, float]] = {}
     parameters: list[tuple[int, int, int, int]] = []
@@ -109,6 +125,21 @@ class TrackEvents(msgspec.Struct):
             (row for notes in together for row in zip(*msgspec.structs.astuple(notes), strict=True)), key=itemgetter(-1)
         )
         return ChannelNotes(*map(list, zip(*rows, strict=True)))
+
+    @property
+    def said_of_sounds(self) -> Setups:
+        """What the track says about the sounds of channels."""
+        first_onsets = {channel: notes.onset_ticks[0] for channel, notes in self.channels.items()}
+        return Setups(self.setups, first_onsets, self.port)
+
+    def sound_at(self, channel: int, tick: int) -> ChannelSound:
+        """What a channel with notes sounds like at a tick."""
+        changes = self.sounds[channel]
+        return changes[max(bisect_right(changes, tick, key=itemgetter(0)) - 1, 0)][1]
+
+    def is_melodic(self, channel: int) -> bool:
+        """Whether a channel is nothing but a melody's."""
+        return all(sound.use == "melodic" for _, sound in self.sounds[channel])
 
     def take_turns(self, channels: Collection[int]) -> bool:
         """Whether no note of one channel sounds into a note of another."""
@@ -185,6 +216,8 @@ def gather(messages: Iterable[Any], begin_tick: int, most_unended_ticks: int) ->
 def _note_other(events: TrackEvents, message: Any, kind: str, tick: int) -> None:
     """Keep a message that is about no note."""
     if kind == "control_change":
+        if message.control == _BANK:
+            _set_up(events, tick, message.channel, "bank", message.value)
         curve = _KINDS.get(message.control)
         if curve is not None:
             events.controls.setdefault((message.channel, curve), {})[tick] = message.value / 127
@@ -198,6 +231,12 @@ def _note_other(events: TrackEvents, message: Any, kind: str, tick: int) -> None
         events.controls.setdefault((message.channel, "aftertouch"), {})[tick] = message.value / 127
     elif kind == "program_change":
         events.programs.setdefault(message.channel, []).append((tick, message.program))
+        _set_up(events, tick, message.channel, "program", message.program)
+    elif kind == "sysex":
+        if message.data[:1] and message.data[0] in _SOUND_MODULES and len(message.data) <= _LONGEST_EXCLUSIVE:
+            _set_up(events, tick, -1, "exclusive", bytes(message.data))
+    elif kind in ("midi_port", "device_name"):
+        _connect(events, message)
     elif kind == "set_tempo":
         events.tempos.append((tick, message.tempo))
     elif kind == "time_signature":
@@ -210,6 +249,23 @@ def _note_other(events: TrackEvents, message: Any, kind: str, tick: int) -> None
         events.texts.append((tick, message.text.encode("latin-1")))
     elif kind in ("marker", "cue_marker"):
         events.markers.append((tick, message.text.encode("latin-1")))
+
+
+def _set_up(
+    events: TrackEvents, tick: int, channel: int, kind: Literal["program", "bank", "exclusive"], value: int | bytes
+) -> None:
+    events.setups.append(Setup(tick, len(events.setups), channel, kind, value, events.port))
+
+
+def _connect(events: TrackEvents, message: Any) -> None:
+    """Take a port or a device's name. A track whose notes have begun stays where they went."""
+    if events.channels:
+        return
+    number, device = events.port or FIRST_PORT
+    if message.type == "midi_port":
+        events.port = message.port, device
+    else:
+        events.port = number, message.name.encode("latin-1")
 
 
 def _end_unended(notes: ChannelNotes, silenced: Mapping[int, int], most_ticks: int, track_end: int) -> int:

@@ -50,8 +50,9 @@ import msgspec
 from app.errors import AppError, Message
 from app.formats.atomic import atomic_write
 from app.score.bend_range import range_controls, range_for, wheel
-from app.score.choose import PERCUSSION_CHANNEL, MapChoice, plays
+from app.score.choose import MapChoice, plays
 from app.score.model import ControllerCurve, CurveKind, Note, Part, Score
+from app.score.sound_module import DRUM_CHANNEL
 from app.score.tempo import TempoChange
 from app.score.tracks import CONTROLLERS, LEAST_TEMPO
 from app.score.voices import is_one_voice
@@ -61,7 +62,7 @@ MOST_TEMPO: Final = 0xFFFFFF
 """Microseconds per quarter: the 24 bits of the event."""
 _LONGEST_DELTA: Final = 0x0FFFFFFF
 """Ticks between two events: four groups of seven bits."""
-_CHANNELS: Final = tuple(channel for channel in range(16) if channel != PERCUSSION_CHANNEL)
+_CHANNELS: Final = tuple(channel for channel in range(16) if channel != DRUM_CHANNEL)
 
 # What comes first at one tick: what ends a note comes before what begins the next, controllers before both begin.
 _OFF, _PROGRAM, _CONTROL, _ON = range(4)
@@ -138,7 +139,7 @@ def _channels(parts: Sequence[Part]) -> list[int]:
     """A channel for each part: its own where it is the first to have it, else a free one, else its own again."""
     own: dict[int, int] = {}
     for index, part in enumerate(parts):
-        if part.channel != PERCUSSION_CHANNEL:
+        if part.channel != DRUM_CHANNEL:
             own.setdefault(part.channel, index)
     free = [channel for channel in _CHANNELS if channel not in own]
     channels = []

@@ -40,7 +40,7 @@ from app.project.importing import (
     usual_rows,
 )
 from app.rig.character_library import characters
-from app.score.choose import TrackChannel, is_drum_kit
+from app.score.choose import TrackChannel, use_of
 from app.score.model import UnplayedPart
 from app.score.parts import PartAssignment, stream_name
 from app.score.read import MidiContents
@@ -115,7 +115,9 @@ class ImportDialog(Retranslated, QDialog):
         self._separate = Button(
             "import_dialog.take_apart", self.separate_selected, "separate", "import_dialog.make_part_of_each_merged"
         )
-        self._percussion = frozenset(place for place, stream in enumerate(contents.streams) if is_drum_kit(stream))
+        self._percussion = frozenset(
+            place for place, stream in enumerate(contents.streams) if use_of(stream) == "rhythm"
+        )
         """Streams that dancers dance to."""
         self._dancer = named(Check("import_dialog.add_dancer"), "import_dancer")
         self._dancer.setVisible(bool(self._percussion and bundled_choreographies()))

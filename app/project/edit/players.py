@@ -33,6 +33,7 @@ from app.project.names import clean_name
 from app.project.performers import Dancer, Player
 from app.score.choose import require_map
 from app.score.model import Part
+from app.score.sound_module import DRUM_CHANNEL
 from instrument_maps.library import all_maps, find_map
 from instrument_maps.model import InstrumentMap, Posture
 from metadata.acting import as_text, names_in
@@ -495,4 +496,4 @@ def free_name(requested: str, taken: Iterable[str]) -> str:
 def free_channel(parts: Sequence[Part]) -> int:
     """A channel no part uses, not the percussion's; the first again where all are taken."""
     used = {part.channel for part in parts}
-    return next((channel for channel in range(16) if channel != 9 and channel not in used), 0)
+    return next((channel for channel in range(16) if channel != DRUM_CHANNEL and channel not in used), 0)

@@ -1,0 +1,417 @@
+"""What the channels of a file sound like on a sound module: melodies, rhythm parts, sound effects, and their programs.
+
+General MIDI has its drum kit on channel 10. The systems that extend it have rhythm parts on any channel, and melodies
+on channel 10. Messages that decide are gathered from all tracks, in the order of their ticks; at one tick a reset comes
+first, for a track of settings need not be the first of a file, then what says the part's mode, then banks and programs.
+
+GM (General MIDI System Level 1, MMA 1991)
+    "GM System On" (universal 09 01). Channel 10 alone has percussion; banks mean nothing.
+GS (Roland SC-55 and SC-88 owner's manuals, MIDI implementation)
+    "GS Reset" (data set to 40 00 7F) and the mode set of the SC-88 (00 00 7F). "Use for rhythm part" (40 1x 15) makes
+    a part a rhythm part (1, 2: a drum map) or a melody (0), block 0 being part 10, 1 to 9 parts 1 to 9, A to F parts 11
+    to 16; 50 1x is the other port's. "Receive channel" (40 1x 02) moves a part to another channel. The bank select has
+    variations, with MT-32 and CM-64 sounds in 126 and 127: no drums. Programs 56 and 57 of a rhythm part are effects.
+XG (Yamaha MU80 and MU100 data lists)
+    "XG System On" (00 00 7E), "all parameter reset" (00 00 7F). Bank MSB 127 has drum kits, 126 kits of effects, 64
+    effects, anything less melodies, on every channel; "part mode" (08 pp 07) is 0 for a melody, else a drum part, and
+    "receive channel" is 08 pp 04. Parts from 16 on are the second port's.
+GM2 (General MIDI 2, MMA RP-024)
+    "GM2 System On" (universal 09 03). Bank MSB 120 is percussion, 121 a melody; program 56 of percussion is effects.
+
+A bank takes effect at the next program change. A drum bank that no program change follows before the first note does at
+that note: the two were written in the wrong order. Roland's checksum is not looked at, as other programs do not, and
+messages for every device are heeded.
+
+Where no reset is in a file, or those of GS and of XG both, a bank of 120, 126 or 127 is read as XG and GM2 have it, as
+FluidSynth's "xg" bank selection does, but the name of a wind instrument says more (`ChannelSound.certain`). On channel
+10 a bank of less than 120 makes a melody in XG alone, as there; many files have bank 0 everywhere and mean drums. With
+the number of a kit for its program such a channel stays percussion.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from heapq import merge
+from typing import Final, Literal, NamedTuple, TypeAlias
+
+import msgspec
+
+Use: TypeAlias = Literal["melodic", "rhythm", "effect"]
+System: TypeAlias = Literal["", "gm", "gs", "xg", "gm2"]
+Port: TypeAlias = tuple[int, bytes]
+"""Number of a port (meta event 33) and name of a device (meta event 9)."""
+
+DRUM_CHANNEL: Final = 9
+"""Channel 10, which has the percussion of General MIDI."""
+FIRST_PORT: Final[Port] = (0, b"")
+EFFECT_PROGRAMS: Final = range(120, 128)
+"""General MIDI's sound effects, from the fret noise of a guitar to a gun shot."""
+KIT_PROGRAMS: Final = frozenset((0, 1, 2, 3, 4, 8, 16, 24, 25, 26, 27, 28, 29, 30, 31, 32, 40, 48, 49, 50))
+"""Numbers of drum kits in GS, XG and GM2, those of effects aside."""
+_EFFECT_KITS: Final = (56, 57)
+_DRUM_BANKS: Final = frozenset((120, 126, 127))
+_PERCUSSION_BANK, _MELODY_BANK, _EFFECT_KIT_BANK, _KIT_BANK, _EFFECT_BANK = 120, 121, 126, 127, 64
+_ORCHESTRA, _BRUSH = 48, 40
+_MOST_CHANGES: Final = 1000
+"""Changes of one channel by tracks other than its own that are looked at; a piece has a few."""
+
+
+class Setup(NamedTuple):
+    """A message that changes what a channel sounds like.
+
+    Attributes
+    ----------
+    number : int
+        Its place among those of its track.
+    channel : int
+        -1: a system exclusive message.
+    value : int or bytes
+        A program, the MSB of a bank, or a message without its F0 and F7.
+    port : Port or None
+        What the track had said about it before; None: nothing.
+    """
+
+    tick: int
+    number: int
+    channel: int
+    kind: Literal["program", "bank", "exclusive"]
+    value: int | bytes
+    port: Port | None
+
+
+class Setups(NamedTuple):
+    """What one track has of them.
+
+    Attributes
+    ----------
+    first_onsets : mapping of int to int
+        Where the first note of each channel with notes begins.
+    port : Port or None
+        Of its notes.
+    """
+
+    setups: Sequence[Setup]
+    first_onsets: Mapping[int, int]
+    port: Port | None
+
+
+class ChannelSound(msgspec.Struct, frozen=True, gc=False):
+    """A channel from some tick on.
+
+    Attributes
+    ----------
+    certain : bool
+        A message says so that means nothing else; otherwise a track's name says more.
+    program : int or None
+        None: no message gives one.
+    kit : {"", "gs", "xg"}
+        Of a rhythm part: whose numbers its sounds have. General MIDI's are common to all.
+    """
+
+    use: Use
+    certain: bool
+    program: int | None
+    kit: Literal["", "gs", "xg"] = ""
+
+    def struck(self, pitch: int) -> int:
+        """The number that General MIDI 2 has for the sound of a rhythm part's note; itself where that is the same, or
+        where it has none."""
+        if self.kit == "xg":
+            return _XG_SOUNDS.get(pitch, pitch)
+        if self.program == _ORCHESTRA:
+            return _ORCHESTRA_SOUNDS.get(pitch, pitch)
+        if self.kit == "gs":
+            found = _GS_SOUNDS.get(pitch, pitch)
+            return 38 if self.program == _BRUSH and pitch == 39 else found
+        return pitch
+
+
+# Below 35 the standard kit of XG has sounds of its own. Yamaha XG data lists, "drum map": 13 and 14 surdo, 15 high Q,
+# 16 whip slap, 17 and 18 scratch, 19 finger snap, 20 click noise, 21 and 22 metronome, 23 and 24 sequencer click, 25 to
+# 28 brush on the snare drum, 29 snare roll, 30 castanet, 31 soft snare, 32 sticks, 33 soft bass drum, 34 rim shot.
+_XG_SOUNDS: Final[Mapping[int, int]] = {
+    13: 86, 14: 87, 15: 27, 16: 28, 17: 29, 18: 30, 19: 39, 20: 32, 21: 33, 22: 34, 23: 32, 24: 32, 25: 38, 26: 38,
+    27: 38, 28: 38, 29: 38, 30: 85, 31: 38, 32: 31, 33: 35, 34: 38,
+}  # fmt: skip
+# Roland SC-88Pro owner's manual, "drum set table": 23 and 24 beeps, 25 snare roll, 26 finger snap.
+_GS_SOUNDS: Final[Mapping[int, int]] = {22: 33, 23: 34, 24: 38, 25: 38, 26: 39}
+# The orchestra sets of GS and GM2: 27 to 30 hi-hats and ride cymbal, 39 castanets, 41 to 53 timpani, which are tuned
+# toms to a dancer.
+_ORCHESTRA_SOUNDS: Final[Mapping[int, int]] = {
+    25: 38, 26: 39, 27: 42, 28: 44, 29: 46, 30: 51, 39: 85,
+    **dict.fromkeys(range(41, 47), 41), **dict.fromkeys(range(47, 54), 43),
+}  # fmt: skip
+
+
+def channel_sounds(tracks: Sequence[Setups]) -> list[dict[int, list[tuple[int, ChannelSound]]]]:
+    """What each channel with notes of each track sounds like, and from which tick on.
+
+    A track's own banks and programs go before those of other tracks, for the channels of large scores are shared. Those
+    of a track without notes on a channel hold for all that have some; those of other tracks with notes only where a
+    track has none itself.
+
+    Returns
+    -------
+    list of dict of int to list of (tick, ChannelSound)
+        By channel; ticks ascend, and the first entry holds from the beginning.
+    """
+    ports = {track.port or FIRST_PORT for track in tracks if track.first_onsets} or {FIRST_PORT}
+    modes = _modes(tracks, ports)
+    given = _given(tracks, ports)
+    found = []
+    for place, track in enumerate(tracks):
+        port = track.port or FIRST_PORT
+        mine: dict[int, list[_Step]] = {}
+        for setup in track.setups:
+            if setup.channel in track.first_onsets:
+                mine.setdefault(setup.channel, []).append(_step(place, setup))
+        timelines = {}
+        for channel, onset in track.first_onsets.items():
+            own = mine.get(channel, [])
+            settings, others = given.get((port, channel), ([], []))
+            said = [modes[port].get(channel, []), settings, own if own else others]
+            timelines[channel] = _timeline(merge(*said), channel, onset)
+        found.append(timelines)
+    return found
+
+
+class _Step(NamedTuple):
+    """A change of one channel, in the order in which they take effect."""
+
+    tick: int
+    rank: int
+    track: int
+    number: int
+    kind: Literal["reset", "mode", "bank", "program"]
+    value: int | str | bool | None
+
+
+def _step(track: int, setup: Setup) -> _Step:
+    assert setup.kind != "exclusive"
+    assert isinstance(setup.value, int)
+    return _Step(setup.tick, 2, track, setup.number, setup.kind, setup.value)
+
+
+def _given(tracks: Sequence[Setups], ports: Iterable[Port]) -> dict[tuple[Port, int], tuple[list[_Step], list[_Step]]]:
+    """Banks and programs for other tracks, by port and channel: of tracks without notes on the channel, of those with
+    some."""
+    given: dict[tuple[Port, int], tuple[list[_Step], list[_Step]]] = {}
+    for place, track in enumerate(tracks):
+        for setup in track.setups:
+            if setup.kind == "exclusive":
+                continue
+            has_notes = setup.channel in track.first_onsets
+            for port in _addressed(setup.port, track, ports):
+                given.setdefault((port, setup.channel), ([], []))[has_notes].append(_step(place, setup))
+    return {key: (sorted(free)[:_MOST_CHANGES], sorted(other)[:_MOST_CHANGES]) for key, (free, other) in given.items()}
+
+
+def _addressed(port: Port | None, track: Setups, ports: Iterable[Port]) -> Iterable[Port]:
+    """The ports to which a message goes: of a track of settings that names none, all."""
+    if port is not None:
+        return (port,)
+    return ports if not track.first_onsets else (track.port or FIRST_PORT,)
+
+
+class _Reset(NamedTuple):
+    system: System
+
+
+class _PartValue(NamedTuple):
+    """A parameter of a part, 0..15, that is set by a message."""
+
+    other_port: bool
+    part: int
+    parameter: Literal["mode", "receive"]
+    value: int
+
+
+def _meaning(message: bytes) -> list[_Reset | _PartValue]:
+    """What a system exclusive message says about systems and parts."""
+    if message[:1] == b"\x7e" and len(message) >= 4 and message[2] == 9:
+        systems: dict[int, System] = {1: "gm", 2: "", 3: "gm2"}
+        return [_Reset(systems[message[3]])] if message[3] in systems else []
+    if message[:1] == b"\x41" and message[2:4] == b"\x42\x12" and len(message) >= 8:
+        return _roland(message[4], message[5], message[6], message[7 : max(len(message) - 1, 8)])
+    if message[:1] == b"\x43" and len(message) >= 7 and message[1] >> 4 == 1 and message[2] == 0x4C:
+        return _yamaha(message[3], message[4], message[5], message[6:])
+    return []
+
+
+def _roland(high: int, middle: int, low: int, data: bytes) -> list[_Reset | _PartValue]:
+    """Data set to an address of GS."""
+    if (high, middle, low) == (0x40, 0, 0x7F):
+        return [_Reset("" if data[0] == 0x7F else "gs")]
+    if (high, middle, low) == (0, 0, 0x7F):
+        return [_Reset("gs")]
+    if high not in (0x40, 0x50) or middle >> 4 != 1:
+        return []
+    block = middle & 15
+    part = DRUM_CHANNEL if block == 0 else block - 1 if block <= DRUM_CHANNEL else block
+    return _part_values(high == 0x50, part, low, data, receive=0x02, mode=0x15)
+
+
+def _yamaha(high: int, middle: int, low: int, data: bytes) -> list[_Reset | _PartValue]:
+    """A parameter of XG that is changed."""
+    if (high, middle) == (0, 0) and low in (0x7E, 0x7F):
+        return [_Reset("xg")]
+    if high != 8 or middle >= 32:
+        return []
+    return _part_values(middle >= 16, middle % 16, low, data, receive=0x04, mode=0x07)
+
+
+def _part_values(
+    other_port: bool, part: int, low: int, data: bytes, receive: int, mode: int
+) -> list[_Reset | _PartValue]:
+    """The parameters that data lie on, which begin at an address."""
+    found: list[_Reset | _PartValue] = []
+    if low <= receive < low + len(data):
+        found.append(_PartValue(other_port, part, "receive", data[receive - low]))
+    if low <= mode < low + len(data):
+        found.append(_PartValue(other_port, part, "mode", data[mode - low]))
+    return found
+
+
+def _modes(tracks: Sequence[Setups], ports: Iterable[Port]) -> dict[Port, dict[int, list[_Step]]]:
+    """Resets and modes by port and channel."""
+    rows: dict[Port, list[tuple[int, int, int, int, _Reset | _PartValue]]] = {port: [] for port in ports}
+    for place, track in enumerate(tracks):
+        for setup in track.setups:
+            if not isinstance(setup.value, bytes):
+                continue
+            for meaning in _meaning(setup.value):
+                for port in _addressed(setup.port, track, ports):
+                    other = isinstance(meaning, _PartValue) and meaning.other_port
+                    to = (port[0] ^ 1, port[1]) if other else port
+                    if to in rows and len(rows[to]) < 16 * _MOST_CHANGES:
+                        rank = 1 if isinstance(meaning, _PartValue) else 0
+                        rows[to].append((setup.tick, rank, place, setup.number, meaning))
+    return {port: _port_modes(sorted(found, key=lambda row: row[:4])) for port, found in rows.items()}
+
+
+def _port_modes(rows: Sequence[tuple[int, int, int, int, _Reset | _PartValue]]) -> dict[int, list[_Step]]:
+    """The same of one port: a reset is every channel's, a mode that of the channel on which its part receives."""
+    steps: dict[int, list[_Step]] = {channel: [] for channel in range(16)}
+    modes: dict[int, bool] = {}
+    receive = list(range(16))
+    both = {"gs", "xg"} <= {meaning.system for *_, meaning in rows if isinstance(meaning, _Reset)}
+
+    def add(channel: int, step: _Step) -> None:
+        if len(steps[channel]) < _MOST_CHANGES:
+            steps[channel].append(step)
+
+    for tick, rank, track, number, meaning in rows:
+        if isinstance(meaning, _Reset):
+            modes, receive = {}, list(range(16))
+            system = "" if both and meaning.system in ("gs", "xg") else meaning.system
+            for channel in range(16):
+                add(channel, _Step(tick, rank, track, number, "reset", system))
+            continue
+        before = receive[meaning.part]
+        if meaning.parameter == "mode":
+            modes[meaning.part] = meaning.value > 0
+        elif meaning.value < 32:
+            receive[meaning.part] = meaning.value if meaning.value < 16 else -1
+        for channel in {before, receive[meaning.part]} - {-1}:
+            add(channel, _Step(tick, rank, track, number, "mode", _channel_mode(channel, modes, receive)))
+    return steps
+
+
+def _channel_mode(channel: int, modes: Mapping[int, bool], receive: Sequence[int]) -> bool | None:
+    """Whether the parts that receive on a channel are rhythm parts, if messages say so: those that were moved there, or
+    the one that has the channel anyway. A melody among them counts."""
+    moved = [part for part, own in enumerate(receive) if own == channel != part]
+    if moved:
+        return all(modes.get(part, part == DRUM_CHANNEL) for part in moved)
+    return modes.get(channel) if receive[channel] == channel else None
+
+
+class _State:
+    """A channel while messages come in."""
+
+    def __init__(self, channel: int) -> None:
+        self.channel = channel
+        self.system: System = ""
+        self.mode: bool | None = None
+        self.bank: int | None = None
+        self.coming: int | None = None
+        """The bank that the next program change takes."""
+        self.program: int | None = None
+
+    def take(self, step: _Step) -> None:
+        if step.kind == "reset":
+            self.system = step.value  # type: ignore[assignment]
+            self.mode = self.bank = self.coming = None
+        elif step.kind == "mode":
+            self.mode = step.value  # type: ignore[assignment]
+        elif step.kind == "bank":
+            self.coming = step.value  # type: ignore[assignment]
+        else:
+            self.program = step.value  # type: ignore[assignment]
+            self.settle()
+
+    def settle(self) -> None:
+        """Let the bank take effect; one that says what the part is goes before a mode that was set earlier."""
+        if self.coming is not None:
+            self.bank = self.coming
+            if self.system != "gs" and (self.bank in _DRUM_BANKS or self.bank == _MELODY_BANK):
+                self.mode = None
+
+    def sound(self) -> ChannelSound:
+        use, certain = self._use()
+        if use == "rhythm" and self._is_effect_kit():
+            use = "effect"
+        elif use == "melodic" and self.program in EFFECT_PROGRAMS:
+            use, certain = "effect", False
+        kit: Literal["", "gs", "xg"] = ""
+        if self.system == "xg" or (self.system not in ("gs", "gm2") and self.bank == _KIT_BANK):
+            kit = "xg"
+        elif self.system == "gs":
+            kit = "gs"
+        return ChannelSound(use, certain, self.program, kit if use == "rhythm" else "")
+
+    def _use(self) -> tuple[Use, bool]:
+        if self.mode is not None:
+            return ("rhythm" if self.mode else "melodic"), True
+        if self.bank is None or self.system == "gs":
+            return ("rhythm" if self.channel == DRUM_CHANNEL else "melodic"), False
+        if self.bank in _DRUM_BANKS:
+            certain = self.system == "gm2" if self.bank == _PERCUSSION_BANK else self.system == "xg"
+            return ("effect" if self.bank == _EFFECT_KIT_BANK else "rhythm"), certain
+        if self.system == "xg" and self.bank == _EFFECT_BANK:
+            return "effect", True
+        melody = self.bank == _MELODY_BANK or (self.system == "xg" and self.program not in KIT_PROGRAMS)
+        if self.channel == DRUM_CHANNEL and not melody:
+            return "rhythm", False
+        return "melodic", True
+
+    def _is_effect_kit(self) -> bool:
+        by_number = self.system in ("gs", "gm2") or self.bank == _PERCUSSION_BANK
+        return by_number and self.program in _EFFECT_KITS
+
+
+def _timeline(steps: Iterable[_Step], channel: int, onset: int) -> list[tuple[int, ChannelSound]]:
+    """The changes of a channel whose first note begins at a tick.
+
+    What comes before a channel's first program or mode is not what it sounds like, if that comes after the first note.
+    """
+    state = _State(channel)
+    found: list[tuple[int, ChannelSound]] = []
+    begun = False
+    for step in steps:
+        if step.tick > onset and not begun:
+            begun = True
+            if state.coming in _DRUM_BANKS:
+                state.settle()
+            if state.program is not None or state.mode is not None or state.bank is not None:
+                found = [(0, state.sound())]
+        state.take(step)
+        if begun and step.kind != "bank":
+            sound = state.sound()
+            if not found or found[-1][1] != sound:
+                found.append((step.tick if found else 0, sound))
+    if not begun:
+        if state.coming in _DRUM_BANKS:
+            state.settle()
+        found = [(0, state.sound())]
+    return found or [(0, state.sound())]
