@@ -42,7 +42,7 @@ need_alsa() {
 
 usable_python() {
     local candidate
-    for candidate in python3.11 python3 python3.12 python3.13; do
+    for candidate in python3.11 python3 python3.12 python3.13 python3.14; do
         if "$candidate" -c 'import sys, venv, ensurepip; sys.exit(sys.version_info < (3, 11))' 2>/dev/null; then
             printf '%s' "$candidate"
             return 0

@@ -28,6 +28,7 @@ from app.capture.protocol import (
     NotStarted,
     Open,
     Opened,
+    Opening,
     Refused,
     Restarted,
     Start,
@@ -44,6 +45,8 @@ from app.own_process import own_process
 _MOST_DEATHS: Final = 3
 _DEATHS_WITHIN_S: Final = 10.0
 _END_WITHIN_S: Final = 5.0
+_OPEN_AGAIN_S: Final = 5.0
+"""How long a port whose opening ended the recorder is left alone."""
 
 
 class RecorderLink:
@@ -54,7 +57,7 @@ class RecorderLink:
     on_news : callable
         Called in a thread of the link's when there is something to `poll` and no one was called since the last time.
     system : str
-        The only MIDI system to try, as rtmidi names it; empty for any.
+        The only MIDI system to try, as `app.capture.midi_library` names it; empty for any.
     """
 
     def __init__(self, on_news: Callable[[], None] = lambda: None, *, system: str = "") -> None:
@@ -67,6 +70,8 @@ class RecorderLink:
         self._is_leaving = False
         self._is_closed = False
         self._open: Open | None = None
+        self._opening = ""
+        self._refused = ""
         self._take: Start | None = None
         self._is_begun = False
         self._is_stopping = False
@@ -96,6 +101,7 @@ class RecorderLink:
             if port == self.port:
                 return
             before, self._open = self._open, None if port is None else Open(port)
+            self._refused = ""
             if before is None and self._open is not None:
                 self._report(self._open)
             elif self._report(Leave()):
@@ -184,13 +190,18 @@ class RecorderLink:
                 planned = self._is_leaving or self._is_closed
                 self._is_leaving = False
                 self._child = None
+                refused, self._opening = self._opening, ""
             status = _ended(child)
             if self._ending is not None:
                 self._ending.cancel()
-            if not planned and not self._may_restart():
+            if planned:
+                continue
+            if refused:
+                self._refuse(refused, status)
+            elif not self._may_restart():
                 self._fail(f"status {status}")
                 return
-            if not planned:
+            else:
                 self._put(Restarted(Message("capture.recorder_ended")))
 
     def _started(self, resumed_ns: int | None) -> subprocess.Popen[bytes] | None:
@@ -220,6 +231,16 @@ class RecorderLink:
             self._take = None
         self._put(Refused(self._failure))
 
+    def _refuse(self, port: str, status: int) -> None:
+        """Say once that opening the port ended a recorder; the next one leaves it alone for a while."""
+        with self._lock:
+            if port != self.port or self._open is None:
+                return
+            self._open = Open(port, self._open.is_lost, _OPEN_AGAIN_S)
+            was_said, self._refused = self._refused == port, port
+        if not was_said:
+            self._put(Refused(Message("capture.port_refused", {"port": port, "detail": f"status {status}"})))
+
     def _may_restart(self) -> bool:
         now_s = time.monotonic()
         self._deaths_s = [at_s for at_s in self._deaths_s if now_s - at_s < _DEATHS_WITHIN_S] + [now_s]
@@ -234,6 +255,11 @@ class RecorderLink:
                     with self._lock:
                         self._is_leaving = True
                     continue
+                if isinstance(reported, Opening):
+                    self._opening = reported.port
+                    continue
+                if isinstance(reported, Opened | Back) or _is_refusal(reported):
+                    self._opening = ""
                 if isinstance(reported, Finished | NotStarted):
                     self._take_ended(reported)
                 elif isinstance(reported, Lost | Opened | Back):
@@ -245,6 +271,7 @@ class RecorderLink:
             # Another may have been chosen since.
             if reported.port == self.port:
                 self._open = Open(reported.port, is_lost=isinstance(reported, Lost))
+                self._refused = ""
 
     def _take_ended(self, reported: Finished | NotStarted) -> None:
         with self._lock:
@@ -268,6 +295,10 @@ def _started(system: str) -> subprocess.Popen[bytes]:
         # Elsewhere see `app.capture.recorder.take_precedence`.
         options["creationflags"] |= subprocess.HIGH_PRIORITY_CLASS
     return subprocess.Popen(stdin=subprocess.PIPE, stdout=subprocess.PIPE, **options)
+
+
+def _is_refusal(reported: News) -> bool:
+    return isinstance(reported, Refused) and reported.reason.id == "capture.port_refused"
 
 
 def _hang_up(child: subprocess.Popen[bytes]) -> None:

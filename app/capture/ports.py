@@ -11,18 +11,15 @@ from __future__ import annotations
 import contextlib
 import re
 from collections import Counter
-from collections.abc import Callable, Iterator, Sequence
-from typing import Any, Final, TypeAlias
+from collections.abc import Sequence
+from typing import Final
 
 import msgspec
 
 from app.capture.jack import ServerWatch
+from app.capture.midi_library import CLIENT, MidiCallback, OpenInput, load_library
 from app.errors import AppError
 
-MidiCallback: TypeAlias = Callable[[tuple[list[int], float], object], None]
-"""Called in the driver's thread with (bytes, delta) and nothing of use."""
-
-CLIENT: Final = "Suisou"
 _OWN: Final = re.compile(rf"{CLIENT}(-\d+)?:")
 _ALSA_NUMBERS: Final = re.compile(r" \d+:\d+$")
 
@@ -86,7 +83,7 @@ class MidiSystem:
     Parameters
     ----------
     requested : str
-        Name of the only system to try; empty for all that are compiled in.
+        Name of the only system to try; empty for all that the library is built for.
 
     Raises
     ------
@@ -96,19 +93,20 @@ class MidiSystem:
 
     def __init__(self, requested: str = "") -> None:
         try:
-            import rtmidi
+            self._library = load_library()
         except ImportError as error:
             raise PortError("capture.no_library", detail=str(error)) from error
-        self._rtmidi: Any = rtmidi
-        compiled = {rtmidi.get_api_name(api): api for api in rtmidi.get_compiled_api()}
-        if requested and requested not in compiled:
-            raise PortError("capture.api_unknown", name=requested, possible=", ".join(sorted(compiled)))
-        for name, api in compiled.items():
+        systems = self._library.systems
+        if requested and requested not in systems:
+            raise PortError("capture.api_unknown", name=requested, possible=", ".join(sorted(systems)))
+        for name in systems:
             if requested in ("", name):
-                with contextlib.suppress(rtmidi.RtMidiError):
-                    self.name, self._api = name, api
-                    self._inputs, self._outputs = rtmidi.MidiIn(api, CLIENT), rtmidi.MidiOut(api, CLIENT)
-                    self._watch = ServerWatch() if name == "jack" else None
+                self._watch = ServerWatch() if name == "jack" else None
+                if self._watch is not None and self._watch.has_library and not self._watch.is_connected:
+                    continue
+                with contextlib.suppress(*self._library.errors):
+                    self.name = name
+                    self._lists = self._library.lists(name)
                     return
         raise PortError("capture.no_system")
 
@@ -119,13 +117,13 @@ class MidiSystem:
 
     def inputs(self) -> tuple[Port, ...]:
         """What can be listened to now."""
-        return named(self._inputs.get_ports(), self.name)
+        return named(self._lists.inputs(), self.name)
 
     def outputs(self) -> tuple[Port, ...]:
         """What could be sent to now."""
-        return named(self._outputs.get_ports(), self.name)
+        return named(self._lists.outputs(), self.name)
 
-    def open_input(self, port: Port, callback: MidiCallback) -> Any:
+    def open_input(self, port: Port, callback: MidiCallback) -> OpenInput:
         """Listen to a port, to messages of channels only.
 
         Raises
@@ -133,35 +131,13 @@ class MidiSystem:
         PortError
             ``capture.port_refused`` (port, detail).
         """
-        with self._refusal(port):
-            midi = self._rtmidi.MidiIn(self._api, CLIENT)
-            midi.ignore_types(sysex=True, timing=True, active_sense=True)
-            midi.open_port(port.index, "in")
-            # Not before: rtmidi keeps Python's lock while it connects, and JACK waits meanwhile for its thread, which
-            # waits for that lock with the first event.
-            midi.set_callback(callback)
-        return midi
-
-    @contextlib.contextmanager
-    def _refusal(self, port: Port) -> Iterator[None]:
         try:
-            yield
-        except (self._rtmidi.RtMidiError, OSError, ValueError, TypeError) as error:
+            return self._library.open_input(self.name, port.index, callback)
+        except self._library.errors as error:
             raise PortError("capture.port_refused", port=port.name, detail=str(error)) from error
 
     def close(self) -> None:
         """Let go of the system."""
         if self._watch is not None:
             self._watch.close()
-        self._inputs.delete()
-        self._outputs.delete()
-
-
-def close_lost(midi: Any) -> None:
-    """Let go of an opened port whose device has gone.
-
-    One from which events come cannot be closed: rtmidi keeps Python's lock while it waits for the driver's thread,
-    which waits for that lock. Only the end of the process closes it.
-    """
-    midi.close_port()
-    midi.delete()
+        self._lists.close()

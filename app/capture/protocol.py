@@ -20,10 +20,11 @@ class _Report(msgspec.Struct, frozen=True, tag=True, array_like=True, gc=False):
 
 class Open(_Report, frozen=True):
     """Listen to a port, again whenever it comes back; to a recorder this is said only once (see
-    `app.capture.recorder`). ``is_lost``: it was listened to and went away."""
+    `app.capture.recorder`). ``is_lost``: it was listened to and went away. ``after_s``: not before so many seconds."""
 
     port: str
     is_lost: bool = False
+    after_s: float = 0.0
 
 
 class Start(_Report, frozen=True):
@@ -65,6 +66,13 @@ class Ports(_Report, frozen=True):
     inputs: tuple[str, ...]
     outputs: tuple[str, ...]
     system: str
+
+
+class Opening(_Report, frozen=True):
+    """The port is about to be opened. If the recorder ends before it reports more, the port was refused: one of the
+    MIDI libraries ends the process then."""
+
+    port: str
 
 
 class _OfPort(_Report, frozen=True):
@@ -126,7 +134,18 @@ class Finished(_Report, frozen=True):
 
 Command: TypeAlias = Open | Start | Sync | Stop | Leave
 News: TypeAlias = (
-    Ports | Opened | Lost | Back | Refused | NotStarted | Restarted | Events | Written | Finished | SystemEnded
+    Ports
+    | Opening
+    | Opened
+    | Lost
+    | Back
+    | Refused
+    | NotStarted
+    | Restarted
+    | Events
+    | Written
+    | Finished
+    | SystemEnded
 )
 
 COMMANDS: Final = msgspec.msgpack.Decoder(Command)

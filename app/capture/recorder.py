@@ -7,7 +7,7 @@ Threads: the driver's calls `_receive`, which stamps and hands on and nothing el
 journal, one reads the commands. The main thread opens the port and looks twice a second which are there.
 
 A recorder opens its port once. To listen to another the editor starts another recorder: a port from which events
-come cannot be closed (`app.capture.ports.close_lost`). So it does when the MIDI system itself went away.
+come cannot be closed (`app.capture.midi_library.OpenInput`). So it does when the MIDI system itself went away.
 """
 
 from __future__ import annotations
@@ -20,6 +20,7 @@ import threading
 import time
 import traceback
 from collections.abc import Callable
+from functools import partial
 from itertools import groupby
 from pathlib import Path
 from queue import Empty, SimpleQueue
@@ -27,7 +28,8 @@ from types import TracebackType
 from typing import IO, Any, Final, TypeAlias
 
 from app.capture.journal import JournalWriter, is_whole
-from app.capture.ports import MidiSystem, Port, PortError, close_lost
+from app.capture.midi_library import OpenInput
+from app.capture.ports import MidiSystem, Port, PortError
 from app.capture.protocol import (
     COMMANDS,
     Back,
@@ -40,6 +42,7 @@ from app.capture.protocol import (
     NotStarted,
     Open,
     Opened,
+    Opening,
     Ports,
     Refused,
     Start,
@@ -57,6 +60,7 @@ SYSTEM_VARIABLE: Final = "SUISOU_MIDI_API"
 _LOOK_S: Final = 0.5
 _NO_SYSTEM_LOOK_S: Final = 2.0
 _TO_DISK_S: Final = 0.25
+_SENT_WITHIN_S: Final = 1.0
 _SWITCH_S: Final = 0.0005
 """How long a thread of ours may keep the driver's from stamping."""
 _PRIORITY: Final = -10
@@ -64,6 +68,8 @@ _PRIORITY: Final = -10
 
 StampedMessage: TypeAlias = tuple[int, bytes]
 """A moment of `time.perf_counter_ns` and a message."""
+NewsQueue: TypeAlias = "SimpleQueue[News | StampedMessage | threading.Event | None]"
+"""What is sent, in order; an event is set when all before it is sent, None ends the sending."""
 
 
 class Recorder:
@@ -75,6 +81,8 @@ class Recorder:
         What is put into it is sent.
     journal : SimpleQueue
         What is put into it is written.
+    on_opening : callable
+        Called before a port is opened, when that was reported: must return when the report is sent.
     on_open : callable
         Called when a port was opened: the driver's threads are there.
 
@@ -86,20 +94,22 @@ class Recorder:
 
     def __init__(
         self,
-        news: SimpleQueue[News | StampedMessage | None],
+        news: NewsQueue,
         journal: SimpleQueue[Any],
         requested_system: str = "",
+        on_opening: Callable[[], None] = lambda: None,
         on_open: Callable[[], None] = lambda: None,
     ) -> None:
         self._news, self._journal = news, journal
-        self._requested_system, self._on_open = requested_system, on_open
+        self._requested_system, self._on_opening, self._on_open = requested_system, on_opening, on_open
         self._system: MidiSystem | None = None
         self._has_ports = False
         self._tried_at_s = -_NO_SYSTEM_LOOK_S
         self._reported: News | None = None
         self._refused: list[Message] = []
         self._asked: Open | None = None
-        self._input: Any = None
+        self._not_before_s = 0.0
+        self._input: OpenInput | None = None
         self._identity = ""
         self._was_open = False
         self.has_ended = False
@@ -109,6 +119,7 @@ class Recorder:
         match command:
             case Open():
                 self._asked, self._was_open = command, command.is_lost
+                self._not_before_s = time.perf_counter() + command.after_s
                 self.look()
             case Start(resumed_ns=None):
                 self._journal.put(command)
@@ -155,7 +166,7 @@ class Recorder:
 
     def _lose(self, inputs: tuple[Port, ...]) -> None:
         if self._input is not None and self._identity not in {port.identity for port in inputs}:
-            close_lost(self._input)
+            self._input.close()
             self._input = None
             self._report_lost()
 
@@ -181,6 +192,10 @@ class Recorder:
             if not self._was_open:
                 self._refuse(Message("capture.port_not_here", {"port": name}))
             return
+        if self._asked.after_s and time.perf_counter() < self._not_before_s:
+            return
+        self._news.put(Opening(name))
+        self._on_opening()
         try:
             self._input = system.open_input(port, self._receive)
             self._on_open()
@@ -194,9 +209,8 @@ class Recorder:
         self._was_open = True
         self._refused.clear()
 
-    def _receive(self, event: tuple[list[int], float], _: object) -> None:
-        ns = time.perf_counter_ns()
-        received = (ns, bytes(event[0]))
+    def _receive(self, ns: int, message: bytes) -> None:
+        received = (ns, message)
         self._journal.put(received)
         self._news.put(received)
 
@@ -220,7 +234,7 @@ class JournalKeeper:
     """Writes what a queue holds: commands `Start`, `Sync`, `Stop`, `Leave`, received messages, marks; None ends the
     journal and the thread."""
 
-    def __init__(self, queue: SimpleQueue[Any], news: SimpleQueue[News | StampedMessage | None]) -> None:
+    def __init__(self, queue: SimpleQueue[Any], news: NewsQueue) -> None:
         self._queue, self._news = queue, news
         self._writer: JournalWriter | None = None
         self._is_away = False
@@ -316,7 +330,7 @@ class JournalKeeper:
         self._news.put(Refused(Message(id, {"file": writer.path, "reason": error.strerror or str(error)})))
 
 
-def send_news(queue: SimpleQueue[News | StampedMessage | None], stream: IO[bytes]) -> None:
+def send_news(queue: NewsQueue, stream: IO[bytes]) -> None:
     """Send what comes into a queue, events that have gathered together; None ends it, and that no one reads."""
     with contextlib.suppress(OSError):
         while True:
@@ -335,9 +349,20 @@ def send_news(queue: SimpleQueue[News | StampedMessage | None], stream: IO[bytes
                     if item is None:
                         stream.flush()
                         return
+                    if isinstance(item, threading.Event):
+                        stream.flush()
+                        item.set()
+                        continue
                     assert not isinstance(item, tuple)
                     stream.write(framed(item))
             stream.flush()
+
+
+def wait_until_sent(queue: NewsQueue) -> None:
+    """Block until what is in the queue now is sent, or no one reads it."""
+    sent = threading.Event()
+    queue.put(sent)
+    sent.wait(_SENT_WITHIN_S)
 
 
 def _read_commands(queue: SimpleQueue[Command | None]) -> None:
@@ -393,7 +418,7 @@ def main() -> None:
     # What is loaded stays: no stamp waits until all of it was looked through for garbage.
     gc.freeze()
     output = _private_output()
-    news: SimpleQueue[News | StampedMessage | None] = SimpleQueue()
+    news: NewsQueue = SimpleQueue()
     journal: SimpleQueue[Any] = SimpleQueue()
     commands: SimpleQueue[Command | None] = SimpleQueue()
     writing = threading.Thread(target=JournalKeeper(journal, news).run, name="journal")
@@ -401,7 +426,8 @@ def main() -> None:
     reading = threading.Thread(target=_read_commands, args=(commands,), name="commands", daemon=True)
     for thread in (writing, sending, reading):
         thread.start()
-    recorder = Recorder(news, journal, os.environ.get(SYSTEM_VARIABLE, ""), take_precedence)
+    requested = os.environ.get(SYSTEM_VARIABLE, "")
+    recorder = Recorder(news, journal, requested, partial(wait_until_sent, news), take_precedence)
     next_look_s = time.perf_counter()
     command: Command | None = None
     while True:
@@ -420,7 +446,7 @@ def main() -> None:
     writing.join()
     news.put(None)
     sending.join()
-    # The port is not closed: see `close_lost`.
+    # The port is not closed: see `app.capture.midi_library.OpenInput`.
     os._exit(0)
 
 

@@ -7,12 +7,12 @@ from typing import Final
 WORDINGS: Final[dict[str, tuple[str, str]]] = {
     "capture.no_library": (
         (
-            "MIDI devices are not available ({detail}); they require Python 3.11 or 3.12 and, on Linux, the "
-            "package libasound2"
+            "MIDI devices are not available ({detail}); install the Python package python-rtmidi (3.11, 3.12) or "
+            "rtmidi2 (3.13 and newer), and on Linux the system's libasound2"
         ),
         (
-            "MIDI デバイスを利用できません（{detail}）。Python 3.11 または 3.12 が必要です。Linux ではパッケージ "
-            "libasound2 も必要です"
+            "MIDI デバイスを利用できません（{detail}）。Python パッケージ python-rtmidi（3.11、3.12）または "
+            "rtmidi2（3.13 以降）をインストールしてください。Linux ではシステムの libasound2 も必要です"
         ),
     ),
     "capture.no_system": (

@@ -37,6 +37,18 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         "{file} declares far more data than its size allows; export only the character",
         "{file} の内容がファイルのサイズに対して大きすぎます。キャラクターだけを書き出してください",
     ),
+    "fbx.no_reader": (
+        (
+            "{file} cannot be read: FBX files of other programs require the Python package ufbx, which is missing here "
+            "(Python 3.14 on Windows has none); use Python 3.11 to 3.13, or convert the file to GLB (a character) or "
+            "BVH (motion)"
+        ),
+        (
+            "{file} を読み込めません。ほかのプログラムの FBX ファイルには Python パッケージ ufbx が必要ですが、"
+            "ここにはありません（Windows の Python 3.14 用はありません）。Python 3.11～3.13 を使うか、キャラクターは "
+            "GLB、モーションは BVH に変換してください"
+        ),
+    ),
     "fbx.contradiction": ("{file} is inconsistent: {detail}", "{file} の内容が矛盾しています: {detail}"),
     "bvh.syntax": ("{file}, line {line}: unexpected {found}", "{file}、{line} 行目: {found} は無効です"),
     "bvh.truncated": (

@@ -107,6 +107,15 @@ def distributions() -> dict[str, Distribution]:
     return found
 
 
+def described() -> tuple[Package, ...]:
+    """Packages of which `resources/licences.toml` has everything: those that only some Pythons need."""
+    return tuple(
+        Package(name, "", fact.licence, fact.source, fact.parts)
+        for name, fact in sorted(_facts().packages.items())
+        if fact.licence and fact.source
+    )
+
+
 def package_of(found: Distribution) -> Package:
     """What is known of an installed package, with the parts that it has on any system."""
     metadata: Message = found.metadata  # type: ignore[assignment]

@@ -1,4 +1,5 @@
-"""Writes the tables of docs/licences.md from the installed packages and resources/licences.toml.
+"""Writes the tables of docs/licences.md from the installed packages and resources/licences.toml, which also has those
+that other Pythons need.
 
 Run from the repository, in the environment of the tests: ``python -m resources.build.build_licences``.
 """
@@ -7,7 +8,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from app.shell.licences import Package, Part, data, distributions, package_of
+from app.shell.licences import Package, Part, data, described, distributions, package_of
 
 TARGET = Path(__file__).parents[2] / "docs" / "licences.md"
 BEGIN = "<!-- The tables are written by resources/build/build_licences.py. -->\n"
@@ -16,7 +17,8 @@ BEGIN = "<!-- The tables are written by resources/build/build_licences.py. -->\n
 def main() -> None:
     """Replace what stands below the mark."""
     above = TARGET.read_text(encoding="utf-8").partition(BEGIN)[0]
-    packages = [package_of(found) for _, found in sorted(distributions().items())]
+    here = {name: package_of(found) for name, found in distributions().items()}
+    packages = [package for _, package in sorted(({package.name: package for package in described()} | here).items())]
     parts = [(package.name, part) for package in packages for part in package.parts]
     tables = [
         _table("## Python packages", "package", [_row(package) for package in packages]),

@@ -13,7 +13,9 @@ from types import ModuleType
 
 import pytest
 
-NEEDS_A_SYSTEM = ("PySide6.QtGui", "PySide6.QtWidgets", "PySide6.QtOpenGL", "rtmidi", "bpy")
+from tests.support import plain
+
+NEEDS_A_SYSTEM = ("PySide6.QtGui", "PySide6.QtWidgets", "PySide6.QtOpenGL", "rtmidi", "rtmidi2", "bpy")
 
 
 class _Refused:
@@ -26,7 +28,6 @@ class _Refused:
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
-    """Know the options of the plug-ins that are left out."""
-    for name in ("qt_log_level_fail", "xvfb_width", "xvfb_height", "xvfb_colordepth"):
-        parser.addini(name, "of a plug-in that is left out")
+    """Know the options of the plug-ins that are left out, and leave out what needs a system."""
+    plain.pytest_addoption(parser)
     sys.meta_path.insert(0, _Refused())

@@ -6,16 +6,19 @@ ghost notes, bite vibrato as pitch bend, bursts of 1,000 messages a second; thro
 
 from __future__ import annotations
 
+import json
 import math
+import os
 import random
 import subprocess
 import sys
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
-from typing import Any, Self
+from typing import Self
 
-from tests.support.jack import CLIENT_SYSTEM
+from app.capture.midi_library import PythonRtmidi, load_library
 
 Played = tuple[float, bytes]
 """When a message is due, seconds from the begin, and its bytes."""
@@ -57,7 +60,9 @@ def burst(seconds: float, rate_hz: float = 1000.0) -> Iterator[Played]:
 
 
 class WindPlayer:
-    """Plays into a virtual port of its own.
+    """Plays into a virtual port of a process of its own, which does not wait for this one's Python.
+
+    In this process, closing the port could crash it: JACK's thread may be in the library's callback.
 
     Parameters
     ----------
@@ -67,8 +72,8 @@ class WindPlayer:
 
     def __init__(self, client: str = "EWI", port: str = "EWI USB") -> None:
         self.name = f"{client}:{port}"
-        self._client, self._port = client, port
-        self._midi: Any = None
+        self._arguments = client, port
+        self._process: subprocess.Popen[str] | None = None
         self.plug_in()
 
     def __enter__(self) -> Self:
@@ -79,89 +84,95 @@ class WindPlayer:
 
     def plug_in(self) -> None:
         """Appear."""
-        import rtmidi
-
-        self._midi = rtmidi.MidiOut(getattr(rtmidi, CLIENT_SYSTEM), self._client)
-        self._midi.open_virtual_port(self._port)
-
-    def unplug(self) -> None:
-        """Vanish."""
-        if self._midi is not None:
-            self._midi.close_port()
-            self._midi.delete()
-            self._midi = None
-
-    def send(self, message: bytes) -> int:
-        """Play one message; the moment of `time.perf_counter_ns` just before."""
-        ns = time.perf_counter_ns()
-        self._midi.send_message(message)
-        return ns
-
-    def play(self, played: Sequence[Played] | Iterator[Played]) -> list[tuple[int, bytes]]:
-        """Play in time; what was sent and when."""
-        begin_ns = time.perf_counter_ns()
-        sent = []
-        for due_s, message in played:
-            left_s = due_s - (time.perf_counter_ns() - begin_ns) / 1e9
-            if left_s > 0.0:
-                time.sleep(left_s)
-            sent.append((self.send(message), message))
-        return sent
-
-
-class PlayerProcess:
-    """A burst from a process of its own, as a device does not wait for the editor's Python.
-
-    Parameters
-    ----------
-    client : str
-    seconds, rate_hz : float
-    """
-
-    def __init__(self, client: str, seconds: float, rate_hz: float = 1000.0) -> None:
-        self.name = f"{client}:EWI USB"
         self._process = subprocess.Popen(
-            [sys.executable, "-m", __name__, client, str(seconds), str(rate_hz)],
+            [sys.executable, "-m", __name__, *self._arguments],
             cwd=Path(__file__).parents[2],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             text=True,
         )
+        self._answer()
 
-    def __enter__(self) -> Self:
-        return self
+    def unplug(self) -> None:
+        """Vanish."""
+        if self._process is not None:
+            # At the end of its input it closes the port and ends, unless it still plays.
+            try:
+                self._process.communicate(timeout=2.0)
+            except subprocess.TimeoutExpired:
+                self._process.kill()
+                self._process.communicate()
+            self._process = None
 
-    def __exit__(self, *_: object) -> None:
-        self._process.kill()
-        self._process.communicate()
+    def send(self, message: bytes) -> int:
+        """Play one message; the moment of `time.perf_counter_ns` just before."""
+        ((ns, _),) = self.play([(0.0, message)])
+        return ns
 
-    def start(self) -> None:
+    def play(self, played: Iterable[Played]) -> list[tuple[int, bytes]]:
+        """Play in time; what was sent and when."""
+        self.start(played)
+        return self.sent()
+
+    def start(self, played: Iterable[Played]) -> None:
         """Begin to play."""
+        assert self._process is not None
         assert self._process.stdin is not None
+        json.dump([(due_s, message.hex()) for due_s, message in played], self._process.stdin)
         self._process.stdin.write("\n")
         self._process.stdin.flush()
 
     def sent(self) -> list[tuple[int, bytes]]:
         """Wait for the end; what was sent and when."""
+        return [(ns, bytes.fromhex(message)) for ns, message in self._answer()]
+
+    def _answer(self) -> list[tuple[int, str]]:
+        assert self._process is not None
         assert self._process.stdout is not None
-        found = []
-        for line in self._process.stdout:
-            if not line.strip():
-                break
-            ns, message = line.split()
-            found.append((int(ns), bytes.fromhex(message)))
-        return found
+        line = self._process.stdout.readline()
+        assert line, f"{self.name} ended with {self._process.wait()}"
+        answer: list[tuple[int, str]] = json.loads(line)
+        return answer
+
+
+@contextmanager
+def virtual_output(client: str, port: str) -> Iterator[Callable[[bytes], None]]:
+    """Make a port over JACK by the library that the program uses; what sends."""
+    library = load_library()
+    if isinstance(library, PythonRtmidi):
+        import rtmidi
+
+        midi = rtmidi.MidiOut(rtmidi.API_UNIX_JACK, client)
+        midi.open_virtual_port(port)
+        yield midi.send_message
+        midi.close_port()
+        midi.delete()
+        return
+    import rtmidi2
+
+    midi = rtmidi2.MidiOut(client, api=rtmidi2.API_UNIX_JACK)
+    midi.open_virtual_port(port)
+    yield lambda message: midi.send_raw(*message)
+    midi.close_port()
 
 
 def main() -> None:
-    """Appear, wait for a line, play a burst, tell what was sent, stay until killed."""
-    client, seconds, rate_hz = sys.argv[1:]
-    with WindPlayer(client) as player:
-        sys.stdin.readline()
-        for ns, message in player.play(burst(float(seconds), float(rate_hz))):
-            print(ns, message.hex())
-        print(flush=True)
-        sys.stdin.readline()
+    """Appear and say so; for every line, play what it lists and tell what was sent when; vanish at the end of input."""
+    with virtual_output(*sys.argv[1:]) as send:
+        print("[]", flush=True)
+        for line in sys.stdin:
+            begin_ns = time.perf_counter_ns()
+            sent = []
+            for due_s, message in json.loads(line):
+                raw = bytes.fromhex(message)
+                left_s = due_s - (time.perf_counter_ns() - begin_ns) / 1e9
+                if left_s > 0.0:
+                    time.sleep(left_s)
+                sent.append((time.perf_counter_ns(), message))
+                send(raw)
+            print(json.dumps(sent), flush=True)
+    # What the libraries do at the end of a process is no concern of a test.
+    os._exit(0)
 
 
 if __name__ == "__main__":

@@ -5,7 +5,7 @@ units and axes. It runs in a process of its own (`foreign_child`): what a damage
 error.
 
 Messages (all with ``file``): ``file.cannot_read``, ``file.too_large``, ``fbx.not_fbx``, ``fbx.foreign_damaged``,
-``fbx.too_large``.
+``fbx.too_large``, ``fbx.no_reader``.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ MOST_BYTES: Final = 2**30
 PATIENCE_S: Final = 180.0
 MOTION: Final = "motion"
 """As in the child, which this process does not import."""
-UNREADABLE, NO_MEMORY = 3, 4
+UNREADABLE, NO_MEMORY, NO_READER = 3, 4, 5
 """What the child's end means."""
 _LIMITS: Final = frozenset(-number for name in ("SIGXCPU", "SIGKILL") if (number := getattr(signal, name, 0)))
 """The system ended the child: it had taken too long, or all the memory there is."""
@@ -212,6 +212,8 @@ def _child(data: bytes, file: str, *arguments: str) -> bytes:
         raise FileError("file.cannot_read", file=file, reason=str(error)) from error
     if ended.returncode in (NO_MEMORY, *_LIMITS):
         raise FileError("fbx.too_large", file=file)
+    if ended.returncode == NO_READER:
+        raise FileError("fbx.no_reader", file=file)
     if ended.returncode == UNREADABLE:
         detail = ended.stdout.decode("utf-8", "replace")
         if "nrecognized file format" in detail:

@@ -17,7 +17,13 @@ from typing import Any, Final, TypeVar
 
 import numpy as np
 import numpy.typing as npt
-import ufbx
+
+NO_READER: Final = 5
+"""Status at the end: the library is not there, or cannot be loaded. There is no wheel for some Pythons."""
+try:
+    import ufbx
+except ImportError:
+    os._exit(NO_READER)
 
 FREE_MEMORY_BYTES, MEMORY_PER_BYTE = 2**29, 64
 FREE_CPU_S, CPU_S_PER_MB = 3, 4

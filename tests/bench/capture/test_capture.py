@@ -25,7 +25,7 @@ from app.capture.link import RecorderLink
 from app.capture.protocol import Finished, Opened, Ports, Restarted, Written
 from tests.support.jack import PATIENT_FRAMES, QUICK_FRAMES, RATE_HZ, jack_server
 from tests.support.listening import Ear
-from tests.support.wind_player import PlayerProcess
+from tests.support.wind_player import WindPlayer, burst
 
 PERIOD_MS = QUICK_FRAMES / RATE_HZ * 1e3
 MOST_OURS_MS = 2.0
@@ -63,14 +63,13 @@ def redrawing(requested: bool) -> Iterator[None]:
 
 
 CALIBRATION = """
-import sys, time, rtmidi
+import sys
+from app.capture.midi_library import load_library
 from app.capture.recorder import take_precedence
 heard = []
-def stamp(event, _):
-    heard.append((time.perf_counter_ns(), bytes(event[0])))
-midi = rtmidi.MidiIn(rtmidi.API_UNIX_JACK, "Calibration")
-midi.open_port(midi.get_ports().index(sys.argv[1]), "in")
-midi.set_callback(stamp)
+library = load_library()
+index = library.lists("jack").inputs().index(sys.argv[1])
+midi = library.open_input("jack", index, lambda ns, message: heard.append((ns, message)))
 take_precedence()
 print(flush=True)
 sys.stdin.readline()
@@ -116,7 +115,7 @@ def percentiles(values: npt.NDArray[np.float64]) -> str:
     return ", ".join(f"{name} {np.percentile(values, q):.2f}" for name, q in requested)
 
 
-def begun(ear: Ear, player: PlayerProcess, path: Path) -> None:
+def begun(ear: Ear, player: WindPlayer, path: Path) -> None:
     ear.wait(Ports, lambda reported: player.name in reported.inputs)
     ear.link.open(player.name)
     ear.wait(Opened)
@@ -132,7 +131,7 @@ def bursts(path: Path, seconds: float, rate_hz: float, *, busy: bool, is_realtim
     done = threading.Event()
     with (
         jack_server("suisou-bench", QUICK_FRAMES, is_in_step=True, is_realtime=is_realtime),
-        PlayerProcess("Burst", seconds, rate_hz) as player,
+        WindPlayer("Burst") as player,
         RecorderLink(news.set) as link,
     ):
         ear = Ear(link)
@@ -152,7 +151,7 @@ def bursts(path: Path, seconds: float, rate_hz: float, *, busy: bool, is_realtim
         waking = threading.Thread(target=window)
         waking.start()
         with redrawing(busy):
-            player.start()
+            player.start(burst(seconds, rate_hz))
             sent = player.sent()
             end_s = time.monotonic() + 30.0
             while len(polled_ns) < len(sent) and time.monotonic() < end_s:
@@ -202,12 +201,12 @@ def test_what_a_killed_recorder_loses(tmp_path: Path) -> None:
     path = tmp_path / "take"
     with (
         jack_server("suisou-bench", PATIENT_FRAMES),
-        PlayerProcess("Burst", 6.0) as player,
+        WindPlayer("Burst") as player,
         RecorderLink() as link,
     ):
         ear = Ear(link)
         begun(ear, player, path)
-        player.start()
+        player.start(burst(6.0))
         time.sleep(3.0)
         child = link._child
         assert child is not None

@@ -11,7 +11,7 @@ from app.capture.link import RecorderLink
 from app.capture.protocol import Finished, Opened, Ports, Written
 from tests.support.jack import QUICK_FRAMES, jack_server
 from tests.support.listening import Ear
-from tests.support.wind_player import PlayerProcess
+from tests.support.wind_player import WindPlayer, burst
 
 BURST_S = 10.0
 
@@ -27,7 +27,7 @@ def test_nothing_is_lost_in_bursts_while_the_editor_is_busy(tmp_path: Path) -> N
 
     with (
         jack_server("suisou-burst", QUICK_FRAMES, is_in_step=True),
-        PlayerProcess("Burst", BURST_S) as player,
+        WindPlayer("Burst") as player,
         RecorderLink() as link,
     ):
         ear = Ear(link)
@@ -40,7 +40,7 @@ def test_nothing_is_lost_in_bursts_while_the_editor_is_busy(tmp_path: Path) -> N
         window = threading.Thread(target=redraw)
         window.start()
         try:
-            player.start()
+            player.start(burst(BURST_S))
             sent = player.sent()
             ear.wait_for_messages(len(sent))
         finally:

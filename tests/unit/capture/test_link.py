@@ -31,7 +31,7 @@ from app.capture.protocol import (
 from app.formats.locks import is_locked
 from tests.support.jack import PATIENT_FRAMES, RATE_HZ, Server, jack_server
 from tests.support.listening import PATIENCE_S, Ear, assert_mostly_in_order
-from tests.support.wind_player import PlayerProcess, WindPlayer, phrase
+from tests.support.wind_player import WindPlayer, burst, phrase
 
 ROOT = Path(__file__).parents[3]
 HEADER = Header("p", "player", "EWI", "ewi_usb", 0.0, "")
@@ -148,9 +148,9 @@ def test_unplugged_in_the_middle_and_plugged_in_again(ear: Ear, tmp_path: Path) 
 
 
 def test_another_port_is_opened_while_the_first_is_blown(ear: Ear) -> None:
-    with PlayerProcess("First", 3.0) as first, WindPlayer("Second") as second:
+    with WindPlayer("First") as first, WindPlayer("Second") as second:
         opened(ear, first.name)
-        first.start()
+        first.start(burst(3.0))
         ear.wait_for_messages(100)
         place = len(ear.reported)
         ear.link.open(second.name)
@@ -320,9 +320,9 @@ def test_a_server_that_ends_in_the_middle(by: signal.Signals, tmp_path: Path, se
     path, name = tmp_path / "take", os.environ["JACK_DEFAULT_SERVER"]
     with RecorderLink() as link:
         ear = Ear(link)
-        with PlayerProcess("EWI", 0.05) as player:
+        with WindPlayer() as player:
             started(opened(ear, player.name), path)
-            player.start()
+            player.start(burst(0.05))
             ear.wait_for_most(50)
             before = len(ear.messages)
             server.stop(by)
@@ -330,9 +330,9 @@ def test_a_server_that_ends_in_the_middle(by: signal.Signals, tmp_path: Path, se
             assert ear.wait(Refused).reason.id == "capture.no_system"
         # Others of this module use it afterwards.
         assert server.start() == name
-        with PlayerProcess("EWI", 0.05) as player:
+        with WindPlayer() as player:
             ear.wait(Back)
-            player.start()
+            player.start(burst(0.05))
             ear.wait_for_most(before + 50)
             journal = finished(ear, path)
             ear.look()

@@ -23,6 +23,7 @@ from app.capture.protocol import (
     News,
     Open,
     Opened,
+    Opening,
     Ports,
     Refused,
     Start,
@@ -39,11 +40,8 @@ class Device:
     def __init__(self) -> None:
         self.is_closed = False
 
-    def close_port(self) -> None:
+    def close(self) -> None:
         self.is_closed = True
-
-    def delete(self) -> None:
-        assert self.is_closed
 
 
 class System:
@@ -97,7 +95,7 @@ class Bench:
         found = []
         while not self.news.empty():
             found.append(self.news.get())
-        return found
+        return [news for news in found if not isinstance(news, Opening)]
 
     def kinds(self) -> list[type]:
         return [type(reported) for reported in self.reported()]
@@ -223,8 +221,8 @@ def test_received_messages_go_to_the_disk_and_to_the_editor(monkeypatch: pytest.
     bench.recorder.obey(Open("EWI"))
     bench.reported()
     bench.marks()
-    system.callback(([0x90, 60, 80], 0.1), None)
-    assert bench.journal.get() == bench.news.get()
+    system.callback(17, bytes([0x90, 60, 80]))
+    assert bench.journal.get() == bench.news.get() == (17, bytes([0x90, 60, 80]))
 
 
 def test_events_that_gathered_are_sent_together_and_in_order() -> None:

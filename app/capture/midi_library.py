@@ -1,0 +1,212 @@
+"""One interface to the two libraries that reach MIDI devices: python-rtmidi and, where that has no wheel, rtmidi2.
+
+Both wrap RtMidi and hold Python's lock while they connect and close. They differ in what happens when RtMidi refuses to
+open a port: python-rtmidi raises, rtmidi2 ends the process (its C++ exception is not caught). The recorder announces
+that it is opening a port, so that its parent can report the refusal.
+"""
+
+from __future__ import annotations
+
+import sys
+import time
+from collections.abc import Callable
+from typing import Any, Final, Protocol, TypeAlias
+
+from app.capture.jack import share_library
+
+MidiCallback: TypeAlias = Callable[[int, bytes], None]
+"""Called in the driver's thread with the moment of `time.perf_counter_ns` and the bytes of a message. It must not
+raise: rtmidi2 ignores exceptions."""
+
+CLIENT: Final = "Suisou"
+
+_RTMIDI2_SYSTEMS: Final = {"linux": ("alsa", "jack"), "darwin": ("core",), "win32": ("winmm",)}
+"""What its wheels are built with, by platform: the module does not say."""
+
+
+class PortLists(Protocol):
+    """The ports of one MIDI system, by the system's own names."""
+
+    def inputs(self) -> list[str]:
+        """List ports to listen to."""
+        ...
+
+    def outputs(self) -> list[str]:
+        """List ports to send to."""
+        ...
+
+    def close(self) -> None:
+        """Disconnect from the system."""
+        ...
+
+
+class OpenInput(Protocol):
+    """A port whose messages arrive."""
+
+    def close(self) -> None:
+        """Close the port. Blocks forever while messages arrive: the driver's thread waits for Python's lock, which is
+        held meanwhile."""
+        ...
+
+
+class MidiLibrary(Protocol):
+    """A library that reaches MIDI devices.
+
+    Attributes
+    ----------
+    systems : tuple of str
+        MIDI systems that it is built for, the preferred one first: ``alsa``, ``jack``, ``core``, ``winmm``.
+    errors : tuple of exception types
+        What it raises when a system or a port refuses.
+    """
+
+    systems: tuple[str, ...]
+    errors: tuple[type[Exception], ...]
+
+    def lists(self, system: str) -> PortLists:
+        """Connect to a system. Raises one of `errors`."""
+        ...
+
+    def open_input(self, system: str, index: int, callback: MidiCallback) -> OpenInput:
+        """Listen to the port at an index of `PortLists.inputs`; system exclusive and real-time messages are ignored.
+
+        Messages of the time before the callback is set are dropped. Raises one of `errors`, or ends the process.
+        """
+        ...
+
+
+def load_library() -> MidiLibrary:
+    """Load the library that is installed.
+
+    Raises
+    ------
+    ImportError
+        Neither is installed, or a library of the system that it needs is missing.
+    """
+    try:
+        return PythonRtmidi()
+    except ModuleNotFoundError:
+        return Rtmidi2()
+
+
+class PythonRtmidi:
+    """The package python-rtmidi."""
+
+    def __init__(self) -> None:
+        import rtmidi
+
+        self._rtmidi: Any = rtmidi
+        self._numbers = {rtmidi.get_api_name(number): number for number in rtmidi.get_compiled_api()}
+        self.systems: tuple[str, ...] = tuple(self._numbers)
+        self.errors: tuple[type[Exception], ...] = (rtmidi.RtMidiError, OSError, ValueError, TypeError)
+
+    def lists(self, system: str) -> PortLists:
+        """See `MidiLibrary.lists`."""
+        number = self._numbers[system]
+        return _PythonRtmidiLists(self._rtmidi.MidiIn(number, CLIENT), self._rtmidi.MidiOut(number, CLIENT))
+
+    def open_input(self, system: str, index: int, callback: MidiCallback) -> OpenInput:
+        """See `MidiLibrary.open_input`."""
+
+        def receive(event: tuple[list[int], float], _: object) -> None:
+            ns = time.perf_counter_ns()
+            callback(ns, bytes(event[0]))
+
+        midi = self._rtmidi.MidiIn(self._numbers[system], CLIENT)
+        midi.ignore_types(sysex=True, timing=True, active_sense=True)
+        midi.open_port(index, "in")
+        # Not before: Python's lock is held while it connects, and JACK waits meanwhile for its thread, which waits for
+        # that lock with the first event.
+        midi.set_callback(receive)
+        return _PythonRtmidiInput(midi)
+
+
+class _PythonRtmidiLists:
+    def __init__(self, inputs: Any, outputs: Any) -> None:
+        self._inputs, self._outputs = inputs, outputs
+
+    def inputs(self) -> list[str]:
+        return list(self._inputs.get_ports())
+
+    def outputs(self) -> list[str]:
+        return list(self._outputs.get_ports())
+
+    def close(self) -> None:
+        self._inputs.delete()
+        self._outputs.delete()
+
+
+class _PythonRtmidiInput:
+    def __init__(self, midi: Any) -> None:
+        self._midi = midi
+
+    def close(self) -> None:
+        self._midi.close_port()
+        self._midi.delete()
+
+
+class Rtmidi2:
+    """The package rtmidi2."""
+
+    def __init__(self) -> None:
+        # The copy of JACK's library in its wheel speaks an older protocol than the servers of today.
+        share_library()
+        import rtmidi2
+
+        self._rtmidi2: Any = rtmidi2
+        self._numbers = {
+            "alsa": rtmidi2.API_LINUX_ALSA,
+            "jack": rtmidi2.API_UNIX_JACK,
+            "core": rtmidi2.API_MACOSX_CORE,
+            "winmm": rtmidi2.API_WINDOWS_MM,
+        }
+        self.systems: tuple[str, ...] = _RTMIDI2_SYSTEMS.get(sys.platform, ())
+        # RtMidi's own errors become RuntimeError.
+        self.errors: tuple[type[Exception], ...] = (RuntimeError, OSError, ValueError, TypeError)
+
+    def lists(self, system: str) -> PortLists:
+        """See `MidiLibrary.lists`."""
+        number = self._numbers[system]
+        return _Rtmidi2Lists(
+            self._rtmidi2.MidiIn(CLIENT, api=number),
+            self._rtmidi2.MidiOut(CLIENT, api=number),
+        )
+
+    def open_input(self, system: str, index: int, callback: MidiCallback) -> OpenInput:
+        """See `MidiLibrary.open_input`."""
+
+        def receive(message: list[int], _: float) -> None:
+            ns = time.perf_counter_ns()
+            callback(ns, bytes(message))
+
+        midi = self._rtmidi2.MidiIn(CLIENT, api=self._numbers[system])
+        midi.ignore_types(midi_sysex=True, midi_time=True, midi_sense=True)
+        midi.open_port(index)
+        # Not before, as with python-rtmidi.
+        midi.callback = receive
+        return _Rtmidi2Input(midi)
+
+
+class _Rtmidi2Lists:
+    def __init__(self, inputs: Any, outputs: Any) -> None:
+        self._inputs, self._outputs = inputs, outputs
+
+    def inputs(self) -> list[str]:
+        # A port without a name is None.
+        return [name or "" for name in self._inputs.ports]
+
+    def outputs(self) -> list[str]:
+        return [name or "" for name in self._outputs.ports]
+
+    def close(self) -> None:
+        # Deleting the objects disconnects them.
+        self._inputs = self._outputs = None
+
+
+class _Rtmidi2Input:
+    def __init__(self, midi: Any) -> None:
+        self._midi = midi
+
+    def close(self) -> None:
+        self._midi.close_port()
+        self._midi = None

@@ -1,0 +1,12 @@
+"""Runs tests where the plug-ins for Qt and the display are left out or not installed: their options are known all the
+same (``-p tests.support.plain -p no:pytest-qt -p no:xvfb``)."""
+
+from __future__ import annotations
+
+import pytest
+
+
+def pytest_addoption(parser: pytest.Parser) -> None:
+    """Declare the options of the plug-ins that are left out."""
+    for name in ("qt_log_level_fail", "xvfb_width", "xvfb_height", "xvfb_colordepth"):
+        parser.addini(name, "of a plug-in that is left out")
