@@ -23,7 +23,7 @@ from app.editor.timeline_view import TimelineView
 from app.editor.tokens import DARK
 from app.editor.video_state import VideoState
 from app.editor.viewport_state import ViewportState
-from app.errors import AppError, Message
+from app.errors import AppError, Message, UsageError
 from app.performance.ensemble import Performance
 from app.plan.model import PlayerPlan, Problem
 from app.project.document import Change, Document
@@ -204,9 +204,14 @@ class Session(QObject):
 
     def apply(
         self, name: Message, project: Project, gesture: object | None = None, origin: object | None = None
-    ) -> None:
-        """Edit: see `Document.apply`."""
-        self.document.apply(name, project, gesture, origin)
+    ) -> bool:
+        """Edit: see `Document.apply`. Returns whether it was done; the user is informed why it was not."""
+        try:
+            self.document.apply(name, project, gesture, origin)
+        except UsageError as error:
+            self.notice(error.message, Severity.ERROR)
+            return False
+        return True
 
     def attempt(
         self,
@@ -221,8 +226,7 @@ class Session(QObject):
         except AppError as error:
             self.notice(error.message, Severity.ERROR)
             return False
-        self.apply(name, project, gesture, origin)
-        return True
+        return self.apply(name, project, gesture, origin)
 
     def _document_changed(self, change: Change) -> None:
         known = {player.id for player in change.after.players}

@@ -43,6 +43,10 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
             "直前の編集を元に戻してから保存してください"
         ),
     ),
+    "project.not_storable": (
+        "not done, because the project could not be saved with it: {place}: {detail}",
+        "実行していません。プロジェクトを保存できなくなります: {place}: {detail}",
+    ),
     "project.read_only": (
         "{file} is write-protected; save it under another name or allow writing",
         "{file} は書き込み禁止です。別の名前で保存するか、書き込みを許可してください",

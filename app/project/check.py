@@ -1,19 +1,23 @@
-"""What makes a project sound beyond the types of its fields: names that exist, ids that are unique, times in order."""
+"""Checks a project beyond the types of its fields: names that exist, ids that are unique, times in order.
+
+One check at every door: what a reader makes of a file, an edit of the project, and a save must all pass `faults`, so
+that whatever got in can be saved and is read again.
+
+Messages (`UsageError`): ``project.not_storable`` (place, detail).
+"""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
 from itertools import pairwise
-from typing import Any
 
-import msgspec
-
-from app.plan.additive_curve import AdditiveCurve
-from app.plan.corrections import Correction
+from app.errors import UsageError
 from app.project import limits
-from app.project.check_curves import curve_faults
+from app.project.check_corrections import project_correction_faults
 from app.project.check_dancers import dancer_faults
+from app.project.check_media import audio_faults, track_faults
+from app.project.check_stored import stored_faults
 from app.project.fault import (
     COLOUR,
     Fault,
@@ -22,15 +26,15 @@ from app.project.fault import (
     id_faults,
     in_order,
     look_faults,
+    path_faults,
     text_faults,
     unique,
     within,
 )
+from app.project.frame_rate import is_storable_rate
 from app.project.model import PlayerTakes, Project
 from app.project.parameters import is_possible, range_text
 from app.project.performers import Player
-from app.project.recording import AudioTrack
-from app.project.video import VideoTrack
 from app.score.limits import too_long
 from app.score.metre_map import Metre
 from app.score.model import ControllerCurve, Marker, Note, Part, PercussionHit, Score, value_range
@@ -42,26 +46,45 @@ _TAKE = re.compile(r"take:[1-9][0-9]{0,8}", re.ASCII)
 _MORPHS = frozenset(ARKIT_MORPHS)
 
 
-def faults(project: Project) -> Iterator[Fault]:
-    """Everything that is wrong, one by one as it is found; a caller may stop at the first."""
-    yield from within("score", _score_faults(project.score))
-    yield from _player_faults(project)
-    yield from _correction_faults(project)
+def faults(project: Project, before: Project | None = None) -> Iterator[Fault]:
+    """Everything that is wrong, one by one as it is found; a caller may stop at the first.
+
+    Parameters
+    ----------
+    before : Project, optional
+        A project that is known to be sound: what is the same object in both is not looked at again, so that an edit
+        costs what it changes.
+    """
+    if before is None or project.score is not before.score:
+        yield from within("score", _score_faults(project.score, None if before is None else before.score))
+    yield from _player_faults(project, before)
+    yield from project_correction_faults(project, before)
     yield from dancer_faults(project)
     yield from _setting_faults(project)
-    yield from _read_faults(project)
-    yield from _take_faults(project)
+    yield from _read_faults(project, before)
+    yield from _take_faults(project, before)
+    yield from stored_faults(project, before)
 
 
-def _read_faults(project: Project) -> Iterator[Fault]:
+def require_sound(project: Project, before: Project | None = None) -> None:
+    """Raise UsageError ``project.not_storable`` for a project that could not be saved and read again; ``before`` as in
+    `faults`."""
+    for place, detail in faults(project, before):
+        raise UsageError("project.not_storable", place=place, detail=detail)
+
+
+def _read_faults(project: Project, before: Project | None) -> Iterator[Fault]:
     """Of what the MIDI file held, in the order of the score."""
+    known = {} if before is None else before.read_notes
     for part_id, notes in project.read_notes.items():
+        if known.get(part_id) is notes:
+            continue
         yield from id_faults("edited_notes", part_id)
         ordered = sorted(notes.values(), key=lambda note: (note.onset_tick, note.pitch))
         yield from _note_faults(ordered, f"edited_notes[{part_id!r}]")
 
 
-def _score_faults(score: Score) -> Iterator[Fault]:
+def _score_faults(score: Score, before: Score | None) -> Iterator[Fault]:
     yield from text_faults("title", score.title)
     yield from between("ticks_per_quarter", score.ticks_per_quarter, limits.TICKS_PER_QUARTER)
     if score.tempo_map.ticks_per_quarter != score.ticks_per_quarter:
@@ -69,7 +92,8 @@ def _score_faults(score: Score) -> Iterator[Fault]:
     yield from _tempo_faults(score.tempo_map.changes)
     yield from _metre_faults(score.metres)
     yield from _marker_faults(score.markers)
-    yield from _percussion_faults(score.percussion)
+    if before is None or score.percussion is not before.percussion:
+        yield from _percussion_faults(score.percussion)
     if not score.metres or score.metres[0].tick != 0 or not score.tempo_map.changes or score.ticks_per_quarter < 1:
         # How long anything is cannot be said.
         return
@@ -77,14 +101,11 @@ def _score_faults(score: Score) -> Iterator[Fault]:
     if score.pickup_ticks and (len(score.metres) < 2 or score.metres[1].tick != score.pickup_ticks):
         yield "pickup_ticks", "no metre begins after the pickup"
     yield from unique("parts", (part.id for part in score.parts))
-    seen: set[str] = set()
+    sound = frozenset() if before is None else frozenset(map(id, before.parts))
     for index, part in enumerate(score.parts):
-        place = f"parts[{index}]"
-        yield from _part_faults(part, place)
-        for number, note in enumerate(part.notes):
-            if note.id in seen:
-                yield f"{place}.notes[{number}].id", f"{note.id!r} appears twice"
-            seen.add(note.id)
+        if id(part) not in sound:
+            yield from _part_faults(part, f"parts[{index}]")
+    yield from _note_id_faults(score.parts, () if before is None else before.parts)
     for index, unplayed in enumerate(score.unplayed):
         yield from text_faults(f"unplayed[{index}].name", unplayed.name)
         yield from between(f"unplayed[{index}].end_tick", unplayed.end_tick, (0, limits.LAST_TICK))
@@ -98,6 +119,24 @@ def _score_faults(score: Score) -> Iterator[Fault]:
     long = too_long(score)
     if long is not None:
         yield "parts", "longer than {most_hours} hours, {most_quarters} quarters or {most_bars} bars".format_map(long)
+
+
+def _note_id_faults(parts: Sequence[Part], before: Sequence[Part]) -> Iterator[Fault]:
+    """Ids of notes that appear twice in the piece."""
+    old = {part.id: part for part in before}
+    if all(
+        part.id in old and len(part.note_ids) == len(part.notes) and part.note_ids <= old[part.id].note_ids
+        for part in parts
+        if part is not old.get(part.id)
+    ):
+        # No part has an id that it did not have.
+        return
+    seen: set[str] = set()
+    for index, part in enumerate(parts):
+        for number, note in enumerate(part.notes):
+            if note.id in seen:
+                yield f"parts[{index}].notes[{number}].id", f"{note.id!r} appears twice"
+            seen.add(note.id)
 
 
 def _tempo_faults(changes: Sequence[TempoChange]) -> Iterator[Fault]:
@@ -205,7 +244,7 @@ def _curve_faults(curve: ControllerCurve, place: str) -> Iterator[Fault]:
             return
 
 
-def _player_faults(project: Project) -> Iterator[Fault]:
+def _player_faults(project: Project, before: Project | None) -> Iterator[Fault]:
     players = project.players
     if len(players) > limits.MOST_PLAYERS:
         yield "players", f"at most {limits.MOST_PLAYERS}"
@@ -213,6 +252,7 @@ def _player_faults(project: Project) -> Iterator[Fault]:
     yield from unique("players", (player.name.casefold() for player in players), "name")
     parts = {part.id for part in project.score.parts}
     musicians = {player.id: player for player in players}
+    sound = frozenset() if before is None else frozenset(map(id, before.players))
     for index, player in enumerate(players):
         place = f"players[{index}]"
         if player.part_id not in parts:
@@ -220,7 +260,8 @@ def _player_faults(project: Project) -> Iterator[Fault]:
         musician = musicians.get(player.doubles)
         if player.doubles and (musician is None or musician.doubles or musician is player):
             yield f"{place}.doubles", f"there is no player {player.doubles!r} with a body"
-        yield from about(player, _one_player_faults(player, place))
+        if id(player) not in sound:
+            yield from about(player, _one_player_faults(player, place))
 
 
 def _one_player_faults(player: Player, place: str) -> Iterator[Fault]:
@@ -233,47 +274,7 @@ def _one_player_faults(player: Player, place: str) -> Iterator[Fault]:
             yield f"{place}.parameters.{field}", f"possible: {range_text(field)}"
 
 
-def _correction_faults(project: Project) -> Iterator[Fault]:
-    known = {player.id: player for player in project.players}
-    for player, corrections in project.corrections.items():
-        if player not in known:
-            yield f"corrections[{player!r}]", "there is no player of this id"
-        for index, correction in enumerate(corrections):
-            found = _one_correction_faults(correction, f"corrections[{player!r}][{index}]")
-            yield from about(known.get(player), found)
-
-
-def _one_correction_faults(correction: Correction, place: str) -> Iterator[Fault]:
-    for field in correction.__struct_fields__:
-        yield from _plain_faults(f"{place}.{field}", getattr(correction, field))
-    if isinstance(correction, AdditiveCurve):
-        yield from curve_faults(correction, place)
-
-
-def _plain_faults(place: str, value: Any) -> Iterator[Fault]:
-    """A value of whatever kind a correction has: texts and numbers of a sane size."""
-    if isinstance(value, str):
-        if len(value) > limits.MOST_ID:
-            yield place, f"at most {limits.MOST_ID} characters"
-    elif isinstance(value, int | float):
-        if place.endswith(("_tick", "_ticks")):
-            yield from between(place, value, (-limits.LAST_TICK, limits.LAST_TICK))
-        elif isinstance(value, float):
-            yield from between(place, value, (-limits.MOST_NUMBER, limits.MOST_NUMBER))
-        elif abs(value) > limits.SEED[1]:
-            yield place, f"must be from {-limits.SEED[1]} to {limits.SEED[1]}"
-    elif isinstance(value, tuple | list):
-        for index, item in enumerate(value):
-            yield from _plain_faults(f"{place}[{index}]", item)
-    elif isinstance(value, dict):
-        for key, item in value.items():
-            yield from _plain_faults(f"{place}[{key!r}]", item)
-    elif isinstance(value, msgspec.Struct):
-        for field in value.__struct_fields__:
-            yield from _plain_faults(f"{place}.{field}", getattr(value, field))
-
-
-def _take_faults(project: Project) -> Iterator[Fault]:
+def _take_faults(project: Project, before: Project | None) -> Iterator[Fault]:
     known = {player.id: player for player in project.players}
     all_takes = [take for recorded in project.takes.values() for take in recorded.takes]
     if len(all_takes) > limits.MOST_TAKES:
@@ -283,7 +284,8 @@ def _take_faults(project: Project) -> Iterator[Fault]:
         place = f"takes[{player!r}]"
         if player not in known:
             yield place, "there is no player of this id"
-        yield from about(known.get(player), _recorded_faults(recorded, place))
+        if before is None or recorded is not before.takes.get(player):
+            yield from about(known.get(player), _recorded_faults(recorded, place))
 
 
 def _recorded_faults(recorded: PlayerTakes, place: str) -> Iterator[Fault]:
@@ -350,40 +352,16 @@ def _setting_faults(project: Project) -> Iterator[Fault]:
         yield from between("felt_beat_quarters", project.felt_beat_quarters, limits.FELT_BEAT_QUARTERS)
     if not limits.FPS[0] <= project.fps <= limits.FPS[1]:
         yield "fps", f"must be from {limits.FPS[0]} to {limits.FPS[1]}"
-    yield from text_faults("source", project.source)
-    if "\0" in project.source:
-        yield "source", "must be the path of a MIDI file"
+    if not is_storable_rate(project.fps):
+        yield "fps", "must be a fraction of whole numbers of at most nine digits"
+    yield from path_faults("source", project.source)
     if project.audio is not None:
-        yield from within("audio", _audio_faults(project.audio))
+        yield from within("audio", audio_faults(project.audio))
     if project.video is not None:
-        yield from within("video", _track_faults(project.video))
+        yield from within("video", track_faults(project.video))
     yield from unique("expressions", (expression.name for expression in project.expressions), "name")
     for index, expression in enumerate(project.expressions):
         yield from expression_faults(expression, f"expressions[{index}]")
-
-
-def _track_faults(track: AudioTrack | VideoTrack) -> Iterator[Fault]:
-    yield from text_faults("path", track.path)
-    if not track.path or "\0" in track.path:
-        yield "path", "must be the path of a file"
-    yield from between("offset_s", track.offset_s, limits.OFFSET_S)
-    if track.confidence is not None:
-        yield from between("confidence", track.confidence, (0.0, 1.0))
-
-
-def _audio_faults(audio: AudioTrack) -> Iterator[Fault]:
-    yield from _track_faults(audio)
-    for index, pin in enumerate(audio.pins):
-        yield from between(f"pins[{index}].tick", pin.tick, (0, limits.LAST_TICK))
-        yield from between(f"pins[{index}].recording_s", pin.recording_s, limits.OFFSET_S)
-    if any(one.tick >= two.tick or one.recording_s >= two.recording_s for one, two in pairwise(audio.pins)):
-        yield "pins", "ticks and seconds must rise"
-    for index, doubt in enumerate(audio.doubts):
-        yield from between(f"doubts[{index}].confidence", doubt.confidence, (0.0, 1.0))
-        if not 0 <= doubt.start_tick < doubt.end_tick <= limits.LAST_TICK:
-            yield f"doubts[{index}].start_tick", "must be before the end"
-    if any(one.end_tick > two.start_tick for one, two in pairwise(audio.doubts)):
-        yield "doubts", "must be in order and apart"
 
 
 def expression_faults(expression: Expression, place: str) -> Iterator[Fault]:

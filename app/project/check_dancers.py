@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from app.choreography.library import SUFFIX, is_choreography
 from app.project import limits
 from app.project.dance_corrections import DanceCorrection, ForbidState, PinState
-from app.project.fault import Fault, about, between, id_faults, look_faults, text_faults, unique
+from app.project.fault import Fault, about, between, id_faults, look_faults, path_faults, text_faults, unique
 from app.project.model import DANCER_PARAMETERS, Project
 from app.project.performers import Dancer
 
@@ -35,7 +35,7 @@ def _one_dancer_faults(dancer: Dancer, place: str) -> Iterator[Fault]:
     yield from id_faults(f"{place}.id", dancer.id)
     yield from id_faults(f"{place}.character_id", dancer.character_id)
     yield from text_faults(f"{place}.name", dancer.name)
-    yield from text_faults(f"{place}.choreography", dancer.choreography)
+    yield from path_faults(f"{place}.choreography", dancer.choreography)
     if not is_choreography(dancer.choreography):
         yield f"{place}.choreography", f"must be the path of a {SUFFIX} file or the name of a bundled choreography"
     yield from look_faults(dancer, place)

@@ -10,6 +10,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 from app.errors import Message
+from app.project.check import require_sound
 from app.project.model import Project
 
 MOST_STEPS = 1000
@@ -98,10 +99,16 @@ class Document:
             none.
         origin : object, optional
             Handed to the observers.
+
+        Raises
+        ------
+        UsageError
+            ``project.not_storable``: the edit made what could not be saved; nothing is changed.
         """
         before = self._project
         if project is before:
             return
+        require_sound(project, before)
         last = self._done[-1] if self._done else None
         if gesture is not None and last is not None and last.gesture is gesture and last.after is before:
             self._done.pop()

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from itertools import pairwise
 from typing import Final, TypeAlias
 
+from app.encoding import is_text, restored, stored
 from app.errors import shortened
 from app.plan.parameters import Bounds
 from app.project import limits
@@ -20,11 +21,21 @@ MOST_NAME: Final = 60
 """Characters of a performer's name in a message."""
 
 
-def about(performer: Player | Dancer | None, found: Iterable[Fault]) -> Iterator[Fault]:
-    """Faults of one performer, with its name: a number in a list says little to a reader."""
+def about(
+    performer: Player | Dancer | None, found: Iterable[Fault], where: Callable[[], str] = lambda: ""
+) -> Iterator[Fault]:
+    """Faults of one performer, with its name: a number in a list says little to a reader.
+
+    Parameters
+    ----------
+    where : callable
+        More of the place, e.g. the bar; asked only if there is a fault.
+    """
     who = "dancer" if isinstance(performer, Dancer) else "player"
     for place, detail in found:
-        yield place, detail if performer is None else f"{detail} ({who} {shortened(performer.name, MOST_NAME)!r})"
+        named = [] if performer is None else [f"{who} {shortened(performer.name, MOST_NAME)!r}"]
+        said = ", ".join((*named, *filter(None, (shortened(where(), 2 * MOST_NAME),))))
+        yield place, f"{detail} ({said})" if said else detail
 
 
 def within(prefix: str, found: Iterable[Fault]) -> Iterator[Fault]:
@@ -64,16 +75,28 @@ def unique(place: str, values: Iterable[str], field: str = "id", taken: Iterable
         seen.add(value)
 
 
-def text_faults(place: str, value: str) -> Iterator[Fault]:
-    """A text that is too long."""
+def text_faults(place: str, value: str, most: int = limits.MOST_TEXT) -> Iterator[Fault]:
+    """A text that is too long, or no Unicode text."""
+    if len(value) > most:
+        yield place, f"at most {most} characters"
+    elif not is_text(value):
+        yield place, "must be Unicode text"
+
+
+def path_faults(place: str, value: str) -> Iterator[Fault]:
+    """A path that is too long or that no file can have; the bytes of its name may be any."""
     if len(value) > limits.MOST_TEXT:
         yield place, f"at most {limits.MOST_TEXT} characters"
+    elif "\0" in value or restored(stored(value)) != value:
+        yield place, "must be the path of a file"
 
 
-def id_faults(place: str, value: str) -> Iterator[Fault]:
-    """An id that is empty or too long."""
-    if not 0 < len(value) <= limits.MOST_ID:
-        yield place, f"must have from 1 to {limits.MOST_ID} characters"
+def id_faults(place: str, value: str, least: int = 1) -> Iterator[Fault]:
+    """An id that is empty, too long, or no Unicode text."""
+    if not least <= len(value) <= limits.MOST_ID:
+        yield place, f"must have from {least} to {limits.MOST_ID} characters"
+    elif not is_text(value):
+        yield place, "must be Unicode text"
 
 
 def look_faults(performer: Player | Dancer, place: str) -> Iterator[Fault]:

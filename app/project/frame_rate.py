@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import unicodedata
 from fractions import Fraction
 from typing import Final
@@ -25,6 +26,19 @@ USUAL_RATES: Final = (
 
 USUAL_FILM_RATE: Final = Fraction(30)
 """Of a film of the viewport, unless the piece has fewer frames per second."""
+
+
+_STORED: Final = re.compile(r"[1-9][0-9]{0,8}(?:/[1-9][0-9]{0,8})?", re.ASCII)
+
+
+def stored_rate(text: str) -> Fraction | None:
+    """The rate that a project's file holds; None where it holds none."""
+    return Fraction(text) if _STORED.fullmatch(text) else None
+
+
+def is_storable_rate(rate: Fraction) -> bool:
+    """Whether a project's file can hold a rate."""
+    return _STORED.fullmatch(str(rate)) is not None
 
 
 def exact_number(text: str) -> Fraction:

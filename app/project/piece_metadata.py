@@ -3,7 +3,7 @@
 A TOML file: the section's intensity, of each player by name style, habits, amounts and layers that are off, and what
 was corrected of gestures, expressions and poses, anchored in ticks; and the piece's own expressions.
 
-Messages: ``metadata.newer``, ``metadata.no_player`` (players, known), ``table.invalid``.
+Messages: ``metadata.newer``, ``metadata.no_player`` (players, known), ``table.invalid``; what `require_sound` says.
 """
 
 from __future__ import annotations
@@ -18,10 +18,13 @@ import msgspec
 from app.errors import MapError, Message
 from app.formats.atomic import atomic_write
 from app.formats.toml import header, read_toml, shaped, toml
+from app.plan.additive_curve import AdditiveCurve
 from app.plan.corrections import Correction, RemoveEvent, kind
 from app.project import limits
-from app.project.check import expression_faults
+from app.project.check import expression_faults, require_sound
+from app.project.check_corrections import correction_faults
 from app.project.edit.players import set_parameters
+from app.project.fault import Fault, between, text_faults, unique
 from app.project.model import Project
 from app.project.parameters import is_possible, range_text
 from metadata.acting import AMOUNTS
@@ -100,7 +103,15 @@ def metadata_of(project: Project) -> PieceMetadata:
 
 
 def with_metadata(project: Project, metadata: PieceMetadata) -> Loaded:
-    """The piece with these metadata in place of its own; players that are not named keep theirs."""
+    """The piece with these metadata in place of its own; players that are not named keep theirs.
+
+    Raises
+    ------
+    UsageError
+        ``project.not_storable``: this piece cannot take them, e.g. a place lies too far behind when it is counted in
+        the piece's ticks.
+    """
+    before = project
     by_name = {player.name.casefold(): player for player in project.players}
     corrections = dict(project.corrections)
     lost = []
@@ -117,6 +128,7 @@ def with_metadata(project: Project, metadata: PieceMetadata) -> Loaded:
     project = replace(
         project, corrections=kept, section_intensity=metadata.section_intensity, expressions=metadata.expressions
     )
+    require_sound(project, before)
     known = ", ".join(player.name for player in project.players)
     problems = (Message("metadata.no_player", {"players": ", ".join(lost), "known": known}),) if lost else ()
     return Loaded(project, problems)
@@ -126,8 +138,14 @@ def _merged(before: tuple[Correction, ...], said: tuple[Correction, ...], scale:
     others = tuple(correction for correction in before if not is_acting(correction))
     if scale == 1.0:
         return others + said
-    raw = _scaled(msgspec.to_builtins(said), scale)
-    return others + msgspec.convert(raw, tuple[Correction, ...])
+    scaled = msgspec.convert(_scaled(msgspec.to_builtins(said), scale), tuple[Correction, ...])
+    return others + tuple(_with_distinct_keys(item) if isinstance(item, AdditiveCurve) else item for item in scaled)
+
+
+def _with_distinct_keys(curve: AdditiveCurve) -> AdditiveCurve:
+    """The curve with the last of the keys that coarser ticks put at one tick."""
+    keys = {key.tick: key for key in curve.keys}
+    return curve if len(keys) == len(curve.keys) else msgspec.structs.replace(curve, keys=tuple(keys.values()))
 
 
 def _scaled(value: Any, scale: float, key: str = "") -> Any:
@@ -225,14 +243,11 @@ def _player(name: str, table: object, file: str) -> PlayerMetadata:
         raise MapError("table.invalid", file=file, place=place, detail=said["detail"]) from error
 
 
-def _faults(metadata: PieceMetadata) -> Iterator[tuple[str, str]]:
-    low, high = limits.TICKS_PER_QUARTER
-    if not low <= metadata.ticks_per_quarter <= high:
-        yield "ticks_per_quarter", f"must be from {low} to {high}"
-    least, most = limits.SECTION_INTENSITY
-    if not least <= metadata.section_intensity <= most:
-        yield "section_intensity", f"must be from {least:g} to {most:g}"
+def _faults(metadata: PieceMetadata) -> Iterator[Fault]:
+    yield from between("ticks_per_quarter", metadata.ticks_per_quarter, limits.TICKS_PER_QUARTER)
+    yield from between("section_intensity", metadata.section_intensity, limits.SECTION_INTENSITY)
     for name, player in metadata.players.items():
+        yield from text_faults(f"players.{name}", name)
         for parameter, value in player.parameters.items():
             place = f"players.{name}.parameters.{parameter}"
             if parameter not in PARAMETER_NAMES:
@@ -240,7 +255,10 @@ def _faults(metadata: PieceMetadata) -> Iterator[tuple[str, str]]:
             elif not is_possible(parameter, value):
                 yield place, f"possible: {range_text(parameter)}"
         for index, correction in enumerate(player.corrections):
+            place = f"players.{name}.corrections[{index}]"
             if not is_acting(correction):
-                yield f"players.{name}.corrections[{index}]", f"{kind(correction)!r} is not about acting"
+                yield place, f"{kind(correction)!r} is not about acting"
+            yield from correction_faults(correction, place)
+    yield from unique("expressions", (expression.name for expression in metadata.expressions), "name")
     for index, expression in enumerate(metadata.expressions):
         yield from expression_faults(expression, f"expressions[{index}]")

@@ -14,12 +14,10 @@ import hashlib
 import os
 import re
 from collections.abc import Callable, Iterator
-from fractions import Fraction
 from pathlib import Path, PurePosixPath, PureWindowsPath
 from typing import Any, Final, TypeVar
 
 import msgspec
-import numpy as np
 
 from app.choreography.library import bundled_choreographies, choreography_path, is_bundled_name
 from app.encoding import PREFIX, restored, shown, stored
@@ -29,7 +27,9 @@ from app.formats.files import open_file, read_file
 from app.plan.corrections import Correction
 from app.project.casting import ConductorPlace
 from app.project.check import faults
+from app.project.check_stored import plain_number
 from app.project.dance_corrections import DanceCorrection
+from app.project.frame_rate import stored_rate
 from app.project.ids import is_made_here
 from app.project.migrations import CURRENT, VERSION_KEY, Raw, migrated
 from app.project.model import PlayerTakes, Project
@@ -52,7 +52,6 @@ AUTOSAVE: Final = ".autosave"
 MOST_BYTES: Final = 256 * 2**20
 
 _PLACE = re.compile(r"^(.*?)(?: - at (`key` in )?`\$?\.?(.*?)`)?$", re.DOTALL)
-_FPS = re.compile(r"[1-9][0-9]{0,8}(?:/[1-9][0-9]{0,8})?", re.ASCII)
 
 Track = TypeVar("Track", AudioTrack, VideoTrack)
 
@@ -173,11 +172,12 @@ def encode(project: Project, path: Path) -> bytes:
         ``project.cannot_save``: the project holds what could not be read again.
     """
     content = _content(project, path)
-    try:
-        raw = msgspec.to_builtins(content, order="deterministic", enc_hook=_plain_number)
+
+    def written() -> bytes:
+        raw = msgspec.to_builtins(content, order="deterministic", enc_hook=plain_number)
         return ("".join(_layout(raw, "")) + "\n").encode()
-    except (TypeError, ValueError, OverflowError) as error:
-        raise FileError("project.cannot_save", file=os.fspath(path), place="-", detail=str(error)) from error
+
+    return _encoded(written, path)
 
 
 def encode_autosave(project: Project, path: Path, facts: Autosaved) -> bytes:
@@ -190,10 +190,19 @@ def encode_autosave(project: Project, path: Path, facts: Autosaved) -> bytes:
         ``project.cannot_save``: the project holds what could not be read again.
     """
     content = _Autosave(autosave=facts, **msgspec.structs.asdict(_content(project, path)))
+    return _encoded(lambda: msgspec.json.encode(content, enc_hook=plain_number), path)
+
+
+def _encoded(write: Callable[[], bytes], path: Path) -> bytes:
+    file = os.fspath(path)
     try:
-        return msgspec.json.encode(content, enc_hook=_plain_number)
+        content = write()
     except (TypeError, ValueError, OverflowError) as error:
-        raise FileError("project.cannot_save", file=os.fspath(path), place="-", detail=str(error)) from error
+        raise FileError("project.cannot_save", file=file, place="-", detail=shortened(error)) from error
+    if len(content) > MOST_BYTES:
+        detail = f"{len(content) >> 20} MB; a project's file is at most {MOST_BYTES >> 20} MB"
+        raise FileError("project.cannot_save", file=file, place="-", detail=detail)
+    return content
 
 
 def _content(project: Project, path: Path) -> _Content:
@@ -344,7 +353,8 @@ def missing_media(project: Project) -> Path | None:
 def _project(raw: Raw, folder: Path, file: str) -> Project:
     """The typed values of a file's content; what they mean is not looked at yet."""
     content = _converted(raw, _Content, "", file)
-    if not _FPS.fullmatch(content.fps):
+    fps = stored_rate(content.fps)
+    if fps is None:
         raise FileError("project.invalid", file=file, place="fps", detail='must be like "60" or "30000/1001"')
     corrections = {
         player: _converted(items, tuple[Correction, ...], f"corrections[{player!r}]", file)
@@ -376,7 +386,7 @@ def _project(raw: Raw, folder: Path, file: str) -> Project:
         section_intensity=content.section_intensity,
         conductor=content.conductor,
         felt_beat_quarters=content.felt_beat_quarters,
-        fps=Fraction(content.fps),
+        fps=fps,
         audio=_moved(content.audio, _full_path, folder),
         video=_moved(content.video, _full_path, folder),
         expressions=content.expressions,
@@ -511,13 +521,6 @@ def _values(value: Any) -> Any:
 
 def _is_nested(value: Any) -> bool:
     return isinstance(value, dict | list | tuple) and len(value) > 0
-
-
-def _plain_number(value: Any) -> Any:
-    """Numbers of numpy, which calculations leave behind, are numbers."""
-    if isinstance(value, np.generic):
-        return value.item()
-    raise TypeError(f"{type(value).__name__} cannot be kept in a file")
 
 
 # Worked out here, under the import's lock: two threads that use a type for the first time at once crash msgspec.

@@ -88,8 +88,7 @@ def _who_plays(project: Project, part_id: str) -> Player | None:
 
 
 def _take(session: Session, before: Project, outcome: Reimport) -> None:
-    if session.project is before:
-        session.apply(Message("edit.reimport"), outcome.project)
+    if session.project is before and session.apply(Message("edit.reimport"), outcome.project):
         session.notice(
             Message("reimport.done", {"kept": sum(part.kept for part in outcome.parts), "lost": len(outcome.orphans)})
         )

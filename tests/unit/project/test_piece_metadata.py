@@ -9,6 +9,7 @@ import msgspec
 import pytest
 
 from app.errors import FileError, MapError
+from app.plan.additive_curve import AdditiveCurve
 from app.plan.corrections import AddGesture, PinFingering, RemoveEvent, SetBreath
 from app.project.edit.corrections import put
 from app.project.edit.piece import set_section_intensity
@@ -113,6 +114,48 @@ def test_what_is_wrong_in_a_file_is_reported_with_its_place(
     with pytest.raises(MapError) as raised:
         load_metadata(path)
     assert (raised.value.message.id, raised.value.message.arguments["place"]) == ("table.invalid", place)
+
+
+CURVE = """version = 2
+ticks_per_quarter = 480
+
+[[players.A.corrections]]
+correction = "additive"
+name = "a1"
+channel = "{channel}"
+[[players.A.corrections.keys]]
+tick = 0
+value = {value}
+"""
+
+
+@pytest.mark.parametrize(
+    ("channel", "value", "place"),
+    [
+        ("bell.upp", "5.0", "players.A.corrections[0].channel"),
+        ("bell.up", "5.0e9", "players.A.corrections[0].keys[0].value"),
+    ],
+)
+def test_a_curve_that_no_project_could_keep_is_refused(tmp_path: Path, channel: str, value: str, place: str) -> None:
+    path = tmp_path / "piece.toml"
+    path.write_text(CURVE.format(channel=channel, value=value), encoding="utf-8")
+    with pytest.raises(MapError) as raised:
+        load_metadata(path)
+    assert raised.value.message.arguments["file"] == "piece.toml"
+    assert raised.value.message.arguments["place"] == place
+
+
+def test_keys_that_coarser_ticks_put_in_one_place_are_one(tmp_path: Path) -> None:
+    path = tmp_path / "piece.toml"
+    more = "".join(
+        f"[[players.trumpet.corrections.keys]]\ntick = {tick}\nvalue = {tick % 100}.0\n" for tick in (1, 2, 480)
+    )
+    text = CURVE.format(channel="bell.up", value=0.0).replace("players.A", "players.trumpet") + more
+    path.write_text(text.replace("ticks_per_quarter = 480", "ticks_per_quarter = 30000"), encoding="utf-8")
+    project = small_project()
+    [curve] = with_metadata(project, load_metadata(path)).project.corrections[project.players[0].id]
+    assert isinstance(curve, AdditiveCurve)
+    assert [(key.tick, key.value) for key in curve.keys] == [(0, 2.0), (8, 80.0)]
 
 
 def test_a_newer_file_and_none_at_all_are_refused(tmp_path: Path) -> None:

@@ -53,8 +53,9 @@ class Desk:
 
     def apply(
         self, name: Message, project: Project, gesture: object | None = None, origin: object | None = None
-    ) -> None:
+    ) -> bool:
         self.document.apply(name, project, gesture, origin)
+        return True
 
     def attempt(
         self,

@@ -9,6 +9,8 @@ from typing import Final, Literal, NamedTuple, Protocol
 import msgspec
 import numpy as np
 
+from app.errors import FileError
+from app.formats.json_data import decode_json
 from app.plan.additive import segments
 from app.plan.additive_curve import CHANNELS, AdditiveCurve, CurveKey
 from app.plan.curve_shape import rows, sampled_rows
@@ -253,8 +255,8 @@ def clip_text(channel: str, keys: Sequence[CurveKey]) -> bytes:
 def clip_keys(content: bytes, channel: str) -> tuple[CurveKey, ...]:
     """Keys of the clipboard for a channel; none where they are of another unit, or no keys at all."""
     try:
-        clip = msgspec.json.decode(content, type=_Clip)
-    except msgspec.DecodeError:
+        clip = decode_json(content, _Clip, "")
+    except FileError:
         return ()
     known: Mapping[str, object] = CHANNELS
     fits = clip.channel in known and CHANNELS[clip.channel].unit == CHANNELS[channel].unit

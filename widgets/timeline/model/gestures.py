@@ -40,7 +40,7 @@ class Editing(Protocol):
     def select(self, selection: Selection) -> None: ...
     def apply(
         self, name: Message, project: Project, gesture: object | None = None, origin: object | None = None
-    ) -> None: ...
+    ) -> bool: ...
     def attempt(
         self, name: Message, edit: Edit, gesture: object | None = None, origin: object | None = None
     ) -> bool: ...
@@ -112,7 +112,8 @@ class Step:
             project = edit(self.base)
         except AppError:
             return False
-        self._session.apply(name, project, self._token, self._origin)
+        if not self._session.apply(name, project, self._token, self._origin):
+            return False
         self._name, self._ours = name, self._session.project
         return True
 

@@ -1,0 +1,86 @@
+"""Checks of an animator's corrections: texts and numbers of a sane size, and curves as `check_curves` has it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import partial
+from typing import Any
+
+import msgspec
+
+from app.plan.additive_curve import AdditiveCurve
+from app.plan.corrections import Correction, anchor, kind
+from app.project import limits
+from app.project.check_curves import curve_faults
+from app.project.fault import Fault, about, between, id_faults, text_faults
+from app.project.model import Project
+
+_TICKS = (-limits.LAST_TICK, limits.LAST_TICK)
+
+
+def project_correction_faults(project: Project, before: Project | None = None) -> Iterator[Fault]:
+    """Faults of all players' corrections, with the player, the bar and the correction; of those that `before`, which
+    is known to be sound, does not have."""
+    known = {player.id: player for player in project.players}
+    for player_id, corrections in project.corrections.items():
+        if player_id not in known:
+            yield f"corrections[{player_id!r}]", "there is no player of this id"
+        old = () if before is None else before.corrections.get(player_id, ())
+        if corrections is old:
+            continue
+        sound = set(map(id, old))
+        for index, correction in enumerate(corrections):
+            if id(correction) not in sound:
+                found = correction_faults(correction, f"corrections[{player_id!r}][{index}]")
+                yield from about(known.get(player_id), found, partial(_place, project, correction))
+
+
+def correction_faults(correction: Correction, place: str) -> Iterator[Fault]:
+    """Faults of one correction by itself."""
+    if isinstance(correction, AdditiveCurve):
+        yield from id_faults(f"{place}.name", correction.name, least=0)
+        yield from curve_faults(correction, place)
+        return
+    for field in correction.__struct_fields__:
+        yield from _plain_faults(f"{place}.{field}", getattr(correction, field))
+
+
+def _place(project: Project, correction: Correction) -> str:
+    """The bar of a correction, and its kind and name, for a message."""
+    named, score = f"{kind(correction)} {anchor(correction)!r}", project.score
+    tick = _first_tick(project, correction)
+    if tick is None or not score.metres or score.ticks_per_quarter < 1:
+        return named
+    return f"bar {score.metre_map.bar_of_tick(tick)}, {named}"
+
+
+def _first_tick(project: Project, correction: Correction) -> int | None:
+    """The tick at which a correction begins; None where it is tied to nothing that has a place in the score."""
+    if isinstance(correction, AdditiveCurve):
+        tick = correction.keys[0].tick if correction.keys else None
+    else:
+        tick = getattr(correction, "start_tick", getattr(correction, "tick", None))
+    if tick is None:
+        note_id = getattr(correction, "note_id", None)
+        notes = (note for part in project.score.parts for note in part.notes)
+        tick = next((note.onset_tick for note in notes if note.id == note_id), None)
+    return tick if isinstance(tick, int) and _TICKS[0] <= tick <= _TICKS[1] else None
+
+
+def _plain_faults(place: str, value: Any) -> Iterator[Fault]:
+    """Faults of a value of whatever kind a correction has: texts and numbers of a sane size."""
+    if isinstance(value, str):
+        yield from text_faults(place, value, limits.MOST_ID)
+    elif isinstance(value, int | float):
+        if place.endswith(("_tick", "_ticks")):
+            yield from between(place, value, _TICKS)
+        elif isinstance(value, float):
+            yield from between(place, value, (-limits.MOST_NUMBER, limits.MOST_NUMBER))
+        elif abs(value) > limits.SEED[1]:
+            yield place, f"must be from {-limits.SEED[1]} to {limits.SEED[1]}"
+    elif isinstance(value, tuple | list):
+        for index, item in enumerate(value):
+            yield from _plain_faults(f"{place}[{index}]", item)
+    elif isinstance(value, msgspec.Struct):
+        for field in value.__struct_fields__:
+            yield from _plain_faults(f"{place}.{field}", getattr(value, field))

@@ -1,0 +1,156 @@
+"""Whether a file gives values back: each is written as the file would have it, and read again.
+
+The bounds of `app.project.check` say which values make sense. This says that none is lost on the way: a number that is
+not finite becomes ``null`` in JSON, a whole number that arithmetic made a float is none of the file's, a lone surrogate
+is no text.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from functools import cache
+from typing import Any, Final, NamedTuple, get_type_hints
+
+import msgspec
+import numpy as np
+
+from app.encoding import is_text, stored
+from app.errors import shortened
+from app.plan.corrections import Correction
+from app.project.dance_corrections import DanceCorrection
+from app.project.fault import Fault
+from app.project.model import PlayerTakes, Project
+from app.project.performers import Dancer, Player
+from app.project.recording import AudioTrack
+from app.project.video import VideoTrack
+from app.score.model import Note, Part, Score
+from metadata.model import Expression
+
+_PARTS: Final = "parts"
+_SETTINGS: Final = (
+    *("seed", "preroll_beats", "section_intensity", "felt_beat_quarters"),
+    *("conductor", "audio", "video"),
+)
+"""Fields of a project whose values are written as they are."""
+
+
+class _Group(NamedTuple):
+    """Values of one type, each written and read by itself: at places of the project counted from 0, or at one."""
+
+    place: str
+    values: Sequence[Any]
+    kind: Any
+    is_list: bool = True
+
+
+def stored_faults(project: Project, before: Project | None = None) -> Iterator[Fault]:
+    """Values that a file would not give back.
+
+    Parameters
+    ----------
+    before : Project, optional
+        A project that is known to be sound: what is the same object in both is not looked at again.
+    """
+    known = {} if before is None else {group.place: group.values for group in _groups(before)}
+    for place, values, kind, is_list in _groups(project):
+        old = known.get(place, ())
+        if values is old:
+            continue
+        sound = set(map(id, old))
+        for index, value in enumerate(values):
+            if id(value) not in sound:
+                yield from unit_faults(value, kind, f"{place}[{index}]" if is_list else place)
+
+
+def unit_faults(value: Any, kind: Any, place: str) -> Iterator[Fault]:
+    """What is wrong with one value that is to come back from a file as this type."""
+    value = _as_stored(value)
+    try:
+        decoder = _decoder(kind)
+        back = decoder.decode(msgspec.json.encode(value, enc_hook=plain_number))
+        if back != value:
+            yield place, "would come back from the file as another value"
+    except msgspec.ValidationError as error:
+        detail, _, inside = str(error).partition(" - at `$")
+        yield f"{place}{inside.removesuffix('`')}", shortened(detail)
+    except UnicodeEncodeError:
+        yield next(_not_text(value, place), place), "must be Unicode text"
+    except (TypeError, ValueError, OverflowError, RecursionError) as error:
+        yield place, shortened(error)
+
+
+def plain_number(value: Any) -> Any:
+    """Numbers of numpy, which calculations leave behind, are numbers; the hook of every encoder of a project."""
+    if isinstance(value, np.generic):
+        return value.item()
+    raise TypeError(f"{type(value).__name__} cannot be kept in a file")
+
+
+def _groups(project: Project) -> Iterator[_Group]:
+    score = project.score
+    for name, kind in _hints(Score).items():
+        if name != _PARTS:
+            yield _Group(f"score.{name}", (getattr(score, name),), kind, is_list=False)
+    yield _Group("score.parts", score.parts, Part)
+    yield _Group("players", project.players, Player)
+    for player, corrections in project.corrections.items():
+        yield _Group(f"corrections[{player!r}]", corrections, Correction)
+    yield _Group("dancers", project.dancers, Dancer)
+    for dancer, items in project.dance_corrections.items():
+        yield _Group(f"dance_corrections[{dancer!r}]", items, DanceCorrection)
+    yield _Group("expressions", project.expressions, Expression)
+    for part, notes in project.read_notes.items():
+        yield _Group(f"edited_notes[{part!r}]", (notes,), dict[str, Note], is_list=False)
+    hints = _hints(Project)
+    for name in _SETTINGS:
+        yield _Group(name, (getattr(project, name),), hints[name], is_list=False)
+    for player, recorded in project.takes.items():
+        yield _Group(f"takes[{player!r}]", (recorded,), PlayerTakes, is_list=False)
+
+
+def _as_stored(value: Any) -> Any:
+    """The value with its paths as a file keeps them: names of files may be bytes that are no text."""
+    if isinstance(value, AudioTrack | VideoTrack):
+        return msgspec.structs.replace(value, path=stored(value.path))
+    if isinstance(value, Dancer):
+        return msgspec.structs.replace(value, choreography=stored(value.choreography))
+    if isinstance(value, Player):
+        choreography = stored(value.parameters.choreography)
+        parameters = msgspec.structs.replace(value.parameters, choreography=choreography)
+        return msgspec.structs.replace(value, parameters=parameters)
+    return value
+
+
+def _not_text(value: Any, place: str) -> Iterator[str]:
+    """Places of texts that are no Unicode text."""
+    if isinstance(value, str):
+        if not is_text(value):
+            yield place
+    elif isinstance(value, msgspec.Struct):
+        for field in value.__struct_fields__:
+            yield from _not_text(getattr(value, field), f"{place}.{field}")
+    elif isinstance(value, Mapping):
+        for key, item in value.items():
+            yield from _not_text(key, place)
+            yield from _not_text(item, f"{place}[{key!r}]")
+    elif isinstance(value, tuple | list):
+        for index, item in enumerate(value):
+            yield from _not_text(item, f"{place}[{index}]")
+
+
+@cache
+def _decoder(kind: Any) -> msgspec.json.Decoder[Any]:
+    return msgspec.json.Decoder(kind)
+
+
+@cache
+def _hints(kind: type) -> dict[str, Any]:
+    return get_type_hints(kind)
+
+
+# Made here, under the import's lock: two threads that use a type for the first time at once crash msgspec.
+for _type in (Part, Player, Correction, Dancer, DanceCorrection, Expression, dict[str, Note], PlayerTakes):
+    _decoder(_type)
+for _struct, _names in ((Score, Score.__struct_fields__), (Project, _SETTINGS)):
+    for _name in _names:
+        _decoder(_hints(_struct)[_name])
