@@ -29,6 +29,7 @@ from app.project.importing import import_project, usual_rows
 from app.project.model import Project
 from app.project.names import file_stem
 from app.project.recovery import Recoverable, discard, load_work, recoverable, recoverable_of
+from app.project.salvage import salvaged
 from app.rig.character_library import reload_characters
 from app.score.read import MidiContents, read_contents
 from instrument_maps.library import all_maps, reload
@@ -66,6 +67,8 @@ class Files(QObject):
         The recording of the project that was just opened is not where it was.
     silent(Path)
         A MIDI file was opened without players and dancers.
+    unsaveable(Message)
+        A value of the project cannot be saved: the message names it. The rest was autosaved, or nothing could be saved.
     overtaken(Path, Then or None)
         The project was not saved: its file was changed outside since it was opened. `save_over` would replace that.
     """
@@ -75,6 +78,7 @@ class Files(QObject):
     found = Signal(object)
     missing = Signal(object)
     silent = Signal(object)
+    unsaveable = Signal(object)
     overtaken = Signal(object, object)
 
     def __init__(
@@ -392,7 +396,23 @@ class Files(QObject):
             if then is not None:
                 then()
 
-        self.session.tasks.run(Message("work.save"), work, done, key="save")
+        def failed(error: AppError) -> None:
+            self.session.notice(error.message, Severity.ERROR)
+            if error.message.id == "project.cannot_save":
+                self.unsaveable.emit(error.message)
+
+        self.session.tasks.run(Message("work.save"), work, done, failed, key="save")
+
+    @property
+    def can_leave_out(self) -> bool:
+        """Whether the project could be saved without some of its values, if it cannot be as it is."""
+        return salvaged(self.session.project) is not None
+
+    def leave_out(self) -> None:
+        """Take what cannot be saved out of the project, as an edit; nothing is done where that is not possible."""
+        rest = salvaged(self.session.project)
+        if rest is not None:
+            self.session.apply(Message("edit.leave_out"), rest.project)
 
     def _project_changed(self, change: Change) -> None:
         if not change.opened and self.is_open:
@@ -473,10 +493,14 @@ class Files(QObject):
                 return
             self._report(lambda autosave: autosave.written(writing, written))
             self._schedule()
+            if written.without is None:
+                self._warned.discard("autosave.without")
             if self.autosave.has(writing.project):
                 self.saved_s, self.autosaved, self.risk = time.monotonic(), True, None
                 if written.warning is not None:
                     self.warn_once(written.warning)
+                if written.without is not None and self.warn_once(written.without):
+                    self.unsaveable.emit(written.without)
             self.changed.emit()
 
         def failed(error: AppError) -> None:
@@ -488,11 +512,13 @@ class Files(QObject):
 
         self.session.tasks.run(Message("work.autosave"), work, done, failed, ended=ended)
 
-    def warn_once(self, message: Message) -> None:
-        """Warn of something that autosaves meet again every few seconds."""
-        if message.id not in self._warned:
-            self._warned.add(message.id)
-            self.session.notice(message, Severity.WARNING)
+    def warn_once(self, message: Message) -> bool:
+        """Warn of something that autosaves meet again every few seconds; whether it is the first time."""
+        if message.id in self._warned:
+            return False
+        self._warned.add(message.id)
+        self.session.notice(message, Severity.WARNING)
+        return True
 
     def _report(self, say: Callable[[Autosave], None]) -> None:
         if self.autosave is None:

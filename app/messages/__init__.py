@@ -92,6 +92,11 @@ PITCHES: Final[dict[str, tuple[str, ...]]] = {
 """Arguments that are MIDI numbers of pitches: they are named, in the editor as its user chose."""
 
 
+DETAILED: Final = frozenset(
+    {"table.invalid", "project.invalid", "project.cannot_save", "project.not_storable", "autosave.without"}
+)
+"""Messages with a detail that `app.messages.details` knows."""
+
 TEXTS: Final = frozenset({"parameter", "variant", "beside", "presentation", "aspect", "scale"})
 """Arguments that may be ids of texts themselves."""
 
@@ -121,7 +126,7 @@ def text(message: Message, language: str = "en") -> str:
     arguments = dict(message.arguments)
     for name in PITCHES.get(message.id, ()):
         arguments[name] = pitch_name(float(arguments[name]))
-    if message.id == "table.invalid":
+    if message.id in DETAILED:
         arguments["detail"] = detail_text(str(arguments["detail"]), language)
     if "touch" in arguments:
         arguments["touch"] = touch_name(str(arguments["touch"]), language)

@@ -1,4 +1,5 @@
-"""What is wrong with a table, in Japanese: what schemas and the checks of `metadata` say; the rest stays as it is."""
+"""Details of what is wrong with a table or a project, in Japanese: those of schemas and of the checks of `metadata` and
+`app.project`; any other stays as it is."""
 
 from __future__ import annotations
 
@@ -55,14 +56,42 @@ _JAPANESE: Final = tuple(
             "表情だけに使えます。ジェスチャーには音符の位置を指定してください",
         ),
         (r"the mouth belongs to the embouchure", "口はアンブシュアが動かします"),
+        (r"must be from (\S+) to (\S+)", r"\1～\2 の範囲にしてください"),
+        (r"at most (\d+) characters", r"最大 \1 文字です"),
+        (r"must have from (\d+) to (\d+) characters", r"\1～\2 文字にしてください"),
+        (r"must be Unicode text", "Unicode の文字にしてください"),
+        (r"must be the path of a file", "ファイルのパスにしてください"),
+        (r"must be (\S+)", r"\1 にしてください"),
+        (r"must be at most (\S+)", r"\1 以下にしてください"),
+        (r"must be more than 0 and at most (\S+)", r"0 より大きく、\1 以下にしてください"),
+        (r'must be empty or like "#3366cc"', '空にするか、"#3366cc" のように書いてください'),
+        (r"possible: (.*)", r"使える値: \1"),
+        (r"there is no channel (.*); possible: (.*)", r"チャンネル \1 はありません。使えるもの: \2"),
+        (r"there is no (part|take|player) (.*)", r"\2 はありません（\1）"),
+        (r"there is no player of this id", "この id の奏者はいません"),
+        (r"there is no dancer of this id", "この id のダンサーはいません"),
+        (r"ticks must ascend", "ティックは昇順にしてください"),
+        (r"must be before the end", "終わりより前にしてください"),
+        (r"would come back from the file as another value", "ファイルから読むと別の値になります"),
+        (r"unknown key", "この項目はありません"),
     )
 )
+_NAME = r"""('.*?'|".*?")"""
+_WHERE: Final = re.compile(rf"(.*) \((?:(player|dancer) {_NAME})?(?:, )?(?:bar (-?\d+), )?(?:(\w+) {_NAME})?\)")
+_WHO: Final = {"player": "奏者", "dancer": "ダンサー"}
 
 
 def detail_text(detail: str, language: str) -> str:
     """What is wrong, in a language."""
     if language != "ja":
         return detail
+    place = _WHERE.fullmatch(detail)
+    if place is not None and (place[2] or place[5]):
+        what, who, name, bar, kind, correction = place.groups()
+        said = [f"{_WHO[who]} {name}"] if who else []
+        said += [f"{bar} 小節"] if bar else []
+        said += [f"{kind} {correction}"] if kind else []
+        return f"{detail_text(what, language)}（{'、'.join(said)}）"
     for pattern, wording in _JAPANESE:
         found = pattern.fullmatch(detail)
         if found is not None:

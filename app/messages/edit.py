@@ -11,6 +11,7 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
     "edit.estimate_offset": ("Estimate Audio Offset", "音源のオフセットを推定"),
     "edit.fit_tempo": ("Fit Offset and Tempo to Audio", "オフセットとテンポを音源に合わせる"),
     "edit.follow_recording": ("Follow Recording", "テンポを音源に追従"),
+    "edit.leave_out": ("Remove What Cannot Be Saved", "保存できない値を外す"),
     "edit.load_metadata": ("Load Metadata from {file}", "{file} からメタデータを読み込み"),
     "edit.pin_beat": ("Pin Beat to Audio", "拍を音源に固定"),
     "edit.remove_audio": ("Remove Audio", "音源を外す"),

@@ -124,6 +124,16 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
             "すぐにプロジェクトを別のフォルダーに保存してください"
         ),
     ),
+    "autosave.without": (
+        (
+            "autosaved without {count:a value|{count} values} that cannot be saved: {place}: {detail}; undo the last "
+            "edit or remove the value"
+        ),
+        (
+            "保存できない値（{count} 個）を除いて自動保存しました: {place}: {detail}。"
+            "直前の編集を元に戻すか、値を外してください"
+        ),
+    ),
     "presence.refused": (
         (
             "{file} cannot be written ({reason}): new projects are not autosaved until they are saved, and unsaved "

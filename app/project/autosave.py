@@ -7,7 +7,10 @@ A project that has no file yet is kept in the user's state folder, each running 
 second editor has open, because two editors must not write one autosave; one beside whose file a crash left work that
 the user has not decided about; and one whose folder refuses (read-only, full, gone, not answering) until it does not.
 
-Messages (warnings): ``autosave.elsewhere``, ``autosave.refused``, ``autosave.nowhere``.
+A project that cannot be saved, which no edit should make, is written without the value that is at fault.
+
+Messages (warnings): ``autosave.elsewhere``, ``autosave.refused``, ``autosave.nowhere``, ``autosave.without`` (place,
+detail, count).
 """
 
 from __future__ import annotations
@@ -15,16 +18,17 @@ from __future__ import annotations
 import os
 import secrets
 import threading
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Final
 
 from app.encoding import stored
-from app.errors import FileError, Message
+from app.errors import Argument, FileError, Message
 from app.formats.atomic import atomic_write
 from app.project.model import Project
 from app.project.presence import Presence, is_open_elsewhere, remove
-from app.project.storage import AUTOSAVE, Autosaved, encode_autosave
+from app.project.salvage import salvaged
+from app.project.storage import AUTOSAVE, Autosaved, encode_autosave, load
 
 DELAY_S: Final = 4.0
 """From the first change that is in no file. With the writing it is at most five seconds of work that a crash costs."""
@@ -51,11 +55,17 @@ class Written:
         All files that hold this work now, of whatever generation.
     warning : Message or None
         Why it is not in its usual place: ``autosave.elsewhere``.
+    without : Message or None
+        What is not in it because it cannot be saved: ``autosave.without``.
+    project : Project or None
+        The project in it.
     """
 
     path: Path | None
     held: frozenset[Path]
     warning: Message | None = None
+    without: Message | None = None
+    project: Project | None = None
 
 
 class _OwnPlace:
@@ -76,6 +86,8 @@ class Writing:
         Files that hold earlier generations of this work: they may be replaced, and go once there is a newer one.
     asks_usual : bool
         Whether the place beside the project's file is tried first; not while it keeps another writing waiting.
+    former : Project or None
+        What was written last of the work.
     """
 
     project: Project
@@ -85,15 +97,42 @@ class Writing:
     held: frozenset[Path]
     asks_usual: bool
     own_place: _OwnPlace
+    former: Project | None = None
 
     def run(self) -> Written:
-        """Write it; what was there is replaced only when the new one is whole.
+        """Write it; what was there is replaced only when the new one is whole. What cannot be saved is left out.
 
         Raises
         ------
         FileError
-            ``autosave.refused``, ``autosave.nowhere``: no place takes it. ``project.cannot_save``.
+            ``autosave.refused``, ``autosave.nowhere``: no place takes it. ``project.cannot_save``: nothing of it can
+            be saved.
         """
+        try:
+            return self._run()
+        except FileError as error:
+            if error.message.id != "project.cannot_save":
+                raise
+            rest = salvaged(self.project, self.former if self.former is not None else self._saved())
+            if rest is None:
+                raise
+            place, detail = (str(error.message.arguments[name]) for name in ("place", "detail"))
+            if detail.endswith(")"):
+                # Player, bar and correction are named there; of the key path the value's own name is enough.
+                place = place.rpartition("].")[2]
+            without: dict[str, Argument] = {"place": place, "detail": detail, "count": max(len(rest.left_out), 1)}
+            written = replace(self, project=rest.project)._run()
+            return replace(written, without=Message("autosave.without", without))
+
+    def _saved(self) -> Project | None:
+        """The project as its file has it."""
+        try:
+            return None if self.document is None else load(self.document)
+        except FileError:
+            # Not there or damaged: there is nothing to take the place of what cannot be saved.
+            return None
+
+    def _run(self) -> Written:
         beside, refusal = self._usual(), ""
         if beside is not None:
             try:
@@ -143,7 +182,7 @@ class Writing:
             for one in former:
                 remove(one)
             former = frozenset(filter(os.path.lexists, former))
-        return Written(path, former | {path}, warning)
+        return Written(path, former | {path}, warning, project=self.project)
 
 
 def _reason(error: FileError | OSError) -> str:
@@ -173,6 +212,7 @@ class Autosave:
         """Another work: what was taken in the one before is nothing in this one."""
         self._project: Project | None = None
         self._written: Project | None = None
+        self._former: Project | None = None
         self._changed_s: float | None = None
         self._base = base
         self._work = secrets.token_hex(8) if former is None else former.work
@@ -265,7 +305,10 @@ class Autosave:
         self._generation += 1
         facts = Autosaved(self._work, self._generation, self.presence.token, stored(self._document or ""), self._base)
         asks_usual = not self._pending
-        writing = Writing(self._project, facts, self._document, self.presence, self._held, asks_usual, self._own_place)
+        own = self._own_place
+        writing = Writing(
+            self._project, facts, self._document, self.presence, self._held, asks_usual, own, self._former
+        )
         self._pending[writing] = now_s
         return writing
 
@@ -288,6 +331,7 @@ class Autosave:
                 self._written, self._changed_s = None, 0.0
             return
         self._newest, self._written, self._held = writing.facts.generation, writing.project, written.held
+        self._former = written.project
         if self._project is writing.project:
             self._changed_s = None
         self._report(path)

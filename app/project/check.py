@@ -67,10 +67,19 @@ def faults(project: Project, before: Project | None = None) -> Iterator[Fault]:
 
 
 def require_sound(project: Project, before: Project | None = None) -> None:
-    """Raise UsageError ``project.not_storable`` for a project that could not be saved and read again; ``before`` as in
-    `faults`."""
-    for place, detail in faults(project, before):
-        raise UsageError("project.not_storable", place=place, detail=detail)
+    """Raise UsageError ``project.not_storable`` for a project that could not be saved and read again.
+
+    Parameters
+    ----------
+    before : Project, optional
+        What the project was made from. A fault that it has too is not the edit's, and no other edit is refused for it.
+    """
+    known: frozenset[Fault] | None = None
+    for fault in faults(project, before):
+        if known is None:
+            known = frozenset() if before is None else frozenset(faults(before))
+        if fault not in known:
+            raise UsageError("project.not_storable", place=fault[0], detail=fault[1])
 
 
 def _read_faults(project: Project, before: Project | None) -> Iterator[Fault]:

@@ -3,17 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import Final
 
-from app.plan.additive_curve import CHANNELS, MOST_KEYS, AdditiveCurve, CurveKey
+from app.errors import shortened
+from app.plan.additive_curve import BODY_CHANNELS, CHANNELS, FACE, MOST_KEYS, AdditiveCurve, CurveKey
 from app.project import limits
 from app.project.fault import Fault, between, text_faults
+
+_POSSIBLE: Final = f"{', '.join(BODY_CHANNELS)}, {FACE}MORPH (an ARKit morph target)"
 
 
 def curve_faults(curve: AdditiveCurve, place: str) -> Iterator[Fault]:
     """What is wrong with one curve."""
     channel = CHANNELS.get(curve.channel)
     if channel is None:
-        yield f"{place}.channel", f"there is no channel {curve.channel!r}; possible: {', '.join(CHANNELS)}"
+        yield f"{place}.channel", f"there is no channel {shortened(curve.channel, 40)!r}; possible: {_POSSIBLE}"
         return
     if curve.title:
         yield from text_faults(f"{place}.title", curve.title)

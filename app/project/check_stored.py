@@ -91,7 +91,7 @@ def _groups(project: Project) -> Iterator[_Group]:
     for name, kind in _hints(Score).items():
         if name != _PARTS:
             yield _Group(f"score.{name}", (getattr(score, name),), kind, is_list=False)
-    yield _Group("score.parts", score.parts, Part)
+    yield _Group(f"score.{_PARTS}", score.parts, Part)
     yield _Group("players", project.players, Player)
     for player, corrections in project.corrections.items():
         yield _Group(f"corrections[{player!r}]", corrections, Correction)

@@ -486,6 +486,7 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
     "window.remove_it": ("Remove", "外す"),
     "window.replace_it": ("Replace", "上書き"),
     "window.save_as": ("Save As...", "名前を付けて保存..."),
+    "window.undo_last_edit": ("Undo Last Edit", "直前の編集を元に戻す"),
     "window.search": ("Search...   {keys}", "検索...   {keys}"),
     "window.search_commands": ("Search commands", "コマンドを検索"),
     "window.there_is_unsaved_work_on": (

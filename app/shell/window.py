@@ -21,6 +21,7 @@ from app.editor.session import Session
 from app.editor.settings import Settings
 from app.editor.tasks import ThreadTasks
 from app.encoding import is_text, shown
+from app.errors import Message
 from app.project.recovery import Recoverable
 from app.project.storage import SUFFIX
 from app.rig.read_figure import SUFFIXES as CHARACTER_SUFFIXES
@@ -173,6 +174,7 @@ class Window(Retranslated, QMainWindow):
         self._files.missing.connect(self._ask_for_media)
         self._files.silent.connect(self._say_why_no_one_plays)
         self._files.overtaken.connect(self._ask_to_save_over)
+        self._files.unsaveable.connect(self._say_what_cannot_be_saved)
         self.session.theme_changed.connect(self._apply_theme)
         picture = self.viewport.findChild(QOpenGLWidget)
         if isinstance(picture, QOpenGLWidget):
@@ -343,6 +345,14 @@ class Window(Retranslated, QMainWindow):
                 (self.tr("window.save_as"), self.tr("window.replace_it")),
             ),
             (partial(self._files.save_as, then), partial(self._files.save_over, then)),
+        )
+
+    def _say_what_cannot_be_saved(self, message: Message) -> None:
+        answers = {"window.undo_last_edit": self._table.actions["edit.undo"].trigger}
+        if self._files.can_leave_out:
+            answers["window.remove_it"] = self._files.leave_out
+        self.banner.ask(
+            lambda: (sentence(message, self.session), tuple(map(self.tr, answers))), tuple(answers.values())
         )
 
     def _find_media(self, path: Path) -> None:

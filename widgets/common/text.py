@@ -8,7 +8,8 @@ from collections.abc import Callable, Mapping
 from app.editor.session import Session
 from app.editor.translated import tr
 from app.errors import Argument, Message
-from app.messages import PITCHES, WORDINGS, filled
+from app.messages import DETAILED, PITCHES, WORDINGS, filled
+from app.messages.details import detail_text
 from app.messages.pitches import pitch_name
 from app.plan.additive_curve import CHANNELS
 from app.plan.problem_lines import NOTES, note_of, note_place
@@ -18,7 +19,7 @@ from instrument_maps.library import all_maps
 from instrument_maps.model import PARTS
 from widgets.common.channel_names import channel_name
 from widgets.common.event_names import kind_name, pose_name
-from widgets.common.instrument_name import instrument_name
+from widgets.common.instrument_name import instrument_name, language
 from widgets.common.pitch import pitch_text
 
 
@@ -62,6 +63,8 @@ def _reported(message: Message, name: str, session: Session | None, player_id: s
             return _anchor(session, value, player, is_anchor=name == "anchor")
     if name == "parameter":
         return parameter_text(str(value))
+    if name == "detail" and message.id in DETAILED:
+        return detail_text(str(value), language())
     words = _WORDS.get(name)
     return words().get(str(value), str(value).replace("_", " ")) if words is not None else value
 

@@ -9,6 +9,7 @@ import subprocess
 import sys
 import threading
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, BinaryIO
 
@@ -25,7 +26,9 @@ from app.formats import atomic
 from app.project import autosave as autosave_module
 from app.project.autosave import Autosave, autosave_path
 from app.project.edit.piece import new_piece, set_title
+from app.project.model import Project
 from app.project.presence import Presence
+from app.project.recording import AudioTrack
 from app.project.recovery import Recoverable, load_work, recoverable
 from app.project.storage import load, save
 from tests.gui.shell.conftest import Answers
@@ -261,6 +264,7 @@ from PySide6.QtCore import QCoreApplication, QTimer
 from app.errors import Message
 from app.project.autosave import Autosave
 from app.project.edit.piece import new_piece, set_title
+from app.project.model import Project
 from app.project.presence import Presence
 from app.editor.files import Files
 from app.editor.settings import Settings
@@ -304,3 +308,42 @@ def test_an_editor_that_is_killed_loses_no_more_than_the_delay(tmp_path: Path) -
     project, _ = load_work(item)
     # A second for the machine, as the editor's own delay has.
     assert done_s - float(project.score.title) < 0.4 + 1.0
+
+
+def broken(project: Project) -> Project:
+    """A recording at no time that a file can hold: what no edit makes."""
+    return replace(project, audio=AudioTrack("/music/a.wav", float("nan")))
+
+
+def test_what_cannot_be_saved_is_named_and_the_rest_is_autosaved(
+    desk: Desk, clock: Clock, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    said: list[Message] = []
+    desk.files.unsaveable.connect(said.append)
+    desk.edit("One")
+    with monkeypatch.context() as unchecked:
+        unchecked.setattr("app.project.document.require_sound", lambda *projects: None)
+        assert desk.session.attempt(Message("edit.set_audio"), broken)
+    for title in ("Two", "Three"):
+        desk.edit(title)
+        clock.now_s += 5.0
+        desk.files.tick()
+        assert load(autosave_path(desk.document)).score.title == title
+    # Once, and no more until something else is the matter.
+    assert [message.id for message in said] == ["autosave.without"]
+    assert said[0].arguments["place"] == "audio.offset_s"
+    assert desk.files.risk is None
+    desk.files.save()
+    assert [message.id for message in said[1:]] == ["project.cannot_save"]
+    assert desk.files.can_leave_out
+    desk.files.leave_out()
+    desk.files.save()
+    assert desk.files.is_saved
+    assert load(desk.document).score.title == "Three"
+
+
+def test_an_edit_that_could_not_be_saved_is_refused_with_its_reason(desk: Desk) -> None:
+    project = desk.session.project
+    assert not desk.session.attempt(Message("edit.set_audio"), broken)
+    assert desk.session.project is project
+    assert desk.reported[-1].id == "project.not_storable"

@@ -246,7 +246,7 @@ def test_a_folder_that_refuses_the_work_does_not_lose_it(
     writing = autosave.due(4.0)
     assert writing is not None
     written = made(autosave, writing, 4.0)
-    assert written == Written(autosave_path(document), frozenset((autosave_path(document),)))
+    assert (written.path, written.held, written.warning) == (autosave_path(document), {autosave_path(document)}, None)
     assert not autosave.presence.own_path.exists()
 
 

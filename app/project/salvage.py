@@ -1,0 +1,96 @@
+"""The most of a project that can be saved, where the whole cannot: nothing else is lost with one bad value."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import replace
+from itertools import islice
+from typing import Any, Final, NamedTuple, TypeVar
+
+from app.project.check import faults
+from app.project.fault import Fault
+from app.project.model import Project
+
+T = TypeVar("T")
+
+_MOST: Final = 1000
+"""Faults looked at; with more of them the whole value of a field is at fault."""
+_FIELD: Final = re.compile(r"\w+", re.ASCII)
+_FIELDS: Final = {"edited_notes": "read_notes"}
+"""Fields of a project that its file calls otherwise."""
+
+
+class Salvaged(NamedTuple):
+    """A project that can be saved.
+
+    Attributes
+    ----------
+    left_out : tuple of Fault
+        What was wrong with the values that are not in it, or in it as they were before.
+    """
+
+    project: Project
+    left_out: tuple[Fault, ...]
+
+
+def salvaged(project: Project, former: Project | None = None) -> Salvaged | None:
+    """The project without the corrections, expressions and other values that cannot be saved.
+
+    Parameters
+    ----------
+    former : Project, optional
+        An earlier value of it that can be saved: whatever cannot be left out is taken from there.
+
+    Returns
+    -------
+    Salvaged or None
+        None where nothing can be saved without a former value.
+    """
+    found = tuple(islice(faults(project), _MOST))
+    places = [place for place, _ in found]
+    less = _without(project, places)
+    if _is_sound(less):
+        return Salvaged(less, found)
+    if former is None or not _is_sound(former):
+        return None
+    names = {name for place, _ in faults(less) if (name := _field(place)) is not None}
+    mixed = replace(less, **{name: getattr(former, name) for name in names})
+    return Salvaged(mixed if _is_sound(mixed) else former, found)
+
+
+def _is_sound(project: Project) -> bool:
+    return next(faults(project), None) is None
+
+
+def _without(project: Project, places: list[str]) -> Project:
+    return replace(
+        project,
+        corrections=_kept_items("corrections", project.corrections, places),
+        dance_corrections=_kept_items("dance_corrections", project.dance_corrections, places),
+        expressions=_kept("expressions", project.expressions, places),
+        audio=None if _is_at("audio", places) else project.audio,
+        video=None if _is_at("video", places) else project.video,
+        source="" if _is_at("source", places) else project.source,
+    )
+
+
+def _kept_items(name: str, items: Mapping[str, tuple[T, ...]], places: list[str]) -> dict[str, tuple[T, ...]]:
+    kept = {key: _kept(f"{name}[{key!r}]", values, places) for key, values in items.items()}
+    return {key: values for key, values in kept.items() if values and f"{name}[{key!r}]" not in places}
+
+
+def _kept(place: str, values: tuple[T, ...], places: list[str]) -> tuple[T, ...]:
+    return tuple(value for index, value in enumerate(values) if not _is_at(f"{place}[{index}]", places))
+
+
+def _is_at(place: str, places: list[str]) -> bool:
+    """Whether one of the places is this one, or lies in it."""
+    return any(one == place or one.startswith((f"{place}.", f"{place}[")) for one in places)
+
+
+def _field(place: str) -> str | None:
+    """The field of a project in which a place lies."""
+    found = _FIELD.match(place)
+    name: Any = None if found is None else _FIELDS.get(found[0], found[0])
+    return name if name in Project.__dataclass_fields__ else None
