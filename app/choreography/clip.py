@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
+from typing import Final
 
 import numpy as np
 import numpy.typing as npt
@@ -13,6 +14,9 @@ from app.rig.model import Skeleton
 from app.rig.skeleton import JointTransforms, forward
 
 FloatArray = npt.NDArray[np.float64]
+
+KEPT_FPS: Final = Fraction(60)
+"""Frame rate of the motions that a model is learned from and keeps."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -17,6 +17,7 @@ from app.choreography.clip import MotionClip
 from app.rig import quaternion
 
 FloatArray = npt.NDArray[np.float64]
+IntArray = npt.NDArray[np.int64]
 
 LEAST_RAD: Final = 0.35
 """A turn between two frames that is smaller than this (20 degrees) is no flip."""
@@ -90,53 +91,113 @@ def mend_steps(clip: MotionClip) -> tuple[MotionClip, tuple[Flip, ...]]:
         Of the hips, with the frames in which lean and height were changed; all later ones are only turned and moved.
     """
     turns = _angle(clip.rotations[:-1, 0], clip.rotations[1:, 0])
+    following = _Following(clip)
     found = []
     for at in range(1, len(turns) - 1):
         beside = STEP_TIMES * max(turns[at - 1], turns[at + 1])
         if (turns[at] - beside) * float(clip.fps) > LEAST_STEP_RAD_S:
-            clip = _go_on(clip, at)
-            found.append(Flip("hips", at + 1, min(len(clip), at + 1 + round(STEP_FADE_S * float(clip.fps)))))
-    return clip, tuple(found)
+            following.go_on(at)
+            found.append(Flip("hips", at + 1, min(len(clip), at + 1 + following.fade)))
+    return (following.clip(), tuple(found)) if found else (clip, ())
 
 
-def _go_on(clip: MotionClip, last: int) -> MotionClip:
-    """The clip whose frames after ``last`` go on from there at the speed it had."""
-    hips, rotations = clip.hips_m.copy(), clip.rotations.copy()
-    goes_on = hips[last] + (hips[last] - hips[last - 1])
-    turn = quaternion.multiply(rotations[last, 0], quaternion.conjugate(rotations[last - 1, 0]))
-    missing = quaternion.multiply(
-        quaternion.multiply(turn, rotations[last, 0]), quaternion.conjugate(rotations[last + 1, 0])
-    )
-    lean, yaw = quaternion.swing_twist(missing, (0.0, 1.0, 0.0))
-    times = np.arange(len(clip) - last - 1) / (STEP_FADE_S * float(clip.fps))
-    left = (1.0 - np.minimum(times, 1.0)) ** 2 * (1.0 + 2.0 * np.minimum(times, 1.0))
-    after = hips[last + 1 :]
-    rise_m = goes_on[1] - after[0, 1]
-    moved = quaternion.rotate(yaw, (after - after[0]) * (1.0, 0.0, 1.0)) + goes_on * (1.0, 0.0, 1.0)
-    hips[last + 1 :] = moved + (after[:, 1] + left * rise_m)[:, None] * (0.0, 1.0, 0.0)
-    leaning = quaternion.from_rotation_vector(left[:, None] * quaternion.to_rotation_vector(lean))
-    turned = quaternion.multiply(leaning, quaternion.multiply(yaw, rotations[last + 1 :, 0]))
-    side = np.sign(float(turned[0] @ rotations[last, 0])) or 1.0
-    rotations[last + 1 :, 0] = side * turned
-    return replace(clip, hips_m=hips, rotations=rotations)
+class _Following:
+    """Hips that go on at their speed after steps. A step turns and moves all later frames, which wait for that until
+    another step or the end: so steps cost what they change, however many they are.
+
+    Attributes
+    ----------
+    fade : int
+        Frames in which what a step leaves of lean and height goes.
+    """
+
+    def __init__(self, clip: MotionClip) -> None:
+        self._clip = clip
+        self._hips, self._turns = clip.hips_m.copy(), clip.rotations[:, 0].copy()
+        self._done = 0
+        self._turn, self._way = quaternion.IDENTITY, np.zeros(3)
+        self.fade = round(STEP_FADE_S * float(clip.fps))
+
+    def _move(self, stop: int) -> None:
+        """Turn and move the frames before ``stop`` that still wait for it."""
+        some = slice(self._done, max(stop, self._done))
+        self._hips[some] = quaternion.rotate(self._turn, self._hips[some]) + self._way
+        self._turns[some] = quaternion.multiply(self._turn, self._turns[some])
+        self._done = some.stop
+
+    def go_on(self, last: int) -> None:
+        """Let the frames after ``last`` go on from there at the speed it had."""
+        self._move(min(last + 3 + self.fade, len(self._hips)))
+        hips, turns = self._hips, self._turns
+        goes_on = hips[last] + (hips[last] - hips[last - 1])
+        turn = quaternion.multiply(turns[last], quaternion.conjugate(turns[last - 1]))
+        missing = quaternion.multiply(quaternion.multiply(turn, turns[last]), quaternion.conjugate(turns[last + 1]))
+        lean, yaw = quaternion.swing_twist(missing, (0.0, 1.0, 0.0))
+        faded = slice(last + 1, self._done)
+        times = np.arange(faded.stop - faded.start) / (STEP_FADE_S * float(self._clip.fps))
+        left = (1.0 - np.minimum(times, 1.0)) ** 2 * (1.0 + 2.0 * np.minimum(times, 1.0))
+        rise_m = goes_on[1] - hips[last + 1, 1]
+        flat = np.array((1.0, 0.0, 1.0))
+        way = goes_on * flat - quaternion.rotate(yaw, hips[last + 1] * flat)
+        hips[faded] = quaternion.rotate(yaw, hips[faded]) + way + (left * rise_m)[:, None] * (0.0, 1.0, 0.0)
+        leaning = quaternion.from_rotation_vector(left[:, None] * quaternion.to_rotation_vector(lean))
+        turned = quaternion.multiply(leaning, quaternion.multiply(yaw, turns[faded]))
+        side = np.sign(float(turned[0] @ turns[last])) or 1.0
+        turns[faded] = side * turned
+        self._turn = side * quaternion.multiply(yaw, self._turn)
+        self._way = quaternion.rotate(yaw, self._way) + way
+
+    def clip(self) -> MotionClip:
+        """The clip with these hips."""
+        self._move(len(self._hips))
+        rotations = self._clip.rotations.copy()
+        rotations[:, 0] = self._turns
+        return replace(self._clip, hips_m=self._hips, rotations=rotations)
 
 
 def _mend(turns: FloatArray, name: str, longest: int, clip: MotionClip) -> list[Flip]:
     """Flips of one segment (F, 4), mended in place."""
     least = max(LEAST_RAD, LEAST_RAD_S / float(clip.fps))
-    found = []
-    for before in map(int, np.flatnonzero(_angle(turns[:-1], turns[1:]) > least)):
+    jumps = _angle(turns[:-1], turns[1:])
+    there = np.flatnonzero(jumps > least)
+    found, changed = [], 0
+    for before, first in zip(there.tolist(), _returns(turns, there, jumps, longest, least).tolist(), strict=True):
+        # What was seen of frames that were replaced since is out of date.
+        stop = first if before >= changed else _return(turns, before, longest, least)
+        if stop <= before:
+            continue
         frame = before + 1
-        for stop in range(frame + 1, min(frame + longest, len(turns) - 1) + 1):
-            jumps = min(_angle(turns[before], turns[frame]), _angle(turns[stop - 1], turns[stop]))
-            if jumps > least and _angle(turns[before], turns[stop]) < RETURN_PART * jumps:
-                shares = np.arange(1, stop - before) / (stop - before)
-                mended = quaternion.slerp(turns[before], turns[stop], shares)
-                sides = np.where(mended @ turns[before] < 0.0, -1.0, 1.0)
-                turns[frame:stop] = mended * sides[:, None]
-                found.append(Flip(name, frame, stop))
-                break
+        shares = np.arange(1, stop - before) / (stop - before)
+        mended = quaternion.slerp(turns[before], turns[stop], shares)
+        sides = np.where(mended @ turns[before] < 0.0, -1.0, 1.0)
+        turns[frame:stop] = mended * sides[:, None]
+        found.append(Flip(name, frame, stop))
+        changed = stop
     return found
+
+
+def _returns(turns: FloatArray, there: IntArray, jumps: FloatArray, longest: int, least: float) -> IntArray:
+    """Where a segment is back after it turned away, for each of some frames before that; -1 where it is not."""
+    stops = np.full(len(there), -1)
+    for length in range(2, longest + 2):
+        open_ = np.flatnonzero((stops < 0) & (there + length < len(turns)))
+        before = there[open_]
+        smaller = np.minimum(jumps[before], jumps[before + length - 1])
+        apart = _angle(turns[before], turns[before + length])
+        back = open_[(smaller > least) & (apart < RETURN_PART * smaller)]
+        stops[back] = there[back] + length
+    return stops
+
+
+def _return(turns: FloatArray, before: int, longest: int, least: float) -> int:
+    """The same for one frame; the frame itself where it does not come back."""
+    some = turns[before : before + longest + 2]
+    if float(_angle(some[0], some[1])) <= least:
+        return before
+    jumps = _angle(some[:-1], some[1:])
+    smaller = np.minimum(jumps[0], jumps[1:])
+    back = np.flatnonzero((smaller > least) & (_angle(some[0], some[2:]) < RETURN_PART * smaller))
+    return before + 2 + int(back[0]) if len(back) else before
 
 
 def _angle(a: FloatArray, b: FloatArray) -> FloatArray:

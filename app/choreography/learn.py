@@ -11,7 +11,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from fractions import Fraction
 from pathlib import Path
 from typing import Final
 
@@ -19,7 +18,7 @@ import numpy as np
 import numpy.typing as npt
 
 from app.choreography.basic_motions import classify
-from app.choreography.clip import MotionClip
+from app.choreography.clip import KEPT_FPS, MotionClip
 from app.choreography.cuts import Cut, Segmentation, segment
 from app.choreography.cuts_by_hand import check_cuts
 from app.choreography.features import features
@@ -34,7 +33,7 @@ from app.errors import Message, UsageError
 FloatArray = npt.NDArray[np.float64]
 IntArray = npt.NDArray[np.int64]
 
-FPS: Final = Fraction(60)
+FPS: Final = KEPT_FPS
 """Of the motion in a model."""
 SMOOTHING: Final = 1.0
 """Observations added to every distribution, see `app.choreography.hidden_markov.count`."""

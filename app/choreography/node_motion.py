@@ -4,7 +4,7 @@ Nodes have turns of their own at rest, and scales; joints of BVH files have neit
 turns as the node turns away from its rest, below one root for all. At rest it is where its skin was bound, or where the
 file has it without animation. The longest animation counts.
 
-Messages: ``motion.no_animation``, ``motion.too_long`` and what the readers say.
+Messages: ``motion.no_animation``, those of `app.formats.motion_limits` and what the readers say.
 """
 
 from __future__ import annotations
@@ -23,6 +23,7 @@ from app.formats.bvh import BvhClip
 from app.formats.fbx.foreign import read_foreign_motion
 from app.formats.gltf.animation import sampled
 from app.formats.gltf.model import GltfAnimation, GltfModel
+from app.formats.motion_limits import require_frames
 from app.formats.rates import exact_rate
 from app.rig import quaternion
 from app.rig.figure_build import SINGULAR, nearest_rotations, rest_pose
@@ -31,8 +32,6 @@ from app.rig.source import read_source
 
 FloatArray = npt.NDArray[np.float64]
 
-MOST_TRANSFORMS: Final = 2**23
-"""Frames times nodes: a quarter of an hour of 150 nodes at 60 frames per second."""
 MOST_FPS: Final = 240.0
 LEAST_BAKED_FPS: Final = 20.0
 """Keys that are farther apart were set by hand: what is between them is sampled at `OTHERWISE_FPS`."""
@@ -71,6 +70,8 @@ def read_fbx_motion(path: Path) -> BvhClip:
     content = read_foreign_motion(path)
     if len(content.transforms) < 2:
         raise FileError("motion.no_animation", file=str(path))
+    frames, nodes = content.transforms.shape[:2]
+    require_frames(str(path), (frames - 1) / content.fps, float(content.fps), nodes, path.stat().st_size)
     parents = [node.parent for node in content.nodes]
     posed = np.array([node.world_from_node for node in content.nodes])
     bound = {node: world for node, world in content.bound if abs(np.linalg.det(world)) > SINGULAR}
@@ -97,9 +98,8 @@ def read_gltf_motion(path: Path) -> BvhClip:
         raise FileError("motion.no_animation", file=str(path))
     first_s = min(channel.times_s[0] for channel in animation.channels)
     fps = _usual_fps(animation)
+    require_frames(str(path), _length_s(animation), float(fps), len(gltf.nodes), path.stat().st_size)
     count = round(_length_s(animation) * float(fps)) + 1
-    if count * len(gltf.nodes) > MOST_TRANSFORMS:
-        raise FileError("motion.too_long", file=str(path))
     values = _sampled(gltf, animation, first_s + np.arange(count) / float(fps))
     parents = [node.parent for node in gltf.nodes]
     rest = rest_pose(parents, source.world_from_node, bind_pose(source))
@@ -133,7 +133,9 @@ def _sampled(gltf: GltfModel, animation: GltfAnimation, times_s: FloatArray) -> 
     for path, (field, width) in kept.items():
         still = np.array([getattr(node, field) for node in gltf.nodes]).reshape(-1, width)
         values[path] = np.tile(still, (len(times_s), 1, 1))
-    for channel in animation.channels:
+    # A file may name one target many times; the last one holds.
+    targets = {(channel.node, channel.path): channel for channel in animation.channels}
+    for channel in targets.values():
         values[channel.path][:, channel.node] = sampled(channel, times_s)
     return [values[path] for path in kept]
 

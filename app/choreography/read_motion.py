@@ -6,7 +6,8 @@ world rotation is that of the file, its offset the mean over the clip of where i
 carries it.
 
 Messages: ``motion.far``, ``motion.format``, ``motion.incomplete``, ``motion.rate``, ``motion.no_unit``,
-``motion.lead_in``, ``motion.flips``, ``motion.doubtful``, ``motion.apart``.
+``motion.lead_in``, ``motion.flips``, ``motion.doubtful``, ``motion.apart``, ``motion.milliseconds`` and those of
+`app.formats.motion_limits`.
 """
 
 from __future__ import annotations
@@ -23,11 +24,12 @@ import numpy.typing as npt
 from scipy.spatial.transform import Rotation
 
 from app.choreography.body import ENDS, FEET, PARENT_OF, SEGMENTS
-from app.choreography.clip import BodyShape, MotionClip
+from app.choreography.clip import KEPT_FPS, BodyShape, MotionClip
 from app.choreography.flips import Flip, lead_in, mend_flips, mend_steps
 from app.choreography.node_motion import read_fbx_motion, read_gltf_motion
 from app.errors import FileError, Message
 from app.formats.bvh import BvhClip, read_bvh
+from app.formats.motion_limits import require_frames, require_rate
 from app.rig import quaternion
 from app.rig.figure import Figure
 from app.rig.humanoid import JointMapping, map_joints
@@ -75,6 +77,8 @@ class ReadMotion:
         What was mended.
     joints_doubtful : tuple of str
         Whose bones were guessed.
+    milliseconds : float or None
+        See `BvhClip.milliseconds`.
     apart_m : float
         How far from its place in the file, relative to the hips, a joint is at most: a segment keeps its world
         rotation, but its joint has one place on the segment that carries it, also where collars or a neck move.
@@ -90,6 +94,7 @@ class ReadMotion:
     flips: tuple[Flip, ...]
     joints_doubtful: tuple[str, ...]
     apart_m: float
+    milliseconds: float | None = None
 
     @property
     def start_s(self) -> float:
@@ -117,7 +122,12 @@ def read_motion(path: str | os.PathLike[str], fps: Fraction | None = None) -> Re
     reader = readers.get(file.suffix.lower())
     if reader is None:
         raise FileError("motion.format", file=str(file))
-    return motion_of(reader(file), str(file), fps)
+    bvh = reader(file)
+    rate = fps or bvh.fps
+    require_rate(rate, str(file))
+    seconds = (len(bvh.rotations_xyzw) - 1) / float(rate)
+    require_frames(str(file), seconds, float(max(rate, KEPT_FPS)), len(SEGMENTS), file.stat().st_size)
+    return motion_of(bvh, str(file), fps)
 
 
 def guesses(motion: ReadMotion) -> tuple[Message, ...]:
@@ -125,6 +135,8 @@ def guesses(motion: ReadMotion) -> tuple[Message, ...]:
     found = []
     if motion.clip.fps != motion.file_fps:
         found.append(Message("motion.rate", {"rate": str(motion.clip.fps), "said": str(motion.file_fps)}))
+    elif motion.milliseconds is not None:
+        found.append(Message("motion.milliseconds", {"rate": str(motion.file_fps), "said": motion.milliseconds}))
     if not motion.unit:
         found.append(Message("motion.no_unit"))
     if motion.lead_in:
@@ -177,8 +189,9 @@ def motion_of(bvh: BvhClip, file: str, fps: Fraction | None = None) -> ReadMotio
     clip, steps = mend_steps(clip)
     clip = replace(clip, hips_m=clip.hips_m - clip.hips_m[0] * (1.0, 0.0, 1.0))
     return ReadMotion(
-        clip, mapping.profile, unit, unit_m, up, bvh.fps, before, flips + steps, mapping.doubtful, apart_m
-    )
+        clip, mapping.profile, unit, unit_m, up, bvh.fps, before, flips + steps, mapping.doubtful, apart_m,
+        bvh.milliseconds,
+    )  # fmt: skip
 
 
 @dataclass(frozen=True, eq=False)

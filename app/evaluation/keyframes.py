@@ -30,6 +30,7 @@ from app.export.file_names import REPORT, figure_stems
 from app.export.target import normalised_target
 from app.formats.bvh import BvhClip, read_bvh
 from app.formats.files import cannot_read, read_file
+from app.formats.motion_limits import require_rate
 from app.performance.cast import Performer, performer_of
 from app.performance.chunks import Pose
 from app.performance.ensemble import Performance
@@ -176,7 +177,7 @@ def read_keyframes(
     Raises
     ------
     FileError
-        Those of this module, of `app.formats.bvh` and of `app.choreography.node_motion`.
+        Those of this module, of `app.formats.bvh`, `app.formats.motion_limits` and `app.choreography.node_motion`.
     AppError
         A player cannot be seen.
     """
@@ -241,7 +242,10 @@ def _start_s(performance: Performance, folder: Path) -> float:
 def _read(path: Path) -> BvhClip:
     suffix = path.suffix.lower()
     if suffix == ".bvh":
-        return read_bvh(path)
+        clip = read_bvh(path)
+        # Nothing here says that a frame time was taken for milliseconds, so it is refused.
+        require_rate(clip.fps if clip.milliseconds is None else clip.fps / 1000, str(path))
+        return clip
     from app.choreography.node_motion import read_fbx_motion, read_gltf_motion
 
     if suffix == ".fbx":

@@ -37,6 +37,8 @@ _DEEPEST = 512
 _ROWS = 256
 """Frames whose text is made at once."""
 _FREE_ROTATIONS = 2**20
+_MILLISECONDS = (2.0, 200.0)
+"""A frame time in this range would be of 5 to 500 frames per second in milliseconds, and in seconds of no motion."""
 MOST_BYTES = 2**29
 
 
@@ -59,6 +61,8 @@ class BvhClip:
         Relative to the parent.
     translations_cm : mapping of int to ndarray, shape (F, 3)
         Joints below the root that are not always at their offset, relative to the parent; only in files of others.
+    milliseconds : float or None
+        Frame time of a file that has it in milliseconds, which is a mistake; None: it has seconds.
     """
 
     names: tuple[str, ...]
@@ -69,6 +73,7 @@ class BvhClip:
     root_translation_cm: FloatArray
     rotations_xyzw: FloatArray
     translations_cm: Mapping[int, FloatArray] = field(default_factory=dict)
+    milliseconds: float | None = None
 
 
 def write_bvh(path: str | os.PathLike[str], clip: BvhClip) -> None:
@@ -319,15 +324,17 @@ def _motion(motion: str, hierarchy: _Hierarchy, file: str) -> BvhClip:
     root_translation = translations.pop(0)
     for joint in [joint for joint, places in translations.items() if (places == places[0]).all()]:
         offsets[joint] = translations.pop(joint)[0]
+    mistaken = _MILLISECONDS[0] <= frame_time <= _MILLISECONDS[1]
     return BvhClip(
         tuple(hierarchy.names),
         tuple(hierarchy.parents),
         offsets,
         hierarchy.end_sites,
-        _rate(frame_time, words[4]),
+        _rate(frame_time, words[4], 1000 if mistaken else 1),
         root_translation,
         rotations,
         translations,
+        frame_time if mistaken else None,
     )
 
 
@@ -337,7 +344,7 @@ def _rotations(angles_degrees: FloatArray, order: str) -> npt.NDArray[np.float64
     return euler.quaternions(np.pad(angles_degrees, ((0, 0), (0, len(missing)))), order + missing)
 
 
-def _rate(frame_time: float, written: str) -> Fraction:
+def _rate(frame_time: float, written: str, units_per_s: int) -> Fraction:
     """The rate that a frame time means, which is often written with few digits: .03333 is 30 frames per second."""
     digit = float(Decimal(10) ** int(Decimal(written).as_tuple().exponent))
-    return exact_rate(1 / frame_time, 0.5 * digit / frame_time)
+    return exact_rate(units_per_s / frame_time, 0.5 * digit / frame_time)

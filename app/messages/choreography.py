@@ -141,5 +141,9 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         "unknown unit; the body was scaled to a height of 1.7 m",
         "単位が不明のため、身長を 1.7 m にしました",
     ),
+    "motion.milliseconds": (
+        "{rate} frames/s (the frame time {said:g} was read as milliseconds)",
+        "{rate} フレーム/秒（フレーム時間 {said:g} はミリ秒とみなしました）",
+    ),
     "motion.rate": ("{rate} frames/s (the file states {said})", "{rate} フレーム/秒（ファイルの値は {said}）"),
 }

@@ -84,8 +84,24 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         "{file} にはアニメーションがありません。アニメーションをベイクして書き出してください",
     ),
     "motion.too_long": (
-        "{file} contains too much motion; export it in shorter parts",
-        "{file} のモーションは長すぎます。短く分けて書き出してください",
+        (
+            "{file}: {seconds:g} s of {nodes} {nodes:node|nodes} is too much motion for a file of this size; at most "
+            "{most:g} s can be read; correct the times of its keys, or export it in shorter parts"
+        ),
+        (
+            "{file}: {seconds:g} 秒（ノード {nodes} 個）のモーションは、ファイルのサイズに対して長すぎます。"
+            "読み込めるのは {most:g} 秒までです。キーの時間を修正するか、短く分けて書き出してください"
+        ),
+    ),
+    "motion.rate_impossible": (
+        (
+            "{file}: a frame of {frame_s:g} s is not possible; motion has from {slowest} to {fastest} frames/s; enter "
+            "the true frame rate, or correct the frame time, which is in seconds"
+        ),
+        (
+            "{file}: 1 フレーム {frame_s:g} 秒はあり得ません（{slowest}～{fastest} フレーム/秒が可能）。"
+            "正しいフレームレートを指定するか、フレーム時間（秒単位）を修正してください"
+        ),
     ),
     "usd.missing": (
         ("USD export requires the package usd-core, which is not installed; install it with: pip install usd-core"),

@@ -35,6 +35,9 @@ def test_a_found_file(kind: str, name: str, children: dict[str, Child]) -> None:
         ("gltf", "glb_zeros", "gltf.too_large"),
         ("foreign_fbx", "fbx_instances", "fbx.too_large"),
         ("bvh", "bvh_still", "bvh.too_large"),
+        ("motion", "bvh_days", "motion.rate_impossible"),
+        ("motion", "bvh_slow", "motion.too_long"),
+        ("gltf_motion", "glb_hours_of_motion", "motion.too_long"),
         ("audio", "flac_silence", "audio.too_dense"),
     ],
 )

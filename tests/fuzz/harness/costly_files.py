@@ -7,7 +7,6 @@ import os
 import struct
 import zlib
 from collections.abc import Callable
-from functools import partial
 from typing import Any, Final
 
 import numpy as np
@@ -51,7 +50,7 @@ def glb(document: dict[str, Any], binary: bytes = b"") -> bytes:
     return struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks
 
 
-def _figure(*more: dict[str, Any]) -> dict[str, Any]:
+def figure(*more: dict[str, Any]) -> dict[str, Any]:
     """Nodes of a figure, and others that hang from nothing."""
     joints = sorted(REQUIRED_JOINTS, key=lambda joint: (joint != "hips", joint))
     nodes: list[dict[str, Any]] = [{"name": joint, "translation": PLACES[joint]} for joint in joints]
@@ -77,20 +76,20 @@ _ZEROS: Final = 2**22
 def glb_zeros(size: int) -> bytes:
     """Parts whose vertices are all zeros, which cost the file nothing."""
     parts = [{"attributes": {"POSITION": 0}, "material": 0}] * (size // 45)
-    return glb({**_figure({"mesh": 0}), "materials": [{}], "accessors": [_accessor(_ZEROS)], "meshes": _mesh(*parts)})
+    return glb({**figure({"mesh": 0}), "materials": [{}], "accessors": [_accessor(_ZEROS)], "meshes": _mesh(*parts)})
 
 
 def glb_strips(size: int) -> bytes:
     """Strips of triangles between zeros: three times as many corners as indices."""
     accessors = [_accessor(3), _accessor(_ZEROS, "SCALAR")]
     parts = [{**_POSITION, "indices": 1, "mode": 5 + number % 2} for number in range(size // 55)]
-    return glb({**_figure({"mesh": 0}), "accessors": accessors, "meshes": _mesh(*parts)})
+    return glb({**figure({"mesh": 0}), "accessors": accessors, "meshes": _mesh(*parts)})
 
 
 def glb_bind_poses(size: int) -> bytes:
     """Skins of one joint with millions of bind matrices."""
     skins = [{"joints": [0], "inverseBindMatrices": 0}] * (size // 40)
-    return glb({**_figure(), "accessors": [_accessor(_ZEROS, "MAT4")], "skins": skins})
+    return glb({**figure(), "accessors": [_accessor(_ZEROS, "MAT4")], "skins": skins})
 
 
 def glb_joint_sets(size: int) -> bytes:
@@ -98,9 +97,9 @@ def glb_joint_sets(size: int) -> bytes:
     sets = range(size // 30)
     attributes = {"POSITION": 0, **{f"{name}_{number}": 1 for number in sets for name in ("JOINTS", "WEIGHTS")}}
     accessors = [_accessor(2**18), _accessor(2**18, "VEC4")]
-    figure = _figure({"mesh": 0, "skin": 0})
+    whole = figure({"mesh": 0, "skin": 0})
     return glb(
-        {**figure, "accessors": accessors, "skins": [{"joints": [0]}], "meshes": _mesh({"attributes": attributes})}
+        {**whole, "accessors": accessors, "skins": [{"joints": [0]}], "meshes": _mesh({"attributes": attributes})}
     )
 
 
@@ -109,7 +108,7 @@ def glb_overlap(size: int) -> bytes:
     data, parts = os.urandom(size // 2), range(size // 2 // 95)
     accessors = [_accessor((len(data) - 2) // 3, bufferView=0, byteOffset=number % 3) for number in parts]
     meshes = _mesh(*({"attributes": {"POSITION": number}} for number in parts))
-    return glb({**_figure({"mesh": 0}), "accessors": accessors, "meshes": meshes}, data)
+    return glb({**figure({"mesh": 0}), "accessors": accessors, "meshes": meshes}, data)
 
 
 def glb_instances(size: int) -> bytes:
@@ -117,7 +116,7 @@ def glb_instances(size: int) -> bytes:
     data = os.urandom(size // 2)
     shown = [{"mesh": 0}] * (size // 2 // 11)
     return glb(
-        {**_figure(*shown), "accessors": [_accessor(len(data) // 3, bufferView=0)], "meshes": _mesh(_POSITION)}, data
+        {**figure(*shown), "accessors": [_accessor(len(data) // 3, bufferView=0)], "meshes": _mesh(_POSITION)}, data
     )
 
 
@@ -126,7 +125,7 @@ def glb_morphs(size: int) -> bytes:
     data = os.urandom(size // 2)
     part = {**_POSITION, "targets": [{"POSITION": 0}] * (size // 2 // 15)}
     return glb(
-        {**_figure({"mesh": 0}), "accessors": [_accessor(len(data) // 3, bufferView=0)], "meshes": _mesh(part)}, data
+        {**figure({"mesh": 0}), "accessors": [_accessor(len(data) // 3, bufferView=0)], "meshes": _mesh(part)}, data
     )
 
 
@@ -139,25 +138,25 @@ def glb_parts(size: int) -> bytes:
         for number in parts
     ]
     meshes = _mesh(*({"attributes": {"POSITION": number}} for number in parts))
-    return glb({**_figure({"mesh": 0}), "accessors": accessors, "meshes": meshes}, data)
+    return glb({**figure({"mesh": 0}), "accessors": accessors, "meshes": meshes}, data)
 
 
 def glb_deep(size: int) -> bytes:
     """Nodes that hang from one another."""
-    figure = _figure()
-    first = len(figure["nodes"])
-    figure["nodes"] += [{"children": [first + number + 1]} for number in range(size // 20)] + [{}]
-    return glb(figure)
+    whole = figure()
+    first = len(whole["nodes"])
+    whole["nodes"] += [{"children": [first + number + 1]} for number in range(size // 20)] + [{}]
+    return glb(whole)
 
 
 def glb_bones(size: int) -> bytes:
     """Thousands of bones of one name in one place, on a hand."""
-    figure = _figure()
-    first, count = len(figure["nodes"]), min(size // 17, 4900)
-    hand = next(node for node in figure["nodes"] if node["name"] == "leftHand")
+    whole = figure()
+    first, count = len(whole["nodes"]), min(size // 17, 4900)
+    hand = next(node for node in whole["nodes"] if node["name"] == "leftHand")
     hand["children"] = list(range(first, first + count))
-    figure["nodes"] += [{"name": "a"}] * count
-    return glb(figure)
+    whole["nodes"] += [{"name": "a"}] * count
+    return glb(whole)
 
 
 def glb_nameless(size: int) -> bytes:
@@ -176,7 +175,7 @@ def glb_pictures(size: int) -> bytes:
     surfaces = [{"pbrMetallicRoughness": {"baseColorTexture": {"index": number}}} for number in range(count)]
     parts = [{"attributes": {"POSITION": 0, "TEXCOORD_0": 1}, "material": number} for number in range(count)]
     document = {
-        **_figure({"mesh": 0}),
+        **figure({"mesh": 0}),
         "bufferViews": views,
         "images": [{"bufferView": number} for number in range(count)],
         "textures": [{"source": number} for number in range(count)],
@@ -361,8 +360,3 @@ COSTLY_FILES: Final[dict[str, tuple[Callable[[int], bytes], ...]]] = {
     "audio": (flac_silence, flac_slow_silence, wav_hours),
 }
 """By kind of file, as in `tests.fuzz.harness.readers.KINDS`: what makes a file of about so many bytes."""
-
-
-def costly(kind: str, size: int = 10_000) -> dict[str, Callable[[], bytes]]:
-    """A file of each way of a kind, by the way's name."""
-    return {make.__name__: partial(make, size) for make in COSTLY_FILES[kind]}

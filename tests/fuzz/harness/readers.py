@@ -299,11 +299,23 @@ def motion(path: Path, folder: Path) -> None:
     from app.choreography.cuts import segment
     from app.choreography.features import features
     from app.choreography.learn import FPS
-    from app.choreography.read_motion import read_motion
+    from app.choreography.read_motion import guesses, read_motion
     from app.choreography.resample import resampled
 
-    clip = resampled(read_motion(path).clip, FPS)
+    read = read_motion(path)
+    guesses(read)
+    clip = resampled(read.clip, FPS)
     require(bool(np.isfinite(features(clip, segment(clip).cuts)).all()), "a feature is not finite")
+
+
+def gltf_motion(path: Path, folder: Path) -> None:
+    """The same of an animated glTF file."""
+    motion(path, folder)
+
+
+def fbx_motion(path: Path, folder: Path) -> None:
+    """The same of an animated FBX file."""
+    motion(path, folder)
 
 
 def choreography(path: Path, folder: Path) -> None:
@@ -414,8 +426,10 @@ KINDS: Final[dict[str, Kind]] = {
         Kind("figures", instrument_model, seeds.gltf, tuple(mutators.GLB), ".glb"),
         Kind("figures", fbx, seeds.fbx, tuple(mutators.FBX), ".fbx", 2.0),
         Kind("figures", foreign_fbx, seeds.foreign_fbx, (*mutators.FBX, *mutators.TEXT), ".fbx"),
-        Kind("figures", bvh, seeds.bvh, _TEXT, ".bvh"),
-        Kind("figures", motion, seeds.motion, _TEXT, ".bvh"),
+        Kind("motion", bvh, seeds.bvh, _TEXT, ".bvh"),
+        Kind("motion", motion, seeds.motion, _TEXT, ".bvh", 2.0),
+        Kind("motion", gltf_motion, seeds.gltf_motion, tuple(mutators.GLB), ".glb"),
+        Kind("motion", fbx_motion, seeds.fbx_motion, tuple(mutators.FBX), ".fbx"),
         Kind("exchange", audio, seeds.audio, (), ".wav", 2.0),
         Kind("exchange", unreal_description, seeds.unreal_description, _JSON, ".json"),
         Kind("exchange", unreal_manifest, seeds.unreal_manifest, _JSON, ".json"),

@@ -18,8 +18,10 @@ from typing import Any, Final
 import numpy as np
 import soundfile
 
-from tests.fuzz.harness.costly_files import costly
+from app.formats.scene import Scene
+from tests.fuzz.harness.costly import costly
 from tests.fuzz.harness.costly_midi import COSTLY, WORST
+from tests.support import encoded
 
 ROOT: Final = Path(__file__).parents[3]
 DATA: Final = ROOT / "tests" / "data"
@@ -183,6 +185,25 @@ def motion() -> list[bytes]:
 
 
 @cache
+def gltf_motion() -> list[bytes]:
+    """A whole body in glTF."""
+    return [encoded.encode_glb(_dance())]
+
+
+@cache
+def fbx_motion() -> list[bytes]:
+    """A whole body in FBX."""
+    return [encoded.encode_scene(_dance())]
+
+
+def _dance() -> Scene:
+    from tests.unit.choreography.test_features import random_clip
+    from tests.unit.choreography.test_node_motion import scene_of
+
+    return scene_of(random_clip(5, 20), 1)
+
+
+@cache
 def choreography() -> list[bytes]:
     """What is learned of two short clips."""
     from tests.unit.choreography.test_model_file import CONTENT
@@ -302,6 +323,8 @@ MADE: Final[dict[str, dict[str, Callable[[], bytes]]]] = {
     "foreign_fbx": costly("foreign_fbx"),
     "fbx": costly("fbx"),
     "bvh": costly("bvh", 100_000),
+    "motion": costly("motion", 30_000),
+    "gltf_motion": costly("gltf_motion", 2000),
     "audio": costly("audio"),
     "unreal_description": {
         "deep": lambda: b"[" * 100_000,

@@ -101,3 +101,20 @@ def test_a_body_goes_on_where_frames_are_missing(fps: int) -> None:
     assert steps.max() < 1.5 * np.abs(np.diff(clip.rotations[:, 0], axis=0)).max() + 0.005
     assert np.abs(np.diff(mended.hips_m[:, 1])).max() < 0.005
     assert mend_steps(clip) == (clip, ())
+
+
+def test_many_steps_are_each_mended() -> None:
+    """A body that walks on, cut by turns again and again, goes on ahead; each step is turned back once."""
+    clip = arm_swings(60)
+    way = np.arange(len(clip))[:, None] / 60 * (0.0, 0.0, 0.3)
+    clip = replace(clip, hips_m=clip.hips_m + way)
+    spoilt, hips = clip.rotations.copy(), clip.hips_m.copy()
+    steps = list(range(10, len(clip) - 10, 15))
+    for number, at in enumerate(steps):
+        yaw = quaternion.from_axis_angle((0.0, 1.0, 0.0), 0.5 + 0.1 * (number % 3))
+        spoilt[at:, 0] = quaternion.multiply(yaw, spoilt[at:, 0])
+        hips[at:] = quaternion.rotate(yaw, hips[at:])
+    mended, found = mend_steps(replace(clip, rotations=spoilt, hips_m=hips))
+    assert [flip.start for flip in found] == steps
+    assert mended.hips_m == pytest.approx(clip.hips_m, abs=1e-6)
+    assert np.abs(np.einsum("fi,fi->f", mended.rotations[:, 0], clip.rotations[:, 0])) == pytest.approx(1.0)

@@ -11,11 +11,11 @@ import numpy as np
 import numpy.typing as npt
 import pytest
 
-from app.choreography import node_motion
 from app.choreography.body import ENDS, PARENT_OF, SEGMENTS
 from app.choreography.clip import MotionClip
 from app.choreography.read_motion import read_motion
 from app.errors import FileError
+from app.formats import motion_limits
 from app.formats.scene import Bone, Clip, Scene
 from app.rig import quaternion
 from tests.support.encoded import encode_glb, encode_scene
@@ -89,12 +89,36 @@ def test_other_files_are_refused(tmp_path: Path) -> None:
         assert caught.value.message.id == problem
 
 
-def test_more_motion_than_memory_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(node_motion, "MOST_TRANSFORMS", 100)
-    (tmp_path / "a.glb").write_bytes(encode_glb(scene_of(CLIP, 1)))
+@pytest.mark.parametrize("bound", ["MOST_TRANSFORMS", "FREE_TRANSFORMS", "FREE_FRAMES"])
+def test_more_motion_than_memory_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, bound: str) -> None:
+    for per_kb in ("TRANSFORMS_PER_KB", "FRAMES_PER_KB"):
+        monkeypatch.setattr(motion_limits, per_kb, 0)
+    path = tmp_path / "a.glb"
+    path.write_bytes(encode_glb(scene_of(CLIP, 1)))
+    nodes = 22
+    exactly = len(CLIP) * (1 if bound == "FREE_FRAMES" else nodes)
+    monkeypatch.setattr(motion_limits, bound, exactly)
+    assert len(read_motion(path).clip) == len(CLIP)
+    monkeypatch.setattr(motion_limits, bound, exactly - 1)
     with pytest.raises(FileError) as caught:
-        read_motion(tmp_path / "a.glb")
+        read_motion(path)
     assert caught.value.message.id == "motion.too_long"
+
+
+def test_the_last_channel_of_a_node_holds(tmp_path: Path) -> None:
+    """A file that names a target again and again is sampled once."""
+    data = encode_glb(scene_of(CLIP, 1))
+    length = struct.unpack_from("<I", data, 12)[0]
+    document = json.loads(data[20 : 20 + length])
+    channels = document["animations"][0]["channels"]
+    document["animations"][0]["channels"] = channels[::-1] + channels
+    text = json.dumps(document).encode()
+    text += b" " * (-len(text) % 4)
+    head = data[:8] + struct.pack("<III", 20 + len(text) + len(data) - 20 - length, len(text), 0x4E4F534A)
+    (tmp_path / "a.glb").write_bytes(data)
+    (tmp_path / "b.glb").write_bytes(head + text + data[20 + length :])
+    one, other = (read_motion(tmp_path / f"{name}.glb").clip for name in "ab")
+    assert np.array_equal(one.rotations, other.rotations)
 
 
 def test_scaled_armatures_are_multiplied_out(tmp_path: Path) -> None:

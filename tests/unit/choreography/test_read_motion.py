@@ -12,7 +12,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from app.choreography.body import SEGMENTS
-from app.choreography.read_motion import read_motion
+from app.choreography.read_motion import guesses, read_motion
 from app.errors import FileError
 from app.rig import quaternion
 from tests.support.dance_measures import SHARED
@@ -185,3 +185,37 @@ def test_a_body_without_size_is_read_without_a_fault(tmp_path: Path) -> None:
     text = re.sub("OFFSET .*", "OFFSET 0 0 0", bvh(np.eye(3), 0.01))
     (tmp_path / "a.bvh").write_text(text, encoding="utf-8")
     assert np.isfinite(read_motion(tmp_path / "a.bvh").clip.world().positions_m).all()
+
+
+def test_a_frame_of_hours_is_refused_unless_the_rate_is_given(tmp_path: Path) -> None:
+    path = tmp_path / "slow.bvh"
+    path.write_text(bvh(np.eye(3), 0.01).replace("Frame Time: 0.025", "Frame Time: 9000"))
+    with pytest.raises(FileError) as caught:
+        read_motion(path)
+    assert caught.value.message.id == "motion.rate_impossible"
+    assert caught.value.message.arguments["frame_s"] == 9000.0
+    assert read_motion(path, Fraction(60)).clip.fps == 60
+
+
+def test_a_frame_time_in_milliseconds_is_reported(tmp_path: Path) -> None:
+    path = tmp_path / "mistaken.bvh"
+    path.write_text(bvh(np.eye(3), 0.01).replace("Frame Time: 0.025", "Frame Time: 33.333"))
+    read = read_motion(path)
+    assert read.clip.fps == 30
+    assert [message.id for message in guesses(read) if message.id.startswith("motion.mill")] == ["motion.milliseconds"]
+
+
+def test_frames_of_seconds_are_counted_as_they_are_learned_from(tmp_path: Path) -> None:
+    """A quarter of an hour of slow frames is sixty times as many when a model is learned from it."""
+    path = tmp_path / "long.bvh"
+    head, _, rows = bvh(np.eye(3), 0.01).partition("Frames: ")
+    row = rows.splitlines()[2]
+    for frames, is_read in ((800, True), (2000, False)):
+        # Seconds of a frame: the file grows with its frames, so does what it may have.
+        path.write_text(f"{head}Frames: {frames}\nFrame Time: 1\n" + f"{row}\n" * frames)
+        if is_read:
+            assert len(read_motion(path).clip) == frames
+        else:
+            with pytest.raises(FileError) as caught:
+                read_motion(path)
+            assert caught.value.message.id == "motion.too_long"

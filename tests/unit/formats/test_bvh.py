@@ -169,6 +169,16 @@ def test_a_frame_time_of_few_digits_is_a_usual_rate(written: str, fps: Fraction)
     assert decode_bvh(ARM % ("1 Xrotation", "0", "0", written, "1 2"), "a.bvh").fps == fps
 
 
+@pytest.mark.parametrize(
+    ("written", "fps"),
+    [("33.33", Fraction(30)), ("8.333333", Fraction(120)), ("40", Fraction(25)), ("16.6667", Fraction(60))],
+)
+def test_a_frame_time_in_milliseconds_is_understood(written: str, fps: Fraction) -> None:
+    read = decode_bvh(ARM % ("1 Xrotation", "0", "0", written, "1 2"), "a.bvh")
+    assert (read.fps, read.milliseconds) == (fps, float(written))
+    assert decode_bvh(ARM % ("1 Xrotation", "0", "0", "0.04", "1 2"), "a.bvh").milliseconds is None
+
+
 GOOD = clip()
 CONTRADICTIONS = {
     "no joint": replace(GOOD, names=(), parents=()),

@@ -1,0 +1,54 @@
+"""How much motion a file may hold: few keys can stand for many frames, so frames are counted before any is made.
+
+Messages: ``motion.too_long`` (seconds, frames, nodes, most), ``motion.rate_impossible`` (frame_s, slowest, fastest).
+"""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from typing import Final
+
+from app.errors import FileError
+
+FPS: Final = (1, 1000)
+"""Frame rates that motion is captured, animated or played at."""
+FREE_FRAMES, FRAMES_PER_KB = 54_000, 50
+"""Frames of any file, a quarter of an hour at 60 frames per second, and more for its size. A frame of a body that is
+written out takes more than a hundred bytes in every format, so only what is sampled between keys meets this bound."""
+FREE_TRANSFORMS, TRANSFORMS_PER_KB = 2**20, 512
+"""The same of frames times nodes."""
+MOST_TRANSFORMS: Final = 2**23
+"""Frames times nodes of a file of any size: a quarter of an hour of 150 nodes at 60 frames per second."""
+
+
+def require_frames(file: str, seconds: float, fps: float, nodes: int, size_bytes: int) -> None:
+    """Refuse a motion that would have more frames than its file is good for.
+
+    Parameters
+    ----------
+    seconds, fps : float
+        Its duration, and the rate at which it is to be sampled.
+    nodes : int
+        Nodes that are sampled in each frame.
+    size_bytes : int
+        Of the file.
+
+    Raises
+    ------
+    FileError
+        ``motion.too_long``.
+    """
+    frames = seconds * fps + 1.0
+    most_transforms = min(MOST_TRANSFORMS, FREE_TRANSFORMS + TRANSFORMS_PER_KB * size_bytes // 1000)
+    most = min(FREE_FRAMES + FRAMES_PER_KB * size_bytes // 1000, most_transforms // max(nodes, 1))
+    # A comparison that a NaN fails.
+    if not frames <= most:
+        raise FileError("motion.too_long", file=file, seconds=round(seconds, 1), nodes=nodes, most=round(most / fps, 1))
+
+
+def require_rate(fps: Fraction, file: str) -> None:
+    """Refuse a frame rate that no motion has. Raises FileError (``motion.rate_impossible``)."""
+    slowest, fastest = FPS
+    if not slowest <= fps <= fastest:
+        frame_s = float(f"{float(1 / fps):.6g}")
+        raise FileError("motion.rate_impossible", file=file, frame_s=frame_s, slowest=slowest, fastest=fastest)

@@ -1,0 +1,31 @@
+"""Small files that cost much, by the kind of reader that they are for: the worst of each way that was found."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from functools import partial
+from typing import Final
+
+from tests.fuzz.harness.costly_files import COSTLY_FILES
+from tests.fuzz.harness.costly_midi import COSTLY
+from tests.fuzz.harness.costly_motion import COSTLY_MOTION
+
+Make = Callable[[int], bytes]
+"""Makes a file of about so many bytes."""
+
+
+def _named(ways: Mapping[str, tuple[Make, ...]]) -> dict[str, dict[str, Make]]:
+    return {kind: {make.__name__: make for make in makes} for kind, makes in ways.items()}
+
+
+ALL_COSTLY: Final[Mapping[str, Mapping[str, Make]]] = {
+    "midi": COSTLY,
+    **_named(COSTLY_FILES),
+    **_named(COSTLY_MOTION),
+}
+"""By kind of file, as in `tests.fuzz.harness.readers.KINDS`, and by way."""
+
+
+def costly(kind: str, size: int = 10_000) -> dict[str, Callable[[], bytes]]:
+    """A file of each way of a kind, by the way's name."""
+    return {name: partial(make, size) for name, make in ALL_COSTLY[kind].items()}
