@@ -34,10 +34,12 @@ def write(arguments: argparse.Namespace) -> None:
     for warning in export_midi(project, arguments.to, library().maps):
         warn(text(warning))
     notes = sum(len(part.notes) for part in project.score.parts)
+    hits = len(project.score.percussion)
     say(
         filled(
-            "{file}: {tracks} {tracks:track|tracks}, {notes} {notes:note|notes}",
-            {"file": arguments.to, "tracks": len(project.score.parts), "notes": notes},
+            "{file}: {tracks} {tracks:track|tracks}, {notes} {notes:note|notes}"
+            + (", {hits} percussion {hits:hit|hits}" if hits else ""),
+            {"file": arguments.to, "tracks": len(project.score.parts) + (hits > 0), "notes": notes, "hits": hits},
         )
     )
 

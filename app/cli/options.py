@@ -26,7 +26,7 @@ from app.project.storage import is_project_file, load
 from app.rig.character_library import characters
 from app.score.choose import MapChoice, TrackChannel, require_map
 from app.score.model import Score
-from app.score.parts import PartAssignment, stream_name, usual_assignments
+from app.score.parts import PERCUSSION, PartAssignment, stream_name, usual_assignments
 from app.score.read import assigned_score, read_contents
 from instrument_maps.library import library
 from instrument_maps.model import InstrumentMap
@@ -160,7 +160,8 @@ def add_file_options(command: argparse.ArgumentParser) -> None:
         default=[],
         metavar='"PART=INSTRUMENT"',
         help="the instrument of a MIDI file's part, also where the file says none or another; PART may be a pattern "
-        "such as '*'; repeatable; `suisou instruments` lists the instruments",
+        "such as '*'; repeatable; `suisou instruments` lists the instruments; percussion: no one plays it, and dancers "
+        "hear its notes as a drum kit's",
     )
     command.add_argument(
         "--written",
@@ -336,7 +337,7 @@ def _assigned(
         part, equals, map_id = (piece.strip() for piece in text.rpartition("="))
         if not (part and equals and map_id):
             raise UsageError("assign.malformed", assignment=text)
-        require_map(map_id, [choice.map_id for choice in maps])
+        require_map(map_id, [*(choice.map_id for choice in maps), PERCUSSION])
         for index in select_players([part], names):
             assigned[index] = PartAssignment((index,), map_id)
     return [assigned[index] for index in sorted(assigned)]

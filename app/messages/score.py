@@ -218,7 +218,7 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
     ),
     "score.left_out": ("excluded on import", "読み込み時に除外"),
     "score.percussion": ("{instrument} is percussion", "{instrument} は打楽器です"),
-    "score.sound_effect": ("sound effects have no player", "効果音に奏者はいません"),
+    "score.sound_effect": ("it is a sound effect, which no player plays", "効果音です。奏者は演奏しません"),
     "score.not_wind": ("{instrument} is not a wind instrument", "{instrument} は管楽器ではありません"),
     "score.outside_ranges": (
         (

@@ -11,7 +11,7 @@ from app.errors import Message
 from app.project.doubling import doubled_parts
 from app.project.model import Project, map_choices, project_from_score
 from app.score.model import Score, UnplayedPart
-from app.score.parts import PartAssignment, usual_assignments
+from app.score.parts import PERCUSSION, PartAssignment, usual_assignments
 from app.score.read import MidiContents, assigned_score
 from instrument_maps.model import InstrumentMap
 
@@ -153,7 +153,10 @@ def score_of_rows(
 ) -> Score:
     """The score with the parts of the selected rows. Raises Cancelled when ``stop_requested`` says so."""
     return assigned_score(
-        contents, [row.assignment for row in rows if row.requested], map_choices(maps.values()), stop_requested
+        contents,
+        [row.assignment for row in rows if row.requested or row.assignment.map_id == PERCUSSION],
+        map_choices(maps.values()),
+        stop_requested,
     )
 
 

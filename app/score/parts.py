@@ -10,7 +10,7 @@ score.no_map : instrument
 score.percussion : instrument
     "{instrument} is percussion"
 score.sound_effect
-    "sound effects have no player"
+    "it is a sound effect, which no player plays"
 score.not_wind : instrument
     "{instrument} is not a wind instrument"
 score.outside_ranges : lowest, highest
@@ -57,7 +57,7 @@ score.slurred : part, count, place, pitch
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import Literal, TypeAlias
+from typing import Final, Literal, TypeAlias
 
 import msgspec
 
@@ -73,6 +73,7 @@ from app.score.choose import (
     recognised,
     refusal,
     require_map,
+    use_of,
 )
 from app.score.limits import MOST_PARTS
 from app.score.model import MOST_VOICES, Note, Part, Score, UnplayedPart, sounding_spans
@@ -81,6 +82,8 @@ from app.score.tempo import TempoMap
 from app.score.voices import Shared, split_voices
 from instrument_maps.vocabulary import Instrument, vocabulary
 
+PERCUSSION: Final = "percussion"
+"""What is assigned to a part in place of an instrument where dancers are to hear its notes as percussion."""
 LEAST_OUTSIDE = 0.01
 """The share of a part's notes beyond its instrument's range from which on its pitches are taken for written ones."""
 
@@ -111,7 +114,8 @@ class PartAssignment(msgspec.Struct, frozen=True):
     streams : tuple of int
         Places among the streams; several are merged into one line.
     map_id : str or None
-        The instrument map that plays it; None: what the names, programs and ranges say.
+        The instrument map that plays it; None: what the names, programs and ranges say; `PERCUSSION`: no one, for its
+        notes are the sounds of a drum kit.
     name : str
         Of the part; empty: what the file calls it.
     split : {"sustained", "every", "never"}
@@ -161,8 +165,12 @@ def assigned_parts(
     silent: list[UnplayedPart] = []
     asked: set[int] = set()
     crowded: set[int] = set()
+    percussion: set[int] = set()
     for assignment in assignments:
         raise_if_stopped(stop_requested)
+        if assignment.map_id == PERCUSSION:
+            percussion.update(assignment.streams)
+            continue
         room = MOST_PARTS - len(parts)
         if not room:
             crowded.update(assignment.streams)
@@ -203,7 +211,7 @@ def assigned_parts(
     unplayed = tuple(
         UnplayedPart(
             stream_name(stream),
-            _reason(stream, index in crowded, maps),
+            _reason(stream, index in crowded, index in percussion, maps),
             len(stream.pitches),
             max(stream.end_ticks),
             sounding_spans(zip(stream.onset_ticks, stream.end_ticks, strict=True), piece.ticks_per_quarter),
@@ -237,8 +245,20 @@ def _shared(
     )
 
 
-def _reason(stream: TrackChannel, crowded: bool, maps: Sequence[MapChoice]) -> Message:
+def rhythm_parts(streams: Sequence[TrackChannel], assignments: Sequence[PartAssignment] = ()) -> list[TrackChannel]:
+    """The streams whose notes are the sounds of a drum kit: those that say so, but for what the user assigned."""
+    assigned = {index: one.map_id for one in assignments if one.map_id is not None for index in one.streams}
+    return [
+        stream
+        for index, stream in enumerate(streams)
+        if (assigned[index] == PERCUSSION if index in assigned else use_of(stream) == "rhythm")
+    ]
+
+
+def _reason(stream: TrackChannel, crowded: bool, percussion: bool, maps: Sequence[MapChoice]) -> Message:
     """Why no one plays a stream."""
+    if percussion and use_of(stream) != "rhythm":
+        return Message("score.percussion", {"instrument": stream_name(stream)})
     if crowded:
         return Message("score.too_many_players", {"most": MOST_PARTS})
     return refusal(stream, maps) or Message("score.left_out")

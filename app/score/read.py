@@ -74,7 +74,7 @@ from app.score.limits import MOST_NAME, MOST_STREAMS, too_long
 from app.score.metre_map import Metre
 from app.score.model import MOST_VOICES, Marker, Part, PercussionHit, Score, UnplayedPart
 from app.score.mutes import muted_spans
-from app.score.parts import PartAssignment, assigned_parts, parts_of, stream_name
+from app.score.parts import PartAssignment, assigned_parts, parts_of, rhythm_parts, stream_name
 from app.score.repair import Repaired, last_suspicious, repaired
 from app.score.sound_module import FIRST_PORT, Port, Use, channel_sounds
 from app.score.tempo import TempoChange, TempoMap
@@ -144,7 +144,7 @@ def assigned_score(
 ) -> Score:
     """The score in which the parts are those that the user requests. Raises Cancelled as `assigned_parts`."""
     parts, unplayed, warnings = assigned_parts(contents.streams, assignments, maps, _score(contents), stop_requested)
-    return _score(contents, parts, unplayed, (*contents.warnings, *warnings))
+    return _score(contents, parts, unplayed, (*contents.warnings, *warnings), assignments)
 
 
 def uncast_score(contents: MidiContents) -> Score:
@@ -174,6 +174,7 @@ def _score(
     parts: tuple[Part, ...] = (),
     unplayed: tuple[UnplayedPart, ...] = (),
     warnings: tuple[Message, ...] = (),
+    assignments: Sequence[PartAssignment] = (),
 ) -> Score:
     return Score(
         title=contents.title,
@@ -185,16 +186,15 @@ def _score(
         unplayed=unplayed,
         warnings=warnings,
         markers=contents.markers,
-        percussion=_percussion(contents.streams),
+        percussion=_percussion(rhythm_parts(contents.streams, assignments)),
     )
 
 
 def _percussion(streams: Sequence[TrackChannel]) -> tuple[PercussionHit, ...]:
-    """Every note of the percussion tracks."""
+    """Every note of some percussion tracks."""
     hits = (
         hit
         for stream in streams
-        if use_of(stream) == "rhythm"
         for hit in zip(stream.onset_ticks, stream.struck or stream.pitches, stream.velocities, strict=True)
     )
     return tuple(PercussionHit(tick, pitch, velocity) for tick, pitch, velocity in sorted(hits))

@@ -1,11 +1,12 @@
-"""Writes a score as a MIDI file of format 1: a conductor's track, then one track for every part.
+"""Writes a score as a MIDI file of format 1: a conductor's track, one track for every part, and one for the percussion.
 
 What the file holds comes back as it was when `app.score.read` reads it: title, division, tempo, metres, pickup and
 markers; of every part its name, what plays it, every note's onset, length, pitch and velocity, and every step of its
-controller curves. What a MIDI file has no place for does not:
+controller curves; of the percussion every hit, on channel 10 as General MIDI numbers it. What a MIDI file has no place
+for does not:
 
-- The notes of parts no one plays, the percussion among them; ids of notes and parts, which count tracks and
-  note-ons. Voices that shared a track get one each. A part without notes is written and not read as one.
+- The notes of parts no one plays, the percussion aside; how long its notes were; ids of notes and parts, which count
+  tracks and note-ons. Voices that shared a track get one each. A part without notes is written and not read as one.
 - Who plays on, where a name says otherwise: a name beats everything else, so a "Violin" that the user gave to a flutist
   is a violin again. A part of which notes sound together is shared among players again. Both are reported.
 - Which of two notes of one pitch ends first, where one sounds within the other: a note-off ends the oldest, so the two
@@ -63,6 +64,9 @@ MOST_TEMPO: Final = 0xFFFFFF
 _LONGEST_DELTA: Final = 0x0FFFFFFF
 """Ticks between two events: four groups of seven bits."""
 _CHANNELS: Final = tuple(channel for channel in range(16) if channel != DRUM_CHANNEL)
+
+_KIT: Final = "drums"
+"""Id in the vocabulary."""
 
 # What comes first at one tick: what ends a note comes before what begins the next, controllers before both begin.
 _OFF, _PROGRAM, _CONTROL, _ON = range(4)
@@ -130,6 +134,8 @@ def midi_file(score: Score, performers: Mapping[str, Performer] | None = None) -
         instrument = _instrument(part, performer)
         warnings += _warnings(part, name, performer, score)
         file.tracks.append(_track(_part(part, name, instrument, channel)))
+    if score.percussion:
+        file.tracks.append(_track(_percussion(score)))
     data = io.BytesIO()
     file.save(file=data)
     return MidiFile(data.getvalue(), tuple(warnings))
@@ -230,6 +236,22 @@ def _part(part: Part, name: str, instrument: Instrument | None, channel: int) ->
         on = mido.Message("note_on", channel=channel, note=note.pitch, velocity=note.velocity)
         off = mido.Message("note_off", channel=channel, note=note.pitch)
         events += [(note.onset_tick, _ON, on), (note.end_tick, _OFF, off)]
+    return events
+
+
+def _percussion(score: Score) -> list[_Event]:
+    """The hits, each until the next one of its sound, and a sixteenth at most."""
+    events: list[_Event] = [(0, _OFF, mido.MetaMessage("track_name", name=vocabulary().instruments[_KIT].names[0]))]
+    longest = max(score.ticks_per_quarter // 4, 1)
+    again: dict[int, int] = {}
+    ends: dict[int, int] = {}
+    for hit in reversed(score.percussion):
+        if again.get(hit.pitch) != hit.tick:
+            ends[hit.pitch] = min(hit.tick + longest, again.get(hit.pitch, hit.tick + longest))
+            again[hit.pitch] = hit.tick
+        on = mido.Message("note_on", channel=DRUM_CHANNEL, note=hit.pitch, velocity=hit.velocity)
+        off = mido.Message("note_off", channel=DRUM_CHANNEL, note=hit.pitch)
+        events += [(hit.tick, _ON, on), (ends[hit.pitch], _OFF, off)]
     return events
 
 

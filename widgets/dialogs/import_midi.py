@@ -42,7 +42,7 @@ from app.project.importing import (
 from app.rig.character_library import characters
 from app.score.choose import TrackChannel, use_of
 from app.score.model import UnplayedPart
-from app.score.parts import PartAssignment, stream_name
+from app.score.parts import PERCUSSION, PartAssignment, stream_name
 from app.score.read import MidiContents
 from instrument_maps.model import InstrumentMap
 from instrument_maps.score_order import in_score_order
@@ -115,12 +115,12 @@ class ImportDialog(Retranslated, QDialog):
         self._separate = Button(
             "import_dialog.take_apart", self.separate_selected, "separate", "import_dialog.make_part_of_each_merged"
         )
-        self._percussion = frozenset(
-            place for place, stream in enumerate(contents.streams) if use_of(stream) == "rhythm"
+        uses = [use_of(stream) for stream in contents.streams]
+        self._rhythm, self._effects = (
+            frozenset(place for place, use in enumerate(uses) if use == one) for one in ("rhythm", "effect")
         )
-        """Streams that dancers dance to."""
+        """Streams that are percussion, or sound effects, if no one says otherwise."""
         self._dancer = named(Check("import_dialog.add_dancer"), "import_dancer")
-        self._dancer.setVisible(bool(self._percussion and bundled_choreographies()))
         self._summary = named(Label(), "import_summary")
         self._warning_title = Label()
         self._warnings = named(QListWidget(), "import_warnings")
@@ -253,7 +253,7 @@ class ImportDialog(Retranslated, QDialog):
     def _fill_row(self, place: int, row: ImportRow) -> None:
         use = named(_Tick(), f"play_{place}")
         use.setChecked(row.requested)
-        use.toggled.connect(lambda requested: self._set(place, requested=requested))
+        use.toggled.connect(lambda requested: self._request(place, requested))
         self._table.setCellWidget(place, _USE, _centred(use))
 
         name = named(QLineEdit(row.assignment.name or self._name(row)), f"name_{place}")
@@ -283,7 +283,9 @@ class ImportDialog(Retranslated, QDialog):
         split.setToolTip(self.tr("import_dialog.automatic_another_player_for_notes"))
         split.currentIndexChanged.connect(lambda: self._assignment(place, split=split.currentData()))
 
-        instruments = ((usual, None), *self._instruments)
+        instruments = [(usual, None), *self._instruments]
+        if not self._rhythm.issuperset(assignment.streams):
+            instruments.append((self.tr("import_dialog.percussion_for_dancers"), PERCUSSION))
         instrument = self._choice(place, _INSTRUMENT, "instrument", instruments, assignment.map_id)
         instrument.setSizeAdjustPolicy(ComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
         instrument.setMinimumContentsLength(_INSTRUMENT_LETTERS)
@@ -316,6 +318,10 @@ class ImportDialog(Retranslated, QDialog):
         """What a row is played on, were it requested; nothing where that is not known yet."""
         return [] if self._outcome is None else [self._maps[id_] for id_ in self._outcome.instruments_of(assignment)]
 
+    def _can_choose(self, row: ImportRow) -> bool:
+        """Whether a row that is not requested has an instrument to choose."""
+        return row.assignment.map_id == PERCUSSION or self._asks(row)
+
     def _asks(self, row: ImportRow) -> bool:
         """Whether nothing says what plays a row."""
         return self._outcome is not None and row.assignment.map_id is None and not self._played_on(row.assignment)
@@ -329,8 +335,10 @@ class ImportDialog(Retranslated, QDialog):
         names = dict.fromkeys(map(instrument_name, self._played_on(automatic(row.assignment))))
         if names:
             instrument.setItemText(0, self.tr("import_dialog.automatic_2").format(name=" + ".join(names)))
-        elif self._is_percussion(row):
+        elif self._rhythm.issuperset(row.assignment.streams):
             instrument.setItemText(0, self.tr("import_dialog.percussion_for_dancers"))
+        elif self._effects.issuperset(row.assignment.streams):
+            instrument.setItemText(0, self.tr("import_dialog.sound_effect"))
         elif self._outcome is not None and not row.assignment.map_id:
             instrument.setItemText(0, self.tr("import_dialog.choose_instrument"))
         tip = self._tip(place)
@@ -339,31 +347,47 @@ class ImportDialog(Retranslated, QDialog):
             widget = self._table.cellWidget(place, column)
             if widget is not None:
                 widget.setToolTip(tip)
-        instrument.setEnabled(row.requested or self._asks(row))
+        instrument.setEnabled(row.requested or self._can_choose(row))
         # Only there is a difference.
         transposes = any(table.transposition_semitones for table in self._played_on(row.assignment))
         pitches.setEnabled(row.requested and transposes)
 
     def _is_percussion(self, row: ImportRow) -> bool:
-        return self._percussion.issuperset(row.assignment.streams)
+        chosen = row.assignment.map_id
+        return chosen == PERCUSSION or (chosen is None and self._rhythm.issuperset(row.assignment.streams))
 
     def _tip(self, place: int) -> str:
         """What there is to know of a row; empty for most."""
-        if not self._is_percussion(self._rows[place]):
-            return ""
-        return self.tr("import_dialog.percussion_track_no_player_plays")
+        row = self._rows[place]
+        if self._is_percussion(row):
+            return self.tr("import_dialog.percussion_track_no_player_plays")
+        if row.assignment.map_id is None and self._effects.issuperset(row.assignment.streams):
+            return self.tr("import_dialog.sound_effects_no_player_plays")
+        return ""
 
     def _name(self, row: ImportRow) -> str:
         return " + ".join(stream_name(self._contents.streams[stream]) for stream in row.assignment.streams)
 
     def _choose(self, place: int, map_id: str | None) -> None:
-        """Take an instrument for a row; one that was asked for is what lets it be played."""
-        asked = self._asks(self._rows[place])
+        """Take an instrument for a row; one that was asked for is what lets it be played. No one plays percussion."""
+        row = self._rows[place]
+        asked, was_percussion = self._asks(row), row.assignment.map_id == PERCUSSION
         self._assignment(place, map_id=map_id)
         tick = self._table.cellWidget(place, _USE)
         box = tick.findChild(QCheckBox) if tick is not None else None
-        if asked and map_id is not None and box is not None:
+        if box is None:
+            return
+        if map_id == PERCUSSION:
+            box.setChecked(False)
+        elif (asked and map_id is not None) or (was_percussion and self._played_on(self._rows[place].assignment)):
             box.setChecked(True)
+
+    def _request(self, place: int, requested: bool) -> None:
+        """Have a row played, or not; what is percussion by choice is no longer."""
+        self._set(place, requested=requested)
+        instrument = self._table.cellWidget(place, _INSTRUMENT)
+        if requested and self._rows[place].assignment.map_id == PERCUSSION and isinstance(instrument, ComboBox):
+            instrument.setCurrentIndex(0)
 
     def _assignment(self, place: int, **changes: object) -> None:
         self._set(place, assignment=msgspec.structs.replace(self._rows[place].assignment, **changes))
@@ -380,7 +404,7 @@ class ImportDialog(Retranslated, QDialog):
             widget = self._table.cellWidget(place, column)
             if widget is not None:
                 # Where nothing says what the instrument is, it is asked for.
-                widget.setEnabled(row.requested or (column == _INSTRUMENT and self._asks(row)))
+                widget.setEnabled(row.requested or (column == _INSTRUMENT and self._can_choose(row)))
 
     def _show_tools(self) -> None:
         places = self._selected()
@@ -392,6 +416,7 @@ class ImportDialog(Retranslated, QDialog):
         outcome = self._outcome
         asking = [row for row in self._rows if row.requested and self._asks(row)]
         self._buttons.ok.setEnabled(outcome is not None and not asking)
+        self._dancer.setVisible(any(map(self._is_percussion, self._rows)) and bool(bundled_choreographies()))
         self._warnings.clear()
         if outcome is not None:
             if asking:
@@ -411,7 +436,12 @@ class ImportDialog(Retranslated, QDialog):
     def _unplayed(self, part: UnplayedPart) -> str:
         """Why a part is not played, and that it is for dancers where it is."""
         reason = message_text(part.reason)
-        percussion = {stream_name(self._contents.streams[stream]) for stream in self._percussion}
+        percussion = {
+            stream_name(self._contents.streams[stream])
+            for row in self._rows
+            if self._is_percussion(row)
+            for stream in row.assignment.streams
+        }
         if part.reason.id == "score.percussion" and part.name in percussion:
             return self.tr("import_dialog.is_not_played_dancers_dance").format(name=part.name, reason=reason)
         return self.tr("import_dialog.is_not_played").format(name=part.name, reason=reason)

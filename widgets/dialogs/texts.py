@@ -388,6 +388,11 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
     "import_dialog.number_range": ("Count, range", "音数・音域"),
     "import_dialog.one_player": ("One player", "奏者 1 人"),
     "import_dialog.percussion_for_dancers": ("Percussion (for dancers)", "打楽器（ダンサー用）"),
+    "import_dialog.sound_effect": ("Sound effect (not played)", "効果音（演奏しない）"),
+    "import_dialog.sound_effects_no_player_plays": (
+        "Sound effects such as applause or a helicopter: no player plays them, and dancers do not use them.",
+        "拍手やヘリコプターなどの効果音です。奏者は演奏せず、ダンサーも使いません。",
+    ),
     "import_dialog.percussion_track_no_player_plays": (
         (
             "Percussion track: not played by players, but used by dancers. It is always kept for them, even when "

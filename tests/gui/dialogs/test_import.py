@@ -320,6 +320,72 @@ def test_a_percussion_track_is_shown_as_the_dancers(qt_app: QApplication, qtbot:
     assert imported(dialog).score.percussion
 
 
+@pytest.fixture
+def kits(qt_app: QApplication, qtbot: QtBot, tmp_path: Path) -> ImportDialog:
+    """A trumpet, the drum kit of XG on channel 11 and its sound effects on channel 12."""
+    path = tmp_path / "kits.mid"
+    file = mido.MidiFile(tracks=[mido.MidiTrack([mido.Message("sysex", data=(0x43, 0x10, 0x4C, 0, 0, 0x7E, 0))])])
+    for channel, bank, program in ((0, 0, 56), (10, 127, 56), (11, 64, 56)):
+        track = mido.MidiTrack([mido.Message("control_change", channel=channel, control=0, value=bank)])
+        track.append(mido.Message("program_change", channel=channel, program=program))
+        for pitch in (60, 62, 64, 65):
+            track.append(mido.Message("note_on", channel=channel, note=pitch, velocity=90))
+            track.append(mido.Message("note_off", channel=channel, note=pitch, time=240))
+        file.tracks.append(track)
+    file.save(path)
+    dialog = ImportDialog(read_contents(path), MAPS, DARK, ImmediateTasks())
+    qtbot.addWidget(dialog)
+    dialog.show()
+    return dialog
+
+
+def shown(dialog: ImportDialog) -> list[tuple[bool, str]]:
+    """Whether each row is played, and the instrument that it says."""
+    rows = []
+    for place in range(3):
+        play, instrument = (
+            dialog.findChild(kind, f"{name}_{place}") for kind, name in ((QCheckBox, "play"), (QComboBox, "instrument"))
+        )
+        assert play is not None
+        assert instrument is not None
+        assert instrument.isEnabled()
+        rows.append((play.isChecked(), instrument.currentText()))
+    return rows
+
+
+def test_percussion_and_sound_effects_are_named_and_the_user_can_say_otherwise(kits: ImportDialog) -> None:
+    trumpet, drums, effect = shown(kits)
+    assert trumpet == (True, "Automatic: Trumpet in B♭")
+    assert drums == (False, "Percussion (for dancers)")
+    assert effect == (False, "Sound effect (not played)")
+    dances = kits.findChild(QCheckBox, "import_dancer")
+    assert dances is not None
+    assert dances.isVisible()
+    score = imported(kits).score
+    assert (len(score.parts), len(score.percussion)) == (1, 4)
+    # The drums are a trumpet's after all: they are no percussion then.
+    choose(kits, "instrument_1", "trumpet_Bb")
+    assert shown(kits)[1] == (True, "Trumpet in B♭")
+    assert not dances.isVisible()
+    score = imported(kits).score
+    assert (len(score.parts), len(score.percussion)) == (2, 0)
+    # The trumpet is a drum kit, and then played again.
+    choose(kits, "instrument_0", "percussion")
+    assert shown(kits)[0] == (False, "Percussion (for dancers)")
+    assert dances.isVisible()
+    score = imported(kits).score
+    assert (len(score.parts), len(score.percussion)) == (1, 4)
+    assert [part.reason.id for part in score.unplayed] == ["score.percussion", "score.sound_effect"]
+    play = kits.findChild(QCheckBox, "play_0")
+    assert play is not None
+    QTest.mouseClick(play, Qt.MouseButton.LeftButton)
+    assert shown(kits)[0] == trumpet
+    choose(kits, "instrument_0", "percussion")
+    choose(kits, "instrument_0", None)
+    assert shown(kits)[0] == trumpet
+    assert len(imported(kits).score.parts) == 2
+
+
 def test_without_percussion_no_dancer_is_offered(dialog: ImportDialog) -> None:
     dances = dialog.findChild(QCheckBox, "import_dancer")
     assert dances is not None

@@ -5,6 +5,7 @@ from __future__ import annotations
 from importlib.resources import as_file, files
 from pathlib import Path
 
+import mido
 import pytest
 
 from app.cli import main
@@ -33,6 +34,29 @@ def test_the_file_holds_what_was_read(quartet: Path, tmp_path: Path, capsys: pyt
     ] == [[(one.onset_tick, one.duration_tick, one.pitch, one.velocity) for one in part.notes] for part in before.parts]
     assert [part.map_id for part in after.parts] == [part.map_id for part in before.parts]
     assert capsys.readouterr().out == f"{target}: 4 tracks, 530 notes\n"
+
+
+def test_percussion_and_a_melody_on_channel_10_are_kept(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Channel 10 is a trumpet's and channel 11 a drum kit by XG: the drums come back on channel 10, the trumpet off it,
+    for any program to understand."""
+    melody = bytes([0, 0xB9, 0, 0, 0, 0xC9, 56]) + b"".join(note(pitch, channel=9) for pitch in (60, 62, 64))
+    drums = bytes([0, 0xBA, 0, 127, 0, 0xCA, 0]) + b"".join(note(pitch, 12, 10) for pitch in (36, 33, 42, 42, 25))
+    drums += note(42, 12, 10) + bytes([0, 0x9A, 36, 90, 0, 0x9A, 36, 80, 9, 0x8A, 36, 0, 0, 0x8A, 36, 0])
+    reset = bytes([0, 0xF0, 8, 0x43, 0x10, 0x4C, 0, 0, 0x7E, 0, 0xF7])
+    source, target = tmp_path / "xg.mid", tmp_path / "out.mid"
+    source.write_bytes(header(1, 3) + b"".join(chunk(b"MTrk", events + END) for events in (reset, melody, drums)))
+    assert main(["midi", str(source), "--to", str(target)]) == DONE
+    assert capsys.readouterr().out == f"{target}: 2 tracks, 3 notes, 8 percussion hits\n"
+    maps = map_choices(bundled_maps().values())
+    before, after = read_midi(source, maps=maps), read_midi(target, maps=maps)
+    assert after.percussion == before.percussion
+    assert [hit.pitch for hit in after.percussion] == [36, 35, 42, 42, 38, 42, 36, 36]
+    assert [(part.map_id, [(one.onset_tick, one.pitch) for one in part.notes]) for part in after.parts] == [
+        ("trumpet_Bb", [(0, 60), (48, 62), (96, 64)])
+    ]
+    assert {
+        message.channel for track in mido.MidiFile(target).tracks for message in track if message.type == "note_on"
+    } == {0, 9}
 
 
 def test_the_file_is_called_by_another_title(quartet: Path, tmp_path: Path) -> None:

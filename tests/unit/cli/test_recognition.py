@@ -244,6 +244,20 @@ def test_an_unknown_name_is_listed_with_the_remedy_and_the_remedy_works(
     assert (player["name"], player["instrument"]) == ("Zugpfeife", "oboe")
 
 
+def test_percussion_can_be_assigned_and_taken_back(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = tmp_path / "one.mid"
+    inspected(path, capsys, b"Zugpfeife")
+    assert main(["inspect", str(path), "--json", "--assign", "zug*=percussion"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    (part,) = found["unplayed"]
+    assert (found["players"], found["percussion_hits"]) == ([], part["note_count"])
+    assert part["reason"] == "Zugpfeife is percussion"
+    inspected(path, capsys, b"Drum Kit", channel=9)
+    assert main(["inspect", str(path), "--json", "--assign", "drum*=oboe"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert ([player["instrument"] for player in found["players"]], found["percussion_hits"]) == (["oboe"], 0)
+
+
 @pytest.mark.parametrize(
     ("assignment", "said"),
     [("Zugpfeife", "PART=INSTRUMENT"), ("Zugpfeife=zither", "zither"), ("Oboe=oboe", "'Oboe'"), ("=oboe", "PART=")],
