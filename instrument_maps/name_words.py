@@ -10,9 +10,13 @@ from __future__ import annotations
 import re
 import unicodedata
 
-# A word is a run of letters, one kana or kanji (Japanese has no spaces), a number or an accidental.
-_WIDE = re.compile(r"[\u3040-\u30fa\u30fc-\u30ff\u3400-\u9fff]")
-_WORD = re.compile(r"[\u3040-\u30fa\u30fc-\u30ff\u3400-\u9fff]|[^\W\d_\u3040-\u30ff\u3400-\u9fff]+|\d+|[♭♯#]")
+# A word is a run of letters, one kana, kanji or hangul (Japanese and Chinese have no spaces, Korean joins words), a
+# number or an accidental.
+_WIDE = re.compile(r"[\u3040-\u30fa\u30fc-\u30ff\u3400-\u9fff\uac00-\ud7a3]")
+_WORD = re.compile(
+    r"[\u3040-\u30fa\u30fc-\u30ff\u3400-\u9fff\uac00-\ud7a3]"
+    r"|[^\W\d_\u3040-\u30ff\u3400-\u9fff\uac00-\ud7a3]+|\d+|[♭♯#]"
+)
 _CAMEL = re.compile(r"(?<=[a-z])(?=[A-Z])|(?<=\b[A-Z])(?=[A-Z][ac-z])")
 """Between joined words, also after a single letter ("ACl"), but not in "BBb"."""
 _ORDINAL = re.compile(r"(?<=\d)(?:st|nd|rd|th|ers?|eres?|res?|emes?|es?|v[ab]|m[ab]|[mdrt]?[ao])(?![^\W\d_])")
@@ -40,7 +44,7 @@ _KANA_SPELLED = {
 
 
 def is_wide(word: str) -> bool:
-    """Whether a word is a kana or kanji."""
+    """Whether a word is a kana, kanji or hangul."""
     return _WIDE.match(word) is not None
 
 

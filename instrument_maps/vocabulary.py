@@ -47,8 +47,12 @@ _PLAYER = re.compile(r"\d+|i{1,3}|iv|vi{0,3}")
 """The number of a player, between a name and its key ("Bass 1 C")."""
 _LEAST_PLURAL = 4
 """Letters of a word from which on an ending may be a plural."""
-_PLURALS = (("es", ""), ("s", ""), ("i", "o"), ("i", "e"), ("e", "a"), ("en", "e"), ("en", ""), ("e", ""))
-"""Endings of plurals in the languages of the table and what the singular has instead; the longest come first."""
+_PLURALS = (
+    *(("es", ""), ("s", ""), ("i", "o"), ("i", "e"), ("e", "a"), ("en", "e"), ("en", ""), ("e", "")),
+    *(("ы", ""), ("ы", "а"), ("а", "")),
+)
+"""Endings of plurals in the languages of the table, in Russian of the genitive too, and what the singular has instead;
+the longest come first."""
 
 
 class Instrument(msgspec.Struct, frozen=True, forbid_unknown_fields=True):

@@ -267,8 +267,8 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         "奏者が既に上限の {most} 人に達しています",
     ),
     "score.unknown_instrument": (
-        "the instrument cannot be determined ({lowest} to {highest}); select one",
-        "楽器を判定できません（{lowest}～{highest}）。楽器を選んでください",
+        "the instrument cannot be determined, for its name is not understood ({lowest} to {highest}); select one",
+        "トラック名から楽器を判定できません（{lowest}～{highest}）。楽器を選んでください",
     ),
     "score.notes_left_out": (
         (

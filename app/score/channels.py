@@ -15,6 +15,7 @@ from typing import Final
 from app.score.bend_range import RangeHistory, bent
 from app.score.limits import LAST_TICK
 from app.score.model import MOST_BEND, ControllerCurve
+from app.score.sound_module import FIRST_PORT, Port
 from app.score.tracks import SentKind, TrackEvents
 from instrument_maps.vocabulary import vocabulary
 
@@ -37,18 +38,23 @@ _Span = tuple[int, int, int]
 def settle_bends(tracks: Sequence[TrackEvents]) -> list[dict[int, frozenset[int]]]:
     """Bring the pitch bends of all tracks to the usual range, in place.
 
-    A track that sets the range of a channel goes by its own; for another one the other tracks say it.
+    A track that sets the range of a channel goes by its own; for another one the other tracks of its port say it.
 
     Returns
     -------
     list of dict of int to frozenset of int
         MPE zones of each track: members by manager channel.
     """
-    rows = sorted((row for events in tracks for row in events.parameters), key=itemgetter(0))
-    shared = RangeHistory.of(rows)
+    ports = [events.port or FIRST_PORT for events in tracks]
+    rows: dict[Port, list[tuple[int, int, int, int]]] = {port: [] for port in ports}
+    for port, events in zip(ports, tracks, strict=True):
+        # A conductor's track speaks to every port.
+        for heard in rows if events.port is None and not events.channels else (port,):
+            rows[heard] += events.parameters
+    said = {port: RangeHistory.of(sorted(own, key=itemgetter(0))) for port, own in rows.items()}
     zones = []
-    for events in tracks:
-        own = RangeHistory.of(events.parameters)
+    for port, events in zip(ports, tracks, strict=True):
+        own, shared = RangeHistory.of(events.parameters), said[port]
         zones.append(own.zones or shared.zones)
         for (channel, kind), raw in list(events.controls.items()):
             if kind == "pitch_bend":

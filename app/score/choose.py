@@ -119,8 +119,11 @@ _ORDINAL = r"(?:1[0-6]|[1-9]|VIII|VII|VI|IV|V|III|II|I)(?:st|nd|rd|th|er|[.aoº�
 _PLAYERS = re.compile(
     rf"(?<![A-Za-z\d♭♯#]){_ORDINAL}(?:\s*(?:[.,/&+・–-]|\b(?:and|und|et|ed?|y)\b)\s*{_ORDINAL})+(?![A-Za-z\d♭♯#])"
 )
+_NO_PROGRAM = 0
 _SAYS_NOTHING = re.compile(
-    r"(?:midi|new|part|track|staff|voice|channel|untitled|パート|トラック|[\W\d_])*", re.IGNORECASE
+    r"(?:midi|new|part|track|staff|voice|channel|untitled|instrument|spur|piste|pista|дорожка|трек|канал|"
+    r"パート|トラック|チャンネル|트랙|채널|音轨|音軌|轨道|軌道|通道|[\W\d_])*",
+    re.IGNORECASE,
 )
 """What programs call a track that no one has named."""
 _UNISON = re.compile(r"(?<!\w)[aà] ?([2-4])(?!\w)")
@@ -240,6 +243,11 @@ def _named(stream: TrackChannel) -> tuple[Instrument | None, Instrument | None]:
     return telling, next(iter(named), None) if telling is None else None
 
 
+def _is_named(stream: TrackChannel) -> bool:
+    """Whether someone named a track, not the program that wrote it."""
+    return not all(map(_SAYS_NOTHING.fullmatch, (stream.name, stream.instrument_name)))
+
+
 def _names_kit(pitches: Sequence[int]) -> bool:
     """Whether most notes are bass drums, snare drums, toms, hi-hats and cymbals in General MIDI."""
     return 2 * sum(map(_KIT_NOTES.__contains__, pitches)) > len(pitches)
@@ -259,10 +267,12 @@ def _said(stream: TrackChannel) -> Instrument | None:
     if telling is not None:
         return telling
     numbered = None if stream.program is None else words.by_program(stream.program)
+    # Many programs write 0, the piano, for no program at all: a name that is not understood is not a piano's for that.
+    if stream.program == _NO_PROGRAM and vague is None and _is_named(stream):
+        return None
     if vague is None or numbered is None:
         return numbered or vague
-    # Many programs write 0, the piano, for no program at all.
-    says_more = numbered.kind == "wind" or (vague.kind == "wind" and stream.program != 0)
+    says_more = numbered.kind == "wind" or (vague.kind == "wind" and stream.program != _NO_PROGRAM)
     return numbered if says_more else vague
 
 
@@ -301,8 +311,8 @@ def candidates(streams: Sequence[TrackChannel], maps: Sequence[MapChoice]) -> Ca
     section = said or next((one for one in named if one.any_pitch), None)
     families = () if section is None else section.families
     usual = _where(maps, lambda one: not one.by_name_only and (not families or one.family in families))
-    named_so = any(not _SAYS_NOTHING.fullmatch(name) for one in streams for name in (one.name, one.instrument_name))
-    return Candidates(How.RANGE, section, tuple(usual or maps), unknown=section is None and named_so)
+    unknown = section is None and any(map(_is_named, streams))
+    return Candidates(How.RANGE, section, tuple(usual or maps), unknown=unknown)
 
 
 def refusal(stream: TrackChannel, maps: Sequence[MapChoice]) -> Message | None:

@@ -17,7 +17,7 @@ score.outside_ranges : lowest, highest
     "neither its name nor its program says what it is, and no instrument map reaches its notes ({lowest} to {highest})"
 
 score.unknown_instrument : lowest, highest
-    "nothing says which instrument plays it ({lowest} to {highest}); choose one"
+    "the instrument cannot be determined, for its name is not understood ({lowest} to {highest}); select one"
 score.stray_notes : part, count, place, pitch
     "{count} notes sound together with others, the first at ...; too few and too short for another player"
 score.key_switches : part, count, place, pitch

@@ -78,7 +78,7 @@ from app.score.parts import PartAssignment, assigned_parts, parts_of, rhythm_par
 from app.score.repair import Repaired, last_suspicious, repaired
 from app.score.sound_module import FIRST_PORT, Port, Use, channel_sounds
 from app.score.tempo import TempoChange, TempoMap
-from app.score.texts import decoded
+from app.score.texts import Texts
 from app.score.tracks import LEAST_TEMPO, TrackEvents, gather, no_notes
 from instrument_maps.vocabulary import vocabulary
 
@@ -105,6 +105,8 @@ class MidiContents(msgspec.Struct, frozen=True):
         The notes of each track, by channel.
     warnings : tuple of Message
         What was repaired or skipped.
+    encoding : str
+        Of the texts that are not Unicode, given or guessed; empty where all are.
     """
 
     title: str
@@ -114,6 +116,7 @@ class MidiContents(msgspec.Struct, frozen=True):
     streams: tuple[TrackChannel, ...]
     warnings: tuple[Message, ...]
     markers: tuple[Marker, ...] = ()
+    encoding: str = ""
 
 
 def read_midi(path: Path, *, encoding: str | None = None, maps: Sequence[MapChoice]) -> Score:
@@ -230,18 +233,20 @@ def read_contents(path: Path, *, encoding: str | None = None) -> MidiContents:
     tempo_map, tempo_warnings = _tempo_map(container, tracks)
     metres, pickup_ticks, metre_warnings = _metres(tracks, ticks_per_quarter)
     _require_length(Score("", ticks_per_quarter, tempo_map, metres, pickup_ticks), tracks, str(path))
-    streams = _streams(tracks, settle_bends(tracks), encoding)
+    texts = _texts(tracks, encoding)
+    streams = _streams(tracks, settle_bends(tracks), texts)
     if len(streams) > MOST_STREAMS:
         raise FileError("midi.too_many_parts", file=str(path), parts=len(streams), most=MOST_STREAMS)
     stem = shown(path.stem)
     return MidiContents(
-        title=_title(tracks, encoding) or stem,
+        title=_title(tracks, texts) or stem,
         tempo_map=tempo_map,
         metres=metres,
         pickup_ticks=pickup_ticks,
         streams=tuple(named_by_file(streams, stem)),
-        warnings=(*no_notes(tracks, counts, encoding), *warnings, *tempo_warnings, *metre_warnings),
-        markers=_markers(tracks, encoding),
+        warnings=(*no_notes(tracks, counts, texts), *warnings, *tempo_warnings, *metre_warnings),
+        markers=_markers(tracks, texts),
+        encoding=texts.encoding,
     )
 
 
@@ -367,9 +372,16 @@ def _metres(tracks: Sequence[TrackEvents], ticks_per_quarter: int) -> tuple[tupl
     return tuple(kept), pickup_ticks, warnings
 
 
-def _markers(tracks: Sequence[TrackEvents], encoding: str | None) -> tuple[Marker, ...]:
+def _texts(tracks: Sequence[TrackEvents], encoding: str | None) -> Texts:
+    """The reader of the texts of a file."""
+    names = (name for events in tracks for name in (events.name, events.instrument_name))
+    others = (text for events in tracks for _, text in (*events.markers, *events.texts))
+    return Texts(names, others, encoding)
+
+
+def _markers(tracks: Sequence[TrackEvents], texts: Texts) -> tuple[Marker, ...]:
     found = (
-        Marker(tick, " ".join(decoded(text, encoding).split())[:_LONGEST_MARKER].rstrip())
+        Marker(tick, " ".join(texts.read(text).split())[:_LONGEST_MARKER].rstrip())
         for events in tracks
         for tick, text in events.markers
     )
@@ -377,16 +389,16 @@ def _markers(tracks: Sequence[TrackEvents], encoding: str | None) -> tuple[Marke
     return tuple(sorted(named, key=lambda marker: marker.tick))
 
 
-def _title(tracks: Sequence[TrackEvents], encoding: str | None) -> str:
+def _title(tracks: Sequence[TrackEvents], texts: Texts) -> str:
     """The name of the first track, if it is the piece's and not a player's."""
     first = tracks[0]
     if first.channels and len(tracks) > 1:
         return ""
-    return decoded(first.name, encoding)[:MOST_NAME]
+    return texts.read(first.name)[:MOST_NAME]
 
 
 def _streams(
-    tracks: Sequence[TrackEvents], zones: Sequence[Mapping[int, frozenset[int]]], encoding: str | None
+    tracks: Sequence[TrackEvents], zones: Sequence[Mapping[int, frozenset[int]]], texts: Texts
 ) -> list[TrackChannel]:
     lilypond = any(b"LilyPond" in text for _, text in tracks[0].texts)
     given: dict[tuple[Port, int], set[int]] = {}
@@ -396,13 +408,13 @@ def _streams(
             given.setdefault(key, set()).update(program for _, program in events.programs[channel])
     streams = []
     for index, events in enumerate(tracks):
-        name = decoded(events.name, encoding)[:MOST_NAME]
+        name = texts.read(events.name)[:MOST_NAME]
         if lilypond and (match := _LILYPOND_NAME.match(name)):
             name = "" if match[1].startswith("\\") else match[1].strip()
-        if len(tracks) == 1:
-            name = name if len(events.channels) == 1 else ""
         groups = players_channels(events, name if len(tracks) > 1 else "", zones[index])
-        said = [(tick, decoded(text, encoding)) for tick, text in (*events.texts, *events.markers)]
+        if len(tracks) == 1:
+            name = name if len(groups) == 1 else ""
+        said = [(tick, texts.read(text)) for tick, text in (*events.texts, *events.markers)]
         for channels in groups:
             notes = events.notes(channels)
             first = leading(events, channels)
@@ -422,7 +434,7 @@ def _streams(
                         track=index,
                         channel=first,
                         name=_doubled_name(name, instrument)[:MOST_NAME] if change and instrument else name,
-                        instrument_name=decoded(events.instrument_name, encoding)[:MOST_NAME],
+                        instrument_name=texts.read(events.instrument_name)[:MOST_NAME],
                         program=_program(events, sounding, own.onset_ticks[0], given),
                         use=use,
                         certain=mine[0].certain,

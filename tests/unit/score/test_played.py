@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from app.errors import Message
 from app.messages import text
 from app.project.model import map_choices
 from app.score.choose import players_named
@@ -126,13 +127,23 @@ def test_low_notes_that_are_music_stay() -> None:
 
 
 @pytest.mark.parametrize("name", ["Zugpfeife", "Lead", "Take 3", "旋律"])
-def test_an_unknown_name_is_asked_about(name: str) -> None:
-    score = named(name, note(60) + note(62))
+@pytest.mark.parametrize("program", [b"", bytes([0, 0xC0, 0])])
+def test_an_unknown_name_is_asked_about(name: str, program: bytes) -> None:
+    """Also where its program is 0, a piano's, which many write for none."""
+    score = named(name, program + note(60) + note(62))
     assert score.parts == ()
     assert [(part.name, part.reason.id) for part in score.unplayed] == [(name, "score.unknown_instrument")]
 
 
-@pytest.mark.parametrize("name", ["", "Track 1", "MIDI 03", "Part", "トラック 2", "Untitled"])
+@pytest.mark.parametrize("name", ["", "Track 1", "Piano", "ピアノ", "钢琴"])
+def test_a_piano_that_is_called_nothing_else_is_one(name: str) -> None:
+    (part,) = named(name, bytes([0, 0xC0, 0]) + note(60) + note(62)).unplayed
+    assert part.reason == Message("score.not_wind", {"instrument": "Piano"})
+
+
+@pytest.mark.parametrize(
+    "name", ["", "Track 1", "MIDI 03", "Part", "トラック 2", "Untitled", "音轨 1", "Дорожка 2", "트랙 1"]
+)
 def test_where_no_one_named_a_track_its_range_chooses_and_says_so(name: str) -> None:
     score = named(name, note(60) + note(62))
     assert [warning.id for warning in score.warnings] == ["score.chosen_by_range"]

@@ -293,7 +293,8 @@ def test_names_programs_and_titles() -> None:
 
 def test_the_encoding_can_be_given() -> None:
     data = header() + chunk(b"MTrk", meta(3, "Труба".encode("cp1251")) + SCALE_BYTES + END)
-    assert score_of(data, encoding="cp1251").unplayed[0].name == "Труба"
+    assert score_of(data, encoding="koi8_r").unplayed[0].name == "рПСАЮ"
+    assert score_of(data, encoding="cp1251").parts[0].name == score_of(data).parts[0].name == "Труба"
 
 
 def test_programs_belong_to_tracks_not_to_channels() -> None:

@@ -1,4 +1,4 @@
-"""What instruments are called, in five languages."""
+"""What instruments are called, in eight languages."""
 
 import tomllib
 
@@ -67,3 +67,30 @@ def test_what_the_bundled_maps_play_is_in_the_vocabulary_and_blown() -> None:
 def test_a_name_that_belongs_to_two_is_refused() -> None:
     with pytest.raises(MapError, match="blow"):
         Vocabulary((Instrument("a", "wind", ("Blow",)), Instrument("b", "wind", ("blow!",))), "test.toml")
+
+
+@pytest.mark.parametrize(
+    ("id_", "names"),
+    [
+        ("trumpet", "小号|第一小号|小號2|降B调小号|트럼펫 1|제2트럼펫|Труба|Трубы|1-я труба|партия трубы"),
+        ("horn", "圆号|法國號|F调圆号|호른 1,2|Валторна|Валторны 1, 2|ВАЛТОРНА"),
+        ("trombone", "长号|伸縮號|트롬본|Тромбон|Тромбоны"),
+        ("bass_trombone", "低音长号|베이스 트롬본|Бас-тромбон"),
+        ("euphonium", "上低音號|次中音号|유포니움|Эуфониум"),
+        ("flute", "长笛|第二长笛|플루트|플룻 2|Флейта I|Флейты"),
+        ("oboe", "双簧管|雙簧管|오보에|Гобои"),
+        ("clarinet", "单簧管|豎笛|降B单簧管|클라리넷|Кларнет in B|Кларнет си-бемоль"),
+        ("clarinet_A", "A调单簧管|Кларнет in A"),
+        ("bass_clarinet", "低音單簧管|베이스클라리넷|Бас-кларнет"),
+        ("bassoon", "巴松|大管|바순|Фагот"),
+        ("alto_saxophone", "中音萨克斯管|薩克斯風 中音|알토 색소폰|Саксофон-альт|альтсаксофон"),
+        ("tenor_saxophone", "次中音薩克斯|테너색소폰|Теноровый саксофон"),
+        ("english_horn", "英国管|잉글리시 호른|Английский рожок"),
+        ("drums", "架子鼓|드럼|Ударные"),
+        ("cello", "大提琴|첼로|Виолончель"),
+        ("ewi", "电吹管|EWI4000s|YDS-120|WX-7|WX11|Roland AE-30|Aerophone GO|re.corder|ECORDER|Sylphyo Link|NuRAD"),
+    ],
+)
+def test_names_in_chinese_korean_and_russian_and_of_wind_controllers(id_: str, names: str) -> None:
+    found = {name: vocabulary().by_name(name) for name in names.split("|")}
+    assert {name: one.id if one else None for name, one in found.items()} == dict.fromkeys(found, id_)
