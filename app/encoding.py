@@ -42,6 +42,15 @@ def guessed(data: bytes) -> str:
     return data.decode("latin-1")
 
 
+def is_encoding(name: str) -> bool:
+    """Whether it is the name of an encoding that turns any bytes into text."""
+    try:
+        b"ab".decode(name, errors="replace")  # looks it up; nothing is asked of an empty text
+    except (LookupError, ValueError):
+        return False
+    return True
+
+
 def stored(path: str | os.PathLike[str]) -> str:
     """A path as a file keeps it: itself where it is UTF-8, else ``bytes://`` and its bytes, percent-encoded where they
     are not UTF-8. `restored` gives the path back."""

@@ -11,6 +11,7 @@ from typing import Final, TypeVar
 import msgspec
 
 from app.cli.terminal import warn
+from app.encoding import is_encoding
 from app.errors import UsageError
 from app.messages import text as worded
 from app.plan.generate import COME_UP_S, PREROLL_BEATS, PREROLL_LEAST_S
@@ -19,15 +20,15 @@ from app.project.casting import MOST_IN_ARC, ConductorPlace, conductor_place
 from app.project.edit.piece import PieceSettings, piece_settings, set_piece_settings, set_preroll
 from app.project.frame_rate import exact_number
 from app.project.frame_rate import frame_rate as typed_rate
-from app.project.model import Project, map_choices, preroll_of_new, project_from_score, with_settings
+from app.project.importing import ImportRow, import_project, score_of_rows, usual_rows
+from app.project.model import Project, preroll_of_new, with_settings
 from app.project.names import unique_names
 from app.project.parameters import parameter_names, parse_settings, select_players
 from app.project.storage import is_project_file, load
 from app.rig.character_library import characters
-from app.score.choose import MapChoice, TrackChannel, require_map
-from app.score.model import Score
-from app.score.parts import PERCUSSION, PartAssignment, stream_name, usual_assignments
-from app.score.read import assigned_score, read_contents
+from app.score.choose import TrackChannel, require_map
+from app.score.parts import PERCUSSION, PartAssignment, stream_name
+from app.score.read import MidiContents, read_contents
 from instrument_maps.library import library
 from instrument_maps.model import InstrumentMap
 from metadata.library import metadata_library
@@ -133,10 +134,8 @@ def conductor(text: str) -> ConductorPlace | str:
 
 def text_encoding(text: str) -> str:
     """The name of an encoding that turns bytes into text."""
-    try:
-        b"ab".decode(text, errors="replace")  # looks it up; nothing is asked of an empty text
-    except (LookupError, ValueError):
-        raise argparse.ArgumentTypeError(f"{text!r} is not the name of a text encoding") from None
+    if not is_encoding(text):
+        raise argparse.ArgumentTypeError(f"{text!r} is not the name of a text encoding")
     return text
 
 
@@ -294,50 +293,45 @@ def _saved_project(arguments: argparse.Namespace) -> Project:
 
 
 def _cast_project(arguments: argparse.Namespace, maps: Mapping[str, InstrumentMap]) -> Project:
-    return project_from_score(
-        _read_score(arguments, map_choices(maps.values())), maps, seed=getattr(arguments, "seed", None) or 0
-    )
-
-
-def _read_score(arguments: argparse.Namespace, maps: Sequence[MapChoice]) -> Score:
-    """The score of a MIDI file, with the pitches that are written ones transposed."""
     contents = read_contents(arguments.file, encoding=arguments.encoding)
-    assignments = _assigned(contents.streams, usual_assignments(contents.streams, maps), arguments.assign, maps)
-    score = assigned_score(contents, assignments, maps)
-    if not arguments.written:
-        return score
-    chosen = select_players(arguments.written, unique_names(part.name for part in score.parts))
-    places = {score.parts[index].place for index in chosen}
-    streams = [contents.streams[assignment.streams[0]] for assignment in assignments]
-    asked = [
-        msgspec.structs.replace(assignment, written=stream.place in places)
-        for assignment, stream in zip(assignments, streams, strict=True)
+    rows = _assigned(contents.streams, usual_rows(contents, maps), arguments.assign, list(maps))
+    if arguments.written:
+        rows = _written(contents, rows, arguments.written, maps)
+    seed = getattr(arguments, "seed", None) or 0
+    return import_project(contents, rows, maps, encoding=arguments.encoding, seed=seed)
+
+
+def _written(
+    contents: MidiContents, rows: Sequence[ImportRow], names: Sequence[str], maps: Mapping[str, InstrumentMap]
+) -> Sequence[ImportRow]:
+    """The rows with the pitches of the players of these names taken for written ones."""
+    parts = score_of_rows(contents, rows, maps).parts
+    places = {parts[index].place for index in select_players(names, unique_names(part.name for part in parts))}
+    return [
+        msgspec.structs.replace(row, assignment=msgspec.structs.replace(row.assignment, written=True))
+        if contents.streams[row.assignment.streams[0]].place in places
+        else row
+        for row in rows
     ]
-    return assigned_score(contents, asked, maps)
 
 
 def _assigned(
-    streams: Sequence[TrackChannel],
-    assignments: Sequence[PartAssignment],
-    texts: Sequence[str],
-    maps: Sequence[MapChoice],
-) -> Sequence[PartAssignment]:
-    """The assignments with the instruments that are assigned to parts as ``PART=INSTRUMENT``.
+    streams: Sequence[TrackChannel], rows: Sequence[ImportRow], texts: Sequence[str], maps: Sequence[str]
+) -> Sequence[ImportRow]:
+    """The rows, one for each stream, with the instruments that are assigned to parts as ``PART=INSTRUMENT``.
 
     Raises
     ------
     UsageError
         ``assign.malformed`` (assignment), ``assign.instrument_unknown`` (instrument, possible), ``player.unknown``.
     """
-    if not texts:
-        return assignments
-    names = unique_names(map(stream_name, streams))
-    assigned = {assignment.streams[0]: assignment for assignment in assignments}
+    names = unique_names(map(stream_name, streams)) if texts else []
+    assigned = list(rows)
     for text in texts:
         part, equals, map_id = (piece.strip() for piece in text.rpartition("="))
         if not (part and equals and map_id):
             raise UsageError("assign.malformed", assignment=text)
-        require_map(map_id, [*(choice.map_id for choice in maps), PERCUSSION])
+        require_map(map_id, [*maps, PERCUSSION])
         for index in select_players([part], names):
-            assigned[index] = PartAssignment((index,), map_id)
-    return [assigned[index] for index in sorted(assigned)]
+            assigned[index] = ImportRow(PartAssignment((index,), map_id))
+    return assigned

@@ -58,6 +58,8 @@ _JAPANESE: Final = tuple(
         (r"the mouth belongs to the embouchure", "口はアンブシュアが動かします"),
         (r"must be from (\S+) to (\S+)", r"\1～\2 の範囲にしてください"),
         (r"at most (\d+) characters", r"最大 \1 文字です"),
+        (r"at most (\d+) (?:numbers|tracks)", r"最大 \1 個です"),
+        (r"must be the name of a text encoding", "文字コードの名前にしてください"),
         (r"must have from (\d+) to (\d+) characters", r"\1～\2 文字にしてください"),
         (r"must be Unicode text", "Unicode の文字にしてください"),
         (r"must be the path of a file", "ファイルのパスにしてください"),

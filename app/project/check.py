@@ -16,6 +16,7 @@ from app.errors import UsageError
 from app.project import limits
 from app.project.check_corrections import project_correction_faults
 from app.project.check_dancers import dancer_faults
+from app.project.check_imported import import_faults
 from app.project.check_media import audio_faults, track_faults
 from app.project.check_stored import stored_faults
 from app.project.fault import (
@@ -32,6 +33,7 @@ from app.project.fault import (
     within,
 )
 from app.project.frame_rate import is_storable_rate
+from app.project.imported import ReadTiming
 from app.project.model import PlayerTakes, Project
 from app.project.parameters import is_possible, range_text
 from app.project.performers import Player
@@ -91,6 +93,23 @@ def _read_faults(project: Project, before: Project | None) -> Iterator[Fault]:
         yield from id_faults("edited_notes", part_id)
         ordered = sorted(notes.values(), key=lambda note: (note.onset_tick, note.pitch))
         yield from _note_faults(ordered, f"edited_notes[{part_id!r}]")
+    if before is None or project.read_curves is not before.read_curves:
+        for part_id, curves in project.read_curves.items():
+            yield from id_faults("edited_curves", part_id)
+            for index, curve in enumerate(curves):
+                yield from _curve_faults(curve, f"edited_curves[{part_id!r}][{index}]")
+    timing, imported = project.read_timing, project.imported
+    if timing is not None and (before is None or timing is not before.read_timing):
+        yield from within("read_timing", _timing_faults(timing))
+    if imported is not None and (before is None or imported is not before.imported):
+        yield from within("imported", import_faults(imported))
+
+
+def _timing_faults(timing: ReadTiming) -> Iterator[Fault]:
+    yield from between("tempo_map.ticks_per_quarter", timing.tempo_map.ticks_per_quarter, limits.TICKS_PER_QUARTER)
+    yield from _tempo_faults(timing.tempo_map.changes)
+    yield from _metre_faults(timing.metres)
+    yield from between("pickup_ticks", timing.pickup_ticks, (0, limits.LAST_TICK))
 
 
 def _score_faults(score: Score, before: Score | None) -> Iterator[Fault]:

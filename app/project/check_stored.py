@@ -23,13 +23,13 @@ from app.project.model import PlayerTakes, Project
 from app.project.performers import Dancer, Player
 from app.project.recording import AudioTrack
 from app.project.video import VideoTrack
-from app.score.model import Note, Part, Score
+from app.score.model import ControllerCurve, Note, Part, Score
 from metadata.model import Expression
 
 _PARTS: Final = "parts"
 _SETTINGS: Final = (
     *("seed", "preroll_beats", "section_intensity", "felt_beat_quarters"),
-    *("conductor", "audio", "video"),
+    *("conductor", "audio", "video", "read_timing", "imported"),
 )
 """Fields of a project whose values are written as they are."""
 
@@ -101,6 +101,8 @@ def _groups(project: Project) -> Iterator[_Group]:
     yield _Group("expressions", project.expressions, Expression)
     for part, notes in project.read_notes.items():
         yield _Group(f"edited_notes[{part!r}]", (notes,), dict[str, Note], is_list=False)
+    for part, curves in project.read_curves.items():
+        yield _Group(f"edited_curves[{part!r}]", curves, ControllerCurve)
     hints = _hints(Project)
     for name in _SETTINGS:
         yield _Group(name, (getattr(project, name),), hints[name], is_list=False)
@@ -149,7 +151,17 @@ def _hints(kind: type) -> dict[str, Any]:
 
 
 # Made here, under the import's lock: two threads that use a type for the first time at once crash msgspec.
-for _type in (Part, Player, Correction, Dancer, DanceCorrection, Expression, dict[str, Note], PlayerTakes):
+for _type in (
+    Part,
+    Player,
+    Correction,
+    Dancer,
+    DanceCorrection,
+    Expression,
+    dict[str, Note],
+    PlayerTakes,
+    ControllerCurve,
+):
     _decoder(_type)
 for _struct, _names in ((Score, Score.__struct_fields__), (Project, _SETTINGS)):
     for _name in _names:

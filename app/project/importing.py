@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
 
 import msgspec
 
 from app.errors import Message
 from app.project.doubling import doubled_parts
+from app.project.imported import ImportDecisions, RowDecision, TrackMark, mark_of
 from app.project.model import Project, map_choices, project_from_score
 from app.score.model import Score, UnplayedPart
 from app.score.parts import PERCUSSION, PartAssignment, usual_assignments
@@ -166,8 +167,11 @@ def import_project(
     maps: Mapping[str, InstrumentMap],
     source: str = "",
     stop_requested: Callable[[], bool] = lambda: False,
+    *,
+    encoding: str | None = None,
+    seed: int = 0,
 ) -> Project:
-    """A project in which the requested rows are played.
+    """A project in which the requested rows are played, which keeps them for later readings of the file.
 
     Parameters
     ----------
@@ -175,8 +179,10 @@ def import_project(
         Absolute path of the MIDI file.
     stop_requested : callable
         Raises Cancelled when it says so.
+    encoding : str, optional
+        By which the contents were read.
     """
-    project = project_from_score(score_of_rows(contents, rows, maps, stop_requested), maps)
+    project = project_from_score(score_of_rows(contents, rows, maps, stop_requested), maps, seed=seed)
     characters = {}
     for row in rows:
         if row.requested and row.character_id is not None:
@@ -188,4 +194,24 @@ def import_project(
         places = [project.part(one).place for one in project.played_by(player)]
         character = next((characters[place] for place in places if place in characters), player.character_id)
         players.append(msgspec.structs.replace(player, character_id=character))
-    return replace(project, players=tuple(players), source=source)
+    return replace(project, players=tuple(players), source=source, imported=decisions_of(contents, rows, encoding))
+
+
+def decisions_of(contents: MidiContents, rows: Sequence[ImportRow], encoding: str | None = None) -> ImportDecisions:
+    """The decisions of an import, to be kept."""
+    quarter = contents.tempo_map.ticks_per_quarter
+    return ImportDecisions(
+        encoding,
+        tuple(
+            decision_of(row, (mark_of(contents.streams[stream], quarter) for stream in row.assignment.streams))
+            for row in rows
+        ),
+    )
+
+
+def decision_of(row: ImportRow, marks: Iterable[TrackMark]) -> RowDecision:
+    """A row as it is kept with the project, with the marks of its streams."""
+    chosen = row.assignment
+    return RowDecision(
+        tuple(marks), row.requested, chosen.map_id, chosen.name, chosen.split, chosen.written, row.character_id
+    )

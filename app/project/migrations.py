@@ -92,6 +92,9 @@ STRUCTURE: Final[Mapping[int, Migration]] = {
     10: _with_section_intensity,
     11: _with_takers,
     12: _with_video_and_pins,
+    # What was decided at the import is kept, and controllers and timing of the MIDI file; of an older file they are
+    # derived from its parts when it is read again.
+    14: lambda raw: {**raw, "imported": None, "edited_curves": {}, "read_timing": None},
 }
 """By the version that they lead to. New parameters say themselves since which version they are there."""
 

@@ -28,6 +28,7 @@ from app.project.casting import (
 from app.project.dance_corrections import DanceCorrection
 from app.project.doubling import common_postures, doubled_parts, embodied
 from app.project.footprint import footprint, together
+from app.project.imported import ImportDecisions, ReadTiming
 from app.project.names import unique_names
 from app.project.parameters import Setting
 from app.project.parameters import with_settings as parameters_with
@@ -120,6 +121,12 @@ class Project:
     read_notes : mapping of str to mapping of str to Note
         By part and note id: what the MIDI file held when it was last read, whatever was done to the notes since. A
         part that is not there was not read from a file, or by a program that did not keep it.
+    read_curves : mapping of str to tuple of ControllerCurve
+        By the ids of the same parts: their controllers in the file.
+    read_timing : ReadTiming or None
+        Tempo and metres of the file; None: there is none, or a program read it that did not keep them.
+    imported : ImportDecisions or None
+        What was decided when the MIDI file was imported; None: it is not known, or there is no file.
     takes : mapping of str to PlayerTakes
         By player id; players without takes are absent.
     dancers : tuple of Dancer
@@ -145,6 +152,9 @@ class Project:
     section_intensity: float = 1.0
     conductor: ConductorPlace | None = None
     video: VideoTrack | None = None
+    read_curves: Mapping[str, tuple[ControllerCurve, ...]] = field(default_factory=dict)
+    read_timing: ReadTiming | None = None
+    imported: ImportDecisions | None = None
 
     def __post_init__(self) -> None:
         players = embodied(self.players)
@@ -273,7 +283,12 @@ def project_from_score(score: Score, maps: Mapping[str, InstrumentMap], *, seed:
             )
         )
     project = Project(
-        score, tuple(players), seed=seed, read_notes={part.id: {note.id: note for note in part.notes} for part in parts}
+        score,
+        tuple(players),
+        seed=seed,
+        read_notes={part.id: {note.id: note for note in part.notes} for part in parts},
+        read_curves={part.id: part.curves for part in parts},
+        read_timing=ReadTiming(score.tempo_map, score.metres, score.pickup_ticks),
     )
     return replace(project, preroll_beats=preroll_of_new(project), conductor=conductor_of_new(project))
 

@@ -4,9 +4,9 @@ Parts are recognised by what they play, by name, track and instrument, notes by 
 note found again keeps its id, and with it every correction about it; corrections at places of the score move with the
 notes around them. A note that the user changed and the file did not stays as the user has it (one that was erased
 stays erased); where both changed it the file's version is taken, and reported. What the user chose for players stays. A
-part that is new gets a player; a player whose part is gone leaves, but stays, with an empty part, while there are
-corrections for them. Parts made in the editor stay, and so do notes drawn into the file's parts where they do not
-overlap what the file has there.
+part that is new gets a player; a player whose part is gone keeps it, as one that was made in the editor, and may be
+removed (`app.project.edit.players.remove_players`). Parts made in the editor stay, and so do notes drawn into the
+file's parts where they do not overlap what the file has there.
 
 Dancers stay; what was corrected of their dances moves like other corrections at places of the score, and so do beats
 pinned to the recording.
@@ -23,19 +23,23 @@ from bisect import bisect_right
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from typing import Final
+from pathlib import Path
+from typing import Literal, TypeAlias
 
 import msgspec
 import numpy as np
 
 from app.errors import UsageError
 from app.plan.corrections import Correction, kind
-from app.project.alignment import AlignmentPart, Floats, align
+from app.project.alignment import AlignmentPart, align
 from app.project.anchors import moved, note_of
-from app.project.doubling import doubled_parts, promote_remaining
+from app.project.derived_decisions import derived_decisions, held_by_file, is_read
+from app.project.doubling import doubled_parts
 from app.project.edit.corrections import put, take_back
 from app.project.edit.length import with_score
 from app.project.edit.players import free_name, newcomer, with_newcomers
+from app.project.file_curves import merged_curves, moved_curve
+from app.project.file_timing import merged_timing, timing_of, with_timing
 from app.project.ids import (
     MADE_PART,
     READ_NOTE,
@@ -45,18 +49,19 @@ from app.project.ids import (
     fresh_player_ids,
     is_made_here,
 )
+from app.project.imported import Place
+from app.project.importing import score_of_rows
 from app.project.limits import LAST_TICK
-from app.project.model import Project
-from app.project.performers import Player
+from app.project.model import Project, map_choices
+from app.project.part_matching import matched_parts
 from app.project.recording import with_places
+from app.project.rereading import Reading, characters_of, read_as_decided
 from app.score.model import Note, Part, Score
 from app.score.parts import transposed
+from app.score.read import read_contents
 from instrument_maps.model import InstrumentMap
 
-ALIKE: Final = 0.25
-"""Parts that share this much of what they play are one, whatever they are called."""
-_GRAM: Final = 3
-"""Notes that make a turn of the melody by which parts are recognised."""
+ReplacedKind: TypeAlias = Literal["tempo", "metres", "controllers"]
 
 
 @dataclass(frozen=True)
@@ -121,12 +126,14 @@ class Reimport:
         The very same value where the file says nothing new.
     added, removed : tuple of str
         Ids of notes that are new in the project, and of notes that are in it no more.
-    new_players, gone_players, idle_players : tuple of str
-        Ids: of new parts; of parts that are gone; of parts that are gone, kept for their corrections.
+    new_players, gone_players : tuple of str
+        Ids in the project: of new parts; of parts that the file does not have any more, which can be removed.
     orphans : tuple of Orphan
         Corrections that lost their note now or earlier.
     conflicts : tuple of Conflict
         In the order of the parts.
+    replaced : tuple of {"tempo", "metres", "controllers"}
+        Edited here and in the file: the file's version is taken.
     """
 
     project: Project
@@ -135,15 +142,35 @@ class Reimport:
     removed: tuple[str, ...]
     new_players: tuple[str, ...]
     gone_players: tuple[str, ...]
-    idle_players: tuple[str, ...]
     orphans: tuple[Orphan, ...]
     conflicts: tuple[Conflict, ...]
+    replaced: tuple[ReplacedKind, ...] = ()
 
 
-def reimport(project: Project, score: Score, maps: Mapping[str, InstrumentMap], source: str | None = None) -> Reimport:
+def reimported(project: Project, path: Path, maps: Mapping[str, InstrumentMap]) -> Reimport:
+    """Read a MIDI file, as it was decided when the project was made from an earlier version of it, and let it take the
+    place of the project's score. Raises as `app.score.read.read_contents`."""
+    decisions = project.imported
+    contents = read_contents(path, encoding=None if decisions is None else decisions.encoding)
+    choices = map_choices(maps.values())
+    if decisions is None:
+        decisions = derived_decisions(project, contents, choices)
+    played_on = {part.place: part.map_id for part in reversed(project.score.parts) if is_read(project, part)}
+    reading = read_as_decided(contents, decisions, maps, choices, played_on)
+    return reimport(project, score_of_rows(reading.contents, reading.rows, maps), maps, str(path), reading)
+
+
+def reimport(
+    project: Project,
+    score: Score,
+    maps: Mapping[str, InstrumentMap],
+    source: str | None = None,
+    reading: Reading | None = None,
+) -> Reimport:
     """Let the score that a file holds now take the place of the project's.
 
-    The title stays; tempo, metres, markers, percussion and everything else are the file's.
+    The title stays, and so do tempo, metres and controllers that were edited here and not in the file; markers,
+    percussion and everything else are the file's.
 
     Parameters
     ----------
@@ -151,77 +178,45 @@ def reimport(project: Project, score: Score, maps: Mapping[str, InstrumentMap], 
         By id; every part of the new score names one of them.
     source : str, optional
         Absolute path of the file.
+    reading : Reading, optional
+        Of the file: the decisions that the score was read by.
     """
-    old = project.score
-    scale = Fraction(score.ticks_per_quarter, old.ticks_per_quarter)
-    partners = _matched_parts(old.parts, score.parts, old.ticks_per_quarter, score.ticks_per_quarter)
-    former_of = {new: former for former, new in partners}
-    score = _as_read(score, old, former_of)
-    held = {former: _held_by_file(project, old.parts[former]) for former, _ in partners}
-    pairs = {
-        former: align(
-            AlignmentPart.of(held[former], old.ticks_per_quarter),
-            AlignmentPart.of(score.parts[new].notes, score.ticks_per_quarter),
-        )
-        for former, new in partners
-    }
-    part_ids = iter(fresh_part_ids(project, len(score.parts), READ_PART))
-    note_ids = iter(fresh_note_ids(project, sum(len(part.notes) for part in score.parts), READ_NOTE))
-    parts: list[Part] = []
-    matches: list[PartMatch] = []
-    conflicts: list[Conflict] = []
-    read_notes: dict[str, dict[str, Note]] = {}
-    added: list[str] = []
-    places: dict[str, list[tuple[int, int]]] = {}
-    for index, part in enumerate(score.parts):
-        former = former_of.get(index)
-        if former is None:
-            ids = [next(note_ids) for _ in part.notes]
-            added += ids
-            parts.append(_renamed(part, next(part_ids), ids))
-            read_notes[parts[-1].id] = {note.id: note for note in parts[-1].notes}
-            continue
-        before, was = old.parts[former], held[former]
-        kept = {int(new): was[int(one)].id for one, new in pairs[former]}
-        ids = [kept[number] if number in kept else next(note_ids) for number in range(len(part.notes))]
-        renamed = _renamed(part, before.id, ids)
-        read_notes[before.id] = {note.id: note for note in renamed.notes}
-        merged = _merged(before, was, renamed, [(int(one), int(new)) for one, new in pairs[former]], scale)
-        conflicts += merged.conflicts
-        known = {note.id: note for note in before.notes}
-        places[before.id] = [
-            (known[note.id].onset_tick, note.onset_tick) for note in merged.part.notes if note.id in known
-        ]
-        drawn = _drawn(before, frozenset(kept.values()), _place_map(places[before.id], scale), scale, merged.part)
-        parts.append(_with_more(merged.part, drawn))
-        stayed, came = len(places[before.id]), [note.id for note in merged.part.notes if note.id not in known]
-        added += came
-        lost = len(before.notes) - stayed - len(drawn)
-        matches.append(
-            PartMatch(before.id, before.name, part.name, stayed + len(drawn), len(came), lost, merged.by_hand)
-        )
-    everywhere = _place_map((pair for own in places.values() for pair in own), scale)
-    found = set(pairs)
-    for index, part in enumerate(old.parts):
-        if part.id.startswith(MADE_PART) and index not in found:
-            empty = msgspec.structs.replace(part, notes=(), curves=())
-            parts.append(_with_more(empty, _drawn(part, frozenset(), everywhere, scale, empty)))
-    result = _with_players(project, score, parts, places, everywhere, scale, maps)
-    result = replace(result, read_notes=read_notes, source=project.source if source is None else source)
+    scale = Fraction(score.ticks_per_quarter, project.score.ticks_per_quarter)
+    found = _found_again(project, score, {} if reading is None else reading.places, scale)
+    everywhere = _place_map(found.pairs_of_ticks, scale)
+    timing = merged_timing(project, score, everywhere, scale, found.is_unchanged)
+    parts, replaced = _with_curves(project, found, everywhere, scale)
+    part_of = _add_others(project, parts, found.others, everywhere, scale)
+    result = _with_players(project, with_timing(score, timing.timing), parts, part_of, found, everywhere, scale)
+    former_ids = {part.id for part in project.score.parts} | set(part_of.values())
+    fresh = [part for part in parts if part.id not in former_ids]
+    if fresh:
+        result = _with_new_players(result, fresh, maps, {} if reading is None else characters_of(reading))
+    result = replace(
+        result,
+        read_notes=found.read_notes,
+        read_curves={part.id: part.curves for part in found.parts},
+        read_timing=timing_of(score),
+        source=project.source if source is None else source,
+        imported=project.imported if reading is None else reading.decisions,
+    )
+    # What is only known better than before is nothing new.
+    fields = ("imported", "read_curves", "read_timing", *(("read_notes",) if not project.read_notes else ()))
+    known = {field: getattr(project, field) for field in fields}
+    same = result == project or replace(result, **known) == project
     alive = {note.id for part in parts for note in part.notes}
     before_ids = {player.id for player in project.players}
-    after_ids = {player.id for player in result.players}
-    gone = {part.id for part in old.parts} - {part.id for part in parts}
+    gone = {id for id, now in part_of.items() if id != now}
     return Reimport(
-        project=project if result == project else result,
-        parts=tuple(matches),
-        added=tuple(added),
-        removed=tuple(note.id for part in old.parts for note in part.notes if note.id not in alive),
+        project=project if same else result,
+        parts=found.matches,
+        added=found.added,
+        removed=tuple(note.id for part in project.score.parts for note in part.notes if note.id not in alive),
         new_players=tuple(player.id for player in result.players if player.id not in before_ids),
-        gone_players=tuple(player.id for player in project.players if player.id not in after_ids),
-        idle_players=tuple(player.id for player in result.players if player.part_id in gone),
+        gone_players=tuple(player.id for player in project.players if player.part_id in gone),
         orphans=orphaned(result),
-        conflicts=tuple(conflicts),
+        conflicts=found.conflicts,
+        replaced=(*timing.replaced, *replaced),
     )
 
 
@@ -257,90 +252,144 @@ def reattached(project: Project, player_id: str, correction: Correction, note_id
 # Parts
 
 
-def _matched_parts(
-    old: Sequence[Part], new: Sequence[Part], old_quarter: int, new_quarter: int
-) -> list[tuple[int, int]]:
-    """Which part is which, as indices: as much as possible in common, all in all."""
-    if not old or not new:
-        return []
-    old_turns = [_turns(part, old_quarter) for part in old]
-    new_turns = [_turns(part, new_quarter) for part in new]
-    content = _likeness(old_turns, new_turns)
-    named = np.array([[_kinship(one, other) for other in new] for one in old])
-    from scipy.optimize import linear_sum_assignment  # heavy, and seldom needed
+@dataclass(frozen=True)
+class _Found:
+    """The parts of the file as those of the project.
 
-    pairs = zip(*linear_sum_assignment(-(content + named)), strict=True)
-    # A part rewritten from end to end is still the same player's where everything else says so.
-    return [(int(one), int(other)) for one, other in pairs if content[one, other] >= ALIKE or named[one, other] >= 0.4]
+    Attributes
+    ----------
+    parts : tuple of Part
+        With the ids of the project.
+    former : tuple of (Part or None)
+        What each of them was; None: it is new.
+    others : tuple of Part
+        The project's parts that the file does not have.
+    places : mapping of str to list of (int, int)
+        Of the notes that were found again, by part id: former and present tick.
+    added : tuple of str
+        Ids of new notes.
+    still : bool
+        No note has moved.
+    """
 
+    parts: tuple[Part, ...]
+    former: tuple[Part | None, ...]
+    others: tuple[Part, ...]
+    matches: tuple[PartMatch, ...]
+    conflicts: tuple[Conflict, ...]
+    read_notes: dict[str, dict[str, Note]]
+    places: dict[str, list[tuple[int, int]]]
+    added: tuple[str, ...]
+    still: bool
 
-def _as_read(score: Score, old: Score, former_of: Mapping[int, int]) -> Score:
-    """The score with the parts that were read as written pitches before read so again."""
-    parts = list(score.parts)
-    for new, former in former_of.items():
-        shift = old.parts[former].transposed_semitones
-        notes = transposed(parts[new].notes, shift)
-        parts[new] = msgspec.structs.replace(parts[new], notes=notes, transposed_semitones=shift)
-    return msgspec.structs.replace(score, parts=tuple(parts))
+    @property
+    def is_unchanged(self) -> bool:
+        """Whether the file has the notes that it had, where they were."""
+        return self.still and not (self.added or self.conflicts) and not any(match.removed for match in self.matches)
 
-
-def _turns(part: Part, quarter: int) -> Floats:
-    """What the melody does at every place, whatever its key and wherever it stands; sorted."""
-    if len(part.notes) <= _GRAM:
-        # Too short for turns: the notes themselves.
-        return np.sort(np.array([note.pitch * 1e6 + note.onset_tick / quarter for note in part.notes]))
-    pitches = np.array([note.pitch for note in part.notes], np.float64)
-    onsets = np.array([note.onset_tick for note in part.notes], np.float64) / quarter
-    steps = np.diff(pitches) + 200.0
-    times = np.minimum(np.rint(np.diff(onsets) * 12.0), 999.0)
-    single = steps * 1000.0 + times
-    count = len(single) - _GRAM + 2
-    return np.sort(single[:count] * 1e6 + single[len(single) - count :])
-
-
-def _likeness(old: Sequence[Floats], new: Sequence[Floats]) -> Floats:
-    """The share of turns that two parts both have, 0..1, (old, new): turn by turn, for of many parts most pairs have
-    nothing in common."""
-    both: Floats = np.zeros((len(old), len(new)))
-    here, there = _owners(old), _owners(new)
-    for turn, (parts, counts) in here.items():
-        if turn in there:
-            others, more = there[turn]
-            both[np.ix_(parts, others)] += np.minimum.outer(counts, more)
-    lengths = np.add.outer([len(turns) for turns in old], [len(turns) for turns in new])
-    return 2.0 * both / np.maximum(lengths, 1)
+    @property
+    def pairs_of_ticks(self) -> list[tuple[int, int]]:
+        """Former and present ticks of all parts; none where nothing has moved."""
+        return [] if self.still else [pair for own in self.places.values() for pair in own]
 
 
-def _owners(parts: Sequence[Floats]) -> dict[float, tuple[list[int], list[int]]]:
-    """Which parts have each turn, and how often."""
-    owners: dict[float, tuple[list[int], list[int]]] = {}
-    for index, turns in enumerate(parts):
-        values, counts = np.unique(turns, return_counts=True)
-        for value, count in zip(values.tolist(), counts.tolist(), strict=True):
-            found = owners.setdefault(value, ([], []))
-            found[0].append(index)
-            found[1].append(count)
-    return owners
+def _found_again(project: Project, score: Score, places_now: Mapping[Place, Place], scale: Fraction) -> _Found:
+    """Find the parts and notes of the project in a score that was read.
 
-
-def _kinship(one: Part, other: Part) -> float:
-    """What speaks for two parts being one beside what they play: decides between parts that play the same."""
-    return (
-        0.25 * (one.name.casefold() == other.name.casefold())
-        + 0.15 * (one.map_id == other.map_id and one.instrument == other.instrument)
-        + 0.06 * (one.voice == other.voice)
-        + 0.04 * (one.track == other.track)
-        + 0.02 * (one.channel == other.channel)
+    Parameters
+    ----------
+    places_now : mapping of Place to Place
+        Where tracks are that are recognised, by where they were.
+    """
+    old = project.score
+    hints = [places_now.get(part.place) if is_read(project, part) else None for part in old.parts]
+    partners = matched_parts(old, score, hints)
+    former_of = {new: former for former, new in partners}
+    score = _as_read(score, old, former_of)
+    part_ids = iter(fresh_part_ids(project, len(score.parts), READ_PART))
+    note_ids = iter(fresh_note_ids(project, sum(len(part.notes) for part in score.parts), READ_NOTE))
+    parts: list[Part] = []
+    matches: list[PartMatch] = []
+    conflicts: list[Conflict] = []
+    read_notes: dict[str, dict[str, Note]] = {}
+    added: list[str] = []
+    places: dict[str, list[tuple[int, int]]] = {}
+    for index, part in enumerate(score.parts):
+        former = former_of.get(index)
+        if former is None:
+            ids = [next(note_ids) for _ in part.notes]
+            added += ids
+            parts.append(_renamed(part, next(part_ids), ids))
+            read_notes[parts[-1].id] = {note.id: note for note in parts[-1].notes}
+            continue
+        before = old.parts[former]
+        was = held_by_file(project, before)
+        pairs = align(
+            AlignmentPart.of(was, old.ticks_per_quarter), AlignmentPart.of(part.notes, score.ticks_per_quarter)
+        )
+        kept = {int(new): was[int(one)].id for one, new in pairs}
+        ids = [kept[number] if number in kept else next(note_ids) for number in range(len(part.notes))]
+        renamed = _renamed(part, before.id, ids)
+        read_notes[before.id] = {note.id: note for note in renamed.notes}
+        merged = _merged(before, was, renamed, [(int(one), int(new)) for one, new in pairs], scale)
+        conflicts += merged.conflicts
+        known = {note.id: note for note in before.notes}
+        places[before.id] = [
+            (known[note.id].onset_tick, note.onset_tick) for note in merged.part.notes if note.id in known
+        ]
+        drawn = _drawn(before, frozenset(kept.values()), _place_map(places[before.id], scale), scale, merged.part)
+        parts.append(_with_more(merged.part, drawn))
+        stayed, came = len(places[before.id]), [note.id for note in merged.part.notes if note.id not in known]
+        added += came
+        lost = len(before.notes) - stayed - len(drawn)
+        matches.append(
+            PartMatch(before.id, before.name, part.name, stayed + len(drawn), len(came), lost, merged.by_hand)
+        )
+    again = set(former_of.values())
+    return _Found(
+        parts=tuple(parts),
+        former=tuple(old.parts[former_of[index]] if index in former_of else None for index in range(len(parts))),
+        others=tuple(part for index, part in enumerate(old.parts) if index not in again),
+        matches=tuple(matches),
+        conflicts=tuple(conflicts),
+        read_notes=read_notes,
+        places=places,
+        added=tuple(added),
+        still=scale == 1 and all(tick == now for own in places.values() for tick, now in own),
     )
 
 
-def _held_by_file(project: Project, part: Part) -> tuple[Note, ...]:
-    """The notes of a part as the file had them; those that it did not have, or that are unknown, as they are."""
-    read = project.read_notes.get(part.id)
-    if not read:
-        return part.notes
-    more = (note for note in part.notes if note.id not in read)
-    return tuple(sorted((*read.values(), *more), key=lambda note: (note.onset_tick, note.pitch)))
+def _with_curves(
+    project: Project, found: _Found, everywhere: Callable[[int], int], scale: Fraction
+) -> tuple[list[Part], tuple[ReplacedKind, ...]]:
+    """The parts found again, with the controllers that were edited here and not in the file."""
+    parts = list(found.parts)
+    replaced = False
+    for index, (part, before) in enumerate(zip(found.parts, found.former, strict=True)):
+        if before is None:
+            continue
+        read = project.read_curves.get(part.id, before.curves)
+        if project.read_timing is None and found.is_unchanged:
+            # An older program did not keep what the file had; where its notes are as they were, it is what it has now.
+            read = part.curves
+        place = everywhere if found.still else _place_map(found.places[part.id], scale)
+        merged = merged_curves(before.curves, read, part.curves, place)
+        parts[index] = msgspec.structs.replace(part, curves=merged.curves)
+        replaced = replaced or merged.replaced
+    return parts, ("controllers",) if replaced else ()
+
+
+def _as_read(score: Score, old: Score, former_of: Mapping[int, int]) -> Score:
+    """The score with the parts that were found again transposed as they were, and on the map that they were read for
+    where nothing else is said."""
+    parts = list(score.parts)
+    for new, former in former_of.items():
+        before, part = old.parts[former], parts[new]
+        shift = before.transposed_semitones
+        notes = transposed(part.notes, shift - part.transposed_semitones)
+        map_id = before.map_id if part.instrument == before.instrument else part.map_id
+        parts[new] = msgspec.structs.replace(part, notes=notes, transposed_semitones=shift, map_id=map_id)
+    return msgspec.structs.replace(score, parts=tuple(parts))
 
 
 @dataclass(frozen=True)
@@ -438,56 +487,86 @@ def _with_more(part: Part, notes: tuple[Note, ...]) -> Part:
 # Players and corrections
 
 
+def _add_others(
+    project: Project, parts: list[Part], others: Sequence[Part], place: Callable[[int], int], scale: Fraction
+) -> dict[str, str]:
+    """Add the parts that the file does not have: those made here, and those of players whose part is gone, which are
+    parts made here from now on. Returns the new id of each."""
+    played = {player.part_id for player in project.players}
+    ids = iter(fresh_part_ids(project, len(others), MADE_PART))
+    result = {}
+    for part in others:
+        read = is_read(project, part)
+        if read and part.id not in played:
+            continue
+        result[part.id] = next(ids) if read else part.id
+        parts.append(_moved_part(part, result[part.id], place, scale))
+    return result
+
+
+def _moved_part(part: Part, id: str, place: Callable[[int], int], scale: Fraction) -> Part:
+    """A part that the file does not have, where its music is now."""
+    notes = [
+        msgspec.structs.replace(
+            note,
+            onset_tick=max(place(note.onset_tick), 0),
+            duration_tick=max(round(note.duration_tick * scale), 1),
+        )
+        for note in part.notes
+    ]
+    ordered = tuple(sorted(notes, key=lambda note: (note.onset_tick, note.pitch)))
+    curves = tuple(moved_curve(curve, place) for curve in part.curves)
+    muted = tuple(sorted((max(place(start), 0), max(place(end), 0)) for start, end in part.muted))
+    return msgspec.structs.replace(part, id=id, notes=ordered, curves=curves, muted=muted)
+
+
 def _with_players(
     project: Project,
     score: Score,
     parts: list[Part],
-    places: Mapping[str, list[tuple[int, int]]],
+    part_of: Mapping[str, str],
+    found: _Found,
     everywhere: Callable[[int], int],
     scale: Fraction,
-    maps: Mapping[str, InstrumentMap],
 ) -> Project:
-    known = {part.id for part in parts}
+    """The project with these parts and the players it had, their corrections and takes moved with the music.
+
+    Parameters
+    ----------
+    part_of : mapping of str to str
+        The ids of parts that the file does not have, by their former ones.
+    """
     corrections: dict[str, tuple[Correction, ...]] = {}
-    staying: list[Player] = []
     for player in project.players:
         own = project.corrections.get(player.id, ())
-        if player.part_id not in known and not own and player.id not in project.takes:
-            continue
-        staying.append(player)
         if own:
-            here = places.get(player.part_id)
+            here = None if found.still else found.places.get(player.part_id)
             place = _place_map(here, scale) if here else everywhere
             corrections[player.id] = tuple(moved(correction, {}, place, scale) for correction in own)
-    kept = {player.part_id for player in staying}
-    idle = [
-        msgspec.structs.replace(part, notes=(), curves=())
-        for part in project.score.parts
-        if part.id in kept and part.id not in known
-    ]
-    whole = msgspec.structs.replace(score, title=project.score.title, parts=(*parts, *idle))
-    ids = {player.id for player in staying}
-    takes = {id: recorded for id, recorded in project.takes.items() if id in ids}
-    scored = with_score(project, whole)
+    whole = msgspec.structs.replace(score, title=project.score.title, parts=tuple(parts))
     danced = {
         dancer: tuple(moved(correction, {}, everywhere, scale) for correction in own)
         for dancer, own in project.dance_corrections.items()
     }
-    result = replace(
-        scored,
-        players=promote_remaining(staying),
+    return replace(
+        with_score(project, whole),
+        players=tuple(
+            msgspec.structs.replace(player, part_id=part_of.get(player.part_id, player.part_id))
+            for player in project.players
+        ),
         corrections=corrections,
-        takes=takes,
         dance_corrections=danced,
-        audio=None if project.audio is None else with_places(project.audio, everywhere),
+        audio=project.audio if project.audio is None or found.still else with_places(project.audio, everywhere),
     )
-    former = {part.id for part in project.score.parts}
-    fresh = [part for part in parts if part.id not in former]
-    return _with_new_players(result, fresh, maps) if fresh else result
 
 
-def _with_new_players(project: Project, parts: Sequence[Part], maps: Mapping[str, InstrumentMap]) -> Project:
-    """A player for every new part, cast as a new piece's are."""
+def _with_new_players(
+    project: Project,
+    parts: Sequence[Part],
+    maps: Mapping[str, InstrumentMap],
+    characters: Mapping[Place, str],
+) -> Project:
+    """A player for every new part, cast as a new piece's are; ``characters`` are those chosen for some."""
     names = project.performer_names()
     playing = [maps[player.instrument_id] for player in project.players if player.instrument_id in maps]
     newcomers = []
@@ -499,7 +578,9 @@ def _with_new_players(project: Project, parts: Sequence[Part], maps: Mapping[str
         names.append(free_name(part.name, names))
         playing.append(maps[part.map_id])
         doubles = _musician(project, players.get(doubled.get(part.id, ""), ""))
-        newcomers.append(newcomer(project, player_id, part, names[-1], playing, doubles))
+        player = newcomer(project, player_id, part, names[-1], playing, doubles)
+        character = characters.get(part.place, player.character_id)
+        newcomers.append(msgspec.structs.replace(player, character_id=character))
     return with_newcomers(project, tuple(newcomers))
 
 

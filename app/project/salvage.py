@@ -17,7 +17,7 @@ T = TypeVar("T")
 _MOST: Final = 1000
 """Faults looked at; with more of them the whole value of a field is at fault."""
 _FIELD: Final = re.compile(r"\w+", re.ASCII)
-_FIELDS: Final = {"edited_notes": "read_notes"}
+_FIELDS: Final = {"edited_notes": "read_notes", "edited_curves": "read_curves"}
 """Fields of a project that its file calls otherwise."""
 
 

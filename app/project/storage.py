@@ -31,6 +31,7 @@ from app.project.check_stored import plain_number
 from app.project.dance_corrections import DanceCorrection
 from app.project.frame_rate import stored_rate
 from app.project.ids import is_made_here
+from app.project.imported import ImportDecisions, ReadTiming
 from app.project.migrations import CURRENT, VERSION_KEY, Raw, migrated
 from app.project.model import PlayerTakes, Project
 from app.project.performers import Dancer, Player
@@ -38,7 +39,7 @@ from app.project.recording import AudioTrack
 from app.project.remarks import sayable
 from app.project.video import VideoTrack
 from app.rig.character_library import characters
-from app.score.model import Note, Score
+from app.score.model import ControllerCurve, Note, Score
 from instrument_maps.library import all_maps
 from metadata.model import Expression
 
@@ -52,6 +53,12 @@ AUTOSAVE: Final = ".autosave"
 MOST_BYTES: Final = 256 * 2**20
 
 _PLACE = re.compile(r"^(.*?)(?: - at (`key` in )?`\$?\.?(.*?)`)?$", re.DOTALL)
+
+_CHECKED: Final = (
+    *("audio", "video", "players", "dancers", "expressions", "score", "edited_notes", "takes"),
+    *("edited_curves", "read_timing", "imported"),
+)
+"""Keys whose content may hold nothing that is not known."""
 
 Track = TypeVar("Track", AudioTrack, VideoTrack)
 
@@ -80,6 +87,10 @@ class _Content(msgspec.Struct, forbid_unknown_fields=True):
     """By part that was read from a MIDI file: the file's version of the notes that are other ones here, or gone."""
     takes: dict[str, PlayerTakes]
     """By player."""
+    edited_curves: dict[str, tuple[ControllerCurve, ...]]
+    """By part that was read from a MIDI file: the file's controllers where they are other ones here."""
+    read_timing: ReadTiming | None
+    imported: ImportDecisions | None
 
 
 class Autosaved(msgspec.Struct, frozen=True):
@@ -233,6 +244,9 @@ def _content(project: Project, path: Path) -> _Content:
         score=project.score,
         edited_notes=_edited_notes(project),
         takes=dict(project.takes),
+        edited_curves=_edited_curves(project),
+        read_timing=project.read_timing,
+        imported=project.imported,
     )
 
 
@@ -367,7 +381,7 @@ def _project(raw: Raw, folder: Path, file: str) -> Project:
         if items
     }
     # What a struct does not forbid it passes over: nothing in a file may be lost by saving it again.
-    for key in ("audio", "video", "players", "dancers", "expressions", "score", "edited_notes", "takes"):
+    for key in _CHECKED:
         for place in _unknown(raw[key], msgspec.to_builtins(getattr(content, key)), key):
             raise FileError("project.invalid", file=file, place=place, detail="unknown key")
     score = content.score
@@ -393,6 +407,9 @@ def _project(raw: Raw, folder: Path, file: str) -> Project:
         source=_full_path(content.source, folder),
         read_notes=_read_notes(content.edited_notes, score),
         takes=content.takes,
+        read_curves=_read_curves(content, score),
+        read_timing=content.read_timing,
+        imported=content.imported,
         dancers=tuple(
             msgspec.structs.replace(dancer, choreography=_full_choreography(dancer.choreography, folder))
             for dancer in content.dancers
@@ -427,6 +444,18 @@ def _read_notes(edited: dict[str, tuple[Note, ...]], score: Score) -> dict[str, 
         | {note.id: note for note in notes}
         for part_id, notes in edited.items()
     }
+
+
+def _edited_curves(project: Project) -> dict[str, tuple[ControllerCurve, ...]]:
+    """The MIDI file's controllers of parts that have other ones here."""
+    here = {part.id: part.curves for part in project.score.parts}
+    return {part_id: curves for part_id, curves in project.read_curves.items() if here.get(part_id) != curves}
+
+
+def _read_curves(content: _Content, score: Score) -> dict[str, tuple[ControllerCurve, ...]]:
+    """The MIDI file's controllers, of each part that was read from it."""
+    here = {part.id: part.curves for part in score.parts}
+    return {part_id: here.get(part_id, ()) for part_id in content.edited_notes} | content.edited_curves
 
 
 def _converted(raw: Any, type_: Any, prefix: str, file: str) -> Any:

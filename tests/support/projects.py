@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import Any
 
 import msgspec
@@ -14,6 +15,7 @@ from app.plan.parameters import PARAMETERS, Bounds, PlayerParameters
 from app.project import limits
 from app.project.casting import StagePosition
 from app.project.dance_corrections import ForbidState, PinState, UseSegment
+from app.project.imported import ImportDecisions, ReadTiming, RowDecision, TrackMark
 from app.project.model import DANCER_PARAMETERS, Project
 from app.project.performers import Dancer, Player
 from app.project.recording import AudioTrack
@@ -202,6 +204,45 @@ def corrections(draw: st.DrawFn) -> Correction:
     return made
 
 
+marks = st.builds(
+    TrackMark,
+    track=st.integers(0, 40),
+    channel=st.integers(0, 15),
+    change=st.integers(0, 3),
+    name=texts,
+    instrument_name=texts,
+    program=st.none() | st.integers(0, 127),
+    reported=st.lists(ids, max_size=2).map(tuple),
+    called=texts,
+    melody=st.lists(st.integers(0, 2**32 - 1), max_size=3).map(tuple),
+)
+rows = st.builds(
+    RowDecision,
+    tracks=st.lists(marks, min_size=1, max_size=2).map(tuple),
+    requested=st.booleans(),
+    map_id=st.none() | ids,
+    name=texts,
+    split=st.sampled_from(["sustained", "every", "never"]),
+    written=st.booleans(),
+    character_id=st.none() | ids,
+)
+decisions = st.builds(
+    ImportDecisions,
+    encoding=st.sampled_from([None, "utf-8", "cp932", "big5"]),
+    rows=st.lists(rows, max_size=2).map(tuple),
+)
+
+
+@st.composite
+def curves_read(draw: st.DrawFn, score: Score, read: Iterable[str]) -> dict[str, tuple[ControllerCurve, ...]]:
+    """What a file had of controllers, of the parts that were read from it."""
+    here = {part.id: part.curves for part in score.parts}
+    return {
+        part_id: here[part_id] if draw(st.booleans()) else tuple(draw(st.lists(curves(), max_size=1)))
+        for part_id in read
+    }
+
+
 expressions = st.builds(
     Expression,
     name=ids,
@@ -229,6 +270,15 @@ def projects(draw: st.DrawFn, folder: str = "/music") -> Project:
     danced = {id: tuple(draw(st.lists(dance_corrections, max_size=3))) for id in dancer_ids}
     path = st.sampled_from([f"{folder}/a.wav", f"{folder}/sub/録音.flac", "/elsewhere/x.mp3"])
     corrected = {id: tuple(draw(st.lists(corrections(), max_size=3))) for id in player_ids}
+    read = {
+        part.id: {
+            note.id: note if draw(st.booleans()) else msgspec.structs.replace(note, pitch=127 - note.pitch)
+            for note in part.notes
+            if not note.id.startswith("n:")
+        }
+        for part in sorted(score.parts, key=lambda part: part.id.encode())
+        if draw(st.booleans())
+    }
     return Project(
         score=score,
         players=tuple(draw(players(id, name, part_ids)) for id, name in zip(player_ids, names, strict=False)),
@@ -241,15 +291,10 @@ def projects(draw: st.DrawFn, folder: str = "/music") -> Project:
         video=draw(st.none() | st.builds(VideoTrack, path, st.floats(-1e4, 1e4), st.none() | fractions01)),
         expressions=tuple(draw(st.lists(expressions, max_size=2, unique_by=lambda item: item.name))),
         source=draw(st.just("") | path),
-        read_notes={
-            part.id: {
-                note.id: note if draw(st.booleans()) else msgspec.structs.replace(note, pitch=127 - note.pitch)
-                for note in part.notes
-                if not note.id.startswith("n:")
-            }
-            for part in sorted(score.parts, key=lambda part: part.id.encode())
-            if draw(st.booleans())
-        },
+        read_notes=read,
+        read_curves=draw(curves_read(score, read)),
+        read_timing=draw(st.none() | st.just(ReadTiming(score.tempo_map, score.metres, score.pickup_ticks))),
+        imported=draw(st.none() | decisions),
         dancers=tuple(draw(dancers(id, name, folder)) for id, name in zip(dancer_ids, names[split:], strict=True)),
         dance_corrections={id: danced[id] for id in sorted(danced, key=str.encode) if danced[id]},
     )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 from PySide6.QtCore import QSize, Qt
 from PySide6.QtGui import QColor
@@ -11,6 +12,7 @@ from PySide6.QtWidgets import (
     QDialog,
     QHeaderView,
     QListWidget,
+    QListWidgetItem,
     QTableWidget,
     QTableWidgetItem,
     QWidget,
@@ -65,6 +67,17 @@ class ReimportDialog(Retranslated, QDialog):
         self._table.horizontalHeader().setSectionResizeMode(0, QHeaderView.ResizeMode.Stretch)
         self._table.horizontalHeader().setDefaultAlignment(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter)
         self._players, self._conflict_title = named(wrapped(Label()), "reimport_players"), wrapped(Label())
+        self._gone_title = wrapped(Caption("reimport_dialog.players_whose_part_is_gone"))
+        self._gone = named(QListWidget(), "reimport_gone")
+        self._gone.setMaximumHeight(140)
+        names = {player.id: player.name for player in before.players}
+        for player_id in outcome.gone_players:
+            item = QListWidgetItem(names[player_id])
+            item.setData(Qt.ItemDataRole.UserRole, player_id)
+            item.setCheckState(Qt.CheckState.Unchecked)
+            self._gone.addItem(item)
+        self._gone.itemChanged.connect(lambda: self._enable())
+        self._replaced = named(wrapped(Label()), "reimport_replaced")
         self._orphan_title = wrapped(Caption("reimport_dialog.these_corrections_have_lost_their"))
         self._conflicts = named(QListWidget(), "reimport_conflicts")
         self._orphans = named(QListWidget(), "reimport_orphans")
@@ -78,6 +91,9 @@ class ReimportDialog(Retranslated, QDialog):
             self._heading,
             (self._table, 1),
             self._players,
+            self._gone_title,
+            self._gone,
+            self._replaced,
             self._conflict_title,
             self._conflicts,
             self._orphan_title,
@@ -91,11 +107,13 @@ class ReimportDialog(Retranslated, QDialog):
         """Set every text anew."""
         outcome = self._outcome
         self.setWindowTitle(self.tr("reimport_dialog.re_import_midi"))
-        self._heading.setText(
-            self.tr("reimport_dialog.says_nothing_new").format(file=self._file)
-            if outcome.project is self._before
-            else self.tr("reimport_dialog.what_changes_fingerings_breaths_and").format(file=self._file)
-        )
+        if outcome.project is self._before:
+            text = self.tr("reimport_dialog.says_nothing_new")
+        elif replace(outcome.project, source=self._before.source) == self._before:
+            text = self.tr("reimport_dialog.says_nothing_new_but_lies_elsewhere")
+        else:
+            text = self.tr("reimport_dialog.what_changes_fingerings_breaths_and")
+        self._heading.setText(text.format(file=self._file))
         titles = (
             self.tr("reimport_dialog.part"),
             self.tr("reimport_dialog.kept"),
@@ -125,15 +143,25 @@ class ReimportDialog(Retranslated, QDialog):
                 item.setTextAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
                 item.setForeground(QColor(colour if count else self._tokens.text_dim))
                 self._table.setItem(row, column, item)
-        self._players.setText("\n".join(self._about_players()))
-        self._players.setVisible(bool(self._players.text()))
+        kinds = {
+            "tempo": self.tr("reimport_dialog.tempo"),
+            "metres": self.tr("reimport_dialog.metres"),
+            "controllers": self.tr("reimport_dialog.controllers"),
+        }
+        replaced = ", ".join(kinds[kind] for kind in outcome.replaced)
+        self._replaced.setText(self.tr("reimport_dialog.replaced_by_file").format(kinds=replaced))
+        self._replaced.setVisible(bool(replaced))
+        names = {player.id: player.name for player in outcome.project.players}
+        new = ", ".join(names[id_] for id_ in outcome.new_players)
+        self._players.setText(self.tr("reimport_dialog.new_players").format(names=new))
+        self._players.setVisible(bool(new))
         self._conflict_title.setText(
             self.tr("reimport_dialog.changed_here_and_in_file").format(count=len(outcome.conflicts))
         )
         self._conflicts.clear()
-        names = {part.id: part.name for part in self._before.score.parts}
+        parts = {part.id: part.name for part in self._before.score.parts}
         for conflict in outcome.conflicts:
-            self._conflicts.addItem(f"{names[conflict.part_id]}: {self._about_note(conflict)}")
+            self._conflicts.addItem(f"{parts[conflict.part_id]}: {self._about_note(conflict)}")
         for widget in (self._conflict_title, self._conflicts):
             widget.setVisible(bool(outcome.conflicts))
         self._orphans.clear()
@@ -142,7 +170,21 @@ class ReimportDialog(Retranslated, QDialog):
             self._orphans.addItem(f"{player.name}: {self._title(orphan.correction)}")
         for widget in (self._orphan_title, self._orphans):
             widget.setVisible(bool(outcome.orphans))
-        self._buttons.ok.setEnabled(outcome.project is not self._before)
+        for widget in (self._gone_title, self._gone):
+            widget.setVisible(bool(outcome.gone_players))
+        self._enable()
+
+    @property
+    def removed(self) -> tuple[str, ...]:
+        """Ids of the players whose part is gone and who are to be removed."""
+        items = (self._gone.item(row) for row in range(self._gone.count()))
+        return tuple(
+            item.data(Qt.ItemDataRole.UserRole) for item in items if item.checkState() == Qt.CheckState.Checked
+        )
+
+    def _enable(self) -> None:
+        """Nothing is to be agreed to where nothing changes."""
+        self._buttons.ok.setEnabled(self._outcome.project is not self._before or bool(self.removed))
 
     def _about_note(self, conflict: Conflict) -> str:
         """What happens to a note: as the user has it → as the file has it."""
@@ -154,17 +196,6 @@ class ReimportDialog(Retranslated, QDialog):
             else self._note_title(conflict.part_id, file)
         )
         return f"{here} → {there}"
-
-    def _about_players(self) -> list[str]:
-        outcome = self._outcome
-        after = {player.id: player.name for player in outcome.project.players}
-        before = {player.id: player.name for player in self._before.players}
-        reported = (
-            (self.tr("reimport_dialog.new_players"), outcome.new_players, after),
-            (self.tr("reimport_dialog.players_whose_part_is_gone"), outcome.gone_players, before),
-            (self.tr("reimport_dialog.players_whose_part_is_gone_kept_for_what"), outcome.idle_players, after),
-        )
-        return [text.format(names=", ".join(names[id_] for id_ in ids)) for text, ids, names in reported if ids]
 
     def sizeHint(self) -> QSize:
         return QSize(620, 460)

@@ -15,11 +15,11 @@ from app.editor.tasks import Progress, StopRequested
 from app.editor.translated import tr
 from app.encoding import shown
 from app.errors import AppError, Argument, Message
+from app.project.edit.players import remove_players
 from app.project.midi_out import export_midi as write_piece
-from app.project.model import Project, map_choices
+from app.project.model import Project
 from app.project.performers import Player
-from app.project.reimport import Reimport, reimport
-from app.score.read import read_midi
+from app.project.reimport import Reimport, reimported
 from app.shell.editor import Editor, EditorAction, is_open
 from app.version import program_version
 from instrument_maps.library import all_maps
@@ -53,9 +53,7 @@ def reimport_from(editor: Editor, path: Path) -> None:
     project = session.project
 
     def work(progress: Progress, stop_requested: StopRequested) -> Reimport:
-        maps = all_maps()
-        score = read_midi(path, maps=map_choices(maps.values()))
-        return reimport(project, score, maps, str(path))
+        return reimported(project, path, all_maps())
 
     def done(outcome: Reimport) -> None:
         if session.project is not project:
@@ -74,7 +72,7 @@ def reimport_from(editor: Editor, path: Path) -> None:
             editor.window,
         )
         dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        dialog.accepted.connect(lambda: _take(session, project, outcome))
+        dialog.accepted.connect(lambda: _take(session, project, outcome, dialog.removed))
         dialog.open()
 
     def failed(error: AppError) -> None:
@@ -87,8 +85,9 @@ def _who_plays(project: Project, part_id: str) -> Player | None:
     return next((player for player in project.players if player.part_id == part_id), None)
 
 
-def _take(session: Session, before: Project, outcome: Reimport) -> None:
-    if session.project is before and session.apply(Message("edit.reimport"), outcome.project):
+def _take(session: Session, before: Project, outcome: Reimport, removed: tuple[str, ...]) -> None:
+    project = remove_players(outcome.project, removed) if removed else outcome.project
+    if session.project is before and session.apply(Message("edit.reimport"), project):
         session.notice(
             Message("reimport.done", {"kept": sum(part.kept for part in outcome.parts), "lost": len(outcome.orphans)})
         )

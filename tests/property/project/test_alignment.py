@@ -215,5 +215,5 @@ def test_nothing_in_common() -> None:
     empty = Score("", 480, TempoMap(480))
     project = piece(FILES[0])
     result = reimport(project, empty, MAPS)
-    assert result.idle_players == tuple(player.id for player in project.players)
+    assert result.gone_players == tuple(player.id for player in project.players)
     assert result.project.corrections == project.corrections

@@ -25,6 +25,7 @@ from app.plan.corrections import (
 from app.plan.parameters import PlayerParameters
 from app.project.casting import ConductorPlace, StagePosition, stage_arc
 from app.project.dance_corrections import ForbidState, PinState, UseSegment
+from app.project.imported import ImportDecisions, ReadTiming, RowDecision, TrackMark
 from app.project.model import CompSpan, PlayerTakes, Project
 from app.project.performers import Dancer, Player
 from app.project.recording import AudioTrack, BeatPin, Doubt
@@ -155,6 +156,26 @@ def full_project(folder: str = "/music") -> Project:
         expressions=(ANGRY,),
         source=f"{folder}/piece.mid",
         read_notes={"1.1.1": read},
+        read_curves={"1.1.1": (ControllerCurve("breath", (0, 480), (0.5, 1.0)),)},
+        read_timing=ReadTiming(TempoMap(480, (TempoChange(0, 450_000.0),)), (Metre(0, 3, 4), Metre(1440, 4, 4)), 0),
+        imported=ImportDecisions(
+            "cp932",
+            (
+                RowDecision(
+                    (
+                        TrackMark(1, 2, 0, "トランペット", "Trumpet", 56, ("trumpet",), "Tp. 1", (1, 2**32 - 1)),
+                        TrackMark(2, 9, 1, "", "", None, (), "", ()),
+                    ),
+                    True,
+                    "trumpet_Bb",
+                    "Anna",
+                    "every",
+                    True,
+                    "woman_adult",
+                ),
+                RowDecision((TrackMark(3, 0, 0, "Piano", "", 0, (), "Piano", (5,)),), False),
+            ),
+        ),
         takes={
             "1.1.1": PlayerTakes(
                 takes=(

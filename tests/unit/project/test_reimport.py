@@ -27,6 +27,7 @@ from app.project.edit.corrections import put
 from app.project.edit.notes import add_note
 from app.project.edit.players import add_player, remove_players, set_parameters
 from app.project.edit.tempo import scale_tempo, set_metre, set_tempo
+from app.project.file_timing import timing_of
 from app.project.midi_out import export_midi
 from app.project.model import Project, map_choices, project_from_score
 from app.project.performers import Dancer
@@ -254,23 +255,29 @@ def test_parts_that_play_the_same_are_known_by_their_names() -> None:
     assert [(part.id, part.name) for part in result.project.score.parts] == [("3.1.1", "cornet"), ("1.1.1", "trumpet")]
 
 
-def test_a_new_part_gets_a_player_and_one_that_is_gone_takes_its_player_along() -> None:
+def test_a_new_part_gets_a_player_and_players_whose_part_is_gone_can_be_removed() -> None:
     project = put(small_project(), "2.1.1", [PinFingering("2:1", "1")])
     melody = tuple(Note(f"9:{n}", n * 240, 240, 80 - 3 * n, 90) for n in range(1, 9))
     new = Part("9.1.1", "Trumpet", 9, 0, 9, None, "Flugelhorn", "trumpet_Bb", melody)
     result = reimport(project, from_file(msgspec.structs.replace(project.score, parts=(new,))), MAPS)
-    # The trombone has a correction: it stays, with nothing to play. The trumpet leaves.
     (fresh,) = result.new_players
-    assert result.gone_players == ("1.1.1",)
-    assert result.idle_players == ("2.1.1",)
+    assert result.gone_players == ("1.1.1", "2.1.1")
     after = result.project
-    assert [player.id for player in after.players] == ["2.1.1", fresh]
-    assert after.part(after.player("2.1.1")).notes == ()
+    assert [player.id for player in after.players] == ["1.1.1", "2.1.1", fresh]
+    for player in project.players:
+        assert after.part(after.player(player.id)).notes == project.part(player).notes
     assert after.player(fresh).instrument_id == "trumpet_Bb"
-    assert after.player(fresh).name == "Trumpet"
+    assert after.player(fresh).name == "Trumpet 2"
     assert [note.pitch for note in after.part(after.player(fresh)).notes] == [note.pitch for note in melody]
     assert after.corrections == project.corrections
-    assert len(result.orphans) == 1
+    assert result.orphans == ()
+    # They are the animator's now: the file, read once more, is no reason to ask again.
+    again = reimport(after, from_file(msgspec.structs.replace(project.score, parts=(new,))), MAPS)
+    assert again.gone_players == ()
+    assert again.project is after
+    removed = remove_players(after, result.gone_players)
+    assert [player.id for player in removed.players] == [fresh]
+    assert [part.id for part in removed.score.parts] == [after.player(fresh).part_id]
 
 
 def test_who_was_sent_away_stays_away() -> None:
@@ -300,7 +307,8 @@ def test_what_was_drawn_here_stays_where_there_is_room() -> None:
 
 
 def test_title_source_and_tempo() -> None:
-    project = small_project()
+    small = small_project()
+    project = replace(small, read_timing=timing_of(small.score))
     score = from_file(
         msgspec.structs.replace(project.score, title="other", tempo_map=TempoMap(480, (TempoChange(0, 400_000),)))
     )
@@ -308,6 +316,8 @@ def test_title_source_and_tempo() -> None:
     assert result.project.score.title == project.score.title
     assert result.project.source == "/music/new.mid"
     assert result.project.score.tempo_map is score.tempo_map
+    # Where it is not known what the file had, its notes as they were say that the tempo was changed here.
+    assert reimport(small, score, MAPS).project is small
 
 
 def test_twenty_thousand_notes() -> None:

@@ -1,0 +1,54 @@
+"""What makes the kept decisions of an import sound."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from app.encoding import is_encoding
+from app.project import limits
+from app.project.fault import Fault, between, id_faults, text_faults
+from app.project.imported import MOST_ROWS, ImportDecisions, RowDecision, TrackMark
+from app.project.likeness import SKETCH, SKETCH_BITS
+
+
+def import_faults(imported: ImportDecisions) -> Iterator[Fault]:
+    """Everything that is wrong with them."""
+    if imported.encoding is not None and not is_encoding(imported.encoding):
+        yield "encoding", "must be the name of a text encoding"
+    if len(imported.rows) > MOST_ROWS:
+        yield "rows", f"at most {MOST_ROWS}"
+    tracks = sum(len(row.tracks) for row in imported.rows)
+    if tracks > MOST_ROWS:
+        yield "rows", f"at most {MOST_ROWS} tracks"
+    for index, row in enumerate(imported.rows):
+        yield from _row_faults(row, f"rows[{index}]")
+
+
+def _row_faults(row: RowDecision, place: str) -> Iterator[Fault]:
+    if not row.tracks:
+        yield f"{place}.tracks", "must not be empty"
+    for field in ("map_id", "character_id"):
+        value = getattr(row, field)
+        if value is not None:
+            yield from id_faults(f"{place}.{field}", value)
+    yield from text_faults(f"{place}.name", row.name)
+    for index, mark in enumerate(row.tracks):
+        yield from _mark_faults(mark, f"{place}.tracks[{index}]")
+
+
+def _mark_faults(mark: TrackMark, place: str) -> Iterator[Fault]:
+    for field in ("track", "change"):
+        yield from between(f"{place}.{field}", getattr(mark, field), (0, limits.LAST_TICK))
+    yield from between(f"{place}.channel", mark.channel, (0, 15))
+    if mark.program is not None:
+        yield from between(f"{place}.program", mark.program, (0, 127))
+    for field in ("name", "instrument_name", "called"):
+        yield from text_faults(f"{place}.{field}", getattr(mark, field))
+    if len(mark.reported) > limits.MOST_ID:
+        yield f"{place}.reported", f"at most {limits.MOST_ID}"
+    for index, instrument in enumerate(mark.reported):
+        yield from id_faults(f"{place}.reported[{index}]", instrument)
+    if len(mark.melody) > SKETCH:
+        yield f"{place}.melody", f"at most {SKETCH} numbers"
+    for index, number in enumerate(mark.melody):
+        yield from between(f"{place}.melody[{index}]", number, (0, 2**SKETCH_BITS - 1))

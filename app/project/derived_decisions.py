@@ -1,0 +1,179 @@
+"""Decisions of an import that are not stored, as those of projects of version 13 and older, found by what came of them:
+the parts of the project and, of tracks that no one plays, its unplayed parts."""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
+
+import msgspec
+
+from app.project.ids import MADE_PART
+from app.project.imported import ImportDecisions, Place, RowDecision, TrackMark, mark_of, melody_of
+from app.project.likeness import shares, sketch, turns
+from app.project.model import Project
+from app.project.part_matching import turns_of
+from app.project.rereading import recognised_streams
+from app.score.choose import MapChoice, TrackChannel
+from app.score.model import Note, Part
+from app.score.parts import PartAssignment, Split, stream_name
+from app.score.read import MidiContents, assigned_score
+
+_FILE_NOTE = re.compile(r"([1-9]\d*):[1-9]\d*", re.ASCII)
+_SPLITS: tuple[Split, ...] = ("sustained", "never", "every")
+_SAME = 0.99
+
+
+def is_read(project: Project, part: Part) -> bool:
+    """Whether a part is of the MIDI file, not made in the editor."""
+    return part.id in project.read_notes or not part.id.startswith(MADE_PART)
+
+
+def held_by_file(project: Project, part: Part) -> tuple[Note, ...]:
+    """The notes of a part as the file had them; those that it did not have, or that are unknown, as they are."""
+    read = project.read_notes.get(part.id)
+    if not read:
+        return part.notes
+    more = (note for note in part.notes if note.id not in read)
+    return tuple(sorted((*read.values(), *more), key=lambda note: (note.onset_tick, note.pitch)))
+
+
+def derived_decisions(project: Project, contents: MidiContents, choices: Sequence[MapChoice]) -> ImportDecisions:
+    """The decisions that a project's parts tell.
+
+    Parameters
+    ----------
+    contents : MidiContents
+        What its file holds now: by it is known how tracks were split.
+    """
+    groups: dict[Place, list[Part]] = {}
+    for part in project.score.parts:
+        if is_read(project, part):
+            groups.setdefault(part.place, []).append(part)
+    quarter = contents.tempo_map.ticks_per_quarter
+    owned = _owned(project, groups, contents)
+    marks = {place: [mark_of(contents.streams[one], quarter) for one in own] for place, own in owned.items()}
+    free = [index for index in range(len(contents.streams)) if not any(index in own for own in owned.values())]
+    rest = {place: list(_marks(project, parts)) for place, parts in groups.items() if place not in owned}
+    streams = [contents.streams[index] for index in free]
+    found = iter(
+        recognised_streams(
+            [mark for own in rest.values() for mark in own], streams, [melody_of(one, quarter) for one in streams]
+        )
+    )
+    for place, own in rest.items():
+        marks[place] = own
+        there = [index for index in (next(found) for _ in own) if index is not None]
+        owned[place] = [free[index] for index in there]
+    rows = [
+        _row(project, parts, marks[place], owned[place], contents, choices, place not in rest)
+        for place, parts in groups.items()
+    ]
+    played = {index for own in owned.values() for index in own}
+    silent = [index for index in range(len(contents.streams)) if index not in played]
+    rows += [
+        RowDecision((mark_of(contents.streams[index], quarter),), requested=False)
+        for index in _left_out(project, contents.streams, silent)
+    ]
+    return ImportDecisions(None, tuple(rows))
+
+
+def _owned(project: Project, groups: Mapping[Place, Sequence[Part]], contents: MidiContents) -> dict[Place, list[int]]:
+    """The streams that most notes of a group's parts were read from, where the file is much as it was then: their ids
+    say which notes they are."""
+    old, new = project.score.ticks_per_quarter, contents.tempo_map.ticks_per_quarter
+    owners = {
+        (note.id, note.onset_tick * new, note.pitch - part.transposed_semitones): place
+        for place, parts in groups.items()
+        for part in parts
+        for note in held_by_file(project, part)
+    }
+    result: dict[Place, list[int]] = {}
+    for index, stream in enumerate(contents.streams):
+        ids = (f"{stream.track + 1}:{number}" for number in stream.numbers)
+        notes = zip(ids, (onset * old for onset in stream.onset_ticks), stream.pitches, strict=True)
+        counted = Counter(owners[note] for note in notes if note in owners)
+        for place, count in counted.most_common(1):
+            if 2 * count > len(stream.onset_ticks):
+                result.setdefault(place, []).append(index)
+    for place, own in result.items():
+        own.sort(key=lambda index: contents.streams[index].place != place)
+    return result
+
+
+def _marks(project: Project, parts: Sequence[Part]) -> Iterator[TrackMark]:
+    """Marks of the tracks that a group's parts were read from, as far as the parts tell."""
+    first = parts[0]
+    notes = sorted(
+        (note for part in parts for note in held_by_file(project, part)), key=lambda note: (note.onset_tick, note.pitch)
+    )
+    by_track: dict[int, list[Note]] = {first.track: []}
+    for note in notes:
+        said = _FILE_NOTE.fullmatch(note.id)
+        by_track.setdefault(int(said[1]) - 1 if said else first.track, []).append(note)
+    for track, own in by_track.items():
+        if not own:
+            continue
+        melody = sketch(
+            turns([note.onset_tick for note in own], [note.pitch for note in own], project.score.ticks_per_quarter)
+        )
+        name = first.name if track == first.track else ""
+        yield TrackMark(track, *first.place[1:], name, "", first.program, (), name, melody)
+
+
+def _row(
+    project: Project,
+    parts: Sequence[Part],
+    marks: Sequence[TrackMark],
+    streams: Sequence[int],
+    contents: MidiContents,
+    choices: Sequence[MapChoice],
+    unchanged: bool,
+) -> RowDecision:
+    """The decision that makes these parts of these streams."""
+    first, *_ = parts
+    by_id = {choice.map_id: choice for choice in choices}
+    own = by_id.get(first.map_id)
+    written = own is not None and first.transposed_semitones == -own.transposition_semitones != 0
+    decision = RowDecision(tuple(marks), written=written)
+    if not streams:
+        return msgspec.structs.replace(decision, map_id=first.map_id)
+    mine = msgspec.structs.replace(contents, streams=tuple(contents.streams[index] for index in streams))
+    asked = PartAssignment(tuple(range(len(streams))), written=written)
+    read = assigned_score(mine, [asked], choices).parts
+    if own is not None and (not read or read[0].map_id != own.map_id):
+        asked = msgspec.structs.replace(asked, map_id=own.map_id)
+        decision = msgspec.structs.replace(decision, map_id=own.map_id)
+    most = -1.0
+    for split in _SPLITS:
+        read = assigned_score(mine, [msgspec.structs.replace(asked, split=split)], choices).parts
+        alike = _alike(project, parts, read, contents.tempo_map.ticks_per_quarter)
+        if alike > most:
+            most = alike
+            name = first.name if unchanged and read and read[0].name != first.name else ""
+            decision = msgspec.structs.replace(decision, split=split, name=name)
+        if most >= _SAME:
+            break
+    return decision
+
+
+def _alike(project: Project, old: Sequence[Part], new: Sequence[Part], quarter: int) -> float:
+    """How much two readings of some streams have in common, 0..1."""
+    if not new:
+        return 0.0
+    former = [msgspec.structs.replace(part, notes=held_by_file(project, part)) for part in old]
+    both = shares(
+        [turns_of(part, project.score.ticks_per_quarter) for part in former], [turns_of(part, quarter) for part in new]
+    )
+    return float(sum(both[index, index] for index in range(min(len(old), len(new))))) / max(len(old), len(new))
+
+
+def _left_out(project: Project, streams: Sequence[TrackChannel], silent: Sequence[int]) -> Iterator[int]:
+    """Those of the streams that no part was read from which the project knows as unplayed."""
+    known = Counter((part.name, part.note_count) for part in project.score.unplayed)
+    for index in silent:
+        key = stream_name(streams[index]), len(streams[index].pitches)
+        if known[key]:
+            known[key] -= 1
+            yield index

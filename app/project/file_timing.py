@@ -1,0 +1,100 @@
+"""Tempo and metres of a file that is read again: what was edited here stays where the file says the same as before."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Literal, TypeAlias
+
+import msgspec
+
+from app.project.imported import ReadTiming
+from app.project.model import Project
+from app.score.metre_map import Metre
+from app.score.model import Score
+from app.score.tempo import TempoChange, TempoMap
+
+Placing: TypeAlias = Callable[[int], int]
+TimingKind: TypeAlias = Literal["tempo", "metres"]
+
+
+@dataclass(frozen=True)
+class MergedTiming:
+    """The timing of the new score.
+
+    Attributes
+    ----------
+    replaced : tuple of {"tempo", "metres"}
+        Edited here and in the file: the file's is taken.
+    """
+
+    timing: ReadTiming
+    replaced: tuple[TimingKind, ...] = ()
+
+
+def timing_of(score: Score) -> ReadTiming:
+    """The score's tempo and metres."""
+    return ReadTiming(score.tempo_map, score.metres, score.pickup_ticks)
+
+
+def with_timing(score: Score, timing: ReadTiming) -> Score:
+    """The score with this tempo and these metres."""
+    return msgspec.structs.replace(
+        score, tempo_map=timing.tempo_map, metres=timing.metres, pickup_ticks=timing.pickup_ticks
+    )
+
+
+def merged_timing(project: Project, file: Score, place: Placing, scale: Fraction, unchanged: bool) -> MergedTiming:
+    """Of three versions one: the project's where the file did not change it, else the file's.
+
+    Parameters
+    ----------
+    place : callable
+        Where a tick of the project's score is in the file's.
+    scale : Fraction
+        Ticks of the file per tick of the project.
+    unchanged : bool
+        The file has the notes that it had.
+    """
+    ours, new = timing_of(project.score), timing_of(file)
+    read = project.read_timing
+    if read is None:
+        # An older program did not keep it. Where the notes are as they were, tempo and metres are taken to be, too.
+        return MergedTiming(ours if unchanged else new)
+    result = new
+    replaced: list[TimingKind] = []
+    placings = (lambda tick: round(tick * scale), place)
+    if ours.tempo_map != read.tempo_map:
+        if any(_moved_tempo(read.tempo_map, placing, scale) == new.tempo_map for placing in placings):
+            moved = _moved_tempo(ours.tempo_map, place, scale)
+            result = msgspec.structs.replace(result, tempo_map=moved)
+        else:
+            replaced.append("tempo")
+    if (ours.metres, ours.pickup_ticks) != (read.metres, read.pickup_ticks):
+        here = (new.metres, new.pickup_ticks)
+        if any(_moved_metres(read.metres, read.pickup_ticks, placing) == here for placing in placings):
+            metres, pickup = _moved_metres(ours.metres, ours.pickup_ticks, place)
+            result = msgspec.structs.replace(result, metres=metres, pickup_ticks=pickup)
+        else:
+            replaced.append("metres")
+    return MergedTiming(result, tuple(replaced))
+
+
+def _moved_tempo(tempo_map: TempoMap, place: Placing, scale: Fraction) -> TempoMap:
+    changes = {}
+    for change in tempo_map.changes:
+        changes[max(place(change.tick), 0) if change.tick else 0] = change.microseconds_per_quarter
+    quarter = round(tempo_map.ticks_per_quarter * scale)
+    return TempoMap(quarter, tuple(TempoChange(tick, tempo) for tick, tempo in sorted(changes.items())))
+
+
+def _moved_metres(metres: tuple[Metre, ...], pickup_ticks: int, place: Placing) -> tuple[tuple[Metre, ...], int]:
+    """The metres at their new places, and the pickup while the metre after it still begins there."""
+    moved = {}
+    for metre in metres:
+        tick = max(place(metre.tick), 0) if metre.tick else 0
+        moved[tick] = msgspec.structs.replace(metre, tick=tick)
+    result = tuple(moved[tick] for tick in sorted(moved))
+    pickup = max(place(pickup_ticks), 0) if pickup_ticks else 0
+    return result, pickup if len(result) > 1 and result[1].tick == pickup else 0

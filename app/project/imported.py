@@ -1,0 +1,131 @@
+"""Decisions made at the import of a MIDI file, kept with the project so that every later reading of it takes them.
+
+Tracks are kept as marks, by which they are recognised in another version of the file
+(`app.project.rereading`)."""
+
+from __future__ import annotations
+
+from typing import Final, TypeAlias
+
+import msgspec
+
+from app.project.likeness import sketch, turns
+from app.score.choose import TrackChannel
+from app.score.limits import MOST_STREAMS
+from app.score.metre_map import Metre
+from app.score.parts import Split
+from app.score.tempo import TempoMap
+
+Place: TypeAlias = tuple[int, int, int]
+"""Track, channel, and which of its player's instruments."""
+
+MOST_ROWS: Final = 2 * MOST_STREAMS
+"""Rows that a project keeps: those of the file, and those of tracks that earlier versions of it had."""
+
+
+class TrackMark(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """One channel of a track, so that it is recognised in another version of the file.
+
+    Attributes
+    ----------
+    track, channel, change : int
+        As in `TrackChannel`, when the file was read last.
+    name, instrument_name, program, reported
+        What the instrument was chosen by.
+    called : str
+        The track's name when the file was read last.
+    melody : tuple of int
+        Sketch of its notes (`app.project.likeness.sketch`).
+    """
+
+    track: int
+    channel: int
+    change: int
+    name: str
+    instrument_name: str
+    program: int | None
+    reported: tuple[str, ...]
+    called: str
+    melody: tuple[int, ...]
+
+    @property
+    def place(self) -> Place:
+        """That of the stream it was."""
+        return self.track, self.channel, self.change
+
+
+class RowDecision(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """Decision about some tracks: who plays them.
+
+    Attributes
+    ----------
+    tracks : tuple of TrackMark
+        Several are merged into one part; the first one leads.
+    requested : bool
+        False: the tracks are left out.
+    map_id, name, split, written
+        As in `app.score.parts.PartAssignment`.
+    character_id : str or None
+        None: chosen automatically.
+    """
+
+    tracks: tuple[TrackMark, ...]
+    requested: bool = True
+    map_id: str | None = None
+    name: str = ""
+    split: Split = "sustained"
+    written: bool = False
+    character_id: str | None = None
+
+
+class ImportDecisions(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """All decisions about a file.
+
+    Attributes
+    ----------
+    encoding : str or None
+        Of the file's texts; None: guessed text by text.
+    rows : tuple of RowDecision
+        In the order of the parts.
+    """
+
+    encoding: str | None = None
+    rows: tuple[RowDecision, ...] = ()
+
+
+class ReadTiming(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """Tempo and metres as a MIDI file has them; see `app.score.model.Score`."""
+
+    tempo_map: TempoMap
+    metres: tuple[Metre, ...]
+    pickup_ticks: int
+
+
+def mark_of(stream: TrackChannel, quarter: int, decided: TrackMark | None = None) -> TrackMark:
+    """The mark of a stream.
+
+    Parameters
+    ----------
+    quarter : int
+        Ticks per quarter.
+    decided : TrackMark, optional
+        The instrument was chosen by what this one says.
+    """
+    source = stream if decided is None else decided
+    return TrackMark(
+        track=stream.track,
+        channel=stream.channel,
+        change=stream.change,
+        name=source.name,
+        instrument_name=source.instrument_name,
+        program=source.program,
+        reported=source.reported,
+        called=stream.name,
+        melody=melody_of(stream, quarter),
+    )
+
+
+def melody_of(stream: TrackChannel, quarter: int) -> tuple[int, ...]:
+    """The sketch of a stream's notes."""
+    notes = sorted(zip(stream.onset_ticks, stream.pitches, strict=True))
+    return sketch(turns([onset for onset, _ in notes], [pitch for _, pitch in notes], quarter))

@@ -1,0 +1,87 @@
+"""Likeness of melodies, wherever they stand and in whatever key: by it parts and tracks are recognised in another
+version of a file."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Final
+
+import numpy as np
+import numpy.typing as npt
+
+Floats = npt.NDArray[np.float64]
+
+ALIKE: Final = 0.25
+"""Melodies that share this much are one, whatever they are called."""
+SKETCH: Final = 32
+"""The most turns that a sketch of a melody has."""
+SKETCH_BITS: Final = 32
+_GRAM: Final = 3
+"""Notes that make a turn of the melody."""
+_MIX: Final = np.uint64(0x9E3779B97F4A7C15)
+
+
+def turns(onset_ticks: Sequence[int], pitches: Sequence[int], quarter: int) -> Floats:
+    """The steps of a melody from each note over the next ones, as one number each, sorted; independent of its key, its
+    place and the file's resolution.
+
+    Parameters
+    ----------
+    onset_ticks, pitches : sequence of int
+        One entry per note, by onset, then pitch.
+    quarter : int
+        Ticks per quarter.
+    """
+    onsets = np.asarray(onset_ticks, np.float64) / quarter
+    heights = np.asarray(pitches, np.float64)
+    if len(heights) <= _GRAM:
+        # Too short for turns: the notes themselves, from the first one on.
+        return np.sort(heights * 1e6 + np.minimum(np.rint((onsets - onsets[:1]) * 12.0), 999.0))
+    steps = np.diff(heights) + 200.0
+    times = np.minimum(np.rint(np.diff(onsets) * 12.0), 999.0)
+    single = steps * 1000.0 + times
+    count = len(single) - _GRAM + 2
+    return np.sort(single[:count] * 1e6 + single[len(single) - count :])
+
+
+def shares(old: Sequence[Floats], new: Sequence[Floats]) -> Floats:
+    """The share of turns that two melodies both have, 0..1, (old, new): turn by turn, for of many melodies most pairs
+    have nothing in common."""
+    both: Floats = np.zeros((len(old), len(new)))
+    here, there = _owners(old), _owners(new)
+    for turn, (melodies, counts) in here.items():
+        if turn in there:
+            others, more = there[turn]
+            both[np.ix_(melodies, others)] += np.minimum.outer(counts, more)
+    lengths = np.add.outer([len(found) for found in old], [len(found) for found in new])
+    return 2.0 * both / np.maximum(lengths, 1)
+
+
+def _owners(melodies: Sequence[Floats]) -> dict[float, tuple[list[int], list[int]]]:
+    """The melodies that have each turn, and how often."""
+    owners: dict[float, tuple[list[int], list[int]]] = {}
+    for index, found in enumerate(melodies):
+        values, counts = np.unique(found, return_counts=True)
+        for value, count in zip(values.tolist(), counts.tolist(), strict=True):
+            those = owners.setdefault(value, ([], []))
+            those[0].append(index)
+            those[1].append(count)
+    return owners
+
+
+def sketch(found: Floats) -> tuple[int, ...]:
+    """A few turns that stand for all of them: those of the smallest hashes (bottom-k sketch; Cohen and Kaplan, 2007).
+    Two sketches tell how much their melodies have in common."""
+    mixed = (found.astype(np.int64).astype(np.uint64) * _MIX) >> np.uint64(64 - SKETCH_BITS)
+    return tuple(np.unique(mixed)[:SKETCH].tolist())
+
+
+def sketched_share(one: Sequence[int], other: Sequence[int]) -> float:
+    """The share of distinct turns that two sketched melodies both have, 0..1, as `shares` counts it: of the smallest
+    hashes of both together, those in both."""
+    mine, others = set(one), set(other)
+    together = sorted(mine | others)[:SKETCH]
+    if not together:
+        return 0.0
+    jaccard = sum(hash_ in mine and hash_ in others for hash_ in together) / len(together)
+    return 2.0 * jaccard / (1.0 + jaccard)

@@ -1,0 +1,59 @@
+"""Which part of a score is which in a newer version of it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from app.project.imported import Place
+from app.project.likeness import ALIKE, Floats, shares, turns
+from app.score.model import Part, Score
+
+_NAMED = 0.4
+"""So much speaks for a part that was rewritten from end to end."""
+
+
+def matched_parts(old: Score, new: Score, hints: Sequence[Place | None]) -> list[tuple[int, int]]:
+    """The parts that are one, as indices of both: as much as possible in common, all in all.
+
+    Parameters
+    ----------
+    hints : sequence of Place or None
+        Where the track of each old part is now; None: not known.
+    """
+    if not old.parts or not new.parts:
+        return []
+    content = shares(
+        [turns_of(part, old.ticks_per_quarter) for part in old.parts],
+        [turns_of(part, new.ticks_per_quarter) for part in new.parts],
+    )
+    named = np.array(
+        [
+            [_kinship(one, other) + _NAMED * (hint == other.place) for other in new.parts]
+            for one, hint in zip(old.parts, hints, strict=True)
+        ]
+    )
+    from scipy.optimize import linear_sum_assignment  # heavy, and seldom needed
+
+    pairs = zip(*linear_sum_assignment(-(content + named)), strict=True)
+    # A part rewritten from end to end is still the same player's where everything else says so.
+    return [
+        (int(one), int(other)) for one, other in pairs if content[one, other] >= ALIKE or named[one, other] >= _NAMED
+    ]
+
+
+def turns_of(part: Part, quarter: int) -> Floats:
+    """The turns of a part's melody (`app.project.likeness.turns`)."""
+    return turns([note.onset_tick for note in part.notes], [note.pitch for note in part.notes], quarter)
+
+
+def _kinship(one: Part, other: Part) -> float:
+    """What speaks for two parts being one beside what they play: decides between parts that play the same."""
+    return (
+        0.25 * (one.name.casefold() == other.name.casefold())
+        + 0.15 * (one.map_id == other.map_id and one.instrument == other.instrument)
+        + 0.06 * (one.voice == other.voice)
+        + 0.04 * (one.track == other.track)
+        + 0.02 * (one.channel == other.channel)
+    )

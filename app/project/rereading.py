@@ -1,0 +1,207 @@
+"""A MIDI file read again as it was decided at its import: its tracks are recognised, whatever order they stand in and
+whatever they are called now, and played by those who were chosen for them.
+
+Tracks of the file that no decision is about are taken as in any import. Decisions about tracks that the file does not
+have (any more) are kept: a track may come back.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Final
+
+import msgspec
+import numpy as np
+
+from app.project.imported import (
+    MOST_ROWS,
+    ImportDecisions,
+    Place,
+    RowDecision,
+    TrackMark,
+    mark_of,
+    melody_of,
+)
+from app.project.importing import ImportRow, decision_of, usual_rows
+from app.project.likeness import ALIKE, sketched_share
+from app.score.choose import Candidates, How, MapChoice, TrackChannel, candidates
+from app.score.parts import PERCUSSION, PartAssignment
+from app.score.read import MidiContents
+from instrument_maps.model import InstrumentMap
+from instrument_maps.vocabulary import vocabulary
+
+_NAMED: Final = 0.32
+"""So much speaks for a track that was rewritten from end to end, where all else is the same."""
+
+
+@dataclass(frozen=True)
+class Reading:
+    """A file with the decisions about it.
+
+    Attributes
+    ----------
+    contents : MidiContents
+        Tracks that do not say (any more) what they were chosen by do so again.
+    rows : tuple of ImportRow
+        Of its streams.
+    decisions : ImportDecisions
+        The former ones and those about new tracks, with marks of the file as it is now.
+    places : mapping of Place to Place
+        Where a part that was read from a place before is now.
+    """
+
+    contents: MidiContents
+    rows: tuple[ImportRow, ...]
+    decisions: ImportDecisions
+    places: Mapping[Place, Place] = field(default_factory=dict)
+
+
+def read_as_decided(
+    contents: MidiContents,
+    decisions: ImportDecisions,
+    maps: Mapping[str, InstrumentMap],
+    choices: Sequence[MapChoice],
+    played_on: Mapping[Place, str],
+) -> Reading:
+    """A file's rows as they were decided when another version of it was read.
+
+    Parameters
+    ----------
+    choices : sequence of MapChoice
+        Of the maps.
+    played_on : mapping of Place to str
+        The map that each part of the project was read for, by its place: it stays where nothing else is known.
+    """
+    streams = list(contents.streams)
+    quarter = contents.tempo_map.ticks_per_quarter
+    marks = [mark for row in decisions.rows for mark in row.tracks]
+    found = iter(recognised_streams(marks, streams, [melody_of(stream, quarter) for stream in streams]))
+    rows: list[ImportRow] = []
+    kept: list[RowDecision] = []
+    places: dict[Place, Place] = {}
+    known: set[int] = set()
+    spare = MOST_ROWS - len(streams)
+    for decision in decisions.rows:
+        own = [(mark, next(found)) for mark in decision.tracks]
+        there = [(mark, place) for mark, place in own if place is not None]
+        known.update(place for _, place in there)
+        renewed = []
+        for mark, place in own:
+            if place is None:
+                renewed.append(mark)
+                continue
+            stream = contents.streams[place]
+            says = not decision.requested or _says_who(stream, choices)
+            streams[place] = stream if says else _as_before(stream, mark)
+            renewed.append(mark_of(stream, quarter, None if says else mark))
+        spare -= not there
+        if there or spare >= 0:
+            kept.append(msgspec.structs.replace(decision, tracks=tuple(renewed)))
+        if there:
+            lead = decision.tracks[0].place
+            places[lead] = contents.streams[there[0][1]].place
+            before = played_on.get(lead)
+            rows.append(_row(decision, [place for _, place in there], contents.streams, streams, choices, before))
+    for row in usual_rows(contents, maps):
+        (place,) = row.assignment.streams
+        if place not in known:
+            rows.append(row)
+            kept.append(decision_of(row, [mark_of(contents.streams[place], quarter)]))
+    read = msgspec.structs.replace(contents, streams=tuple(streams))
+    return Reading(read, tuple(rows), msgspec.structs.replace(decisions, rows=tuple(kept)), places)
+
+
+def recognised_streams(
+    marks: Sequence[TrackMark], streams: Sequence[TrackChannel], melodies: Sequence[tuple[int, ...]]
+) -> list[int | None]:
+    """The stream that each mark is of, by its place; None: it is not there. As much as possible in common, all in all.
+
+    Parameters
+    ----------
+    melodies : sequence of tuple of int
+        Sketches of the streams.
+    """
+    result: list[int | None] = [None] * len(marks)
+    if not marks or not streams:
+        return result
+    content = np.array([[sketched_share(mark.melody, melody) for melody in melodies] for mark in marks])
+    kin = np.array([[_kinship(mark, stream) for stream in streams] for mark in marks])
+    from scipy.optimize import linear_sum_assignment  # heavy, and seldom needed
+
+    for one, other in zip(*linear_sum_assignment(-(content + kin)), strict=True):
+        if content[one, other] >= ALIKE or kin[one, other] >= _NAMED:
+            result[int(one)] = int(other)
+    return result
+
+
+def _kinship(mark: TrackMark, stream: TrackChannel) -> float:
+    """What speaks for a stream being the marked one beside what it plays."""
+    named = stream.name.casefold() in (mark.called.casefold(), mark.name.casefold())
+    return (
+        (0.25 if stream.name else 0.1) * named
+        + 0.04 * (stream.instrument_name == mark.instrument_name)
+        + 0.06 * (stream.program == mark.program)
+        + 0.06 * (stream.track == mark.track)
+        + 0.04 * (stream.channel == mark.channel)
+        + 0.06 * (stream.change == mark.change)
+    )
+
+
+def _says_who(stream: TrackChannel, choices: Sequence[MapChoice]) -> bool:
+    """Whether a track itself says which instrument plays it."""
+    found = candidates([stream], choices)
+    return found.how is How.SAID and bool(found.maps) and not found.unknown
+
+
+def _as_before(stream: TrackChannel, mark: TrackMark) -> TrackChannel:
+    """The stream as it said at its import who plays it."""
+    return msgspec.structs.replace(
+        stream,
+        name=mark.name,
+        instrument_name=mark.instrument_name,
+        program=mark.program,
+        reported=tuple(id_ for id_ in mark.reported if id_ in vocabulary().instruments),
+    )
+
+
+def _row(
+    decision: RowDecision,
+    places: Sequence[int],
+    called: Sequence[TrackChannel],
+    streams: Sequence[TrackChannel],
+    choices: Sequence[MapChoice],
+    before: str | None,
+) -> ImportRow:
+    """The row of a decision.
+
+    Parameters
+    ----------
+    called, streams : sequence of TrackChannel
+        As the file has them, and as they say who plays them.
+    before : str or None
+        The map that played them.
+    """
+    own = [streams[place] for place in places]
+    installed = {PERCUSSION, *(choice.map_id for choice in choices)}
+    map_id = decision.map_id if decision.map_id in installed else None
+    if map_id is None and decision.requested:
+        found = candidates(own, choices)
+        if found.unknown or not found.maps:
+            # Its player stays, and has an instrument of its own; any map reads the notes.
+            pitches = [pitch for stream in own for pitch in stream.pitches]
+            map_id = before if before in installed else Candidates(How.RANGE, None, tuple(choices)).best(pitches).map_id
+    name = decision.name
+    if not name and own[0].name != called[places[0]].name:
+        name = called[places[0]].name
+    assignment = PartAssignment(tuple(places), map_id, name, decision.split, decision.written)
+    return ImportRow(assignment, decision.requested, decision.character_id)
+
+
+def characters_of(reading: Reading) -> dict[Place, str]:
+    """The characters chosen for rows, by the place of the parts that are read from them."""
+    return {
+        reading.contents.streams[row.assignment.streams[0]].place: row.character_id
+        for row in reading.rows
+        if row.character_id is not None
+    }
