@@ -51,11 +51,24 @@ usable_python() {
     return 1
 }
 
+# A Python on which MIDI devices are reached by rtmidi2: newer than .venv's, or at least one for which it has a wheel.
+newer_python() {
+    local candidate
+    for candidate in python3.14 python3.13 "${PYENV_ROOT:-$HOME/.pyenv}"/versions/3.1[34]*/bin/python python3.12; do
+        if "$candidate" -c 'import sys, venv, ensurepip; sys.exit(sys.version_info < (3, 12))' 2>/dev/null; then
+            printf '%s' "$candidate"
+            return 0
+        fi
+    done
+    return 1
+}
+
 # environment FOLDER STAMP PIP-ARGUMENTS...: a virtual environment that holds exactly what was asked for.
+# `use_python`, where it is set, names the Python.
 environment() {
     local folder=$1 stamp=$2 python key
     shift 2
-    python=$(usable_python) || {
+    python=${use_python:-$(usable_python)} || {
         need_packages python3 python3-venv
         python=$(usable_python) || { say "Suisou needs Python 3.11 or newer with venv."; exit 1; }
     }
