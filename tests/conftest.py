@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import Any, Final
 
 import pytest
@@ -10,6 +10,8 @@ from hypothesis import settings
 from pytestqt.qtbot import QtBot
 
 import app  # noqa: F401 - before NumPy, which reads on how many threads it works
+from app.formats.other_computers import AGREED
+from tests.support.touched import Touched, touching
 
 # Machines are noisy: how long an example took says nothing. Speed is measured in tests/bench, as ratios.
 # The same examples in every run; `--hypothesis-profile explore` tries new ones.
@@ -61,3 +63,16 @@ def pytest_terminal_summary(terminalreporter: Any) -> None:
         terminalreporter.section("attacks")
         for row in rows:
             terminalreporter.write_line(row)
+
+
+@pytest.fixture
+def touched(monkeypatch: pytest.MonkeyPatch) -> Iterator[Touched]:
+    """Files of other computers that are touched; none of them was agreed to."""
+    with touching() as record:
+        yield record
+
+
+@pytest.fixture(autouse=True)
+def _no_host_agreed(monkeypatch: pytest.MonkeyPatch) -> None:
+    """What one test agrees to is unknown to the next."""
+    monkeypatch.setenv(AGREED, "")

@@ -20,6 +20,7 @@ from app.cli.status import BAD_INPUT, BAD_USE, DONE, STOPPED
 from app.cli.terminal import interrupted_by, warn
 from app.encoding import shown
 from app.errors import AppError, UsageError
+from app.formats.other_computers import agree
 from app.messages import error_text
 from app.version import program_version
 
@@ -67,6 +68,9 @@ def parser() -> CommandParser:
 def main(arguments: Sequence[str]) -> int:
     """Run the program with these arguments (without its own name) and return the exit status."""
     _speak_utf8()
+    for argument in arguments:
+        # Whoever names a file on another computer agrees to that computer.
+        agree(argument.partition("=")[2] if argument.startswith("--") else argument)
     try:
         parsed = parser().parse_args(_joined(arguments), argparse.Namespace(given=tuple(arguments)))
         if parsed.command is None:

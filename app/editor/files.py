@@ -19,6 +19,7 @@ from app.editor.settings import Settings
 from app.editor.translated import tr
 from app.encoding import shown
 from app.errors import AppError, Message, raise_if_stopped
+from app.formats.other_computers import agree
 from app.formats.video import SUFFIXES
 from app.project import storage
 from app.project.autosave import Autosave, Writing, Written
@@ -65,6 +66,9 @@ class Files(QObject):
         There is unsaved work on the file that was just opened.
     missing(Path)
         The recording of the project that was just opened is not where it was.
+    elsewhere(tuple of str)
+        The project names these files on computers that the user did not agree to; they are not touched before
+        `agree_to` is called.
     silent(Path)
         A MIDI file was opened without players and dancers.
     unsaveable(Message)
@@ -77,6 +81,7 @@ class Files(QObject):
     opened = Signal()
     found = Signal(object)
     missing = Signal(object)
+    elsewhere = Signal(object)
     silent = Signal(object)
     unsaveable = Signal(object)
     overtaken = Signal(object, object)
@@ -166,6 +171,7 @@ class Files(QObject):
         ask : bool
             Whether the import of a MIDI file asks who plays what.
         """
+        agree(path)
         path = path.absolute()
         suffix = path.suffix.lower()
         if suffix in (*AUDIO_SUFFIXES, *VIDEO_SUFFIXES):
@@ -200,11 +206,13 @@ class Files(QObject):
 
     def add_audio(self, path: Path) -> None:
         """Hear the piece with this recording."""
+        agree(path)
         self.settings.folder = str(path.parent)
         self.session.attempt(Message("edit.set_audio"), lambda project: set_audio(project, path))
 
     def add_video(self, path: Path) -> None:
         """See this reference video with the performance."""
+        agree(path)
         self.settings.folder = str(path.parent)
         if self.session.video.placement == "hidden":
             self.session.video.set(placement="beside")
@@ -215,9 +223,33 @@ class Files(QObject):
         audio, video = self.session.project.audio, self.session.project.video
         is_audio = audio is not None and audio.path == os.fspath(missing)
         others = video is not None and video.path == os.fspath(missing)
+        if path is not None:
+            agree(path)
         kind = "audio" if is_audio and not others else "video"
         done = Message(f"edit.remove_{kind}" if path is None else f"edit.set_{kind}")
         self.session.attempt(done, lambda project: relocate(project, missing, path))
+
+    def agree_to(self, paths: tuple[str, ...]) -> None:
+        """Use the files at these paths on other computers, as the user said."""
+        for path in paths:
+            agree(path)
+        self.session.media_agreed.emit()
+        self.session.choreographies_changed.emit()
+        self._report_missing()
+        self._ask_about_files()
+
+    def _report_missing(self) -> None:
+        for problem in storage.missing(self.session.project):
+            self.session.notice(problem, Severity.WARNING)
+
+    def _ask_about_files(self) -> None:
+        """Ask about files of the project on other computers, or else about one that is not at its place."""
+        project = self.session.project
+        paths, lost = storage.elsewhere(project), storage.missing_media(project)
+        if paths:
+            self.elsewhere.emit(paths)
+        elif lost is not None:
+            self.missing.emit(lost)
 
     def _load(self, path: Path) -> None:
         presence = self.autosave.presence if self.autosave is not None else None
@@ -234,13 +266,11 @@ class Files(QObject):
             self._become(project, path, base)
             if self.autosave is not None and self.autosave.is_shared:
                 self.session.notice(Message("project.open_elsewhere", {"file": path.name}), Severity.WARNING)
-            for problem in storage.missing(project):
-                self.session.notice(problem, Severity.WARNING)
-            lost = storage.missing_media(project)
+            self._report_missing()
             if item is not None:
                 self.found.emit(item)
-            elif lost is not None:
-                self.missing.emit(lost)
+            else:
+                self._ask_about_files()
 
         self.session.tasks.run(Message("work.open"), work, done, self._failed(path), key="open")
 
@@ -542,6 +572,8 @@ class Files(QObject):
 
     def recover(self, item: Recoverable) -> None:
         """Go on with unsaved work."""
+        if item.document is not None:
+            agree(item.document)
 
         def work(progress: Callable[[float], None], stop_requested: Callable[[], bool]) -> tuple[Project, str]:
             _read_own()
@@ -550,6 +582,8 @@ class Files(QObject):
         def done(loaded: tuple[Project, str]) -> None:
             project, base = loaded
             self._become(project, item.document, base, item)
+            if storage.elsewhere(project):
+                self._ask_about_files()
 
         if self.autosave is not None:
             self.let_go(
@@ -565,6 +599,8 @@ class Files(QObject):
         except AppError as error:
             self.session.notice(error.message, Severity.WARNING)
         self.changed.emit()
+        if self.is_open and storage.elsewhere(self.session.project):
+            self._ask_about_files()
 
 
 Opened = tuple[Project, Recoverable | None, str]

@@ -91,6 +91,8 @@ class Session(QObject):
         A character was written into the user's own folder, or removed from it.
     choreographies_changed()
         A choreography's file was written; dancers may dance it.
+    media_agreed()
+        The user agreed to computers that the project's files are on: what was left alone may be read now.
     metadata_changed()
         Some style, habit or expression is another one, or is there no more (`metadata.library`).
     metadata_saved()
@@ -120,6 +122,7 @@ class Session(QObject):
     characters_changed = Signal()
     characters_saved = Signal()
     choreographies_changed = Signal()
+    media_agreed = Signal()
     metadata_changed = Signal()
     metadata_saved = Signal()
 

@@ -23,6 +23,7 @@ from app.editor.session import Session, Severity
 from app.editor.stems import Stems
 from app.editor.tasks import Progress, StopRequested
 from app.errors import AppError, Message
+from app.formats.other_computers import may_touch
 from app.plan.generate import frame_around
 from app.plan.model import TimeFrame
 from app.project.document import Change
@@ -90,6 +91,7 @@ class Sound(QObject):
         self._take_timer.timeout.connect(self._play_take)
         self._stems.changed.connect(self._stems_changed)
         session.changed.connect(self._changed)
+        session.media_agreed.connect(self._read_agreed)
         session.playhead_changed.connect(self._playhead_moved)
         session.loop_changed.connect(lambda: self.playback.set_loop(session.loop_s))
         session.listening.changed.connect(self._listening_changed)
@@ -277,11 +279,17 @@ class Sound(QObject):
 
     # The recording
 
+    def _read_agreed(self) -> None:
+        """Read the recording that was left alone before the user agreed to its computer."""
+        if self._recording is None:
+            self._path = ""
+            self._take()
+
     def _read(self, path: str) -> None:
         self._recording = None
         self._path = path
         self._session.listening.set_waveform(None)
-        if not path:
+        if not path or not may_touch(path):
             return
 
         def work(progress: Progress, stop_requested: StopRequested) -> tuple[Recording, Peaks]:

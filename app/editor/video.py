@@ -18,6 +18,7 @@ from app.editor.session import Session, Severity
 from app.editor.sound import SURE
 from app.editor.tasks import Progress, StopRequested
 from app.errors import AppError, Message
+from app.formats.other_computers import may_touch
 from app.formats.video import VideoFacts, video_facts
 from app.project.document import Change
 from app.project.edit.piece import set_video_offset
@@ -47,6 +48,7 @@ class ReferenceVideo(QObject):
         self._unplaced = ""
         """Path of a video that was just added: its place is to be looked for."""
         session.changed.connect(self._changed)
+        session.media_agreed.connect(self._read_agreed)
         session.playhead_changed.connect(self.refresh)
         session.video.changed.connect(self._state_changed)
 
@@ -82,13 +84,18 @@ class ReferenceVideo(QObject):
         elif before is not after:
             self.refresh()
 
+    def _read_agreed(self) -> None:
+        """Look at the video that was left alone before the user agreed to its computer."""
+        if self._facts is None:
+            self._take(self._path)
+
     def _take(self, path: str) -> None:
         self.close()
         self._path, self._facts = path, None
         state = self._session.video
         state.set(ratio=0.0, fault=None)
         state.set_picture(None)
-        if not path:
+        if not path or not may_touch(path):
             return
 
         def work(progress: Progress, stop_requested: StopRequested) -> VideoFacts:

@@ -2,7 +2,7 @@
 
 A pipe would block its reader for ever and a device may have no end, so what is opened is looked at before it is read.
 
-Messages: ``file.cannot_read``, ``file.not_regular``, ``file.too_large``.
+Messages: ``file.cannot_read``, ``file.not_regular``, ``file.other_computer``, ``file.too_large``.
 """
 
 from __future__ import annotations
@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Final
 
 from app.errors import FileError
+from app.formats.other_computers import refuse_others
 
 _FLAGS: Final = os.O_RDONLY | sum(getattr(os, name, 0) for name in ("O_NONBLOCK", "O_NOCTTY", "O_CLOEXEC", "O_BINARY"))
 """A pipe that no one writes to is opened without waiting; a terminal does not become this process's own."""
@@ -25,8 +26,10 @@ def open_file(path: str | os.PathLike[str]) -> BufferedReader:
     Raises
     ------
     FileError
-        ``file.cannot_read``; ``file.not_regular`` for a folder, a pipe or a device.
+        ``file.cannot_read``; ``file.not_regular`` for a folder, a pipe or a device; ``file.other_computer`` before the
+        user agrees to it.
     """
+    refuse_others(path)
     try:
         if stat.S_ISREG(Path(path).stat().st_mode):
             stream = open(os.open(path, _FLAGS), "rb")  # noqa: PTH123, SIM115 - a descriptor; the caller closes it

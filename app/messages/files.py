@@ -10,6 +10,16 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         "{file} はコマンドでも、プロジェクトや MIDI のファイル（{kinds}）でもありません。"
         "コマンドは 'suisou --help' で確認できます",
     ),
+    "file.other_computer": (
+        (
+            "{file} is on another computer ({host}) and was not opened: a file should not make this one sign in there; "
+            "agree to it in the editor's question, choose the file yourself, or copy it next to the project"
+        ),
+        (
+            "{file} は別のコンピューター（{host}）にあるため、開いていません。ファイルの指示だけで接続しないためです。"
+            "エディターの確認で許可するか、自分でファイルを選択するか、プロジェクトの隣にコピーしてください"
+        ),
+    ),
     "file.cannot_read": ("{file} cannot be read: {reason}", "{file} を読み込めません: {reason}"),
     "file.cannot_write": ("{file} cannot be written: {reason}", "{file} に書き込めません: {reason}"),
     "file.not_regular": (

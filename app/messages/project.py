@@ -175,6 +175,16 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         "the choreography {file} of {dancer} was not found; put the file back or choose another choreography",
         "{dancer} の振り付け {file} が見つかりません。ファイルを元の場所に戻すか、別の振り付けを選んでください",
     ),
+    "project.choreography_elsewhere": (
+        (
+            "the choreography {file} of {dancer} is on another computer ({host}) and was not looked for; agree in the "
+            "question that the editor asks, or copy the file next to the project and choose it there"
+        ),
+        (
+            "{dancer} の振り付け {file} は別のコンピューター（{host}）にあるため、探していません。"
+            "エディターの確認で許可するか、プロジェクトの隣にコピーして選び直してください"
+        ),
+    ),
     "project.unknown_remark": (
         "warning from another version of Suisou ({remark})",
         "別のバージョンの Suisou による警告（{remark}）",

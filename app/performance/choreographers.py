@@ -8,6 +8,7 @@ from app.choreography.generate import Choreographer
 from app.choreography.library import choreography_path
 from app.choreography.model_file import read_model
 from app.errors import AppError, Message
+from app.formats.other_computers import refuse_others
 from app.project.performers import Player
 from app.project.storage import choreography_missing
 
@@ -15,6 +16,7 @@ from app.project.storage import choreography_missing
 def choreographer_of(choreography: str) -> Choreographer:
     """A choreography by name or path, read again when its file is another one. Raises FileError."""
     path = choreography_path(choreography)
+    refuse_others(path)
     try:
         status = path.stat()
         version = (status.st_mtime_ns, status.st_size)

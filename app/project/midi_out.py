@@ -9,6 +9,7 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from app.errors import FileError, Message
+from app.formats.other_computers import may_touch
 from app.project.model import Project, map_choices
 from app.score.write import Performer, write_midi
 from instrument_maps.model import InstrumentMap
@@ -40,6 +41,8 @@ def _keep_source(project: Project, path: Path) -> None:
     """A file that holds more than the project is not replaced by less."""
     if not project.score.unplayed or not project.source:
         return
+    if not may_touch(project.source):
+        return  # The user writes elsewhere: choosing a file on that computer would have been to agree.
     try:
         same = path.samefile(project.source)
     except OSError:

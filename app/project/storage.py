@@ -24,6 +24,7 @@ from app.encoding import PREFIX, restored, shown, stored
 from app.errors import FileError, Message, shortened
 from app.formats.atomic import atomic_write
 from app.formats.files import open_file, read_file
+from app.formats.other_computers import host_of, is_file, may_touch
 from app.plan.corrections import Correction
 from app.project.casting import ConductorPlace
 from app.project.check import faults
@@ -329,7 +330,8 @@ def missing(project: Project) -> tuple[Message, ...]:
     there.
 
     Messages: ``project.instrument_missing`` (player, id), ``project.character_missing`` (player, id),
-    ``project.choreography_missing`` (dancer, name, known), ``project.choreography_file_missing`` (dancer, file).
+    ``project.choreography_missing`` (dancer, name, known), ``project.choreography_file_missing`` (dancer, file),
+    ``project.choreography_elsewhere`` (dancer, file, host).
     """
     instruments, bodies = all_maps(), characters()
     found = []
@@ -350,7 +352,15 @@ def missing(project: Project) -> tuple[Message, ...]:
 def choreography_missing(dancer: str, choreography: str) -> tuple[Message, ...]:
     """What to report about a dancer or player of this name whose choreography is not there; nothing where it is.
     Messages: see `missing`."""
-    if os.path.isfile(choreography_path(choreography)):
+    path = choreography_path(choreography)
+    if not may_touch(path):
+        return (
+            Message(
+                "project.choreography_elsewhere",
+                {"dancer": dancer, "file": shown(choreography), "host": host_of(path)},
+            ),
+        )
+    if is_file(path):
         return ()
     if is_bundled_name(choreography):
         known = ", ".join(bundled_choreographies()) or "-"
@@ -359,9 +369,18 @@ def choreography_missing(dancer: str, choreography: str) -> tuple[Message, ...]:
 
 
 def missing_media(project: Project) -> Path | None:
-    """The recording or the reference video that is not at its place (any more); to be asked for."""
+    """The recording or the reference video that is not at its place (any more); to be asked for. One on a computer that
+    the user did not agree to is not looked for."""
     paths = (track.path for track in (project.audio, project.video) if track is not None)
-    return next((Path(path) for path in paths if not os.path.isfile(path)), None)
+    return next((Path(path) for path in paths if may_touch(path) and not is_file(path)), None)
+
+
+def elsewhere(project: Project) -> tuple[str, ...]:
+    """Paths of the recording, the reference video and choreographies on computers that the user did not agree to."""
+    tracks = [track.path for track in (project.audio, project.video) if track is not None]
+    dances = [player.parameters.choreography for player in project.players]
+    dances += [dancer.choreography for dancer in project.dancers]
+    return tuple(path for path in dict.fromkeys((*tracks, *dances)) if not may_touch(path))
 
 
 def _project(raw: Raw, folder: Path, file: str) -> Project:

@@ -12,6 +12,7 @@ from PySide6.QtWidgets import QApplication, QFrame, QWidget
 from app.editor.session import Session, Severity
 from app.editor.tokens import Tokens
 from app.errors import Message
+from app.formats.other_computers import may_touch
 from widgets.common.controls import Button, IconButton, selectable, small, wrapped
 from widgets.common.icons import pixmap
 from widgets.common.layouts import in_column, in_row, panel
@@ -84,7 +85,7 @@ def folder_of(message: Message) -> Path | None:
     """The folder that a message is about, or that of its file; None where it names none that is there."""
     for value in message.arguments.values():
         path = Path(value) if isinstance(value, str) else Path()
-        if path.is_absolute():
+        if path.is_absolute() and may_touch(path):
             # Unlike `Path.is_dir`, it is no error where the name cannot be any file's.
             folder = path if os.path.isdir(path) else path.parent
             if os.path.isdir(folder):

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from functools import partial
 from pathlib import Path
 
@@ -14,6 +13,7 @@ from app.editor.files import Files
 from app.editor.session import Session
 from app.editor.settings import Settings
 from app.encoding import shown
+from app.formats.other_computers import is_file, may_touch
 from app.project.recovery import Recoverable
 from widgets.common.clicks import on_click
 from widgets.common.controls import IconButton, Retranslated, named, sized, wrapped
@@ -143,7 +143,8 @@ class StartPage(Retranslated, QScrollArea):
 
     def _recent_row(self, path: Path) -> QWidget:
         tokens = self._session.tokens
-        there = os.path.isfile(path)
+        # Another computer is asked no sooner than the file is opened.
+        there = is_file(path) or not may_touch(path)
         button = _row_button("recent_file")
         metrics = QFontMetrics(button.font())
         name = metrics.elidedText(shown(path.name), Qt.TextElideMode.ElideMiddle, RECENT_PX - LEAST_FOLDER_PX)

@@ -471,6 +471,18 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
     "window.discard": ("Discard", "破棄"),
     "window.find": ("Locate {name}", "{name} の場所を指定"),
     "window.assign_tracks": ("Assign Tracks...", "トラックを割り当て..."),
+    "window.files_elsewhere": (
+        (
+            "The project uses files on another computer ({hosts}): {names}. Looking for them signs you in to that "
+            "computer; only do so if you know it."
+        ),
+        (
+            "このプロジェクトは別のコンピューター（{hosts}）のファイルを使います: {names}。"
+            "開くと、あなたのアカウントでそのコンピューターに接続します。知っているコンピューターの場合だけ開いてください。"
+        ),
+    ),
+    "window.look_there": ("Connect and Open", "接続して開く"),
+    "window.leave_out": ("Do Not Connect", "接続しない"),
     "window.find_it": ("Locate...", "場所を指定..."),
     "window.has_no_players": ("{name} has no players.", "{name} には奏者がいません。"),
     "window.inspector": ("Inspector", "インスペクター"),

@@ -6,7 +6,7 @@ import os
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from functools import partial
-from pathlib import Path
+from pathlib import Path, PureWindowsPath
 from typing import Final
 
 from PySide6.QtCore import QByteArray, QEvent, QPoint, QSize, Qt, QTimer, Signal
@@ -22,6 +22,7 @@ from app.editor.settings import Settings
 from app.editor.tasks import ThreadTasks
 from app.encoding import is_text, shown
 from app.errors import Message
+from app.formats.other_computers import host_of, is_file, may_touch
 from app.project.recovery import Recoverable
 from app.project.storage import SUFFIX
 from app.rig.read_figure import SUFFIXES as CHARACTER_SUFFIXES
@@ -172,6 +173,7 @@ class Window(Retranslated, QMainWindow):
         self._files.opened.connect(self._show_page)
         self._files.found.connect(self._offer_recovery)
         self._files.missing.connect(self._ask_for_media)
+        self._files.elsewhere.connect(self._ask_to_look_elsewhere)
         self._files.silent.connect(self._say_why_no_one_plays)
         self._files.overtaken.connect(self._ask_to_save_over)
         self._files.unsaveable.connect(self._say_what_cannot_be_saved)
@@ -294,7 +296,7 @@ class Window(Retranslated, QMainWindow):
         for text in self._settings.recent:
             path = Path(text)
             row = menu.addAction(verbatim(f"{shown(path.name)}    {shown(path.parent)}"))
-            row.setEnabled(os.path.isfile(path))
+            row.setEnabled(is_file(path) or not may_touch(path))
             on_click(row, self._files.open, path)
         if menu.isEmpty():
             menu.addAction(self.tr("window.nothing_yet")).setEnabled(False)
@@ -319,6 +321,17 @@ class Window(Retranslated, QMainWindow):
                 (self.tr("window.find_it"), self.tr("window.remove_it")),
             ),
             (partial(self._find_media, path), partial(self._files.locate, path, None)),
+        )
+
+    def _ask_to_look_elsewhere(self, paths: tuple[str, ...]) -> None:
+        names = [*(shown(PureWindowsPath(path).name) for path in paths[:_REASONS]), *["…"] * (len(paths) > _REASONS)]
+        hosts = ", ".join(dict.fromkeys(host_of(path) for path in paths))
+        self.banner.ask(
+            lambda: (
+                self.tr("window.files_elsewhere").format(hosts=hosts, names=", ".join(names)),
+                (self.tr("window.look_there"), self.tr("window.leave_out")),
+            ),
+            (partial(self._files.agree_to, paths), lambda: None),
         )
 
     def _say_why_no_one_plays(self, path: Path) -> None:

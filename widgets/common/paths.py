@@ -17,16 +17,22 @@ from PySide6.QtGui import QDesktopServices, QDropEvent
 from PySide6.QtWidgets import QFileDialog, QLineEdit, QWidget
 
 from app.encoding import is_text, restored, shown, stored
+from app.formats.other_computers import agree, may_touch
 
 _SCHEMES = ["file"]
 
 
 def path_of(url: QUrl) -> Path | None:
-    """The path that a URL names; None where it is no file."""
+    """The path that a URL of a dialog or a drop names; None where it is no file.
+
+    Whoever chooses a file on another computer agrees to that computer.
+    """
     if not url.isLocalFile():
         return None
     if sys.platform == "win32" or url.host():
-        return Path(url.toLocalFile())
+        path = Path(url.toLocalFile())
+        agree(path)
+        return path
     return Path(os.fsdecode(unquote_to_bytes(url.path(QUrl.ComponentFormattingOption.FullyEncoded))))
 
 
@@ -74,8 +80,8 @@ def show_folder(folder: Path) -> None:
 
 
 def _reachable(path: Path | None) -> Path:
-    """The path, or the next folder above that Qt can enter."""
-    path = path or Path.home()
+    """The path, or the next folder above that Qt can enter; home for one that may not be touched."""
+    path = path if path is not None and may_touch(path) else Path.home()
     return next(place for place in (path, *path.parents, Path()) if is_text(place))
 
 

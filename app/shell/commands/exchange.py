@@ -3,7 +3,6 @@ out."""
 
 from __future__ import annotations
 
-import os
 from functools import partial
 from pathlib import Path
 
@@ -15,6 +14,7 @@ from app.editor.tasks import Progress, StopRequested
 from app.editor.translated import tr
 from app.encoding import shown
 from app.errors import AppError, Argument, Message
+from app.formats.other_computers import is_file
 from app.project.edit.players import remove_players
 from app.project.midi_out import export_midi as write_piece
 from app.project.model import Project
@@ -33,7 +33,7 @@ EVALUATION_WORKER = "app.cli.evaluation_worker"
 def read_again(editor: Editor) -> None:
     """Read the project's MIDI file once more; one that is not there any more is asked for."""
     source = editor.session.project.source
-    if source and os.path.isfile(source):
+    if source and is_file(source):
         reimport_from(editor, Path(source))
     else:
         read_another(editor)
