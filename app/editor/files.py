@@ -26,7 +26,7 @@ from app.project.autosave import Autosave, Writing, Written
 from app.project.document import Change
 from app.project.edit.dancers import add_dancer, change_dancers
 from app.project.edit.piece import new_piece, relocate, set_audio, set_video
-from app.project.importing import import_project, usual_rows
+from app.project.importing import ImportRequest, import_project, usual_rows
 from app.project.model import Project
 from app.project.names import file_stem
 from app.project.recovery import Recoverable, discard, load_work, recoverable, recoverable_of
@@ -281,17 +281,23 @@ class Files(QObject):
             _read_own()
             return read_contents(path)
 
-        def asked(contents: MidiContents) -> None:
-            assignment = self.questions.import_midi(contents, self.session.tokens, self.session.tasks) if ask else None
+        def again(encoding: str | None) -> MidiContents:
+            return read_contents(path, encoding=encoding)
+
+        def ask_who(contents: MidiContents) -> None:
+            session = self.session
+            assignment = self.questions.import_midi(contents, again, session.tokens, session.tasks) if ask else None
             if ask and assignment is None:
                 return
             called = tr("action.dancer")
 
             def build(progress: Callable[[float], None], stop_requested: Callable[[], bool]) -> Project:
                 maps = all_maps()
-                requested = usual_rows(contents, maps) if assignment is None else assignment.rows
-                project = import_project(contents, requested, maps, source, stop_requested)
-                if assignment is not None and assignment.dances:
+                asked = assignment or ImportRequest(usual_rows(contents, maps))
+                project = import_project(
+                    asked.contents or contents, asked.rows, maps, source, stop_requested, encoding=asked.encoding
+                )
+                if asked.dances:
                     project, _ = add_dancer(project, bundled_choreographies()[0], called)
                 return arranged(project)
 
@@ -309,7 +315,7 @@ class Files(QObject):
             if not project.players and not project.dancers:
                 self.silent.emit(path)
 
-        self.session.tasks.run(Message("work.open"), read, asked, self._failed(path), key="open")
+        self.session.tasks.run(Message("work.open"), read, ask_who, self._failed(path), key="open")
 
     def _failed(self, path: Path) -> Callable[[AppError], None]:
         def failed(error: AppError) -> None:

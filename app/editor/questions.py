@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import Literal, Protocol
+from typing import Literal, Protocol, TypeAlias
 
 from app.editor.tasks import Tasks
 from app.editor.tokens import Tokens
@@ -12,6 +12,8 @@ from app.project.importing import ImportRequest
 from app.score.read import MidiContents
 
 Answer = Literal["save", "discard", "cancel"]
+ReadAgain: TypeAlias = Callable[[str | None], MidiContents]
+"""Reads a file with its texts in another encoding; None: guessed."""
 
 
 class Questions(Protocol):
@@ -26,7 +28,9 @@ class Questions(Protocol):
     def unsaved(self, name: str) -> Answer:
         """What becomes of the changes that are in no file."""
 
-    def import_midi(self, contents: MidiContents, tokens: Tokens, tasks: Tasks) -> ImportRequest | None:
+    def import_midi(
+        self, contents: MidiContents, read_again: ReadAgain, tokens: Tokens, tasks: Tasks
+    ) -> ImportRequest | None:
         """Who plays what in a MIDI file, and whether a dancer dances to it; None: it is not imported."""
 
     def remove_character(self, name: str, players: tuple[str, ...]) -> bool:

@@ -41,10 +41,16 @@ class ImportRequest(msgspec.Struct, frozen=True):
     ----------
     dances : bool
         Whether a dancer is to move to its percussion.
+    contents : MidiContents or None
+        Those that the rows are of, where its texts were read in another encoding; None: as it was read first.
+    encoding : str or None
+        Of its texts; None: guessed.
     """
 
     rows: tuple[ImportRow, ...]
     dances: bool = False
+    contents: MidiContents | None = None
+    encoding: str | None = None
 
 
 def usual_rows(contents: MidiContents, maps: Mapping[str, InstrumentMap]) -> tuple[ImportRow, ...]:
@@ -62,6 +68,36 @@ def merged(rows: Sequence[ImportRow], places: Sequence[int]) -> tuple[ImportRow,
     )
     gone = set(others)
     return tuple(together if place == first else row for place, row in enumerate(rows) if place not in gone)
+
+
+def carried_over(
+    rows: Sequence[ImportRow],
+    usual: Sequence[ImportRow],
+    contents: MidiContents,
+    again: MidiContents,
+    usual_again: Sequence[ImportRow],
+) -> tuple[ImportRow, ...]:
+    """The rows of a file whose texts were read again in another encoding: those that were changed stay, the others are
+    as its names say now.
+
+    Parameters
+    ----------
+    usual, usual_again : sequence of ImportRow
+        Rows by default of ``contents`` and of ``again``.
+    """
+    now = {stream.place: index for index, stream in enumerate(again.streams)}
+    by_default = {row.assignment.streams: row for row in usual}
+    kept: list[ImportRow] = []
+    for row in rows:
+        places = [now.get(contents.streams[stream].place) for stream in row.assignment.streams]
+        streams = tuple(place for place in places if place is not None)
+        if streams and row != by_default.get(row.assignment.streams):
+            kept.append(
+                msgspec.structs.replace(row, assignment=msgspec.structs.replace(row.assignment, streams=streams))
+            )
+    chosen = {stream for row in kept for stream in row.assignment.streams}
+    kept += (row for row in usual_again if chosen.isdisjoint(row.assignment.streams))
+    return tuple(sorted(kept, key=lambda row: row.assignment.streams[0]))
 
 
 def separated(rows: Sequence[ImportRow], place: int) -> tuple[ImportRow, ...]:

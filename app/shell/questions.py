@@ -8,7 +8,7 @@ from pathlib import Path
 
 from PySide6.QtWidgets import QApplication, QDialog, QWidget
 
-from app.editor.questions import Answer
+from app.editor.questions import Answer, ReadAgain
 from app.editor.tasks import Tasks
 from app.editor.tokens import Tokens
 from app.editor.translated import tr
@@ -52,11 +52,13 @@ class DialogQuestions:
         )
         return "save" if role == Role.AcceptRole else "discard" if role == Role.DestructiveRole else "cancel"
 
-    def import_midi(self, contents: MidiContents, tokens: Tokens, tasks: Tasks) -> ImportRequest | None:
+    def import_midi(
+        self, contents: MidiContents, read_again: ReadAgain, tokens: Tokens, tasks: Tasks
+    ) -> ImportRequest | None:
         """See `Questions.import_midi`."""
         from widgets.dialogs.import_midi import ImportDialog
 
-        dialog = ImportDialog(contents, all_maps(), tokens, tasks, _parent())
+        dialog = ImportDialog(contents, all_maps(), tokens, tasks, _parent(), read_again)
         try:
             return dialog.assignment if dialog.exec() == QDialog.DialogCode.Accepted else None
         finally:

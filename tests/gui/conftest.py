@@ -50,7 +50,8 @@ def _contents() -> MidiContents:
 def _quartet_read(monkeypatch: pytest.MonkeyPatch) -> None:
     """Its file is read once, however often editors open it."""
     monkeypatch.setattr(
-        "app.editor.files.read_contents", lambda path: _contents() if path == QUARTET else read_contents(path)
+        "app.editor.files.read_contents",
+        lambda path, **options: _contents() if path == QUARTET and not options else read_contents(path, **options),
     )
 
 

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from threading import Event
+from typing import NamedTuple
 
 import msgspec
 import numpy as np
@@ -25,15 +26,17 @@ from PySide6.QtWidgets import (
 )
 
 from app.choreography.library import bundled_choreographies
+from app.editor.questions import ReadAgain
 from app.editor.tasks import Progress, StopRequested, Tasks
 from app.editor.tokens import LEAST_TARGET_PX, Tokens
-from app.errors import Message
+from app.errors import AppError, Message
 from app.messages.pitches import pitch_name
 from app.project.importing import (
     ImportRequest,
     ImportRow,
     Outcome,
     automatic,
+    carried_over,
     merged,
     outcome_of,
     separated,
@@ -46,11 +49,12 @@ from app.score.parts import PERCUSSION, PartAssignment, stream_name
 from app.score.read import MidiContents
 from instrument_maps.model import InstrumentMap
 from instrument_maps.score_order import in_score_order
-from widgets.common.controls import Button, Check, OkCancel, Retranslated, named
+from widgets.common.controls import Button, Caption, Check, OkCancel, Retranslated, named
 from widgets.common.instrument_name import character_name, instrument_name
 from widgets.common.layouts import STRETCH, begin_with_size, in_column, in_row, panel
 from widgets.common.plain import ComboBox, Label
 from widgets.common.text import message_text, sentence
+from widgets.dialogs.encoding_choice import EncodingChoice
 
 _USE, _NAME, _PREVIEW, _NOTES, _SPLIT, _INSTRUMENT, _PITCHES, _CHARACTER = range(8)
 _ROW_PX = 40
@@ -64,6 +68,16 @@ _SLOW_MS = 300
 """After this long the dialog says that it is working."""
 
 
+class _ReadAgain(NamedTuple):
+    """A file with its texts in another encoding, and what comes of the choices made for it."""
+
+    encoding: str | None
+    contents: MidiContents
+    usual: tuple[ImportRow, ...]
+    rows: tuple[ImportRow, ...]
+    outcome: Outcome
+
+
 class ImportDialog(Retranslated, QDialog):
     """Asks how a MIDI file becomes players; sensible without touching it.
 
@@ -73,6 +87,8 @@ class ImportDialog(Retranslated, QDialog):
         Every installed instrument by id.
     tasks : Tasks
         Where what comes of the choices is worked out.
+    read_again : callable, optional
+        Reads the file with its texts in another encoding; without it none can be chosen.
     """
 
     def __init__(
@@ -82,10 +98,15 @@ class ImportDialog(Retranslated, QDialog):
         tokens: Tokens,
         tasks: Tasks,
         parent: QWidget | None = None,
+        read_again: ReadAgain | None = None,
     ) -> None:
         super().__init__(parent)
         self.setObjectName("import_midi")
         self._contents, self._maps, self._tokens, self._tasks = contents, maps, tokens, tasks
+        self._read_again = read_again
+        self._encoding: str | None = None
+        self._usual: tuple[ImportRow, ...] = ()
+        """The rows by default."""
         self._rows: tuple[ImportRow, ...] = ()
         self._outcome: Outcome | None = None
         """Of the newest rows for which it is known."""
@@ -115,12 +136,13 @@ class ImportDialog(Retranslated, QDialog):
         self._separate = Button(
             "import_dialog.take_apart", self.separate_selected, "separate", "import_dialog.make_part_of_each_merged"
         )
-        uses = [use_of(stream) for stream in contents.streams]
-        self._rhythm, self._effects = (
-            frozenset(place for place, use in enumerate(uses) if use == one) for one in ("rhythm", "effect")
-        )
-        """Streams that are percussion, or sound effects, if no one says otherwise."""
+        self._find_percussion()
         self._dancer = named(Check("import_dialog.add_dancer"), "import_dancer")
+        self._encodings = EncodingChoice()
+        self._encoding_title = Caption("import_dialog.encoding", self._encodings)
+        self._encodings.chosen.connect(self._choose_encoding)
+        for widget in (self._encoding_title, self._encodings):
+            widget.setVisible(read_again is not None)
         self._summary = named(Label(), "import_summary")
         self._warning_title = Label()
         self._warnings = named(QListWidget(), "import_warnings")
@@ -131,9 +153,12 @@ class ImportDialog(Retranslated, QDialog):
         self._buttons.accepted.connect(self.accept)
         self._buttons.rejected.connect(self.reject)
 
+        heading = in_row((self._heading, 1), self._encoding_title, self._encodings)
         tools = in_row(self._merge, self._separate, 12, self._dancer, STRETCH, self._summary)
-        in_column(self._heading, (self._table, 1), tools, self._warning_title, self._warnings, self._buttons, of=self)
+        in_column(heading, (self._table, 1), tools, self._warning_title, self._warnings, self._buttons, of=self)
         self._table.itemSelectionChanged.connect(self._show_tools)
+        # Rows are there once it is known what the file says.
+        self._encodings.setEnabled(False)
         self.retranslate()
         begin_with_size(self, _SIZE)
         self._work_out(None)
@@ -145,8 +170,8 @@ class ImportDialog(Retranslated, QDialog):
 
     @property
     def assignment(self) -> ImportRequest:
-        """Rows, and whether a dancer comes with them."""
-        return ImportRequest(self._rows, self._dancer.isChecked())
+        """Rows, whether a dancer comes with them, and the encoding of the file's texts."""
+        return ImportRequest(self._rows, self._dancer.isChecked(), self._contents, self._encoding)
 
     def merge_selected(self) -> None:
         """Make one part of the selected tracks."""
@@ -194,6 +219,53 @@ class ImportDialog(Retranslated, QDialog):
         self._dancer.setToolTip(self.tr("import_dialog.dancer_who_moves_to_percussion"))
         self._fill()
 
+    def _choose_encoding(self, encoding: str | None) -> None:
+        """Read the file's texts again."""
+        read_again, maps, closing = self._read_again, self._maps, self._closing
+        contents, rows, usual = self._contents, self._rows, self._usual
+        if read_again is None:
+            return
+
+        def work(progress: Progress, stop_requested: StopRequested) -> _ReadAgain:
+            again = read_again(encoding)
+            usual_again = usual_rows(again, maps)
+            carried = carried_over(rows, usual, contents, again, usual_again)
+            outcome = outcome_of(again, carried, maps, None, lambda: stop_requested() or closing.is_set())
+            return _ReadAgain(encoding, again, usual_again, carried, outcome)
+
+        def failed(error: AppError) -> None:
+            self._encodings.show_encoding(self._encoding)
+            self._summary.setText(message_text(error.message))
+
+        # What is chosen meanwhile would be of rows that are no longer there.
+        self._table.setEnabled(False)
+        self._slow.start()
+        self._tasks.run(
+            Message("work.open"),
+            work,
+            self._take_again,
+            failed,
+            key="import",
+            ended=lambda: self._table.setEnabled(True),
+        )
+
+    def _take_again(self, read: _ReadAgain) -> None:
+        if self._closing.is_set():
+            return
+        self._slow.stop()
+        self._encodings.show_encoding(read.encoding)
+        self._encoding, self._contents, self._usual = read.encoding, read.contents, read.usual
+        self._rows, self._outcome = read.rows, read.outcome
+        self._find_percussion()
+        self.retranslate()
+
+    def _find_percussion(self) -> None:
+        """Find the streams that are percussion, or sound effects, if no one says otherwise."""
+        uses = [use_of(stream) for stream in self._contents.streams]
+        self._rhythm, self._effects = (
+            frozenset(place for place, use in enumerate(uses) if use == one) for one in ("rhythm", "effect")
+        )
+
     def _selected(self) -> list[int]:
         return sorted({index.row() for index in self._table.selectionModel().selectedRows()})
 
@@ -240,7 +312,8 @@ class ImportDialog(Retranslated, QDialog):
         self._slow.stop()
         self._outcome = outcome
         if first:
-            self._rows = rows
+            self._rows = self._usual = rows
+            self._encodings.setEnabled(True)
             self._fill()
             return
         for place in range(self._filled):

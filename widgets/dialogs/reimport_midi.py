@@ -18,7 +18,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from app.editor.tokens import Tokens
+from app.editor.tokens import LEAST_TARGET_PX, Tokens
 from app.plan.corrections import Correction
 from app.project.model import Project
 from app.project.reimport import Conflict, Reimport
@@ -69,12 +69,13 @@ class ReimportDialog(Retranslated, QDialog):
         self._players, self._conflict_title = named(wrapped(Label()), "reimport_players"), wrapped(Label())
         self._gone_title = wrapped(Caption("reimport_dialog.players_whose_part_is_gone"))
         self._gone = named(QListWidget(), "reimport_gone")
-        self._gone.setMaximumHeight(140)
+        self._gone.setMaximumHeight(min(140, LEAST_TARGET_PX * len(outcome.gone_players) + 6))
         names = {player.id: player.name for player in before.players}
         for player_id in outcome.gone_players:
             item = QListWidgetItem(names[player_id])
             item.setData(Qt.ItemDataRole.UserRole, player_id)
             item.setCheckState(Qt.CheckState.Unchecked)
+            item.setSizeHint(QSize(0, LEAST_TARGET_PX))
             self._gone.addItem(item)
         self._gone.itemChanged.connect(lambda: self._enable())
         self._replaced = named(wrapped(Label()), "reimport_replaced")

@@ -20,6 +20,7 @@ from typing import Any, Final
 from PySide6.QtCore import QObject, QTimer
 from PySide6.QtWidgets import QApplication, QDialog, QDialogButtonBox
 
+from app.editor.questions import ReadAgain
 from app.editor.session import Severity
 from app.editor.settings import Settings
 from app.editor.tasks import Tasks, ThreadTasks
@@ -72,14 +73,16 @@ class StallMeter(QObject):
 class ImportAnswers(Answers):
     """Whoever imports a MIDI file looks at the dialog for a moment and agrees."""
 
-    def import_midi(self, contents: MidiContents, tokens: Tokens, tasks: Tasks) -> ImportRequest | None:
+    def import_midi(
+        self, contents: MidiContents, read_again: ReadAgain, tokens: Tokens, tasks: Tasks
+    ) -> ImportRequest | None:
         """The real dialog."""
         timer = QTimer()
         timer.setInterval(300)
         timer.timeout.connect(self._agree)
         timer.start()
         try:
-            return DialogQuestions().import_midi(contents, tokens, tasks)
+            return DialogQuestions().import_midi(contents, read_again, tokens, tasks)
         finally:
             timer.stop()
 

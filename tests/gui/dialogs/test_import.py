@@ -27,6 +27,7 @@ from app.editor.tokens import DARK
 from app.project import importing
 from app.project.importing import import_project, usual_rows
 from app.project.model import Project, map_choices, project_from_score
+from app.project.reimport import reimported
 from app.score.read import read_contents, read_midi
 from instrument_maps.load import bundled_maps
 from tests.support.tasks import ImmediateTasks
@@ -411,3 +412,95 @@ def test_a_file_without_notes_offers_an_empty_stage_and_says_why(
         "Track 1 (Horn) has no notes and 0 other events",
     ]
     assert imported(dialog).players == ()
+
+
+def japanese_piece(folder: Path) -> Path:
+    """Two tracks whose names are in EUC-JP, too short to tell, and one that says nothing."""
+    path = piece(folder, {"xx": (60, 62, 64, 65), "yyyyyy": (72, 74, 76), "Lead": (67, 69, 71)})
+    content = path.read_bytes()
+    for name, given in ((b"\x02xx", "笛"), (b"\x06yyyyyy", "低音管")):
+        encoded = given.encode("euc_jp")
+        assert len(encoded) == len(name) - 1
+        content = content.replace(b"\xff\x03" + name, b"\xff\x03" + name[:1] + encoded)
+    path.write_bytes(content)
+    return path
+
+
+@pytest.mark.parametrize("by", ["mouse", "keys"])
+def test_names_are_read_again_in_the_encoding_that_is_chosen(
+    qt_app: QApplication, qtbot: QtBot, tmp_path: Path, by: str
+) -> None:
+    path = japanese_piece(tmp_path)
+    dialog = ImportDialog(
+        read_contents(path, encoding="cp1252"),
+        bundled_maps(),
+        DARK,
+        ImmediateTasks(),
+        None,
+        lambda encoding: read_contents(path, encoding=encoding),
+    )
+    qtbot.addWidget(dialog)
+    dialog.show()
+    box = dialog.findChild(QComboBox, "import_encoding")
+    assert box is not None
+    assert box.isEnabled()
+    assert (box.itemText(0), box.itemData(0)) == ("Automatic", None)
+    # What was chosen before stays chosen.
+    choose(dialog, "instrument_2", "trumpet_Bb")
+    assert names(dialog)[1] != "低音管"
+    place = box.findData("euc_jp")
+    if by == "keys":
+        choose(dialog, "import_encoding", "euc_jp")
+    else:
+        QTest.mouseClick(box, Qt.MouseButton.LeftButton)
+        view = box.view()
+        spot = view.visualRect(view.model().index(place, 0)).center()
+        # Qt takes a quicker click for the end of the one that opened the list.
+        qtbot.wait(QApplication.doubleClickInterval() + 50)
+        QTest.mouseMove(view.viewport(), spot)
+        QTest.mouseClick(view.viewport(), Qt.MouseButton.LeftButton, pos=spot)
+    assert box.currentData() == "euc_jp"
+    assert names(dialog) == ["笛", "低音管", "Lead"]
+    assert dialog.assignment.encoding == "euc_jp"
+    assert [row.assignment.map_id for row in dialog.rows] == [None, None, "trumpet_Bb"]
+    project = import_project(
+        dialog.assignment.contents, dialog.rows, MAPS, str(path), encoding=dialog.assignment.encoding
+    )
+    assert "Lead" in [player.name for player in project.players]
+    assert project.imported is not None
+    assert project.imported.encoding == "euc_jp"
+    assert reimported(project, path, MAPS).project is project
+
+
+def test_a_file_that_is_gone_meanwhile_leaves_the_names_as_they_were(
+    qt_app: QApplication, qtbot: QtBot, tmp_path: Path
+) -> None:
+    path = japanese_piece(tmp_path)
+    dialog = ImportDialog(
+        read_contents(path),
+        bundled_maps(),
+        DARK,
+        ImmediateTasks(),
+        None,
+        lambda encoding: read_contents(path, encoding=encoding),
+    )
+    qtbot.addWidget(dialog)
+    dialog.show()
+    before = names(dialog)
+    path.unlink()
+    box = dialog.findChild(QComboBox, "import_encoding")
+    summary = dialog.findChild(QLabel, "import_summary")
+    assert box is not None
+    assert summary is not None
+    box.setFocus()
+    QTest.keyClick(box, Qt.Key.Key_Down)
+    assert box.currentData() is None
+    assert names(dialog) == before
+    assert "piece.mid" in summary.text()
+    assert dialog._table.isEnabled()
+
+
+def names(dialog: ImportDialog) -> list[str]:
+    """The names of all rows, from above."""
+    fields = [dialog._table.cellWidget(place, 1) for place in range(len(dialog.rows))]
+    return [field.text() for field in fields if isinstance(field, QLineEdit)]

@@ -11,7 +11,7 @@ from pytestqt.qtbot import QtBot
 
 from app.audio.playback import Playback
 from app.editor.files import Files
-from app.editor.questions import Answer
+from app.editor.questions import Answer, ReadAgain
 from app.editor.recorder import Recorder
 from app.editor.session import Session
 from app.editor.settings import Settings
@@ -66,7 +66,9 @@ class Answers:
         self.reported_players = players
         return self.removes
 
-    def import_midi(self, contents: MidiContents, tokens: Tokens, tasks: Tasks) -> ImportRequest | None:
+    def import_midi(
+        self, contents: MidiContents, read_again: ReadAgain, tokens: Tokens, tasks: Tasks
+    ) -> ImportRequest | None:
         """As if no one touched the dialog."""
         self.asked.append("import")
         return ImportRequest(usual_rows(contents, bundled_maps()), self.dances) if self.imports else None

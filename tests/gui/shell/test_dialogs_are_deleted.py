@@ -75,7 +75,10 @@ OPENED: dict[str, Open] = {
     "LatencyDialog": lambda program: show_latency(program.editor),
     "ReimportDialog": lambda program: reimport_from(program.editor, QUARTET),
     "ImportDialog": lambda program: DialogQuestions().import_midi(
-        read_contents(QUARTET), program.session.tokens, program.session.tasks
+        read_contents(QUARTET),
+        lambda encoding: read_contents(QUARTET, encoding=encoding),
+        program.session.tokens,
+        program.session.tasks,
     ),
     "MessageBox of unsaved changes": lambda program: DialogQuestions().unsaved("x"),
     "MessageBox of a character": lambda program: DialogQuestions().remove_character("x", ("y",)),

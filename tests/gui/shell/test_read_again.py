@@ -1,0 +1,106 @@
+"""Re-import MIDI and Update from Newer MIDI in the window: the project afterwards, and its history."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import mido
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QDialogButtonBox, QListWidget
+
+from app.plan.corrections import Correction, PinFingering, SetBreath, SetCue
+from app.project.edit.corrections import put
+from app.shell.app import Program
+from tests.gui.shell.conftest import Answers, Start, trigger
+from tests.unit.project.test_rereading import BAR, quintet, tracks, written
+from widgets.dialogs.reimport_midi import ReimportDialog
+
+
+@pytest.fixture(params=["kept", "an older program's"])
+def program(request: pytest.FixtureRequest, start: Start, tmp_path: Path) -> Program:
+    """An editor with a quintet that has 13 corrections; one whose decisions at the import were not kept."""
+    project = quintet(written(tmp_path / "quintet.mid", tracks()))
+    for number, player in enumerate(project.players):
+        notes = project.part(player).notes
+        items: list[Correction] = [SetBreath(notes[4].id, -60, -10), SetCue(notes[8].id, 1.0)]
+        if number < 3:
+            items.append(PinFingering(notes[16].id, "1"))
+        project = put(project, player.id, items)
+    assert sum(map(len, project.corrections.values())) == 13
+    if request.param != "kept":
+        project = replace(project, imported=None, read_timing=None)
+    result = start()
+    result.session.document.open(project)
+    result.editor.files.is_open = True
+    return result
+
+
+def shown(program: Program) -> ReimportDialog:
+    (dialog,) = program.window.findChildren(ReimportDialog)
+    return dialog
+
+
+def agree(dialog: ReimportDialog) -> None:
+    ok = dialog.findChild(QDialogButtonBox).button(QDialogButtonBox.StandardButton.Ok)
+    assert ok.isEnabled()
+    QTest.mouseClick(ok, Qt.MouseButton.LeftButton)
+
+
+def test_an_unchanged_file_is_no_step(program: Program) -> None:
+    before = program.session.project
+    trigger(program, "file.reimport")
+    dialog = shown(program)
+    assert not dialog.findChild(QDialogButtonBox).button(QDialogButtonBox.StandardButton.Ok).isEnabled()
+    QTest.keyClick(dialog, Qt.Key.Key_Return)
+    dialog.reject()
+    assert program.session.project is before
+    assert program.session.document.done == ()
+
+
+def test_update_from_a_newer_file_keeps_players_and_corrections(
+    program: Program, answers: Answers, tmp_path: Path
+) -> None:
+    before = program.session.project
+    content = tracks(("", "Piano", "Stimme", "Low", "Bottom"), 2 * BAR)
+    answers.path = written(tmp_path / "newer.mid", [content[place] for place in (3, 0, 4, 2, 1)])
+    trigger(program, "file.reimport_other")
+    agree(shown(program))
+    after = program.session.project
+    assert after is not before
+    assert after.players == before.players
+    assert after.corrections == before.corrections
+    for player in before.players:
+        assert [note.onset_tick + 2 * BAR for note in before.part(player).notes] == [
+            note.onset_tick for note in after.part(player).notes
+        ]
+    program.session.document.undo()
+    assert program.session.project is before
+
+
+def test_a_player_is_removed_with_the_update_as_one_step(program: Program, answers: Answers, tmp_path: Path) -> None:
+    before = program.session.project
+    flute = mido.MidiTrack([mido.MetaMessage("track_name", name="Flute")])
+    for place in range(12):
+        flute.append(mido.Message("note_on", note=72 + 5 * place % 12, velocity=80))
+        flute.append(mido.Message("note_off", note=72 + 5 * place % 12, time=240))
+    answers.path = written(tmp_path / "newer.mid", [*tracks()[:2], tracks()[4], flute])
+    trigger(program, "file.reimport_other")
+    dialog = shown(program)
+    gone = dialog.findChild(QListWidget, "reimport_gone")
+    assert gone is not None
+    assert gone.count() == 2
+    gone.setFocus()
+    gone.setCurrentRow(0)
+    QTest.keyClick(gone, Qt.Key.Key_Space)
+    agree(dialog)
+    after = program.session.project
+    # The horn was checked, the trombone stays.
+    kept = [player.id for index, player in enumerate(before.players) if index != 2]
+    assert [player.id for player in after.players][:4] == kept
+    assert after.players[-1].instrument_id == "flute"
+    assert after.corrections == {id_: before.corrections[id_] for id_ in kept}
+    program.session.document.undo()
+    assert program.session.project is before
