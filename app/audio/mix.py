@@ -1,4 +1,4 @@
-"""What a project sounds like: its recording, its players by the synthesiser, the metronome."""
+"""What a project sounds like: its recording, its players and its percussion by the synthesiser, the metronome."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import numpy as np
 import soxr
 
 from app.audio.decode import Recording, decode
-from app.audio.synth import Phrase, Synthesiser, phrases, program_of
+from app.audio.synth import Phrase, Synthesiser, drum_phrases, phrases, program_of
 from app.audio.track import RATE_HZ, Block, Mix, Piece, Track
 from app.errors import raise_if_stopped
 from app.project.model import Project
@@ -18,6 +18,10 @@ from instrument_maps.library import all_maps
 
 _LEVEL: Final = 4.5
 """The soundfont's tones are some 30 dB below full scale; an ensemble of any size comes to about -18."""
+PERCUSSION: Final = ""
+"""Stands for the percussion where there is the id of a player."""
+_PERCUSSION_LEVEL: Final = 0.5
+"""Of its kit beside the players', whose loudest strokes are far above a wind's tone."""
 _SIDE: Final = 0.6
 """How far to the side the outermost player is panned; 1 is one channel alone."""
 
@@ -28,13 +32,18 @@ def player_phrases(project: Project, player: Player) -> tuple[Phrase, ...]:
     return phrases(part, project.score.tempo_map, program_of(part, all_maps().get(player.instrument_id)))
 
 
+def percussion_phrases(project: Project) -> tuple[Phrase, ...]:
+    """What the synthesiser renders for the percussion that no player plays."""
+    return drum_phrases(project.score.percussion, project.score.tempo_map)
+
+
 def player_tracks(project: Project, pieces: Mapping[str, Iterable[Piece]]) -> tuple[Track, ...]:
     """The audible players.
 
     Parameters
     ----------
     pieces : mapping of str to iterable of Piece
-        What is rendered, by player id.
+        What is rendered, by player id; also `PERCUSSION`.
     """
     return tuple(
         Track(pieces[player_id], *gains) for player_id, gains in player_gains(project).items() if player_id in pieces
@@ -42,7 +51,7 @@ def player_tracks(project: Project, pieces: Mapping[str, Iterable[Piece]]) -> tu
 
 
 def player_gains(project: Project) -> dict[str, tuple[float, float]]:
-    """Gains of left and right of the audible players: those soloed if any is, else those not muted."""
+    """Gains of left and right of the audible players: those soloed if any is, else those not muted and `PERCUSSION`."""
     players = project.players
     soloed = any(player.soloed for player in players)
     width_m = max((abs(player.stage.x_m) for player in players), default=0.0)
@@ -52,6 +61,8 @@ def player_gains(project: Project) -> dict[str, tuple[float, float]]:
         if player.soloed if soloed else not player.muted:
             left, right = place_gains(player.stage.x_m, width_m)
             gains[player.id] = (level * left, level * right)
+    if project.score.percussion and not soloed:
+        gains[PERCUSSION] = (_PERCUSSION_LEVEL * level, _PERCUSSION_LEVEL * level)
     return gains
 
 
@@ -130,12 +141,13 @@ def _synthesised(
     progress: Callable[[float], None],
     stop_requested: Callable[[], bool],
 ) -> Mix:
-    """The players' phrases that sound within a span."""
+    """The phrases of players and percussion that sound within a span."""
     synthesiser = Synthesiser()
+    everything = [(player.id, player_phrases(project, player)) for player in project.players]
     requested = [
-        (player.id, phrase)
-        for player in project.players
-        for phrase in player_phrases(project, player)
+        (player_id, phrase)
+        for player_id, own in (*everything, (PERCUSSION, percussion_phrases(project)))
+        for phrase in own
         if phrase.start < end_s * RATE_HZ and phrase.end > start_s * RATE_HZ
     ]
     pieces: dict[str, list[Piece]] = {}

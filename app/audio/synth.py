@@ -20,9 +20,11 @@ import numpy.typing as npt
 
 from app.audio.rendering import rendered, soundfont
 from app.audio.track import RATE_HZ, Piece, Samples
+from app.choreography.percussion import SAME_SOUND
 from app.performance.loudness import sounding_curve
 from app.score.bend_range import USUAL_SEMITONES, range_controls, range_for, wheel
-from app.score.model import CurveKind, Note, Part
+from app.score.model import CurveKind, Note, Part, PercussionHit
+from app.score.sound_module import DRUM_CHANNEL
 from app.score.tempo import TempoMap
 from instrument_maps.model import InstrumentMap
 from instrument_maps.vocabulary import vocabulary
@@ -37,6 +39,8 @@ _TAIL_S: Final = 1.5
 """The longest release and the reverberation."""
 _BLOCK: Final = 64
 """The synthesiser heeds events once in so many samples."""
+_STROKE: Final = 480
+"""Samples between a drum's note-on and its note-off."""
 _VOLUME, _EXPRESSION = 7, 11
 _MOST_CACHED_BYTES: Final = 256 * 1024 * 1024
 
@@ -133,6 +137,29 @@ def phrases(part: Part, tempo_map: TempoMap, program: int) -> tuple[Phrase, ...]
     )
 
 
+def drum_phrases(hits: Sequence[PercussionHit], tempo_map: TempoMap) -> tuple[Phrase, ...]:
+    """Cut the percussion of a piece into phrases, for the drum kit.
+
+    Parameters
+    ----------
+    hits : sequence of PercussionHit
+        By tick.
+    """
+    if not hits:
+        return ()
+    ticks = np.array([hit.tick for hit in hits], np.int64)
+    at = _samples(tempo_map, ticks)
+    # A drum sounds as long as it does: only the next stroke's note-on needs an end before it.
+    notes = [Note("", hit.tick, 1, SAME_SOUND.get(hit.pitch, hit.pitch), hit.velocity) for hit in hits]
+    windows = ticks // (_WINDOW_QUARTERS * tempo_map.ticks_per_quarter)
+    firsts = np.flatnonzero(np.diff(windows, prepend=windows[0] - 1))
+    opening = bytes((0xC0 | DRUM_CHANNEL, 0))
+    return tuple(
+        _phrase(notes[first:last], at[first:last], at[first:last] + _STROKE, (), opening, DRUM_CHANNEL)
+        for first, last in zip(firsts.tolist(), [*firsts[1:].tolist(), len(notes)], strict=True)
+    )
+
+
 def program_of(part: Part, instrument: InstrumentMap | None) -> int:
     """The General MIDI program that sounds like what a player plays.
 
@@ -201,6 +228,7 @@ def _phrase(
     ends: Integers,
     controls: Sequence[tuple[Integers, tuple[bytes, ...]]],
     opening: bytes,
+    channel: int = 0,
 ) -> Phrase:
     """Notes that begin at ``onsets`` and end at ``ends``, in samples, as a MIDI file that begins with the first of them
     and with ``opening``."""
@@ -213,8 +241,8 @@ def _phrase(
         for step in range(first, max(int(np.searchsorted(samples, last)), first + 1)):
             events.append((max(int(samples[step]) - start, 0), 1, messages[step]))
     for note, onset, end in zip(notes, onsets.tolist(), ends.tolist(), strict=True):
-        events.append((onset - start, 3, bytes((0x90, note.pitch, note.velocity))))
-        events.append((max(end, onset + 1) - start, 2, bytes((0x80, note.pitch, 0))))
+        events.append((onset - start, 3, bytes((0x90 | channel, note.pitch, note.velocity))))
+        events.append((max(end, onset + 1) - start, 2, bytes((0x80 | channel, note.pitch, 0))))
     events.sort(key=_in_order)
     tail = round(_TAIL_S * RATE_HZ)
     return Phrase(start, max(last, start) + tail, _midi_file(events, tail))

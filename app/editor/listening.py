@@ -44,6 +44,8 @@ class Listening(State):
         0..1 as the ear judges it.
     click : bool
         Whether the metronome sounds.
+    percussion : bool
+        Whether the percussion sounds.
     scrub_sound : bool
         Whether scrubbing sounds.
     source : str
@@ -72,6 +74,7 @@ class Listening(State):
         self.speed = 1.0
         self.volume = 0.8
         self.click = False
+        self.percussion = True
         self.scrub_sound = True
         self.source: Source = "recording"
         self.silent = False

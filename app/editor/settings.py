@@ -203,6 +203,8 @@ class Settings(QObject):
     """0..1 as the ear judges it."""
     click = Setting("sound/click", False, held=in_listening("click"))
     """Whether the metronome sounds."""
+    percussion = Setting("sound/percussion", True, held=in_listening("percussion"))
+    """Whether the percussion sounds."""
     scrub_sound = Setting("sound/scrub", True, held=in_listening("scrub_sound"))
     """Whether scrubbing sounds."""
     source = Setting("sound/source", "recording", Source, held=in_listening("source"))

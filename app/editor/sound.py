@@ -77,7 +77,7 @@ class Sound(QObject):
         """Path of a recording that was just added: its place is to be looked for."""
         self._click: tuple[tuple[object, ...], Track] | None = None
         self._chosen: tuple[object, ...] = ()
-        """Source and metronome of the mix that was made last."""
+        """Source, metronome and percussion of the mix that was made last."""
         self._counted_s: tuple[float, float] | None = None
         """While a take is recorded: where counting in begins, and where the take does."""
         self._audition: tuple[Project, RecordedTake, Project] | None = None
@@ -207,7 +207,7 @@ class Sound(QObject):
         listening = self._session.listening
         self.playback.set_speed(listening.speed)
         self.playback.set_volume(listening.volume)
-        chosen = (listening.source, listening.click, listening.take)
+        chosen = (listening.source, listening.click, listening.percussion, listening.take)
         if chosen != self._chosen:
             self._chosen = chosen
             self._audition = None
@@ -259,7 +259,7 @@ class Sound(QObject):
         ):
             tracks.append(recording_track(self._recording, project.audio.offset_s))
         if self._synthesiser_audible(project):
-            tracks.extend(self._stems.tracks(project))
+            tracks.extend(self._stems.tracks(project, listening.percussion))
         if listening.click:
             tracks.append(self._clicks(project))
         elif self._counted_s is not None:

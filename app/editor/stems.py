@@ -1,4 +1,4 @@
-"""Every player's sound by the synthesiser, kept up to date in the background."""
+"""The sound of every player and of the percussion by the synthesiser, kept up to date in the background."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from math import inf
 
 from PySide6.QtCore import QObject, QTimer, Signal
 
-from app.audio.mix import player_gains, player_phrases
+from app.audio.mix import PERCUSSION, percussion_phrases, player_gains, player_phrases
 from app.audio.render_process import RenderProcess
 from app.audio.shelf import Shelved
 from app.audio.synth import Phrase, Synthesiser
@@ -32,7 +32,7 @@ _AHEAD_S = 20.0
 
 @dataclass(frozen=True, eq=False)
 class _Made:
-    """A player's phrases, and what they were made from."""
+    """The phrases of a player or of the percussion, and what they were made from."""
 
     sources: tuple[object, ...]
     phrases: tuple[Phrase, ...]
@@ -48,7 +48,7 @@ class _Job:
 
     project: Project
     made: dict[str, _Made] = field(default_factory=dict)
-    """Every player's phrases, once they are cut; the same object until then."""
+    """Everyone's phrases, once they are cut, and `PERCUSSION`'s; the same object until then."""
     window_s: tuple[float, float] = (-inf, inf)
     """What is rendered when it has ended."""
     share: float = 0.0
@@ -104,8 +104,8 @@ class Stems(QObject):
         if job is not None and job.project is project and (not job.has_ended or self.covers(from_s)):
             return
         if not self.covers(from_s) or any(
-            (made := self._made.get(player.id)) is None or not made.is_of(_sources(project, player))
-            for player in project.players
+            (made := self._made.get(voice)) is None or not made.is_of(_sources(project, player))
+            for voice, player in _voices(project).items()
         ):
             self._settle_timer.start()
 
@@ -116,10 +116,13 @@ class Stems(QObject):
         start_s, end_s = self._job.window_s
         return start_s <= at_s and (at_s + _AHEAD_S < end_s or end_s == inf)
 
-    def tracks(self, project: Project) -> list[Track]:
-        """The audible players, as far as they are rendered; a track is kept while nothing of it changes."""
+    def tracks(self, project: Project, percussion: bool = True) -> list[Track]:
+        """The audible players, and the percussion if it is requested, as far as they are rendered; a track is kept
+        while nothing of it changes."""
         tracks, kept = [], {}
         for player_id, gains in player_gains(project).items():
+            if player_id == PERCUSSION and not percussion:
+                continue
             made = self._made.get(player_id)
             if made is None:
                 continue
@@ -143,8 +146,8 @@ class Stems(QObject):
         def work(progress: Progress, stop_requested: StopRequested) -> None:
             try:
                 made = {}
-                for player in project.players:
-                    made[player.id] = _made(project, player, before.get(player.id))
+                for voice, player in _voices(project).items():
+                    made[voice] = _made(project, player, before.get(voice))
                     raise_if_stopped(stop_requested)
                 everything = [(player_id, phrase) for player_id, one in made.items() for phrase in one.phrases]
                 requested, job.window_s = _next_phrases(everything, from_s)
@@ -197,12 +200,20 @@ def _next_phrases(
     return tuple(ordered), (-inf, inf)
 
 
-def _sources(project: Project, player: Player) -> tuple[object, ...]:
+def _voices(project: Project) -> dict[str, Player | None]:
+    """What sounds, by id; None is the percussion."""
+    voices: dict[str, Player | None] = {player.id: player for player in project.players}
+    return voices | {PERCUSSION: None} if project.score.percussion else voices
+
+
+def _sources(project: Project, player: Player | None) -> tuple[object, ...]:
+    if player is None:
+        return (project.score.percussion, project.score.tempo_map, None)
     return (project.part(player), project.score.tempo_map, player.instrument_id)
 
 
-def _made(project: Project, player: Player, before: _Made | None) -> _Made:
+def _made(project: Project, player: Player | None, before: _Made | None) -> _Made:
     sources = _sources(project, player)
     if before is not None and before.is_of(sources):
         return before
-    return _Made(sources, player_phrases(project, player))
+    return _Made(sources, percussion_phrases(project) if player is None else player_phrases(project, player))

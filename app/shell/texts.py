@@ -167,6 +167,7 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
     "action.play.note_back": ("Previous Note", "前の音符"),
     "action.play.note_on": ("Next Note", "次の音符"),
     "action.play.remove_recording": ("Remove Audio", "音源を外す"),
+    "action.play.percussion": ("Percussion", "打楽器"),
     "action.play.scrub": ("Scrub Audio", "スクラブ再生"),
     "action.play.source_both": ("Audio and Synthesiser", "音源とシンセサイザー"),
     "action.play.source_recording": ("Audio", "音源"),

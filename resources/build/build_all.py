@@ -75,7 +75,7 @@ STEPS = (
     ),
     Step(
         "soundfont",
-        ("resources/soundfont/winds.sf2",),
+        ("resources/soundfont/*.sf2",),
         lambda arguments: (
             (("-m", "resources.build.build_soundfont", str(arguments.soundfont)),)
             if arguments.soundfont is not None

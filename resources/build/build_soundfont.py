@@ -1,10 +1,11 @@
-"""Cut the winds out of a General MIDI soundfont: `resources/soundfont/winds.sf2`.
+"""Cut the winds and the drum kit out of a General MIDI soundfont: `winds.sf2` and `drums.sf2` in `resources/soundfont`.
 
     python -m resources.build.build_soundfont FluidR3_GM.sf2
 
 The source is Fluid R3 GM 3.1 (Frank Wen; MIT), as Debian's package ``fluid-soundfont-gm`` ships it. Of its 148 MB stay
 the presets of wind instruments, one channel of each stereo pair (a player stands somewhere: the mixer pans), at most
-`MOST_RATE_HZ`, and of a long held tone `LONGEST_S` with a loop of its own.
+`MOST_RATE_HZ`, and of a long held tone `LONGEST_S` with a loop of its own. The standard kit has a file of its own, for
+the synthesiser reads all of one for every phrase; its cymbals fade out after `KIT_LONGEST_S`.
 
 Format: SoundFont Technical Specification 2.04 (E-mu, 2006), chapters 4 to 8.
 """
@@ -23,14 +24,18 @@ import soxr
 from instrument_maps.vocabulary import vocabulary
 
 OUT = Path(__file__).parents[1] / "soundfont" / "winds.sf2"
+KIT_OUT = OUT.with_name("drums.sf2")
 MOST_RATE_HZ = 22050.0
+KIT_RATE_HZ = 32000.0
+KIT_LONGEST_S, KIT_FADE_S = 1.6, 0.8
 LONGEST_S = 1.25
 ATTACK_SHARE, MOST_CUT_S = 0.25, 0.08
 """A tone begins where it has this share of its loudness; more than this is never cut."""
 ALIASES = {62: 61, 63: 61}
 """Synthetic brass is played by the brass section."""
 
-PAN, INSTRUMENT, SAMPLE_ID, KEY_RANGE = 17, 41, 53, 43
+KIT_BANK = 128
+PAN, INSTRUMENT, SAMPLE_ID, KEY_RANGE, SAMPLE_MODES = 17, 41, 53, 43, 54
 OFFSETS = {0, 1, 2, 3, 4, 12, 45, 50}
 """Generators that move a sample's ends and loop: folded into the samples themselves."""
 RIGHT = 2
@@ -118,12 +123,35 @@ def build(source: Path, to: Path = OUT) -> None:
                     instruments[number] = _instrument(font, number, samples)
             zones.append(Zone([item for item in zone.generators if item[0] != PAN], zone.modulators))
         presets.append((name, program, zones))
-    tones = [sample for _, sample in sorted(samples.values(), key=lambda item: item[0])]
-    to.parent.mkdir(exist_ok=True)
-    to.write_bytes(_file(presets, instruments, font, tones))
+    _write(to, _file(presets, instruments, font, _in_order(samples), "Winds of Fluid R3 GM"))
     for name, program, _ in presets:
         print(f"{program:3d} {name}")
-    print(f"{len(tones)} tones, {to.stat().st_size / 1e6:.1f} MB")
+
+
+def build_kit(source: Path, to: Path = KIT_OUT) -> None:
+    """Write the small soundfont of the standard drum kit."""
+    font = Font(source.read_bytes())
+    index = next(i for i, row in enumerate(font.presets[:-1]) if row[1:3] == (0, KIT_BANK))
+    instruments: dict[int, list[Zone]] = {}
+    samples: dict[tuple[int, ...], tuple[int, Sample]] = {}
+    zones = []
+    for zone in font.zones("p", font.presets[index][3], font.presets[index + 1][3]):
+        number = dict(zone.generators).get(INSTRUMENT)
+        if number is not None and number not in instruments:
+            instruments[number] = _instrument(font, number, samples)
+        zones.append(Zone([item for item in zone.generators if item[0] != PAN], zone.modulators))
+    presets = [(_name(font.presets[index][0]), 0, zones)]
+    _write(to, _file(presets, instruments, font, _in_order(samples), "Drum kit of Fluid R3 GM", KIT_BANK))
+
+
+def _in_order(samples: dict[tuple[int, ...], tuple[int, Sample]]) -> list[Sample]:
+    return [sample for _, sample in sorted(samples.values(), key=lambda item: item[0])]
+
+
+def _write(to: Path, data: bytes) -> None:
+    to.parent.mkdir(exist_ok=True)
+    to.write_bytes(data)
+    print(f"{to.name}: {len(data) / 1e6:.1f} MB")
 
 
 def _instrument(font: Font, number: int, samples: dict[tuple[int, ...], tuple[int, Sample]]) -> list[Zone]:
@@ -142,17 +170,16 @@ def _instrument(font: Font, number: int, samples: dict[tuple[int, ...], tuple[in
         offsets = tuple({**shared, **own}.get(generator, 0) for generator in sorted(OFFSETS))
         key = (own[SAMPLE_ID], *offsets)
         if key not in samples:
-            samples[key] = (
-                len(samples),
-                _sample(font, own[SAMPLE_ID], dict(zip(sorted(OFFSETS), offsets, strict=True))),
-            )
+            moved = dict(zip(sorted(OFFSETS), offsets, strict=True))
+            held = {**shared, **own}.get(SAMPLE_MODES, 0) & 1
+            samples[key] = len(samples), _sample(font, own[SAMPLE_ID], moved, held=bool(held))
         generators = [item for item in zone.generators if item[0] not in OFFSETS | {PAN, SAMPLE_ID}]
         kept.append(Zone([*generators, (SAMPLE_ID, samples[key][0])], zone.modulators))
     return kept
 
 
-def _sample(font: Font, number: int, offsets: dict[int, int]) -> Sample:
-    """A tone with its offsets applied, brought to the lower rate and shortened."""
+def _sample(font: Font, number: int, offsets: dict[int, int], *, held: bool) -> Sample:
+    """A tone with its offsets applied, brought to the lower rate and shortened; one that is not held has no loop."""
     name, start, end, loop_start, loop_end, rate_hz, pitch, cents, _, _ = font.samples[number]
     start += offsets[0] + 32768 * offsets[4]
     end += offsets[1] + 32768 * offsets[12]
@@ -161,7 +188,18 @@ def _sample(font: Font, number: int, offsets: dict[int, int]) -> Sample:
     loop_end = min(loop_end, end)
     audio = font.audio[start:end].astype(np.float64) / 32768.0
     sample = Sample(_name(name), audio, (loop_start - start, loop_end - start), float(rate_hz), pitch, cents)
-    return _resampled(_shortened(_begun(sample)))
+    return _resampled(_shortened(_begun(sample))) if held else _struck(sample)
+
+
+def _struck(sample: Sample) -> Sample:
+    """A sound that dies away by itself: at most `KIT_RATE_HZ`, and faded out where it is long."""
+    longest, fade = round(KIT_LONGEST_S * sample.rate_hz), round(KIT_FADE_S * sample.rate_hz)
+    audio = sample.audio[:longest].copy()
+    if len(sample.audio) > longest:
+        audio[-fade:] *= np.linspace(1.0, 0.0, fade) ** 2
+    rate_hz = min(sample.rate_hz, KIT_RATE_HZ)
+    audio = soxr.resample(audio, sample.rate_hz, rate_hz, quality="VHQ")
+    return replace(sample, audio=audio, loop=(0, len(audio)), rate_hz=rate_hz)
 
 
 def _begun(sample: Sample) -> Sample:
@@ -235,7 +273,12 @@ def _resampled(sample: Sample) -> Sample:
 
 
 def _file(
-    presets: list[tuple[str, int, list[Zone]]], instruments: dict[int, list[Zone]], font: Font, tones: list[Sample]
+    presets: list[tuple[str, int, list[Zone]]],
+    instruments: dict[int, list[Zone]],
+    font: Font,
+    tones: list[Sample],
+    title: str,
+    bank: int = 0,
 ) -> bytes:
     order = {number: index for index, number in enumerate(instruments)}
     smpl, shdr, at = bytearray(), bytearray(), 0
@@ -253,7 +296,7 @@ def _file(
 
     phdr, pzones = bytearray(), []
     for name, program, zones in presets:
-        phdr += struct.pack("<20sHHHIII", name.encode()[:19], program, 0, len(pzones), 0, 0, 0)
+        phdr += struct.pack("<20sHHHIII", name.encode()[:19], program, bank, len(pzones), 0, 0, 0)
         pzones += [
             Zone([(g, order[v] if g == INSTRUMENT else v) for g, v in zone.generators], zone.modulators)
             for zone in zones
@@ -269,7 +312,7 @@ def _file(
         b"INFO",
         _chunk(b"ifil", struct.pack("<HH", 2, 1))
         + _chunk(b"isng", b"EMU8000\0")
-        + _chunk(b"INAM", b"Winds of Fluid R3 GM\0\0")
+        + _chunk(b"INAM", title.encode() + bytes(2 - len(title) % 2))
         + _chunk(b"ICOP", font.chunks["ICOP"])
         + _chunk(b"ICMT", font.chunks["ICMT"]),
     )
@@ -310,3 +353,4 @@ def _name(raw: bytes) -> str:
 
 if __name__ == "__main__":
     build(Path(sys.argv[1]))
+    build_kit(Path(sys.argv[1]))

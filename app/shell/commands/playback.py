@@ -209,6 +209,13 @@ ACTIONS: tuple[Action | EditorAction, ...] = (
         icon="metronome",
     ),
     Action(
+        "play.percussion",
+        lambda session, on: session.listening.set(percussion=on),
+        "play",
+        checked=lambda session: session.listening.percussion,
+        enabled=lambda session: bool(session.project.score.percussion),
+    ),
+    Action(
         "play.scrub",
         lambda session, on: session.listening.set(scrub_sound=on),
         "play",

@@ -37,7 +37,7 @@ from app.project.model import Project, map_choices
 from app.project.performers import Player
 from app.project.piece_metadata import load_metadata, metadata_of, save_metadata
 from app.project.presence import Presence
-from app.score.model import Note
+from app.score.model import Note, PercussionHit
 from app.score.read import read_midi
 from app.score.take import Cleaning
 from app.shell.app import Program
@@ -264,6 +264,11 @@ def has_recording(desk: Desk) -> None:
         tone = 0.1 * np.sin(np.arange(22_050) * 0.1)
         soundfile.write(path, tone, 22_050)
     desk.session.attempt(Message("edit.set_audio"), lambda project: set_audio(project, path))
+
+
+def has_percussion(desk: Desk) -> None:
+    score = msgspec.structs.replace(desk.project.score, percussion=(PercussionHit(0, 36, 90),))
+    desk.session.attempt(Message("edit.piece_settings"), lambda project: dataclasses.replace(project, score=score))
 
 
 def has_video(desk: Desk) -> None:
@@ -808,6 +813,7 @@ CASES: dict[str, Case] = {
         for source in ("recording", "synthesiser", "both")
     },
     "play.click": toggled("play.click", lambda d: d.session.listening.click),
+    "play.percussion": Case(lambda d: not d.session.listening.percussion, has_percussion),
     "play.scrub": toggled("play.scrub", lambda d: d.session.listening.scrub_sound),
     "play.follow": toggled("play.follow", lambda d: d.session.follow),
     "play.estimate_offset": Case(lambda d: "estimate" in last_work(d), has_recording),

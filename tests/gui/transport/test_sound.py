@@ -22,6 +22,7 @@ from app.project.edit.piece import set_audio, set_offset
 from app.project.edit.takes import add_takes, remove_take
 from app.project.edit.tempo import scale_tempo, set_tempo
 from app.project.model import Project
+from app.score.model import PercussionHit
 from tests.gui.transport.conftest import Elapse
 from tests.gui.transport.devices import FakeDevices
 from tests.support.takes import take_of
@@ -95,6 +96,20 @@ def test_scrubbing_can_be_silent(ready: Sound, session: Session, devices: FakeDe
 
 def test_films_get_the_sound_of_playback(ready: Sound, session: Session) -> None:
     assert excerpt(ready, 0.0, 3.0) == pytest.approx(mixdown(session.project, 0.0, 3.0), abs=1e-6)
+
+
+def test_percussion_is_heard_as_in_films_and_can_be_silenced(ready: Sound, session: Session, qtbot: QtBot) -> None:
+    import msgspec
+
+    before = excerpt(ready, 0.0, 3.0)
+    hits = (PercussionHit(480, 36, 110), PercussionHit(960, 42, 110))
+    edit(session, replace(session.project, score=msgspec.structs.replace(session.project.score, percussion=hits)))
+    wait_ready(ready, qtbot)
+    heard = excerpt(ready, 0.0, 3.0)
+    assert heard == pytest.approx(mixdown(session.project, 0.0, 3.0), abs=1e-6)
+    assert np.abs(heard - before).max() > 0.02
+    session.listening.set(percussion=False)
+    assert excerpt(ready, 0.0, 3.0) == pytest.approx(before, abs=1e-6)
 
 
 def test_mute_and_solo_take_effect_at_once(ready: Sound, session: Session, tasks: ImmediateTasks) -> None:

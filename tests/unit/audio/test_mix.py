@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 
+import msgspec
 import numpy as np
 import pytest
 import soundfile
@@ -12,9 +13,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from app.audio.mix import mixdown, place_gains, player_tracks
+from app.audio.synth import Synthesiser, drum_phrases
 from app.audio.track import RATE_HZ, Piece, Track, softened
 from app.errors import Cancelled, FileError
 from app.project.recording import AudioTrack
+from app.score.model import PercussionHit
 from tests.unit.audio.pieces import melody, piece, quartet, with_players
 
 DUET = piece(melody((0, 480, 70), (480, 480, 72)), melody((960, 960, 65)))
@@ -89,6 +92,27 @@ def test_any_rate(rate_hz: int) -> None:
     sound = mixdown(DUET, 0.0, 1.0, rate_hz)
     assert sound.shape == (rate_hz, 2)
     assert np.abs(sound).max() > 0.05
+
+
+def test_percussion_sounds_when_it_is_struck_unless_a_player_is_soloed() -> None:
+    hits = tuple(PercussionHit(tick, pitch, 100) for tick, pitch in ((1920, 36), (2400, 42), (2400, 26), (9600, 81)))
+    drummed = replace(DUET, score=msgspec.structs.replace(DUET.score, percussion=hits))
+    silent = with_players(drummed, **{f"p{number}": {"muted": True} for number in range(len(DUET.players))})
+    sound = np.abs(mixdown(silent, 0.0, 12.0)).max(axis=1)
+    for struck_s in (2.0, 2.5, 10.0):
+        at = round(struck_s * RATE_HZ)
+        assert sound[max(at - 4800, 0) : at - 48].max() < 0.2 * sound[at : at + 4800].max()
+        assert np.flatnonzero(sound[at - 48 :] > 0.2 * sound[at : at + 4800].max())[0] < 0.02 * RATE_HZ
+    assert sound.max() > 0.05
+    soloed = mixdown(with_players(drummed, p0={"soloed": True}), 0.0, 12.0)
+    assert soloed == pytest.approx(mixdown(with_players(DUET, p0={"soloed": True}), 0.0, 12.0), abs=1e-6)
+
+
+def test_the_kit_has_every_sound_of_general_midi() -> None:
+    synthesiser = Synthesiser()
+    for pitch in range(27, 88):
+        (phrase,) = drum_phrases([PercussionHit(0, pitch, 90)], DUET.score.tempo_map)
+        assert np.abs(synthesiser.render(phrase).samples).max() > 300, pitch
 
 
 def test_a_muted_player_is_silent() -> None:

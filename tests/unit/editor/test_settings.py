@@ -25,6 +25,7 @@ from app.messages import text
         ("time_display", "frames"),
         ("volume", 0.35),
         ("click", True),
+        ("percussion", False),
         ("scrub_sound", False),
         ("source", "both"),
         ("folded", {"a": True, "b c": False}),
