@@ -113,6 +113,10 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         "the file has {patterns} independent patterns (format 2); they were placed one after another",
         "独立した {patterns} 個のパターン（フォーマット 2）です。順に並べました",
     ),
+    "midi.early_end": (
+        "an end-of-track event of track {track} comes before {count} {count:note|notes}; {count:it was|they were} read",
+        "トラック {track} の途中にトラックの終わりがありますが、その後の {count} 音も読み込みました",
+    ),
     "midi.hanging_notes": (
         (
             "{count} {count:note|notes} of track {track} {count:has no note-off; it ends|have no note-off; they "

@@ -34,6 +34,8 @@ midi.smpte_rate : rate
     "The file counts time in frames of 1/{rate} s, which is no SMPTE rate; it was taken literally"
 midi.patterns : patterns
     "The file has {patterns} independent patterns (format 2); they follow one another"
+midi.early_end : track, count
+    "Track {track} says that it ends before its last {count} notes, which were read all the same"
 midi.hanging_notes : track, count
     "{count} notes of track {track} never end; they end where the next note of the channel begins, and after four
     quarters at the latest"
@@ -291,6 +293,7 @@ def _repair_warnings(repair: Repaired, track: Track, index: int) -> list[Message
 
 def _track_warnings(events: TrackEvents, index: int) -> list[Message]:
     counts = (
+        ("midi.early_end", events.after_end),
         ("midi.hanging_notes", events.hanging),
         ("midi.zero_length_notes", events.zero_length),
         ("midi.beyond_all_music", events.beyond),

@@ -74,6 +74,8 @@ def last_suspicious(data: bytes) -> int:
 def repaired(data: bytes, until: int | None = None) -> Repaired:
     """Copy a track event by event, each channel message with its status, without the events the score does not need.
 
+    Events that follow an end of the track are copied too, if all of them are events or another end is the last of them.
+
     Parameters
     ----------
     data : bytes
@@ -86,6 +88,7 @@ def repaired(data: bytes, until: int | None = None) -> Repaired:
     at, delta, status = 0, 0, 0
     skipped, first_skipped = 0, len(data)
     truncated_at = None
+    ended: tuple[int, int, int] | None = None
     end = len(data)
     while at < end:
         event_at = at
@@ -100,12 +103,12 @@ def repaired(data: bytes, until: int | None = None) -> Repaired:
             if byte == 0xFF:
                 kind = _byte(data, at + 1)
                 length, begin = _variable_length(data, at + 2)
-                if kind == _END_OF_TRACK:
-                    break
-                if begin + length > end:
+                if begin + length > end and kind != _END_OF_TRACK:
                     raise _TruncatedError
                 at = begin + length
-                if kind in _TEXTS or _LENGTHS.get(kind) == length:
+                if kind == _END_OF_TRACK:
+                    ended = ended or (len(out), delta, skipped)
+                if kind == _END_OF_TRACK or kind in _TEXTS or _LENGTHS.get(kind) == length:
                     out += encoded_length(delta) + bytes([0xFF, kind]) + encoded_length(length) + data[begin:at]
                     delta = 0
             elif byte in (0xF0, 0xF7):
@@ -143,6 +146,12 @@ def repaired(data: bytes, until: int | None = None) -> Repaired:
         except _TruncatedError:
             truncated_at = event_at
             break
+    properly = data.endswith(bytes([0xFF, _END_OF_TRACK, 0]))
+    if ended is not None and (truncated_at is not None or (skipped > ended[2] and not properly)):
+        # What follows the end is no music.
+        del out[ended[0] :]
+        delta, skipped, truncated_at = ended[1], ended[2], None
+        first_skipped = first_skipped if skipped else len(data)
     out += encoded_length(min(delta, 0x0FFFFFFF)) + bytes([0xFF, _END_OF_TRACK, 0])
     return Repaired(bytes(out), truncated_at, skipped, first_skipped)
 

@@ -85,6 +85,8 @@ class TrackEvents(msgspec.Struct):
         The last value of each tick; of bends the share of the range their channel has.
     parameters : list of (tick, channel, control, value)
         Controllers that set the range (`app.score.bend_range`).
+    after_end : int
+        Notes that follow an end of the track, which is none then.
     hanging, zero_length : int
         Notes without an end, notes without a length.
     beyond : int
@@ -106,6 +108,7 @@ class TrackEvents(msgspec.Struct):
     channels: dict[int, ChannelNotes] = {}
     controls: dict[tuple[int, SentKind], dict[int, float]] = {}
     parameters: list[tuple[int, int, int, int]] = []
+    after_end: int = 0
     hanging: int = 0
     zero_length: int = 0
     beyond: int = 0
@@ -174,7 +177,10 @@ def gather(messages: Iterable[Any], begin_tick: int, most_unended_ticks: int) ->
     channels = events.channels
     tick = begin_tick
     number = 0
-    for message in messages:
+    messages = list(messages)
+    ends = next((place for place, message in enumerate(messages) if message.type == "end_of_track"), len(messages))
+    events.after_end = sum(message.type == "note_on" and message.velocity > 0 for message in messages[ends:])
+    for message in messages if events.after_end else messages[: ends + 1]:
         tick += message.time
         kind = message.type
         if kind == "note_on" and message.velocity:
@@ -196,7 +202,7 @@ def gather(messages: Iterable[Any], begin_tick: int, most_unended_ticks: int) ->
             if open_notes:
                 channels[channel].end_ticks[open_notes.popleft()] = tick
         elif kind == "end_of_track":
-            break
+            pass
         elif kind == "control_change" and message.control in _NOTES_OFF:
             for open_notes in sounding.pop(message.channel, {}).values():
                 silenced[message.channel].update(dict.fromkeys(open_notes, tick))

@@ -518,3 +518,26 @@ def test_a_file_without_notes_says_so_track_by_track() -> None:
 def test_a_file_with_notes_in_one_track_is_no_file_without_notes() -> None:
     score = score_of(header(1, 2) + chunk(b"MTrk", END) + chunk(b"MTrk", note(60) + END))
     assert not [warning for warning in score.warnings if "no_notes" in warning.id or "without" in warning.id]
+
+
+# --- notes after an end of the track ----------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("system", [b"", bytes([0, 0xF2, 1, 2])])
+@pytest.mark.parametrize("ends", [1, 3])
+def test_notes_after_an_early_end_of_the_track_are_read_with_a_warning(system: bytes, ends: int) -> None:
+    """Also where the track needs repair before or after it."""
+    for events in (system + END * ends + SCALE_BYTES, END * ends + SCALE_BYTES[:8] + system + SCALE_BYTES[8:]):
+        score = one_track(events)
+        assert notes_of(score) == SCALE_NOTES
+        assert [one.arguments["count"] for one in score.warnings if one.id == "midi.early_end"] == [4]
+
+
+@pytest.mark.parametrize(
+    "rest", [bytes(7), b"\x00\x00\x00", b"\xff\xff\xff", meta(6, b"Coda"), b"junk", bytes([0, 0x80, 60, 0])]
+)
+def test_what_follows_an_end_of_the_track_and_is_no_note_is_nothing(rest: bytes) -> None:
+    plain = one_track(SCALE_BYTES + meta(1, b"", 96))
+    score = one_track(SCALE_BYTES + meta(1, b"", 96) + END + rest)
+    assert (notes_of(score), score.markers) == (notes_of(plain), plain.markers)
+    assert "midi.early_end" not in ids(score)
