@@ -27,7 +27,7 @@ from app.project.parameters import parameter_names, parse_settings, select_playe
 from app.project.storage import is_project_file, load
 from app.rig.character_library import characters
 from app.score.choose import TrackChannel, require_map
-from app.score.parts import PERCUSSION, PartAssignment, stream_name
+from app.score.parts import PERCUSSION, stream_name
 from app.score.read import MidiContents, read_contents
 from instrument_maps.library import library
 from instrument_maps.model import InstrumentMap
@@ -318,14 +318,15 @@ def _written(
 def _assigned(
     streams: Sequence[TrackChannel], rows: Sequence[ImportRow], texts: Sequence[str], maps: Sequence[str]
 ) -> Sequence[ImportRow]:
-    """The rows, one for each stream, with the instruments that are assigned to parts as ``PART=INSTRUMENT``.
+    """The rows with the instruments that are assigned to parts as ``PART=INSTRUMENT``; a row is called like its first
+    stream.
 
     Raises
     ------
     UsageError
         ``assign.malformed`` (assignment), ``assign.instrument_unknown`` (instrument, possible), ``player.unknown``.
     """
-    names = unique_names(map(stream_name, streams)) if texts else []
+    names = unique_names(stream_name(streams[row.assignment.streams[0]]) for row in rows) if texts else []
     assigned = list(rows)
     for text in texts:
         part, equals, map_id = (piece.strip() for piece in text.rpartition("="))
@@ -333,5 +334,6 @@ def _assigned(
             raise UsageError("assign.malformed", assignment=text)
         require_map(map_id, [*maps, PERCUSSION])
         for index in select_players([part], names):
-            assigned[index] = ImportRow(PartAssignment((index,), map_id))
+            asked = msgspec.structs.replace(rows[index].assignment, map_id=map_id)
+            assigned[index] = msgspec.structs.replace(rows[index], assignment=asked, requested=True)
     return assigned

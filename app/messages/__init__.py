@@ -85,6 +85,7 @@ PITCHES: Final[dict[str, tuple[str, ...]]] = {
     "score.notes_left_out": ("pitch",),
     "score.stray_notes": ("pitch",),
     "score.slurred": ("pitch",),
+    "score.unisons": ("pitch",),
     "score.key_switches": ("pitch",),
     "score.voices": ("pitch",),
     "score.doubling": ("pitch",),

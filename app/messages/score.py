@@ -274,6 +274,23 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         "the instrument cannot be determined, for its name is not understood ({lowest} to {highest}); select one",
         "トラック名から楽器を判定できません（{lowest}～{highest}）。楽器を選んでください",
     ),
+    "score.unisons": (
+        (
+            "{part}: {count} {count:note is|notes are} doubled in unison, the first at {place} ({pitch}); one player "
+            "plays {count:it|each} once"
+        ),
+        "{part}: {count} 音がユニゾンで重複しているため、1 人の奏者が 1 回ずつ演奏します（最初は {place} の {pitch}）",
+    ),
+    "score.regions": (
+        (
+            "{part}: {count} tracks of this name, channel and program follow one another, so one player plays them; "
+            "separate them in the import dialog if they are several players"
+        ),
+        (
+            "{part}: 名前・チャンネル・プログラムが同じ {count} トラックが順に続くため、1 人の奏者にまとめました。"
+            "別々の奏者の場合は、読み込みのダイアログで分けてください"
+        ),
+    ),
     "score.notes_left_out": (
         (
             "{part}: split among the maximum of {most} players; {count} further overlapping {count:note was|notes "

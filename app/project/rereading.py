@@ -104,10 +104,11 @@ def read_as_decided(
             before = played_on.get(lead)
             rows.append(_row(decision, [place for _, place in there], contents.streams, streams, choices, before))
     for row in usual_rows(contents, maps):
-        (place,) = row.assignment.streams
-        if place not in known:
-            rows.append(row)
-            kept.append(decision_of(row, [mark_of(contents.streams[place], quarter)]))
+        new = tuple(place for place in row.assignment.streams if place not in known)
+        if new:
+            added = msgspec.structs.replace(row, assignment=msgspec.structs.replace(row.assignment, streams=new))
+            rows.append(added)
+            kept.append(decision_of(added, [mark_of(contents.streams[place], quarter) for place in new]))
     read = msgspec.structs.replace(contents, streams=tuple(streams))
     return Reading(read, tuple(rows), msgspec.structs.replace(decisions, rows=tuple(kept)), places)
 

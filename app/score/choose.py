@@ -243,7 +243,7 @@ def _named(stream: TrackChannel) -> tuple[Instrument | None, Instrument | None]:
     return telling, next(iter(named), None) if telling is None else None
 
 
-def _is_named(stream: TrackChannel) -> bool:
+def is_named(stream: TrackChannel) -> bool:
     """Whether someone named a track, not the program that wrote it."""
     return not all(map(_SAYS_NOTHING.fullmatch, (stream.name, stream.instrument_name)))
 
@@ -268,7 +268,7 @@ def _said(stream: TrackChannel) -> Instrument | None:
         return telling
     numbered = None if stream.program is None else words.by_program(stream.program)
     # Many programs write 0, the piano, for no program at all: a name that is not understood is not a piano's for that.
-    if stream.program == _NO_PROGRAM and vague is None and _is_named(stream):
+    if stream.program == _NO_PROGRAM and vague is None and is_named(stream):
         return None
     if vague is None or numbered is None:
         return numbered or vague
@@ -311,7 +311,7 @@ def candidates(streams: Sequence[TrackChannel], maps: Sequence[MapChoice]) -> Ca
     section = said or next((one for one in named if one.any_pitch), None)
     families = () if section is None else section.families
     usual = _where(maps, lambda one: not one.by_name_only and (not families or one.family in families))
-    unknown = section is None and any(map(_is_named, streams))
+    unknown = section is None and any(map(is_named, streams))
     return Candidates(How.RANGE, section, tuple(usual or maps), unknown=unknown)
 
 

@@ -43,8 +43,13 @@ score.left_out : (a reason)
     "excluded on import"
 score.too_many_players : most (a reason)
     "the piece has {most} players already, and more cannot play"
+score.regions : part, count
+    "{part}: {count} tracks of this name, channel and program follow one another, so one player plays them; separate
+    them in the import dialog if they are several players"
 score.voices : part, voices, count, place, pitch
     "{part}: {voices} players share it, for {count} notes sound together with others, the first at ..."
+score.unisons : part, count, place, pitch
+    "{part}: {count} notes are struck twice in unison, the first at ...; one player has each of them once"
 score.doubling : part, instrument, count, place, pitch
     "{part}: the player of this track changes to {instrument} for {count} notes, the first at ...; a player has one
     instrument here, so another one plays them"
@@ -77,6 +82,7 @@ from app.score.choose import (
 )
 from app.score.limits import MOST_PARTS
 from app.score.model import MOST_VOICES, Note, Part, Score, UnplayedPart, sounding_spans
+from app.score.regions import follow_one_another, groups, joined
 from app.score.switches import without_key_switches
 from app.score.tempo import TempoMap
 from app.score.voices import Shared, split_voices
@@ -132,8 +138,14 @@ class PartAssignment(msgspec.Struct, frozen=True):
 
 
 def usual_assignments(streams: Sequence[TrackChannel], maps: Sequence[MapChoice]) -> tuple[PartAssignment, ...]:
-    """Suggested assignments by names, programs and ranges, for the user to change: one for every playable stream."""
-    return tuple(PartAssignment((index,)) for index, stream in enumerate(streams) if refusal(stream, maps) is None)
+    """Suggested assignments by names, programs and ranges, for the user to change: one for every playable stream, and
+    one for the regions of a track."""
+    return tuple(PartAssignment(own) for own, playable in usual_groups(streams, maps) if playable)
+
+
+def usual_groups(streams: Sequence[TrackChannel], maps: Sequence[MapChoice]) -> list[tuple[tuple[int, ...], bool]]:
+    """The places of the streams, those that are one player's together, and whether a map plays them."""
+    return [(own, all(refusal(streams[index], maps) is None for index in own)) for own in groups(streams)]
 
 
 def assigned_parts(
@@ -186,10 +198,8 @@ def assigned_parts(
         notes = [note for stream in chosen for note in stream.notes()]
         notes.sort(key=lambda note: (note.onset_tick, note.pitch))
         shared = _shared(assignment, chosen, notes, piece.tempo_map, min(MOST_VOICES, room))
-        curves = next((stream.curves for stream in chosen if stream.curves), ())
         name = assignment.name or chosen[0].name or chosen[0].instrument_name
-        muted = tuple(sorted({span for stream in chosen for span in stream.muted}))
-        lead = msgspec.structs.replace(chosen[0], curves=curves, muted=muted)
+        lead = joined(chosen)
         mine = _parts(lead, name, found, shared.voices, assignment.written)
         parts += mine
         slurred += [(mine[0].name, note) for note in shared.shortened]
@@ -198,6 +208,10 @@ def assigned_parts(
         if lead.change and len(chosen) == 1:
             instrument = vocabulary().instruments[lead.played_on].names[0]
             warnings.append(_about("score.doubling", mine[0].name, notes, piece, instrument=instrument))
+        if follow_one_another(chosen):
+            warnings.append(Message("score.regions", {"part": mine[0].name, "count": len(chosen)}))
+        if shared.unisons:
+            warnings.append(_about("score.unisons", mine[0].name, shared.unisons, piece))
         if len(mine) > 1:
             warnings.append(_about("score.voices", mine[0].name, shared.together, piece, voices=len(mine)))
         if len(mine) == MOST_VOICES and shared.left_out:
@@ -233,7 +247,7 @@ def _shared(
     """The notes among their players."""
     if assignment.split == "never":
         return Shared([tuple(notes)], [], [], [])
-    alone = len(chosen) == 1
+    alone = len(chosen) == 1 or follow_one_another(chosen)
     said = vocabulary().by_name(chosen[0].name or chosen[0].instrument_name) if alone else None
     return split_voices(
         notes,

@@ -111,12 +111,15 @@ class Shared(NamedTuple):
         Those no one plays, by onset.
     shortened : list of Note
         Those that lasted further into the next note of their player than legato notes do, as they were.
+    unisons : sequence of Note
+        Those that were left out because the one player has each of them already: two voices of a staff in unison.
     """
 
     voices: list[tuple[Note, ...]]
     together: list[Note]
     left_out: list[Note]
     shortened: list[Note]
+    unisons: Sequence[Note] = ()
 
 
 class _Spans(NamedTuple):
@@ -190,6 +193,11 @@ def split_voices(
     spans = _spans(notes, tempo_map)
     depths = spans.depths()
     deepest = int(depths.max())
+    if deepest > 1 and least == 1 and not every_chord and (twins := _unisons(notes, spans)):
+        single = [note for place, note in enumerate(notes) if place not in twins]
+        alone = split_voices(single, tempo_map, most, unison=unison)
+        if len(alone.voices) == 1:
+            return alone._replace(unisons=[notes[place] for place in sorted(twins)])
     if deepest == 1:
         line, shortened = _legato(notes, spans, tempo_map)
         return Shared([line], [], [], shortened)
@@ -212,6 +220,23 @@ def split_voices(
     if count > 1 and (least > 1 or (unison and _move_together(spans, np.array(kept)))):
         shared = _with_unisons(shared + [()] * (count - len(shared)), tempo_map)
     return Shared(shared, together, left_out, sorted(shortened, key=lambda note: note.onset_tick))
+
+
+def _unisons(notes: Sequence[Note], spans: _Spans) -> set[int]:
+    """The places of notes struck together with one of their pitch that sounds as long or longer."""
+    found: set[int] = set()
+    last: dict[int, int] = {}
+    onsets, ends = spans.onsets.tolist(), spans.ends.tolist()
+    for place, note in enumerate(notes):
+        other = last.setdefault(note.pitch, place)
+        # One that begins when the other has ended is struck again.
+        if other != place and onsets[place] < min(onsets[other] + _CHORD_S, ends[other]):
+            shorter = place if ends[place] <= ends[other] else other
+            found.add(shorter)
+            last[note.pitch] = place + other - shorter
+        else:
+            last[note.pitch] = place
+    return found
 
 
 def _players(spans: _Spans, depths: npt.NDArray[np.intp], pitches: npt.NDArray[np.int64]) -> int:

@@ -151,3 +151,36 @@ def test_many_voices() -> None:
     assert sorted(pitch for voice in voices for pitch in voice) == sorted([*range(48, 84, 3), 48, 66, 81])
     assert voices[0] == [81, 81]
     assert voices[-1] == [48, 48]
+
+
+# --- two voices in unison ---------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("shorter", [0.0, 0.3])
+@pytest.mark.parametrize("apart", [0.0, 0.01])
+@pytest.mark.parametrize("unison", [True, False])
+def test_two_voices_in_unison_are_one_player(shorter: float, apart: float, unison: bool) -> None:
+    rows = [
+        row
+        for onset, length, pitch in scale(12, 0.9)
+        for row in ((onset, length, pitch), (onset + apart, length - shorter, pitch))
+    ]
+    shared = split_voices(notes(*rows), TEMPO, unison=unison)
+    assert [[(note.pitch, note.duration_tick) for note in voice] for voice in shared.voices] == [
+        [(pitch, 900) for _, _, pitch in scale(12)]
+    ]
+    assert (len(shared.unisons), shared.left_out) == (12, [])
+
+
+def test_voices_that_part_are_two_players_who_both_have_the_unisons() -> None:
+    rows = [row for onset, length, pitch in scale(8) for row in ((onset, length, pitch), (onset, length, pitch))]
+    rows += [(8 + onset, length, pitch - third) for onset, length, pitch in scale(8) for third in (0, 4)]
+    shared = split_voices(notes(*rows), TEMPO)
+    assert [len(voice) for voice in shared.voices] == [16, 16]
+    assert not shared.unisons
+    assert len(split_voices(notes(*rows[:16]), TEMPO, least=2).voices) == 2
+
+
+def test_a_note_struck_again_is_no_unison() -> None:
+    rows = [(0.25 * index, 0.25, 60) for index in range(16)]
+    assert [len(voice) for voice in split_voices(notes(*rows), TEMPO).voices] == [16]

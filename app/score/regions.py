@@ -1,0 +1,99 @@
+"""Regions of one track: tracks that a sequencer wrote one after the other for a single player.
+
+They have one name, channel and program, and each begins where the one before has ended. Players of one name who play
+together or in alternation are several.
+"""
+
+from __future__ import annotations
+
+import re
+from bisect import bisect_left
+from collections.abc import Sequence
+from itertools import pairwise
+from typing import Final
+
+import msgspec
+
+from app.score.choose import TrackChannel, is_named, use_of
+from app.score.limits import LAST_TICK
+from app.score.model import ControllerCurve, CurveKind
+
+_COPY: Final = re.compile(r"(?:[ _-]*(?:copy|kopie|copie|copia|コピー)(?:[ _]*\d+)?|[ _]*#\d+|\.\d+)+$", re.IGNORECASE)
+"""What sequencers add to the name of another region."""
+_LEGATO_SHARE: Final = 0.5
+"""Share of a region's last note that may sound into the next region."""
+
+
+def groups(streams: Sequence[TrackChannel]) -> list[tuple[int, ...]]:
+    """The places of streams that are one player's, in the order of their first ones; most stand alone."""
+    alone = _alone(streams)
+    same: dict[tuple[object, ...], list[int]] = {}
+    for place, stream in enumerate(streams):
+        key = _key(stream) if place in alone else (place,)
+        same.setdefault(key, []).append(place)
+    found: list[tuple[int, ...]] = []
+    for places in same.values():
+        in_time = sorted(places, key=lambda place: streams[place].onset_ticks[0])
+        one = len(places) == 1 or follow_one_another([streams[place] for place in in_time])
+        found += [tuple(in_time)] if one else [(place,) for place in places]
+    return sorted(found, key=min)
+
+
+def _alone(streams: Sequence[TrackChannel]) -> frozenset[int]:
+    """The places of named melodies that are all their track has on their channel."""
+    owners: dict[tuple[int, int], list[int]] = {}
+    for place, stream in enumerate(streams):
+        owners.setdefault((stream.track, stream.channel), []).append(place)
+    single = [places[0] for places in owners.values() if len(places) == 1]
+    return frozenset(place for place in single if is_named(streams[place]) and use_of(streams[place]) == "melodic")
+
+
+def _key(stream: TrackChannel) -> tuple[object, ...]:
+    return _COPY.sub("", stream.name).casefold(), stream.instrument_name, stream.channel, stream.program
+
+
+def follow_one_another(streams: Sequence[TrackChannel]) -> bool:
+    """Whether streams are regions of one track, in their order."""
+    if len(streams) < 2 or len(set(map(_key, streams))) > 1:
+        return False
+    return all(
+        end - after.onset_ticks[0] <= _LEGATO_SHARE * (end - onset)
+        for before, after in pairwise(streams)
+        for onset, end in zip(before.onset_ticks, before.end_ticks, strict=True)
+        if end > after.onset_ticks[0]
+    )
+
+
+def joined(streams: Sequence[TrackChannel]) -> TrackChannel:
+    """The first of some streams, with the curves and the muted spans of all.
+
+    Where the streams do not follow one another the curves are those of the first that has any.
+    """
+    curves = next((stream.curves for stream in streams if stream.curves), ())
+    if follow_one_another(streams):
+        curves = _curves(streams)
+    muted = tuple(sorted({span for stream in streams for span in stream.muted}))
+    return msgspec.structs.replace(streams[0], curves=curves, muted=muted)
+
+
+def _curves(streams: Sequence[TrackChannel]) -> tuple[ControllerCurve, ...]:
+    """The curves of regions: each holds from where the region before has ended."""
+    starts = [0, *(max(before.end_ticks) for before in streams[:-1]), LAST_TICK + 1]
+    kinds = sorted({curve.kind for stream in streams for curve in stream.curves})
+    return tuple(_curve(kind, streams, starts) for kind in kinds)
+
+
+def _curve(kind: CurveKind, streams: Sequence[TrackChannel], starts: Sequence[int]) -> ControllerCurve:
+    points: dict[int, float] = {}
+    for stream, (start, stop) in zip(streams, pairwise(starts), strict=True):
+        curve = next((curve for curve in stream.curves if curve.kind == kind), None)
+        if curve is None:
+            if kind == "pitch_bend" and points:
+                points[start] = 0.0
+            continue
+        first, last = bisect_left(curve.ticks, start), bisect_left(curve.ticks, stop)
+        if first and start:
+            points[start] = curve.values[first - 1]
+        points.update(zip(curve.ticks[first:last], curve.values[first:last], strict=True))
+    ticks = sorted(points)
+    return ControllerCurve(kind, tuple(ticks), tuple(points[tick] for tick in ticks))
