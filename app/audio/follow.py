@@ -15,7 +15,9 @@ from typing import Final
 
 import numpy as np
 
+from app.audio.onset_path import FINAL_WIDTH_S, LEAST_GAP_S, on_onsets
 from app.audio.passages import Passage
+from app.audio.places import LEAST_APART_S, Place, places, usual_ratios
 from app.audio.score_sound import (
     CHROMA_S,
     EARLY_S,
@@ -28,17 +30,14 @@ from app.audio.score_sound import (
     score_chroma,
     sounds_to_compare,
 )
+from app.audio.steady import steady_line
 from app.audio.track import Samples
-from app.audio.warping import MISSING_S, Integers, Jump, Pins, Warped, along, played, warped
+from app.audio.warping import MISSING_S, NO_PINS, Integers, Jump, Pins, Warped, along, played, warped
 from app.errors import AppError, stoppable
-from app.score.following import Following, Span
+from app.score.following import Following, RunnerUp, Span
 from app.score.metre_map import MetreMap
 from app.score.model import Score
 
-_ROUNDS: Final = ((0.1, 0.4, 0.01, 100.0), (0.03, 0.12, 0.004, 60.0))
-"""Of the onsets: width of an onset's edge, reach and step of their shifts in seconds, cost of an uneven tempo."""
-_LEAST_GAP_S: Final = 0.02
-"""Beats lie so far apart at least."""
 _NEIGHBOURS_BEATS: Final = 1.0
 """A beat is read off the onsets this far on both sides."""
 _ALONG_BEATS: Final = 4
@@ -66,6 +65,8 @@ _SHORT_RECOGNISED: Final = 0.2
 another one reached 0.76."""
 _ALONE_RECOGNISED: Final = 0.2
 """... and for what the recording has beside it, this by its share."""
+_SURER: Final = 0.05
+"""A place at a constant tempo is taken where it is surer by this than what the warping found."""
 _AS_SURE: Final = 0.01
 """A part is taken even where the whole is more sure by this: its ends are found better."""
 
@@ -123,10 +124,12 @@ def follow(
             other = _followed(piece, part, jumps)
             if other is not None and other.mean_confidence >= max(_part_limit(there, recorded), _as_sure_as(result)):
                 result = other
+    reached(0.9)
+    result, runner_up = _with_lines(piece, result)
     if result is None or result.mean_confidence < RECOGNISED:
         raise AppError("audio.not_followed", percent=0 if result is None else round(100 * result.mean_confidence))
     reached(1.0)
-    return result
+    return replace(result, runner_up=runner_up)
 
 
 @dataclass(frozen=True)
@@ -139,6 +142,55 @@ class _Prepared:
     shapes: Floats
     beat_ticks: Integers
     pins: Pins
+
+
+def _with_lines(prepared: _Prepared, chosen: Following | None) -> tuple[Following | None, RunnerUp | None]:
+    """The surest of what was found and of the likeliest places at a constant tempo; and the second of these.
+
+    A warping may slip by a note where all are alike; a line cannot.
+    """
+    if len(prepared.pins.score_s):
+        return chosen, None
+    ratios = usual_ratios(prepared.expected)
+    if chosen is not None and chosen.mean_confidence >= _WHOLE:
+        ratios = [_ratio_of(prepared, chosen)]
+    found = [chosen] if chosen is not None else []
+    for place in places(prepared.recorded, prepared.expected, ratios):
+        following = _refined(prepared, _line(prepared, place), NO_PINS)
+        if all(abs(_later_s(following, other)) > LEAST_APART_S for other in found):
+            found.append(following)
+        elif chosen is not None and following.mean_confidence > chosen.mean_confidence + _SURER and not chosen.added:
+            found[0] = chosen = following
+    if not found:
+        return None, None
+    best = max(found, key=lambda one: one.mean_confidence)
+    if chosen is not None and best.mean_confidence <= chosen.mean_confidence + _SURER:
+        best = chosen
+    others = [one for one in found if one is not best]
+    second = max(others, key=lambda one: one.mean_confidence, default=None)
+    return best, None if second is None else RunnerUp(_later_s(second, best), second.mean_confidence)
+
+
+def _line(prepared: _Prepared, place: Place) -> Warped:
+    """An alignment at a constant tempo."""
+    length_s = prepared.shapes.shape[1] * CHROMA_S
+    ends_s = np.array([0.0, length_s])
+    there_s = place.start_s + ends_s / place.ratio
+    first_s, last_s = np.clip(np.interp([0.0, prepared.recorded.length_s], there_s, ends_s), 0.0, length_s)
+    outside = (Span(0.0, float(first_s)), Span(float(last_s), length_s))
+    missing = tuple(span for span in outside if span.end - span.start >= MISSING_S)
+    return Warped(ends_s, there_s, missing, (), length_s)
+
+
+def _ratio_of(prepared: _Prepared, following: Following) -> float:
+    """The recording's tempo divided by the score's, in the middle of all beats."""
+    beat_s = prepared.score.tempo_map.seconds(following.ticks.astype(np.float64))
+    return float(np.median(np.diff(beat_s) / np.diff(following.recording_s)))
+
+
+def _later_s(one: Following, other: Following) -> float:
+    """How much later beats are, in the middle of all."""
+    return float(np.median(one.recording_s - other.recording_s))
 
 
 def _as_sure_as(whole: Following | None) -> float:
@@ -170,7 +222,7 @@ def _parts(played: Sequence[Passage], frames: int, pins: Pins) -> tuple[slice, t
 
 def _followed(prepared: _Prepared, part: slice, jumps: Sequence[Jump] = ()) -> Following | None:
     """Follow a recording that has some frames of the score at most, and jumps; None where nothing is alike."""
-    score, recorded, expected = prepared.score, prepared.recorded, prepared.expected
+    recorded = prepared.recorded
     start_s, end_s = part.start * CHROMA_S, part.stop * CHROMA_S
     pins = prepared.pins.within(start_s, end_s)
     rough = warped(prepared.shapes[:, part], recorded.chroma, pins, [jump.later(-start_s) for jump in jumps])
@@ -180,14 +232,35 @@ def _followed(prepared: _Prepared, part: slice, jumps: Sequence[Jump] = ()) -> F
         rough.later(start_s, prepared.shapes.shape[1] * CHROMA_S),
         replace(pins, score_s=pins.score_s + start_s),
     )
-    times, found = _on_onsets(expected, recorded, rough, pins)
+    return _refined(prepared, rough, pins)
+
+
+def _refined(prepared: _Prepared, rough: Warped, pins: Pins) -> Following:
+    """The beats near a rough alignment, by the onsets of the recording."""
+    score, recorded, expected = prepared.score, prepared.recorded, prepared.expected
+    times, found = on_onsets(expected, recorded, prepared.shapes, rough, pins)
     beat_s = score.tempo_map.seconds(prepared.beat_ticks.astype(np.float64))
     recording_s = _beats(beat_s, times, found, rough, pins)
+    line = (
+        None
+        if len(pins.score_s) or rough.added
+        else steady_line(*_present(times, found, rough, recorded), recorded.onsets)
+    )
+    if line is not None:
+        recording_s = line[0] + line[1] * beat_s
     likely = _confidence(beat_s, recording_s, prepared.shapes, recorded, times, found)
     squeezed = _squeezed(beat_s, _lengths(beat_s, recording_s))
     missing = tuple(_ticks(score, span) for span in _joined((*rough.missing, *squeezed)))
     likely[np.searchsorted(beat_s, pins.score_s - 1e-6)] = 1.0
     return Following(prepared.beat_ticks, recording_s + EARLY_S, likely, missing, rough.added)
+
+
+def _present(times: Floats, found: Floats, rough: Warped, recorded: RecordedSound) -> tuple[Floats, Floats]:
+    """The onsets that the recording has."""
+    there = (found >= 0.0) & (found < recorded.length_s)
+    for span in rough.missing:
+        there &= (times < span.start) | (times >= span.end)
+    return times[there], found[there]
 
 
 def _pins(score: Score, pinned: Mapping[int, float]) -> Pins:
@@ -197,60 +270,8 @@ def _pins(score: Score, pinned: Mapping[int, float]) -> Pins:
     )
 
 
-def _on_onsets(expected: ExpectedSound, recorded: RecordedSound, warped: Warped, pins: Pins) -> tuple[Floats, Floats]:
-    """Seconds of the score at which notes begin or that are pinned, and when each is in the recording, both rising."""
-    fixed = np.round(pins.score_s, 3)
-    times, counts = np.unique(np.concatenate((np.round(expected.onset_s, 3), fixed)), return_counts=True)
-    weights = np.sqrt(counts.astype(np.float64))
-    at_pins = np.searchsorted(times, fixed)
-    gaps_s = np.maximum(np.diff(times), _LEAST_GAP_S)
-    found = warped.at(times)
-    found[at_pins] = pins.recording_s
-    for width_s, reach_s, step_s, uneven in _ROUNDS:
-        edges = onset_edges(recorded.onsets, width_s)
-        shifts = np.arange(-reach_s, reach_s + 1e-9, step_s)
-        at = (found[:, None] + shifts) / ONSET_S
-        strength = np.interp(at.ravel(), np.arange(len(edges)), edges, left=0.0, right=0.0).reshape(at.shape)
-        strength *= weights[:, None]
-        strength[np.ix_(at_pins, np.abs(shifts) > step_s / 2)] = -np.inf
-        chosen = _even_path(strength, shifts, gaps_s, uneven)
-        found = np.maximum.accumulate(found + shifts[chosen])
-    return times, found
-
-
-def _even_path(strength: Floats, shifts: Floats, gaps_s: Floats, uneven: float) -> Integers:
-    """Of each onset the shift, so that strong places are chosen and neighbours shift alike: Viterbi's algorithm.
-
-    Parameters
-    ----------
-    strength : (N, S) float64
-    shifts : (S,) float64
-        Seconds.
-    gaps_s : (N - 1,) float64
-        From each onset to the next: the shorter, the more it costs to shift them differently.
-
-    Returns
-    -------
-    (N,) int64
-        Places in ``shifts``.
-    """
-    apart = uneven * (shifts[:, None] - shifts[None, :]) ** 2
-    best = strength[0]
-    came_from = np.zeros(strength.shape, np.int64)
-    rows = np.arange(len(shifts))
-    for place in range(1, len(strength)):
-        totals = best[None, :] - apart / gaps_s[place - 1]
-        came_from[place] = totals.argmax(axis=1)
-        best = totals[rows, came_from[place]] + strength[place]
-    path = np.empty(len(strength), np.int64)
-    path[-1] = int(best.argmax())
-    for place in range(len(strength) - 1, 0, -1):
-        path[place - 1] = came_from[place][path[place]]
-    return path
-
-
 def _beats(beat_s: Floats, times: Floats, found: Floats, warped: Warped, pins: Pins) -> Floats:
-    """When the beats sound: by the onsets around each, else by the warping; at least `_LEAST_GAP_S` apart, and pinned
+    """When the beats sound: by the onsets around each, else by the warping; at least `LEAST_GAP_S` apart, and pinned
     ones where they are pinned."""
     result = warped.at(beat_s)
     # What the onsets say beside the warping, so that between them its tempo goes on.
@@ -267,7 +288,7 @@ def _beats(beat_s: Floats, times: Floats, found: Floats, warped: Warped, pins: P
             result[place] += float(np.interp(at_s, times, aside))
     from sklearn.isotonic import isotonic_regression  # heavy, and only here
 
-    gaps_s = _LEAST_GAP_S * np.arange(len(result))
+    gaps_s = LEAST_GAP_S * np.arange(len(result))
     fixed = np.searchsorted(beat_s, pins.score_s - 1e-6)
     numbers = np.arange(len(result), dtype=np.float64)
     result += along(numbers, numbers[fixed], pins.recording_s - result[fixed], _ALONG_BEATS)
@@ -293,7 +314,7 @@ def _confidence(
         [np.convolve((theirs * np.roll(shapes, turn, axis=0)).sum(axis=0), window, "same") for turn in range(12)]
     )
     alike = np.where(turned[0] >= turned[1:].max(axis=0), turned[0] / size, 0.0)
-    edges = onset_edges(recorded.onsets, _ROUNDS[-1][0])
+    edges = onset_edges(recorded.onsets, FINAL_WIDTH_S)
     strength = np.interp(found / ONSET_S, np.arange(len(edges)), edges, left=0.0, right=0.0)
     result = np.empty(len(beat_s))
     for place, at_s in enumerate(beat_s.tolist()):

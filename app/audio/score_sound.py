@@ -33,10 +33,11 @@ built-in synthesiser."""
 
 @dataclass(frozen=True)
 class RecordedSound:
-    """What a recording sounds like: chroma (12, frames), onset strength (frames,)."""
+    """What a recording sounds like: chroma (12, frames), onset strength (frames,), length in seconds."""
 
     chroma: Floats
     onsets: Floats
+    length_s: float
 
 
 @dataclass(frozen=True)
@@ -94,11 +95,12 @@ def recorded_sound(samples: Samples, rate_hz: int, progress: Callable[[float], N
     part = sound[max(middle - 30 * ANALYSIS_RATE_HZ, 0) : middle + 30 * ANALYSIS_RATE_HZ]
     tuned = tuning(part, ANALYSIS_RATE_HZ)
     progress(0.3)
-    classes = chroma(sound, ANALYSIS_RATE_HZ, 2 * _CHROMA_HOP, _CHROMA_HOP, tuned)
+    # From half a frame on: a frame's middle is where that of a frame of the score is.
+    classes = chroma(sound[_CHROMA_HOP // 2 :], ANALYSIS_RATE_HZ, 2 * _CHROMA_HOP, _CHROMA_HOP, tuned)
     progress(0.5)
     onsets = onset_strength(sound, ANALYSIS_RATE_HZ, 1024, _ONSET_HOP)
     progress(1.0)
-    return RecordedSound(shape(classes), evened(onsets))
+    return RecordedSound(shape(classes), evened(onsets), len(sound) / ANALYSIS_RATE_HZ)
 
 
 def shape(chroma: Floats) -> Floats:
@@ -121,9 +123,10 @@ def evened(onsets: Floats) -> Floats:
     return result
 
 
-def score_chroma(expected: ExpectedSound, ratio: float) -> Floats:
-    """The score's chroma at a tempo, from second 0 of the score."""
-    begin, end = expected.onset_s / ratio / CHROMA_S, expected.end_s / ratio / CHROMA_S
+def score_chroma(expected: ExpectedSound, ratio: float, later_frames: float = 0.0) -> Floats:
+    """The score's chroma at a tempo, from second 0 of the score, or from so many frames before it."""
+    begin = expected.onset_s / ratio / CHROMA_S + later_frames
+    end = expected.end_s / ratio / CHROMA_S + later_frames
     frames = int(np.ceil(end.max())) + 1
     steps = np.zeros((12, frames + 2))
     first, last = np.floor(begin).astype(int), np.floor(end).astype(int)

@@ -33,6 +33,22 @@ def bars_named(*runs: tuple[int, int]) -> dict[str, Argument]:
 
 
 @dataclass(frozen=True)
+class RunnerUp:
+    """The second likeliest place of a piece in a recording.
+
+    Attributes
+    ----------
+    later_s : float
+        How much later it lies than the likeliest one, in seconds of the recording; negative if earlier.
+    confidence : float
+        0..1.
+    """
+
+    later_s: float
+    confidence: float
+
+
+@dataclass(frozen=True)
 class Following:
     """How a recording follows a score.
 
@@ -48,6 +64,8 @@ class Following:
         Ticks of the score that the recording does not have.
     added : tuple of Span
         Seconds of the recording, between its first and its last note, that the score does not have.
+    runner_up : RunnerUp or None
+        None where no other place is alike at all.
     """
 
     ticks: Integers
@@ -55,6 +73,7 @@ class Following:
     confidence: Floats
     missing: tuple[Span, ...] = ()
     added: tuple[Span, ...] = ()
+    runner_up: RunnerUp | None = None
 
     @property
     def mean_confidence(self) -> float:

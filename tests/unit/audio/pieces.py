@@ -41,6 +41,13 @@ def piece(*parts: Part, metres: tuple[Metre, ...] = (Metre(0, 4, 4),), pickup_ti
     return project_from_score(score, bundled_maps())
 
 
+def steady_run(seed: int, ticks: int = 240, count: int = 80) -> Project:
+    """Notes of one length without a rest, in which a place is known by its pitches alone; at 120 quarters a minute."""
+    pitches = np.random.default_rng(seed).choice([60, 62, 64, 65, 67, 69, 71, 72, 74], count)
+    notes = [(number * ticks, ticks - 20, int(pitch)) for number, pitch in enumerate(pitches)]
+    return piece(melody(*notes))
+
+
 def with_players(project: Project, **changes: dict[str, object]) -> Project:
     """Players by their number (``p0=...``) with other fields."""
     players = list(project.players)

@@ -16,10 +16,11 @@ from app.audio.mix import mixdown
 from app.audio.track import RATE_HZ
 from app.errors import AppError, Cancelled, UsageError
 from app.project.edit.follow import follow_recording
+from app.project.edit.tempo import scale_tempo
 from app.project.model import Project
 from app.score.following import Following
 from app.score.tempo import TempoChange, TempoMap
-from tests.unit.audio.pieces import quartet
+from tests.unit.audio.pieces import quartet, steady_run
 from tests.unit.audio.test_offset import as_samples, end_s, other_piece
 
 MEDIAN_S, NINETEEN_OF_TWENTY_S = 0.015, 0.05
@@ -89,6 +90,37 @@ def test_a_bent_tempo() -> None:
     check("plain", found)
     assert not found.missing
     assert not found.added
+
+
+@pytest.mark.parametrize("ratio", [1.0, 1.2])
+def test_a_constant_tempo_comes_back_constant_after_any_silence(ratio: float) -> None:
+    for seed, ticks in ((1, 240), (2, 240), (3, 160)):
+        project = steady_run(seed, ticks, 19200 // ticks)
+        played = scale_tempo(project, ratio)
+        sound = mixdown(played, 0.0, end_s(played) + 1.0)
+        for lead_s in (0.0, 1.8, 5.0):
+            rng = np.random.default_rng(seed)
+            before = rng.normal(scale=0.003, size=(round(lead_s * RATE_HZ), 2)).astype(np.float32)
+            found = followed(np.concatenate([before, sound]), project)
+            beats_s = played.score.tempo_map.seconds(found.ticks.astype(np.float64))
+            assert np.abs(found.recording_s - beats_s - lead_s).max() < 0.01, (seed, ticks, lead_s)
+            assert np.diff(found.recording_s) == pytest.approx(np.diff(beats_s), rel=0.003)
+            assert found.mean_confidence > 0.6
+
+
+def test_the_second_likeliest_place_is_reported() -> None:
+    once = steady_run(1, count=48)
+    notes = once.score.parts[0].notes
+    long = once.score.end_tick + 20
+    again = tuple(msgspec.structs.replace(note, id=f"2:{note.id}", onset_tick=note.onset_tick + long) for note in notes)
+    part = msgspec.structs.replace(once.score.parts[0], notes=(*notes, *again))
+    twice = replace(once, score=msgspec.structs.replace(once.score, parts=(part,)))
+    found = followed(mixdown(twice, 0.0, end_s(twice) + 1.0), once)
+    assert found.runner_up is not None
+    assert abs(found.runner_up.later_s) == pytest.approx(0.5 * long / 480, abs=0.02)
+    assert found.runner_up.confidence > 0.6
+    other = followed(recorded())
+    assert other.runner_up is None or other.runner_up.confidence < other.mean_confidence - 0.2
 
 
 def test_a_hall_with_noise() -> None:

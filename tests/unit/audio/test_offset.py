@@ -16,7 +16,7 @@ from app.errors import AppError, Cancelled
 from app.project.edit.tempo import scale_tempo
 from app.project.model import Project
 from app.score.model import Score
-from tests.unit.audio.pieces import melody, piece, quartet
+from tests.unit.audio.pieces import melody, piece, quartet, steady_run
 
 RNG = np.random.default_rng(5)
 MOST_ERROR_S = 0.02
@@ -93,6 +93,18 @@ def test_another_sound() -> None:
     kernel = np.sinc(np.arange(-200, 201) * 2 * 3000 / RATE_HZ) * np.hanning(401)
     low = fftconvolve(sound, kernel[:, None] / kernel.sum(), mode="same", axes=0)
     check("telephone", np.repeat(low, 2, axis=1), 0.0)
+
+
+@pytest.mark.parametrize("ticks", [120, 240])
+def test_the_silence_before_a_run_of_equal_notes_changes_nothing(ticks: int) -> None:
+    """A whole number of notes earlier or later fits the onsets as well; and frames begin anywhere in a note."""
+    for seed in (1, 2):
+        project = steady_run(seed, ticks, 19200 // ticks)
+        sound = mixdown(project, 0.0, end_s(project) + 1.0)
+        for lead_s in (0.0, 0.5, 1.8, 3.05, 8.0):
+            before = np.zeros((round(lead_s * RATE_HZ), 2), np.float32)
+            found = check(f"{ticks} {seed} {lead_s}", np.concatenate([before, sound]), -lead_s, score=project.score)
+            assert found.runner_up is None or found.runner_up.confidence < found.confidence
 
 
 def other_piece() -> Project:

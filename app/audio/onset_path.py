@@ -1,0 +1,126 @@
+"""Beginnings of notes in a recording, near a rough alignment, with a tempo as even as the onsets allow."""
+
+from __future__ import annotations
+
+from typing import Final
+
+import numpy as np
+
+from app.audio.score_sound import CHROMA_S, ONSET_S, ExpectedSound, Floats, RecordedSound, onset_edges
+from app.audio.warping import Integers, Pins, Warped
+
+FINAL_WIDTH_S: Final = 0.03
+"""Width of an onset's edge in the last round."""
+_ROUNDS: Final = ((0.1, 0.4, 0.01, 100.0, 1.0), (FINAL_WIDTH_S, 0.12, 0.004, 60.0, 0.0))
+"""For each round: width of an onset's edge, reach and step of the shifts in seconds, cost of an uneven tempo, weight of
+the pitch classes that sound after the onset."""
+LEAST_GAP_S: Final = 0.02
+"""The least time from one onset or beat to the next."""
+_HEARD_S: Final = 0.4
+"""Pitch classes are compared in the middle of a chord, or of this much of a long one."""
+_CHUNK: Final = 2000
+"""Onsets compared in one step; all of an hour would take too much memory."""
+
+
+def on_onsets(
+    expected: ExpectedSound, recorded: RecordedSound, shapes: Floats, rough: Warped, pins: Pins
+) -> tuple[Floats, Floats]:
+    """Find when the notes of a score begin in a recording.
+
+    The strength of onsets alone does not tell a run of equal notes from the same run one note later, so the first round
+    also compares the pitch classes that sound after each onset.
+
+    Parameters
+    ----------
+    shapes : (12, n) float64
+        Chroma of the score, a frame every `CHROMA_S`.
+    rough : Warped
+        An alignment that is right within the reach of the first round.
+
+    Returns
+    -------
+    times, found : (N,) float64
+        Seconds of the score at which notes begin or that are pinned, and when each is in the recording; both rise.
+    """
+    fixed = np.round(pins.score_s, 3)
+    times, counts = np.unique(np.concatenate((np.round(expected.onset_s, 3), fixed)), return_counts=True)
+    weights = np.sqrt(counts.astype(np.float64))
+    at_pins = np.searchsorted(times, fixed)
+    gaps_s = np.maximum(np.diff(times), LEAST_GAP_S)
+    found = rough.at(times)
+    found[at_pins] = pins.recording_s
+    for width_s, reach_s, step_s, uneven, pitched in _ROUNDS:
+        edges = onset_edges(recorded.onsets, width_s)
+        shifts = np.arange(-reach_s, reach_s + 1e-9, step_s)
+        at = (found[:, None] + shifts) / ONSET_S
+        strength = np.interp(at.ravel(), np.arange(len(edges)), edges, left=0.0, right=0.0).reshape(at.shape)
+        if pitched:
+            strength += pitched * alike(times, found, shifts, shapes, recorded.chroma)
+        strength *= weights[:, None]
+        strength[np.ix_(at_pins, np.abs(shifts) > step_s / 2)] = -np.inf
+        chosen = _even_path(strength, shifts, gaps_s, uneven)
+        found = np.maximum.accumulate(found + shifts[chosen])
+    return times, found
+
+
+def alike(times: Floats, found: Floats, shifts: Floats, shapes: Floats, chroma: Floats) -> Floats:
+    """Compare the pitch classes after each onset in the score and in the recording.
+
+    Parameters
+    ----------
+    times, found : (N,) float64
+        Seconds of the score, rising, and of the recording.
+    shifts : (S,) float64
+        Seconds that are added to the latter.
+    shapes, chroma : (12, n) float64
+        Of the score and of the recording, a frame every `CHROMA_S`.
+
+    Returns
+    -------
+    (N, S) float64
+        -1..1; 0 outside the recording.
+    """
+    middles = np.minimum(np.diff(times, append=times[-1] + _HEARD_S), _HEARD_S) / 2.0
+    result = np.empty((len(times), len(shifts)))
+    ours = shapes[:, np.clip(((times + middles) / CHROMA_S).astype(np.int64), 0, shapes.shape[1] - 1)].T
+    for first in range(0, len(times), _CHUNK):
+        some = slice(first, first + _CHUNK)
+        at = ((found + middles)[some, None] + shifts) / CHROMA_S - 0.5
+        frames = np.clip(at, 0.0, chroma.shape[1] - 1.001)
+        low = frames.astype(np.int64)
+        share = frames - low
+        by_frame = np.einsum("nc,cns->ns", ours[some], chroma[:, low]) * (1.0 - share)
+        by_frame += np.einsum("nc,cns->ns", ours[some], chroma[:, low + 1]) * share
+        result[some] = np.where((at >= 0.0) & (at <= chroma.shape[1] - 1), by_frame, 0.0)
+    return result
+
+
+def _even_path(strength: Floats, shifts: Floats, gaps_s: Floats, uneven: float) -> Integers:
+    """Of each onset the shift, so that strong places are chosen and neighbours shift alike: Viterbi's algorithm.
+
+    Parameters
+    ----------
+    strength : (N, S) float64
+    shifts : (S,) float64
+        Seconds.
+    gaps_s : (N - 1,) float64
+        From each onset to the next: the shorter, the more it costs to shift them differently.
+
+    Returns
+    -------
+    (N,) int64
+        Places in ``shifts``.
+    """
+    apart = uneven * (shifts[:, None] - shifts[None, :]) ** 2
+    best = strength[0]
+    came_from = np.zeros(strength.shape, np.int64)
+    rows = np.arange(len(shifts))
+    for place in range(1, len(strength)):
+        totals = best[None, :] - apart / gaps_s[place - 1]
+        came_from[place] = totals.argmax(axis=1)
+        best = totals[rows, came_from[place]] + strength[place]
+    path = np.empty(len(strength), np.int64)
+    path[-1] = int(best.argmax())
+    for place in range(len(strength) - 1, 0, -1):
+        path[place - 1] = came_from[place][path[place]]
+    return path
