@@ -1,14 +1,18 @@
 """Recordings: WAV, FLAC, OGG and MP3 files, and the sound of films, as samples at the rate everything is mixed at.
 
+The reader is chosen by what is in a file, whatever its name.
+
 Messages: ``audio.not_readable``, ``audio.empty``, ``audio.too_long``, ``audio.too_dense``, ``audio.unusable``,
-``audio.breaks_off``; of films ``video.not_readable``, ``video.no_sound``.
+``audio.breaks_off``; of what ffmpeg reads, those of `app.formats.film_sound`.
 """
 
 from __future__ import annotations
 
 import os
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
+from functools import partial
+from mmap import ACCESS_READ, mmap
 from typing import Final
 
 import numpy as np
@@ -17,9 +21,10 @@ import soxr
 
 from app.audio.track import RATE_HZ, Block, Samples
 from app.errors import FileError, Message, raise_if_stopped
-from app.formats.files import open_file
-from app.formats.scratch import scratch_folder
-from app.formats.video import SUFFIXES, sound_into
+from app.formats.files import cannot_read, open_file
+from app.formats.film_sound import film_sound
+from app.formats.media_kind import MediaKind, media_kind
+from app.formats.mpeg_audio import MpegAudio, mpeg_audio
 
 MOST_HOURS: Final = 4
 """Longer recordings would fill the memory: an hour takes 0.7 GB."""
@@ -30,8 +35,6 @@ but silence can be packed into a thousandth of it, and a small file fill the mem
 MOST_CHANNELS: Final = 64
 LEAST_RATE_HZ, MOST_RATE_HZ = 1000, 768_000
 _BLOCK: Final = 1 << 16
-FILM_SUFFIXES: Final = (*SUFFIXES, ".m4a", ".aac")
-"""Files whose sound is taken out first, by ffmpeg."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,6 +57,18 @@ class Recording:
         return len(self.samples) / RATE_HZ
 
 
+class _Forward(soundfile.SoundFile):  # type: ignore[misc]
+    """A sound file that is read in order: soundfile would seek after each block, which MP3 files do inexactly."""
+
+    @property
+    def is_seekable(self) -> bool:
+        """Whether its length is known."""
+        return bool(super().seekable())
+
+    def seekable(self) -> bool:
+        return False
+
+
 def decode(
     path: str,
     progress: Callable[[float], None] = lambda share: None,
@@ -74,22 +89,67 @@ def decode(
         The file cannot be read, has no sound, or is longer than `MOST_HOURS`.
     Cancelled
     """
-    if path.lower().endswith(FILM_SUFFIXES):
-        with scratch_folder() as folder:
-            wave = folder / "sound.wav"
-            sound_into(path, wave, RATE_HZ, MOST_HOURS * 3600.0 + 1.0, stop_requested)
-            return replace(decode(os.fspath(wave), progress, stop_requested), path=path)
+    kind = media_kind(path)
+    if kind is not MediaKind.SOUND:
+        delay_s = None if kind is MediaKind.ADTS else 0.0
+        return Recording(path, _by_ffmpeg(path, delay_s, progress, stop_requested))
+    headless = _headless(path)
+    if headless is not None:
+        samples = _by_ffmpeg(path, headless.delay_samples / headless.rate_hz, progress, stop_requested)
+        return Recording(path, samples, _breaks_off(path, len(samples) / RATE_HZ) if headless.breaks_off else ())
     try:
-        with open_file(path) as stream, soundfile.SoundFile(stream) as file:
-            most_s = FREE_S + os.fstat(stream.fileno()).st_size / LEAST_BYTES_PER_S
+        with open_file(path) as stream, _Forward(stream) as file:
+            most_s = _most_s(os.fstat(stream.fileno()).st_size)
             return _read(path, file, most_s, progress, stop_requested)
     except (soundfile.SoundFileError, RuntimeError, TypeError) as error:
         raise FileError("audio.not_readable", file=path, detail=_detail(error)) from error
 
 
+def _most_s(size: int) -> float:
+    """Seconds that a file of a size may hold."""
+    return FREE_S + size / LEAST_BYTES_PER_S
+
+
+def _check_length(path: str, seconds: float, most_s: float) -> None:
+    if seconds > MOST_HOURS * 3600:
+        raise FileError("audio.too_long", file=path, most_hours=MOST_HOURS)
+    if seconds > most_s:
+        raise FileError("audio.too_dense", file=path, minutes=int(most_s // 60))
+
+
+def _headless(path: str) -> MpegAudio | None:
+    """MPEG audio without a header, whose length libsndfile guesses: it may leave out the end, and say too much."""
+    with open_file(path) as stream:
+        if not os.fstat(stream.fileno()).st_size:
+            return None
+        try:
+            with mmap(stream.fileno(), 0, access=ACCESS_READ) as data:
+                return mpeg_audio(data)
+        except OSError as error:
+            raise cannot_read(path, error) from error
+
+
+def _breaks_off(path: str, seconds: float) -> tuple[Message, ...]:
+    return (Message("audio.breaks_off", {"file": path, "seconds": round(seconds, 1)}),)
+
+
+def _by_ffmpeg(
+    path: str, delay_s: float | None, progress: Callable[[float], None], stop_requested: Callable[[], bool]
+) -> Samples:
+    """The sound of a film, or of a file that only ffmpeg reads."""
+    with open_file(path) as stream:
+        most_s = _most_s(os.fstat(stream.fileno()).st_size)
+    check = partial(_check_length, path, most_s=most_s)
+    samples = film_sound(path, RATE_HZ, check, stop_requested, delay_s)
+    if not len(samples):
+        raise FileError("audio.empty", file=path)
+    progress(1.0)
+    return samples
+
+
 def _read(
     path: str,
-    file: soundfile.SoundFile,
+    file: _Forward,
     most_s: float,
     progress: Callable[[float], None],
     stop_requested: Callable[[], bool],
@@ -100,7 +160,7 @@ def _read(
     resampler = soxr.ResampleStream(rate_hz, RATE_HZ, 2, dtype="float32") if rate_hz != RATE_HZ else None
     blocks: list[Samples] = []
     warnings: tuple[Message, ...] = ()
-    frames, most = 0, MOST_HOURS * 3600 * rate_hz
+    frames = 0
     # The length in the header is a claim: it is used for the progress only.
     expected = max(file.frames, 1)
     while True:
@@ -111,12 +171,9 @@ def _read(
             if not frames:
                 raise
             raw = np.zeros((0, channels), np.float32)
-            warnings = (Message("audio.breaks_off", {"file": path, "seconds": round(frames / rate_hz, 1)}),)
+            warnings = _breaks_off(path, frames / rate_hz)
         frames += len(raw)
-        if frames > most:
-            raise FileError("audio.too_long", file=path, most_hours=MOST_HOURS)
-        if frames > most_s * rate_hz:
-            raise FileError("audio.too_dense", file=path, minutes=int(most_s // 60))
+        _check_length(path, frames / rate_hz, most_s)
         block = _stereo(np.nan_to_num(raw, nan=0.0, posinf=1.0, neginf=-1.0))
         if resampler is not None:
             block = resampler.resample_chunk(block, last=not len(raw))
@@ -126,8 +183,8 @@ def _read(
             break
     if not frames:
         raise FileError("audio.empty", file=path)
-    if frames < expected and not warnings and file.seekable() and expected < most:
-        warnings = (Message("audio.breaks_off", {"file": path, "seconds": round(frames / rate_hz, 1)}),)
+    if frames < expected and not warnings and file.is_seekable and expected < MOST_HOURS * 3600 * rate_hz:
+        warnings = _breaks_off(path, frames / rate_hz)
     return Recording(path, np.concatenate(blocks), warnings)
 
 

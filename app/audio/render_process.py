@@ -18,6 +18,7 @@ import numpy as np
 
 from app.audio.rendering import rendered
 from app.audio.track import Samples
+from app.child_limits import confine_this_process
 from app.own_process import own_process, receive, send
 
 _NICENESS: Final = 5
@@ -74,6 +75,7 @@ def _end(child: subprocess.Popen[bytes]) -> None:
 
 def main() -> None:
     """Render whatever is asked for."""
+    confine_this_process("render")
     if hasattr(os, "nice"):
         os.nice(_NICENESS)
     while True:

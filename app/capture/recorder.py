@@ -53,6 +53,7 @@ from app.capture.protocol import (
     framed,
     read_framed,
 )
+from app.child_limits import confine_this_process
 from app.errors import FileError, Message
 
 SYSTEM_VARIABLE: Final = "SUISOU_MIDI_API"
@@ -413,6 +414,7 @@ def main() -> None:
     """Record for the parent process."""
     sys.excepthook = _end_at_once
     threading.excepthook = lambda failed: _end_at_once(failed.exc_type, failed.exc_value, failed.exc_traceback)
+    confine_this_process("recorder")
     take_precedence()
     sys.setswitchinterval(_SWITCH_S)
     # What is loaded stays: no stamp waits until all of it was looked through for garbage.

@@ -22,8 +22,7 @@ from app.audio.decode import decode
 from app.audio.track import RATE_HZ, Block, Mix, Piece, Samples, Track
 from app.errors import AppError, FileError
 from app.evaluation.excerpts import Excerpt
-from app.formats.scratch import scratch_folder
-from app.formats.video import VideoFacts, VideoPictures, sound_into, video_facts, video_pictures
+from app.formats.video import VideoFacts, VideoPictures, video_facts, video_pictures
 from app.project.model import Project
 
 Picture = npt.NDArray[np.uint8]
@@ -123,7 +122,7 @@ def import_video(
         if offset_s is None or follow:
             raise FileError("evaluate.silent_video", file=str(path))
         return ImportedVideo(path, offset_s, facts, None), project
-    samples = _sound(path, stop_requested)
+    samples = decode(str(path), stop_requested=stop_requested).samples[: round(MOST_S * RATE_HZ)]
     progress(0.3)
     if offset_s is not None and not follow:
         return ImportedVideo(path, offset_s, facts, samples), project
@@ -167,13 +166,6 @@ def _found(
         faster = round(100.0 * (found.tempo_ratio - 1.0), 1)
         raise FileError("evaluate.other_tempo", file=str(path), percent=faster)
     return ImportedVideo(path, found.offset_s, facts, samples, found.confidence), project
-
-
-def _sound(path: Path, stop_requested: Callable[[], bool]) -> Samples:
-    with scratch_folder() as folder:
-        wave = folder / "sound.wav"
-        sound_into(str(path), wave, RATE_HZ, MOST_S, stop_requested)
-        return decode(str(wave), stop_requested=stop_requested).samples
 
 
 def _followed(

@@ -22,6 +22,7 @@ import numpy as np
 import numpy.typing as npt
 import soundfile
 
+from app.child_limits import limited_command
 from app.errors import FileError
 from app.export.tree import tree_into
 from app.formats.scratch import scratch_folder
@@ -104,7 +105,9 @@ def video_into(
                     soundfile.write(wave, sound, sound_rate, subtype="PCM_16")
                 complaint = stack.enter_context((folder / "complaint.txt").open("w+b"))
                 encoder = subprocess.Popen(
-                    _command(partial, size, fps, wave if sound is not None else None, crf),
+                    limited_command(
+                        "ffmpeg.encode", _command(partial, size, fps, wave if sound is not None else None, crf)
+                    ),
                     stdin=subprocess.PIPE,
                     stdout=subprocess.DEVNULL,
                     stderr=complaint,
@@ -144,7 +147,9 @@ def beside(path: Path, left: Path, right: Path, crf: int = QUALITY_CRF) -> None:
     joined = ["-filter_complex", "[0:v][1:v]hstack=inputs=2[v]", "-map", "[v]", "-map", "0:a?", "-c:a", "copy"]
     try:
         done = subprocess.run(
-            [*_ffmpeg(), *films, *joined, *_coded(crf), *_into(path)], stdin=subprocess.DEVNULL, capture_output=True
+            limited_command("ffmpeg.join", [*_ffmpeg(), *films, *joined, *_coded(crf), *_into(path)]),
+            stdin=subprocess.DEVNULL,
+            capture_output=True,
         )
     except (OSError, RuntimeError) as error:
         raise FileError("video.failed", file=str(path), detail=str(error)) from error

@@ -18,6 +18,7 @@ from typing import IO
 
 import msgspec
 
+from app.child_limits import confine_this_process
 from app.errors import AppError
 from app.export.formats import Format
 from app.export.player import ExportedPlayer, export_player
@@ -137,6 +138,7 @@ def _export(request: Request, cast: ExportCast, performer: Performer, folder: Pa
 
 def main() -> None:
     """Export the musicians whose ids are sent."""
+    confine_this_process("export")
     ids, answers = sys.stdin.buffer, sys.stdout.buffer
     try:
         request = _request(msgspec.msgpack.decode(receive(ids), type=Job))

@@ -49,6 +49,30 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         "cannot read video file {file} ({detail}); convert it to MP4 (H.264)",
         "動画 {file} を読み込めません（{detail}）。MP4（H.264）に変換してください",
     ),
+    "video.transport_stream": (
+        "{file} is an MPEG transport stream (.ts, .mts), which cannot be read; convert it to MP4 (H.264)",
+        "{file} は MPEG トランスポートストリーム（.ts、.mts）のため読み込めません。MP4（H.264）に変換してください",
+    ),
+    "video.too_costly": (
+        (
+            "reading {file} takes more memory or time than a file of its size should need: it may be damaged; "
+            "convert it to MP4 (H.264) or WAV with another program"
+        ),
+        (
+            "{file} の読み込みには、ファイルのサイズに対して多すぎるメモリーまたは時間がかかります。"
+            "壊れている可能性があります。ほかのソフトウェアで MP4（H.264）または WAV に変換してください"
+        ),
+    ),
+    "video.reader_ended": (
+        (
+            "the reader of {file} ended unexpectedly (status {status}): the file may be damaged; convert it to MP4 "
+            "(H.264) or WAV with another program"
+        ),
+        (
+            "{file} を読み込むプログラムが異常終了しました（状態 {status}）。ファイルが壊れている可能性があります。"
+            "ほかのソフトウェアで MP4（H.264）または WAV に変換してください"
+        ),
+    ),
     "video.no_pictures": (
         "{file} has no video, only audio; choose a video file",
         "{file} には映像がなく、音声だけです。動画ファイルを選んでください",

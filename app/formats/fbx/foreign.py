@@ -26,6 +26,7 @@ import msgspec
 import numpy as np
 import numpy.typing as npt
 
+from app.child_limits import LIMITS, confine
 from app.errors import FileError
 from app.formats.files import read_file
 from app.formats.rates import exact_rate
@@ -37,7 +38,6 @@ T = TypeVar("T")
 
 MOST_BYTES: Final = 2**30
 """Of a file; characters have a hundredth of it."""
-PATIENCE_S: Final = 180.0
 MOTION: Final = "motion"
 """As in the child, which this process does not import."""
 UNREADABLE, NO_MEMORY, NO_READER = 3, 4, 5
@@ -197,31 +197,38 @@ def _read(path: str | os.PathLike[str], kind: type[T], checked: Callable[[T], T]
 
 def _child(data: bytes, file: str, *arguments: str) -> bytes:
     """What the child printed of a file's bytes. Raises FileError."""
+    limits = f"fbx.{MOTION}" if arguments == (MOTION,) else "fbx.figure"
     try:
-        ended: subprocess.CompletedProcess[bytes] = subprocess.run(
-            input=data,
+        process: subprocess.Popen[bytes]
+        with subprocess.Popen(
+            stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             stderr=subprocess.DEVNULL,
-            timeout=PATIENCE_S,
-            check=False,
             **own_process("app.formats.fbx.foreign_child", *arguments),
-        )
+        ) as process:
+            try:
+                job = confine(limits, process, len(data))
+                printed, _ = process.communicate(data, LIMITS[limits].wall_s)
+                del job
+            finally:
+                process.kill()
     except subprocess.TimeoutExpired as error:
         raise FileError("fbx.too_large", file=file) from error
     except OSError as error:
         raise FileError("file.cannot_read", file=file, reason=str(error)) from error
-    if ended.returncode in (NO_MEMORY, *_LIMITS):
+    status = process.returncode
+    if status in (NO_MEMORY, *_LIMITS):
         raise FileError("fbx.too_large", file=file)
-    if ended.returncode == NO_READER:
+    if status == NO_READER:
         raise FileError("fbx.no_reader", file=file)
-    if ended.returncode == UNREADABLE:
-        detail = ended.stdout.decode("utf-8", "replace")
+    if status == UNREADABLE:
+        detail = printed.decode("utf-8", "replace")
         if "nrecognized file format" in detail:
             raise FileError("fbx.not_fbx", file=file)
         raise FileError("fbx.foreign_damaged", file=file, detail=detail)
-    if ended.returncode:
-        raise FileError("fbx.foreign_damaged", file=file, detail=f"its reader ended with {ended.returncode}")
-    return ended.stdout
+    if status:
+        raise FileError("fbx.foreign_damaged", file=file, detail=f"its reader ended with {status}")
+    return printed
 
 
 def _value(arrays: Mapping[str, npt.NDArray[Any]], kind: type, given: Any) -> Any:

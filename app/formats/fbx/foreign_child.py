@@ -12,11 +12,12 @@ import json
 import os
 import sys
 from collections.abc import Iterable
-from pathlib import Path
 from typing import Any, Final, TypeVar
 
 import numpy as np
 import numpy.typing as npt
+
+from app.child_limits import confine_this_process
 
 NO_READER: Final = 5
 """Status at the end: the library is not there, or cannot be loaded. There is no wheel for some Pythons."""
@@ -25,14 +26,14 @@ try:
 except ImportError:
     os._exit(NO_READER)
 
-FREE_MEMORY_BYTES, MEMORY_PER_BYTE = 2**29, 64
-FREE_CPU_S, CPU_S_PER_MB = 3, 4
 FREE_NUMBERS, NUMBERS_PER_BYTE = 2**20, 4
-"""What reading a file may take: so much, and so much more for its size. A file of a real program takes a fifth of it;
-arrays of equal values can be packed a thousand times as small."""
+"""Numbers that a file may ask for: so many, and so many more for its size. A file of a real program takes a fifth of
+it; arrays of equal values can be packed a thousand times as small."""
 
-FREE_MOTION_NUMBERS, FREE_MOTION_CPU_S = 2**24, 30
-"""What motion may take: few keys may stand for many frames. Two minutes of a hundred nodes at 60 frames per second."""
+FREE_MOTION_NUMBERS: Final = 2**24
+"""Numbers of motion: few keys may stand for many frames. Two minutes of a hundred nodes at 60 frames per second."""
+FIGURE_LIMITS, MOTION_LIMITS = "fbx.figure", "fbx.motion"
+"""Rows of `app.child_limits.LIMITS`."""
 MOTION: Final = "motion"
 """The argument that asks for nodes and their animation in the place of meshes."""
 TRANSFORM: Final = 10
@@ -266,23 +267,6 @@ def read_motion(data: bytes) -> tuple[dict[str, Any], dict[str, npt.NDArray[Any]
     return {**content, "transforms": written.add(values)}, written.arrays
 
 
-def _limit(size: int, free_cpu_s: int) -> None:
-    """Have the system end this process where a file of this size takes far too much."""
-    try:
-        import resource
-    except ImportError:
-        return  # Windows has no such limits; how long the parent waits is limited.
-    used = resource.getrusage(resource.RUSAGE_SELF)
-    cpu_s = int(used.ru_utime + used.ru_stime) + free_cpu_s + CPU_S_PER_MB * size // 2**20
-    resource.setrlimit(resource.RLIMIT_CPU, (cpu_s, cpu_s))
-    try:
-        pages = int(Path("/proc/self/statm").read_text().split()[0])
-    except OSError:
-        pages = 2**20  # As much as any system gives before the first byte is read.
-    memory = pages * resource.getpagesize() + FREE_MEMORY_BYTES + MEMORY_PER_BYTE * size
-    resource.setrlimit(resource.RLIMIT_AS, (memory, memory))
-
-
 def main() -> None:
     """Print what the file on standard input holds: a JSON description and the arrays it names, as ``.npz``."""
     gc.disable()
@@ -291,7 +275,7 @@ def main() -> None:
     try:
         data = _keep(sys.stdin.buffer.read())
         is_motion = sys.argv[1:] == [MOTION]
-        _limit(len(data), FREE_MOTION_CPU_S if is_motion else FREE_CPU_S)
+        confine_this_process(MOTION_LIMITS if is_motion else FIGURE_LIMITS, len(data))
         content, arrays = read_motion(data) if is_motion else read(data)
         packed = io.BytesIO()
         text = np.frombuffer(json.dumps(content).encode(), dtype=np.uint8)

@@ -13,6 +13,7 @@ from app.audio.decode import MOST_HOURS, decode
 from app.audio.track import RATE_HZ
 from app.errors import Cancelled, FileError
 from app.messages import error_text, text
+from tests.support.media import clicks, ffmpeg, heard_s, with_gap
 
 
 def tone(rate_hz: int, seconds: float = 1.0, channels: int = 2) -> np.ndarray:
@@ -42,6 +43,50 @@ def test_every_kind_at_every_rate_is_the_same_tone(
     spectrum = np.abs(np.fft.rfft(middle * np.hanning(len(middle))))
     assert spectrum.argmax() * RATE_HZ / len(middle) == pytest.approx(440.0, abs=2.0)
     assert np.sqrt((middle**2).mean()) == pytest.approx(0.5 / np.sqrt(2), rel=0.03)
+
+
+KINDS = {
+    "wav": (), "flac": (), "ogg": (), "opus": ("-ar", "48000"), "m4a": (), "mp4": (), "aac": (), "mp2": (),
+    "mp3": (), "mp3 without a header": ("-write_xing", "0"),
+    "mp3 of many rates without a header": ("-write_xing", "0", "-q:a", "4"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("named", ["mp3", "wav", "m4a", "xyz"])
+def test_the_content_decides_and_no_codec_delays_the_sound(tmp_path: Path, named: str) -> None:
+    source = clicks(tmp_path / "source.wav", 44100)
+    for number, (kind, options) in enumerate(KINDS.items()):
+        made, path = tmp_path / f"made.{kind.split()[0]}", tmp_path / f"{number}.{named}"
+        ffmpeg("-i", str(source), *options, str(made))
+        made.rename(path)
+        recording = decode(str(path))
+        assert not recording.warnings, kind
+        assert recording.duration_s == pytest.approx(4.0, abs=0.06), kind
+        for second in (1.0, 3.0):
+            assert heard_s(recording.samples, second, RATE_HZ) == pytest.approx(second, abs=0.005), kind
+
+
+@pytest.mark.parametrize("options", [("-b:a", "128k"), ("-q:a", "2")])
+def test_an_mp3_without_a_header_that_breaks_off_is_reported(tmp_path: Path, options: tuple[str, str]) -> None:
+    """Loud and then soft, so that the first frames say nothing of the length; and the other way."""
+    rng = np.random.default_rng(1)
+    for name, levels in (("falls", (0.5, 0.0)), ("rises", (0.0, 0.5))):
+        sound = np.concatenate([level * rng.normal(size=(4 * 44100, 2)).clip(-1.0, 1.0) for level in levels])
+        soundfile.write(tmp_path / f"{name}.wav", sound, 44100)
+        path = tmp_path / f"{name}.mp3"
+        ffmpeg("-i", str(tmp_path / f"{name}.wav"), "-c:a", "libmp3lame", *options, "-write_xing", "0", str(path))
+        whole = decode(str(path))
+        assert not whole.warnings
+        assert whole.duration_s == pytest.approx(8.0, abs=0.06)
+        path.write_bytes(path.read_bytes()[:-300])
+        (warning,) = decode(str(path)).warnings
+        assert warning.id == "audio.breaks_off"
+
+
+def test_a_gap_of_an_hour_is_refused_and_costs_nothing(tmp_path: Path) -> None:
+    path = with_gap(tmp_path / "gap.m4a", 3600.0)
+    with pytest.raises(FileError, match=r"audio\.too_dense"):
+        decode(str(path))
 
 
 def test_resampling_keeps_the_moment(tmp_path: Path) -> None:

@@ -9,10 +9,10 @@ from pathlib import Path
 import imageio_ffmpeg
 import numpy as np
 import pytest
-import soundfile
 
 from app.errors import Cancelled, FileError
-from app.formats.video import VideoFacts, sound_into, video_facts, video_pictures
+from app.formats.film_sound import film_sound
+from app.formats.video import VideoFacts, video_facts, video_pictures
 from tests.support.films import SIZE, number_of, written
 
 PICTURES = 200
@@ -71,6 +71,10 @@ def test_pictures_can_be_sampled_at_another_rate(film: Path) -> None:
         assert [number_of(picture) for _ in range(4) if (picture := pictures.read()) is not None] == [10, 12, 14, 16]
 
 
+def any_length(seconds: float) -> None:
+    """No check."""
+
+
 def test_facts_of_a_film(film: Path) -> None:
     facts = video_facts(str(film))
     assert facts.duration_s == pytest.approx(PICTURES / 24, abs=0.05)
@@ -99,17 +103,14 @@ def test_sound_keeps_the_time_of_the_pictures(film: Path, tmp_path: Path) -> Non
     command = ["-i", str(film), "-itsoffset", "1.0", "-i", str(film), "-map", "0:v", "-map", "1:a", "-c", "copy"]
     subprocess.run([imageio_ffmpeg.get_ffmpeg_exe(), "-loglevel", "error", *command, str(later)], check=True)
     for path, click_s in ((film, 2.0), (later, 3.0)):
-        wave = tmp_path / f"{path.stem}.wav"
-        sound_into(str(path), wave, 48000, 3600.0)
-        samples, rate_hz = soundfile.read(wave)
-        assert rate_hz == 48000
+        samples = film_sound(str(path), 48000, any_length)
         assert samples.shape[1] == 2
-        assert np.argmax(np.abs(samples[:, 0]) > 0.3) / 48000 == pytest.approx(click_s, abs=0.005)
+        assert np.argmax(np.abs(samples[:, 0].astype(np.int64)) > 10_000) / 48000 == pytest.approx(click_s, abs=0.005)
 
 
-def test_reading_can_be_stopped(film: Path, tmp_path: Path) -> None:
+def test_reading_can_be_stopped(film: Path) -> None:
     with pytest.raises(Cancelled):
-        sound_into(str(film), tmp_path / "sound.wav", 48000, 3600.0, lambda: True)
+        film_sound(str(film), 48000, any_length, lambda: True)
 
 
 def test_a_playlist_opens_no_other_file(film: Path, tmp_path: Path) -> None:
@@ -142,7 +143,7 @@ def test_sound_or_pictures_can_be_absent(film: Path, tmp_path: Path) -> None:
     silent = converted(film, tmp_path / "silent.mp4", "-an", "-c:v", "copy", "-metadata", title)
     assert video_facts(str(silent)).duration_s < 10.0
     with pytest.raises(FileError, match=r"video\.no_sound"):
-        sound_into(str(silent), tmp_path / "sound.wav", 48000, 3600.0)
+        film_sound(str(silent), 48000, any_length)
 
 
 def test_half_a_file_gives_the_pictures_it_has(film: Path, tmp_path: Path) -> None:

@@ -1,0 +1,125 @@
+"""The ffmpeg that imageio-ffmpeg brings, at work on one file of the user's.
+
+It runs as a process of its own within the limits of `app.child_limits`, reads this one file and no other that the file
+names, and takes no input.
+
+Messages
+--------
+video.not_readable(file, detail): ffmpeg cannot read it.
+video.transport_stream(file): a transport stream, at which ffmpeg crashes.
+video.too_costly(file): ffmpeg needed more memory or time than a file of this size may take.
+video.reader_ended(file, status): ffmpeg crashed.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import re
+import signal
+import subprocess
+import sys
+from collections.abc import Iterator
+from typing import IO, Any, Final
+
+import imageio_ffmpeg
+
+from app.child_limits import confine, limited_command
+from app.errors import FileError
+from app.formats.files import open_file
+from app.formats.media_kind import MediaKind, media_kind
+
+_CONTAINERS: Final = "mov,matroska,avi,mpeg,asf,ogg,flv,mxf,mp3,wav,aac,flac"
+"""What may be opened: no playlist, which would open other files, and no transport stream."""
+_MOST_PIXELS: Final = 1 << 26
+"""Of a picture: 8192 x 8192."""
+_DETAIL: Final = 300
+"""Characters of ffmpeg's complaint that are passed on."""
+_STREAM: Final = re.compile(rb"^  Stream #0:\d+.*?: (Video|Audio): ", re.MULTILINE)
+_PREFIX: Final = re.compile(r"^\[[^]]*\] ")
+_GENERAL: Final = ("Error opening input file", "Conversion failed!")
+"""Lines of ffmpeg that say no reason."""
+_NO_MEMORY: Final = ("Cannot allocate memory", "Failed to allocate", "failed to create thread", "Resource temporarily")
+_OVER: Final = frozenset(-number for name in ("SIGXCPU", "SIGXFSZ", "SIGKILL") if (number := getattr(signal, name, 0)))
+"""The system ended it at a limit."""
+_WINDOWS_CRASH: Final = 0xC0000000
+"""Statuses from here on are exceptions."""
+
+
+@contextlib.contextmanager
+def ffmpeg_on(
+    path: str, limits: str, before: tuple[str, ...], after: tuple[str, ...], quiet: bool = False
+) -> Iterator[subprocess.Popen[bytes]]:
+    """ffmpeg at work on a file; it has ended when the block is done.
+
+    Parameters
+    ----------
+    path : str
+    limits : str
+        Name of the row of `app.child_limits.LIMITS`.
+    before, after : tuple of str
+        Options before and after the input.
+    quiet : bool
+        Nothing is reported.
+
+    Raises
+    ------
+    FileError
+        ``video.transport_stream``; ``video.not_readable`` where it does not start; see `app.formats.files.open_file`.
+    """
+    with open_file(path) as stream:
+        size = os.fstat(stream.fileno()).st_size
+    if media_kind(path) is MediaKind.TRANSPORT:
+        raise FileError("video.transport_stream", file=path)
+    options: dict[str, Any] = {}
+    if sys.platform == "win32":
+        options["creationflags"] = subprocess.CREATE_NO_WINDOW
+    else:
+        options["process_group"] = 0
+    only = ("-protocol_whitelist", "file", "-format_whitelist", _CONTAINERS, "-max_pixels", str(_MOST_PIXELS))
+    try:
+        command = [
+            *(imageio_ffmpeg.get_ffmpeg_exe(), "-hide_banner", "-nostdin", "-nostats", "-y"),
+            *(("-loglevel", "quiet") if quiet else ()),
+            *(*only, *before, "-i", f"file:{path}", *after),
+        ]
+        process = subprocess.Popen(
+            limited_command(limits, command, size),
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.DEVNULL if quiet else subprocess.PIPE,
+            **options,
+        )
+    except (OSError, RuntimeError, ValueError) as error:
+        raise FileError("video.not_readable", file=path, detail=str(error)) from error
+    try:
+        try:
+            job = confine(limits, process, size)
+        except OSError as error:
+            raise FileError("video.not_readable", file=path, detail=str(error)) from error
+        yield process
+        del job
+    finally:
+        process.kill()
+        streams: tuple[IO[bytes] | None, ...] = (process.stdout, process.stderr)
+        for stream_ in streams:
+            if stream_ is not None:
+                stream_.close()
+        process.wait()
+
+
+def kinds_in(report: bytes) -> set[bytes]:
+    """Kinds of streams, ``b"Video"`` and ``b"Audio"``, that ffmpeg found in a file."""
+    return set(_STREAM.findall(report))
+
+
+def refusal(report: bytes, path: str, status: int) -> FileError:
+    """The error of a file that ffmpeg did not read, by what it reported and how it ended."""
+    lines = report.decode(errors="replace").splitlines()
+    if status in _OVER or any(reason in line for line in lines for reason in _NO_MEMORY):
+        return FileError("video.too_costly", file=path)
+    if status < 0 or status >= _WINDOWS_CRASH:
+        return FileError("video.reader_ended", file=path, status=status)
+    reasons = [line for line in lines if not line.startswith(_GENERAL)] or [f"ffmpeg: {status}"]
+    detail = _PREFIX.sub("", reasons[-1]).replace(f"file:{path}", "").strip(" :.")
+    return FileError("video.not_readable", file=path, detail=detail[-_DETAIL:])

@@ -1,0 +1,180 @@
+"""The sound of a film, or of any file that ffmpeg reads, at the film's own time.
+
+ffmpeg decodes what is there and says when each block of it begins. It fills no gap: a few bytes can say that an hour
+passes, and it would make the silence of that hour before anybody could count it. Gaps are filled here, after the whole
+was measured.
+
+Messages
+--------
+video.no_sound(file): there are pictures alone.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import re
+import subprocess
+from collections import deque
+from collections.abc import Callable
+from threading import Thread
+from typing import IO, Final
+
+import numpy as np
+import numpy.typing as npt
+
+from app.errors import FileError, raise_if_stopped
+from app.formats.ffmpeg import ffmpeg_on, kinds_in, refusal
+
+_BLOCK: Final = 1 << 18
+"""Bytes that are read in one step."""
+_FRAME: Final = re.compile(rb"\] n: *\d+ pts: *\S+ pts_time: *(\S+) .*?rate: *(\d+) nb_samples: *(\d+) ")
+_LONGEST_LINE: Final = 1 << 12
+_KEPT_LINES: Final = 200
+"""Lines of a report that are kept: the streams are among the first, the reason of a failure among the last."""
+_LOOK_S: Final = 0.1
+"""Between two looks whether to stop."""
+_JUMP_S: Final = 0.02
+"""Time stamps that are off by less are rounded ones."""
+
+Samples = npt.NDArray[np.int16]
+
+
+class _Timing:
+    """Begin of every stretch of sound without a gap, from ffmpeg's report, which a thread reads.
+
+    Attributes
+    ----------
+    stretches : list of (float, float)
+        Seconds of sound before a stretch, and the second of the film at which it begins.
+    reached_s : float
+        The second of the film that is reached.
+    first_block_s : float
+        Length of the first block that was decoded.
+    """
+
+    def __init__(self, stream: IO[bytes]) -> None:
+        self.stretches: list[tuple[float, float]] = []
+        self.reached_s = 0.0
+        self.first_block_s = 0.0
+        self._sound_s = 0.0
+        self._first: list[bytes] = []
+        self._last: deque[bytes] = deque(maxlen=_KEPT_LINES)
+        self._stream = stream
+        self.thread = Thread(target=self._read, name="ffmpeg report", daemon=True)
+        self.thread.start()
+
+    def report(self) -> bytes:
+        """The lines that say nothing of time."""
+        return b"".join([*self._first, *self._last])
+
+    def _read(self) -> None:
+        while line := self._stream.readline(_LONGEST_LINE):
+            found = _FRAME.search(line)
+            if found is not None and b"ashowinfo" in line:
+                self._add(*found.groups())
+            elif len(self._first) < _KEPT_LINES:
+                self._first.append(line)
+            else:
+                self._last.append(line)
+
+    def _add(self, at: bytes, rate: bytes, count: bytes) -> None:
+        try:
+            begin_s = float(at)
+        except ValueError:
+            begin_s = self.reached_s  # NOPTS: it goes on
+        if not np.isfinite(begin_s):
+            begin_s = self.reached_s
+        if not self.stretches or abs(begin_s - self.reached_s) > _JUMP_S:
+            self.stretches.append((self._sound_s, begin_s))
+            self.reached_s = begin_s
+        length_s = int(count) / max(int(rate), 1)
+        self.first_block_s = self.first_block_s or length_s
+        self._sound_s += length_s
+        self.reached_s += length_s
+
+
+def film_sound(
+    path: str,
+    rate_hz: int,
+    check: Callable[[float], None],
+    stop_requested: Callable[[], bool] = lambda: False,
+    delay_s: float | None = 0.0,
+) -> Samples:
+    """Read the sound of a film, from the film's beginning on.
+
+    Parameters
+    ----------
+    path : str
+    rate_hz : int
+        Samples per second of the result.
+    check : callable
+        Called now and then with the seconds that the result has so far; raises where they are too many.
+    stop_requested : callable
+        Asked now and then; true ends the work.
+    delay_s : float or None
+        What is taken off the beginning, seconds; None: the first block, which a transform codec only begins with.
+
+    Returns
+    -------
+    int16 array, shape (n, 2)
+        Silence where the sound begins after the pictures or is broken.
+
+    Raises
+    ------
+    FileError
+        ``video.no_sound``, those of `app.formats.ffmpeg`, those of ``check``.
+    Cancelled
+    """
+    heard = ("-map", "0:a:0", "-af", "ashowinfo", "-ac", "2", "-ar", str(rate_hz))
+    blocks: list[bytes] = []
+    total = 0
+    with ffmpeg_on(path, "ffmpeg.sound", (), (*heard, "-c:a", "pcm_s16le", "-f", "s16le", "pipe:1")) as process:
+        assert process.stdout is not None
+        assert process.stderr is not None
+        timing = _Timing(process.stderr)
+        watcher = Thread(target=_end_if_stopped, args=(process, stop_requested), name="ffmpeg stop", daemon=True)
+        watcher.start()
+        while block := process.stdout.read(_BLOCK):
+            blocks.append(block)
+            total += len(block)
+            check(max(total / (4 * rate_hz), timing.reached_s))
+        status = process.wait()
+        timing.thread.join()
+        watcher.join()
+    raise_if_stopped(stop_requested)
+    check(max(total / (4 * rate_hz), timing.reached_s))
+    report = timing.report()
+    if status:
+        kinds = kinds_in(report)
+        if b"Video" in kinds and b"Audio" not in kinds and status > 0:
+            raise FileError("video.no_sound", file=path)
+        raise refusal(report, path, status)
+    sound = np.frombuffer(b"".join(blocks)[: total // 4 * 4], "<i2").reshape(-1, 2)
+    blocks.clear()
+    late_s = timing.first_block_s if delay_s is None else delay_s
+    return _placed(sound, timing.stretches, rate_hz)[round(late_s * rate_hz) :]
+
+
+def _end_if_stopped(process: subprocess.Popen[bytes], stop_requested: Callable[[], bool]) -> None:
+    """End ffmpeg once that is requested, even while it reads without decoding."""
+    while process.poll() is None:
+        if stop_requested():
+            process.kill()
+        with contextlib.suppress(subprocess.TimeoutExpired):
+            process.wait(_LOOK_S)
+
+
+def _placed(sound: Samples, stretches: list[tuple[float, float]], rate_hz: int) -> Samples:
+    """The stretches of a sound at their places, one after the other; what overlaps the one before is left out."""
+    begins = [min(round(sound_s * rate_hz), len(sound)) for sound_s, _ in stretches]
+    parts: list[Samples] = []
+    length = 0
+    for begin, end, (_, at_s) in zip(begins, [*begins[1:], len(sound)], stretches, strict=True):
+        at = round(at_s * rate_hz)
+        if at > length and end > begin:
+            parts.append(np.zeros((at - length, 2), np.int16))
+            length = at
+        part = sound[begin + length - at : end] if at < length else sound[begin:end]
+        parts.append(part)
+        length += len(part)
+    return np.concatenate(parts) if parts else sound
