@@ -205,7 +205,7 @@ def assigned_parts(
         slurred += [(mine[0].name, note) for note in shared.shortened]
         switches = _switches(streams, assignment.streams, [places for _, places in read])
         silent += _silent("score.key_switches", mine[0].name, switches, piece)
-        if lead.change and len(chosen) == 1:
+        if lead.change and lead.played_on and len(chosen) == 1:
             instrument = vocabulary().instruments[lead.played_on].names[0]
             warnings.append(_about("score.doubling", mine[0].name, notes, piece, instrument=instrument))
         if follow_one_another(chosen):

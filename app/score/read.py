@@ -228,6 +228,7 @@ def read_contents(path: Path, *, encoding: str | None = None) -> MidiContents:
         warnings += _track_warnings(events, index)
         tracks.append(events)
         counts.append(sum(not message.is_meta for message in messages) if not events.channels else 0)
+    _require_few(sum(bool(events.channels) for events in tracks), str(path))
     for events, sounds in zip(tracks, channel_sounds([one.said_of_sounds for one in tracks]), strict=True):
         events.sounds = sounds
     if container.format == 2 and len(tracks) > 1:
@@ -237,8 +238,7 @@ def read_contents(path: Path, *, encoding: str | None = None) -> MidiContents:
     _require_length(Score("", ticks_per_quarter, tempo_map, metres, pickup_ticks), tracks, str(path))
     texts = _texts(tracks, encoding)
     streams = _streams(tracks, settle_bends(tracks), texts)
-    if len(streams) > MOST_STREAMS:
-        raise FileError("midi.too_many_parts", file=str(path), parts=len(streams), most=MOST_STREAMS)
+    _require_few(len(streams), str(path))
     stem = shown(path.stem)
     return MidiContents(
         title=_title(tracks, texts) or stem,
@@ -299,6 +299,12 @@ def _track_warnings(events: TrackEvents, index: int) -> list[Message]:
         ("midi.beyond_all_music", events.beyond),
     )
     return [Message(id_, {"track": index + 1, "count": count}) for id_, count in counts if count]
+
+
+def _require_few(parts: int, file: str) -> None:
+    """Refuse more parts than any piece has; every track with notes has one at least."""
+    if parts > MOST_STREAMS:
+        raise FileError("midi.too_many_parts", file=file, parts=parts, most=MOST_STREAMS)
 
 
 def _require_length(empty: Score, tracks: Sequence[TrackEvents], file: str) -> None:

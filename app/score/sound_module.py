@@ -52,8 +52,8 @@ _EFFECT_KITS: Final = (56, 57)
 _DRUM_BANKS: Final = frozenset((120, 126, 127))
 _PERCUSSION_BANK, _MELODY_BANK, _EFFECT_KIT_BANK, _KIT_BANK, _EFFECT_BANK = 120, 121, 126, 127, 64
 _ORCHESTRA, _BRUSH = 48, 40
-_MOST_CHANGES: Final = 1000
-"""Changes of one channel by tracks other than its own that are looked at; a piece has a few."""
+_MOST_CHANGES: Final = 256
+"""Changes of one channel by tracks other than its own that are looked at, of each kind; a piece has a few."""
 
 
 class Setup(NamedTuple):
@@ -155,9 +155,9 @@ def channel_sounds(tracks: Sequence[Setups]) -> list[dict[int, list[tuple[int, C
     list of dict of int to list of (tick, ChannelSound)
         By channel; ticks ascend, and the first entry holds from the beginning.
     """
-    ports = {track.port or FIRST_PORT for track in tracks if track.first_onsets} or {FIRST_PORT}
-    modes = _modes(tracks, ports)
-    given = _given(tracks, ports)
+    modes = _modes(tracks, {track.port or FIRST_PORT for track in tracks if track.first_onsets})
+    given = _given(tracks)
+    nothing = _Given([], [])
     found = []
     for place, track in enumerate(tracks):
         port = track.port or FIRST_PORT
@@ -168,9 +168,10 @@ def channel_sounds(tracks: Sequence[Setups]) -> list[dict[int, list[tuple[int, C
         timelines = {}
         for channel, onset in track.first_onsets.items():
             own = mine.get(channel, [])
-            settings, others = given.get((port, channel), ([], []))
-            said = [modes[port].get(channel, []), settings, own if own else others]
-            timelines[channel] = _timeline(merge(*said), channel, onset)
+            said = given.get((port, channel), nothing)
+            common = given.get((None, channel), nothing)
+            steps = merge(modes[port][channel], said.settings, common.settings, own if own else said.others)
+            timelines[channel] = _timeline(steps, channel, onset)
         found.append(timelines)
     return found
 
@@ -192,25 +193,33 @@ def _step(track: int, setup: Setup) -> _Step:
     return _Step(setup.tick, 2, track, setup.number, setup.kind, setup.value)
 
 
-def _given(tracks: Sequence[Setups], ports: Iterable[Port]) -> dict[tuple[Port, int], tuple[list[_Step], list[_Step]]]:
-    """Banks and programs for other tracks, by port and channel: of tracks without notes on the channel, of those with
-    some."""
-    given: dict[tuple[Port, int], tuple[list[_Step], list[_Step]]] = {}
+class _Given(NamedTuple):
+    """Banks and programs of a channel that tracks give to others: tracks without notes on it, and those with some."""
+
+    settings: list[_Step]
+    others: list[_Step]
+
+
+def _given(tracks: Sequence[Setups]) -> dict[tuple[Port | None, int], _Given]:
+    """Banks and programs for other tracks, by port and channel."""
+    given: dict[tuple[Port | None, int], _Given] = {}
     for place, track in enumerate(tracks):
         for setup in track.setups:
-            if setup.kind == "exclusive":
-                continue
-            has_notes = setup.channel in track.first_onsets
-            for port in _addressed(setup.port, track, ports):
-                given.setdefault((port, setup.channel), ([], []))[has_notes].append(_step(place, setup))
-    return {key: (sorted(free)[:_MOST_CHANGES], sorted(other)[:_MOST_CHANGES]) for key, (free, other) in given.items()}
+            if setup.kind != "exclusive":
+                key = _addressed(setup.port, track), setup.channel
+                settings, others = given.setdefault(key, _Given([], []))
+                (others if setup.channel in track.first_onsets else settings).append(_step(place, setup))
+    return {
+        key: _Given(sorted(settings)[:_MOST_CHANGES], sorted(others)[:_MOST_CHANGES])
+        for key, (settings, others) in given.items()
+    }
 
 
-def _addressed(port: Port | None, track: Setups, ports: Iterable[Port]) -> Iterable[Port]:
-    """The ports to which a message goes: of a track of settings that names none, all."""
-    if port is not None:
-        return (port,)
-    return ports if not track.first_onsets else (track.port or FIRST_PORT,)
+def _addressed(port: Port | None, track: Setups) -> Port | None:
+    """The port to which a message goes; None: all, from a track of settings that names none."""
+    if port is not None or not track.first_onsets:
+        return port
+    return track.port or FIRST_PORT
 
 
 class _Reset(NamedTuple):
@@ -272,40 +281,55 @@ def _part_values(
     return found
 
 
-def _modes(tracks: Sequence[Setups], ports: Iterable[Port]) -> dict[Port, dict[int, list[_Step]]]:
+class _Row(NamedTuple):
+    """What a system exclusive message says, in the order in which it takes effect."""
+
+    tick: int
+    rank: int
+    track: int
+    number: int
+    meaning: _Reset | _PartValue
+
+
+def _modes(tracks: Sequence[Setups], ports: Iterable[Port]) -> dict[Port, list[list[_Step]]]:
     """Resets and modes by port and channel."""
-    rows: dict[Port, list[tuple[int, int, int, int, _Reset | _PartValue]]] = {port: [] for port in ports}
+    rows: dict[Port | None, list[_Row]] = {}
     for place, track in enumerate(tracks):
         for setup in track.setups:
             if not isinstance(setup.value, bytes):
                 continue
             for meaning in _meaning(setup.value):
-                for port in _addressed(setup.port, track, ports):
-                    other = isinstance(meaning, _PartValue) and meaning.other_port
-                    to = (port[0] ^ 1, port[1]) if other else port
-                    if to in rows and len(rows[to]) < 16 * _MOST_CHANGES:
-                        rank = 1 if isinstance(meaning, _PartValue) else 0
-                        rows[to].append((setup.tick, rank, place, setup.number, meaning))
-    return {port: _port_modes(sorted(found, key=lambda row: row[:4])) for port, found in rows.items()}
+                port = _addressed(setup.port, track)
+                if isinstance(meaning, _PartValue) and meaning.other_port:
+                    number, device = port or FIRST_PORT
+                    port = number ^ 1, device
+                rank = 1 if isinstance(meaning, _PartValue) else 0
+                rows.setdefault(port, []).append(_Row(setup.tick, rank, place, setup.number, meaning))
+    common = sorted(rows.pop(None, []), key=_order)[:_MOST_CHANGES]
+    of_all = _port_modes(common)
+    return {
+        port: _port_modes(sorted((*rows[port], *common), key=_order)[:_MOST_CHANGES]) if port in rows else of_all
+        for port in ports
+    }
 
 
-def _port_modes(rows: Sequence[tuple[int, int, int, int, _Reset | _PartValue]]) -> dict[int, list[_Step]]:
-    """The same of one port: a reset is every channel's, a mode that of the channel on which its part receives."""
-    steps: dict[int, list[_Step]] = {channel: [] for channel in range(16)}
+def _order(row: _Row) -> tuple[int, int, int, int]:
+    return row[:4]
+
+
+def _port_modes(rows: Sequence[_Row]) -> list[list[_Step]]:
+    """The same of one port, by channel: a reset is every channel's, a mode that of the channel on which its part
+    receives."""
+    steps: list[list[_Step]] = [[] for _ in range(16)]
     modes: dict[int, bool] = {}
     receive = list(range(16))
-    both = {"gs", "xg"} <= {meaning.system for *_, meaning in rows if isinstance(meaning, _Reset)}
-
-    def add(channel: int, step: _Step) -> None:
-        if len(steps[channel]) < _MOST_CHANGES:
-            steps[channel].append(step)
-
+    both = {"gs", "xg"} <= {row.meaning.system for row in rows if isinstance(row.meaning, _Reset)}
     for tick, rank, track, number, meaning in rows:
         if isinstance(meaning, _Reset):
             modes, receive = {}, list(range(16))
             system = "" if both and meaning.system in ("gs", "xg") else meaning.system
-            for channel in range(16):
-                add(channel, _Step(tick, rank, track, number, "reset", system))
+            for own in steps:
+                own.append(_Step(tick, rank, track, number, "reset", system))
             continue
         before = receive[meaning.part]
         if meaning.parameter == "mode":
@@ -313,7 +337,7 @@ def _port_modes(rows: Sequence[tuple[int, int, int, int, _Reset | _PartValue]]) 
         elif meaning.value < 32:
             receive[meaning.part] = meaning.value if meaning.value < 16 else -1
         for channel in {before, receive[meaning.part]} - {-1}:
-            add(channel, _Step(tick, rank, track, number, "mode", _channel_mode(channel, modes, receive)))
+            steps[channel].append(_Step(tick, rank, track, number, "mode", _channel_mode(channel, modes, receive)))
     return steps
 
 

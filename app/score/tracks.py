@@ -138,7 +138,7 @@ class TrackEvents(msgspec.Struct):
     def sound_at(self, channel: int, tick: int) -> ChannelSound:
         """What a channel with notes sounds like at a tick."""
         changes = self.sounds[channel]
-        return changes[max(bisect_right(changes, tick, key=itemgetter(0)) - 1, 0)][1]
+        return changes[max(bisect_right(changes, tick, key=itemgetter(0)) - 1, 0) if len(changes) > 1 else 0][1]
 
     def is_melodic(self, channel: int) -> bool:
         """Whether a channel is nothing but a melody's."""

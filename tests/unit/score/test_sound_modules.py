@@ -9,7 +9,8 @@ import pytest
 
 from app.project.model import map_choices
 from app.score.model import Score
-from app.score.read import read_midi
+from app.score.parts import PartAssignment
+from app.score.read import assigned_score, read_contents, read_midi
 from instrument_maps.library import all_maps
 from tests.unit.score.midi_bytes import END, chunk, header, meta, note, score_of
 from tests.unit.score.sound_module_files import module_file
@@ -157,3 +158,15 @@ def test_a_hundred_kilobytes_of_settings_are_read_at_once() -> None:
     score = score_of(header(1, len(tracks)) + b"".join(chunk(b"MTrk", events + END) for events in tracks))
     assert len(score.parts) == 128
     assert process_time() - begin < 5.0
+
+
+def test_drums_before_a_melody_on_one_channel_can_be_played_too(tmp_path: Path) -> None:
+    path = tmp_path / "piece.mid"
+    both = XG_ON + bank(127) + TRUMPET_11 + BEAT + bank(0) + TRUMPET_11 + TUNE
+    path.write_bytes(header(1, 1) + chunk(b"MTrk", both + END))
+    contents = read_contents(path)
+    rows = [PartAssignment((place,), "trumpet_Bb") for place in range(2)]
+    score = assigned_score(contents, rows, MAPS)
+    assert sorted(len(part.notes) for part in score.parts) == [4, 4]
+    assert len({part.id for part in score.parts}) == 2
+    assert not score.percussion
