@@ -169,8 +169,8 @@ def channel_sounds(tracks: Sequence[Setups]) -> list[dict[int, list[tuple[int, C
         for channel, onset in track.first_onsets.items():
             own = mine.get(channel, [])
             said = given.get((port, channel), nothing)
-            common = given.get((None, channel), nothing)
-            steps = merge(modes[port][channel], said.settings, common.settings, own if own else said.others)
+            settings = [given.get((one, channel), nothing).settings for one in _listening(port)]
+            steps = merge(modes[port][channel], *settings, own if own else said.others)
             timelines[channel] = _timeline(steps, channel, onset)
         found.append(timelines)
     return found
@@ -213,6 +213,11 @@ def _given(tracks: Sequence[Setups]) -> dict[tuple[Port | None, int], _Given]:
         key: _Given(sorted(settings)[:_MOST_CHANGES], sorted(others)[:_MOST_CHANGES])
         for key, (settings, others) in given.items()
     }
+
+
+def _listening(port: Port) -> tuple[Port | None, ...]:
+    """Where settings may be addressed to that a port heeds: itself, its number without the device's name, all ports."""
+    return tuple(dict.fromkeys((port, (port[0], b""), None)))
 
 
 def _addressed(port: Port | None, track: Setups) -> Port | None:
@@ -292,7 +297,8 @@ class _Row(NamedTuple):
 
 
 def _modes(tracks: Sequence[Setups], ports: Iterable[Port]) -> dict[Port, list[list[_Step]]]:
-    """Resets and modes by port and channel."""
+    """Resets and modes by port and channel. A port that no message resets is one of several that a module has, which a
+    reset at another port is for too."""
     rows: dict[Port | None, list[_Row]] = {}
     for place, track in enumerate(tracks):
         for setup in track.setups:
@@ -305,12 +311,19 @@ def _modes(tracks: Sequence[Setups], ports: Iterable[Port]) -> dict[Port, list[l
                     port = number ^ 1, device
                 rank = 1 if isinstance(meaning, _PartValue) else 0
                 rows.setdefault(port, []).append(_Row(setup.tick, rank, place, setup.number, meaning))
-    common = sorted(rows.pop(None, []), key=_order)[:_MOST_CHANGES]
-    of_all = _port_modes(common)
-    return {
-        port: _port_modes(sorted((*rows[port], *common), key=_order)[:_MOST_CHANGES]) if port in rows else of_all
-        for port in ports
-    }
+    first = {key: sorted(found, key=_order)[:_MOST_CHANGES] for key, found in rows.items()}
+    resets = [row for found in first.values() for row in found if isinstance(row.meaning, _Reset)][:_MOST_CHANGES]
+    made: dict[tuple[Port | None, ...], list[list[_Step]]] = {}
+    modes = {}
+    for port in ports:
+        heard = tuple(one for one in _listening(port) if one in first)
+        if heard not in made:
+            own = [row for one in heard for row in first[one]]
+            if not any(isinstance(row.meaning, _Reset) for row in own):
+                own += resets
+            made[heard] = _port_modes(sorted(own, key=_order)[:_MOST_CHANGES])
+        modes[port] = made[heard]
+    return modes
 
 
 def _order(row: _Row) -> tuple[int, int, int, int]:

@@ -6,7 +6,7 @@ Yamaha MU80 and MU100 (XG), MMA RP-024 (General MIDI 2). The reader is not used.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from random import Random
 
 QUARTER = 480
@@ -298,6 +298,11 @@ def _file(random: Random, parts: list[Part], common: list[tuple[int, bytes, int]
         return _header(0, 1) + _track(random, rows, running)
     tracks = []
     together: dict[str, list[Part]] = {}
+    for part in list(parts):
+        # Bass drum, snare drum and cymbals in tracks of their own, one of which sets the channel up.
+        if part.kind == "drums" and part.name != "turncoat" and random.random() < 0.3:
+            parts.append(replace(part, notes=part.notes[1::2], setup=[], name=random.choice(DRUM_NAMES), heard=[]))
+            part.notes = part.notes[::2]
     for place, part in enumerate(parts):
         together.setdefault(part.name if part.name == "turncoat" else f"{place} {part.name}", []).append(part)
     for own in together.values():

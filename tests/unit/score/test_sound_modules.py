@@ -136,6 +136,10 @@ def test_a_port_has_its_own_programs_and_modes() -> None:
     assert found(rhythm_1, *both)[:2] == (0, 8)
     assert found(port_1 + rhythm_1, *both)[:2] == (4, 4)
     assert found(port_0 + rhythm_1_b, *both)[:2] == (4, 4)
+    # A module with two ports is reset at one of them; settings without a device's name are for what has one.
+    effects = bytes([0, 0xB0, 0, 64]) + trumpet + tune
+    assert found(port_0 + XG_ON, port_0 + trumpet + tune, port_1 + effects)[2] == ["score.sound_effect"]
+    assert found(port_0 + rhythm_1, port_0 + meta(9, b"SC-88") + trumpet + tune, port_1 + trumpet + tune)[:2] == (4, 4)
 
 
 def test_sounds_of_kits_have_the_numbers_of_general_midi() -> None:
