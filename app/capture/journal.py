@@ -27,6 +27,7 @@ import msgspec
 from app.errors import FileError
 from app.formats.files import cannot_write, read_file
 from app.formats.locks import lock
+from app.score.sounding import Sounding, note_off
 
 VERSION: Final = 1
 _LENGTHS: Final = {0x8: 3, 0x9: 3, 0xA: 3, 0xB: 3, 0xC: 2, 0xD: 2, 0xE: 3}
@@ -307,18 +308,13 @@ def _ended(journal: Journal) -> tuple[Sequence[int], Sequence[bytes]]:
     events = [(ns, message) for ns, message in zip(journal.times_ns, journal.messages, strict=True)]
     lost = [(lost_ns, None) for lost_ns, _ in journal.gaps]
     found: list[tuple[int, bytes]] = []
-    held: dict[tuple[int, int], int] = {}
+    sounding: Sounding[None] = Sounding()
     for ns, message in merge(events, lost, key=lambda event: event[0]):
         if message is None:
-            for (channel, note), count in held.items():
-                found += [(ns, bytes((0x80 | channel, note, 0)))] * count
-            held.clear()
-            continue
-        if message[0] >> 4 in (0x8, 0x9):
-            begins = message[0] >> 4 == 0x9 and message[2] > 0
-            key = message[0] & 0x0F, message[1]
-            held[key] = max(held.get(key, 0) + (1 if begins else -1), 0)
-        found.append((ns, message))
+            found += [(ns, note_off(key)) for key, _ in sounding.end_all()]
+        else:
+            sounding.receive(message, None)
+            found.append((ns, message))
     return [ns for ns, _ in found], [message for _, message in found]
 
 

@@ -48,6 +48,7 @@ from app.errors import AppError, Message
 from app.project.edit.takes import add_takes, comp
 from app.project.journals import journal_path, journals_of
 from app.project.model import Project
+from app.score.sounding import Sounding
 from app.score.take import ControllerMapping, Take, decoded, is_wired, said
 from metadata.load import load_controllers, recognised_controller
 from metadata.model import Controller
@@ -130,6 +131,7 @@ class Recorder(QObject):
         self.make_playback = make_playback
         self._link: RecorderLink | None = None
         self._live = LivePlayer(session, self.recorded_player, self)
+        self._sounding: Sounding[None] = Sounding()
         self._running: _Running | None = None
         self._adopting: dict[str, _Running] = {}
         self._adopted: dict[Path, Take] = {}
@@ -170,8 +172,7 @@ class Recorder(QObject):
         assert self._link is not None
         self._settings.midi_port = port
         self._state.set(port=port, connection="waiting" if port else "none", refusal=None)
-        self._state.set_played(0.0, None)
-        self._live.silence()
+        self._silence()
         self._know(port)
         self._link.open(port or None)
 
@@ -243,8 +244,7 @@ class Recorder(QObject):
                     self._session.notice(Message("record.device_back", {"device": reported.port}))
             case Lost():
                 state.set(connection="lost")
-                state.set_played(0.0, None)
-                self._live.silence()
+                self._silence()
                 id = "record.device_lost_running" if state.running else "record.device_lost"
                 self._session.notice(Message(id, {"device": reported.port}), Severity.WARNING)
             case Refused():
@@ -282,19 +282,22 @@ class Recorder(QObject):
 
     def _on_received(self, events: Events) -> None:
         wiring = self._state.wiring
-        breath, pitch = self._state.breath, self._state.pitch
+        breath = self._state.breath
         for ns, raw in zip(events.times_ns, events.messages, strict=True):
             message = decoded(raw.hex())
             if message is None or not is_wired(message, wiring):
                 continue
-            if message.type == "note_on" and message.velocity:
-                pitch = message.note
-            elif message.type in ("note_on", "note_off") and message.note == pitch:
-                pitch = None
+            self._sounding.receive(raw, None)
             breath = next((value for kind, value in said(message, wiring) if kind == "breath"), breath)
             self._live.report(ns / 1e9, raw.hex(), wiring)
-        self._state.set_played(breath, pitch)
+        self._state.set_played(breath, next((pitch for _, pitch in reversed(self._sounding.notes)), None))
         self._state.received.emit(events)
+
+    def _silence(self) -> None:
+        """Nothing is played any more: the device is gone or another."""
+        self._sounding.end_all()
+        self._state.set_played(0.0, None)
+        self._live.silence()
 
     # A take
 

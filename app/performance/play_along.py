@@ -26,7 +26,8 @@ from app.performance.live_hands import FRAMES, LiveHands
 from app.performance.live_help import LiveHelp
 from app.plan.model import AdditiveEvent, PoseEvent
 from app.score.bend_range import BendRanges
-from app.score.take import SILENCING, ControllerMapping, decoded, is_wired, said
+from app.score.sounding import SILENCING, Sounding, begins
+from app.score.take import ControllerMapping, decoded, is_wired, said
 from instrument_maps.model import Fingering
 from metadata.load import load_expressions
 from metadata.model import Expression
@@ -70,8 +71,9 @@ class PlayAlong:
         self._poses, self._at_s = playing.layers.poses, -math.inf
         self._additive = playing.additive
         self._held: dict[int, int] = {}
+        """Pitches that are held with their velocities, in the order they began."""
+        self._received: Sounding[None] = Sounding()
         self._ranges = BendRanges()
-        """Notes that are held with their velocities, in the order they began."""
         self._ended_s = -math.inf
         self._now_s = -math.inf
 
@@ -126,6 +128,7 @@ class PlayAlong:
         """Nothing is played any more: the controller was taken away, or asks for silence."""
         now_s = self._time(time_s)
         self._held.clear()
+        self._received.end_all()
         self._ended_s = now_s
         self._hands.rest(now_s)
         self._breath.rest(now_s)
@@ -157,12 +160,18 @@ class PlayAlong:
         message = decoded(raw)
         if message is None or not is_wired(message, wiring):
             return False
-        if message.type == "note_on" and message.velocity:
+        data = bytes.fromhex(raw)
+        ended = self._received.receive(data, None)
+        if begins(data):
             self.note_on(time_s, message.note, message.velocity)
-        elif message.type in ("note_on", "note_off"):
-            self.note_off(time_s, message.note)
-        elif message.type == "control_change" and message.control in SILENCING:
+        elif message.type == "control_change" and message.control in SILENCING and not self._received.notes:
             self.all_off(time_s)
+        else:
+            # Of a pitch that two channels sound, the first end is none yet.
+            held = {pitch for _, pitch in self._received.notes}
+            for (_, pitch), _ in ended:
+                if pitch not in held:
+                    self.note_off(time_s, pitch)
         for kind, value in said(message, wiring, self._ranges):
             if kind == "breath":
                 self.breath(time_s, value)

@@ -5,7 +5,9 @@ tracks of format 1 sound together; the patterns of format 2 follow one another i
 where the one before ends, with the tempo it left.
 
 What a note is: a note-on with velocity 0 is a note-off. A note-off ends the *oldest* note of its pitch and channel
-that still sounds (first in, first out), so notes of one pitch may overlap. A note-off and a note-on at one tick are two
+that still sounds (first in, first out), so notes of one pitch may overlap. Only where a channel would be one melody
+but for notes that sound on below whole others so, a note ends where its pitch is struck again: a wind controller has
+struck it without having ended it. A note-off and a note-on at one tick are two
 notes in a row. A note of no length lasts one tick.
 
 A note that no note-off ends lasts until the next note of its channel begins, and four quarters at most: a lost note-off

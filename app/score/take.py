@@ -19,14 +19,13 @@ import numpy.typing as npt
 from app.identity_cache import IdentityCache
 from app.score.bend_range import PARAMETERS, USUAL_SEMITONES, BendRanges
 from app.score.model import CurveKind
+from app.score.sounding import Sounding
 from app.score.tempo import TempoMap
 from metadata.model import BiteSource, BreathSource
 
 Floats: TypeAlias = npt.NDArray[np.float64]
 Ints: TypeAlias = npt.NDArray[np.int64]
 
-SILENCING: Final = (120, 123)
-"""Controllers that end all notes: all sound off, all notes off."""
 _BEND_RANGE = 8192
 
 
@@ -180,7 +179,7 @@ _PLAYED: Final[IdentityCache[Played]] = IdentityCache(64)
 def _played(times_us: tuple[int, ...], messages: tuple[str, ...], wiring: ControllerMapping, end_us: int) -> Played:
     """Decode a take; messages that say nothing of notes, breath or lips are passed over."""
     notes: list[tuple[float, float, int, int]] = []
-    sounding: dict[int, tuple[float, int]] = {}
+    sounding: Sounding[tuple[float, int]] = Sounding()
     sent: dict[CurveKind, tuple[list[float], list[float]]] = {}
     ranges = BendRanges()
     for time_us, raw in zip(times_us, messages, strict=True):
@@ -188,16 +187,9 @@ def _played(times_us: tuple[int, ...], messages: tuple[str, ...], wiring: Contro
         if message is None or not is_wired(message, wiring):
             continue
         time_s = time_us / 1e6
-        kind = message.type
-        if kind in ("note_on", "note_off"):
-            if message.note in sounding:
-                onset_s, velocity = sounding.pop(message.note)
-                notes.append((onset_s, time_s, message.note, velocity))
-            if kind == "note_on" and message.velocity:
-                sounding[message.note] = (time_s, message.velocity)
-        elif kind == "control_change" and message.control in SILENCING:
-            notes += [(onset_s, time_s, pitch, velocity) for pitch, (onset_s, velocity) in sounding.items()]
-            sounding.clear()
+        data = bytes.fromhex(raw)
+        ended = sounding.receive(data, (time_s, data[-1]))
+        notes += [(onset_s, time_s, pitch, velocity) for (_, pitch), (onset_s, velocity) in ended]
         for curve, value in said(message, wiring, ranges):
             times, values = sent.setdefault(curve, ([], []))
             if times and times[-1] == time_s:
@@ -206,7 +198,8 @@ def _played(times_us: tuple[int, ...], messages: tuple[str, ...], wiring: Contro
                 times.append(time_s)
                 values.append(value)
     end_s = end_us / 1e6
-    notes += [(onset_s, max(end_s, onset_s), pitch, velocity) for pitch, (onset_s, velocity) in sounding.items()]
+    held = sounding.end_all()
+    notes += [(onset_s, max(end_s, onset_s), pitch, velocity) for (_, pitch), (onset_s, velocity) in held]
     notes.sort()
     columns = np.array(notes, np.float64).reshape(-1, 4)
     return Played(

@@ -5,7 +5,7 @@ from __future__ import annotations
 from bisect import bisect_right
 from collections import deque
 from collections.abc import Collection, Iterable, Mapping, Sequence
-from itertools import compress
+from itertools import compress, pairwise
 from operator import itemgetter
 from typing import Any, Final, Literal, TypeAlias
 
@@ -37,6 +37,8 @@ _LONGEST_EXCLUSIVE: Final = 256
 """Bytes of a message to a sound module; longer ones are dumps of its memory."""
 _SOUND_MODULES: Final = frozenset((0x41, 0x43, 0x7E))
 """Roland, Yamaha, and what all makers share."""
+_MOST_TOGETHER: Final = 0.05
+"""Of a melody, the share of its notes that covers others: legato and short wrong notes of a wind controller."""
 _TRACKS_NAMED: Final = 8
 """Of a file without notes so many tracks are named."""
 
@@ -174,6 +176,7 @@ def gather(messages: Iterable[Any], begin_tick: int, most_unended_ticks: int) ->
     events = TrackEvents()
     sounding: dict[int, dict[int, deque[int]]] = {}
     silenced: dict[int, dict[int, int]] = {}
+    struck_again: set[int] = set()
     channels = events.channels
     tick = begin_tick
     number = 0
@@ -190,7 +193,10 @@ def gather(messages: Iterable[Any], begin_tick: int, most_unended_ticks: int) ->
             if notes is None:
                 notes = channels[channel] = ChannelNotes()
                 sounding[channel], silenced[channel] = {}, {}
-            sounding[channel].setdefault(pitch, deque()).append(len(notes.pitches))
+            same_pitch = sounding[channel].setdefault(pitch, deque())
+            if same_pitch:
+                struck_again.add(channel)
+            same_pitch.append(len(notes.pitches))
             notes.onset_ticks.append(tick)
             notes.end_ticks.append(-1)
             notes.pitches.append(pitch)
@@ -215,6 +221,8 @@ def gather(messages: Iterable[Any], begin_tick: int, most_unended_ticks: int) ->
     for channel, notes in channels.items():
         if min(notes.end_ticks) < 0:
             events.hanging += _end_unended(notes, silenced[channel], most_unended_ticks, tick)
+    for channel in struck_again:
+        _end_where_struck_again(channels[channel])
     _close(events)
     return events
 
@@ -318,6 +326,49 @@ def _end_unended(notes: ChannelNotes, silenced: Mapping[int, int], most_ticks: i
             values = getattr(notes, name)
             values[:] = [value for index, value in enumerate(values) if index not in doubled]
     return count
+
+
+def _end_where_struck_again(notes: ChannelNotes) -> None:
+    """Let notes of one pitch that overlap follow one another, where that alone makes the channel one melody.
+
+    A wind controller may strike a note again without having ended it, and end it twice later. First in, first out, the
+    second one would then sound below whole other notes.
+    """
+    onsets, ends = notes.onset_ticks, notes.end_ticks
+    of_pitch: dict[int, list[int]] = {}
+    for index, pitch in enumerate(notes.pitches):
+        of_pitch.setdefault(pitch, []).append(index)
+    followed = list(ends)
+    for places in of_pitch.values():
+        offs = sorted(ends[index] for index in places)
+        for index, again in pairwise(places):
+            if onsets[index] == onsets[again]:
+                # A unison of two players.
+                return
+        for index, again in pairwise([*places, -1]):
+            if ends[index] > onsets[index]:
+                first_off = offs[bisect_right(offs, onsets[index])]
+                followed[index] = first_off if again < 0 else min(first_off, onsets[again])
+    swallowed, together = _covered(notes, ends)
+    swallowed_then, together_then = _covered(notes, followed)
+    sounding = sum(followed) - sum(onsets)
+    if swallowed_then < swallowed and together_then < together and together_then <= _MOST_TOGETHER * sounding:
+        ends[:] = followed
+
+
+def _covered(notes: ChannelNotes, ends: Sequence[int]) -> tuple[int, int]:
+    """Count the notes that lie wholly within one of another pitch, and the ticks of notes that such a one covers."""
+    swallowed = together = 0
+    longest: dict[int, int] = {}
+    """The latest end so far, of the two pitches that end last."""
+    for onset, end, pitch in zip(notes.onset_ticks, ends, notes.pitches, strict=True):
+        other = max((until for known, until in longest.items() if known != pitch), default=onset)
+        swallowed += other >= end
+        together += max(min(other, end) - onset, 0)
+        longest[pitch] = max(end, longest.get(pitch, end))
+        if len(longest) > 2:
+            del longest[min(longest, key=longest.__getitem__)]
+    return swallowed, together
 
 
 def _close(events: TrackEvents) -> None:

@@ -10,6 +10,7 @@ from typing import Final
 import mido
 
 from app.formats.atomic import atomic_write
+from app.score.sounding import Sounding, begins, is_note, note_off
 
 TICKS_PER_QUARTER: Final = 960
 _PLAYED_EARLY_S: Final = 0.25
@@ -28,7 +29,7 @@ def write_take(
     """Write what was played from time 0 on; the number of notes.
 
     Of what was before that stays how the controllers stood, and notes played a little early or still held, which begin
-    at 0. Notes that are held at the end end with it.
+    at 0. Notes that are held at the end end with it, and one that is struck again ends there: it is a wind instrument.
 
     Parameters
     ----------
@@ -49,8 +50,7 @@ def write_take(
         ``file.cannot_write`` (file, reason).
     """
     last_us = max(end_us or 0, times_us[-1] if times_us else 0, 0)
-    played = ended(times_us, [mido.Message.from_bytes(data) for data in messages], last_us)
-    played = from_zero(played)
+    played = from_zero(ended(times_us, messages, last_us))
     ticks_per_us = TICKS_PER_QUARTER * beats_per_minute / 60e6
     file = mido.MidiFile(type=1, ticks_per_beat=TICKS_PER_QUARTER, charset="utf-8")
     conductor, track = mido.MidiTrack(), mido.MidiTrack()
@@ -71,21 +71,21 @@ def write_take(
     return sum(_begins(message) for _, message in played)
 
 
-def ended(times_us: Sequence[int], messages: Sequence[mido.Message], last_us: int) -> list[tuple[int, mido.Message]]:
-    """The messages with their times, ends without a begin left out, and an end at last for every note without."""
-    found: list[tuple[int, mido.Message]] = []
-    held: dict[tuple[int, int], int] = {}
+def ended(times_us: Sequence[int], messages: Sequence[bytes], last_us: int) -> list[tuple[int, mido.Message]]:
+    """The messages with their times, and exactly one end for every note: where it is struck again too, and at last for
+    those without; ends without a begin are left out."""
+    found: list[tuple[int, bytes]] = []
+    sounding: Sounding[None] = Sounding()
     for time_us, message in zip(times_us, messages, strict=True):
-        if message.type in ("note_on", "note_off"):
-            key = (message.channel, message.note)
-            count = held.get(key, 0) + (1 if _begins(message) else -1)
-            if count < 0:
-                continue
-            held[key] = count
+        ends = [key for key, _ in sounding.receive(message, None)]
+        if is_note(message) and not begins(message):
+            if ends:
+                found.append((time_us, message))
+            continue
+        found += [(time_us, note_off(key)) for key in ends]
         found.append((time_us, message))
-    for (channel, note), count in held.items():
-        found += [(last_us, mido.Message("note_off", channel=channel, note=note))] * count
-    return found
+    found += [(last_us, note_off(key)) for key, _ in sounding.end_all()]
+    return [(time_us, mido.Message.from_bytes(message)) for time_us, message in found]
 
 
 def from_zero(played: Sequence[tuple[int, mido.Message]]) -> list[tuple[int, mido.Message]]:

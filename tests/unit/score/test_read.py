@@ -385,6 +385,17 @@ def test_a_note_that_is_ended_where_it_is_struck_again_lasts_until_then() -> Non
     assert [warning.arguments["count"] for warning in score.warnings if warning.id == "midi.hanging_notes"] == [1]
 
 
+def test_a_note_struck_again_and_ended_twice_is_no_drone_below_a_melody() -> None:
+    # What a wind controller sends: 62 is struck again without an end, and ended once more after 64.
+    melody = bytes([0, 0x90, 62, 64, 48, 62, 64, 48, 62, 0, 48, 64, 64, 48, 64, 0])
+    score = one_track(melody + bytes([48, 62, 0]))
+    assert notes_of(score) == [(0, 48, 62), (48, 48, 62), (144, 48, 64)]
+    assert len(score.parts) == 1
+    # Below a second voice it may well be one: first in, first out.
+    chord = bytes([0, 67, 64, 0, 69, 64, 48, 67, 0, 0, 69, 0, 48, 62, 0])
+    assert (48, 240, 62) in notes_of(one_track(melody + chord))
+
+
 def test_a_note_struck_twice_at_once_and_ended_once_is_one() -> None:
     score = one_track(bytes([0, 0x90, 60, 64, 0, 60, 64, 48, 60, 0]) + note(62))
     assert notes_of(score) == [(0, 48, 60), (48, 48, 62)]

@@ -81,7 +81,25 @@ def test_our_own_reader_reads_it(tmp_path: Path) -> None:
 
 def test_held_notes_end_with_the_take(tmp_path: Path) -> None:
     _, file = file_of(tmp_path, [(0.0, on(60)), (0.5, on(62)), (1.0, off(62))], end_s=2.0)
-    assert played(file)[-1] == (2.0, "803C40")
+    assert played(file)[-1] == (2.0, "803C00")
+
+
+AGAIN = [(0.0, on(60)), (0.5, off(60)), (1.0, on(62)), (1.5, on(62)), (2.0, off(62)), (2.5, on(64)), (3.0, off(64))]
+"""A note is struck again before its end, and ended once more than it sounds: four notes of half a second."""
+
+
+def test_a_note_that_is_struck_again_ends_there(tmp_path: Path) -> None:
+    count, file = file_of(tmp_path, [*AGAIN, (4.0, off(62))], end_s=5.0, name="Trumpet")
+    assert count == 4
+    assert played(file)[3:5] == [(1.5, "803E00"), (1.5, "903E50")]
+    (part,) = read_midi(tmp_path / "take.mid", maps=MAPS).parts
+    assert [(note.pitch, note.duration_tick) for note in part.notes] == [(pitch, 960) for pitch in (60, 62, 62, 64)]
+
+
+def test_all_notes_off_ends_the_notes_of_its_channel(tmp_path: Path) -> None:
+    other = bytes([0x91, 60, 80])
+    _, file = file_of(tmp_path, [(0.0, on(60)), (0.1, other), (1.0, bytes([0xB0, 123, 0]))], end_s=2.0)
+    assert played(file)[2:] == [(1.0, "803C00"), (1.0, "B07B00"), (2.0, "813C00")]
 
 
 def test_an_end_without_a_begin_is_left_out(tmp_path: Path) -> None:
