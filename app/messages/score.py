@@ -238,9 +238,9 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         "{part}: no instrument map for {instrument} is available; {map} is used instead",
         "{part}: {instrument} のインストゥルメントマップがないため、{map} で代用します",
     ),
-    "score.instrument_from_file_name": (
-        "{part}: the instrument cannot be determined from name or program; {map} was chosen from the file name",
-        "{part}: 名前やプログラム番号から楽器を判定できないため、ファイル名から {map} を選びました",
+    "score.instrument_from_title": (
+        "{part}: the instrument cannot be determined from name or program; {map} was chosen from the title",
+        "{part}: 名前やプログラム番号から楽器を判定できないため、曲名から {map} を選びました",
     ),
     "score.chosen_by_range": (
         "{part}: the instrument cannot be determined from name or program; {map} was chosen by range",

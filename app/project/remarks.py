@@ -2,13 +2,19 @@
 
 from __future__ import annotations
 
+from typing import Final
+
 from app.errors import Message
 from app.messages import text
 
 
+_RENAMED: Final = {"score.instrument_from_file_name": "score.instrument_from_title"}
+"""Ids of older versions, and what says the same now."""
+
+
 def sayable(message: Message) -> Message:
     """The message itself where it can be worded, else ``project.unknown_remark`` (remark), which names it."""
-    message = _placed(message)
+    message = _placed(Message(_RENAMED.get(message.id, message.id), message.arguments))
     try:
         text(message)
     except (KeyError, IndexError, ValueError, TypeError, AttributeError):

@@ -1,4 +1,4 @@
-"""Which instrument map plays a track: what its names, its program or the file's name say, then the range of its notes.
+"""Which instrument map plays a track: what its names, its program or the piece's title say, then the range of its notes.
 
 An exact entry of the vocabulary goes before its kind: a part for the clarinet in A goes to the map of the clarinet in
 A, else to that of a clarinet; one for a recorder to the size its notes fit.
@@ -68,7 +68,7 @@ class TrackChannel(msgspec.Struct, frozen=True):
     onset_ticks, end_ticks, pitches, velocities, numbers : list of int
         One entry per note, by onset; ``numbers`` is the note's place among the track's note-ons, from 1.
     reported : tuple of str
-        Of a track that says nothing itself: ids of the instruments that the file's name says it may be for.
+        Of a track that says nothing itself: ids of the instruments that the piece's title says it may be for.
     played_on : str
         Id of the instrument that its player changes to for these notes (`app.score.doublings`); empty: that of the
         track.
@@ -149,8 +149,8 @@ class How(Enum):
 
     SAID = "said"
     """Its names or its program."""
-    FILE = "file"
-    """The file's name."""
+    TITLE = "title"
+    """The title of the piece, as the file holds it; what the file is called says nothing."""
     RANGE = "range"
     """Nothing but its notes."""
 
@@ -215,7 +215,7 @@ def require_map(map_id: str, known: Collection[str]) -> str:
 
 
 def recognised(stream: TrackChannel) -> Instrument | None:
-    """The instrument that a track's names or numbers, or else the file's name, give to it; None if they give none."""
+    """The instrument that a track's names or numbers, or else the title, give to it; None if they give none."""
     said = _said(stream)
     return vocabulary().instruments[stream.reported[0]] if said is None and len(stream.reported) == 1 else said
 
@@ -276,8 +276,8 @@ def _said(stream: TrackChannel) -> Instrument | None:
     return numbered if says_more else vague
 
 
-def named_by_file(streams: Sequence[TrackChannel], title: str) -> list[TrackChannel]:
-    """Give the winds that a file's name or title names to the tracks that say nothing themselves.
+def named_by_title(streams: Sequence[TrackChannel], title: str) -> list[TrackChannel]:
+    """Give the winds that a piece's title names to the tracks that say nothing themselves.
 
     As many as there are such tracks go to them in their order ("oboe and bassoon"); else each of them may be any of
     those named, as its notes fit. A section alone ("brass quintet") leaves it to them who of the section plays.
@@ -301,13 +301,13 @@ def candidates(streams: Sequence[TrackChannel], maps: Sequence[MapChoice]) -> Ca
     reported = dict.fromkeys(id for stream in streams for id in stream.reported) if said is None else {}
     pitches = [pitch for stream in streams for pitch in stream.pitches]
     named = [vocabulary().instruments[id] for id in reported]
-    found = [_of_instrument(How.FILE, one, maps) for one in named if not one.any_pitch]
+    found = [_of_instrument(How.TITLE, one, maps) for one in named if not one.any_pitch]
     fitting = [one for one in found if any(_share(pitches, choice) > _NEEDED_SHARE for choice in one.maps)]
     if len(fitting) == 1:
         return fitting[0]
     if fitting:
         together = {choice.map_id: choice for one in fitting for choice in one.maps}
-        return Candidates(How.FILE, None, tuple(together.values()))
+        return Candidates(How.TITLE, None, tuple(together.values()))
     section = said or next((one for one in named if one.any_pitch), None)
     families = () if section is None else section.families
     usual = _where(maps, lambda one: not one.by_name_only and (not families or one.family in families))

@@ -29,8 +29,8 @@ Those about notes name the first of them: ``place``, its position as `MetreMap.l
 
 score.substituted : part, instrument, map
     "{part}: there is no instrument map for {instrument}; {map} plays it instead"
-score.instrument_from_file_name : part, map
-    "{part}: neither its name nor its program says what it is; the file's name does, so {map} plays it"
+score.instrument_from_title : part, map
+    "{part}: neither its name nor its program says what it is; the title does, so {map} plays it"
 score.chosen_by_range : part, map
     "{part}: neither its name nor its program says what it is; {map} plays it because the range fits"
 score.chosen_by_range_partly : part, map, outside, total, place, pitch
@@ -314,8 +314,8 @@ def _instrument_warnings(
         return warnings
     if found.how is How.RANGE:
         return [*warnings, *(_range_warning(part, maps, piece) for part in parts)]
-    if found.how is How.FILE:
-        warnings.append(Message("score.instrument_from_file_name", {"part": parts[0].name, "map": parts[0].map_id}))
+    if found.how is How.TITLE:
+        warnings.append(Message("score.instrument_from_title", {"part": parts[0].name, "map": parts[0].map_id}))
     if found.instrument is not None:
         warnings += _substitutions(parts, found.instrument, maps)
     return warnings

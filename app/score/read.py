@@ -71,7 +71,7 @@ import msgspec
 from app.encoding import shown
 from app.errors import FileError, Message
 from app.score.channels import curves_of, leading, players_channels, settle_bends, sounding_channels
-from app.score.choose import MapChoice, TrackChannel, named_by_file, use_of
+from app.score.choose import MapChoice, TrackChannel, named_by_title, use_of
 from app.score.chunks import Container, Track, read_container
 from app.score.doublings import doubled_instruments
 from app.score.limits import MOST_NAME, MOST_STREAMS, too_long
@@ -241,13 +241,13 @@ def read_contents(path: Path, *, encoding: str | None = None) -> MidiContents:
     texts = _texts(tracks, encoding)
     streams = _streams(tracks, settle_bends(tracks), texts)
     _require_few(len(streams), str(path))
-    stem = shown(path.stem)
+    title = _title(tracks, texts)
     return MidiContents(
-        title=_title(tracks, texts) or stem,
+        title=title or shown(path.stem),
         tempo_map=tempo_map,
         metres=metres,
         pickup_ticks=pickup_ticks,
-        streams=tuple(named_by_file(streams, stem)),
+        streams=tuple(named_by_title(streams, title)),
         warnings=(*no_notes(tracks, counts, texts), *warnings, *tempo_warnings, *metre_warnings),
         markers=_markers(tracks, texts),
         encoding=texts.encoding,

@@ -17,6 +17,7 @@ from app.score.read import read_contents, read_midi
 from instrument_maps.load import bundled_maps
 from resources.build import arrange_example, compose_dance_example
 from tests.unit.score.midi_bytes import MAPS
+from tests.unit.score.titled import titled_copy
 
 DATA = Path(__file__).parents[2] / "data/midi"
 QUARTET = Path(__file__).parents[3] / "resources/examples/quartet.mid"
@@ -102,8 +103,8 @@ def test_the_lutkin_quartet_waits_for_a_tuba() -> None:
     assert score.warnings == ()
 
 
-def test_pezel_five_part_sonata_in_three_tracks() -> None:
-    score = score_of("brass_quintet_pezel_sonata21")
+def test_pezel_five_part_sonata_in_three_tracks(tmp_path: Path) -> None:
+    score = read_midi(titled_copy(DATA / "ensemble" / "brass_quintet_pezel_sonata21.mid", tmp_path), maps=MAPS)
     by_name = Counter((part.name, part.map_id) for part in score.parts)
     # Two sopranos, one tenor, two basses: that the lower doubles some cadences in octaves makes no sixth.
     assert by_name == {("Sopran", "trumpet"): 2, ("Tenor", "trombone"): 1, ("Bass", "trombone"): 2}
@@ -111,9 +112,9 @@ def test_pezel_five_part_sonata_in_three_tracks() -> None:
     assert means == sorted(means, reverse=True)
 
 
-def test_the_subject_of_the_fugato_stays_with_one_player() -> None:
+def test_the_subject_of_the_fugato_stays_with_one_player(tmp_path: Path) -> None:
     # Bar 8: a line alone in the sopranos' track, leaping a fourth and a fifth; bar 14 the answer, before a chord above.
-    score = score_of("brass_quintet_pezel_sonata21")
+    score = read_midi(titled_copy(DATA / "ensemble" / "brass_quintet_pezel_sonata21.mid", tmp_path), maps=MAPS)
     for bar, subject in ((8, [67, 66, 67, 69, 69, 71, 64, 66, 64, 64, 63]), (14, [66, 64, 66, 67, 67, 69, 62])):
         first, last = score.metre_map.tick_of_bar(bar), score.metre_map.tick_of_bar(bar + (2 if bar == 8 else 1))
         lines = [
@@ -138,7 +139,7 @@ def test_programs_of_the_band_are_kept_by_track_though_channels_are_shared() -> 
     }  # fmt: skip
 
 
-def test_speer_names_voices_only_so_the_file_and_ranges_decide() -> None:
+def test_speer_names_voices_only_so_the_title_and_ranges_decide() -> None:
     score = score_of("cornets_sackbuts_speer_sonata")
     assert [(part.name, part.map_id) for part in score.parts] == [
         ("Sopran", "trumpet"),
@@ -147,9 +148,7 @@ def test_speer_names_voices_only_so_the_file_and_ranges_decide() -> None:
         ("Tenoru", "trombone"),
         ("Tenoru", "trombone"),
     ]
-    assert (
-        sum(warning.id == "score.instrument_from_file_name" for warning in score.warnings) == 4
-    )  # One for each track.
+    assert sum(warning.id == "score.instrument_from_title" for warning in score.warnings) == 4  # One for each track.
 
 
 def test_the_bundled_quartet_is_what_its_script_makes(tmp_path: Path) -> None:
@@ -219,10 +218,10 @@ WINDS = {
 
 
 @pytest.mark.parametrize(("name", "expected"), WINDS.items(), ids=WINDS)
-def test_every_wind_of_the_ensembles_finds_its_instrument(name: str, expected: list[str]) -> None:
+def test_every_wind_of_the_ensembles_finds_its_instrument(name: str, expected: list[str], tmp_path: Path) -> None:
     own = map_choices(bundled_maps().values())
     missing = {map_id for map_id in expected if not any(choice.map_id.startswith(map_id) for choice in own)}
-    score = read_midi(DATA / "ensemble" / f"{name}.mid", maps=own)
+    score = read_midi(titled_copy(DATA / "ensemble" / f"{name}.mid", tmp_path), maps=own)
     found = [part.map_id for part in score.parts]
     if missing:
         # Parts of an instrument without a map are listed, or played by another instrument with a warning.

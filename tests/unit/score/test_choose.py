@@ -1,7 +1,8 @@
-"""Which map plays a part: keys and sizes of one instrument, names in five languages, what the file's name says."""
+"""Which map plays a part: keys and sizes of one instrument, names in five languages, what the title says."""
 
 from __future__ import annotations
 
+import msgspec
 import pytest
 
 from app.score.choose import MapChoice
@@ -51,10 +52,14 @@ BAND = (
 
 
 def score(
-    *tracks: tuple[str, tuple[int, ...]], stem: str = "piece", maps: tuple[MapChoice, ...] = BAND, program: int = -1
+    *tracks: tuple[str, tuple[int, ...]],
+    title: str = "",
+    stem: str = "piece",
+    maps: tuple[MapChoice, ...] = BAND,
+    program: int = -1,
 ) -> Score:
     """A file of named tracks with these notes."""
-    chunks = [chunk(b"MTrk", END)]
+    chunks = [chunk(b"MTrk", meta(3, title.encode()) + END)]
     for channel, (name, pitches) in enumerate(tracks):
         events = meta(3, name.encode())
         if program >= 0:
@@ -149,24 +154,32 @@ def test_a_key_without_a_map_of_its_own_is_played_by_the_usual_one_and_said_so()
     assert read.warnings[0].arguments["instrument"] == "A Clarinet"
 
 
-def test_a_track_without_any_name_is_what_the_file_is_called() -> None:
-    sax = score(("", (59, 80)), stem="solo_altosax_bach")
+def test_a_track_without_any_name_is_what_the_title_names() -> None:
+    sax = score(("", (59, 80)), title="solo_altosax_bach")
     assert [(part.map_id, part.instrument, part.name) for part in sax.parts] == [
         ("sax_alto_Eb", "alto_saxophone", "Alto Saxophone")
     ]
-    assert [warning.id for warning in sax.warnings] == ["score.instrument_from_file_name"]
-    duo = score(("", (60, 86)), ("", (36, 62)), stem="oboe_bassoon_devienne_sonata2")
+    assert [warning.id for warning in sax.warnings] == ["score.instrument_from_title"]
+    duo = score(("", (60, 86)), ("", (36, 62)), title="oboe_bassoon_devienne_sonata2")
     assert [part.map_id for part in duo.parts] == ["oboe", "bassoon"]
-    mixed = score(("Sopran", (65, 81)), ("Alt", (62, 77)), ("Tenor", (45, 62)), stem="cornets and trombones")
+    mixed = score(("Sopran", (65, 81)), ("Alt", (62, 77)), ("Tenor", (45, 62)), title="cornets and trombones")
     assert [part.map_id for part in mixed.parts] == ["cornet_Bb", "cornet_Bb", "trombone_tenor_F_attachment"]
 
 
-def test_the_files_name_is_ignored_where_a_track_says_something_or_does_not_fit() -> None:
-    assert [part.map_id for part in score(("Oboe", (60, 70)), stem="trumpet").parts] == ["oboe"]
-    (part,) = score(("", (36, 50)), stem="trumpet tune").parts
+@pytest.mark.parametrize("stem", ["solo_altosax_bach", "brass quintet", "トランペット", "percussion", "01 - Tuba"])
+def test_what_the_file_is_called_changes_nothing(stem: str) -> None:
+    tracks = (("", (59, 80)), ("Sopran", (65, 81)), ("Track 3", (36, 62)))
+    read, renamed = score(*tracks), score(*tracks, stem=stem)
+    assert (read.title, renamed.title) == ("piece", stem)
+    assert msgspec.structs.replace(renamed, title=read.title) == read
+
+
+def test_the_title_is_ignored_where_a_track_says_something_or_does_not_fit() -> None:
+    assert [part.map_id for part in score(("Oboe", (60, 70)), title="trumpet").parts] == ["oboe"]
+    (part,) = score(("", (36, 50)), title="trumpet tune").parts
     assert (part.map_id == "trumpet_Bb", part.instrument) == (False, None)
-    # Abbreviations mean nothing in a file's name.
-    assert score(("", (60, 70)), stem="tr ob fl").warnings[0].id == "score.chosen_by_range"
+    # Abbreviations mean nothing in a title.
+    assert score(("", (60, 70)), title="tr ob fl").warnings[0].id == "score.chosen_by_range"
 
 
 def test_a_wide_or_rare_instrument_is_given_to_no_one_by_range_alone() -> None:
@@ -181,7 +194,7 @@ def test_a_section_is_divided_among_its_own() -> None:
     for pitches in ((70, 80), (55, 65), (45, 55), (30, 40)):
         assert {part.map_id for part in score(("Brass", pitches)).parts} <= families
         assert not {part.map_id for part in score(("Woodwinds", pitches)).parts} & families
-        assert {part.map_id for part in score(("Sopran", pitches), stem="brass quintet").parts} <= families
+        assert {part.map_id for part in score(("Sopran", pitches), title="brass quintet").parts} <= families
 
 
 def test_every_wind_sits_somewhere_and_every_sort_is_of_something() -> None:

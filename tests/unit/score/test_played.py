@@ -17,6 +17,7 @@ from app.score.read import assigned_score, read_contents, read_midi
 from instrument_maps.load import bundled_maps
 from tests.support.played import Manner, played
 from tests.unit.score.midi_bytes import END, TROMBONE, TRUMPET, chunk, header, meta, note, score_of
+from tests.unit.score.titled import titled, titled_copy
 
 MIDI = Path(__file__).parents[2] / "data" / "midi" / "ensemble"
 MAPS = map_choices(bundled_maps().values())
@@ -35,9 +36,9 @@ def strays(score: Score) -> int:
 
 @pytest.mark.parametrize("stem", [*TUNED, *KEPT_OUT])
 def test_a_played_file_has_the_players_of_the_engraved_one(stem: str, tmp_path: Path) -> None:
-    engraved = read_midi(MIDI / f"{stem}.mid", maps=MAPS)
-    path = tmp_path / f"{stem}.mid"
-    path.write_bytes(played(MIDI / f"{stem}.mid", seed=1))
+    engraved = read_midi(titled_copy(MIDI / f"{stem}.mid", tmp_path), maps=MAPS)
+    path = tmp_path / "played.mid"
+    path.write_bytes(titled(played(MIDI / f"{stem}.mid", seed=1), stem.replace("_", " ")))
     live = read_midi(path, maps=MAPS)
     assert players(live) == players(engraved)
     # Nothing but key switches is left out of a line, and every slur stays one.
@@ -47,8 +48,8 @@ def test_a_played_file_has_the_players_of_the_engraved_one(stem: str, tmp_path: 
     assert all(lowest <= one.pitch <= highest + 2 for part in live.parts for one in part.notes)
 
 
-def test_a_quintet_in_three_tracks_is_five_players() -> None:
-    score = read_midi(MIDI / "brass_quintet_pezel_sonata21.mid", maps=MAPS)
+def test_a_quintet_in_three_tracks_is_five_players(tmp_path: Path) -> None:
+    score = read_midi(titled_copy(MIDI / "brass_quintet_pezel_sonata21.mid", tmp_path), maps=MAPS)
     assert len(score.parts) == 5
 
 
@@ -176,9 +177,10 @@ def test_a_few_low_notes_do_not_change_a_named_instrument() -> None:
     ids=["overlaps, tempo ramps", "grace notes"],
 )
 def test_what_is_usual_in_played_files_warns_of_nothing(manner: Manner, tmp_path: Path) -> None:
-    path = tmp_path / "solo_trumpet_bach_bist_du_bei_mir.mid"
-    path.write_bytes(played(MIDI / path.name, 3, manner))
+    path = tmp_path / "piece.mid"
+    source = MIDI / "solo_trumpet_bach_bist_du_bei_mir.mid"
+    path.write_bytes(titled(played(source, 3, manner), "Trumpet solo"))
     score = read_midi(path, maps=MAPS)
-    assert {warning.id for warning in score.warnings} <= {"score.instrument_from_file_name"}
+    assert {warning.id for warning in score.warnings} <= {"score.instrument_from_title"}
     assert (score.unplayed, len(score.parts)) == ((), 1)
     assert len(score.tempo_map.changes) > 20
