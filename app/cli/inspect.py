@@ -36,7 +36,7 @@ from app.plan.model import (
 )
 from app.plan.problem_lines import problem_lines
 from app.project.performers import Dancer, Player
-from app.score.model import Note, UnplayedPart
+from app.score.model import Note
 from app.score.mutes import is_muted
 from app.score.tempo import TempoMap
 from instrument_maps.model import InstrumentMap
@@ -117,7 +117,7 @@ def inspection(performance: Performance, *, contacts: bool = True) -> Table:
             ),
         ],
         "unplayed": [
-            {"name": part.name, "reason": _unplayed(part), "note_count": part.note_count} for part in score.unplayed
+            {"name": part.name, "reason": text(part.reason), "note_count": part.note_count} for part in score.unplayed
         ],
         "left_out": [{"player": one.player.name, "reason": text(one.reason)} for one in playable.left_out],
         "players": [
@@ -139,14 +139,6 @@ def _dancer(dancer: Dancer) -> Table:
         "turn_deg": math.degrees(dancer.stage.turn_rad),
         **{field: getattr(dancer, field) for field in ("seed", "delay_beats", "mirrored", "source", "size", "weight")},
     }
-
-
-def _unplayed(part: UnplayedPart) -> str:
-    """Why a part is not played, and what helps."""
-    reason = text(part.reason)
-    if part.reason.id != "score.unknown_instrument":
-        return reason
-    return text(Message("assign.needed", {"part": part.name, "reason": reason}))
 
 
 class _Reasons:

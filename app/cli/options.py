@@ -10,9 +10,10 @@ from typing import Final, TypeVar
 
 import msgspec
 
+from app.cli.assigning import Unassigned, assign_message, part_names, unassigned_parts
 from app.cli.terminal import warn
-from app.encoding import is_encoding
-from app.errors import UsageError
+from app.encoding import is_encoding, shown
+from app.errors import FileError, Message, UsageError
 from app.messages import text as worded
 from app.plan.generate import COME_UP_S, PREROLL_BEATS, PREROLL_LEAST_S
 from app.project import limits
@@ -21,13 +22,13 @@ from app.project.edit.piece import PieceSettings, piece_settings, set_piece_sett
 from app.project.frame_rate import exact_number
 from app.project.frame_rate import frame_rate as typed_rate
 from app.project.importing import ImportRow, import_project, score_of_rows, usual_rows
-from app.project.model import Project, preroll_of_new, with_settings
+from app.project.model import Project, map_choices, preroll_of_new, with_settings
 from app.project.names import unique_names
 from app.project.parameters import parameter_names, parse_settings, select_players
 from app.project.storage import is_project_file, load
 from app.rig.character_library import characters
 from app.score.choose import TrackChannel, require_map
-from app.score.parts import PERCUSSION, stream_name
+from app.score.parts import PERCUSSION
 from app.score.read import MidiContents, read_contents
 from instrument_maps.library import library
 from instrument_maps.model import InstrumentMap
@@ -234,15 +235,22 @@ def add_rate_option(command: argparse.ArgumentParser) -> None:
     )
 
 
-def open_project(arguments: argparse.Namespace) -> Project:
+def open_project(arguments: argparse.Namespace, nobody: str = "") -> Project:
     """The project that a file holds, or a MIDI file with its players cast; what the options say comes on top. What is
-    wrong with the user's own instruments is reported, and those are excluded.
+    wrong with the user's own instruments is reported, and those are excluded; so are the parts of a MIDI file that
+    nothing gives an instrument, with the command that does.
+
+    Parameters
+    ----------
+    nobody : str
+        Message (``file``) of a command that needs players or dancers; empty: it does without.
 
     Raises
     ------
     AppError
         Those of reading, and `UsageError` of what makes no sense, ``project.encoding`` (file),
-        ``project.written`` (file) and ``project.assign`` (file) among them.
+        ``project.written`` (file) and ``project.assign`` (file) among them; `FileError` ``assign.parts`` (file, parts,
+        command) and ``nobody``.
     """
     known = library()
     maps = known.maps
@@ -250,7 +258,14 @@ def open_project(arguments: argparse.Namespace) -> Project:
         warn(worded(problems[0]))
     for problems in metadata_library().problems.values():
         warn(worded(problems[0]))
-    project = _saved_project(arguments) if is_project_file(arguments.file) else _cast_project(arguments, maps)
+    project, unassigned = _opened(arguments, maps)
+    if nobody and not project.performers:
+        refused = Message(nobody, {"file": shown(arguments.file)})
+        if unassigned:
+            refused = assign_message(arguments, unassigned)
+        raise FileError(refused.id, **refused.arguments)
+    if unassigned:
+        warn(worded(assign_message(arguments, unassigned)))
     settings = parse_settings(
         arguments.settings, [player.name for player in project.players], maps, tuple(characters())
     )
@@ -292,13 +307,17 @@ def _saved_project(arguments: argparse.Namespace) -> Project:
     return load(arguments.file)
 
 
-def _cast_project(arguments: argparse.Namespace, maps: Mapping[str, InstrumentMap]) -> Project:
+def _opened(arguments: argparse.Namespace, maps: Mapping[str, InstrumentMap]) -> tuple[Project, tuple[Unassigned, ...]]:
+    """The project of a file, and the parts that nothing gives an instrument."""
+    if is_project_file(arguments.file):
+        return _saved_project(arguments), ()
     contents = read_contents(arguments.file, encoding=arguments.encoding)
     rows = _assigned(contents.streams, usual_rows(contents, maps), arguments.assign, list(maps))
+    unassigned = unassigned_parts(contents.streams, rows, map_choices(maps.values()))
     if arguments.written:
         rows = _written(contents, rows, arguments.written, maps)
     seed = getattr(arguments, "seed", None) or 0
-    return import_project(contents, rows, maps, encoding=arguments.encoding, seed=seed)
+    return import_project(contents, rows, maps, encoding=arguments.encoding, seed=seed), unassigned
 
 
 def _written(
@@ -326,7 +345,7 @@ def _assigned(
     UsageError
         ``assign.malformed`` (assignment), ``assign.instrument_unknown`` (instrument, possible), ``player.unknown``.
     """
-    names = unique_names(stream_name(streams[row.assignment.streams[0]]) for row in rows) if texts else []
+    names = part_names(streams, rows) if texts else ()
     assigned = list(rows)
     for text in texts:
         part, equals, map_id = (piece.strip() for piece in text.rpartition("="))

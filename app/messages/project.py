@@ -86,9 +86,15 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         "instrument {instrument!r} was not found; available: {possible}",
         "楽器 {instrument!r} が見つかりません。使える楽器: {possible}",
     ),
-    "assign.needed": (
-        "{reason} with --assign '{part}=INSTRUMENT'",
-        "{reason}。--assign '{part}=INSTRUMENT' で指定できます",
+    "assign.parts": (
+        (
+            "{file}: nothing says which instruments play {parts}; assign them, for example: {command} "
+            "(`suisou instruments` lists the instruments)"
+        ),
+        (
+            "{file}: {parts} の楽器が分かりません。たとえば次のように割り当ててください: {command}"
+            "（楽器は `suisou instruments` で一覧できます）"
+        ),
     ),
     "project.encoding": (
         "--encoding sets how the texts of a MIDI file are read, but {file} is a project; leave it out",

@@ -7,9 +7,9 @@ from typing import Final
 from app.errors import Message
 from app.messages import text
 
-
-_RENAMED: Final = {"score.instrument_from_file_name": "score.instrument_from_title"}
-"""Ids of older versions, and what says the same now."""
+_FORMER: Final = ".".join(("score", "instrument_from_file_name"))
+_RENAMED: Final = {_FORMER: "score.instrument_from_title"}
+"""Ids of older versions, which have no words any more, and what says the same now."""
 
 
 def sayable(message: Message) -> Message:

@@ -1,4 +1,4 @@
-"""Which instrument map plays a track: what its names, its program or the piece's title say, then the range of its notes.
+"""Chooses the instrument map of a track: by its names, its program or the piece's title, then by its range.
 
 An exact entry of the vocabulary goes before its kind: a part for the clarinet in A goes to the map of the clarinet in
 A, else to that of a clarinet; one for a recorder to the size its notes fit.

@@ -276,7 +276,9 @@ def test_awkward_files_open(run: Run, path: Path) -> None:
     # All motion of ten minutes of an orchestra is not what is asked for here.
     long = path.stat().st_size > 20_000
     status, out, err = run("inspect", path, "--json", *(["--no-contacts"] if long else ["--fps", "24"]))
-    assert (status, err) == (0, "")
+    assert status == 0
+    # Nothing but which parts have no instrument.
+    assert all("nothing says which instruments play" in line for line in err.splitlines())
     json.loads(out)
 
 

@@ -1,0 +1,84 @@
+"""Parts of a MIDI file of which nothing says what plays them, and the command line that gives them instruments."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import re
+import shlex
+import subprocess
+from collections.abc import Sequence
+from typing import Final, NamedTuple
+
+from app.encoding import shown
+from app.errors import Message
+from app.project.importing import ImportRow
+from app.project.names import unique_names
+from app.score.choose import How, MapChoice, TrackChannel, candidates, use_of
+from app.score.parts import stream_name
+
+_SPECIAL: Final = re.compile(r'["$`\\!]')
+"""Characters that mean something between double quotes."""
+
+
+class Unassigned(NamedTuple):
+    """A part whose instrument is unknown: not played, or played by what its range fits.
+
+    Attributes
+    ----------
+    part : str
+        What ``--assign`` calls it.
+    map_id : str
+        The instrument whose range it fits best.
+    """
+
+    part: str
+    map_id: str
+
+
+def unassigned_parts(
+    streams: Sequence[TrackChannel], rows: Sequence[ImportRow], maps: Sequence[MapChoice]
+) -> tuple[Unassigned, ...]:
+    """The parts that neither the file nor the user gives an instrument, in the order of the file."""
+    found = []
+    for row, name in zip(rows, part_names(streams, rows), strict=True):
+        played = [streams[index] for index in row.assignment.streams]
+        if row.assignment.map_id is None and all(use_of(stream) == "melodic" for stream in played):
+            possible = candidates(played, maps)
+            if possible.how is How.RANGE and possible.maps:
+                pitches = [pitch for stream in played for pitch in stream.pitches]
+                found.append(Unassigned(name, possible.best(pitches).map_id))
+    return tuple(found)
+
+
+def part_names(streams: Sequence[TrackChannel], rows: Sequence[ImportRow]) -> tuple[str, ...]:
+    """Names of the parts for ``--assign``: a row is called like its first stream."""
+    return unique_names(stream_name(streams[row.assignment.streams[0]]) for row in rows)
+
+
+def assign_message(arguments: argparse.Namespace, parts: Sequence[Unassigned]) -> Message:
+    """``assign.parts`` (file, parts, command): which parts, and the command that was given with instruments for them.
+
+    Parameters
+    ----------
+    arguments : Namespace
+        With ``file``, and ``given``, the command line.
+    """
+    added = [word for one in parts for word in ("--assign", f"{one.part}={one.map_id}")]
+    words = list(arguments.given)
+    if getattr(arguments, "piece", None) is not None:
+        # One of a folder, whose other pieces have other parts.
+        words = ["export", os.fspath(arguments.piece), "--to", os.fspath(arguments.to)]
+    named = ", ".join(one.part for one in parts)
+    command = shown(_joined(["suisou", *words, *added]))
+    return Message("assign.parts", {"file": shown(arguments.file), "parts": named, "command": command})
+
+
+def _joined(words: Sequence[str]) -> str:
+    """Words as the shell of this system splits them again."""
+    return subprocess.list2cmdline(words) if os.name == "nt" else " ".join(map(_quoted, words))
+
+
+def _quoted(word: str) -> str:
+    """A word in the quotes that are easiest to read."""
+    return f'"{word}"' if "'" in word and not _SPECIAL.search(word) else shlex.quote(word)
