@@ -86,9 +86,9 @@ def inspection(performance: Performance, *, contacts: bool = True) -> Table:
     playable = attempt(project.players, performance.instrument)
     absent = {one.player.id for one in playable.left_out}
     if contacts:
-        problems = all_problems(performance, project.players)
+        problems, notice = all_problems(performance, project.players)
     else:
-        problems = {player.id: performance.problems(player.id) for player in project.players}
+        problems, notice = {player.id: performance.problems(player.id) for player in project.players}, None
     return {
         "title": score.title,
         "fps": float(project.fps),
@@ -109,6 +109,7 @@ def inspection(performance: Performance, *, contacts: bool = True) -> Table:
         "first_frame_s": performance.time_frame.first_frame_s,
         "warnings": [
             *(text(message) for message in score.warnings),
+            *([] if notice is None else [text(notice)]),
             *(
                 f"{player.name}: {line}"
                 for player in project.players

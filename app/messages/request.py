@@ -113,6 +113,26 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
             "で小節を絞ってください"
         ),
     ),
+    "judged.sparsely": (
+        (
+            "contacts were checked at {rate:g} frames/s only, because the piece lasts {hours:g} hours; export some "
+            "bars to check them at the full rate"
+        ),
+        (
+            "曲の長さが {hours:g} 時間あるため、接触は {rate:g} フレーム/秒だけで調べました。"
+            "一部の小節を書き出すと、すべてのフレームを調べられます"
+        ),
+    ),
+    "judged.not": (
+        (
+            "contacts were not checked: {players} {players:player|players} for {hours:g} hours are too much motion to "
+            "generate here; export some bars to check them"
+        ),
+        (
+            "接触は調べませんでした: 奏者 {players} 人、{hours:g} 時間のモーションは多すぎます。"
+            "一部の小節を書き出して調べてください"
+        ),
+    ),
     "piece.too_long": (
         (
             "the piece would last {hours:g} hours, with {quarters} quarter notes and {bars} bars; the maximum is "

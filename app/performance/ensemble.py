@@ -209,7 +209,8 @@ class Performance:
                 self.metadata.gestures.items,
             )
             self.unseen = dict[str, Message]()
-            self._plans = {player.id: self._in_hands(player, made) for player in self.project.players}
+            turns = dict[str, tuple[str, tuple[Change, ...]]]()
+            self._plans = {player.id: self._in_hands(player, made, turns) for player in self.project.players}
             problems = {}
             for player in self.project.players:
                 # Whether hands reach is found out by posing them: with many players it takes as long as planning.
@@ -239,18 +240,22 @@ class Performance:
             return False
         return True
 
-    def _in_hands(self, player: Player, made: EnsemblePlan) -> PlayerPlan:
-        """A player's plan, empty where there is no instrument; of who plays other instruments too, without what is done
-        while this one lies aside."""
+    def _in_hands(
+        self, player: Player, made: EnsemblePlan, turns: dict[str, tuple[str, tuple[Change, ...]]]
+    ) -> PlayerPlan:
+        """A player's plan, empty without an instrument; of a musician with several, without what is done while this one
+        is put aside. ``turns`` keeps the changes of each musician's instruments."""
         plan = made.plans.get(player.id)
         if plan is None:
             return self._memo.step(f"unplayed:{player.id}", no_events, player.id, self.time_frame)
         played = [one for one in self.project.played_by(player) if one.id in made.plans]
         if len(played) == 1:
             return plan
-        plans = {one.id: made.plans[one.id] for one in played}
-        names = {one.id: one.name for one in played}
-        found = held_plan(plan, first_played(plans), changes(plans), names)
+        musician = played[0].id
+        if musician not in turns:
+            plans = {one.id: made.plans[one.id] for one in played}
+            turns[musician] = first_played(plans), changes(plans)
+        found = held_plan(plan, *turns[musician], {one.id: one.name for one in played})
         # What is as it was is the very same, field by field: motions are compared so.
         parts = {
             name: self._memo.step(f"held:{player.id}:{name}", _same, value)

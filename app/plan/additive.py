@@ -14,7 +14,7 @@ import numpy as np
 from app.errors import Argument, Message
 from app.plan.additive_curve import BODY_CHANNELS, CHANNELS, FACE, AdditiveCurve, CurveKey
 from app.plan.corrections import Correction
-from app.plan.curve_shape import sampled
+from app.plan.curve_shape import looked_at_s, rows, sampled_rows
 from app.plan.model import AdditiveEvent, CurveSegment, PoseTarget, Problem
 from app.plan.parameters import PlayerParameters
 from app.plan.pose import GENTLE_RAD_S2, LEAST_FADE_S, MINIMUM_JERK_PEAK, pose_limits
@@ -57,6 +57,8 @@ FASTEST: Final[dict[str, float]] = {"deg": math.degrees(150.0), "m": 30.0}
 jump."""
 STEP_S: Final = 1.0 / 60.0
 """Accelerations are seen from frame to frame."""
+MOST_LOOKS: Final = 240
+"""So many frames of what is between two keys are looked at: four seconds of it, or as many places in hours."""
 LEAST_MORPH_S: Final = 0.08
 REPORTED: Final[dict[str, float]] = {"deg": 1.0, "m": 0.005, "weight": 0.02}
 """A value this much beyond what a body does is reported."""
@@ -211,10 +213,11 @@ def _eased(start_s: float, end_s: float, before: float, after: float) -> CurveSe
 def _reported(item: AdditiveCurve, shape: tuple[CurveSegment, ...], limits: Limits) -> list[Problem]:
     unit, found = CHANNELS[item.channel].unit, []
     start_s, end_s = shape[0].start_s, shape[-1].end_s
-    times_s = np.arange(start_s, end_s + 2.0 * STEP_S, STEP_S)
-    values = sampled(shape, times_s)
+    table = rows(shape)
+    times_s = looked_at_s(table, STEP_S, MOST_LOOKS)
+    values = sampled_rows(table, times_s)
     low, high = limits
-    furthest = float(max(values, key=abs, default=0.0))
+    furthest = float(values[np.abs(values).argmax()])
     held = min(max(furthest, low), high)
     if unit != "weight" and abs(furthest - held) > REPORTED[unit]:
         shown = 100.0 if unit == "m" else 1.0
@@ -227,8 +230,9 @@ def _reported(item: AdditiveCurve, shape: tuple[CurveSegment, ...], limits: Limi
         beyond_s = times_s[(values < low) | (values > high)]
         span_s = float(beyond_s[0]), min(float(beyond_s[-1]) + STEP_S, end_s)
         found.append(Problem(Message("additive.beyond_reach", arguments), None, *span_s))
-    if item.channel in BODY_CHANNELS and not item.channel.startswith("eyes.") and len(values) > 2:
-        peak = float(np.abs(np.diff(values, 2)).max()) / STEP_S**2
+    if item.channel in BODY_CHANNELS and not item.channel.startswith("eyes."):
+        before, after = (sampled_rows(table, times_s + sign * STEP_S) for sign in (-1, 1))
+        peak = float(np.abs(before - 2.0 * values + after).max()) / STEP_S**2
         if peak > FASTEST[unit]:
             found.append(Problem(Message("additive.too_fast", {"moved": item.channel}), None, start_s, end_s))
     return found

@@ -69,6 +69,33 @@ def sampled_rows(table: FloatArray, times_s: FloatArray) -> FloatArray:
     return result
 
 
+def looked_at_s(table: FloatArray, step_s: float, most: int) -> FloatArray:
+    """Ascending times at which a curve shows what it does, however long its segments are.
+
+    Parameters
+    ----------
+    table : (S, 9) float64
+        See `rows`.
+    step_s : float
+        Times are so far apart in segments that are short enough for it.
+    most : int
+        Times in a segment; in a longer one they are dense where the curve's handles make it steep.
+    """
+    start_s, leave_s, arrive_s, end_s = table[:, 0], table[:, 4], table[:, 6], table[:, 1]
+    steps = np.ceil((end_s - start_s) / step_s)
+    few = steps <= most
+    counts = np.where(few, steps, most).astype(np.int64) + 1
+    whose = np.repeat(np.arange(len(table)), counts)
+    number = np.arange(len(whose)) - np.repeat(np.cumsum(counts) - counts, counts)
+    even = np.minimum(start_s[whose] + number * step_s, end_s[whose])
+    share = number / np.maximum(counts[whose] - 1, 1)
+    eased = table[whose, 8] != 0.0
+    leave_s, arrive_s = leave_s[whose], arrive_s[whose]
+    steep = _cubic(share, start_s[whose], leave_s, arrive_s, end_s[whose])
+    smooth = start_s[whose] + share * (end_s - start_s)[whose]
+    return np.unique(np.where(few[whose], even, np.where(eased, smooth, steep)))
+
+
 def _place(phase: FloatArray, leave: FloatArray, arrive: FloatArray) -> FloatArray:
     """How far along its segment (F,) a curve is at a share of the segment's time; handles lie within 0..1."""
     low, high = np.zeros(len(phase)), np.ones(len(phase))

@@ -9,8 +9,8 @@ Messages: ``doubling.rest_short``, ``doubling.overlap``.
 
 from __future__ import annotations
 
-from bisect import bisect_left
-from collections.abc import Iterable, Mapping, Sequence
+from bisect import bisect_left, bisect_right
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from itertools import pairwise
 from typing import Final, Protocol, TypeVar
 
@@ -147,32 +147,32 @@ def held_plan(plan: PlayerPlan, first: str, found: Sequence[Change], names: Mapp
         Names of players, by id.
     """
     spans = in_hands(plan.player_id, first, found)
+    ends_s = [end_s for _, end_s in spans]
+
+    def meets(start_s: float, end_s: float) -> bool:
+        """Whether an event takes place while the instrument is in the hands."""
+        first = bisect_right(ends_s, start_s)
+        return first < len(spans) and spans[first][0] < end_s
+
     lowered = [event for event in plan.gestures if event.kind == "lower_instrument"]
-    others = _within([event for event in plan.gestures if event.kind != "lower_instrument"], spans)
+    others = _within([event for event in plan.gestures if event.kind != "lower_instrument"], meets)
     gestures: list[GestureEvent] = sorted((*lowered, *others), key=lambda event: event.start_s)
     reported = [
         _problem(change, names) for change in found if change.after == plan.player_id and change.rest_s < NEEDED_S
     ]
     return msgspec.structs.replace(
         plan,
-        cues=_within(plan.cues, spans, at_end=True),
+        cues=_within(plan.cues, meets, at_end=True),
         gestures=tuple(gestures),
-        expressions=_within(plan.expressions, spans),
+        expressions=_within(plan.expressions, meets),
         problems=tuple(sorted((*plan.problems, *reported), key=lambda problem: problem.start_s)),
-        glances=tuple(
-            glance
-            for glance in plan.glances
-            if any(glance.start_s < end_s and start_s < glance.end_s for start_s, end_s in spans)
-        ),
+        glances=tuple(glance for glance in plan.glances if meets(glance.start_s, glance.end_s)),
     )
 
 
-def _within(events: Iterable[E], spans: Sequence[tuple[float, float]], at_end: bool = False) -> tuple[E, ...]:
+def _within(events: Iterable[E], meets: Callable[[float, float], bool], at_end: bool = False) -> tuple[E, ...]:
     return tuple(
-        event
-        for event in events
-        if event.corrected
-        or any((event.end_s if at_end else event.start_s) < end_s and start_s < event.end_s for start_s, end_s in spans)
+        event for event in events if event.corrected or meets(event.end_s if at_end else event.start_s, event.end_s)
     )
 
 

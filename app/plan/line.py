@@ -352,7 +352,13 @@ class Seeds(msgspec.Struct, frozen=True):
         drawn = np.asarray(ticks if places is None else places, np.int64)
         shares: FloatArray = np.frombuffer(_digests((*self.names, purpose), drawn.tobytes()), ">u8") / 2.0**64
         last = ticks + 1 if ends is None else ends
-        for start_tick, end_tick, seed in self.varied:
-            for place in np.flatnonzero((ticks >= start_tick) & (last <= end_tick)).tolist():
+        # From the last span on, so that each place is drawn for once, however many spans it lies in.
+        undecided = np.arange(len(ticks)) if self.varied else np.zeros(0, np.int64)
+        for start_tick, end_tick, seed in reversed(self.varied):
+            within = (ticks[undecided] >= start_tick) & (last[undecided] <= end_tick)
+            for place in undecided[within].tolist():
                 shares[place] = chance(*self.names, "varied", seed, purpose, int(ticks[place]))
+            undecided = undecided[~within]
+            if not len(undecided):
+                break
         return shares

@@ -13,6 +13,7 @@ from itertools import chain
 from typing import Final
 
 import msgspec
+import numpy as np
 
 from app.project.performers import Player
 from app.score.model import MOST_VOICES, Note, Part
@@ -71,13 +72,14 @@ def doubled_parts(parts: Sequence[Part], maps: Mapping[str, InstrumentMap], cloc
         groups.setdefault((part.track, part.channel, part.voice % MOST_VOICES), []).append(part)
     found: dict[str, str] = {}
     for first, *others in groups.values():
-        mine = [first]
+        mine, played = [first], _spans(first.notes)
         for part in others:
             postures = common_postures([maps[one.map_id] for one in (*mine, part)])
-            played = [one.notes for one in mine]
-            if part.place != first.place and postures and together_s(played, part.notes, clock) <= TOGETHER_S:
+            sounding = _spans(part.notes)
+            if part.place != first.place and postures and _overlap_s(played, sounding, clock) <= TOGETHER_S:
                 found[part.id] = first.id
                 mine.append(part)
+                played = _joined([*played, *sounding])
     return found
 
 
@@ -89,25 +91,39 @@ def common_postures(instruments: Sequence[InstrumentMap]) -> tuple[Posture, ...]
 
 def together_s(played: Sequence[Sequence[Note]], notes: Sequence[Note], clock: TempoMap) -> float:
     """How long notes sound while others do, in seconds."""
-    others = _spans(chain.from_iterable(played))
-    total_s, place = 0.0, 0
-    for start, end in _spans(notes):
-        while place < len(others) and others[place][1] <= start:
-            place += 1
-        for other_start, other_end in others[place:]:
-            if other_start >= end:
-                break
-            first, last = max(start, other_start), min(end, other_end)
-            total_s += clock.seconds(float(last)) - clock.seconds(float(first))
-    return total_s
+    return _overlap_s(_spans(chain.from_iterable(played)), _spans(notes), clock)
+
+
+def _overlap_s(one: Sequence[tuple[int, int]], other: Sequence[tuple[int, int]], clock: TempoMap) -> float:
+    """Seconds that are in spans of both, each apart and in order."""
+    common: list[tuple[int, int]] = []
+    mine = theirs = 0
+    while mine < len(one) and theirs < len(other):
+        (start, end), (other_start, other_end) = one[mine], other[theirs]
+        first, last = max(start, other_start), min(end, other_end)
+        if first < last:
+            common.append((first, last))
+        if end <= other_end:
+            mine += 1
+        else:
+            theirs += 1
+    if not common:
+        return 0.0
+    seconds = clock.seconds(np.array(common, np.float64))
+    return float((seconds[:, 1] - seconds[:, 0]).sum())
 
 
 def _spans(notes: Iterable[Note]) -> list[tuple[int, int]]:
     """Where notes sound, apart and in order."""
-    spans: list[tuple[int, int]] = []
-    for start, end in sorted((note.onset_tick, note.end_tick) for note in notes):
-        if spans and start <= spans[-1][1]:
-            spans[-1] = (spans[-1][0], max(end, spans[-1][1]))
+    return _joined((note.onset_tick, note.end_tick) for note in notes)
+
+
+def _joined(spans: Iterable[tuple[int, int]]) -> list[tuple[int, int]]:
+    """Spans apart and in order."""
+    joined: list[tuple[int, int]] = []
+    for start, end in sorted(spans):
+        if joined and start <= joined[-1][1]:
+            joined[-1] = (joined[-1][0], max(end, joined[-1][1]))
         else:
-            spans.append((start, end))
-    return spans
+            joined.append((start, end))
+    return joined

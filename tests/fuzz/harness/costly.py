@@ -9,6 +9,7 @@ from typing import Final
 from tests.fuzz.harness.costly_files import COSTLY_FILES
 from tests.fuzz.harness.costly_midi import COSTLY
 from tests.fuzz.harness.costly_motion import COSTLY_MOTION
+from tests.fuzz.harness.costly_projects import COSTLY_PROJECTS
 
 Make = Callable[[int], bytes]
 """Makes a file of about so many bytes."""
@@ -20,6 +21,7 @@ def _named(ways: Mapping[str, tuple[Make, ...]]) -> dict[str, dict[str, Make]]:
 
 ALL_COSTLY: Final[Mapping[str, Mapping[str, Make]]] = {
     "midi": COSTLY,
+    "performed": COSTLY_PROJECTS,
     **_named(COSTLY_FILES),
     **_named(COSTLY_MOTION),
 }

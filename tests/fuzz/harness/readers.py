@@ -99,6 +99,30 @@ def _saves_and_plays(project: Any, folder: Path) -> None:
     Performance(project).prepare()
 
 
+def performed(path: Path, folder: Path) -> None:
+    """Load, save, load and plan a project, and see its performers for a moment at its beginning, middle and end."""
+    from app.performance.cast import performers_of
+    from app.performance.ensemble import Performance
+    from app.performance.motion import playing_of
+    from app.performance.span import whole_span
+    from app.project import storage
+
+    project = storage.load(path)
+    with accepted("save and load"):
+        _saved(project, folder)
+    performance = Performance(project)
+    performance.prepare()
+    fps = project.fps
+    count = whole_span(performance.time_frame, fps).count
+    for performer in performers_of(performance, project.players).made.values():
+        playing = playing_of(performance, performer)
+        for first in (0, count // 2, count - 1):
+            playing.motion(fps, first, min(_SEEN_FRAMES, count - first))
+
+
+_SEEN_FRAMES = 30
+
+
 def _saved(project: Any, folder: Path) -> None:
     from app.project import storage
 
@@ -411,6 +435,7 @@ KINDS: Final[dict[str, Kind]] = {
     for kind in (
         Kind("midi", midi, seeds.midi, tuple(mutators.MIDI), ".mid"),
         Kind("project", project, seeds.project, _JSON, ".suisou", 3.0),
+        Kind("project", performed, seeds.performed, _JSON, ".suisou"),
         Kind("project", autosave, seeds.autosave, _JSON, ".suisou"),
         Kind("project", presence, seeds.presence, _JSON, ".json"),
         Kind("project", journal, seeds.journal, _TEXT, ".take-journal"),

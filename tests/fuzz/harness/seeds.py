@@ -21,6 +21,7 @@ import soundfile
 from app.formats.scene import Scene
 from tests.fuzz.harness.costly import costly
 from tests.fuzz.harness.costly_midi import COSTLY, WORST
+from tests.fuzz.harness.costly_projects import base, encoded as encoded_project
 from tests.support import encoded
 
 ROOT: Final = Path(__file__).parents[3]
@@ -48,6 +49,11 @@ def midi() -> list[bytes]:
 def project() -> list[bytes]:
     """One of every version of the format."""
     return _files("tests/data/projects/*.suisou")
+
+
+def performed() -> list[bytes]:
+    """A trumpet's few notes."""
+    return [encoded_project(base())]
 
 
 def autosave() -> list[bytes]:

@@ -13,7 +13,7 @@ from scipy.optimize import brentq
 
 from app.plan.additive import channel_limits, plan_additive, segments
 from app.plan.additive_curve import CHANNELS, AdditiveCurve, CurveKey, Tangent
-from app.plan.curve_shape import sampled
+from app.plan.curve_shape import looked_at_s, rows, sampled
 from app.plan.parameters import PlayerParameters
 from instrument_maps.load import bundled_maps
 from metadata.load import load_body
@@ -141,3 +141,22 @@ def test_every_channel_has_limits_on_every_instrument() -> None:
             for channel in CHANNELS:
                 low, high = channel_limits(channel, instrument, PlayerParameters(posture=posture), body)
                 assert low <= 0.0 <= high
+
+
+def test_a_key_beyond_all_music_costs_no_more_than_one_nearby() -> None:
+    """Looking at every frame up to the last possible tick took 10 GB."""
+    far = AdditiveCurve("far", "bell.up", (CurveKey(0, 1.0), CurveKey(2**31 - 2, 500.0)))
+    assert len(looked_at_s(rows(segments(far, CLOCK)), 1 / 60, 240)) < 1000
+    (_,), (problem,) = plan_additive((far,), TRUMPET, STANDING, CLOCK)
+    assert problem.message.id == "additive.beyond_reach"
+    assert problem.message.arguments["asked"] == 500.0
+
+
+def test_what_is_too_fast_is_seen_in_a_long_segment() -> None:
+    """Each handle reaches to the other key: in the middle the curve is as steep as a step."""
+    length = 60 * 960
+    keys = CurveKey(0, -90.0, leave=Tangent(length, 0.0)), CurveKey(length, 90.0, arrive=Tangent(length, 0.0))
+    gentle = CurveKey(0, -90.0), CurveKey(length, 90.0)
+    for which, expected in ((keys, True), (gentle, False)):
+        _, problems = plan_additive((AdditiveCurve("a", "head.left", which),), TRUMPET, STANDING, CLOCK)
+        assert ("additive.too_fast" in [problem.message.id for problem in problems]) == expected
