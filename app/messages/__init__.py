@@ -89,6 +89,7 @@ PITCHES: Final[dict[str, tuple[str, ...]]] = {
     "score.key_switches": ("pitch",),
     "score.voices": ("pitch",),
     "score.doubling": ("pitch",),
+    "midi.stuck_notes": ("pitch",),
 }
 """Arguments that are MIDI numbers of pitches: they are named, in the editor as its user chose."""
 

@@ -127,6 +127,16 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
             "個分）としました"
         ),
     ),
+    "midi.stuck_notes": (
+        (
+            "{count} {count:note|notes} of track {track} {count:sounds|sound} for hours after the rest of the piece "
+            "and {count:was|were} cut at its end, the first at {place} ({pitch}, {hours:g} hours long)"
+        ),
+        (
+            "トラック {track} の {count} 音が曲の終わりの後も何時間も続くため、曲の終わりで切りました"
+            "（最初は {place} の {pitch}、長さ {hours:g} 時間）"
+        ),
+    ),
     "midi.zero_length_notes": (
         (
             "{count} {count:note|notes} of track {track} {count:has no length and was|have no length and were} set "

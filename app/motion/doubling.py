@@ -8,7 +8,7 @@ instrument is never blended.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, field, fields, replace
 from fractions import Fraction
 
 import numpy as np
@@ -16,14 +16,33 @@ import numpy.typing as npt
 
 from app.motion.aside import Aside
 from app.motion.curve import EVERYWHERE, Curve, FloatArray, frame_times, moves
-from app.motion.model import Motion
+from app.motion.model import Motion, joined
 from app.motion.perform import PerformanceCurves
 from app.motion.posture import solve_legs
 from app.plan.doubling import Change
 from app.rig import quaternion
 
+MOST_FRAMES, LEAST_FRAMES = 2**17, 256
+"""Frames of all instruments together that are in memory at once, and the fewest of each that are worth a start."""
 LOWERS = 0.85
 """Share of the way aside in which the instrument leaves the lips, and of the way back in which it comes to them."""
+
+
+class LastChunk:
+    """Motions of a musician's instruments over some frames, kept until other frames are asked for."""
+
+    def __init__(self) -> None:
+        self._kept: tuple[tuple[Fraction, int, int] | None, dict[int, Motion]] = None, {}
+
+    def motion(self, number: int, playing: PerformanceCurves, fps: Fraction, first_frame: int, frames: int) -> Motion:
+        """The motion of one instrument, as ``playing`` makes it. Threads may make the same at once."""
+        kept = self._kept
+        if kept[0] != (fps, first_frame, frames):
+            kept = self._kept = (fps, first_frame, frames), {}
+        made = kept[1]
+        if number not in made:
+            made[number] = playing.motion(fps, first_frame, frames)
+        return made[number]
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,18 +57,26 @@ class Doubling(PerformanceCurves):
         The weight of each one's motion; the sum is 1.
     number : int
         Which of them this is.
+    last : LastChunk
+        What was made last for any of them: each asks for the same motions of all.
     """
 
     played: tuple[PerformanceCurves, ...] = ()
     shares: tuple[Curve, ...] = ()
     number: int = 0
+    last: LastChunk = field(default_factory=lambda: LastChunk())
 
     def motion(self, fps: Fraction, first_frame: int, frames: int) -> Motion:
         """Make some frames: the body as it plays the current instrument, and this instrument in the hands or aside."""
+        most = max(MOST_FRAMES // len(self.played), LEAST_FRAMES)
+        if frames > most:
+            end = first_frame + frames
+            starts = range(first_frame, end, most)
+            return joined([self.motion(fps, start, min(most, end - start)) for start in starts])
         times_s = frame_times(self.start_s, fps, first_frame, frames)
         shares = np.array([curve.sample(times_s) for curve in self.shares])
         made = {
-            number: one.motion(fps, first_frame, frames)
+            number: self.last.motion(number, one, fps, first_frame, frames)
             for number, one in enumerate(self.played)
             if number == self.number or np.any(shares[number] > 0.0)
         }
@@ -126,14 +153,19 @@ def doubled(played: Sequence[PerformanceCurves], first: str, found: Sequence[Cha
     """
     ready = tuple(_with_ways(one, number, first, found) for number, one in enumerate(played))
     shares = tuple(_share(one.player_id, first, found) for one in played)
-    return tuple(_doubling(one, ready, shares, number) for number, one in enumerate(ready))
+    last = LastChunk()
+    return tuple(_doubling(one, ready, shares, number, last) for number, one in enumerate(ready))
 
 
 def _doubling(
-    own: PerformanceCurves, played: tuple[PerformanceCurves, ...], shares: tuple[Curve, ...], number: int
+    own: PerformanceCurves,
+    played: tuple[PerformanceCurves, ...],
+    shares: tuple[Curve, ...],
+    number: int,
+    last: LastChunk,
 ) -> Doubling:
     members = {member.name: getattr(own, member.name) for member in fields(PerformanceCurves)}
-    return Doubling(**members, played=played, shares=shares, number=number)
+    return Doubling(**members, played=played, shares=shares, number=number, last=last)
 
 
 def _with_ways(playing: PerformanceCurves, number: int, first: str, found: Sequence[Change]) -> PerformanceCurves:

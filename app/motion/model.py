@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -46,3 +47,20 @@ class Motion:
     def frames(self) -> int:
         """Number of frames."""
         return len(self.hips_m)
+
+
+def joined(pieces: Sequence[Motion]) -> Motion:
+    """Frames of several motions, one after the other."""
+    if len(pieces) == 1:
+        return pieces[0]
+    first = pieces[0]
+    return Motion(
+        fps=first.fps,
+        first_frame_s=first.first_frame_s,
+        rotations=np.concatenate([piece.rotations for piece in pieces]),
+        hips_m=np.concatenate([piece.hips_m for piece in pieces]),
+        morphs={name: np.concatenate([piece.morphs[name] for piece in pieces]) for name in first.morphs},
+        controls={name: np.concatenate([piece.controls[name] for piece in pieces]) for name in first.controls},
+        instrument_position_m=np.concatenate([piece.instrument_position_m for piece in pieces]),
+        instrument_rotation=np.concatenate([piece.instrument_rotation for piece in pieces]),
+    )

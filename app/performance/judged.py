@@ -6,11 +6,10 @@ Messages: ``judged.sparsely`` (rate, hours), ``judged.not`` (players, hours, mos
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
-from fractions import Fraction
+from collections.abc import Iterable, Sequence
 from typing import Final, NamedTuple
 
-from app.contacts.breaks import JUDGED_PER_S, by_time, contact_problems
+from app.contacts.breaks import JUDGED_PER_S, Break, by_time, contact_problems
 from app.contacts.judge import ContactJudge
 from app.errors import Message
 from app.motion.model import Motion
@@ -42,8 +41,27 @@ def all_problems(performance: Performance, players: Iterable[Player]) -> Judged:
     notes = sum(len(performance.project.part(one.player).notes) for one in performers.values())
     stride, notice = _stride(performance, len(performers), notes)
     if stride:
-        found |= {player_id: judged_problems(performance, one, stride=stride) for player_id, one in performers.items()}
+        by_musician: dict[str, list[Performer]] = {}
+        for one in performers.values():
+            by_musician.setdefault(performance.project.musician(one.player).id, []).append(one)
+        for together in by_musician.values():
+            found |= _judged(performance, together, stride)
     return Judged(found, notice)
+
+
+def _judged(performance: Performance, performers: Sequence[Performer], stride: int) -> dict[str, tuple[Problem, ...]]:
+    """Problems of a musician's players, who share what is made of each piece of the performance."""
+    fps = performance.project.fps
+    playing = [playing_of(performance, one) for one in performers]
+    judges = [ContactJudge(curves, one.character, one.model) for curves, one in zip(playing, performers, strict=True)]
+    breaks: list[list[Break]] = [[] for _ in performers]
+    count = math.ceil(whole_span(performance.time_frame, fps).count / stride)
+    for first in range(0, count, CHUNK):
+        for curves, judge, mine in zip(playing, judges, breaks, strict=True):
+            mine += judge.breaks(curves.motion(fps / stride, first, min(CHUNK, count - first)))
+    return {
+        one.player.id: _problems(performance, one.player, mine) for one, mine in zip(performers, breaks, strict=True)
+    }
 
 
 def _stride(performance: Performance, players: int, notes: int) -> tuple[int, Message | None]:
@@ -64,25 +82,12 @@ def _stride(performance: Performance, players: int, notes: int) -> tuple[int, Me
     return stride, Message("judged.sparsely", {"rate": round(rate, 1), "hours": hours})
 
 
-def judged_problems(
-    performance: Performance, performer: Performer, motion: Motion | None = None, *, stride: int = 1
-) -> tuple[Problem, ...]:
-    """Problems of plan and body, and the contacts that a motion breaks, by time.
+def judged_problems(performance: Performance, performer: Performer, motion: Motion) -> tuple[Problem, ...]:
+    """Problems of plan and body, and the contacts that some frames of a player's motion break, by time."""
+    judge = ContactJudge(playing_of(performance, performer), performer.character, performer.model)
+    return _problems(performance, performer.player, judge.breaks(motion))
 
-    Parameters
-    ----------
-    motion : Motion, optional
-        Some frames of the player's; without it all are made for this, and let go again.
-    stride : int, optional
-        Without a motion only every so many-th frame is made.
-    """
-    playing, known = playing_of(performance, performer), performance.problems(performer.player.id)
-    judge = ContactJudge(playing, performer.character, performer.model)
-    if motion is not None:
-        breaks = judge.breaks(motion)
-    else:
-        fps = performance.project.fps
-        count = math.ceil(whole_span(performance.time_frame, fps).count / stride)
-        chunks = ((first, min(CHUNK, count - first)) for first in range(0, count, CHUNK))
-        breaks = tuple(found for chunk in chunks for found in judge.breaks(playing.motion(fps / stride, *chunk)))
-    return by_time((*known, *contact_problems(breaks, performance.plan(performer.player).grips, known)))
+
+def _problems(performance: Performance, player: Player, breaks: Iterable[Break]) -> tuple[Problem, ...]:
+    known = performance.problems(player.id)
+    return by_time((*known, *contact_problems(breaks, performance.plan(player).grips, known)))

@@ -8,13 +8,11 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from functools import lru_cache
 
-import numpy as np
-
 from app.errors import raise_if_stopped
 from app.identity_cache import IdentityCache
 from app.motion.danced import BodyLayer
 from app.motion.doubling import Doubling, doubled
-from app.motion.model import Motion
+from app.motion.model import Motion, joined
 from app.motion.perform import PerformanceCurves, prepare
 from app.performance.cast import Performer, performers_of
 from app.performance.ensemble import Performance
@@ -149,23 +147,7 @@ def player_motion(
             pieces.append(playing.motion(span.fps, span.first + start, end - start))
             if part is first:
                 progress((end - part.start) / len(part))
-        return _joined(pieces)
+        return joined(pieces)
 
     with made_by_copies(make, others) as made:
-        return _joined([make(first), *made()])
-
-
-def _joined(pieces: list[Motion]) -> Motion:
-    if len(pieces) == 1:
-        return pieces[0]
-    first = pieces[0]
-    return Motion(
-        fps=first.fps,
-        first_frame_s=first.first_frame_s,
-        rotations=np.concatenate([piece.rotations for piece in pieces]),
-        hips_m=np.concatenate([piece.hips_m for piece in pieces]),
-        morphs={name: np.concatenate([piece.morphs[name] for piece in pieces]) for name in first.morphs},
-        controls={name: np.concatenate([piece.controls[name] for piece in pieces]) for name in first.controls},
-        instrument_position_m=np.concatenate([piece.instrument_position_m for piece in pieces]),
-        instrument_rotation=np.concatenate([piece.instrument_rotation for piece in pieces]),
-    )
+        return joined([make(first), *made()])

@@ -30,7 +30,7 @@ midi.too_many_parts : file, parts, most
 midi.too_long : file, track, and as `app.score.limits.too_long` says it
     "{file}: the last note of track {track} ends after {hours} hours, {quarters} quarter notes and {bars} bars ..."
 
-The warnings are those of `app.score.chunks`, `app.score.repair` and `app.score.parts`, and:
+The warnings are those of `app.score.chunks`, `app.score.repair`, `app.score.stuck` and `app.score.parts`, and:
 
 midi.smpte_rate : rate
     "The file counts time in frames of 1/{rate} s, which is no SMPTE rate; it was taken literally"
@@ -81,6 +81,7 @@ from app.score.mutes import muted_spans
 from app.score.parts import PartAssignment, assigned_parts, parts_of, rhythm_parts, stream_name
 from app.score.repair import Repaired, last_suspicious, repaired
 from app.score.sound_module import FIRST_PORT, Port, Use, channel_sounds
+from app.score.stuck import cut_stuck_notes
 from app.score.tempo import TempoChange, TempoMap
 from app.score.texts import Texts
 from app.score.tracks import LEAST_TEMPO, TrackEvents, gather, no_notes
@@ -237,7 +238,9 @@ def read_contents(path: Path, *, encoding: str | None = None) -> MidiContents:
         warnings.append(Message("midi.patterns", {"patterns": len(tracks)}))
     tempo_map, tempo_warnings = _tempo_map(container, tracks)
     metres, pickup_ticks, metre_warnings = _metres(tracks, ticks_per_quarter)
-    _require_length(Score("", ticks_per_quarter, tempo_map, metres, pickup_ticks), tracks, str(path))
+    empty = Score("", ticks_per_quarter, tempo_map, metres, pickup_ticks)
+    stuck = cut_stuck_notes(tracks, tempo_map, empty.metre_map, UNENDED_QUARTERS * ticks_per_quarter)
+    _require_length(empty, tracks, str(path))
     texts = _texts(tracks, encoding)
     streams = _streams(tracks, settle_bends(tracks), texts)
     _require_few(len(streams), str(path))
@@ -248,7 +251,7 @@ def read_contents(path: Path, *, encoding: str | None = None) -> MidiContents:
         metres=metres,
         pickup_ticks=pickup_ticks,
         streams=tuple(named_by_title(streams, title)),
-        warnings=(*no_notes(tracks, counts, texts), *warnings, *tempo_warnings, *metre_warnings),
+        warnings=(*no_notes(tracks, counts, texts), *warnings, *tempo_warnings, *metre_warnings, *stuck),
         markers=_markers(tracks, texts),
         encoding=texts.encoding,
     )

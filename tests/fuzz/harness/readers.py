@@ -100,7 +100,7 @@ def _saves_and_plays(project: Any, folder: Path) -> None:
 
 
 def performed(path: Path, folder: Path) -> None:
-    """Load, save, load and plan a project, and see its performers for a moment at its beginning, middle and end."""
+    """Load, save, load and plan a project, and see its first performers at its beginning, middle and end."""
     from app.performance.cast import performers_of
     from app.performance.ensemble import Performance
     from app.performance.motion import playing_of
@@ -114,13 +114,14 @@ def performed(path: Path, folder: Path) -> None:
     performance.prepare()
     fps = project.fps
     count = whole_span(performance.time_frame, fps).count
-    for performer in performers_of(performance, project.players).made.values():
+    # The others are made later, each when it is seen.
+    for performer in performers_of(performance, project.bodies[:_SEEN_PERFORMERS]).made.values():
         playing = playing_of(performance, performer)
         for first in (0, count // 2, count - 1):
             playing.motion(fps, first, min(_SEEN_FRAMES, count - first))
 
 
-_SEEN_FRAMES = 30
+_SEEN_FRAMES, _SEEN_PERFORMERS = 30, 3
 
 
 def _saved(project: Any, folder: Path) -> None:

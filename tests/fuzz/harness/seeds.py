@@ -21,7 +21,8 @@ import soundfile
 from app.formats.scene import Scene
 from tests.fuzz.harness.costly import costly
 from tests.fuzz.harness.costly_midi import COSTLY, WORST
-from tests.fuzz.harness.costly_projects import base, encoded as encoded_project
+from tests.fuzz.harness.costly_projects import base
+from tests.fuzz.harness.costly_projects import encoded as encoded_project
 from tests.support import encoded
 
 ROOT: Final = Path(__file__).parents[3]

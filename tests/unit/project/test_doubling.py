@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from dataclasses import replace
 from pathlib import Path
 
@@ -65,6 +66,16 @@ def test_how_long_lines_sound_at_once_counts_every_moment_once() -> None:
     sounding = [{tick for one in line for tick in range(one.onset_tick, one.end_tick)} for line in (long, short)]
     assert together_s([long], short, clock) == pytest.approx(len(sounding[0] & sounding[1]) * 0.5 / QUARTER)
     assert together_s([short], long, clock) == together_s([long], short, clock)
+
+
+def test_six_instruments_by_turns_are_compared_in_the_order_of_time() -> None:
+    """Comparing every note with all that follow takes minutes for 60,000 notes."""
+    clock = TempoMap(QUARTER)
+    lines = [[Note(f"{line}:{at}", (6 * at + line) * 10, 10, 60, 80) for at in range(20_000)] for line in range(6)]
+    start_s = time.process_time()
+    assert together_s(lines[:5], lines[5], clock) == 0.0
+    assert together_s(lines[:5], [msgspec.structs.replace(note, duration_tick=20) for note in lines[5]], clock) > 1.0
+    assert time.process_time() - start_s < 20.0
 
 
 def test_what_is_changed_of_one_instrument_is_changed_of_the_musician() -> None:
