@@ -232,8 +232,7 @@ def _metres(count: int) -> Project:
 
 def _tempos(count: int, ticks: int = 10) -> Project:
     changes = tuple(TempoChange(at * ticks, 500_000.0 + 1000.0 * (at % 7)) for at in range(count))
-    project = _scored(tempo_map=TempoMap(QUARTER, changes))
-    return project
+    return _scored(tempo_map=TempoMap(QUARTER, changes))
 
 
 def _takes(takes: Sequence[Take], comp: Sequence[CompSpan] = ()) -> Project:

@@ -314,6 +314,7 @@ MADE: Final[dict[str, dict[str, Callable[[], bytes]]]] = {
         "deep": lambda: b"[" * 100_000,
         "deep_object": lambda: b'{"a":' * 60_000,
     },
+    "performed": costly("performed", 4000),
     "instrument_map": _TABLES,
     "expression": _TABLES,
     "preset": _TABLES,
