@@ -52,7 +52,11 @@ _USUAL_UNEVEN: Final = 0.4
 _SQUEEZED: Final = -0.6
 """The same where beats have little more than half their time: the recording leaves them out."""
 RECOGNISED: Final = 0.4
-"""Mean confidence below which it is rather a recording of another piece."""
+"""Mean confidence below which it is rather a recording of another piece ..."""
+_SOME_RECOGNISED: Final = 0.75
+"""... and where it has few of the beats, which may be found wherever they are most alike."""
+_SHARES: Final = (0.3, 0.7)
+"""Few and most of the beats."""
 _WHOLE: Final = 0.8
 """Mean confidence below which it is looked whether the recording has only a part of the piece."""
 _PARTIAL: Final = 0.97
@@ -126,7 +130,7 @@ def follow(
                 result = other
     reached(0.9)
     result, runner_up = _with_lines(piece, result)
-    if result is None or result.mean_confidence < RECOGNISED:
+    if result is None or _margin(result) < 0.0:
         raise AppError("audio.not_followed", percent=0 if result is None else round(100 * result.mean_confidence))
     reached(1.0)
     return replace(result, runner_up=runner_up)
@@ -159,16 +163,20 @@ def _with_lines(prepared: _Prepared, chosen: Following | None) -> tuple[Followin
         following = _refined(prepared, _line(prepared, place), NO_PINS)
         if all(abs(_later_s(following, other)) > LEAST_APART_S for other in found):
             found.append(following)
-        elif chosen is not None and following.mean_confidence > chosen.mean_confidence + _SURER and not chosen.added:
+        elif chosen is not None and _margin(following) > _margin(chosen) + _SURER and not chosen.added:
             found[0] = chosen = following
     if not found:
         return None, None
-    best = max(found, key=lambda one: one.mean_confidence)
-    if chosen is not None and best.mean_confidence <= chosen.mean_confidence + _SURER:
+    best = max(found, key=_margin)
+    if chosen is not None and _margin(best) <= _margin(chosen) + _SURER:
         best = chosen
-    others = [one for one in found if one is not best]
-    second = max(others, key=lambda one: one.mean_confidence, default=None)
+    second = max((one for one in found if one is not best), key=_margin, default=None)
     return best, None if second is None else RunnerUp(_later_s(second, best), second.mean_confidence)
+
+
+def _margin(following: Following) -> float:
+    """By how much the mean confidence is above the one at which it is a recording of this piece."""
+    return following.mean_confidence - float(np.interp(following.share, _SHARES, (_SOME_RECOGNISED, RECOGNISED)))
 
 
 def _line(prepared: _Prepared, place: Place) -> Warped:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Final
 from app.cli.options import LONGEST_S, add_file_options, open_project, within
 from app.cli.progress import Progress
 from app.cli.terminal import say, warn
-from app.errors import FileError, Message, UsageError
+from app.errors import Argument, FileError, Message, UsageError
 from app.messages import filled, text
 
 if TYPE_CHECKING:
@@ -167,6 +167,12 @@ def _report(project: Project, following: Following, target: Path) -> None:
             },
         )
     )
+    runner_up = following.runner_up
+    if runner_up is not None:
+        start_s = _second_of_bar(project, following, 1) + runner_up.later_s
+        percent = round(100 * runner_up.confidence)
+        arguments: dict[str, Argument] = {"start_s": start_s, "later_s": runner_up.later_s, "percent": percent}
+        say(text(Message("align.runner_up", arguments)))
     bar_of_tick = project.metre_map.bar_of_tick
     for span in following.missing:
         first, last = bar_of_tick(int(span.start)), bar_of_tick(max(int(span.end) - 1, int(span.start)))

@@ -7,7 +7,7 @@ from app.audio.followed import Followed, FollowOptions, listen, take_over
 from app.editor.session import Session, Severity
 from app.editor.tasks import Progress, StopRequested
 from app.errors import Message
-from app.score.following import bars_named
+from app.score.following import bars_named, message_of_place
 
 
 def follow_in_background(session: Session, recording: Recording, options: FollowOptions) -> None:
@@ -35,7 +35,7 @@ def _take(session: Session, followed: Followed, path: str) -> None:
     id = "audio.followed_but" if doubtful else "audio.followed"
     severity = Severity.WARNING if doubtful else Severity.INFORMATION
     bars = bars_named(*((first, last) for first, last, _ in doubtful)) if doubtful else {}
-    session.notice(Message(id, {"percent": percent, **bars}), severity)
+    session.notice(message_of_place(id, {"percent": percent, **bars}, following.runner_up), severity)
     for span in following.missing:
         first, last = metre_map.bar_of_tick(int(span.start)), metre_map.bar_of_tick(max(int(span.end) - 1, 0))
         session.notice(Message("align.bars_outside", bars_named((first, last))), Severity.WARNING)

@@ -32,6 +32,7 @@ from app.project.edit.players import change as change_players
 from app.project.edit.takes import comp_whole
 from app.project.edit.tempo import scale_tempo
 from app.project.model import Project
+from app.score.following import message_of_place
 
 _FRAME_MS = 16
 _TAKE_WAIT_MS = 1000
@@ -372,7 +373,7 @@ class Sound(QObject):
         if other_tempo:
             id = "audio.tempo_fitted" if with_tempo else "audio.other_tempo"
         severity = Severity.INFORMATION if estimate.confidence >= SURE else Severity.WARNING
-        session.notice(Message(id, dict(arguments)), severity)
+        session.notice(message_of_place(id, dict(arguments), estimate.runner_up), severity)
 
 
 def span_of(project: Project) -> TimeFrame:

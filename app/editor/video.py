@@ -22,6 +22,7 @@ from app.formats.other_computers import may_touch
 from app.formats.video import VideoFacts, video_facts
 from app.project.document import Change
 from app.project.edit.piece import set_video_offset
+from app.score.following import message_of_place
 
 MOST_PX: Final = (1280, 720)
 """Pictures are read no larger."""
@@ -184,7 +185,10 @@ class ReferenceVideo(QObject):
             lambda project: set_video_offset(project, estimate.offset_s, estimate.confidence),
         )
         self._session.notice(
-            Message("video.offset_found", {"offset_s": estimate.offset_s, "percent": percent}), severity
+            message_of_place(
+                "video.offset_found", {"offset_s": estimate.offset_s, "percent": percent}, estimate.runner_up
+            ),
+            severity,
         )
 
 

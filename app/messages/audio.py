@@ -105,6 +105,10 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         "what is recorded from {start_s:.1f} s to {end_s:.1f} s is not in the score: a repeat or a cadenza?",
         "音源の {start_s:.1f} 秒から {end_s:.1f} 秒は楽譜にありません（繰り返しまたはカデンツァの可能性があります）",
     ),
+    "align.runner_up": (
+        "next likeliest place: bar 1 at {start_s:.3f} s of the recording, {later_s:+.2f} s (confidence {percent} %)",
+        "次の候補: 第 1 小節が音源の {start_s:.3f} 秒、差は {later_s:+.2f} 秒（信頼度 {percent} %）",
+    ),
     "align.doubtful": (
         "{count:bar|bars} {bars}: confidence {percent} %; check by ear",
         "第 {bars} 小節: 信頼度 {percent} %。耳で確認してください",
@@ -144,3 +148,27 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         ),
     ),
 }
+
+
+def with_next(wordings: tuple[str, str]) -> tuple[str, str]:
+    """The wordings of a place, with the second likeliest one."""
+    english, japanese = wordings
+    return (
+        english.replace(
+            "(confidence {percent} %)",
+            "(confidence {percent} %; next likeliest place: {next_s:+.2f} s, {next_percent} %)",
+        ),
+        japanese.replace(
+            "（信頼度 {percent} %）", "（信頼度 {percent} %、次の候補: {next_s:+.2f} 秒、{next_percent} %）"
+        ),
+    )
+
+
+_PLACES: Final = (
+    "audio.followed",
+    "audio.followed_but",
+    "audio.offset_found",
+    "audio.other_tempo",
+    "audio.tempo_fitted",
+)
+WORDINGS.update({f"{id}_with_next": with_next(WORDINGS[id]) for id in _PLACES})

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Final
 
+from app.messages.audio import with_next
+
 WORDINGS: Final[dict[str, tuple[str, str]]] = {
     "file.cannot_open": (
         "{file} is neither a command nor a project or MIDI file ({kinds}); 'suisou --help' lists the commands",
@@ -96,3 +98,4 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         "{file} には音声がありません。音声付きの動画を選ぶか、オフセットを手動で設定してください",
     ),
 }
+WORDINGS["video.offset_found_with_next"] = with_next(WORDINGS["video.offset_found"])

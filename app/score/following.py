@@ -8,7 +8,7 @@ from typing import Final, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from app.errors import Argument
+from app.errors import Argument, Message
 from app.score.metre_map import MetreMap
 
 Floats: TypeAlias = npt.NDArray[np.float64]
@@ -48,6 +48,31 @@ class RunnerUp:
     confidence: float
 
 
+_WITH_NEXT: Final = {
+    "audio.followed": "audio.followed_with_next",
+    "audio.followed_but": "audio.followed_but_with_next",
+    "audio.offset_found": "audio.offset_found_with_next",
+    "audio.other_tempo": "audio.other_tempo_with_next",
+    "audio.tempo_fitted": "audio.tempo_fitted_with_next",
+    "video.offset_found": "video.offset_found_with_next",
+}
+
+
+def message_of_place(id: str, arguments: dict[str, Argument], runner_up: RunnerUp | None) -> Message:
+    """The message of where a recording lies, with the second likeliest place where there is one.
+
+    Parameters
+    ----------
+    id : str
+        Of the message without it, a key of `_WITH_NEXT`. The other has the arguments ``next_s``, by how much later that
+        place is, and ``next_percent``.
+    """
+    if runner_up is None:
+        return Message(id, arguments)
+    more: dict[str, Argument] = {"next_s": runner_up.later_s, "next_percent": round(100 * runner_up.confidence)}
+    return Message(_WITH_NEXT[id], {**arguments, **more})
+
+
 @dataclass(frozen=True)
 class Following:
     """How a recording follows a score.
@@ -80,6 +105,11 @@ class Following:
         """Over all beats that the recording has."""
         there = self._there()
         return float(self.confidence[there].mean()) if there.any() else 0.0
+
+    @property
+    def share(self) -> float:
+        """Share of the beats that the recording has, 0..1."""
+        return float(self._there().mean()) if len(self.ticks) else 0.0
 
     def later(self, seconds: float) -> Following:
         """The same in a recording that begins so much earlier."""

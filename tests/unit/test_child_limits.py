@@ -65,7 +65,7 @@ def test_arguments_reach_the_program_unchanged() -> None:
 
 
 def test_one_kilobyte_may_cost_a_gigabyte_and_five_seconds() -> None:
-    for name in ("ffmpeg.facts", "ffmpeg.pictures", "ffmpeg.sound", "fbx.figure"):
+    for name in ("ffmpeg.facts", "ffmpeg.pictures", "ffmpeg.sound", "ufbx.figure"):
         memory, cpu_s = LIMITS[name].memory_of(1024), LIMITS[name].cpu_of(1024)
         assert memory is not None
         assert memory <= 2**30 + MB
@@ -123,7 +123,7 @@ STARTED = {
     "app/cli/batch.py": "batch",
     "app/evaluation/process.py": "evaluation",
     "app/export/video.py": "ffmpeg.",
-    "app/formats/fbx/foreign.py": "fbx.",
+    "app/formats/fbx/foreign.py": "ufbx.",
     "app/formats/ffmpeg.py": "ffmpeg.",
     "app/own_process.py": "export",
 }

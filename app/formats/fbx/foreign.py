@@ -197,7 +197,7 @@ def _read(path: str | os.PathLike[str], kind: type[T], checked: Callable[[T], T]
 
 def _child(data: bytes, file: str, *arguments: str) -> bytes:
     """What the child printed of a file's bytes. Raises FileError."""
-    limits = f"fbx.{MOTION}" if arguments == (MOTION,) else "fbx.figure"
+    limits = f"ufbx.{MOTION}" if arguments == (MOTION,) else "ufbx.figure"
     try:
         process: subprocess.Popen[bytes]
         with subprocess.Popen(

@@ -32,7 +32,7 @@ it; arrays of equal values can be packed a thousand times as small."""
 
 FREE_MOTION_NUMBERS: Final = 2**24
 """Numbers of motion: few keys may stand for many frames. Two minutes of a hundred nodes at 60 frames per second."""
-FIGURE_LIMITS, MOTION_LIMITS = "fbx.figure", "fbx.motion"
+FIGURE_LIMITS, MOTION_LIMITS = "ufbx.figure", "ufbx.motion"
 """Rows of `app.child_limits.LIMITS`."""
 MOTION: Final = "motion"
 """The argument that asks for nodes and their animation in the place of meshes."""

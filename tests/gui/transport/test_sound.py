@@ -230,7 +230,7 @@ def test_a_new_recording_finds_its_place_by_itself(
     assert session.project.audio.confidence is not None
     assert session.project.audio.confidence > 0.6
     assert session.document.done[-1].name.id == "edit.estimate_offset"
-    assert reported[-1][0].id == "audio.offset_found"
+    assert reported[-1][0].id.startswith("audio.offset_found")
     session.document.undo()
     assert session.project.audio.offset_s == 0.0
     session.document.undo()
@@ -263,10 +263,10 @@ def test_a_faster_recording_gives_its_tempo_when_asked(
     soundfile.write(tmp_path / "fast.wav", mixdown(faster, -1.0, 40.0), RATE_HZ)
     add(session, tmp_path / "fast.wav", qtbot)
     qtbot.waitUntil(lambda: bool(reported))
-    assert reported[-1].id == "audio.other_tempo"
+    assert reported[-1].id.startswith("audio.other_tempo")
     assert session.project.score.tempo_map is before
     sound.estimate(with_tempo=True)
-    assert reported[-1].id == "audio.tempo_fitted"
+    assert reported[-1].id.startswith("audio.tempo_fitted")
     assert session.project.score.tempo_map.bpm[0][1] == pytest.approx(faster.score.tempo_map.bpm[0][1], rel=5e-4)
     assert session.project.audio is not None
     assert session.project.audio.offset_s == pytest.approx(-1.0, abs=0.02)

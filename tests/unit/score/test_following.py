@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from app.errors import Message
+from app.errors import Argument, Message
 from app.messages import text
-from app.score.following import Following, bars_named
+from app.score.following import Following, RunnerUp, bars_named, message_of_place
 from app.score.metre_map import MetreMap
 
 QUARTER = 480
@@ -40,3 +40,16 @@ def test_a_piece_that_ends_within_a_bar_has_that_bar() -> None:
 def test_bars_are_named_as_they_are_read(runs: tuple[tuple[int, int], ...], said: str) -> None:
     message = Message("audio.followed_but", {"percent": 96, **bars_named(*runs)})
     assert text(message).endswith(said)
+
+
+def test_the_second_likeliest_place_is_part_of_every_message_of_a_place() -> None:
+    second = RunnerUp(-12.345, 0.216)
+    told: dict[str, Argument] = {"percent": 96, "offset_s": 1.0, "tempo_percent": 2.0, **bars_named((1, 2))}
+    for id in ("audio.followed", "audio.followed_but", "audio.offset_found", "audio.other_tempo", "audio.tempo_fitted",
+               "video.offset_found"):  # fmt: skip
+        for language in ("en", "ja"):
+            alone = text(message_of_place(id, told, None), language)
+            both = text(message_of_place(id, told, second), language)
+            assert "-12.3" in both
+            assert "22 %" in both
+            assert "22 %" not in alone
