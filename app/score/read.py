@@ -232,7 +232,9 @@ def read_contents(path: Path, *, encoding: str | None = None) -> MidiContents:
         tracks.append(events)
         counts.append(sum(not message.is_meta for message in messages) if not events.channels else 0)
     _require_few(sum(bool(events.channels) for events in tracks), str(path))
-    for events, sounds in zip(tracks, channel_sounds([one.said_of_sounds for one in tracks]), strict=True):
+    for events, sounds in zip(
+        tracks, channel_sounds([one.said_of_sounds for one in tracks], ticks_per_quarter), strict=True
+    ):
         events.sounds = sounds
     if container.format == 2 and len(tracks) > 1:
         warnings.append(Message("midi.patterns", {"patterns": len(tracks)}))
@@ -493,4 +495,7 @@ def _program(
             before = [program for tick, program in own if tick <= first_onset]
             return before[-1] if before else own[0][1]
     others = given.get((events.port or FIRST_PORT, channels[0]), frozenset[int]())
-    return None if len(others) > 1 else events.sound_at(channels[0], first_onset).program
+    if len(others) > 1:
+        return None
+    heard = events.sound_at(channels[0], first_onset).program
+    return next(iter(others), None) if heard is None else heard

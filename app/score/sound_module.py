@@ -18,8 +18,8 @@ XG (Yamaha MU80 and MU100 data lists)
 GM2 (General MIDI 2, MMA RP-024)
     "GM2 System On" (universal 09 03). Bank MSB 120 is percussion, 121 a melody; program 56 of percussion is effects.
 
-A bank takes effect at the next program change. A drum bank that no program change follows before the first note does at
-that note: the two were written in the wrong order. Roland's checksum is not looked at, as other programs do not, and
+A bank takes effect at the next program change. One that no program change follows before the first note does at that
+note: the two were written in the wrong order. Roland's checksum is not looked at, as other programs do not, and
 messages for every device are heeded.
 
 Where no reset is in a file, or those of GS and of XG both, a bank of 120, 126 or 127 is read as XG and GM2 have it, as
@@ -52,6 +52,9 @@ _EFFECT_KITS: Final = (56, 57)
 _DRUM_BANKS: Final = frozenset((120, 126, 127))
 _PERCUSSION_BANK, _MELODY_BANK, _EFFECT_KIT_BANK, _KIT_BANK, _EFFECT_BANK = 120, 121, 126, 127, 64
 _ORCHESTRA, _BRUSH = 48, 40
+LATE_QUARTERS: Final = 4
+"""What says for the first time what a channel is may come so much later than its first note: programs write it into the
+first bar, some ticks apart."""
 _MOST_CHANGES: Final = 256
 """Changes of one channel by tracks other than its own that are looked at, of each kind; a piece has a few."""
 
@@ -143,12 +146,17 @@ _ORCHESTRA_SOUNDS: Final[Mapping[int, int]] = {
 }  # fmt: skip
 
 
-def channel_sounds(tracks: Sequence[Setups]) -> list[dict[int, list[tuple[int, ChannelSound]]]]:
+def channel_sounds(tracks: Sequence[Setups], quarter: int) -> list[dict[int, list[tuple[int, ChannelSound]]]]:
     """What each channel with notes of each track sounds like, and from which tick on.
 
     A track's own banks and programs go before those of other tracks, for the channels of large scores are shared. Those
     of a track without notes on a channel hold for all that have some; those of other tracks with notes only where a
     track has none itself.
+
+    Parameters
+    ----------
+    quarter : int
+        Ticks.
 
     Returns
     -------
@@ -171,7 +179,7 @@ def channel_sounds(tracks: Sequence[Setups]) -> list[dict[int, list[tuple[int, C
             said = given.get((port, channel), nothing)
             settings = [given.get((one, channel), nothing).settings for one in _listening(port)]
             steps = merge(modes[port][channel], *settings, own if own else said.others)
-            timelines[channel] = _timeline(steps, channel, onset)
+            timelines[channel] = _timeline(steps, channel, onset, LATE_QUARTERS * quarter)
         found.append(timelines)
     return found
 
@@ -375,6 +383,11 @@ class _State:
         """The bank that the next program change takes."""
         self.program: int | None = None
 
+    @property
+    def is_said(self) -> bool:
+        """Whether any message was about the channel itself."""
+        return self.program is not None or self.mode is not None or self.bank is not None
+
     def take(self, step: _Step) -> None:
         if step.kind == "reset":
             self.system = step.value  # type: ignore[assignment]
@@ -427,28 +440,25 @@ class _State:
         return by_number and self.program in _EFFECT_KITS
 
 
-def _timeline(steps: Iterable[_Step], channel: int, onset: int) -> list[tuple[int, ChannelSound]]:
+def _timeline(steps: Iterable[_Step], channel: int, onset: int, late: int) -> list[tuple[int, ChannelSound]]:
     """The changes of a channel whose first note begins at a tick.
 
-    What comes before a channel's first program or mode is not what it sounds like, if that comes after the first note.
+    Parameters
+    ----------
+    late : int
+        What says for the first time what a channel is may come so many ticks after its first note.
     """
     state = _State(channel)
     found: list[tuple[int, ChannelSound]] = []
-    begun = False
     for step in steps:
-        if step.tick > onset and not begun:
-            begun = True
-            if state.coming in _DRUM_BANKS:
-                state.settle()
-            if state.program is not None or state.mode is not None or state.bank is not None:
-                found = [(0, state.sound())]
-        state.take(step)
-        if begun and step.kind != "bank":
-            sound = state.sound()
-            if not found or found[-1][1] != sound:
-                found.append((step.tick if found else 0, sound))
-    if not begun:
-        if state.coming in _DRUM_BANKS:
+        if step.tick > onset and not found:
             state.settle()
-        found = [(0, state.sound())]
-    return found or [(0, state.sound())]
+            if state.is_said or step.tick > onset + late:
+                found.append((0, state.sound()))
+        state.take(step)
+        if found and step.kind != "bank" and found[-1][1] != (sound := state.sound()):
+            found.append((step.tick, sound))
+    if not found:
+        state.settle()
+        found.append((0, state.sound()))
+    return found

@@ -81,6 +81,10 @@ def found(*tracks: bytes) -> tuple[int, int, list[str]]:
         ((XG_ON + bank(0) + TRUMPET_11 + TUNE + bank(127) + TUNE,), "tune"),
         ((XG_ON + bank(0) + TRUMPET_11 + TUNE + bank(127) + TRUMPET_11 + BEAT,), "both"),
         ((XG_ON + TRUMPET_11 + bank(127) + BEAT,), "beat"),
+        ((XG_ON + TRUMPET_11 + bank(64) + BEAT,), "effect"),
+        # Settings that come within the first bar are the channel's; later ones change it.
+        ((BEAT + XG_ON + bank(127) + TRUMPET_11,), "beat"),
+        ((meta(3, b"Trumpet") + TUNE * 6 + XG_ON + bank(127) + TRUMPET_11 + BEAT,), "long tune and beat"),
         # Without a reset, or with another system's.
         ((bank(127) + TRUMPET_11 + BEAT,), "beat"),
         ((bank(126) + TRUMPET_11 + BEAT,), "effect"),
@@ -110,6 +114,7 @@ def test_what_a_channel_is(tracks: tuple[bytes, ...], expected: str) -> None:
         "beat": (0, 4, ["score.percussion"]),
         "effect": (0, 0, ["score.sound_effect"]),
         "both": (4, 4, ["score.percussion"]),
+        "long tune and beat": (24, 4, ["score.percussion"]),
         "percussion without hits": (0, 0, ["score.percussion"]),
     }
     played, hits, reasons = found(*tracks)
