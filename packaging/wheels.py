@@ -1,8 +1,8 @@
 """Asks pip for a wheel of every package that Suisou needs, for each supported Python and system, and prints a table.
 
-Run it before a release: ``.venv/bin/python packaging/wheels.py``. It takes some minutes; nothing is
-installed, and no wheel is kept. `--python 3.13` asks for one Python only. Exit status 1: a package that
-pyproject.toml asks for has no wheel somewhere.
+Run it before a release, by the newest Python there is, since pip leaves out what does not run on the Python that asks:
+``.venv-newer/bin/python packaging/wheels.py``. It takes some minutes, and keeps no wheel of those that it fetches.
+`--python 3.13` asks for one Python only. Exit status 1: a package that pyproject.toml asks for has no wheel somewhere.
 """
 
 from __future__ import annotations

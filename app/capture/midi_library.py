@@ -13,12 +13,11 @@ from collections.abc import Callable
 from typing import Any, Final, Protocol, TypeAlias
 
 from app.capture.jack import share_library
+from app.capture.port_names import CLIENT
 
 MidiCallback: TypeAlias = Callable[[int, bytes], None]
 """Called in the driver's thread with the moment of `time.perf_counter_ns` and the bytes of a message. It must not
 raise: rtmidi2 ignores exceptions."""
-
-CLIENT: Final = "Suisou"
 
 _RTMIDI2_SYSTEMS: Final = {"linux": ("alsa", "jack"), "darwin": ("core",), "win32": ("winmm",)}
 """What its wheels are built with, by platform: the module does not say."""

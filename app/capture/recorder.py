@@ -29,7 +29,8 @@ from typing import IO, Any, Final, TypeAlias
 
 from app.capture.journal import JournalWriter, is_whole
 from app.capture.midi_library import OpenInput
-from app.capture.ports import MidiSystem, Port, PortError
+from app.capture.port_names import Port
+from app.capture.ports import MidiSystem, PortError
 from app.capture.protocol import (
     COMMANDS,
     Back,

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Final
 
 from app.capture.journal import Header, passes, read_journal
+from app.capture.port_names import matching
 from app.capture.protocol import Back, Finished, Lost, NotStarted, Opened, Refused, Restarted, Written
 from app.cli.options import LONGEST_S, within
 from app.cli.ports import Listening, NoDevice
@@ -120,18 +121,16 @@ def _open(listening: Listening, requested: str) -> str:
     inputs = listening.ports().inputs
     if not inputs:
         raise NoDevice("capture.no_ports")
-    matching = [name for name in inputs if name == requested] or [
-        name for name in inputs if requested.casefold() in name.casefold()
-    ]
-    if len(matching) != 1:
-        raise NoDevice("capture.port_unknown", port=requested, possible=", ".join(matching or inputs))
-    listening.link.open(matching[0])
+    found = matching(requested, inputs, partly=True)
+    if len(found) != 1:
+        raise NoDevice("capture.port_unknown", port=requested, possible=", ".join(found or inputs))
+    listening.link.open(found[0])
     for reported in listening.until(time.monotonic() + _WITHIN_S):
         if isinstance(reported, Opened):
             return reported.port
         if isinstance(reported, Refused):
             raise NoDevice(reported.reason.id, **reported.reason.arguments)
-    raise NoDevice("capture.port_not_here", port=matching[0])
+    raise NoDevice("capture.port_not_here", port=found[0])
 
 
 def _begun(listening: Listening) -> None:

@@ -23,6 +23,7 @@ from app.audio.playback import Playback
 from app.capture.adopt import takes_of
 from app.capture.journal import LARGEST_LATENCY_S, Header, Journal, read_journal
 from app.capture.link import RecorderLink
+from app.capture.port_names import matching
 from app.capture.protocol import (
     Back,
     Events,
@@ -176,6 +177,16 @@ class Recorder(QObject):
         self._know(port)
         self._link.open(port or None)
 
+    def _find_again(self, ports: tuple[str, ...]) -> None:
+        """Take the device of last time by its name of now: systems and versions of ours number ports differently."""
+        before = self._state.port
+        if not before or before in ports or self._state.connection != "waiting":
+            return
+        found = matching(before, ports)
+        if len(found) == 1:
+            self._settings.rename_midi_device(before, found[0])
+            self.choose(found[0])
+
     def set_count_in(self, bars: int) -> None:
         """Count so many bars before a take, from now on."""
         self._settings.count_in_bars = bars
@@ -235,6 +246,7 @@ class Recorder(QObject):
         match reported:
             case Ports():
                 state.set(ports=reported.inputs)
+                self._find_again(reported.inputs)
                 # What held us up is no more; whether the device can be had now is reported next.
                 if reported.system and state.refusal is not None and state.port not in reported.inputs:
                     state.set(connection="waiting" if state.port else "none", refusal=None)

@@ -357,6 +357,12 @@ class Settings(QObject):
             devices = self._midi_devices
             self._midi_devices = {**devices, port: {**devices.get(port, {}), name: value}}
 
+    def rename_midi_device(self, before: str, port: str) -> None:
+        """Remember of a device by another name what was remembered by the one before; what that one has stays."""
+        devices = self._midi_devices
+        if before in devices:
+            self._midi_devices = {**devices, port: {**devices[before], **devices.get(port, {})}}
+
     def workspace_state(self, workspace_id: str) -> dict[str, str]:
         """How a workspace was left, by what is remembered of it; empty: it is as at first."""
         return dict(self._workspaces.get(workspace_id, {}))

@@ -136,6 +136,23 @@ def test_a_remembered_device_that_is_not_there_is_waited_for_without_a_warning(s
     assert not said
 
 
+@pytest.mark.parametrize("now", [f"{EWI} MIDI 1", f"{EWI} MIDI 1 (2)"])
+def test_a_device_is_found_again_by_another_number(studio: Studio, now: str) -> None:
+    recorder, settings = studio.program.recorder, studio.program.editor.settings
+    before = f"{EWI}:{EWI} MIDI 1 20:0"
+    recorder.choose(before)
+    recorder.set_latency(0.03)
+    studio.link.say(Ports((USB, now), (), "test"))
+    studio.wait(lambda: studio.link.requested[-1] == now)
+    assert (settings.midi_port, studio.session.recording.port) == (now, now)
+    assert studio.session.recording.latency_s == 0.03, "what is known of it too"
+    # One of two of a kind is the user's choice.
+    recorder.choose(before)
+    studio.link.say(Ports((f"{EWI} MIDI 1", f"{EWI} MIDI 1 (2)"), (), "test"))
+    studio.wait(lambda: len(studio.session.recording.ports) == 2)
+    assert studio.session.recording.port == before
+
+
 def test_what_the_disk_or_an_output_refuses_says_nothing_of_the_device(studio: Studio) -> None:
     studio.link.say(Lost(EWI, 0), Refused(Message("capture.not_written", {"file": "x", "reason": "full"})))
     studio.wait(lambda: studio.session.recording.connection == "lost")

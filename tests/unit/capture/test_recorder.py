@@ -13,7 +13,8 @@ import pytest
 
 from app.capture import recorder as recording
 from app.capture.journal import Header
-from app.capture.ports import Port, PortError
+from app.capture.port_names import Port
+from app.capture.ports import PortError
 from app.capture.protocol import (
     NEWS,
     Back,

@@ -1,0 +1,158 @@
+"""Names of MIDI ports without what a system adds to them: numbers that change whenever a device is connected.
+
+===========  ==============================================  ======================================
+system       its name of a port                              ours
+===========  ==============================================  ======================================
+ALSA         ``EWI5000:EWI5000 MIDI 1 20:0``                 ``EWI5000 MIDI 1``
+JACK         ``a2j:EWI5000 [20] (capture): EWI5000 MIDI 1``  ``EWI5000 MIDI 1``
+PipeWire     ``Midi-Bridge:EWI5000:(capture_0) EWI5000 ...``  ``EWI5000 ...``
+Windows      ``2- EWI5000 1``                                ``EWI5000``
+macOS        ``EWI5000``                                     ``EWI5000``
+===========  ==============================================  ======================================
+
+The second of two devices of one kind is called ``EWI5000 (2)``.
+"""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from typing import Final
+
+import msgspec
+
+CLIENT: Final = "Suisou"
+NAMELESS: Final = "MIDI"
+_OWN: Final = re.compile(rf"{CLIENT}(-\d+)?:")
+_ALSA: Final = re.compile(r"(?P<client>[^:]+):(?P<port>.*) \d+:\d+")
+_BRIDGES: Final = (
+    re.compile(r"a2j:(?P<client>.+) \[\d+\] \((?:capture|playback)\): (?P<port>.+)"),
+    # PipeWire numbers ports of one name at their end; a device's own numbers are shorter.
+    re.compile(r"Midi-Bridge:(?P<client>[^:]+):\((?:capture|playback)_\d+\) (?P<port>.+?)(?:-\d{2,})?"),
+    re.compile(r"Midi-Bridge:(?P<client>)(?P<port>.+) \((?:capture|playback)\)"),
+)
+_WINDOWS_COUNT: Final = re.compile(r"(^|\()\d+- ")
+"""Windows counts the sockets that a device was ever connected to: ``MIDIIN2 (3- EWI5000)``."""
+_END_NUMBER: Final = re.compile(r" \d+$")
+_OF_A_KIND: Final = re.compile(r" \(\d+\)$")
+
+
+class Port(msgspec.Struct, frozen=True):
+    """A port as it is now.
+
+    Attributes
+    ----------
+    name : str
+        Its own among the ports that are there.
+    identity : str
+        Differs for a device that went and came back, where the system lets us know.
+    index : int
+        Its place in the system's list.
+    """
+
+    name: str
+    identity: str
+    index: int
+
+
+def named(found: Sequence[str], system: str, known: Mapping[str, str] | None = None) -> tuple[Port, ...]:
+    """The ports of a system's list, without our own.
+
+    Parameters
+    ----------
+    found : sequence of str
+        As the system calls them.
+    system : {"alsa", "jack", "core", "winmm"}
+    known : mapping of str to str, optional
+        Names of ports that were there before, by identity: of two devices of one kind, the one that stays keeps its
+        name.
+    """
+    known = {} if known is None else known
+    listed = [(index, full) for index, full in enumerate(found) if not _OWN.match(full)]
+    identities = _identities([_identity(full, index, system) for index, full in listed])
+    kept: dict[str, str] = {}
+    for identity in identities:
+        if identity in known and known[identity] not in kept.values():
+            kept[identity] = known[identity]
+    taken = set(kept.values())
+    ports = []
+    for (index, full), identity in zip(listed, identities, strict=True):
+        name = kept.get(identity) or _free(_plain(full, index, system), taken)
+        taken.add(name)
+        ports.append(Port(name, identity, index))
+    return tuple(ports)
+
+
+def matching(requested: str, names: Sequence[str], *, partly: bool = False) -> tuple[str, ...]:
+    """The names of ports that are meant by a text: the same; else of the same device, as any system calls it.
+
+    Parameters
+    ----------
+    requested : str
+        A name of ours, or one that a system gave the port, now or long ago.
+    partly : bool
+        The text may also be a part of the name, in any case of letters.
+    """
+    if requested in names:
+        return (requested,)
+    plain = _of_any_system(requested)
+    candidates = {_key(plain), _key(_END_NUMBER.sub("", plain))}
+    same = tuple(name for name in names if _key(name) in candidates)
+    if same or not partly:
+        return same
+    return tuple(name for name in names if requested.casefold() in name.casefold())
+
+
+def _identity(full: str, index: int, system: str) -> str:
+    """What is known of one device: without the number of its place in the list."""
+    return full.removesuffix(f" {index}") if system == "winmm" else full
+
+
+def _identities(plain: Sequence[str]) -> list[str]:
+    """The same, each once."""
+    seen: Counter[str] = Counter()
+    found = []
+    for name in plain:
+        seen[name] += 1
+        found.append(name if seen[name] == 1 else f"{name} ({seen[name]})")
+    return found
+
+
+def _free(plain: str, taken: set[str]) -> str:
+    name, number = plain, 1
+    while name in taken:
+        number += 1
+        name = f"{plain} ({number})"
+    return name
+
+
+def _plain(full: str, index: int, system: str) -> str:
+    if system == "alsa":
+        return _without_numbers(full, (_ALSA,))
+    if system == "jack":
+        return _without_numbers(full, _BRIDGES)
+    if system == "winmm":
+        full = _WINDOWS_COUNT.sub(r"\1", full.removesuffix(f" {index}").strip())
+    return full.strip() or NAMELESS
+
+
+def _of_any_system(name: str) -> str:
+    return _WINDOWS_COUNT.sub(r"\1", _without_numbers(name, (_ALSA, *_BRIDGES)))
+
+
+def _without_numbers(full: str, forms: Sequence[re.Pattern[str]]) -> str:
+    for form in forms:
+        if match := form.fullmatch(full.strip()):
+            return _of_client(match["client"].strip(), match["port"].strip()) or NAMELESS
+    return full.strip() or NAMELESS
+
+
+def _of_client(client: str, port: str) -> str:
+    return port if port.startswith(client) else f"{client}:{port}"
+
+
+def _key(name: str) -> str:
+    """What names of one device have in common."""
+    client, colon, port = _OF_A_KIND.sub("", name).partition(":")
+    return (_of_client(client, port) if colon else client).casefold()
