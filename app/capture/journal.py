@@ -26,6 +26,7 @@ import msgspec
 
 from app.errors import FileError
 from app.formats.files import cannot_write, read_file
+from app.formats.json_data import UNREADABLE
 from app.formats.locks import lock
 from app.score.sounding import Sounding, note_off
 
@@ -342,7 +343,7 @@ def _header(path: Path, line: bytes) -> Header | None:
         if version > VERSION:
             raise FileError("journal.newer", file=str(path), version=version)
         header = _HEADERS.decode(line)
-    except (msgspec.MsgspecError, UnicodeDecodeError, RecursionError):
+    except UNREADABLE:
         return None
     known = header.version == VERSION and abs(header.latency_s) <= LARGEST_LATENCY_S
     return header if known else None

@@ -19,9 +19,9 @@ from app.cli.commands import TWO_WORDS, CommandParser, add_commands
 from app.cli.status import BAD_INPUT, BAD_USE, DONE, STOPPED
 from app.cli.terminal import interrupted_by, warn
 from app.encoding import shown
-from app.errors import AppError, UsageError
+from app.errors import AppError, Message, UsageError
 from app.formats.other_computers import agree
-from app.messages import error_text
+from app.messages import error_text, text
 from app.version import program_version
 
 _DESCRIPTION = """\
@@ -71,6 +71,9 @@ def main(arguments: Sequence[str]) -> int:
     for argument in arguments:
         # Whoever names a file on another computer agrees to that computer.
         agree(argument.partition("=")[2] if argument.startswith("--") else argument)
+    broken = next((argument for argument in arguments if "\0" in argument), None)
+    if broken is not None:
+        return _fail(text(Message("argument.with_nul", {"argument": broken})), BAD_USE)
     try:
         parsed = parser().parse_args(_joined(arguments), argparse.Namespace(given=tuple(arguments)))
         if parsed.command is None:

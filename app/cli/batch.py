@@ -2,7 +2,8 @@
 
 What was done is noted in ``exported.json`` in the folder of the exports: where a run was stopped, the next one goes on.
 
-Messages: ``batch.no_pieces`` (folder); ``batch.unreal``; ``batch.bad_notes`` (file); those of `app.cli.cluster`.
+Messages: ``batch.no_pieces`` (folder); ``batch.unreal``; ``batch.bad_notes`` (file, detail, aside); those of
+`app.cli.cluster`.
 """
 
 from __future__ import annotations
@@ -25,13 +26,14 @@ from app.cli.batch_inputs import own_digests, piece_digest
 from app.cli.progress import Progress
 from app.cli.status import BAD_INPUT, DONE, PARTIAL, STOPPED
 from app.cli.summary import columns
-from app.cli.terminal import say
+from app.cli.terminal import say, warn
 from app.encoding import shown
-from app.errors import FileError, UsageError
+from app.errors import FileError, Message, UsageError
 from app.export.file_names import REPORT
 from app.formats.atomic import atomic_write
-from app.formats.files import read_file
-from app.messages import filled
+from app.formats.files import cannot_write, read_file
+from app.formats.json_data import decode_json
+from app.messages import filled, text
 from app.own_process import core_count, own_process
 
 NOTES: Final = "exported.json"
@@ -196,7 +198,8 @@ def export_piece(given: Sequence[str], piece: str, folder: str) -> Outcome:
     if child.returncode not in (DONE, PARTIAL):
         reason = lines[-1].removeprefix("suisou: ") if lines else f"ended with status {child.returncode}"
         return Outcome(child.returncode or BAD_INPUT, reason)
-    report = msgspec.json.decode(read_file(Path(folder) / REPORT, _MOST_BYTES), type=_Reported)
+    file = Path(folder) / REPORT
+    report = decode_json(read_file(file, _MOST_BYTES), _Reported, str(file))
     return Outcome(
         status=child.returncode,
         players=len(report.players) + len(report.dancers),
@@ -261,13 +264,24 @@ def _outcome(future: Future[Outcome]) -> Outcome:
         return Outcome(BAD_INPUT, str(error) or type(error).__name__)
 
 
+_NOTES: Final[msgspec.json.Decoder[dict[str, _Note]]] = msgspec.json.Decoder(dict[str, _Note])
+
+
 def _read_notes(file: Path) -> dict[str, _Note]:
     if not os.path.exists(file):
         return {}
     try:
-        return msgspec.json.decode(read_file(file, _MOST_BYTES), type=dict[str, _Note])
-    except msgspec.MsgspecError as error:
-        raise FileError("batch.bad_notes", file=str(file)) from error
+        return decode_json(read_file(file, _MOST_BYTES), _NOTES, str(file), "batch.bad_notes")
+    except FileError as error:
+        if error.message.id != "batch.bad_notes":
+            raise
+        aside = file.with_name(f"{file.name}.damaged")
+        try:
+            file.replace(aside)
+        except OSError as refusal:
+            raise cannot_write(aside, refusal) from refusal
+        warn(text(Message(error.message.id, {**error.message.arguments, "aside": aside.name})))
+        return {}
 
 
 def _write_notes(file: Path, notes: dict[str, _Note]) -> None:

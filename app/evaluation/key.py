@@ -15,6 +15,7 @@ import msgspec
 from app.errors import FileError
 from app.formats.atomic import atomic_write
 from app.formats.files import read_file
+from app.formats.json_data import decode_json
 
 KEY_FILE: Final = "key.json"
 VERSION: Final = 1
@@ -107,12 +108,9 @@ def read_key(path: Path) -> Key:
         ``evaluate.not_a_key``, ``evaluate.newer_key``; those of `app.formats.files.read_file`.
     """
     content = read_file(path, _MOST_BYTES)
-    try:
-        if msgspec.json.decode(content, type=_Head).version > VERSION:
-            raise FileError("evaluate.newer_key", file=str(path))
-        key = msgspec.json.decode(content, type=Key)
-    except (msgspec.DecodeError, RecursionError) as error:
-        raise FileError("evaluate.not_a_key", file=str(path), detail=str(error)) from error
+    if decode_json(content, _Head, str(path), "evaluate.not_a_key").version > VERSION:
+        raise FileError("evaluate.newer_key", file=str(path))
+    key = decode_json(content, Key, str(path), "evaluate.not_a_key")
     codes = [clip.code for clip in key.clips]
     if len(set(codes)) != len(codes):
         raise FileError("evaluate.not_a_key", file=str(path), detail="two clips have the same code")

@@ -30,6 +30,7 @@ from app.export.file_names import REPORT, figure_stems
 from app.export.target import normalised_target
 from app.formats.bvh import BvhClip, read_bvh
 from app.formats.files import cannot_read, read_file
+from app.formats.json_data import decode_json
 from app.formats.motion_limits import require_rate
 from app.performance.cast import Performer, performer_of
 from app.performance.chunks import Pose
@@ -232,10 +233,8 @@ def _of_one(path: Path, stems: Mapping[str, str], requested: Sequence[str]) -> d
 def _start_s(performance: Performance, folder: Path) -> float:
     report = folder / REPORT
     if os.path.isfile(report):
-        try:
-            return msgspec.json.decode(read_file(report, _REPORT_BYTES), type=_Report).first_frame_s
-        except (msgspec.DecodeError, RecursionError) as error:
-            raise FileError("evaluate.keyframes_report", file=str(report), detail=str(error)) from error
+        content = read_file(report, _REPORT_BYTES)
+        return decode_json(content, _Report, str(report), "evaluate.keyframes_report").first_frame_s
     return performance.time_frame.first_frame_s
 
 

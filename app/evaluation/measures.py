@@ -20,6 +20,7 @@ from app.evaluation.onset_lag import LagMeasure, measure_lag
 from app.evaluation.variants import OURS, performance_of
 from app.formats.atomic import atomic_write
 from app.formats.files import read_file
+from app.formats.json_data import decode_json
 from app.motion.model import Motion
 from app.performance.cast import Performer, performers_of
 from app.performance.ensemble import Performance
@@ -264,10 +265,7 @@ def write_measures(variants: Sequence[VariantMeasures], path: Path) -> None:
 
 def read_measures(path: Path) -> tuple[VariantMeasures, ...]:
     """Read measures. Raises FileError (``results.not_measures``; those of `read_file`)."""
-    try:
-        found = msgspec.json.decode(read_file(path, _MOST_BYTES), type=_File)
-    except (msgspec.DecodeError, RecursionError) as error:
-        raise FileError("results.not_measures", file=str(path), detail=str(error)) from error
+    found = decode_json(read_file(path, _MOST_BYTES), _File, str(path), "results.not_measures")
     if found.version > VERSION:
         raise FileError("evaluate.newer_key", file=str(path))
     return found.variants

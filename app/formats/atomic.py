@@ -56,13 +56,13 @@ def atomic_write(
     FileError
         ``file.cannot_write`` if the system refuses (folder missing, no permission, disk full).
     """
-    target = Path(os.path.realpath(path)) if follow_link else Path(path)
-    if target.parent not in _swept:
-        _swept.add(target.parent)
-        sweep(target.parent)
     try:
+        target = Path(os.path.realpath(path)) if follow_link else Path(path)
+        if target.parent not in _swept:
+            _swept.add(target.parent)
+            sweep(target.parent)
         partial, stream = _new_partial(target.parent)
-    except OSError as error:
+    except (OSError, ValueError) as error:  # ValueError: a NUL in the path
         raise cannot_write(path, error) from error
     try:
         with stream:

@@ -87,9 +87,10 @@ def cannot_read(path: str | os.PathLike[str], error: OSError | ValueError) -> Fi
     return FileError("file.cannot_read", file=os.fspath(path), reason=reason or str(error))
 
 
-def cannot_write(path: str | os.PathLike[str], error: OSError) -> FileError:
-    """What is reported of a file that cannot be written: ``file.cannot_write``."""
-    return FileError("file.cannot_write", file=os.fspath(path), reason=error.strerror or str(error))
+def cannot_write(path: str | os.PathLike[str], error: OSError | ValueError) -> FileError:
+    """The error of a file that cannot be written: ``file.cannot_write``."""
+    reason = error.strerror if isinstance(error, OSError) else None
+    return FileError("file.cannot_write", file=os.fspath(path), reason=reason or str(error))
 
 
 def _mb(size: int) -> float:

@@ -5,7 +5,7 @@ Messages: ``json.invalid``.
 
 from __future__ import annotations
 
-from typing import TypeVar
+from typing import Final, TypeVar
 
 import msgspec
 
@@ -13,8 +13,12 @@ from app.errors import FileError, shortened
 
 T = TypeVar("T")
 
+UNREADABLE: Final = (msgspec.MsgspecError, ValueError, RecursionError)
+"""Everything that msgspec raises for bytes of any origin: not JSON or MessagePack, not of the type, texts that are not
+UTF-8, nested too deep."""
 
-def decode_json(content: bytes, kind: type[T] | msgspec.json.Decoder[T], file: str) -> T:
+
+def decode_json(content: bytes, kind: type[T] | msgspec.json.Decoder[T], file: str, refused: str = "json.invalid") -> T:
     """The value of a JSON text.
 
     Parameters
@@ -22,14 +26,16 @@ def decode_json(content: bytes, kind: type[T] | msgspec.json.Decoder[T], file: s
     kind : type or decoder of that type
     file : str
         Where it is from, for messages.
+    refused : str
+        Message (file, detail) of a text that is no JSON, or not of the kind.
 
     Raises
     ------
     FileError
-        ``json.invalid``: it is no JSON, or not of the kind.
+        ``refused``.
     """
     decoder = kind if isinstance(kind, msgspec.json.Decoder) else msgspec.json.Decoder(kind)
     try:
         return decoder.decode(content)
-    except (msgspec.MsgspecError, ValueError, RecursionError) as error:
-        raise FileError("json.invalid", file=file, detail=shortened(error)) from error
+    except UNREADABLE as error:
+        raise FileError(refused, file=file, detail=shortened(error)) from error

@@ -15,6 +15,7 @@ from app.errors import FileError
 from app.formats.atomic import atomic_write
 from app.formats.cache import cache_folder
 from app.formats.files import read_file
+from app.formats.json_data import UNREADABLE
 from app.version import program_version
 
 T = TypeVar("T")
@@ -41,7 +42,7 @@ def kept(kind: str, name: str, folder: Path, decoder: msgspec.msgpack.Decoder[T]
     path = cache_folder(kind) / f"{name}-{digest_of(folder)}.msgpack"
     try:
         return decoder.decode(read_file(path, MOST_BYTES))
-    except (FileError, msgspec.MsgspecError, ValueError, RecursionError):
+    except (FileError, *UNREADABLE):
         value = make()
     # A cache that cannot be written costs the next start some tenths of a second and nothing else.
     with contextlib.suppress(OSError, FileError):

@@ -231,7 +231,8 @@ def stamp_of(paths: Iterable[Path]) -> Stamp:
     for path in paths:
         try:
             status = path.stat()
-        except OSError:
-            continue  # Gone between listing and looking: as if it were not listed.
+        except (OSError, ValueError):
+            # Gone between listing and looking, or a name that no file can have: as if it were not listed.
+            continue
         stamps.append((path.name, status.st_mtime_ns, status.st_size))
     return frozenset(stamps)

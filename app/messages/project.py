@@ -96,6 +96,10 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
             "（楽器は `suisou instruments` で一覧できます）"
         ),
     ),
+    "argument.with_nul": (
+        "{argument!r} holds a NUL character, which no file name or option can have; leave it out",
+        "{argument!r} にはファイル名やオプションに使えない NUL 文字が含まれています。取り除いてください",
+    ),
     "project.encoding": (
         "--encoding sets how the texts of a MIDI file are read, but {file} is a project; leave it out",
         "--encoding は MIDI ファイルの文字の読み方の指定ですが、{file} はプロジェクトです。指定は不要です",

@@ -14,8 +14,8 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         "フォルダーの曲はフォルダーに書き出します。--to を指定してください",
     ),
     "batch.bad_notes": (
-        "{file} is damaged; delete it, and every piece is exported again",
-        "{file} が壊れています。削除すると、すべての曲を書き出し直します",
+        "{file} is damaged ({detail}): it was set aside as {aside}, and every piece is exported again",
+        "{file} が壊れているため（{detail}）、{aside} に退避し、すべての曲を書き出し直します",
     ),
     "dask.missing": (
         "--scheduler needs the package distributed, which is not installed: pip install distributed",

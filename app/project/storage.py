@@ -24,6 +24,7 @@ from app.encoding import PREFIX, restored, shown, stored
 from app.errors import FileError, Message, shortened
 from app.formats.atomic import atomic_write
 from app.formats.files import open_file, read_file
+from app.formats.json_data import UNREADABLE, decode_json
 from app.formats.other_computers import host_of, is_file, may_touch
 from app.plan.corrections import Correction
 from app.project.casting import ConductorPlace
@@ -284,10 +285,7 @@ def decode(content: bytes, path: Path, name: str | None = None) -> Project:
         What the file is called in messages, by default its path.
     """
     file = os.fspath(path) if name is None else name
-    try:
-        raw = msgspec.json.decode(content)
-    except (msgspec.DecodeError, UnicodeDecodeError, RecursionError) as error:
-        raise FileError("project.damaged", file=file, detail=shortened(error)) from error
+    raw = decode_json(content, _ANY, file, "project.damaged")
     version = raw.get(VERSION_KEY) if isinstance(raw, dict) else None
     if not isinstance(version, int) or isinstance(version, bool) or version < 1:
         raise FileError("project.damaged", file=file, detail=f"no {VERSION_KEY}")
@@ -308,7 +306,7 @@ def autosave_facts(content: bytes) -> Autosaved | None:
     """What the bytes of an autosave say of it; None where they say nothing, as those of older versions."""
     try:
         facts = _FACTS.decode(content).autosave
-    except (msgspec.DecodeError, UnicodeDecodeError, RecursionError):
+    except UNREADABLE:
         return None
     return None if facts is None else msgspec.structs.replace(facts, document=file_named(facts.document))
 
@@ -574,4 +572,5 @@ def _is_nested(value: Any) -> bool:
 # Worked out here, under the import's lock: two threads that use a type for the first time at once crash msgspec.
 for _type in (_Content, tuple[Correction, ...], tuple[DanceCorrection, ...]):
     msgspec.json.Decoder(_type)
+_ANY: Final[msgspec.json.Decoder[Any]] = msgspec.json.Decoder()
 _FACTS: Final = msgspec.json.Decoder(_Facts)

@@ -21,6 +21,7 @@ from app.errors import FileError
 from app.formats.atomic import atomic_write
 from app.formats.cache import cache_folder
 from app.formats.files import open_file
+from app.formats.json_data import UNREADABLE
 from app.formats.kept import digest_of
 from app.rig.mesh import Mesh
 from widgets.viewport.shape_model import SHAPE, SURFACE, Face, Geometry
@@ -160,7 +161,7 @@ def _read(path: Path) -> tuple[Geometry, ...] | None:
             head = _DECODER.decode(file.read(length))
             first = file.tell() + -file.tell() % _ALIGNED
             memory = mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ)
-    except (FileError, OSError, ValueError, struct.error, msgspec.MsgspecError):
+    except (FileError, OSError, OverflowError, struct.error, *UNREADABLE):
         return None
 
     def got(array: _Array) -> npt.NDArray[Any]:
