@@ -79,6 +79,7 @@ from app.score.metre_map import Metre
 from app.score.model import MOST_VOICES, Marker, Part, PercussionHit, Score, UnplayedPart
 from app.score.mutes import muted_spans
 from app.score.parts import PartAssignment, assigned_parts, parts_of, rhythm_parts, stream_name
+from app.score.ports import split_by_port
 from app.score.repair import Repaired, last_suspicious, repaired
 from app.score.sound_module import FIRST_PORT, Port, Use, channel_sounds
 from app.score.stuck import cut_stuck_notes
@@ -221,32 +222,40 @@ def read_contents(path: Path, *, encoding: str | None = None) -> MidiContents:
         ticks_per_quarter = TempoMap.of_smpte(_ticks_per_second(ticks_per_quarter)).ticks_per_quarter
     warnings = list(container.warnings)
     tracks: list[TrackEvents] = []
+    more: list[TrackEvents] = []
     counts: list[int] = []
-    begin = 0
+    begin, unended = 0, UNENDED_QUARTERS * ticks_per_quarter
     for index, track in enumerate(container.tracks):
         messages, problems = _messages(track, index, str(path))
         warnings += problems
-        events = gather(messages, begin if container.format == 2 else 0, UNENDED_QUARTERS * ticks_per_quarter)
+        begin = begin if container.format == 2 else 0
+        events, *others = [gather(part, begin, unended) for part in split_by_port(messages)]
+        for other in others:
+            other.name, other.instrument_name = events.name, events.instrument_name
         begin = events.end_tick
-        warnings += _track_warnings(events, index)
+        warnings += [warning for one in (events, *others) for warning in _track_warnings(one, index)]
         tracks.append(events)
+        more += others
         counts.append(sum(not message.is_meta for message in messages) if not events.channels else 0)
+    # The tracks of the file keep their numbers.
+    tracks += more
     _require_few(sum(bool(events.channels) for events in tracks), str(path))
     for events, sounds in zip(
         tracks, channel_sounds([one.said_of_sounds for one in tracks], ticks_per_quarter), strict=True
     ):
         events.sounds = sounds
-    if container.format == 2 and len(tracks) > 1:
-        warnings.append(Message("midi.patterns", {"patterns": len(tracks)}))
+    alone = len(container.tracks) == 1
+    if container.format == 2 and not alone:
+        warnings.append(Message("midi.patterns", {"patterns": len(container.tracks)}))
     tempo_map, tempo_warnings = _tempo_map(container, tracks)
     metres, pickup_ticks, metre_warnings = _metres(tracks, ticks_per_quarter)
     empty = Score("", ticks_per_quarter, tempo_map, metres, pickup_ticks)
-    stuck = cut_stuck_notes(tracks, tempo_map, empty.metre_map, UNENDED_QUARTERS * ticks_per_quarter)
+    stuck = cut_stuck_notes(tracks, tempo_map, empty.metre_map, unended)
     _require_length(empty, tracks, str(path))
     texts = _texts(tracks, encoding)
-    streams = _streams(tracks, settle_bends(tracks), texts)
+    streams = _streams(tracks, settle_bends(tracks), texts, alone)
     _require_few(len(streams), str(path))
-    title = _title(tracks, texts)
+    title = _title(tracks[0], texts, alone)
     return MidiContents(
         title=title or shown(path.stem),
         tempo_map=tempo_map,
@@ -405,17 +414,17 @@ def _markers(tracks: Sequence[TrackEvents], texts: Texts) -> tuple[Marker, ...]:
     return tuple(sorted(named, key=lambda marker: marker.tick))
 
 
-def _title(tracks: Sequence[TrackEvents], texts: Texts) -> str:
+def _title(first: TrackEvents, texts: Texts, alone: bool) -> str:
     """The name of the first track, if it is the piece's and not a player's."""
-    first = tracks[0]
-    if first.channels and len(tracks) > 1:
+    if first.channels and not alone:
         return ""
     return texts.read(first.name)[:MOST_NAME]
 
 
 def _streams(
-    tracks: Sequence[TrackEvents], zones: Sequence[Mapping[int, frozenset[int]]], texts: Texts
+    tracks: Sequence[TrackEvents], zones: Sequence[Mapping[int, frozenset[int]]], texts: Texts, alone: bool
 ) -> list[TrackChannel]:
+    """The notes of every track by channel, or by what belongs together; ``alone``: of a file with one track."""
     lilypond = any(b"LilyPond" in text for _, text in tracks[0].texts)
     given: dict[tuple[Port, int], set[int]] = {}
     for events in tracks:
@@ -427,9 +436,9 @@ def _streams(
         name = texts.read(events.name)[:MOST_NAME]
         if lilypond and (match := _LILYPOND_NAME.match(name)):
             name = "" if match[1].startswith("\\") else match[1].strip()
-        groups = players_channels(events, name if len(tracks) > 1 else "", zones[index])
-        if len(tracks) == 1:
-            name = name if len(groups) == 1 else ""
+        groups = players_channels(events, "" if alone else name, zones[index])
+        if alone:
+            name = name if len(groups) == 1 and len(tracks) == 1 else ""
         said = [(tick, texts.read(text)) for tick, text in (*events.texts, *events.markers)]
         for channels in groups:
             notes = events.notes(channels)

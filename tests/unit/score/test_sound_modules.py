@@ -179,3 +179,20 @@ def test_drums_before_a_melody_on_one_channel_can_be_played_too(tmp_path: Path) 
     assert sorted(len(part.notes) for part in score.parts) == [4, 4]
     assert len({part.id for part in score.parts}) == 2
     assert not score.percussion
+
+
+def test_one_track_may_have_more_than_sixteen_channels() -> None:
+    """A file of format 0 with a port before what is sent to it: the channels of two ports are not one another's."""
+    events = meta(3, b"Song")
+    for port, program in ((0, 56), (1, 57)):
+        events += meta(0x21, bytes([port])) + bytes([0, 0xC0, program])
+    for high, low in ((60, 50), (62, 48), (64, 47), (65, 45)):
+        events += meta(0x21, b"\0") + bytes([0, 0x90, high, 90]) + meta(0x21, b"\1") + bytes([0, 0x90, low, 90])
+        events += meta(0x21, b"\0") + bytes([48, 0x80, high, 0]) + meta(0x21, b"\1") + bytes([0, 0x80, low, 0])
+    score = score_of(header(0, 1) + chunk(b"MTrk", events + END))
+    assert score.title == "Song"
+    assert [(part.map_id, [(one.onset_tick, one.pitch) for one in part.notes]) for part in score.parts] == [
+        ("trumpet", [(0, 60), (48, 62), (96, 64), (144, 65)]),
+        ("trombone", [(0, 50), (48, 48), (96, 47), (144, 45)]),
+    ]
+    assert len({note.id for part in score.parts for note in part.notes}) == 8
