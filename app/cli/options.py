@@ -317,7 +317,8 @@ def _opened(arguments: argparse.Namespace, maps: Mapping[str, InstrumentMap]) ->
     if arguments.written:
         rows = _written(contents, rows, arguments.written, maps)
     seed = getattr(arguments, "seed", None) or 0
-    return import_project(contents, rows, maps, encoding=arguments.encoding, seed=seed), unassigned
+    source = str(arguments.file.absolute())
+    return import_project(contents, rows, maps, source, encoding=arguments.encoding, seed=seed), unassigned
 
 
 def _written(

@@ -76,6 +76,20 @@ def sketch(found: Floats) -> tuple[int, ...]:
     return tuple(np.unique(mixed)[:SKETCH].tolist())
 
 
+def sketched_shares(old: Sequence[Sequence[int]], new: Sequence[Sequence[int]]) -> Floats:
+    """`sketched_share` of all pairs, (old, new)."""
+    result: Floats = np.zeros((len(old), len(new)))
+    owners: dict[int, list[int]] = {}
+    for index, melody in enumerate(new):
+        for hash_ in melody:
+            owners.setdefault(hash_, []).append(index)
+    for index, melody in enumerate(old):
+        # Most pairs have nothing in common.
+        for other in {one for hash_ in melody for one in owners.get(hash_, ())}:
+            result[index, other] = sketched_share(melody, new[other])
+    return result
+
+
 def sketched_share(one: Sequence[int], other: Sequence[int]) -> float:
     """The share of distinct turns that two sketched melodies both have, 0..1, as `shares` counts it: of the smallest
     hashes of both together, those in both."""

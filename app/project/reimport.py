@@ -324,14 +324,16 @@ def _found_again(project: Project, score: Score, places_now: Mapping[Place, Plac
             continue
         before = old.parts[former]
         was = held_by_file(project, before)
-        pairs = align(
-            AlignmentPart.of(was, old.ticks_per_quarter), AlignmentPart.of(part.notes, score.ticks_per_quarter)
-        )
-        kept = {int(new): was[int(one)].id for one, new in pairs}
+        read = project.read_notes.get(before.id) or {note.id: note for note in was}
+        pairs = _same_notes([index for index, note in enumerate(was) if note.id in read], was, part.notes, scale)
+        if pairs is None:
+            lines = (was, old.ticks_per_quarter), (part.notes, score.ticks_per_quarter)
+            pairs = [(int(one), int(new)) for one, new in align(*(AlignmentPart.of(*line) for line in lines))]
+        kept = {new: was[one].id for one, new in pairs}
         ids = [kept[number] if number in kept else next(note_ids) for number in range(len(part.notes))]
         renamed = _renamed(part, before.id, ids)
         read_notes[before.id] = {note.id: note for note in renamed.notes}
-        merged = _merged(before, was, renamed, [(int(one), int(new)) for one, new in pairs], scale)
+        merged = _merged(before, was, renamed, pairs, scale)
         conflicts += merged.conflicts
         known = {note.id: note for note in before.notes}
         places[before.id] = [
@@ -357,6 +359,30 @@ def _found_again(project: Project, score: Score, places_now: Mapping[Place, Plac
         added=tuple(added),
         still=scale == 1 and all(tick == now for own in places.values() for tick, now in own),
     )
+
+
+def _same_notes(
+    places: Sequence[int], was: Sequence[Note], now: Sequence[Note], scale: Fraction
+) -> list[tuple[int, int]] | None:
+    """The pairs of notes of a line that is the same as before, or begins earlier or later as a whole; None: it is not.
+
+    Parameters
+    ----------
+    places : sequence of int
+        Of those of the former notes that the file had.
+    """
+    if len(places) != len(now):
+        return None
+    shift = now[0].onset_tick - round(was[places[0]].onset_tick * scale) if now else 0
+    former = [
+        (round(note.onset_tick * scale) + shift, note.pitch, max(round(note.duration_tick * scale), 1), place)
+        for note, place in ((was[place], place) for place in places)
+    ]
+    present = [(note.onset_tick, note.pitch, note.duration_tick, place) for place, note in enumerate(now)]
+    pairs = list(zip(sorted(former), sorted(present), strict=True))
+    if any(one[:3] != other[:3] for one, other in pairs):
+        return None
+    return [(one[3], other[3]) for one, other in pairs]
 
 
 def _with_curves(

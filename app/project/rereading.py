@@ -24,7 +24,7 @@ from app.project.imported import (
     melody_of,
 )
 from app.project.importing import ImportRow, decision_of, usual_rows
-from app.project.likeness import ALIKE, sketched_share
+from app.project.likeness import ALIKE, sketched_shares
 from app.score.choose import Candidates, How, MapChoice, TrackChannel, candidates
 from app.score.parts import PERCUSSION, PartAssignment
 from app.score.read import MidiContents
@@ -92,7 +92,7 @@ def read_as_decided(
                 renewed.append(mark)
                 continue
             stream = contents.streams[place]
-            says = not decision.requested or _says_who(stream, choices)
+            says = not decision.requested or _says_who(stream, mark, choices)
             streams[place] = stream if says else _as_before(stream, mark)
             renewed.append(mark_of(stream, quarter, None if says else mark))
         spare -= not there
@@ -126,7 +126,7 @@ def recognised_streams(
     result: list[int | None] = [None] * len(marks)
     if not marks or not streams:
         return result
-    content = np.array([[sketched_share(mark.melody, melody) for melody in melodies] for mark in marks])
+    content = sketched_shares([mark.melody for mark in marks], melodies)
     kin = np.array([[_kinship(mark, stream) for stream in streams] for mark in marks])
     from scipy.optimize import linear_sum_assignment  # heavy, and seldom needed
 
@@ -149,10 +149,19 @@ def _kinship(mark: TrackMark, stream: TrackChannel) -> float:
     )
 
 
-def _says_who(stream: TrackChannel, choices: Sequence[MapChoice]) -> bool:
-    """Whether a track itself says which instrument plays it."""
+def _says_who(stream: TrackChannel, mark: TrackMark, choices: Sequence[MapChoice]) -> bool:
+    """Whether a track says who plays it at least as well as it did."""
     found = candidates([stream], choices)
-    return found.how is How.SAID and bool(found.maps) and not found.unknown
+    if found.how is not How.SAID or not found.maps or found.unknown:
+        return False
+    # A name says more than a program: how many players there are, for one.
+    return _understood(stream) >= _understood(mark)
+
+
+def _understood(track: TrackChannel | TrackMark) -> int:
+    """How much the names of a track tell: 2, an instrument; 1, one perhaps; 0, nothing."""
+    named = [vocabulary().by_name(text) for text in (track.name, track.instrument_name) if text]
+    return max((1 if found.vague else 2 for found in named if found is not None), default=0)
 
 
 def _as_before(stream: TrackChannel, mark: TrackMark) -> TrackChannel:
@@ -186,7 +195,7 @@ def _row(
     own = [streams[place] for place in places]
     installed = {PERCUSSION, *(choice.map_id for choice in choices)}
     map_id = decision.map_id if decision.map_id in installed else None
-    if map_id is None and decision.requested:
+    if map_id is None and decision.requested and before is not None:
         found = candidates(own, choices)
         if found.unknown or not found.maps:
             # Its player stays, and has an instrument of its own; any map reads the notes.

@@ -255,7 +255,7 @@ class RandomUser(Restless):
         """Dialogs that ask are agreed to or not."""
         super().look_away()
         for widget in QApplication.topLevelWidgets():
-            if isinstance(widget, QDialog) and widget.isVisible() and widget.objectName() == "reimport":
+            if isinstance(widget, QDialog) and widget.isVisible() and widget.objectName() == "reimport_midi":
                 self.deeds.append("agree")
                 widget.accept() if self.random.random() < 0.7 else widget.reject()
 

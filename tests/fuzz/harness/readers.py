@@ -50,7 +50,7 @@ def midi(path: Path, folder: Path) -> None:
     """Import, save, load, plan; write as MIDI; or read again into a piece that is open."""
     from app.project.importing import import_project, usual_rows
     from app.project.midi_out import export_midi
-    from app.project.reimport import reimport
+    from app.project.reimport import reimported
     from app.score.read import read_contents
     from instrument_maps.load import bundled_maps
     from tests.fuzz.test_score_bytes import check
@@ -63,7 +63,8 @@ def midi(path: Path, folder: Path) -> None:
     with accepted("write as MIDI"):
         export_midi(project, folder / "out.mid", maps)
     with accepted("read again"):
-        again = reimport(_quartet(), project.score, maps, str(path)).project
+        assert reimported(project, path, maps).project is project
+        again = reimported(_quartet(), path, maps).project
     with accepted("save what was read again"):
         _saved(again, folder)
 
