@@ -12,6 +12,7 @@ A line without its line feed was torn off and counts as not written.
 
 from __future__ import annotations
 
+import contextlib
 import math
 import os
 from bisect import bisect_left
@@ -147,12 +148,12 @@ class JournalWriter:
         self.path = path
         self.count = 0
         self._last_sync = (-_LARGEST_NS, 0)
-        mode = "r+" if resumed and os.path.exists(path) else "x"
+        mode = "r+" if resumed and os.path.exists(path) else "x+"
         try:
             self._file = FileIO(path, mode)
             # For a reader of the journal: it is still being written.
             lock(self._file)
-            is_new = mode == "x" or self._cut() == 0
+            is_new = mode == "x+" or self._cut() == 0
         except FileExistsError as error:
             raise FileError("journal.exists", file=path) from error
         except OSError as error:
@@ -209,6 +210,35 @@ class JournalWriter:
         os.fsync(self._file.fileno())
         self._is_synced = True
         return True
+
+    def move(self, path: str) -> None:
+        """Go on in another file, which must not be there and gets everything written so far; the first one goes.
+
+        Raises
+        ------
+        OSError
+            The journal stays where it is, and nothing is lost.
+        """
+        self._file.seek(0)
+        written = self._file.readall()
+        file = FileIO(path, "x+")
+        try:
+            lock(file)
+            data = memoryview(written + self._pending)
+            while data:
+                data = data[file.write(data) :]
+            os.fsync(file.fileno())
+        except OSError:
+            file.close()
+            Path(path).unlink()
+            raise
+        former, self.path, self._file = (self.path, self._file), path, file
+        self._pending.clear()
+        self._is_synced = True
+        former[1].close()
+        # It takes room on a disk that has none; what cannot be removed is only a part of this one.
+        with contextlib.suppress(OSError):
+            Path(former[0]).unlink()
 
     def close(self) -> None:
         """Have the disk take everything and close. Raises OSError; it is closed all the same."""

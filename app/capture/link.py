@@ -24,6 +24,7 @@ from app.capture.protocol import (
     Finished,
     Leave,
     Lost,
+    Moved,
     News,
     NotStarted,
     Open,
@@ -109,13 +110,22 @@ class RecorderLink:
                 self._is_leaving = True
                 self._end_surely()
 
-    def start(self, path: str | os.PathLike[str], header: Header) -> None:
-        """Begin a journal, which must not be there: `Written`, or `NotStarted`. One that runs is finished first."""
+    def start(
+        self, path: str | os.PathLike[str], header: Header, elsewhere: str | os.PathLike[str] | None = None
+    ) -> None:
+        """Begin a journal, which must not be there: `Written`, or `NotStarted`. One that runs is finished first.
+
+        Parameters
+        ----------
+        elsewhere : path, optional
+            Where the journal goes on if its disk takes nothing more: `Moved`.
+        """
         with self._lock:
             if self._failure is not None:
                 self._put(NotStarted(self._failure))
                 return
-            self._take = Start(os.fsencode(Path(path).absolute()), header)
+            second = b"" if elsewhere is None else os.fsencode(Path(elsewhere).absolute())
+            self._take = Start(os.fsencode(Path(path).absolute()), header, elsewhere=second)
             self._is_stopping = False
             self._unsent.clear()
             self._is_begun = self._report(self._take)
@@ -260,7 +270,9 @@ class RecorderLink:
                     continue
                 if isinstance(reported, Opened | Back) or _is_refusal(reported):
                     self._opening = ""
-                if isinstance(reported, Finished | NotStarted):
+                if isinstance(reported, Moved):
+                    self._take_moved(reported)
+                elif isinstance(reported, Finished | NotStarted):
                     self._take_ended(reported)
                 elif isinstance(reported, Lost | Opened | Back):
                     self._port_changed(reported)
@@ -272,6 +284,11 @@ class RecorderLink:
             if reported.port == self.port:
                 self._open = Open(reported.port, is_lost=isinstance(reported, Lost))
                 self._refused = ""
+
+    def _take_moved(self, reported: Moved) -> None:
+        with self._lock:
+            if self._take is not None and self._take.elsewhere == reported.path:
+                self._take = msgspec.structs.replace(self._take, path=reported.path, elsewhere=b"")
 
     def _take_ended(self, reported: Finished | NotStarted) -> None:
         with self._lock:

@@ -29,11 +29,13 @@ class Open(_Report, frozen=True):
 
 class Start(_Report, frozen=True):
     """Write received messages into a journal, whose path is as `os.fsencode` has it: not all names are text.
-    ``resumed_ns``: another recorder began it, and nothing was received since."""
+    ``resumed_ns``: another recorder began it, and nothing was received since. ``elsewhere``: a second path, on which it
+    goes on where the disk of the first takes nothing more; empty: it waits for that disk."""
 
     path: bytes
     header: Header
     resumed_ns: int | None = None
+    elsewhere: bytes = b""
 
 
 class Sync(_Report, frozen=True):
@@ -125,6 +127,13 @@ class Written(_Report, frozen=True):
     count: int
 
 
+class Moved(_Report, frozen=True):
+    """The running journal goes on at another path, whole, because its disk takes nothing more."""
+
+    path: bytes
+    reason: str
+
+
 class Finished(_Report, frozen=True):
     """The journal is whole and closed."""
 
@@ -144,6 +153,7 @@ News: TypeAlias = (
     | Restarted
     | Events
     | Written
+    | Moved
     | Finished
     | SystemEnded
 )

@@ -13,6 +13,7 @@ come cannot be closed (`app.capture.midi_library.OpenInput`). So it does when th
 from __future__ import annotations
 
 import contextlib
+import errno
 import gc
 import os
 import sys
@@ -39,6 +40,7 @@ from app.capture.protocol import (
     Finished,
     Leave,
     Lost,
+    Moved,
     News,
     NotStarted,
     Open,
@@ -67,6 +69,9 @@ _SWITCH_S: Final = 0.0005
 """How long a thread of ours may keep the driver's from stamping."""
 _PRIORITY: Final = -10
 """Where there is no real time: as Unix counts it, less is before others."""
+
+_NO_ROOM: Final = frozenset({errno.ENOSPC, getattr(errno, "EDQUOT", errno.ENOSPC)})
+"""Errors of a full disk."""
 
 StampedMessage: TypeAlias = tuple[int, bytes]
 """A moment of `time.perf_counter_ns` and a message."""
@@ -239,6 +244,7 @@ class JournalKeeper:
     def __init__(self, queue: SimpleQueue[Any], news: NewsQueue) -> None:
         self._queue, self._news = queue, news
         self._writer: JournalWriter | None = None
+        self._elsewhere = b""
         self._is_away = False
         self._failed = False
         self._to_disk_at_s = 0.0
@@ -279,8 +285,9 @@ class JournalKeeper:
 
     def _start(self, start: Start) -> None:
         self._finish("end")
+        self._elsewhere = start.elsewhere
         try:
-            self._writer = JournalWriter(os.fsdecode(start.path), start.header, resumed=start.resumed_ns is not None)
+            self._writer = self._begun(start)
             self._is_away = False
             if start.resumed_ns is not None:
                 self._mark("lost", start.resumed_ns)
@@ -289,6 +296,19 @@ class JournalKeeper:
             self._news.put(NotStarted(error.message))
         except OSError as error:
             self._report_failure(error)
+
+    def _begun(self, start: Start) -> JournalWriter:
+        """The journal, in the second place where the disk has no room for another file."""
+        try:
+            return JournalWriter(os.fsdecode(start.path), start.header, resumed=start.resumed_ns is not None)
+        except FileError as error:
+            cause = error.__cause__
+            if not (self._elsewhere and isinstance(cause, OSError) and cause.errno in _NO_ROOM):
+                raise
+            elsewhere, self._elsewhere = self._elsewhere, b""
+            writer = JournalWriter(os.fsdecode(elsewhere), start.header)
+            self._news.put(Moved(elsewhere, cause.strerror or str(cause)))
+            return writer
 
     def _write(self) -> None:
         if self._writer is None:
@@ -314,6 +334,10 @@ class JournalKeeper:
         if word is not None:
             writer.mark(word, time.perf_counter_ns())
         try:
+            writer.write()
+        except OSError as error:
+            self._move(error)
+        try:
             writer.close()
         except OSError as error:
             self._refuse("capture.cut_short", writer, error)
@@ -323,10 +347,26 @@ class JournalKeeper:
             self._news.put(Finished(os.fsencode(writer.path), writer.count))
 
     def _report_failure(self, error: OSError) -> None:
-        """Say that the disk takes nothing, once; it is tried again with what comes next."""
+        """Go on elsewhere; where that is not possible, say that the disk takes nothing, once: it is tried again with
+        what comes next."""
+        if self._move(error):
+            return
         if not self._failed and self._writer is not None:
             self._failed = True
             self._refuse("capture.not_written", self._writer, error)
+
+    def _move(self, error: OSError) -> bool:
+        """Go on with the journal in the second place, which is tried once; whether that was possible."""
+        elsewhere, self._elsewhere = self._elsewhere, b""
+        if not elsewhere or self._writer is None:
+            return False
+        try:
+            self._writer.move(os.fsdecode(elsewhere))
+        except OSError as refusal:
+            self._refuse("capture.elsewhere_refused", self._writer, refusal)
+            return False
+        self._news.put(Moved(elsewhere, error.strerror or str(error)))
+        return True
 
     def _refuse(self, id: str, writer: JournalWriter, error: OSError) -> None:
         self._news.put(Refused(Message(id, {"file": writer.path, "reason": error.strerror or str(error)})))

@@ -5,19 +5,24 @@ from __future__ import annotations
 import argparse
 import contextlib
 import os
+import tempfile
 import time
 from datetime import datetime
+from itertools import count as count_from
 from pathlib import Path
 from typing import Final
 
+import platformdirs
+
 from app.capture.journal import Header, passes, read_journal
 from app.capture.port_names import matching
-from app.capture.protocol import Back, Finished, Lost, NotStarted, Opened, Refused, Restarted, Written
+from app.capture.protocol import Back, Finished, Lost, Moved, NotStarted, Opened, Refused, Restarted, Written
 from app.cli.options import LONGEST_S, within
 from app.cli.ports import Listening, NoDevice
+from app.cli.status import DONE, PARTIAL
 from app.cli.terminal import count, say, warn
 from app.encoding import shown
-from app.errors import AppError, FileError, UsageError
+from app.errors import AppError, Argument, FileError, Message, UsageError
 from app.formats.locks import is_locked
 from app.messages import text
 from app.score.write_take import write_take
@@ -63,8 +68,8 @@ def add_arguments(command: argparse.ArgumentParser) -> None:
     command.set_defaults(run=record)
 
 
-def record(arguments: argparse.Namespace) -> None:
-    """Record, and write the file.
+def record(arguments: argparse.Namespace) -> int:
+    """Record, and write the file; the exit status.
 
     Raises
     ------
@@ -82,12 +87,30 @@ def record(arguments: argparse.Namespace) -> None:
     if not arguments.rescue:
         if os.path.exists(journal):
             raise FileError("record.journal_left", file=str(target), journal=journal.name)
-        _listen(arguments, journal)
-    _write(target, journal, arguments.tempo)
+        journal = _listen(arguments, journal)
+    return _write(target, journal, arguments.tempo)
 
 
-def _listen(arguments: argparse.Namespace, journal: Path) -> None:
-    """Record into the journal until the time is over or Ctrl+C."""
+def second_place(target: Path) -> Path | None:
+    """A folder for a recording whose own folder takes nothing more, on another disk where there is one; None: no folder
+    can be made."""
+    found: list[tuple[bool, int, Path]] = []
+    for folder in (platformdirs.user_state_path("suisou", appauthor=False) / "recordings", Path(tempfile.gettempdir())):
+        with contextlib.suppress(OSError):
+            folder.mkdir(parents=True, exist_ok=True)
+            found.append((folder.stat().st_dev == target.parent.stat().st_dev, len(found), folder))
+    return min(found)[2] if found else None
+
+
+def _beside_none(folder: Path, name: str) -> Path:
+    """A name in a folder that no file has."""
+    stem, _, suffix = name.partition(".")
+    names = (name if number == 1 else f"{stem} ({number}).{suffix}" for number in count_from(1))
+    return next(folder / one for one in names if not os.path.lexists(folder / one))
+
+
+def _listen(arguments: argparse.Namespace, journal: Path) -> Path:
+    """Record into the journal until the time is over or Ctrl+C; where the journal is."""
     with Listening() as listening:
         port = _open(listening, arguments.port)
         count_in_s = arguments.count_in * _BEATS_IN_BAR * 60.0 / arguments.tempo
@@ -100,20 +123,37 @@ def _listen(arguments: argparse.Namespace, journal: Path) -> None:
             latency_s=0.0,
             started=datetime.now().astimezone().isoformat(timespec="seconds"),
         )
-        listening.link.start(journal, header)
+        folder = second_place(journal)
+        elsewhere = None if folder is None else _beside_none(folder, journal.name)
+        moved = _Moves(journal)
+        listening.link.start(journal, header, elsewhere)
         listening.link.sync(begin_ns, 0.0)
         try:
-            _begun(listening)
+            _begun(listening, moved)
             with contextlib.suppress(KeyboardInterrupt):
-                _count_in(listening, arguments.count_in, arguments.tempo, begin_ns)
+                _count_in(listening, arguments.count_in, arguments.tempo, begin_ns, moved)
                 length_s = LONGEST_S if arguments.seconds is None else arguments.seconds
                 warn("recording" if arguments.seconds else "recording; Ctrl+C ends it")
-                _report_until(listening, _monotonic_s(begin_ns) + length_s)
+                _report_until(listening, _monotonic_s(begin_ns) + length_s, moved)
         finally:
             now_ns = time.perf_counter_ns()
             listening.link.sync(max(now_ns, begin_ns), max(now_ns - begin_ns, 0) / 1e9)
             listening.link.stop()
-        _finished(listening)
+        _finished(listening, moved)
+        return moved.journal
+
+
+class _Moves:
+    """Follows the journal to a second place, and says so."""
+
+    def __init__(self, journal: Path) -> None:
+        self.journal = journal
+
+    def follow(self, reported: Moved) -> None:
+        """It goes on there."""
+        former, self.journal = self.journal, Path(os.fsdecode(reported.path))
+        said: dict[str, Argument] = {"file": str(former), "reason": reported.reason, "journal": str(self.journal)}
+        warn(text(Message("record.goes_on_elsewhere", said)))
 
 
 def _open(listening: Listening, requested: str) -> str:
@@ -133,27 +173,32 @@ def _open(listening: Listening, requested: str) -> str:
     raise NoDevice("capture.port_not_here", port=found[0])
 
 
-def _begun(listening: Listening) -> None:
+def _begun(listening: Listening, moves: _Moves) -> None:
     for reported in listening.until(time.monotonic() + _WITHIN_S):
+        if isinstance(reported, Moved):
+            moves.follow(reported)
+            return
         if isinstance(reported, Written):
             return
         if isinstance(reported, NotStarted | Refused):
             raise RecordError(reported.reason.id, **reported.reason.arguments)
 
 
-def _count_in(listening: Listening, bars: int, tempo: float, begin_ns: int) -> None:
+def _count_in(listening: Listening, bars: int, tempo: float, begin_ns: int, moves: _Moves) -> None:
     beats = bars * _BEATS_IN_BAR
     for beat in range(beats):
-        _report_until(listening, _monotonic_s(begin_ns) - (beats - beat) * 60.0 / tempo)
+        _report_until(listening, _monotonic_s(begin_ns) - (beats - beat) * 60.0 / tempo, moves)
         number = beat % _BEATS_IN_BAR + 1
         count(number, is_last=number == _BEATS_IN_BAR)
-    _report_until(listening, _monotonic_s(begin_ns))
+    _report_until(listening, _monotonic_s(begin_ns), moves)
 
 
-def _report_until(listening: Listening, end_s: float) -> None:
+def _report_until(listening: Listening, end_s: float, moves: _Moves) -> None:
     """Say what happens to the device until a moment of `time.monotonic`."""
     for reported in listening.until(end_s):
         match reported:
+            case Moved():
+                moves.follow(reported)
             case Lost(port=port):
                 warn(f"{port} is gone; recording goes on when it comes back")
             case Back(port=port):
@@ -162,16 +207,19 @@ def _report_until(listening: Listening, end_s: float) -> None:
                 warn(text(reason))
 
 
-def _finished(listening: Listening) -> None:
+def _finished(listening: Listening, moves: _Moves) -> None:
     for reported in listening.until(time.monotonic() + _WITHIN_S):
+        if isinstance(reported, Moved):
+            moves.follow(reported)
         if isinstance(reported, Refused):
             warn(text(reported.reason))
         if isinstance(reported, Finished):
             return
 
 
-def _write(target: Path, path: Path, tempo: float) -> None:
-    """Write the file from the journal, which goes once that is done."""
+def _write(target: Path, path: Path, tempo: float) -> int:
+    """Write the file from the journal, which goes once that is done; in a second place where its own takes nothing.
+    Returns the exit status."""
     journal = read_journal(path)
     taken = passes(journal)
     if not taken or not journal.messages:
@@ -180,16 +228,32 @@ def _write(target: Path, path: Path, tempo: float) -> None:
         raise RecordError("record.nothing_received", port=journal.header.port)
     take = taken[0]
     end_us = round(journal.syncs[-1].position_s * 1e6)
-    try:
+
+    def written(file: Path) -> None:
         notes = write_take(
-            target, take.times_us, take.messages, name=journal.header.port, beats_per_minute=tempo, end_us=end_us
+            file, take.times_us, take.messages, name=journal.header.port, beats_per_minute=tempo, end_us=end_us
         )
+        path.unlink()
+        length_s = max(end_us, take.times_us[-1], 0) / 1e6
+        say(f"{shown(file)}: {notes} {'note' if notes == 1 else 'notes'} in {length_s:.1f} s")
+
+    try:
+        written(target)
     except FileError as error:
         reason = error.message.arguments.get("reason", text(error.message))
-        raise RecordError("record.not_written", file=str(target), reason=reason, journal=path.name) from error
-    path.unlink()
-    length_s = max(end_us, take.times_us[-1], 0) / 1e6
-    say(f"{shown(target)}: {notes} {'note' if notes == 1 else 'notes'} in {length_s:.1f} s")
+        folder = second_place(target)
+        try:
+            if folder is None:
+                raise error
+            elsewhere = _beside_none(folder, target.name)
+            written(elsewhere)
+        except FileError:
+            kept = path.name if path.parent == target.parent else str(path)
+            raise RecordError("record.not_written", file=str(target), reason=reason, journal=kept) from error
+        said = {"file": str(target), "reason": reason, "elsewhere": str(elsewhere)}
+        warn(text(Message("record.written_elsewhere", said)))
+        return PARTIAL
+    return DONE
 
 
 def _monotonic_s(ns: int) -> float:

@@ -52,6 +52,10 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         "{file} cannot be written: {reason}; recording continues and is written when space is available",
         "{file} に書き込めません: {reason}。録音は続いており、空きができしだい書き込みます",
     ),
+    "capture.elsewhere_refused": (
+        "{file} cannot be moved to a second place either: {reason}",
+        "{file} は別の場所にも移せません: {reason}",
+    ),
     "capture.cut_short": (
         "{file} cannot be written: {reason}; the end of the recording is missing",
         "{file} に書き込めません: {reason}。録音の終わりの部分は保存されていません",
@@ -79,6 +83,14 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
     "record.journal_left": (
         ("{journal} already exists from an unfinished recording; write it with 'suisou record --rescue --to {file}'"),
         ("終了していない録音 {journal} が既に存在します。'suisou record --rescue --to {file}' で書き出してください"),
+    ),
+    "record.goes_on_elsewhere": (
+        "{file} cannot be written ({reason}); the recording goes on in {journal}",
+        "{file} に書き込めません（{reason}）。録音は {journal} で続きます",
+    ),
+    "record.written_elsewhere": (
+        "{file} cannot be written ({reason}); the take is in {elsewhere} instead: move it from there",
+        "{file} に書き込めません（{reason}）。代わりに {elsewhere} に書き出しました。そこから移してください",
     ),
     "record.not_written": (
         (

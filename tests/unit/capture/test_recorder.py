@@ -5,14 +5,15 @@ from __future__ import annotations
 import errno
 import io
 import os
+from io import FileIO
 from pathlib import Path
 from queue import SimpleQueue
-from typing import Any
+from typing import Any, ClassVar
 
 import pytest
 
 from app.capture import recorder as recording
-from app.capture.journal import Header
+from app.capture.journal import Header, read_journal
 from app.capture.port_names import Port
 from app.capture.ports import PortError
 from app.capture.protocol import (
@@ -21,6 +22,7 @@ from app.capture.protocol import (
     Events,
     Finished,
     Lost,
+    Moved,
     News,
     Open,
     Opened,
@@ -240,6 +242,48 @@ def test_events_that_gathered_are_sent_together_and_in_order() -> None:
         Lost("EWI", 4),
         Events((5,), (b"\xb0\x02\x01",)),
     ]
+
+
+class SmallDisk(FileIO):
+    """Files on a disk that takes so many bytes, in folders of its name."""
+
+    room: ClassVar[int] = 0
+
+    def write(self, data: Any, /) -> int:
+        if Path(str(self.name)).parent.name == "small":
+            part = bytes(data)[: SmallDisk.room]
+            if not part:
+                raise OSError(errno.ENOSPC, "No space left on device")
+            SmallDisk.room -= len(part)
+            data = part
+        return super().write(data)
+
+
+@pytest.mark.parametrize("room", [0, 1, 50, 130, 200, 100_000])
+def test_a_recording_goes_on_in_a_second_place_whole(
+    room: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("app.capture.journal.FileIO", SmallDisk)
+    SmallDisk.room = room
+    (tmp_path / "small").mkdir()
+    journal, second = tmp_path / "small" / "take", tmp_path / "take"
+    played = [(number, bytes((0x90, 60 + number, 80))) for number in range(1, 9)]
+    queue: SimpleQueue[Any] = SimpleQueue()
+    news: SimpleQueue[Any] = SimpleQueue()
+    header = Header("", "", "EWI", "ewi_usb", 0.0, "")
+    for item in (Start(os.fsencode(journal), header, elsewhere=os.fsencode(second)), *played, Stop(), None):
+        queue.put(item)
+    JournalKeeper(queue, news).run()
+    sent = [news.get_nowait() for _ in range(news.qsize())]
+    moved = [one for one in sent if isinstance(one, Moved)]
+    place = second if moved else journal
+    assert bool(moved) == (room < 100_000)
+    assert not any(isinstance(one, Refused) for one in sent)
+    assert sent[-1] == Finished(os.fsencode(place), len(played))
+    found = read_journal(place)
+    assert found.complete
+    assert list(zip(found.times_ns, found.messages, strict=True)) == played
+    assert not (journal if moved else second).exists()
 
 
 def test_a_disk_that_stays_full_is_reported_once_and_again_at_the_end(

@@ -11,12 +11,14 @@ import threading
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import BinaryIO
 
 import mido
 import pytest
 
 from app.capture.journal import Header, JournalWriter
 from app.cli import main
+from app.formats import atomic
 from tests.support.jack import jack_server
 from tests.support.wind_player import WindPlayer, phrase
 
@@ -189,6 +191,33 @@ def test_a_take_lasts_until_the_recording_was_stopped_and_not_until_its_last_not
     path = tmp_path / "take.mid"
     assert run("record", "--rescue", "--to", path) == (0, f"{path}: 1 note in 4.0 s\n", "")
     assert mido.MidiFile(path).length == pytest.approx(4.0, abs=0.01)
+
+
+def test_a_take_that_its_folder_refuses_is_written_in_a_second_place(
+    run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "full").mkdir()
+    journal = left(tmp_path / "full")
+    path = tmp_path / "full" / "take.mid"
+    monkeypatch.setattr("app.cli.record.platformdirs.user_state_path", lambda *names, **more: tmp_path / "state")
+    second = tmp_path / "state" / "recordings" / "take.mid"
+    new_partial = atomic._new_partial
+
+    def full(folder: Path) -> tuple[Path, BinaryIO]:
+        if folder == path.parent:
+            raise OSError(errno.ENOSPC, "No space left on device")
+        return new_partial(folder)
+
+    monkeypatch.setattr("app.formats.atomic._new_partial", full)
+    status, reported, errors = run("record", "--rescue", "--to", path)
+    assert (status, reported) == (4, f"{second}: 1 note in 1.0 s\n")
+    assert "No space left on device" in errors
+    assert str(second) in errors
+    assert pitches(second) == [60]
+    assert not journal.exists()
+    # Another of the same name takes nothing's place.
+    left(tmp_path / "full")
+    assert run("record", "--rescue", "--to", path)[1].startswith(f"{second.with_name('take (2).mid')}: ")
 
 
 def test_a_full_disk_keeps_the_journal_and_names_the_remedy(
