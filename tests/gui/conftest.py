@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import gc
+import traceback
 from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
@@ -13,9 +14,11 @@ from PySide6.QtWidgets import QApplication
 
 from app.editor.session import Session
 from app.editor.tokens import DARK
+from app.errors import AppError
 from app.performance.ensemble import Performance
 from app.project.model import Project, map_choices, project_from_score
 from app.score.read import MidiContents, read_contents, read_midi
+from app.shell.crash_handler import CrashHandler
 from app.shell.language import Language
 from app.shell.theme import apply_theme
 from instrument_maps.load import bundled_maps
@@ -135,3 +138,23 @@ def _widgets_die_here(qapp: QApplication) -> Iterator[None]:
         widget.deleteLater()
     delete_now()
     gc.collect()
+
+
+@pytest.fixture(autouse=True)
+def _faults_of_the_program_fail(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+    """What the program's own crash handler takes fails the test, unless it is marked ``at_fault``.
+
+    Other uncaught exceptions are pytest-qt's, and pytest's own for threads and finalisers.
+    """
+    faults: list[BaseException] = []
+    report = CrashHandler.report
+
+    def noted(handler: CrashHandler, error: BaseException) -> None:
+        if not isinstance(error, AppError):
+            faults.append(error)
+        report(handler, error)
+
+    monkeypatch.setattr(CrashHandler, "report", noted)
+    yield
+    if faults and request.node.get_closest_marker("at_fault") is None:
+        pytest.fail("".join("".join(traceback.format_exception(fault)) for fault in faults), pytrace=False)

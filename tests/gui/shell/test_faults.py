@@ -18,6 +18,8 @@ from tests.gui.shell.conftest import Start
 from widgets.players.player_list import PlayerList
 from widgets.timeline.lanes.waveform import WaveformLane
 
+pytestmark = pytest.mark.at_fault
+
 
 def raised(error: Exception) -> Exception:
     """The error with the place where it was raised."""

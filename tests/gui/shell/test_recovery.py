@@ -139,6 +139,7 @@ def test_work_that_was_to_be_discarded_is_kept_until_another_file_is_open(
     assert len(offered(start())) == 1
 
 
+@pytest.mark.at_fault
 def test_a_fault_is_reported_noted_down_and_the_work_written(
     program: Program, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -159,6 +160,7 @@ def test_a_fault_is_reported_noted_down_and_the_work_written(
     capsys.readouterr()
 
 
+@pytest.mark.at_fault
 def test_a_fault_of_saving_does_not_hide_the_first(
     program: Program, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

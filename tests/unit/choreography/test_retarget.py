@@ -47,9 +47,8 @@ def moving(seed: int = 3) -> MotionClip:
     for side in ("left", "right"):
         for name, angle in (("UpperLeg", -0.6), ("LowerLeg", 1.1)):
             at = SEGMENTS.index(side + name)
-            rotations[:, at] = (
-                Rotation.from_rotvec((angle, 0, 0)) * Rotation.from_quat(rotations[:, at]) ** 0.2
-            ).as_quat()
+            less = Rotation.from_rotvec(0.2 * Rotation.from_quat(rotations[:, at]).as_rotvec())
+            rotations[:, at] = (Rotation.from_rotvec((angle, 0, 0)) * less).as_quat()
     hips = clip.hips_m + np.stack([np.linspace(0, 1, FRAMES), np.full(FRAMES, 0.1), np.linspace(0, -0.5, FRAMES)], 1)
     return replace(clip, rotations=rotations, hips_m=hips)
 
