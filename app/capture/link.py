@@ -207,7 +207,7 @@ class RecorderLink:
             if planned:
                 continue
             if refused:
-                self._refuse(refused, status)
+                self._refuse(refused)
             elif not self._may_restart():
                 self._fail(f"status {status}")
                 return
@@ -241,7 +241,7 @@ class RecorderLink:
             self._take = None
         self._put(Refused(self._failure))
 
-    def _refuse(self, port: str, status: int) -> None:
+    def _refuse(self, port: str) -> None:
         """Say once that opening the port ended a recorder; the next one leaves it alone for a while."""
         with self._lock:
             if port != self.port or self._open is None:
@@ -249,7 +249,7 @@ class RecorderLink:
             self._open = Open(port, self._open.is_lost, _OPEN_AGAIN_S)
             was_said, self._refused = self._refused == port, port
         if not was_said:
-            self._put(Refused(Message("capture.port_refused", {"port": port, "detail": f"status {status}"})))
+            self._put(Refused(Message("capture.port_taken", {"port": port})))
 
     def _may_restart(self) -> bool:
         now_s = time.monotonic()

@@ -64,7 +64,14 @@ _JUMP_S: Final = 0.25
 """The sound is elsewhere than it would be by now: it was sent there, or the loop returned."""
 
 _NO_DEVICE: Final = frozenset(
-    {"capture.no_library", "capture.no_system", "capture.api_unknown", "capture.port_refused", "capture.recorder_fails"}
+    {
+        "capture.no_library",
+        "capture.no_system",
+        "capture.api_unknown",
+        "capture.port_refused",
+        "capture.port_taken",
+        "capture.recorder_fails",
+    }
 )
 """Refusals that leave no device to listen to."""
 

@@ -48,6 +48,13 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
             "ここで自動的に開きます"
         ),
     ),
+    "capture.port_taken": (
+        "{port} cannot be opened; another program may be using it; close it there and it opens here automatically",
+        (
+            "{port} を開けません。ほかのプログラムが使用している可能性があります。そちらで閉じると、ここで自動的に"
+            "開きます"
+        ),
+    ),
     "capture.not_written": (
         "{file} cannot be written: {reason}; recording continues and is written when space is available",
         "{file} に書き込めません: {reason}。録音は続いており、空きができしだい書き込みます",

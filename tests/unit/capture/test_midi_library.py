@@ -123,7 +123,7 @@ def test_a_port_whose_opening_ends_the_process_is_refused_and_opened_later(
         ear.wait(Ports)
         link.open("EWI-USB MIDI 1")
         refused = ear.wait(Refused)
-        assert refused.reason.id == "capture.port_refused"
+        assert refused.reason.id == "capture.port_taken"
         assert refused.reason.arguments["port"] == "EWI-USB MIDI 1"
         # More often than a recorder may die by itself.
         for _ in range(5):
