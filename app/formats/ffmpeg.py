@@ -113,12 +113,17 @@ def kinds_in(report: bytes) -> set[bytes]:
     return set(_STREAM.findall(report))
 
 
+def was_ended(status: int) -> bool:
+    """Whether the system ended a process, at a limit or because it crashed."""
+    return status < 0 or status >= _WINDOWS_CRASH
+
+
 def refusal(report: bytes, path: str, status: int) -> FileError:
     """The error of a file that ffmpeg did not read, by what it reported and how it ended."""
     lines = report.decode(errors="replace").splitlines()
     if status in _OVER or any(reason in line for line in lines for reason in _NO_MEMORY):
         return FileError("video.too_costly", file=path)
-    if status < 0 or status >= _WINDOWS_CRASH:
+    if was_ended(status):
         return FileError("video.reader_ended", file=path, status=status)
     reasons = [line for line in lines if not line.startswith(_GENERAL)] or [f"ffmpeg: {status}"]
     detail = _PREFIX.sub("", reasons[-1]).replace(f"file:{path}", "").strip(" :.")

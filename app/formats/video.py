@@ -21,7 +21,7 @@ import numpy.typing as npt
 
 from app.child_limits import LIMITS
 from app.errors import FileError
-from app.formats.ffmpeg import ffmpeg_on, kinds_in, refusal
+from app.formats.ffmpeg import ffmpeg_on, kinds_in, refusal, was_ended
 
 SUFFIXES: Final = (".mp4", ".mov", ".m4v", ".mkv", ".webm", ".avi", ".mpg", ".mpeg", ".wmv", ".ogv")
 """Shown where one is chosen. Transport streams (.mts) are not among them: the ffmpeg 7.0.2 of Linux crashes on them."""
@@ -100,22 +100,33 @@ class VideoPictures:
 
     def __init__(self, path: str, process: subprocess.Popen[bytes], size: tuple[int, int], first: int) -> None:
         self._path, self._process, self._size = path, process, size
+        self._is_stopped = False
         self.next = first
         """Number of the picture that is read next."""
 
     def read(self) -> Picture | None:
-        """The next picture; None after the last, which is where the file breaks off."""
+        """The next picture; None after the last, which is where the file breaks off.
+
+        Raises
+        ------
+        FileError
+            ``video.too_costly``, ``video.reader_ended``: ffmpeg was ended by the system.
+        """
         width, height = self._size
         stream = self._process.stdout
         assert stream is not None
         data = stream.read(3 * width * height)
         if len(data) < 3 * width * height:
+            status = self._process.wait()
+            if was_ended(status) and not self._is_stopped:
+                raise refusal(b"", self._path, status)
             return None
         self.next += 1
         return np.frombuffer(data, np.uint8).reshape(height, width, 3)
 
     def stop(self) -> None:
         """End it from another thread: `read` returns None."""
+        self._is_stopped = True
         self._process.kill()
 
 

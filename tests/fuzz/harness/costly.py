@@ -7,6 +7,7 @@ from functools import partial
 from typing import Final
 
 from tests.fuzz.harness.costly_files import COSTLY_FILES
+from tests.fuzz.harness.costly_media import COSTLY_MEDIA
 from tests.fuzz.harness.costly_midi import COSTLY
 from tests.fuzz.harness.costly_motion import COSTLY_MOTION
 from tests.fuzz.harness.costly_projects import COSTLY_PROJECTS
@@ -23,6 +24,7 @@ ALL_COSTLY: Final[Mapping[str, Mapping[str, Make]]] = {
     "midi": COSTLY,
     "performed": COSTLY_PROJECTS,
     **_named(COSTLY_FILES),
+    **_named(COSTLY_MEDIA),
     **_named(COSTLY_MOTION),
 }
 """By kind of file, as in `tests.fuzz.harness.readers.KINDS`, and by way."""

@@ -15,6 +15,7 @@ import numpy.typing as npt
 from app.formats.fbx import encode
 from app.formats.fbx.encode import Element, PackedArray
 from metadata.model import REQUIRED_JOINTS
+from tests.fuzz.harness.costly_media import COSTLY_RECORDINGS
 from tests.support.encoded import encode_elements
 
 ABOVE: Final = {
@@ -357,6 +358,6 @@ COSTLY_FILES: Final[dict[str, tuple[Callable[[int], bytes], ...]]] = {
     "foreign_fbx": (fbx_packed, fbx_instances, fbx_polygon, fbx_deep, fbx_nodes, fbx_clusters, fbx_morphs),
     "fbx": (fbx_packed, fbx_instances),
     "bvh": (bvh_still, bvh_deep, bvh_frames),
-    "audio": (flac_silence, flac_slow_silence, wav_hours),
+    "audio": (flac_silence, flac_slow_silence, wav_hours, *COSTLY_RECORDINGS),
 }
 """By kind of file, as in `tests.fuzz.harness.readers.KINDS`: what makes a file of about so many bytes."""

@@ -359,6 +359,23 @@ def audio(path: Path, folder: Path) -> None:
     require(recording.samples.ndim == 2 and recording.samples.shape[1] == 2, "samples are not in two channels")
 
 
+def film(path: Path, folder: Path) -> None:
+    """Look at a film, see pictures at its beginning, middle and end, and hear its sound."""
+    from app.audio.decode import decode
+    from app.formats.video import video_facts, video_pictures
+
+    facts = video_facts(str(path))
+    size = facts.fitted(96, 96)
+    count = max(round(facts.duration_s * facts.rate), 1)
+    for first in (0, count // 2, count - 1):
+        with video_pictures(str(path), facts.rate, size, first) as pictures:
+            for _ in range(_SEEN_FRAMES):
+                picture = pictures.read()
+                require(picture is None or picture.shape == (size[1], size[0], 3), "a picture has another size")
+    if facts.has_sound:
+        decode(str(path))
+
+
 # Unreal
 
 
@@ -458,6 +475,7 @@ KINDS: Final[dict[str, Kind]] = {
         Kind("motion", gltf_motion, seeds.gltf_motion, tuple(mutators.GLB), ".glb"),
         Kind("motion", fbx_motion, seeds.fbx_motion, tuple(mutators.FBX), ".fbx"),
         Kind("exchange", audio, seeds.audio, (), ".wav", 2.0),
+        Kind("exchange", film, seeds.film, (), ".mp4"),
         Kind("exchange", unreal_description, seeds.unreal_description, _JSON, ".json"),
         Kind("exchange", unreal_manifest, seeds.unreal_manifest, _JSON, ".json"),
         Kind("exchange", unreal_project, seeds.unreal_project, _JSON, ".uproject"),

@@ -9,6 +9,7 @@ from __future__ import annotations
 import io
 import json
 import re
+import tempfile
 from collections.abc import Callable
 from fractions import Fraction
 from functools import cache, partial
@@ -24,6 +25,7 @@ from tests.fuzz.harness.costly_midi import COSTLY, WORST
 from tests.fuzz.harness.costly_projects import base
 from tests.fuzz.harness.costly_projects import encoded as encoded_project
 from tests.support import encoded
+from tests.support.media import ffmpeg
 
 ROOT: Final = Path(__file__).parents[3]
 DATA: Final = ROOT / "tests" / "data"
@@ -231,7 +233,23 @@ def audio() -> list[bytes]:
         rate_hz = 24_000 if subtype == "OPUS" else 22_050
         soundfile.write(stream, np.stack([samples, -samples], axis=1), rate_hz, format=format_, subtype=subtype)
         found.append(stream.getvalue())
-    return found
+    return [*found, *_media("m4a", "aac", "mkv"), *_media("mp3", options=("-write_xing", "0"))]
+
+
+@cache
+def film() -> list[bytes]:
+    """Some pictures with sound in every container that is read."""
+    pictures = ("-f", "lavfi", "-i", "testsrc=s=32x32:r=25:d=0.4")
+    return _media("mp4", "mkv", "webm", "avi", "mpg", "wmv", options=pictures)
+
+
+def _media(*kinds: str, options: tuple[str, ...] = ()) -> list[bytes]:
+    """Half a second of a tone, as ffmpeg writes it with such suffixes."""
+    with tempfile.TemporaryDirectory(prefix="suisou-fuzz-") as folder:
+        paths = [Path(folder) / f"a.{kind}" for kind in kinds]
+        for path in paths:
+            ffmpeg("-f", "lavfi", "-i", "sine=440:d=0.5", *options, "-fflags", "+bitexact", str(path))
+        return [path.read_bytes() for path in paths]
 
 
 def unreal_description() -> list[bytes]:
@@ -334,6 +352,7 @@ MADE: Final[dict[str, dict[str, Callable[[], bytes]]]] = {
     "motion": costly("motion", 30_000),
     "gltf_motion": costly("gltf_motion", 2000),
     "audio": costly("audio"),
+    "film": costly("film"),
     "unreal_description": {
         "deep": lambda: b"[" * 100_000,
         "infinite_bytes": lambda: unreal_description()[0].replace(b'"bytes": 10', b'"bytes": 1e999', 1),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import subprocess
 from fractions import Fraction
 from pathlib import Path
@@ -10,6 +11,7 @@ import imageio_ffmpeg
 import numpy as np
 import pytest
 
+from app.child_limits import ChildLimits
 from app.errors import Cancelled, FileError
 from app.formats.film_sound import film_sound
 from app.formats.video import VideoFacts, video_facts, video_pictures
@@ -159,3 +161,20 @@ def test_a_file_that_is_not_there(tmp_path: Path) -> None:
         video_facts(str(tmp_path / "gone.mp4"))
     with pytest.raises(FileError, match=r"file\.not_regular"):
         video_facts(str(tmp_path))
+
+
+@pytest.mark.skipif(os.name != "posix", reason="Windows has jobs")
+def test_pictures_whose_reader_is_ended_are_worded_and_those_that_are_stopped_are_not(
+    film: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    with video_pictures(str(film), Fraction(24), SIZE) as pictures:
+        assert pictures.read() is not None
+        pictures.stop()
+        while pictures.read() is not None:
+            pass
+    monkeypatch.setattr("app.child_limits.LIMITS", {"ffmpeg.pictures": ChildLimits(2**30, cpu_s=1.0)})
+    with (
+        video_pictures(str(film), Fraction(48000), (1920, 1080)) as pictures,
+        pytest.raises(FileError, match=r"video\.too_costly"),
+    ):
+        list(iter(pictures.read, None))
