@@ -4,6 +4,9 @@ How the three formats are taken: format 0 is split by channel, and so is any tra
 tracks of format 1 sound together; the patterns of format 2 follow one another in the order of the file, each beginning
 where the one before ends, with the tempo it left.
 
+A channel is one of its port (meta events 33 and 9): tracks of other ports do not set it up. Which channels have
+melodies, rhythm parts and sound effects `app.score.sound_module` knows.
+
 What a note is: a note-on with velocity 0 is a note-off. A note-off ends the *oldest* note of its pitch and channel
 that still sounds (first in, first out), so notes of one pitch may overlap. Only where a channel would be one melody
 but for notes that sound on below whole others so, a note ends where its pitch is struck again: a wind controller has
