@@ -104,8 +104,8 @@ def test_percussion_sounds_when_it_is_struck_unless_a_player_is_soloed() -> None
         assert sound[max(at - 4800, 0) : at - 48].max() < 0.2 * sound[at : at + 4800].max()
         assert np.flatnonzero(sound[at - 48 :] > 0.2 * sound[at : at + 4800].max())[0] < 0.02 * RATE_HZ
     assert sound.max() > 0.05
-    soloed = mixdown(with_players(drummed, p0={"soloed": True}), 0.0, 12.0)
-    assert soloed == pytest.approx(mixdown(with_players(DUET, p0={"soloed": True}), 0.0, 12.0), abs=1e-6)
+    soloed, alone = (mixdown(with_players(one, p0={"soloed": True}), 0.0, 3.0) for one in (drummed, DUET))
+    np.testing.assert_array_equal(soloed, alone)
 
 
 def test_the_kit_has_every_sound_of_general_midi() -> None:
