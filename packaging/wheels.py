@@ -14,7 +14,9 @@ import sys
 import tempfile
 import tomllib
 from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
+from functools import partial
 from pathlib import Path
 
 from packaging.requirements import Requirement
@@ -148,7 +150,12 @@ def main() -> int:
     missing: list[str] = []
     is_complete = True
     for python in pythons:
-        columns = {system.title: answers(direct, python, system) for system in SYSTEMS}
+        # pip waits for the network most of the time.
+        with ThreadPoolExecutor() as pool:
+            columns = {
+                system.title: found
+                for system, found in zip(SYSTEMS, pool.map(partial(answers, direct, python), SYSTEMS), strict=True)
+            }
         names = sorted({name for found in columns.values() for name in found.versions})
         width = max(map(len, names)) + 2
         print(f"\nPython {python}".ljust(width + 1) + "".join(title.ljust(14) for title in columns))
