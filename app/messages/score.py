@@ -293,8 +293,8 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
     ),
     "score.regions": (
         (
-            "{part}: {count} tracks of this name, channel and program follow one another, so one player plays them; "
-            "separate them in the import dialog if they are several players"
+            "{part}: {count} {count:track|tracks} of this name, channel and program, one after the other, have one "
+            "player; separate them in the import dialog if they are several players"
         ),
         (
             "{part}: 名前・チャンネル・プログラムが同じ {count} トラックが順に続くため、1 人の奏者にまとめました。"

@@ -184,7 +184,7 @@ def test_settings_of_the_command_line(parameter: str, value: str) -> None:
 
 
 @given(st.sampled_from(TEXTS) | st.text(max_size=20))
-@settings(max_examples=100, **SLOW)  # type: ignore[arg-type]
+@settings(max_examples=30, **SLOW)  # type: ignore[arg-type]
 def test_names_and_paths_from_the_window(name: str) -> None:
     check(lambda: rename(PROJECT, "1.1.1", name))
     check(lambda: set_audio(PROJECT, f"/music/{name}.wav"))
