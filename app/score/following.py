@@ -49,13 +49,14 @@ class RunnerUp:
 
 
 _WITH_NEXT: Final = {
-    "audio.followed": "audio.followed_with_next",
-    "audio.followed_but": "audio.followed_but_with_next",
-    "audio.offset_found": "audio.offset_found_with_next",
-    "audio.other_tempo": "audio.other_tempo_with_next",
-    "audio.tempo_fitted": "audio.tempo_fitted_with_next",
-    "video.offset_found": "video.offset_found_with_next",
+    "audio.followed": ("audio.followed_with_next", 1.0),
+    "audio.followed_but": ("audio.followed_but_with_next", 1.0),
+    "audio.offset_found": ("audio.offset_found_with_next", -1.0),
+    "audio.other_tempo": ("audio.other_tempo_with_next", -1.0),
+    "audio.tempo_fitted": ("audio.tempo_fitted_with_next", -1.0),
+    "video.offset_found": ("video.offset_found_with_next", -1.0),
 }
+"""Messages with the second likeliest place; offsets are the less the later the music is in the recording."""
 
 
 def message_of_place(id: str, arguments: dict[str, Argument], runner_up: RunnerUp | None) -> Message:
@@ -64,13 +65,14 @@ def message_of_place(id: str, arguments: dict[str, Argument], runner_up: RunnerU
     Parameters
     ----------
     id : str
-        Of the message without it, a key of `_WITH_NEXT`. The other has the arguments ``next_s``, by how much later that
-        place is, and ``next_percent``.
+        Of the message without it, a key of `_WITH_NEXT`. The other has the arguments ``next_s``, what is added to the
+        place to get the other, and ``next_percent``.
     """
     if runner_up is None:
         return Message(id, arguments)
-    more: dict[str, Argument] = {"next_s": runner_up.later_s, "next_percent": round(100 * runner_up.confidence)}
-    return Message(_WITH_NEXT[id], {**arguments, **more})
+    with_next, sign = _WITH_NEXT[id]
+    more: dict[str, Argument] = {"next_s": sign * runner_up.later_s, "next_percent": round(100 * runner_up.confidence)}
+    return Message(with_next, {**arguments, **more})
 
 
 @dataclass(frozen=True)

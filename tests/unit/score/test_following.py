@@ -45,11 +45,12 @@ def test_bars_are_named_as_they_are_read(runs: tuple[tuple[int, int], ...], said
 def test_the_second_likeliest_place_is_part_of_every_message_of_a_place() -> None:
     second = RunnerUp(-12.345, 0.216)
     told: dict[str, Argument] = {"percent": 96, "offset_s": 1.0, "tempo_percent": 2.0, **bars_named((1, 2))}
-    for id in ("audio.followed", "audio.followed_but", "audio.offset_found", "audio.other_tempo", "audio.tempo_fitted",
-               "video.offset_found"):  # fmt: skip
+    in_recording, offsets = ("followed", "followed_but"), ("offset_found", "other_tempo", "tempo_fitted")
+    ids = [*((f"audio.{name}", "-12.3") for name in in_recording), *((f"audio.{name}", "+12.3") for name in offsets)]
+    for id, said in (*ids, ("video.offset_found", "+12.3")):
         for language in ("en", "ja"):
             alone = text(message_of_place(id, told, None), language)
             both = text(message_of_place(id, told, second), language)
-            assert "-12.3" in both
+            assert said in both
             assert "22 %" in both
             assert "22 %" not in alone
