@@ -50,7 +50,8 @@ def guessed(data: bytes) -> str:
 def is_encoding(name: str) -> bool:
     """Whether it is the name of an encoding that turns any bytes into text."""
     try:
-        b"ab".decode(name, errors="replace")  # looks it up; nothing is asked of an empty text
+        # Looks it up, which an empty text does not; one that is for ASCII alone fails.
+        b"ab\xff".decode(name, errors="replace")
     except (LookupError, ValueError):
         return False
     return True

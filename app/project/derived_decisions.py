@@ -22,7 +22,7 @@ from app.score.read import MidiContents, assigned_score
 
 _FILE_NOTE = re.compile(r"([1-9]\d*):[1-9]\d*", re.ASCII)
 _SPLITS: tuple[Split, ...] = ("sustained", "never", "every")
-_SAME = 0.99
+_SAME = 0.9999
 
 
 def is_read(project: Project, part: Part) -> bool:
@@ -159,14 +159,25 @@ def _row(
 
 
 def _alike(project: Project, old: Sequence[Part], new: Sequence[Part], quarter: int) -> float:
-    """How much two readings of some streams have in common, 0..1."""
+    """How much two readings of some streams have in common, 0..1: above all melodies, then lengths."""
     if not new:
         return 0.0
+    before = project.score.ticks_per_quarter
     former = [msgspec.structs.replace(part, notes=held_by_file(project, part)) for part in old]
-    both = shares(
-        [turns_of(part, project.score.ticks_per_quarter) for part in former], [turns_of(part, quarter) for part in new]
-    )
-    return float(sum(both[index, index] for index in range(min(len(old), len(new))))) / max(len(old), len(new))
+    both = shares([turns_of(part, before) for part in former], [turns_of(part, quarter) for part in new])
+    pairs = list(zip(former, new, strict=False))
+    melodies = float(sum(both[index, index] for index in range(len(pairs))))
+    lengths = sum(_same_lengths(one, other, before, quarter) for one, other in pairs)
+    return (0.9 * melodies + 0.1 * lengths) / max(len(old), len(new))
+
+
+def _same_lengths(one: Part, other: Part, one_quarter: int, other_quarter: int) -> float:
+    """The share of notes that last as long, where two parts have as many; 0..1."""
+    if len(one.notes) != len(other.notes) or not one.notes:
+        return 0.0
+    lengths = zip(one.notes, other.notes, strict=True)
+    same = sum(note.duration_tick * other_quarter == now.duration_tick * one_quarter for note, now in lengths)
+    return same / len(one.notes)
 
 
 def _left_out(project: Project, streams: Sequence[TrackChannel], silent: Sequence[int]) -> Iterator[int]:

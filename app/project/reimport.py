@@ -24,7 +24,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from pathlib import Path
-from typing import Literal, TypeAlias
+from typing import Any, Literal, TypeAlias
 
 import msgspec
 import numpy as np
@@ -202,7 +202,10 @@ def reimport(
     )
     # What is only known better than before is nothing new.
     fields = ("imported", "read_curves", "read_timing", *(("read_notes",) if not project.read_notes else ()))
-    known = {field: getattr(project, field) for field in fields}
+    known: dict[str, Any] = {field: getattr(project, field) for field in fields}
+    if project.imported is None:
+        # Derived decisions may make the reader warn of other things.
+        known["score"] = msgspec.structs.replace(result.score, warnings=project.score.warnings)
     same = result == project or replace(result, **known) == project
     alive = {note.id for part in parts for note in part.notes}
     before_ids = {player.id for player in project.players}

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from app.encoding import HIDDEN, PREFIX, restored, shown, stored
+from app.encoding import ENCODINGS, HIDDEN, PREFIX, is_encoding, restored, shown, stored
 from app.errors import FileError, Message
 from app.messages import error_text
 
@@ -89,3 +89,14 @@ def test_messages_can_be_stored_and_printed() -> None:
     error = FileError("file.cannot_read", file=path, reason="-")
     assert KURARINETTO in error_text(error)
     str(error).encode()
+
+
+@pytest.mark.parametrize("name", ["klingon", "base64", "rot13", "punycode", "idna", "undefined", "utf-8\0", ""])
+def test_what_turns_not_all_bytes_into_text_is_no_encoding_of_texts(name: str) -> None:
+    assert not is_encoding(name)
+
+
+@pytest.mark.parametrize("name", [*ENCODINGS, "utf-16", "latin-1", "ascii", "shift_jis"])
+def test_encodings_to_choose_from_read_any_bytes(name: str) -> None:
+    assert is_encoding(name)
+    assert isinstance(bytes(range(256)).decode(name, errors="replace"), str)

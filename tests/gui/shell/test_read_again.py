@@ -11,11 +11,19 @@ from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QDialogButtonBox, QListWidget
 
+from app.editor.questions import ReadAgain
+from app.editor.tasks import Tasks
+from app.editor.tokens import Tokens
 from app.plan.corrections import Correction, PinFingering, SetBreath, SetCue
 from app.project.edit.corrections import put
+from app.project.importing import ImportRequest, ImportRow
+from app.project.reimport import reimported
+from app.score.parts import PartAssignment
+from app.score.read import MidiContents
 from app.shell.app import Program
+from instrument_maps.load import bundled_maps
 from tests.gui.shell.conftest import Answers, Start, trigger
-from tests.unit.project.test_rereading import BAR, quintet, tracks, written
+from tests.unit.project.test_rereading import BAR, QUINTET, quintet, tracks, written
 from widgets.dialogs.reimport_midi import ReimportDialog
 
 
@@ -104,3 +112,24 @@ def test_a_player_is_removed_with_the_update_as_one_step(program: Program, answe
     assert after.corrections == {id_: before.corrections[id_] for id_ in kept}
     program.session.document.undo()
     assert program.session.project is before
+
+
+def test_the_encoding_chosen_at_the_import_is_used_again(
+    start: Start, answers: Answers, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    path = written(tmp_path / "names.mid", tracks(("xx", "Voice B", "Lead", "Low", "Bottom")))
+    path.write_bytes(path.read_bytes().replace(b"xx", "笛".encode("euc_jp")))
+
+    def chosen(contents: MidiContents, read_again: ReadAgain, tokens: Tokens, tasks: Tasks) -> ImportRequest:
+        rows = tuple(ImportRow(PartAssignment((place,), map_id)) for place, map_id in enumerate(QUINTET))
+        return ImportRequest(rows, False, read_again("euc_jp"), "euc_jp")
+
+    monkeypatch.setattr(answers, "import_midi", chosen)
+    program = start()
+    program.editor.files.open(path)
+    before = program.session.project
+    assert before.players[0].name == "笛"
+    trigger(program, "file.reimport")
+    shown(program).reject()
+    outcome = reimported(before, path, bundled_maps())
+    assert outcome.project is before

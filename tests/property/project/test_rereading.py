@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 import mido
+import msgspec
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -19,7 +20,8 @@ from app.project.edit.dynamics import set_dynamics
 from app.project.edit.notes import add_note, erase, set_velocity
 from app.project.edit.players import change, set_parameters
 from app.project.edit.tempo import set_tempo
-from app.project.importing import ImportRow, import_project
+from app.project.imported import ImportDecisions
+from app.project.importing import ImportRow, import_project, usual_rows
 from app.project.model import Project
 from app.project.reimport import reimported
 from app.project.storage import decode, encode
@@ -27,6 +29,7 @@ from app.score.model import ControllerCurve
 from app.score.parts import PartAssignment
 from app.score.read import read_contents
 from instrument_maps.load import bundled_maps
+from tests.support.projects import decisions
 
 MAPS = bundled_maps()
 QUARTER = 480
@@ -194,4 +197,26 @@ def test_what_was_decided_and_edited_stays(data: st.DataObject) -> None:
             assert [(note.id, note.pitch, note.velocity) for note in before] == [
                 (note.id, note.pitch, note.velocity) for note in now
             ]
+        assert reimported(after, path, MAPS).project is after
+
+
+@given(decisions, st.integers(0, 2**32))
+@settings(max_examples=30, deadline=None)
+def test_any_decisions_that_can_be_stored_can_be_read_by(kept: ImportDecisions, number: int) -> None:
+    """A project's file is data: one that someone made up is read by, too, and what comes of it can be saved."""
+    chance = random.Random(number)
+    notes = tuple((place * 240, 240, chance.randrange(50, 80)) for place in range(12))
+    with file_of([Track("Trumpet", 0, 56, notes), Track("Piano", 1, 0, notes[3:])]) as path:
+        contents = read_contents(path)
+        project = import_project(contents, usual_rows(contents, MAPS), MAPS, str(path))
+        marks = [mark for row in (project.imported or ImportDecisions()).rows for mark in row.tracks]
+        # Some that recognise the tracks.
+        rows = tuple(
+            msgspec.structs.replace(row, tracks=(*row.tracks, chance.choice(marks))) if chance.random() < 0.5 else row
+            for row in kept.rows
+        )
+        project = replace(project, imported=msgspec.structs.replace(kept, rows=rows))
+        after = reimported(project, path, MAPS).project
+        assert [player.id for player in project.players] == [player.id for player in after.players][:1]
+        assert decode(encode(after, path), path) == after
         assert reimported(after, path, MAPS).project is after
