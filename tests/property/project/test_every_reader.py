@@ -30,6 +30,7 @@ from app.project.importing import import_project, usual_rows
 from app.project.model import Project, with_settings
 from app.project.parameters import parameter_names, parse_settings
 from app.project.piece_metadata import load_metadata, metadata_of, with_metadata
+from app.project.reimport import reimported
 from app.project.storage import decode, encode
 from app.score.read import read_contents
 from app.score.take import ControllerMapping
@@ -242,22 +243,36 @@ def varlen(number: int) -> bytes:
     return bytes(groups)
 
 
-@given(
-    st.sampled_from([one.encode("utf-8", "surrogatepass") for one in TEXTS]) | st.binary(max_size=12),
+contents_of_midi = st.builds(
+    midi,
+    st.sampled_from([one[:20_000].encode("utf-8", "surrogatepass") for one in TEXTS]) | st.binary(max_size=12),
     st.binary(min_size=3, max_size=3),
     st.binary(min_size=4, max_size=4),
     st.sampled_from([b"\x01\xe0", b"\0\1", b"\x7f\xff", b"\xe7\x28", b"\0\0"]),
 )
-@settings(max_examples=80, **SLOW)  # type: ignore[arg-type]
-def test_midi_files(folder: Path, name: bytes, tempo: bytes, metre: bytes, division: bytes) -> None:
-    file = folder / "piece.mid"
-    file.write_bytes(midi(name, tempo, metre, division))
 
-    def imported() -> Project:
-        contents = read_contents(file)
-        return import_project(contents, usual_rows(contents, all_maps()), all_maps(), str(file))
 
-    check(imported)
+def imported(file: Path, content: bytes) -> Project:
+    file.write_bytes(content)
+    contents = read_contents(file)
+    return import_project(contents, usual_rows(contents, all_maps()), all_maps(), str(file))
+
+
+@given(contents_of_midi)
+@settings(max_examples=40, **SLOW)  # type: ignore[arg-type]
+def test_midi_files(folder: Path, content: bytes) -> None:
+    check(lambda: imported(folder / "piece.mid", content))
+
+
+@given(contents_of_midi, contents_of_midi)
+@settings(max_examples=15, **SLOW)  # type: ignore[arg-type]
+def test_midi_files_that_take_the_place_of_others(folder: Path, content: bytes, later: bytes) -> None:
+    def read_again() -> Project:
+        project = imported(folder / "piece.mid", content)
+        (folder / "piece.mid").write_bytes(later)
+        return reimported(project, folder / "piece.mid", all_maps()).project
+
+    check(read_again)
 
 
 @given(
