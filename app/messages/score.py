@@ -281,7 +281,7 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         "奏者が既に上限の {most} 人に達しています",
     ),
     "score.unknown_instrument": (
-        "the instrument cannot be determined, for its name is not understood ({lowest} to {highest}); select one",
+        "the instrument cannot be determined because the name is not understood ({lowest} to {highest}); select one",
         "トラック名から楽器を判定できません（{lowest}～{highest}）。楽器を選んでください",
     ),
     "score.unisons": (
@@ -294,7 +294,7 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
     "score.regions": (
         (
             "{part}: {count} {count:track|tracks} of this name, channel and program, one after the other, have one "
-            "player; separate them in the import dialog if they are several players"
+            "player; if they are several players, split them in the import dialog"
         ),
         (
             "{part}: 名前・チャンネル・プログラムが同じ {count} トラックが順に続くため、1 人の奏者にまとめました。"

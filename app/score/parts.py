@@ -17,7 +17,7 @@ score.outside_ranges : lowest, highest
     "neither its name nor its program says what it is, and no instrument map reaches its notes ({lowest} to {highest})"
 
 score.unknown_instrument : lowest, highest
-    "the instrument cannot be determined, for its name is not understood ({lowest} to {highest}); select one"
+    "the instrument cannot be determined because the name is not understood ({lowest} to {highest}); select one"
 score.stray_notes : part, count, place, pitch
     "{count} notes sound together with others, the first at ...; too few and too short for another player"
 score.key_switches : part, count, place, pitch
@@ -44,8 +44,8 @@ score.left_out : (a reason)
 score.too_many_players : most (a reason)
     "the piece has {most} players already, and more cannot play"
 score.regions : part, count
-    "{part}: {count} tracks of this name, channel and program follow one another, so one player plays them; separate
-    them in the import dialog if they are several players"
+    "{part}: {count} tracks of this name, channel and program follow one another, so one player plays them; if they
+    are several players, split them in the import dialog"
 score.voices : part, voices, count, place, pitch
     "{part}: {voices} players share it, for {count} notes sound together with others, the first at ..."
 score.unisons : part, count, place, pitch

@@ -94,6 +94,8 @@ class Texts:
         text = _unicode(data)
         if text is not None:
             return text
+        if len(self._read) >= _MOST_TEXTS:
+            return data.decode(self.encoding, errors="replace")
         costs = {
             one.name: self._cost(one, data) + (0.0 if one.name == self.encoding else _OWN_ENCODING + one.prior)
             for one in _ENCODINGS
@@ -139,7 +141,7 @@ class _Encoding(msgspec.Struct, frozen=True):
 
 def _evidence(encoding: str, data: bytes) -> float:
     """How much the vocabulary knows of a name in an encoding, by more than its ASCII letters."""
-    text = data.decode(encoding, errors="replace")
+    text = data[:_MOST_BYTES].decode(encoding, errors="replace")
     found = vocabulary().by_name(text)
     if found is None or found == vocabulary().by_name(_NOT_ASCII.sub(" ", text)):
         return 0.0

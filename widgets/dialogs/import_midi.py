@@ -5,6 +5,7 @@ What comes of the choices is worked out beside the window: a file can ask for mi
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from threading import Event
 from typing import NamedTuple
@@ -439,7 +440,8 @@ class ImportDialog(Retranslated, QDialog):
         return ""
 
     def _name(self, row: ImportRow) -> str:
-        return " + ".join(stream_name(self._contents.streams[stream]) for stream in row.assignment.streams)
+        names = Counter(stream_name(self._contents.streams[stream]) for stream in row.assignment.streams)
+        return " + ".join(name if count == 1 else f"{name} ×{count}" for name, count in names.items())
 
     def _choose(self, place: int, map_id: str | None) -> None:
         """Take an instrument for a row; one that was asked for is what lets it be played. No one plays percussion."""
