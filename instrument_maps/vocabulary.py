@@ -11,7 +11,7 @@ from __future__ import annotations
 import re
 import unicodedata
 from collections.abc import Mapping, Set
-from functools import cache
+from functools import cache, lru_cache
 from pathlib import Path
 from types import MappingProxyType
 from typing import Literal
@@ -33,6 +33,8 @@ _MOST_KANA = 8
 """Kana beside such a name that are looked at."""
 _MOST_WORDS = 64
 """Of a text that names a part; more is no name."""
+_MOST_MEANINGS = 2048
+"""Names that are kept with what they mean: a track's is looked up a dozen times."""
 _MOST_PARTS = 8
 """Instruments of one player that are looked for."""
 _IN = frozenset({"in", "en", "em"})
@@ -155,6 +157,7 @@ class Vocabulary:
         words_known: Mapping[str, tuple[str, ...]] = MappingProxyType({}),
     ) -> None:
         self.seating, self.score_order = seating, score_order
+        self._meant = lru_cache(_MOST_MEANINGS)(self._by_name)
         self.instruments = {instrument.id: instrument for instrument in instruments}
         self._by_program: dict[int, Instrument] = {}
         self._by_tokens: dict[tuple[str, ...], Instrument] = {}
@@ -266,6 +269,9 @@ class Vocabulary:
         "Flute (Piccolo)" being a flute and "Saxophone (alto)" an alto saxophone. Japanese is written without spaces, so
         its names are found anywhere within a run of kana and kanji.
         """
+        return self._meant(text)
+
+    def _by_name(self, text: str) -> Instrument | None:
         text = _TOGETHER.sub(" ", unicodedata.normalize("NFKC", text))
         found = self._of_player(text)
         before, bracket, _ = text.partition("(")

@@ -25,6 +25,8 @@ _LEAST_ROTATING: Final = 5
 """Notes of a track that say whether its channels rotate."""
 _ROTATING_SHARE: Final = 0.75
 """Share of the notes that come on another channel than the one before, where the channels rotate."""
+_FEW: Final = 8
+"""More channels than these may rotate with channel 10 among them: no drum kit takes its turn so."""
 _LEGATO_SHARE: Final = 0.5
 """Share of the shorter one that two notes of a line overlap at most..."""
 _LEGATO_NOTES: Final = 0.9
@@ -66,21 +68,26 @@ def settle_bends(tracks: Sequence[TrackEvents]) -> list[dict[int, frozenset[int]
 def players_channels(events: TrackEvents, name: str, zones: Mapping[int, frozenset[int]]) -> list[tuple[int, ...]]:
     """The channels of a track that belong together, each group by number.
 
-    Those of an MPE zone do; all do where the track's name is an instrument's and they take turns, or where they
-    take turns note by note with one sound. Else each is for itself.
+    Those of an MPE zone do if they have one sound; all do where the track's name is an instrument's and they take
+    turns, or where they take turns note by note with one sound. Else each is for itself.
     """
     channels = sorted(events.channels)
+    together = [
+        own
+        for manager, members in zones.items()
+        if len(own := tuple(one for one in channels if one == manager or one in members)) > 1
+        and _one_sound(events, own)
+    ]
+    if together:
+        rest = set(channels).difference(*together)
+        return sorted([*together, *((channel,) for channel in rest)])
     if len(channels) < 2:
         return [(channel,) for channel in channels]
-    for manager, members in zones.items():
-        own = [channel for channel in channels if channel == manager or channel in members]
-        if len(own) > 1:
-            rest = [(channel,) for channel in channels if channel not in own]
-            return sorted([tuple(own), *rest])
     named = vocabulary().by_name(name)
-    if not all(map(events.is_melodic, channels)):
-        return [(channel,) for channel in channels]
-    if (named is not None and not named.vague and events.take_turns(channels)) or _rotate(events, channels):
+    melodic = all(map(events.is_melodic, channels))
+    if melodic and named is not None and not named.vague and events.take_turns(channels):
+        return [tuple(channels)]
+    if (melodic or len(channels) > _FEW) and _rotate(events, channels):
         return [tuple(channels)]
     return [(channel,) for channel in channels]
 
@@ -98,11 +105,16 @@ def sounding_channels(first: int, channels: Collection[int], zones: Mapping[int,
     return tuple(dict.fromkeys((first, *managers, *channels)))
 
 
+def _one_sound(events: TrackEvents, channels: Collection[int]) -> bool:
+    """Whether the channels that choose a program have the same."""
+    programs = (frozenset(program for _, program in events.programs.get(one, [])) for one in channels)
+    return len(set(filter(None, programs))) <= 1
+
+
 def _rotate(events: TrackEvents, channels: Collection[int]) -> bool:
     """Whether a line goes through the channels note by note, all with one sound."""
-    programs = {tuple(sorted({program for _, program in events.programs.get(one, [])})) for one in channels}
     spans = _spans(events, channels)
-    if len(programs - {()}) > 1 or len(spans) < _LEAST_ROTATING or not _is_line(spans):
+    if not _one_sound(events, channels) or len(spans) < _LEAST_ROTATING or not _is_line(spans):
         return False
     changes = sum(before[2] != after[2] for before, after in pairwise(spans))
     return changes >= _ROTATING_SHARE * (len(spans) - 1)

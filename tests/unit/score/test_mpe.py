@@ -139,3 +139,26 @@ def test_a_zone_that_takes_in_the_percussion_channel_is_no_percussion() -> None:
     zone = set_to((101, 0), (100, 6), (6, 15))
     score = scored(track(rotating(channels=(9, 10, 11)), zone), b"")
     assert [note.pitch for note in only(score).notes] == list(SCALE)
+
+
+def test_fifteen_channels_that_rotate_are_one_player_though_one_of_them_is_the_percussions() -> None:
+    events: list[Event] = []
+    for place in range(30):
+        channel, pitch = 1 + place % 15, 60 + place % 12
+        events += [
+            (96 * place, bytes([0x90 | channel, pitch, 64])),
+            (96 * place + 90, bytes([0x80 | channel, pitch, 0])),
+        ]
+    assert len(only(scored(track(events), b"")).notes) == 30
+
+
+def test_both_zones_are_a_player_each() -> None:
+    zones = ZONE + set_to((101, 0), (100, 6), (6, 5), channel=15)
+    both = rotating(channels=(1, 2, 3)) + rotating(channels=(14, 13, 12))
+    assert [len(part.notes) for part in scored(track(both, zones)).parts] == [8, 8]
+
+
+def test_a_zone_of_several_sounds_is_none() -> None:
+    """A whole band in one track, in which a sequencer wrote that channel 1 may be a zone."""
+    programs = bytes([0, 0xC1, 56, 0, 0xC2, 57])
+    assert len(scored(track(rotating(channels=(1, 2)), ZONE + programs), b"").parts) == 2
