@@ -89,6 +89,7 @@ def repaired(data: bytes, until: int | None = None) -> Repaired:
     skipped, first_skipped = 0, len(data)
     truncated_at = None
     ended: tuple[int, int, int] | None = None
+    closed = -1
     end = len(data)
     while at < end:
         event_at = at
@@ -111,6 +112,7 @@ def repaired(data: bytes, until: int | None = None) -> Repaired:
                 if kind == _END_OF_TRACK or kind in _TEXTS or _LENGTHS.get(kind) == length:
                     out += encoded_length(delta) + bytes([0xFF, kind]) + encoded_length(length) + data[begin:at]
                     delta = 0
+                    closed = len(out) if kind == _END_OF_TRACK else closed
             elif byte in (0xF0, 0xF7):
                 length, begin = _variable_length(data, at + 1)
                 if begin + length > end:
@@ -152,7 +154,8 @@ def repaired(data: bytes, until: int | None = None) -> Repaired:
         del out[ended[0] :]
         delta, skipped, truncated_at = ended[1], ended[2], None
         first_skipped = first_skipped if skipped else len(data)
-    out += encoded_length(min(delta, 0x0FFFFFFF)) + bytes([0xFF, _END_OF_TRACK, 0])
+    if closed != len(out):
+        out += encoded_length(min(delta, 0x0FFFFFFF)) + bytes([0xFF, _END_OF_TRACK, 0])
     return Repaired(bytes(out), truncated_at, skipped, first_skipped)
 
 

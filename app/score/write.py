@@ -11,6 +11,8 @@ for does not:
   is a violin again. A part of which notes sound together is shared among players again. Both are reported.
 - Which of two notes of one pitch ends first, where one sounds within the other: a note-off ends the oldest, so the two
   exchange their ends. This is reported. (Notes that only overlap end as they did.)
+- More than fifteen parts of one name and program: two on one channel of which one ends before the other begins are
+  read as one.
 - A channel that another part has already, or that is the percussion's: the part gets a free one as long as there is
   one; then channels repeat, and tracks keep the parts apart. Without a program a part gets its instrument's, for it
   would sound like a piano elsewhere.
@@ -128,9 +130,9 @@ def midi_file(score: Score, performers: Mapping[str, Performer] | None = None) -
     # The charset of the texts: mido's usual one is Latin 1.
     file = mido.MidiFile(type=1, ticks_per_beat=score.ticks_per_quarter, charset="utf-8")
     file.tracks.append(_track(_conductor(score)))
-    for part, channel in zip(score.parts, _channels(score.parts), strict=True):
+    names = [performing[part.id].name if part.id in performing else part.name for part in score.parts]
+    for part, name, channel in zip(score.parts, names, _channels(score.parts, names), strict=True):
         performer = performing.get(part.id)
-        name = part.name if performer is None else performer.name
         instrument = _instrument(part, performer)
         warnings += _warnings(part, name, performer, score)
         file.tracks.append(_track(_part(part, name, instrument, channel)))
@@ -141,21 +143,28 @@ def midi_file(score: Score, performers: Mapping[str, Performer] | None = None) -
     return MidiFile(data.getvalue(), tuple(warnings))
 
 
-def _channels(parts: Sequence[Part]) -> list[int]:
-    """A channel for each part: its own where it is the first to have it, else a free one, else its own again."""
+def _channels(parts: Sequence[Part], names: Sequence[str]) -> list[int]:
+    """A channel for each part: its own where it is the first to have it, else a free one, else one that no part of its
+    name has, for tracks of one name and channel may be read as one player's."""
     own: dict[int, int] = {}
     for index, part in enumerate(parts):
         if part.channel != DRUM_CHANNEL:
             own.setdefault(part.channel, index)
     free = [channel for channel in _CHANNELS if channel not in own]
-    channels = []
+    channels: list[int] = []
+    of_name = {
+        name: {part.channel for part, other in zip(parts, names, strict=True) if other == name} for name in names
+    }
     for index, part in enumerate(parts):
         if own.get(part.channel) == index:
             channels.append(part.channel)
         elif free:
             channels.append(free.pop(0))
         else:
-            channels.append(_CHANNELS[index % len(_CHANNELS)])
+            turn = index % len(_CHANNELS)
+            possible = [*_CHANNELS[turn:], *_CHANNELS[:turn]]
+            channels.append(next((one for one in possible if one not in of_name[names[index]]), possible[0]))
+        of_name[names[index]].add(channels[-1])
     return channels
 
 

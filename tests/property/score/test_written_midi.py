@@ -72,7 +72,8 @@ def scores(draw: st.DrawFn) -> Score:
     for track in range(1, 1 + draw(st.sampled_from((1, 1, 2, 3, 17)))):
         trumpet = draw(st.booleans())
         word = draw(st.one_of(st.just(""), WORDS))
-        name = f"{'Trumpet' if trumpet else 'Trombone'} {word}".strip()
+        # Channels repeat from the sixteenth part on; tracks of one name and channel may be regions of one.
+        name = f"{'Trumpet' if trumpet else 'Trombone'} {word}{track if track > 15 else ''}".strip()
         kinds = draw(st.sets(st.sampled_from(KINDS), max_size=3))
         channel = draw(st.sampled_from([channel for channel in range(16) if channel != 9]))
         parts.append(
