@@ -141,6 +141,10 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         "unknown unit; the body was scaled to a height of 1.7 m",
         "単位が不明のため、身長を 1.7 m にしました",
     ),
+    "dance.too_long": (
+        "the piece lasts {minutes} minutes; dances can be generated for pieces of up to {most} minutes",
+        "曲の長さが {minutes} 分あります。ダンスを生成できるのは {most} 分までの曲です",
+    ),
     "motion.milliseconds": (
         "{rate} frames/s (the frame time {said:g} was read as milliseconds)",
         "{rate} フレーム/秒（フレーム時間 {said:g} はミリ秒とみなしました）",

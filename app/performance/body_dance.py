@@ -59,7 +59,9 @@ def _layer(
 def _inputs(performance: Performance, player: Player) -> _Inputs | None:
     """What a layer is made from, each the same object as long as it is the same."""
     parameters = player.parameters
-    if not parameters.choreography or parameters.dance_amount == 0.0 or unfit_choreography(player) is not None:
+    if not parameters.choreography or parameters.dance_amount == 0.0:
+        return None
+    if unfit_choreography(player, performance.time_frame) is not None:
         return None
     variation = parameters.dance_variation or seed_of("dance", parameters.seed, player.id)
     seed = performed_seed(variation, performance.project.seed)

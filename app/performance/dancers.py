@@ -37,7 +37,7 @@ from app.identity_cache import IdentityCache
 from app.motion.curve import Envelopes
 from app.motion.model import Motion
 from app.motion.perform import frame_count
-from app.performance.choreographers import choreographer_of
+from app.performance.choreographers import choreographer_of, too_long_to_dance
 from app.performance.ensemble import Performance
 from app.plan.model import Problem, TimeFrame
 from app.project.casting import StagePosition
@@ -174,7 +174,7 @@ def dancing_of(performance: Performance, dancer: Dancer) -> Dancing:
     Raises
     ------
     AppError
-        The choreography or the character is missing or damaged.
+        The choreography or the character is missing or damaged, or the performance is too long for a dance.
     """
     if dancer.character_id not in character_library().sources:
         raise AppError("project.character_missing", player=dancer.name, id=dancer.character_id)
@@ -201,7 +201,10 @@ def _audible_rhythm(score: Score) -> Rhythm:
 
 
 def dance_frame(performance: Performance) -> TimeFrame:
-    """The span that all dances cover; one object as long as it is the same."""
+    """The span that all dances cover; one object as long as it is the same. Raises AppError (``dance.too_long``)."""
+    long = too_long_to_dance(performance.time_frame)
+    if long is not None:
+        raise AppError(long.id, **long.arguments)
     return _same_frame(performance.time_frame.first_frame_s, performance.time_frame.end_s)
 
 

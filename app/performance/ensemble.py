@@ -273,7 +273,7 @@ class Performance:
             found = body_problems(
                 player, self.instrument(player), plan.fingerings, self._memo, player.id in self.waiting
             )
-            lacking, unreached = found.lacking + _not_danced(player), found.unreached
+            lacking, unreached = found.lacking + _not_danced(player, self.time_frame), found.unreached
             if found.unseen is not None:
                 self.unseen[player.id] = found.unseen
         lacking += unknown_acting(player, self.metadata)
@@ -402,14 +402,14 @@ def changes_of(performance: Performance, played: Sequence[Player]) -> tuple[str,
     return first_played(plans), changes(plans)
 
 
-def _not_danced(player: Player) -> tuple[Message, ...]:
+def _not_danced(player: Player, frame: TimeFrame) -> tuple[Message, ...]:
     """What to report about a choreography that the player cannot dance."""
     if not player.parameters.choreography:
         return ()
     # The modules of dances are loaded only for pieces with dancers.
     from app.performance.choreographers import unfit_choreography
 
-    unfit = unfit_choreography(player)
+    unfit = unfit_choreography(player, frame)
     return () if unfit is None else (unfit,)
 
 

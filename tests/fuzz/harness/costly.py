@@ -8,9 +8,9 @@ from typing import Final
 
 from tests.fuzz.harness.costly_files import COSTLY_FILES
 from tests.fuzz.harness.costly_media import COSTLY_MEDIA
-from tests.fuzz.harness.costly_midi import COSTLY
+from tests.fuzz.harness.costly_midi import COSTLY, STUCK
 from tests.fuzz.harness.costly_motion import COSTLY_MOTION
-from tests.fuzz.harness.costly_projects import COSTLY_PROJECTS
+from tests.fuzz.harness.costly_projects import COSTLY_DANCES, COSTLY_METADATA, COSTLY_PROJECTS
 
 Make = Callable[[int], bytes]
 """Makes a file of about so many bytes."""
@@ -22,7 +22,10 @@ def _named(ways: Mapping[str, tuple[Make, ...]]) -> dict[str, dict[str, Make]]:
 
 ALL_COSTLY: Final[Mapping[str, Mapping[str, Make]]] = {
     "midi": COSTLY,
+    "inspected": {**COSTLY, **STUCK},
     "performed": COSTLY_PROJECTS,
+    "danced": COSTLY_DANCES,
+    "piece_metadata": COSTLY_METADATA,
     **_named(COSTLY_FILES),
     **_named(COSTLY_MEDIA),
     **_named(COSTLY_MOTION),

@@ -219,6 +219,34 @@ COSTLY: Final[dict[str, Callable[[int], bytes]]] = {
 }
 """By what each does: from a size in bytes, which those that cannot grow pass over, to the file's bytes."""
 
+_TRUMPET: Final = b"\0\xc0\x38"
+_TWELVE_HOURS: Final = 12 * 2 * 3600 * 480 - 4000
+
+
+def _turns(size: int) -> bytes:
+    """Six instruments by turns in one track."""
+    programs = (56, 57, 60, 71, 73, 68)
+    turns = b"".join(bytes([0, 0xC0, program]) + note(70, 100, 20) for program in programs)
+    return midi(_repeated(turns, size) + END)
+
+
+STUCK: Final[dict[str, Callable[[int], bytes]]] = {
+    "a note of twelve hours": lambda size: midi(_TRUMPET + note(ticks=_TWELVE_HOURS) + END),
+    "four notes of twelve hours": lambda size: midi(*[_TRUMPET + note(ticks=_TWELVE_HOURS) + END] * 4),
+    "a note of twelve hours and one at its end": lambda size: midi(
+        _TRUMPET + note(ticks=_TWELVE_HOURS) + note() + END, _TRUMPET + note() + note(delta=_TWELVE_HOURS) + END
+    ),
+    "two notes twelve hours apart": lambda size: midi(_TRUMPET + note() + note(delta=_TWELVE_HOURS) + END),
+    "players of two notes twelve hours apart": lambda size: midi(
+        *[_TRUMPET + note() + note(delta=_TWELVE_HOURS) + END] * min(max(size // 36, 1), 128)
+    ),
+    "notes of twelve hours": lambda size: midi(
+        _TRUMPET + b"".join(note(60, 400, _TWELVE_HOURS // (size // 10) - 400) for _ in range(size // 10)) + END
+    ),
+    "instruments by turns": _turns,
+}
+"""What a report of a file costs beyond reading it."""
+
 WORST: Final = {
     "everyone often for twelve hours": 40_000,
     "lost note-offs, all pitches": 30_000,

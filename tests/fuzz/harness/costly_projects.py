@@ -34,6 +34,7 @@ from app.project.dance_corrections import DanceCorrection, ForbidState, PinState
 from app.project.model import CompSpan, PlayerTakes, Project, project_from_score
 from app.project.model import map_choices as choices_of
 from app.project.performers import Dancer
+from app.project.piece_metadata import metadata_of, save_metadata
 from app.project.recording import AudioTrack, BeatPin, Doubt
 from app.score.limits import LAST_TICK
 from app.score.metre_map import Metre
@@ -403,10 +404,10 @@ PIECES: Final[dict[str, Way]] = {
 # Dances
 
 
-def _danced(count: int, hours: bool = False, corrections: Sequence[DanceCorrection] = (), **fields: Any) -> Project:
+def _danced(count: int, quarters: int = 0, corrections: Sequence[DanceCorrection] = (), **fields: Any) -> Project:
     project = base()
-    if hours:
-        project = _long_piece(project)
+    if quarters:
+        project = _long_piece(project, quarters)
     stage, character = project.players[0].stage, project.players[0].character_id
     dancers = tuple(
         Dancer(f"dancer:{at + 1}", f"d{at}", "salsa", character, stage, seed=at, **fields)
@@ -417,7 +418,8 @@ def _danced(count: int, hours: bool = False, corrections: Sequence[DanceCorrecti
 
 DANCES: Final[dict[str, Way]] = {
     "dancers": _danced,
-    "dancers of hours": partial(_danced, hours=True),
+    "dancers of hours": partial(_danced, quarters=HOURS_QUARTERS),
+    "dancers of a quarter of an hour": partial(_danced, quarters=880),
     "dancers who begin in hours": partial(_danced, delay_beats=10_000.0),
     "pinned motions": lambda count: _danced(1, corrections=[PinState(at, at % 9) for at in range(count)]),
     "pinned motions far": lambda count: _danced(1, corrections=[PinState(FAR - at, at % 9) for at in range(count)]),
@@ -425,11 +427,43 @@ DANCES: Final[dict[str, Way]] = {
     "forbidden motions in turn": lambda count: _danced(
         1, corrections=[ForbidState(at, at + 9, at % 9) for at in range(count)]
     ),
+    "forbidden motions of minutes": lambda count: _danced(
+        1, 880, corrections=[ForbidState(-FAR, FAR, at) for at in range(count)]
+    ),
+    "pinned motions of minutes": lambda count: _danced(
+        1, 880, corrections=[PinState(at * 900 % 560_000, at % 9) for at in range(count)]
+    ),
     "segments": lambda count: _danced(1, corrections=[UseSegment(at, at % 9) for at in range(count)]),
 }
 
 COSTLY_PROJECTS: Final[dict[str, Callable[[int], bytes]]] = {
     name: partial(of_size, way) for name, way in {**CORRECTIONS, **PIECES}.items()
+}
+
+
+def costly_metadata(size: int, way: str = "poses in turn") -> bytes:
+    """The acting of a piece as a file of its own."""
+    few, some = (len(_metadata(way, count)) for count in (2, 34))
+    return _metadata(way, max(2 + (size - few) * 32 // max(some - few, 1), 1))
+
+
+def _metadata(way: str, count: int) -> bytes:
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "a.toml"
+        save_metadata(metadata_of(CORRECTIONS[way](count)), path)
+        return path.read_bytes()
+
+
+COSTLY_METADATA: Final[dict[str, Callable[[int], bytes]]] = {
+    way: partial(costly_metadata, way=way)
+    for way in (
+        "curves far",
+        "curves of many keys",
+        "poses at once",
+        "variations far",
+        "styles in turn",
+        "gestures far",
+    )
 }
 COSTLY_DANCES: Final[dict[str, Callable[[int], bytes]]] = {name: partial(of_size, way) for name, way in DANCES.items()}
 """By what each does: from a size in bytes, which those that cannot grow pass over, to the file's bytes."""

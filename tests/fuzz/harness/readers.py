@@ -17,6 +17,7 @@ from typing import Any, Final
 
 from app.errors import AppError
 from tests.fuzz.harness import mutators, seeds
+from tests.fuzz.harness.costly_projects import base
 from tests.fuzz.harness.mutators import Mutator
 
 
@@ -122,7 +123,43 @@ def performed(path: Path, folder: Path) -> None:
             playing.motion(fps, first, min(_SEEN_FRAMES, count - first))
 
 
-_SEEN_FRAMES, _SEEN_PERFORMERS = 30, 3
+_SEEN_FRAMES, _SEEN_PERFORMERS, _SEEN_DANCERS = 30, 3, 1
+
+
+def danced(path: Path, folder: Path) -> None:
+    """Load a project with dancers, and see the first of them for a moment."""
+    from app.performance.dancers import dancing_of
+    from app.performance.ensemble import Performance
+    from app.project import storage
+
+    performance = Performance(storage.load(path))
+    for dancer in performance.project.dancers[:_SEEN_DANCERS]:
+        dancing = dancing_of(performance, dancer)
+        dancing.motion(performance.project.fps, 0, _SEEN_FRAMES)
+
+
+def piece_metadata(path: Path, folder: Path) -> None:
+    """What was said of the acting of another piece, loaded into one that is planned and saved."""
+    from app.performance.ensemble import Performance
+    from app.project.piece_metadata import load_metadata, with_metadata
+
+    project = with_metadata(base(), load_metadata(path)).project
+    Performance(project).prepare()
+    with accepted("save what was loaded"):
+        _saved(project, folder)
+
+
+def inspected(path: Path, folder: Path) -> None:
+    """The whole report of a MIDI file, contacts included."""
+    from app.cli.inspect import inspection, tables
+    from app.performance.ensemble import Performance
+    from app.project.model import map_choices, project_from_score
+    from app.score.read import read_midi
+    from instrument_maps.load import bundled_maps
+
+    maps = bundled_maps()
+    score = read_midi(path, maps=map_choices(maps.values()))
+    tables("file", inspection(Performance(project_from_score(score, maps))))
 
 
 def _saved(project: Any, folder: Path) -> None:
@@ -452,9 +489,12 @@ _TEXT, _JSON = tuple(mutators.TEXT), tuple(mutators.JSON)
 KINDS: Final[dict[str, Kind]] = {
     kind.name: kind
     for kind in (
-        Kind("midi", midi, seeds.midi, tuple(mutators.MIDI), ".mid"),
+        Kind("midi", midi, seeds.midi, tuple(mutators.MIDI), ".mid", 2.0),
+        Kind("midi", inspected, seeds.inspected, tuple(mutators.MIDI), ".mid"),
         Kind("project", project, seeds.project, _JSON, ".suisou", 3.0),
         Kind("project", performed, seeds.performed, _JSON, ".suisou"),
+        Kind("project", danced, seeds.danced, _JSON, ".suisou", 0.5),
+        Kind("project", piece_metadata, seeds.piece_metadata, _TEXT, ".toml"),
         Kind("project", autosave, seeds.autosave, _JSON, ".suisou"),
         Kind("project", presence, seeds.presence, _JSON, ".json"),
         Kind("project", journal, seeds.journal, _TEXT, ".take-journal"),

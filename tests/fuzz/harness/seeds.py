@@ -22,7 +22,7 @@ import soundfile
 from app.formats.scene import Scene
 from tests.fuzz.harness.costly import costly
 from tests.fuzz.harness.costly_midi import COSTLY, WORST
-from tests.fuzz.harness.costly_projects import base
+from tests.fuzz.harness.costly_projects import DANCES, base, costly_metadata
 from tests.fuzz.harness.costly_projects import encoded as encoded_project
 from tests.support import encoded
 from tests.support.media import ffmpeg
@@ -57,6 +57,21 @@ def project() -> list[bytes]:
 def performed() -> list[bytes]:
     """A trumpet's few notes."""
     return [encoded_project(base())]
+
+
+def danced() -> list[bytes]:
+    """A dancer to a trumpet's few notes."""
+    return [encoded_project(DANCES["dancers"](1))]
+
+
+def piece_metadata() -> list[bytes]:
+    """The acting of a piece, of two players."""
+    return [costly_metadata(900)]
+
+
+def inspected() -> list[bytes]:
+    """Small files of ensembles."""
+    return _files("tests/data/midi/*/*.mid", 1000)[:12]
 
 
 def autosave() -> list[bytes]:
@@ -333,6 +348,8 @@ MADE: Final[dict[str, dict[str, Callable[[], bytes]]]] = {
         "deep_object": lambda: b'{"a":' * 60_000,
     },
     "performed": costly("performed", 4000),
+    "danced": {name: costly("danced", 2000)[name] for name in ("dancers of hours", "forbidden motions")},
+    "piece_metadata": {name: costly("piece_metadata")[name] for name in ("curves far", "variations at once")},
     "instrument_map": _TABLES,
     "expression": _TABLES,
     "preset": _TABLES,

@@ -66,6 +66,20 @@ def frames(project: Project) -> tuple[Performance, np.ndarray]:
     return performance, motion.rotations
 
 
+def test_hours_are_not_danced_to(choreography: str) -> None:
+    """A dance is made as a whole: one of twelve hours would take 27 GB."""
+    project = played()
+    part = project.score.parts[0]
+    last = msgspec.structs.replace(part.notes[-1], id="9:999", onset_tick=480 * 3600 * 2)
+    long = msgspec.structs.replace(part, notes=(*part.notes, last))
+    score = msgspec.structs.replace(project.score, parts=(long, *project.score.parts[1:]))
+    performance = Performance(replace(project, score=score))
+    with pytest.raises(AppError) as caught:
+        dancing_of(performance, Dancer("dancer:1", "A", choreography, "man_adult", StagePosition(0.0, 0.0, 0.0)))
+    assert caught.value.message.id == "dance.too_long"
+    assert caught.value.message.arguments["most"] == 15
+
+
 def test_a_dancer_dances_the_whole_performance(choreography: str) -> None:
     performance, rotations = frames(with_dancers(choreography))
     dancing = dancing_of(performance, performance.project.dancers[0])

@@ -1,0 +1,34 @@
+"""What the worst small files cost, of every reader and every way that was found: ``./test --fuzz`` alone, as it takes
+minutes. The table is printed with the attacks; ``python -m tests.fuzz.harness.table`` prints it by itself."""
+
+from __future__ import annotations
+
+import pytest
+
+from tests.fuzz.harness.campaign import SIZES
+from tests.fuzz.harness.costly import ALL_COSTLY
+from tests.fuzz.harness.readers import KINDS
+from tests.fuzz.harness.table import costs, worst
+
+LEAST_MINUTES = 5.0
+"""In shorter attacks only `test_found` reads these files, in small."""
+
+
+@pytest.mark.fuzz
+@pytest.mark.parametrize("kind", ALL_COSTLY)
+def test_the_worst_files_keep_within_the_bounds(
+    kind: str, pytestconfig: pytest.Config, record_property: object
+) -> None:
+    if pytestconfig.getoption("--fuzz") < LEAST_MINUTES:
+        pytest.skip("takes minutes")
+    assert callable(record_property)
+    found = list(costs(kind))
+    for cost in worst(found):
+        record_property("fuzz", str(cost))
+    failed = [f"{cost}\n{cost.result.detail}" for cost in found if cost.result.failure]
+    assert not failed, "\n\n".join(failed)
+
+
+def test_every_costly_file_has_a_reader() -> None:
+    assert ALL_COSTLY.keys() <= KINDS.keys()
+    assert SIZES == (1_000, 10_000, 100_000)
