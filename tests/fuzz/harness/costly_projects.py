@@ -456,14 +456,7 @@ def _metadata(way: str, count: int) -> bytes:
 
 COSTLY_METADATA: Final[dict[str, Callable[[int], bytes]]] = {
     way: partial(costly_metadata, way=way)
-    for way in (
-        "curves far",
-        "curves of many keys",
-        "poses at once",
-        "variations far",
-        "styles in turn",
-        "gestures far",
-    )
+    for way in ("curves far", "curves of many keys", "poses at once", "variations at once", "styles in turn")
 }
 COSTLY_DANCES: Final[dict[str, Callable[[int], bytes]]] = {name: partial(of_size, way) for name, way in DANCES.items()}
 """By what each does: from a size in bytes, which those that cannot grow pass over, to the file's bytes."""
