@@ -152,7 +152,7 @@ def add_file_options(command: argparse.ArgumentParser) -> None:
         "--encoding",
         type=text_encoding,
         metavar="NAME",
-        help="of a MIDI file's texts (default: each is UTF-8 if it can be, else CP932, else Latin-1)",
+        help="of a MIDI file's texts (default: Unicode where it can be, else guessed from all of them)",
     )
     command.add_argument(
         "--assign",
