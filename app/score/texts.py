@@ -49,11 +49,6 @@ _NO_WORD: Final = 5.0
 """For a character that stands as none of its script does: a single half width kana, a dash within a word."""
 
 
-def decoded(data: bytes, encoding: str | None = None) -> str:
-    """Decode a text of a MIDI file that stands alone; see `Texts`."""
-    return Texts([data], encoding=encoding).read(data)
-
-
 class Texts:
     """Reads the texts of a file.
 

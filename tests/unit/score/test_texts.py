@@ -4,7 +4,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from app.score.texts import Texts, decoded
+from app.score.texts import Texts
+
+
+def decoded(data: bytes, encoding: str | None = None) -> str:
+    """A text that stands alone."""
+    return Texts([data], encoding=encoding).read(data)
 
 
 @pytest.mark.parametrize(
