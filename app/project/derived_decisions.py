@@ -9,7 +9,7 @@ from collections.abc import Iterator, Mapping, Sequence
 
 import msgspec
 
-from app.project.ids import MADE_PART
+from app.project.ids import MADE_PART, is_made_here
 from app.project.imported import ImportDecisions, Place, RowDecision, TrackMark, mark_of, melody_of
 from app.project.likeness import shares, sketch, turns
 from app.project.model import Project
@@ -23,6 +23,7 @@ from app.score.read import MidiContents, assigned_score
 _FILE_NOTE = re.compile(r"([1-9]\d*):[1-9]\d*", re.ASCII)
 _SPLITS: tuple[Split, ...] = ("sustained", "never", "every")
 _SAME = 0.9999
+_COVERED = 0.9
 
 
 def is_read(project: Project, part: Part) -> bool:
@@ -88,6 +89,7 @@ def _owned(project: Project, groups: Mapping[Place, Sequence[Part]], contents: M
         for place, parts in groups.items()
         for part in parts
         for note in held_by_file(project, part)
+        if not is_made_here(note.id)
     }
     result: dict[Place, list[int]] = {}
     for index, stream in enumerate(contents.streams):
@@ -97,7 +99,16 @@ def _owned(project: Project, groups: Mapping[Place, Sequence[Part]], contents: M
         for place, count in counted.most_common(1):
             if 2 * count > len(stream.onset_ticks):
                 result.setdefault(place, []).append(index)
-    for place, own in result.items():
+    whole = {place: {key[1:] for key, owner in owners.items() if owner == place} for place in result}
+    for place, own in list(result.items()):
+        there = {
+            (onset * old, pitch)
+            for index in own
+            for onset, pitch in zip(contents.streams[index].onset_ticks, contents.streams[index].pitches, strict=True)
+        }
+        # One of several merged tracks that stayed where it was does not tell where the others are.
+        if len(whole[place] & there) < _COVERED * len(whole[place]):
+            del result[place]
         own.sort(key=lambda index: contents.streams[index].place != place)
     return result
 
@@ -105,9 +116,10 @@ def _owned(project: Project, groups: Mapping[Place, Sequence[Part]], contents: M
 def _marks(project: Project, parts: Sequence[Part]) -> Iterator[TrackMark]:
     """Marks of the tracks that a group's parts were read from, as far as the parts tell."""
     first = parts[0]
-    notes = sorted(
-        (note for part in parts for note in held_by_file(project, part)), key=lambda note: (note.onset_tick, note.pitch)
-    )
+    held = [note for part in parts for note in held_by_file(project, part)]
+    # Players in unison have the same notes.
+    once = {(note.onset_tick, note.pitch): note for note in held if not is_made_here(note.id)}
+    notes = [once[place] for place in sorted(once)]
     by_track: dict[int, list[Note]] = {first.track: []}
     for note in notes:
         said = _FILE_NOTE.fullmatch(note.id)

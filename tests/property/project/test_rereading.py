@@ -198,6 +198,11 @@ def test_what_was_decided_and_edited_stays(data: st.DataObject) -> None:
                 (note.id, note.pitch, note.velocity) for note in now
             ]
         assert reimported(after, path, MAPS).project is after
+        outcome = reimported(older, path, MAPS)
+        assert outcome.gone_players == ()
+        # It does not tell which tracks were left out: those come, and may move the others on the stage.
+        for player in older.players:
+            assert msgspec.structs.replace(outcome.project.player(player.id), stage=player.stage) == player
 
 
 @given(decisions, st.integers(0, 2**32))
