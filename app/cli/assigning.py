@@ -14,7 +14,7 @@ from app.encoding import shown
 from app.errors import Message
 from app.project.importing import ImportRow
 from app.project.names import unique_names
-from app.score.choose import How, MapChoice, TrackChannel, candidates, use_of
+from app.score.choose import Candidates, How, MapChoice, TrackChannel, candidates, use_of
 from app.score.parts import stream_name
 
 _SPECIAL: Final = re.compile(r'["$`\\!]')
@@ -37,17 +37,21 @@ class Unassigned(NamedTuple):
 
 
 def unassigned_parts(
-    streams: Sequence[TrackChannel], rows: Sequence[ImportRow], maps: Sequence[MapChoice]
+    streams: Sequence[TrackChannel], rows: Sequence[ImportRow], maps: Sequence[MapChoice], of_others: bool = False
 ) -> tuple[Unassigned, ...]:
-    """The parts that neither the file nor the user gives an instrument, in the order of the file."""
+    """The parts that neither the file nor the user gives an instrument, in the order of the file; ``of_others``: those
+    of instruments that no map plays, as of a piano."""
     found = []
     for row, name in zip(rows, part_names(streams, rows), strict=True):
         played = [streams[index] for index in row.assignment.streams]
         if row.assignment.map_id is None and all(use_of(stream) == "melodic" for stream in played):
             possible = candidates(played, maps)
-            if possible.how is How.RANGE and possible.maps:
-                pitches = [pitch for stream in played for pitch in stream.pitches]
-                found.append(Unassigned(name, possible.best(pitches).map_id))
+            if of_others and not possible.maps:
+                possible = Candidates(How.RANGE, None, tuple(maps))
+            elif of_others or possible.how is not How.RANGE or not possible.maps:
+                continue
+            pitches = [pitch for stream in played for pitch in stream.pitches]
+            found.append(Unassigned(name, possible.best(pitches).map_id))
     return tuple(found)
 
 
@@ -56,11 +60,13 @@ def part_names(streams: Sequence[TrackChannel], rows: Sequence[ImportRow]) -> tu
     return unique_names(stream_name(streams[row.assignment.streams[0]]) for row in rows)
 
 
-def assign_message(arguments: argparse.Namespace, parts: Sequence[Unassigned]) -> Message:
-    """``assign.parts`` (file, parts, command): which parts, and the command that was given with instruments for them.
+def assign_message(arguments: argparse.Namespace, parts: Sequence[Unassigned], id: str = "assign.parts") -> Message:
+    """Message (file, parts, command) of which parts, and the command that was given with instruments for them.
 
     Parameters
     ----------
+    id : str
+        ``assign.parts``, or ``assign.others`` of parts for instruments that no map plays.
     arguments : Namespace
         With ``file``, and ``given``, the command line.
     """
@@ -71,7 +77,7 @@ def assign_message(arguments: argparse.Namespace, parts: Sequence[Unassigned]) -
         words = ["export", os.fspath(arguments.piece), "--to", os.fspath(arguments.to)]
     named = ", ".join(one.part for one in parts)
     command = shown(_joined(["suisou", *words, *added]))
-    return Message("assign.parts", {"file": shown(arguments.file), "parts": named, "command": command})
+    return Message(id, {"file": shown(arguments.file), "parts": named, "command": command})
 
 
 def _joined(words: Sequence[str]) -> str:

@@ -10,7 +10,7 @@ from typing import Final, TypeVar
 
 import msgspec
 
-from app.cli.assigning import Unassigned, assign_message, part_names, unassigned_parts
+from app.cli.assigning import assign_message, part_names, unassigned_parts
 from app.cli.terminal import warn
 from app.encoding import is_encoding, shown
 from app.errors import FileError, Message, UsageError
@@ -258,14 +258,12 @@ def open_project(arguments: argparse.Namespace, nobody: str = "") -> Project:
         warn(worded(problems[0]))
     for problems in metadata_library().problems.values():
         warn(worded(problems[0]))
-    project, unassigned = _opened(arguments, maps)
+    project, message = _opened(arguments, maps)
     if nobody and not project.performers:
-        refused = Message(nobody, {"file": shown(arguments.file)})
-        if unassigned:
-            refused = assign_message(arguments, unassigned)
+        refused = message or Message(nobody, {"file": shown(arguments.file)})
         raise FileError(refused.id, **refused.arguments)
-    if unassigned:
-        warn(worded(assign_message(arguments, unassigned)))
+    if message is not None:
+        warn(worded(message))
     settings = parse_settings(
         arguments.settings, [player.name for player in project.players], maps, tuple(characters())
     )
@@ -307,18 +305,22 @@ def _saved_project(arguments: argparse.Namespace) -> Project:
     return load(arguments.file)
 
 
-def _opened(arguments: argparse.Namespace, maps: Mapping[str, InstrumentMap]) -> tuple[Project, tuple[Unassigned, ...]]:
-    """The project of a file, and the parts that nothing gives an instrument."""
+def _opened(arguments: argparse.Namespace, maps: Mapping[str, InstrumentMap]) -> tuple[Project, Message | None]:
+    """The project of a file, and a message about its parts without an instrument of ours."""
     if is_project_file(arguments.file):
-        return _saved_project(arguments), ()
-    contents = read_contents(arguments.file, encoding=arguments.encoding)
+        return _saved_project(arguments), None
+    contents, choices = read_contents(arguments.file, encoding=arguments.encoding), map_choices(maps.values())
     rows = _assigned(contents.streams, usual_rows(contents, maps), arguments.assign, list(maps))
-    unassigned = unassigned_parts(contents.streams, rows, map_choices(maps.values()))
+    unassigned = unassigned_parts(contents.streams, rows, choices)
     if arguments.written:
         rows = _written(contents, rows, arguments.written, maps)
     seed = getattr(arguments, "seed", None) or 0
     source = str(arguments.file.absolute())
-    return import_project(contents, rows, maps, source, encoding=arguments.encoding, seed=seed), unassigned
+    project = import_project(contents, rows, maps, source, encoding=arguments.encoding, seed=seed)
+    if unassigned:
+        return project, assign_message(arguments, unassigned)
+    others = () if project.performers else unassigned_parts(contents.streams, rows, choices, of_others=True)
+    return project, assign_message(arguments, others, "assign.others") if others else None
 
 
 def _written(

@@ -86,6 +86,16 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         "instrument {instrument!r} was not found; available: {possible}",
         "楽器 {instrument!r} が見つかりません。使える楽器: {possible}",
     ),
+    "assign.others": (
+        (
+            "{file}: no part is for a wind instrument ({parts}); to have winds play them, for example: {command} "
+            "(`suisou instruments` lists the instruments)"
+        ),
+        (
+            "{file}: 管楽器のパートがありません（{parts}）。管楽器で演奏するには、たとえば: {command}"
+            "（楽器は `suisou instruments` で一覧できます）"
+        ),
+    ),
     "assign.parts": (
         (
             "{file}: nothing says which instruments play {parts}; assign them, for example: {command} "

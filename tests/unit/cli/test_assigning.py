@@ -65,6 +65,17 @@ def test_a_command_that_needs_players_says_it_itself_and_whatever_the_file_is_ca
     assert len(said) == 1
 
 
+def test_parts_of_other_instruments_can_be_assigned_too(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    # As notation programs write tracks without a name: program 0 is their "no program", and General MIDI's piano.
+    file = piece(tmp_path / "piece.mid", ("Piano", "Violin"))
+    assert main(["export", str(file), "--to", str(tmp_path / "out")]) == 1
+    error = capsys.readouterr().err
+    assert "no part is for a wind instrument (Piano, Violin)" in error
+    words = command_in(error)[1:]
+    assert main(["inspect", str(file), "--no-contacts", *words[words.index("--assign") :]]) == 0
+    assert "2 players" in capsys.readouterr().out
+
+
 def test_a_piece_of_a_folder_says_so_with_a_command_of_its_own(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
