@@ -6,9 +6,9 @@ from collections.abc import Callable
 from itertools import pairwise
 
 from PySide6.QtCore import QPoint, QRect, Qt, QTimer
-from PySide6.QtGui import QAction, QContextMenuEvent
+from PySide6.QtGui import QAction, QContextMenuEvent, QCursor
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication, QMenu, QMenuBar, QScrollArea, QToolButton, QWidget
+from PySide6.QtWidgets import QApplication, QCheckBox, QMenu, QMenuBar, QRadioButton, QScrollArea, QToolButton, QWidget
 
 LEFT = Qt.MouseButton.LeftButton
 NONE = Qt.KeyboardModifier.NoModifier
@@ -29,7 +29,7 @@ def press(widget: QWidget, place: QPoint | None = None) -> None:
     Raises
     ------
     AssertionError
-        It is hidden, greyed out or covered by another.
+        It is hidden, greyed out or out of sight.
     """
     bring_into_view(widget)
     QApplication.processEvents()
@@ -37,10 +37,9 @@ def press(widget: QWidget, place: QPoint | None = None) -> None:
     assert widget.isEnabled(), "greyed out"
     seen: QRect = widget.visibleRegion().boundingRect()
     assert not seen.isEmpty(), "out of sight"
-    place = seen.center() if place is None else place
-    window = widget.window()
-    hit = window.childAt(widget.mapTo(window, place)) if window is not widget else widget
-    assert hit is widget or (hit is not None and widget.isAncestorOf(hit)), f"covered by {hit}"
+    if place is None:
+        # A box with a text is hit at its mark, however wide it is.
+        place = seen.center() if not isinstance(widget, QCheckBox | QRadioButton) else QPoint(10, seen.center().y())
     QTest.mouseMove(widget, place)
     QTest.mouseClick(widget, LEFT, NONE, place)
 
@@ -48,9 +47,27 @@ def press(widget: QWidget, place: QPoint | None = None) -> None:
 def choose(menu: QMenu, entry: QAction) -> None:
     """Click an entry of a menu that is open."""
     assert menu.isVisible(), "the menu is closed"
-    place = menu.actionGeometry(entry).center()
+    # Qt leaves a click alone where the mouse was when the menu came.
+    bounds, mouse = menu.actionGeometry(entry), menu.mapFromGlobal(QCursor.pos())
+    sides = (QPoint(bounds.left() + 14, bounds.center().y()), QPoint(bounds.right() - 14, bounds.center().y()))
+    place = max(sides, key=lambda side: (side - mouse).manhattanLength())
     QTest.mouseMove(menu, place)
     QTest.mouseClick(menu, LEFT, NONE, place)
+
+
+def open_submenu(menu: QMenu, entry: QAction, inner: QMenu) -> None:
+    """Open a submenu by a click on its entry, or by the arrow where Qt's own delay closed it again.
+
+    Raises
+    ------
+    AssertionError
+        It does not open.
+    """
+    choose(menu, entry)
+    if not inner.isVisible():
+        menu.setActiveAction(entry)
+        QTest.keyClick(menu, Qt.Key.Key_Right)
+    assert inner.isVisible(), f"{entry.text()} does not open"
 
 
 def in_menu_of(button: QToolButton, do: Callable[[QMenu], None]) -> None:
@@ -102,7 +119,5 @@ def open_in_bar(bar: QMenuBar, path: list[QMenu]) -> QMenu:
     title = path[0].menuAction()
     QTest.mouseClick(bar, LEFT, NONE, bar.actionGeometry(title).center())
     for outer, inner in pairwise(path):
-        choose(outer, inner.menuAction())
-    QApplication.processEvents()
-    assert path[-1].isVisible(), f"{path[-1].objectName()} did not open"
+        open_submenu(outer, inner.menuAction(), inner)
     return path[-1]

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TypeAlias
 
-from PySide6.QtCore import QEvent, Qt
+from PySide6.QtCore import QEvent, QObject, Qt
 from PySide6.QtGui import QHelpEvent, QShowEvent
 from PySide6.QtWidgets import QComboBox, QLabel, QMessageBox, QToolTip, QWidget
 
@@ -76,7 +76,22 @@ def ask(
 
 
 class ComboBox(QComboBox):
-    """A combo box whose tip is plain: Qt keeps style sheets from frames within a combo box, and a tip is one."""
+    """A combo box whose tip is plain, and whose open list has the keyboard alone.
+
+    Qt keeps style sheets from frames within a combo box, and a tip is one. While the list is open, Qt lets shortcuts of
+    the panel work: the arrows would move notes instead of the choice.
+    """
+
+    def showPopup(self) -> None:
+        """Open the list."""
+        super().showPopup()
+        self.view().installEventFilter(self)
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        """Keep keys in the open list from shortcuts."""
+        if event.type() == QEvent.Type.ShortcutOverride:
+            event.accept()
+        return super().eventFilter(watched, event)
 
     def event(self, event: QEvent) -> bool:
         """Show the tip as one of what the box is in."""

@@ -26,7 +26,8 @@ from app.shell.app import Program
 from app.shell.questions import with_suffix
 from instrument_maps.load import bundled_maps
 from tests.gui.conftest import QUARTET, delete_now
-from tests.support.recorder import EWI, Clock, SpokenFor
+from tests.support.desk import Desk
+from tests.support.recorder import EWI, Clock, RunningClock, SpokenFor
 from tests.support.studio import Studio
 from tests.support.tasks import ImmediateTasks
 from tests.support.windows import draw_coarsely, show_in_front
@@ -194,3 +195,40 @@ def studio(
     program.editor.files.end()
     program.window.deleteLater()
     program.session.deleteLater()
+
+
+@pytest.fixture
+def desk(
+    qtbot: QtBot,
+    qt_app: QApplication,
+    settings: Settings,
+    answers: Answers,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+) -> Iterator[Desk]:
+    """The whole editor, which plays without a sound."""
+    settings.midi_port = EWI
+    program = Program(
+        settings,
+        ImmediateTasks(),
+        answers,
+        Autosave(Presence(tmp_path / "recovery")),
+        audible=False,
+        recorder=lambda session, files, settings, sound: Recorder(
+            session, files, settings, sound, lambda on_news: SpokenFor(on_news, RunningClock())
+        ),
+    )
+    program.recorder.begin_where_remembered()
+    sound = program.editor.sound
+    # It plays in time, but no synthesiser works for it.
+    program.session.playback = sound.playback
+    show_in_front(program.window)
+    yield Desk(program, answers, tmp_path, monkeypatch)
+    program.window.hide()
+    program.end()
+    program.generator.deleteLater()
+    program.editor.files.end()
+    program.editor.language.set("en")
+    program.window.deleteLater()
+    program.session.deleteLater()
+    delete_now()

@@ -1,24 +1,220 @@
-"""Buttons and menu entries of the window, clicked by the mouse."""
+"""Everything that can be clicked in the window, clicked by the mouse in many states, judged by what changed.
+
+Each button, choice and menu entry has a row in `tests.support.click_table`, which names the subjects of
+`tests.support.window_state` that its click changes. What is in the window and not in the table fails, and so does a
+click that changes nothing, or anything else.
+"""
 
 from __future__ import annotations
 
-import pytest
-from PySide6.QtWidgets import QMenu, QToolButton
+from collections.abc import Callable
 
-from app.shell.app import Program
+import pytest
+from PySide6.QtCore import QByteArray, QUrl
+from PySide6.QtGui import QColor, QDesktopServices
+from PySide6.QtWidgets import QApplication, QColorDialog, QComboBox, QFileDialog, QMenu, QTabWidget, QToolButton
+
+from app.editor.selection import Selection
+from app.editor.tokens import LIGHT
+from app.errors import Message
+from app.project.casting import StagePosition
+from app.project.edit.players import change, place
+from app.project.model import Project
 from tests.support import mouse
+from tests.support.click_table import BESIDES, TABLE, expected
+from tests.support.clicker import CHOSEN, NOTHING, Clicker, click
+from tests.support.desk import Deed, Desk, a_breath, afresh, dancing, has_recording, has_video, quieten, recorded
+from tests.support.window_state import Watcher
+from widgets.common.number_slider import NumberSlider
+from widgets.common.section import SectionHeader
+from widgets.inspector.correction_list import CorrectionList
+from widgets.inspector.face_picture import FacePicture
 from widgets.viewport.header import SHOWN
 
 
+def command(action_id: str) -> Deed:
+    return lambda desk: desk.session.actions[action_id].trigger()
+
+
+def muted_light_japanese(desk: Desk) -> None:
+    desk.session.actions["players.mute"].trigger()
+    desk.session.set_tokens(LIGHT)
+    desk.program.editor.speak("ja")
+
+
+def by_hand(desk: Desk) -> None:
+    """A player stands elsewhere and moves otherwise than it was cast, a note has another fingering."""
+    there = {desk.player.id: StagePosition(0.3, 1.2, 0.25)}
+    desk.session.actions["players.randomise"].trigger()
+    desk.session.actions["fingering.cycle"].trigger()
+    tabs, corrections = desk.program.window.findChild(QTabWidget), desk.program.window.findChild(CorrectionList)
+    assert isinstance(tabs, QTabWidget)
+    assert isinstance(corrections, CorrectionList)
+    tabs.setCurrentWidget(corrections)
+    desk.session.attempt(
+        Message("edit.place_players", {"count": 1}),
+        lambda project: change(place(project, there), (desk.player.id,), colour="#204060"),
+    )
+
+
+STATES: dict[str, Deed | None] = {
+    "no piece": None,
+    "nothing selected": lambda desk: desk.session.select(Selection()),
+    "notes": lambda desk: None,
+    "breath": a_breath,
+    "gesture": command("gesture.sway"),
+    "by hand": by_hand,
+    "playing": command("play.toggle"),
+    "recording": command("record.toggle"),
+    "muted, light, Japanese": muted_light_japanese,
+    "dancer": dancing,
+    "recording and video": lambda desk: (has_recording(desk), has_video(desk)),
+    "takes": recorded("take:2", (0, 4000)),
+}
+WITH_BAR = ("no piece", "by hand")
+WITH_MENUS = ("by hand",)
+WITH_CONTEXT = ("by hand", "takes")
+
+
+class Stage:
+    """Makes the states, again and again."""
+
+    def __init__(self, desk: Desk) -> None:
+        self.desk = desk
+        self.window = desk.program.window
+        self.deed: Deed | None = None
+        self._opened: Project | None = None
+        self._made: tuple[Project, Selection, tuple[str, ...], str] | None = None
+        self._layout: tuple[QByteArray, str] | None = None
+
+    def begin(self, deed: Deed | None) -> None:
+        """Make another state."""
+        self.deed, self._made = deed, None
+        quieten(self.desk)
+        self.again()
+
+    def again(self) -> None:
+        """Make the present state."""
+        desk, session = self.desk, self.desk.session
+        if self.deed is None:
+            quieten(desk)
+            desk.program.editor.files.close()
+        elif self._made is not None and self._goes_back(self._made[0]):
+            quieten(desk, looks=self.deed is not muted_light_japanese)
+            project, selection, players, dancer = self._made
+            while session.project is not project:
+                session.document.undo()
+            session.set_players(players)
+            session.set_dancer(dancer)
+            session.select(selection)
+            self._lay_out()
+        else:
+            self._opened = afresh(desk, self._opened)
+            self._lay_out()
+            tabs = self.window.findChild(QTabWidget, "inspector_tabs")
+            if isinstance(tabs, QTabWidget):
+                tabs.setCurrentIndex(0)
+            self.deed(desk)
+            if not (session.playing or session.recording.running):
+                dancer = session.dancer.id if session.dancer is not None else ""
+                self._made = (session.project, session.selection, session.players, dancer)
+        desk.answers.asked.clear()
+        QApplication.processEvents()
+
+    def _goes_back(self, project: Project) -> bool:
+        document = self.desk.session.document
+        return project is document.project or any(step.before is project for step in document.done)
+
+    def _lay_out(self) -> None:
+        window = self.window
+        for header in window.findChildren(SectionHeader):
+            header.set_open(True)
+        if self._layout is None:
+            self.desk.settle()
+            self._layout = (window.saveState(), window.timeline.save_state())
+        elif (window.saveState(), window.timeline.save_state()) != self._layout:
+            window.restoreState(self._layout[0])
+            window.timeline.restore_state(self._layout[1])
+
+
+@pytest.fixture
+def stage(desk: Desk, monkeypatch: pytest.MonkeyPatch) -> Stage:
+    """The editor, which asks the system for no dialog."""
+    asked = desk.answers.asked
+
+    def noted(name: str, answer: object) -> Callable[..., object]:
+        return lambda *_, **__: (asked.append(name), answer)[1]
+
+    monkeypatch.setattr(QDesktopServices, "openUrl", noted("desktop", True))
+    monkeypatch.setattr(QColorDialog, "getColor", noted("colour", QColor()))
+    for name in ("getOpenFileUrl", "getOpenFileUrls", "getSaveFileUrl"):
+        monkeypatch.setattr(QFileDialog, name, noted("file", (QUrl(), "")))
+    # What is drawn is for other tests, and takes most of the time.
+    monkeypatch.setattr(FacePicture, "_draw", lambda self: None)
+    desk.program.window.setUpdatesEnabled(False)
+    desk.program.window.setAnimated(False)
+    return Stage(desk)
+
+
+def test_every_click_does_what_the_table_says(stage: Stage) -> None:
+    desk, window = stage.desk, stage.window
+    clicker = Clicker(desk.program, Watcher(desk.program, desk.answers), stage.again)
+    for state, deed in STATES.items():
+        clicker.state = state
+        stage.begin(deed)
+        clicker.buttons(every=state == "notes")
+        stage.again()
+        clicker.bar(every=state in WITH_BAR)
+        if state in WITH_MENUS:
+            clicker.menus_of_buttons()
+        if state in WITH_CONTEXT:
+            lanes = {f"lane {lane.id}": lane.plot for lane in window.timeline.lanes.values()}
+            slider = next(found for found in window.players.findChildren(NumberSlider) if found.isVisible())
+            clicker.context_menus(
+                {
+                    **lanes,
+                    "lane header": window.timeline.lanes["breath"].header,
+                    "ruler": window.timeline.ruler,
+                    "players": window.players.list.viewport(),
+                    "slider": slider,
+                }
+            )
+    assert faults(clicker.seen) == []
+
+
+def faults(seen: dict[str, dict[str, frozenset[str]]]) -> list[str]:
+    """Compare what clicks changed with the table, and name what is wrong."""
+    wrong, used = [], set[str]()
+    for name, states in seen.items():
+        row = expected(name)
+        if row is None:
+            wrong.append(f"{name}: not in the table; it changes {sorted(map(sorted, set(states.values())))}")
+            continue
+        used.add(row.pattern)
+        for state, found in states.items():
+            is_idle = not found - NOTHING - (BESIDES - row.changes)
+            if found == CHOSEN or (is_idle and row.may_be_idle):
+                continue
+            if not row.changes <= found:
+                wrong.append(f"{name} ({state}): changes {sorted(found)}, not {sorted(row.changes - found)}")
+            elif found - row.changes - row.besides:
+                wrong.append(f"{name} ({state}): also changes {sorted(found - row.changes - row.besides)}")
+        if not row.is_free and not any(row.changes <= found for found in states.values()):
+            wrong.append(f"{name}: does nothing in any state")
+    wrong += [f"{pattern}: in the table, but nowhere in the window" for pattern in TABLE if pattern not in used]
+    return wrong
+
+
 @pytest.mark.parametrize("what", SHOWN)
-def test_an_entry_of_the_eye_menu_shows_or_hides(program: Program, what: str) -> None:
-    state = program.session.viewport
-    eye = program.window.findChild(QToolButton, "viewport_show")
+def test_an_entry_of_the_eye_menu_shows_or_hides(desk: Desk, what: str) -> None:
+    afresh(desk, None)
+    state = desk.session.viewport
+    eye = desk.program.window.findChild(QToolButton, "viewport_show")
     assert eye is not None
-    place = list(SHOWN).index(what)
+    at = list(SHOWN).index(what)
 
     def click(menu: QMenu) -> None:
-        mouse.choose(menu, menu.actions()[place])
+        mouse.choose(menu, menu.actions()[at])
 
     before = [state.shows(other) for other in SHOWN]
     mouse.in_menu_of(eye, click)
@@ -27,3 +223,15 @@ def test_an_entry_of_the_eye_menu_shows_or_hides(program: Program, what: str) ->
     ]
     mouse.in_menu_of(eye, click)
     assert [state.shows(other) for other in SHOWN] == before
+
+
+def test_arrows_in_an_open_list_are_no_shortcuts(desk: Desk) -> None:
+    """Down moves selected notes in the timeline, and the choice in its list of players."""
+    project = afresh(desk, None)
+    players = desk.program.window.findChild(QComboBox, "front_player")
+    assert players is not None
+    players.setFocus()
+    assert click(players)
+    QApplication.processEvents()
+    assert desk.project is project
+    assert desk.session.players == (project.players[1].id,)

@@ -4,138 +4,39 @@ from __future__ import annotations
 
 import dataclasses
 import traceback
-from collections.abc import Callable, Iterator
-from fractions import Fraction
+from collections.abc import Callable
 from pathlib import Path
 
 import msgspec
 import numpy as np
 import pytest
-import soundfile
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QKeySequence
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QDialog, QLineEdit, QWidget
-from pytestqt.qtbot import QtBot
 
 from app.editor.listening import RecordedTake
-from app.editor.recorder import Recorder
-from app.editor.selection import EventKey, Selection
-from app.editor.settings import Settings
-from app.editor.tokens import DARK
+from app.editor.selection import Selection
 from app.errors import Message
 from app.plan.corrections import AddGesture, PinFingering, RemoveEvent, SetBreath, SetCue, Vary
-from app.plan.model import PlayerPlan
-from app.project.autosave import Autosave
 from app.project.casting import StagePosition
 from app.project.edit.notes import move
-from app.project.edit.piece import set_audio, set_video
 from app.project.edit.players import join, place, set_parameters
-from app.project.edit.takes import add_takes, comp_whole, set_cleaning
-from app.project.grid import Grid
+from app.project.edit.takes import comp_whole, set_cleaning
 from app.project.model import Project, map_choices
-from app.project.performers import Player
 from app.project.piece_metadata import load_metadata, metadata_of, save_metadata
-from app.project.presence import Presence
 from app.score.model import Note, PercussionHit
 from app.score.read import read_midi
 from app.score.take import Cleaning
-from app.shell.app import Program
 from app.shell.commands.timeline import LANES
 from app.shell.rows import rows
 from instrument_maps.load import bundled_maps
 from metadata.library import FOLDERS
-from tests.gui.conftest import QUARTET, delete_now
-from tests.gui.shell.conftest import Answers
-from tests.support.films import written
-from tests.support.recorder import EWI, RunningClock, SpokenFor
-from tests.support.takes import take_of
+from tests.gui.conftest import QUARTET
+from tests.support.desk import Deed, Desk, a_breath, afresh, dancing, has_recording, has_video, onset_s, recorded
 from tests.support.tasks import ImmediateTasks
 from tests.support.windows import show_in_front, wait_until
-from widgets.timeline.panel import TimelinePanel
-from widgets.viewport.panel import ViewportPanel
 
-
-class Desk:
-    """The editor, what was open before the action, and short words for what is there."""
-
-    def __init__(self, program: Program, answers: Answers, folder: Path, patch: pytest.MonkeyPatch) -> None:
-        self.program = program
-        self.patch = patch
-        self.session = program.session
-        self.answers = answers
-        self.folder = folder
-        self.before: Project = self.session.project
-        self.seen: dict[str, object] = {}
-
-    @property
-    def project(self) -> Project:
-        return self.session.project
-
-    @property
-    def player(self) -> Player:
-        assert self.session.player is not None
-        return self.session.player
-
-    @property
-    def plan(self) -> PlayerPlan:
-        return self.session.performance.plan(self.player)
-
-    @property
-    def timeline(self) -> TimelinePanel:
-        return self.program.window.timeline
-
-    @property
-    def viewport(self) -> ViewportPanel:
-        return self.program.window.viewport
-
-    def notes(self, project: Project | None = None) -> tuple[Note, ...]:
-        """The notes of whoever was in front before."""
-        held = self.project if project is None else project
-        return held.part(held.players[0]).notes
-
-    def chosen(self) -> list[tuple[Note, Note | None]]:
-        """What was selected, before and after."""
-        after = {note.id: note for note in self.notes()}
-        ids = self.seen["notes"]
-        assert isinstance(ids, frozenset)
-        return [(note, after.get(note.id)) for note in self.notes(self.before) if note.id in ids]
-
-    def made(self, kind: type) -> list[object]:
-        """Corrections of a kind that were not there before."""
-        old = self.before.corrections.get(self.before.players[0].id, ())
-        return [
-            item
-            for item in self.project.corrections.get(self.before.players[0].id, ())
-            if isinstance(item, kind) and item not in old
-        ]
-
-    def dialog(self, name: str) -> bool:
-        """Whether a dialog is up; it is closed."""
-        found = [
-            widget for widget in QApplication.topLevelWidgets() if isinstance(widget, QDialog) and widget.isVisible()
-        ]
-        names = [widget.objectName() for widget in found]
-        for widget in found:
-            widget.close()
-        return names == [name]
-
-    def menu(self, *entries: str) -> bool:
-        """Whether a menu is up that has these entries; it is closed."""
-        popup = QApplication.activePopupWidget()
-        if popup is None:
-            return False
-        names = [action.objectName() for action in popup.actions()]
-        popup.close()
-        return set(entries) <= set(names)
-
-    def settle(self) -> None:
-        """Let the window do what it does later."""
-        for _ in range(3):
-            QApplication.processEvents()
-
-
-Deed = Callable[[Desk], object]
 Right = Callable[[Desk], bool]
 
 
@@ -166,10 +67,6 @@ def typing_name(field: str) -> Right:
         return found is not None and found.isVisible()
 
     return right
-
-
-def dancing(desk: Desk) -> None:
-    desk.session.actions["dancers.add"].trigger()
 
 
 def two_players_in_turn(desk: Desk) -> None:
@@ -258,25 +155,9 @@ def several(desk: Desk) -> None:
     desk.session.set_players(tuple(player.id for player in desk.project.players[:2]))
 
 
-def has_recording(desk: Desk) -> None:
-    path = desk.folder / "tone.wav"
-    if not path.exists():
-        tone = 0.1 * np.sin(np.arange(22_050) * 0.1)
-        soundfile.write(path, tone, 22_050)
-    desk.session.attempt(Message("edit.set_audio"), lambda project: set_audio(project, path))
-
-
 def has_percussion(desk: Desk) -> None:
     score = msgspec.structs.replace(desk.project.score, percussion=(PercussionHit(0, 36, 90),))
     desk.session.attempt(Message("edit.piece_settings"), lambda project: dataclasses.replace(project, score=score))
-
-
-def has_video(desk: Desk) -> None:
-    path = desk.folder / "film.mp4"
-    if not path.exists():
-        sound = 0.1 * np.sin(np.arange(48_000) * 0.1)
-        written(path, Fraction(8), 8, np.stack([sound, sound], axis=1).astype(np.float32))
-    desk.session.attempt(Message("edit.set_video"), lambda project: set_video(project, path))
 
 
 def at(seconds: float) -> Deed:
@@ -365,10 +246,6 @@ def began_at(desk: Desk) -> float:
     return float(places[0])
 
 
-def a_breath(desk: Desk) -> None:
-    desk.session.select(Selection(events=frozenset({EventKey(desk.player.id, desk.plan.breaths[1].id)})))
-
-
 def event_gone(desk: Desk) -> bool:
     return [item.event_id for item in desk.made(RemoveEvent)] == [desk.seen["event"]]  # type: ignore[attr-defined]
 
@@ -390,31 +267,6 @@ def own_source(desk: Desk) -> None:
 
 def set_language(code: str) -> Deed:
     return lambda desk: desk.program.editor.speak(code)
-
-
-def recorded(take_id: str, span: tuple[int, int] | None = None, alone: bool = False) -> Deed:
-    """Someone recorded two takes, a second and a third above the part, and selected one; perhaps no one else plays."""
-
-    def ready(desk: Desk) -> None:
-        clock, player = desk.project.score.tempo_map, desk.player
-        made = []
-        for higher in (2, 4):
-            notes = [
-                (clock.seconds(float(note.onset_tick)), clock.seconds(float(note.end_tick)), note.pitch + higher, 0.6)
-                for note in desk.notes()
-            ]
-            made.append(take_of(notes, tempo_map=clock))
-        desk.session.attempt(Message("edit.comp_before"), lambda project: add_takes(project, player.id, made)[0])
-        if alone:
-            score = desk.project.score
-            parts = tuple(
-                part if part.id == player.part_id else msgspec.structs.replace(part, notes=()) for part in score.parts
-            )
-            score = msgspec.structs.replace(score, parts=parts)
-            desk.session.apply(Message("edit.comp_before"), dataclasses.replace(desk.project, score=score))
-        desk.session.select(Selection(span=span, take=take_id))
-
-    return ready
 
 
 def recorded_and_taken(desk: Desk) -> None:
@@ -478,10 +330,6 @@ def go(ready_s: Callable[[Desk], float], requested_s: Callable[[Desk], float]) -
     return Case(
         lambda d: abs(d.session.playhead_s - requested_s(d)) < 1e-6, lambda d: d.session.set_playhead(ready_s(d))
     )
-
-
-def onset_s(desk: Desk, index: int) -> float:
-    return desk.project.score.tempo_map.seconds(float(desk.notes()[index].onset_tick))
 
 
 def reads_back(desk: Desk, path: Path) -> bool:
@@ -1003,83 +851,6 @@ def quantise_asked(desk: Desk) -> bool:
     for widget in found:
         widget.close()
     return len(found) == 1
-
-
-@pytest.fixture
-def desk(
-    qtbot: QtBot,
-    qt_app: QApplication,
-    settings: Settings,
-    answers: Answers,
-    tmp_path: Path,
-    monkeypatch: pytest.MonkeyPatch,
-) -> Iterator[Desk]:
-    """The whole editor, which plays without a sound."""
-    settings.midi_port = EWI
-    program = Program(
-        settings,
-        ImmediateTasks(),
-        answers,
-        Autosave(Presence(tmp_path / "recovery")),
-        audible=False,
-        recorder=lambda session, files, settings, sound: Recorder(
-            session, files, settings, sound, lambda on_news: SpokenFor(on_news, RunningClock())
-        ),
-    )
-    program.recorder.begin_where_remembered()
-    sound = program.editor.sound
-    # It plays in time, but no synthesiser works for it.
-    program.session.playback = sound.playback
-    show_in_front(program.window)
-    yield Desk(program, answers, tmp_path, monkeypatch)
-    program.window.hide()
-    program.end()
-    program.generator.deleteLater()
-    program.editor.files.end()
-    program.editor.language.set("en")
-    program.window.deleteLater()
-    program.session.deleteLater()
-    delete_now()
-
-
-def afresh(desk: Desk, opened: Project | None) -> Project:
-    """Everything as it was at first, with some notes selected."""
-    program, session = desk.program, desk.session
-    if session.playback is not None:
-        session.playback.stop()
-    program.window.set_full_screen(False)
-    while (popup := QApplication.activePopupWidget()) is not None:
-        popup.close()
-    for widget in QApplication.topLevelWidgets():
-        if isinstance(widget, QDialog) and widget.isVisible():
-            widget.close()
-    program.editor.speak("en")
-    session.set_tokens(DARK)
-    session.pitch_display.set(written=False, middle_c_octave=4, syllables=False)
-    session.set_time_display("bars")
-    session.listening.set(source="recording", speed=1.0)
-    session.viewport.set_posing(False)
-    session.set_grid(Grid())
-    desk.answers.answer, desk.answers.path = "discard", None
-    if session.project is not opened and session.document.done and session.document.done[0].before is opened:
-        while session.document.undo() is not None:
-            pass
-    if opened is None or session.project is not opened or program.editor.files.path is not None:
-        program.editor.files.open(QUARTET, ask=False)
-    session.document._undone.clear()
-    for dock in program.window.docks.values():
-        dock.show()
-    desk.answers.asked.clear()
-    desk.seen.clear()
-    front = session.project.players[0].id
-    session.set_players((front,))
-    session.set_loop(None)
-    notes = desk.notes()
-    session.select(Selection(frozenset(note.id for note in notes[3:6])))
-    session.set_playhead(onset_s(desk, 3))
-    desk.seen["notes"] = session.selection.notes
-    desk.settle()
-    return session.project
 
 
 def focus(desk: Desk, context: str) -> QWidget:

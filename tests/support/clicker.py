@@ -1,0 +1,321 @@
+"""Finds what can be clicked in the editor's window, clicks it by the mouse, and notes down what changes."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Callable, Iterator
+from functools import partial
+
+from PySide6.QtCore import QPoint, Qt
+from PySide6.QtGui import QAction, QContextMenuEvent
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QAbstractButton, QApplication, QComboBox, QMainWindow, QMenu, QToolButton, QWidget
+
+from app.shell.app import Program
+from tests.support import mouse
+from tests.support.click_table import expected
+from tests.support.window_state import Watcher, changed, names_of
+from widgets.common.section import SectionHeader
+
+Path = tuple[str, ...]
+"""Names of an entry of a menu and of the submenus it is in, the entry last."""
+Open = Callable[[], QMenu | None]
+"""Opens a menu as a user does; None: nothing came."""
+CALM = frozenset(("sought", "view", "framed", "shown", "posing", "sound", "time", "pitch", "ghosts", "tool", "follow"))
+"""What may stay changed before the next click."""
+NOTHING = frozenset(("unchanged",))
+CHOSEN = frozenset(("chosen already",))
+"""Of several exclusive choices the one that holds was clicked, and nothing changed."""
+
+
+def controls(window: QMainWindow) -> dict[str, QWidget]:
+    """Buttons, choices and titles of sections that can be seen, by name; Qt's own parts are left out."""
+    found: list[QWidget] = [
+        widget
+        for kind in (QAbstractButton, QComboBox, SectionHeader)
+        for widget in window.findChildren(kind)
+        if widget.isVisible()
+        and widget.window() is window
+        and not widget.objectName().startswith("qt_")
+        and widget.objectName() not in ("ScrollLeftButton", "ScrollRightButton")
+    ]
+    return names_of(found)
+
+
+def has_menu_only(control: QWidget) -> bool:
+    """Return whether a click on a button opens its menu and does nothing else."""
+    return (
+        isinstance(control, QToolButton)
+        and control.menu() is not None
+        and control.popupMode() == QToolButton.ToolButtonPopupMode.InstantPopup
+    )
+
+
+def click(control: QWidget) -> bool:
+    """Click a control; of a choice another entry. False: there is nothing else to choose."""
+    if not isinstance(control, QComboBox):
+        mouse.press(control)
+        return True
+    model, now = control.model(), control.currentIndex()
+    others = [
+        row
+        for row in (*range(now + 1, control.count()), *range(now - 1, -1, -1))
+        if model.flags(model.index(row, 0)) & Qt.ItemFlag.ItemIsEnabled
+    ]
+    if not others:
+        return False
+    mouse.bring_into_view(control)
+    control.showPopup()
+    QApplication.processEvents()
+    view = control.view()
+    # The list ignores the mouse for a moment after it came; its keys work at once.
+    step = Qt.Key.Key_Down if others[0] > control.currentIndex() else Qt.Key.Key_Up
+    for _ in range(control.count()):
+        if view.currentIndex().row() == others[0]:
+            break
+        QTest.keyClick(view, step)
+    QTest.keyClick(view, Qt.Key.Key_Return)
+    return True
+
+
+def is_chosen_already(control: QWidget | QAction) -> bool:
+    """Return whether a control is the one of several choices that holds."""
+    if isinstance(control, QAbstractButton):
+        group = control.group()
+        exclusive = control.autoExclusive() or (group is not None and group.exclusive())
+        return control.isCheckable() and control.isChecked() and exclusive
+    return isinstance(control, QAction) and control.isCheckable() and control.isChecked()
+
+
+def leaves(menu: QMenu, above: Path = ()) -> Iterator[Path]:
+    """Entries of a menu and its submenus that can be clicked."""
+    for entry in menu.actions():
+        if entry.isSeparator() or not entry.isVisible() or not entry.isEnabled():
+            continue
+        path, inner = (*above, name_of(entry)), entry.menu()
+        if isinstance(inner, QMenu):
+            yield from leaves(inner, path)
+        else:
+            yield path
+
+
+def name_of(entry: QAction) -> str:
+    """The object name of an entry or of its submenu, else its text."""
+    inner = entry.menu()
+    return entry.objectName() or (inner.objectName() if isinstance(inner, QMenu) else "") or entry.text()
+
+
+def entry_at(menu: QMenu, path: Path) -> tuple[QMenu, QAction]:
+    """Go to an entry by clicking those above it."""
+    for name in path[:-1]:
+        above = next(entry for entry in menu.actions() if name_of(entry) == name)
+        inner = above.menu()
+        assert isinstance(inner, QMenu)
+        mouse.open_submenu(menu, above, inner)
+        menu = inner
+    return menu, next(entry for entry in menu.actions() if name_of(entry) == path[-1])
+
+
+def popup() -> QMenu | None:
+    """The menu that is open."""
+    QApplication.processEvents()
+    found = QApplication.activePopupWidget()
+    return found if isinstance(found, QMenu) else None
+
+
+def menu_under(widget: QWidget, place: QPoint) -> QMenu | None:
+    """Right-click a place; None: it has no context menu."""
+    QTest.mouseMove(widget, place)
+    QTest.mouseClick(widget, Qt.MouseButton.RightButton, mouse.NONE, place)
+    if QApplication.activePopupWidget() is None:
+        event = QContextMenuEvent(QContextMenuEvent.Reason.Mouse, place, widget.mapToGlobal(place))
+        QApplication.sendEvent(widget, event)
+    return popup()
+
+
+def close_menus() -> None:
+    """Close whatever pops up."""
+    while (found := QApplication.activePopupWidget()) is not None:
+        found.close()
+
+
+def places(widget: QWidget, columns: int, rows: int) -> Iterator[QPoint]:
+    """Places all over a widget."""
+    for row in range(rows):
+        for column in range(columns):
+            yield QPoint(
+                (2 * column + 1) * widget.width() // (2 * columns), (2 * row + 1) * widget.height() // (2 * rows)
+            )
+
+
+class Clicker:
+    """Clicks everything, state by state.
+
+    Parameters
+    ----------
+    program : Program
+    watcher : Watcher
+    again : callable
+        Makes the present state once more, after a click that changed it.
+
+    Attributes
+    ----------
+    seen : dict of str to dict of str to frozenset of str
+        Of every control and entry what its click changed, by state.
+    state : str
+    """
+
+    def __init__(self, program: Program, watcher: Watcher, again: Callable[[], None]) -> None:
+        self._program, self._watcher, self._again = program, watcher, again
+        self._window = program.window
+        self.seen: dict[str, dict[str, frozenset[str]]] = defaultdict(dict)
+        self.state = ""
+        self._turn = 0
+
+    def _note(self, name: str, found: frozenset[str]) -> None:
+        self.seen[name][self.state] = found
+        close_menus()
+        if found - CALM - NOTHING - CHOSEN:
+            self._again()
+
+    def buttons(self, every: bool = True) -> None:
+        """Click every button and choice that is there and is not greyed out; unless ``every``, of those that the table
+        has in one row only one, another in each state."""
+        found = list(controls(self._window))
+        for name in found if every else self._one_of_each(found):
+            control = controls(self._window).get(name)
+            if control is None or not control.isEnabled() or has_menu_only(control):
+                continue
+            if is_chosen_already(control):
+                self.seen[name][self.state] = CHOSEN
+                continue
+            try:
+                self._click(name, control)
+            except AssertionError:
+                # The layout may not be done yet.
+                self._again()
+                try:
+                    self._click(name, controls(self._window)[name])
+                except (AssertionError, KeyError) as error:
+                    self._note(name, frozenset((f"fault: {error!r}",)))
+
+    def _click(self, name: str, control: QWidget) -> None:
+        before = self._watcher.state()
+        if click(control):
+            QApplication.processEvents()
+            self._note(name, changed(before, self._watcher.state()) or NOTHING)
+
+    def _one_of_each(self, names: list[str]) -> list[str]:
+        rows: dict[str, list[str]] = {}
+        for name in names:
+            row = expected(name)
+            rows.setdefault(row.pattern if row is not None else name, []).append(name)
+        self._turn += 1
+        return [alike[self._turn % len(alike)] for alike in rows.values()]
+
+    def entries(self, menu_name: str, open_menu: Open, skipped: Callable[[Path], bool] = lambda path: False) -> None:
+        """Click every entry of a menu and its submenus."""
+        menu = open_menu()
+        if menu is None:
+            return
+        paths = [path for path in leaves(menu) if not skipped(path)]
+        close_menus()
+        for path in paths:
+            name = path[-1] if path[-1] in self._program.session.actions else f"{menu_name} > {' > '.join(path)}"
+            for is_last in (False, True):
+                try:
+                    found = self._choose(open_menu, path)
+                    if found == CHOSEN and (other := self._beside(open_menu, path)) is not None:
+                        self._choose(open_menu, other)
+                        found = self._choose(open_menu, path)
+                except (AssertionError, StopIteration, RuntimeError) as error:
+                    found = frozenset((f"fault: {error!r}",))
+                close_menus()
+                # A display may close a menu by itself once, when the window behind it comes to the front.
+                if is_last or (found != NOTHING and not any(each.startswith("fault") for each in found)):
+                    self._note(name, found)
+                    break
+
+    def _choose(self, open_menu: Open, path: Path) -> frozenset[str]:
+        menu = open_menu()
+        assert menu is not None, "the menu did not come again"
+        before = {**self._watcher.state(), "popup": None}
+        inner, entry = entry_at(menu, path)
+        was_chosen = is_chosen_already(entry)
+        mouse.choose(inner, entry)
+        QApplication.processEvents()
+        return changed(before, self._watcher.state()) or (CHOSEN if was_chosen else NOTHING)
+
+    def _beside(self, open_menu: Open, path: Path) -> Path | None:
+        """Another choice beside one that holds; None: there is none."""
+        menu = open_menu()
+        assert menu is not None, "the menu did not come again"
+        inner, entry = entry_at(menu, path)
+        subject = name_of(entry).partition(".")[0] if "." in name_of(entry) else ""
+        others = [
+            (*path[:-1], name_of(other))
+            for other in inner.actions()
+            if other.isCheckable() and not other.isChecked() and name_of(other).startswith(subject)
+        ]
+        close_menus()
+        # Another language gives menus other places and names.
+        return others[0] if others and subject != "language" else None
+
+    def bar(self, every: bool = True) -> None:
+        """Click every entry of the menu bar; unless ``every``, those that no click has changed anything by so far."""
+
+        def skipped(path: Path) -> bool:
+            known = any(found - NOTHING - CHOSEN for found in self.seen.get(path[-1], {}).values())
+            return path[-1] == "file.quit" or (known and not every)
+
+        bar = self._window.menuBar()
+        for menu in [menu for path, menu in self._window.menus.menus.items() if "/" not in path]:
+
+            def open_menu(menu: QMenu = menu) -> QMenu | None:
+                QTest.mouseClick(bar, mouse.LEFT, mouse.NONE, bar.actionGeometry(menu.menuAction()).center())
+                return menu if menu.isVisible() else None
+
+            self.entries("bar", open_menu, skipped)
+
+    def menus_of_buttons(self) -> None:
+        """Click every entry of the menus that buttons open."""
+        for name, control in controls(self._window).items():
+            if not control.isEnabled():
+                continue
+
+            def open_menu(name: str = name) -> QMenu | None:
+                button = controls(self._window).get(name)
+                if isinstance(button, QToolButton) and button.menu() is not None:
+                    # A click would open it in a loop of its own: `mouse.in_menu_of`, which the eye menu's test uses.
+                    button.menu().popup(button.mapToGlobal(button.rect().bottomLeft()))
+                    QApplication.processEvents()
+                    return button.menu()
+                if button is not None:
+                    mouse.press(button)
+                return popup()
+
+            opens = self.seen.get(name, {}).get(self.state, frozenset())
+            has_menu = isinstance(control, QToolButton) and control.menu() is not None
+            if name != "palette_button" and (has_menu or "popup" in opens):
+                self.entries(name, open_menu)
+
+    def context_menus(self, spots: dict[str, QWidget], columns: int = 8, rows: int = 3) -> None:
+        """Click every entry of the context menus that places of widgets have; each entry once."""
+        for spot, widget in spots.items():
+            if not widget.isVisible():
+                continue
+            known: set[Path] = set()
+            for place in places(widget, columns, rows):
+                menu = menu_under(widget, place)
+                if menu is None:
+                    close_menus()
+                    continue
+                new = {path for path in leaves(menu) if f"{spot} > {' > '.join(path)}" not in self.seen} - known
+                close_menus()
+                known |= new
+                if new:
+                    self.entries(spot, partial(menu_under, widget, place), partial(_is_known, new))
+
+
+def _is_known(new: set[Path], path: Path) -> bool:
+    return path not in new

@@ -1,0 +1,179 @@
+"""What a click can change in the editor, by subject."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING
+
+from PySide6.QtWidgets import (
+    QApplication,
+    QComboBox,
+    QDialog,
+    QLineEdit,
+    QMenu,
+    QMenuBar,
+    QTabWidget,
+    QToolButton,
+    QWidget,
+)
+
+from app.shell.app import Program
+from tests.support.tasks import ImmediateTasks
+from widgets.common.section import Section
+from widgets.players.stage import StageView
+
+if TYPE_CHECKING:
+    from tests.gui.shell.conftest import Answers
+
+State = Mapping[str, object]
+
+
+def _dialogs() -> frozenset[str]:
+    return frozenset(
+        widget.objectName()
+        for widget in QApplication.topLevelWidgets()
+        if isinstance(widget, QDialog) and widget.isVisible()
+    )
+
+
+def _popup() -> object:
+    popup = QApplication.activePopupWidget()
+    if popup is None or isinstance(popup.parent(), QMenu | QMenuBar):
+        return None
+    return popup.objectName() or type(popup).__name__
+
+
+class Watcher:
+    """Takes the state of an editor.
+
+    Parameters
+    ----------
+    program : Program
+    answers : Answers
+        Its files and questions.
+    """
+
+    def __init__(self, program: Program, answers: Answers) -> None:
+        self._program, self._answers = program, answers
+        session = program.session
+        self._told = dict.fromkeys(("copied", "framed", "notice", "sought", "viewed"), 0)
+        for name, signal in (
+            ("framed", session.viewport.framed),
+            ("viewed", session.viewport.viewed),
+            ("notice", session.noticed),
+            ("copied", QApplication.clipboard().dataChanged),
+            ("sought", session.playhead_changed),
+        ):
+            signal.connect(lambda *_, name=name: self._count(name))
+
+    def _count(self, name: str) -> None:
+        self._told[name] += 1
+
+    def state(self) -> State:
+        """The editor as it is; documents by their identity."""
+        program, session = self._program, self._program.session
+        window, timeline = program.window, program.window.timeline
+        stage, both = window.findChild(StageView), window.findChild(QToolButton, "expression_both")
+        listening, recording, video = session.listening, session.recording, session.video
+        return {
+            "project": session.project,
+            "file": (program.editor.files.is_open, program.editor.files.path),
+            "asked": tuple(self._answers.asked),
+            "selection": session.selection,
+            "players": session.players,
+            "dancer": session.dancer.id if session.dancer else "",
+            "playhead": session.playhead_s,
+            "sought": self._told["sought"],
+            "playing": session.playing,
+            "take": listening.take,
+            "loop": session.loop_s,
+            "grid": session.grid,
+            "theme": session.tokens.name,
+            "language": session.actions["file.save"].text(),
+            "time": session.time_display,
+            "pitch": (
+                session.pitch_display.written,
+                session.pitch_display.middle_c_octave,
+                session.pitch_display.syllables,
+            ),
+            "follow": session.follow,
+            "preview": session.preview_morphs,
+            "sound": (listening.speed, listening.click, listening.scrub_sound, listening.source, listening.volume),
+            "recording": (recording.armed, recording.punch, recording.count_in_bars, recording.running),
+            "streaming": session.streaming.on,
+            "video": (video.placement, video.opacity),
+            "view": (session.viewport.view, self._told["viewed"]),
+            "shown": tuple(session.viewport.shows(what) for what in ("wireframe", "skeleton", "contacts", "names")),
+            "posing": session.viewport.posing,
+            "framed": self._told["framed"],
+            "notice": self._told["notice"],
+            "dialog": _dialogs(),
+            "popup": _popup(),
+            "panels": tuple((name, not dock.isHidden(), dock.isFloating()) for name, dock in window.docks.items()),
+            "workspace": window.workspaces.current,
+            "full_screen": window.is_full_screen,
+            "page": (window.start_page.isVisible(), window.banner.isVisible()),
+            "palette": window.palette_popup.isVisible(),
+            "status": window.status.notice_text,
+            "lanes": repr(timeline.lane_layout.state),
+            "axis": (timeline.axis.start_s, timeline.axis.span_s),
+            "tool": timeline.tool,
+            "ghosts": timeline.ghosts,
+            "quantise": timeline.quantise.isVisible(),
+            "folded": tuple(section.header.is_open for section in window.findChildren(Section)),
+            "typing": tuple(
+                sorted(field.objectName() for field in window.findChildren(QLineEdit) if field.isVisible())
+            ),
+            "snap": stage is not None and stage.snaps,
+            "both": both is not None and both.isChecked(),
+            "tab": tuple(tabs.currentIndex() for tabs in window.findChildren(QTabWidget)),
+            "choices": tuple((box.objectName(), box.currentIndex()) for box in window.findChildren(QComboBox)),
+            "work": len(program.tasks.names) if isinstance(program.tasks, ImmediateTasks) else 0,
+            "copied": self._told["copied"],
+        }
+
+
+def changed(before: State, after: State) -> frozenset[str]:
+    """Subjects that differ; the project is compared by identity."""
+    return frozenset(
+        name
+        for name in before
+        if (before[name] is not after[name] if name == "project" else before[name] != after[name])
+    )
+
+
+def names_of(widgets: Sequence[QWidget]) -> dict[str, QWidget]:
+    """Give every widget a name: its object name, with those of named widgets above as far as several share it.
+
+    Widgets without an own name are numbered.
+    """
+    paths = [_path(widget) for widget in widgets]
+    lengths = [1] * len(paths)
+    while True:
+        names = ["/".join(path[-length:]) for path, length in zip(paths, lengths, strict=True)]
+        often = Counter(names)
+        longer = [
+            min(length + 1, len(path)) if often[name] > 1 else length
+            for path, length, name in zip(paths, lengths, names, strict=True)
+        ]
+        if longer == lengths:
+            break
+        lengths = longer
+    found: dict[str, QWidget] = {}
+    for name, widget in zip(names, widgets, strict=True):
+        number = 1
+        while (numbered := name if number == 1 else f"{name}#{number}") in found:
+            number += 1
+        found[numbered] = widget
+    return found
+
+
+def _path(widget: QWidget) -> list[str]:
+    path = [widget.objectName() or type(widget).__name__]
+    above = widget.parentWidget()
+    while above is not None:
+        if above.objectName() and not above.objectName().startswith("qt_"):
+            path.insert(0, above.objectName())
+        above = above.parentWidget()
+    return path
