@@ -20,7 +20,7 @@ from app.performance.span import whole_span
 from app.plan.model import Problem
 from app.project.performers import Player
 
-FREE_FRAMES, FRAMES_PER_NOTE = 200_000, 16
+FREE_FRAMES, FRAMES_PER_NOTE = 120_000, 12
 """Frames of all players together that a report makes: in any piece, and for each of its notes. In longer pieces only
 those are made that are looked at, and in pieces of hours with few notes fewer are."""
 LEAST_PER_S: Final = 2.0
