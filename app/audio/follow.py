@@ -21,6 +21,7 @@ from app.audio.places import LEAST_APART_S, Place, places, usual_ratios
 from app.audio.score_sound import (
     CHROMA_S,
     EARLY_S,
+    ODD_HARMONICS,
     ONSET_S,
     ExpectedSound,
     Floats,
@@ -59,6 +60,8 @@ _SHARES: Final = (0.3, 0.7)
 """Few and most of the beats."""
 _WHOLE: Final = 0.8
 """Mean confidence below which it is looked whether the recording has only a part of the piece."""
+_SURE: Final = 0.6
+"""Mean confidence below which other tones are tried."""
 _PARTIAL: Final = 0.97
 """A part is at most so much of the piece."""
 _PART_RECOGNISED: Final = 0.6
@@ -114,22 +117,15 @@ def follow(
     reached = stoppable(progress, stop_requested)
     reached(0.0)
     expected, recorded = sounds_to_compare(score, samples, rate_hz, lambda share: reached(0.6 * share))
-    shapes = score_chroma(expected, 1.0)
     pins = _pins(score, pinned or {}).inside(len(samples) / rate_hz)
-    piece = _Prepared(score, expected, recorded, shapes, beat_ticks, pins)
-    reached(0.65)
-    result = _followed(piece, slice(0, shapes.shape[1]))
-    reached(0.8)
-    if result is None or result.mean_confidence < _WHOLE or result.missing or result.added:
-        there = played(shapes, recorded.chroma)
-        part, jumps = _parts(there, shapes.shape[1], pins)
-        if jumps or part.stop - part.start < _PARTIAL * shapes.shape[1]:
-            reached(0.85)
-            other = _followed(piece, part, jumps)
-            if other is not None and other.mean_confidence >= max(_part_limit(there, recorded), _as_sure_as(result)):
-                result = other
-    reached(0.9)
-    result, runner_up = _with_lines(piece, result)
+    piece = _Prepared(score, expected, recorded, score_chroma(expected, 1.0), beat_ticks, pins)
+    result, runner_up = _found(piece, lambda share: reached(0.6 + 0.2 * share))
+    if result is None or result.mean_confidence < _SURE:
+        odd = replace(expected, harmonics=ODD_HARMONICS)
+        piece = replace(piece, expected=odd, shapes=score_chroma(odd, 1.0))
+        other, its_runner_up = _found(piece, lambda share: reached(0.8 + 0.2 * share))
+        if other is not None and (result is None or _margin(other) > _margin(result)):
+            result, runner_up = other, its_runner_up
     if result is None or _margin(result) < 0.0:
         raise AppError("audio.not_followed", percent=0 if result is None else round(100 * result.mean_confidence))
     reached(1.0)
@@ -146,6 +142,23 @@ class _Prepared:
     shapes: Floats
     beat_ticks: Integers
     pins: Pins
+
+
+def _found(prepared: _Prepared, reached: Callable[[float], None]) -> tuple[Following | None, RunnerUp | None]:
+    """What is likeliest, however sure, and the second likeliest place."""
+    shapes, recorded = prepared.shapes, prepared.recorded
+    result = _followed(prepared, slice(0, shapes.shape[1]))
+    reached(0.4)
+    if result is None or result.mean_confidence < _WHOLE or result.missing or result.added:
+        there = played(shapes, recorded.chroma)
+        part, jumps = _parts(there, shapes.shape[1], prepared.pins)
+        if jumps or part.stop - part.start < _PARTIAL * shapes.shape[1]:
+            reached(0.6)
+            other = _followed(prepared, part, jumps)
+            if other is not None and other.mean_confidence >= max(_part_limit(there, recorded), _as_sure_as(result)):
+                result = other
+    reached(0.8)
+    return _with_lines(prepared, result)
 
 
 def _with_lines(prepared: _Prepared, chosen: Following | None) -> tuple[Following | None, RunnerUp | None]:

@@ -8,7 +8,8 @@ offset for a grid of tempi; the best places are then made exact by letting the e
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Final
 
 import numpy as np
 
@@ -17,6 +18,7 @@ from app.audio.places import TEMPO_RATIOS, Place, is_other, places, usual_ratios
 from app.audio.score_sound import (
     CHROMA_S,
     EARLY_S,
+    ODD_HARMONICS,
     ONSET_S,
     ExpectedSound,
     RecordedSound,
@@ -29,6 +31,9 @@ from app.audio.track import Samples
 from app.errors import stoppable
 from app.score.following import RunnerUp
 from app.score.model import Score
+
+_SURE: Final = 0.6
+"""Confidence below which other tones are tried."""
 
 
 @dataclass(frozen=True)
@@ -79,12 +84,22 @@ def estimate_offset(
     reached = stoppable(progress, stop_requested)
     reached(0.0)
     expected, recorded = sounds_to_compare(score, samples, rate_hz, lambda share: reached(0.6 * share))
-    likely = places(recorded, expected, usual_ratios(expected), lambda share: reached(0.6 + 0.3 * share))
+    found = _estimated(recorded, expected, lambda share: reached(0.6 + 0.2 * share))
+    if found.confidence < _SURE:
+        odd = replace(expected, harmonics=ODD_HARMONICS)
+        other = _estimated(recorded, odd, lambda share: reached(0.8 + 0.2 * share))
+        found = max(found, other, key=lambda one: one.confidence)
+    reached(1.0)
+    return found
+
+
+def _estimated(recorded: RecordedSound, expected: ExpectedSound, reached: Callable[[float], None]) -> Estimate:
+    likely = places(recorded, expected, usual_ratios(expected), lambda share: reached(0.7 * share))
     fits: list[tuple[float, float, Place]] = []
     for index, place in enumerate(likely):
         fitted, strength = _by_onsets(recorded, expected, place)
         fits.append((confidence_of(_likeness(recorded, expected, fitted), strength), strength, fitted))
-        reached(0.9 + 0.1 * (index + 1) / len(likely))
+        reached(0.7 + 0.3 * (index + 1) / len(likely))
     fits.sort(key=lambda fit: fit[:2], reverse=True)
     confidence, _, best = fits[0]
     others = [RunnerUp(other.start_s - best.start_s, sure) for sure, _, other in fits[1:] if is_other(best, other)]

@@ -24,8 +24,11 @@ _ONSET_HOP: Final = 220
 ONSET_S: Final = _ONSET_HOP / ANALYSIS_RATE_HZ
 _LEAST_SAMPLES: Final = 4 * ANALYSIS_RATE_HZ
 """Shorter recordings are filled up with silence: what surrounds an onset must be there."""
-_HARMONICS: Final = ((0, 1.0), (7, 0.25), (4, 0.08))
+Harmonics: TypeAlias = tuple[tuple[int, float], ...]
 """Pitch classes above a note's own that its overtones sound in (the third and the fifth harmonic), and how loud."""
+USUAL_HARMONICS: Final[Harmonics] = ((0, 1.0), (7, 0.25), (4, 0.08))
+ODD_HARMONICS: Final[Harmonics] = ((0, 1.0), (7, 1.0), (4, 0.3))
+"""Those of a stopped pipe, as clarinets have them: alone they sound a twelfth higher as much as at their own pitch."""
 EARLY_S: Final = 0.007
 """How much earlier than the note its onset is found, by windows that reach ahead: mean over seven pieces by the
 built-in synthesiser."""
@@ -42,12 +45,13 @@ class RecordedSound:
 
 @dataclass(frozen=True)
 class ExpectedSound:
-    """What a score asks for: notes' onsets and ends in seconds, pitches, weights."""
+    """What a score asks for: notes' onsets and ends in seconds, pitches, weights; and how its tones sound."""
 
     onset_s: Floats
     end_s: Floats
     pitch: npt.NDArray[np.int64]
     loudness: Floats
+    harmonics: Harmonics = USUAL_HARMONICS
 
 
 def expected_sound(score: Score) -> ExpectedSound:
@@ -130,7 +134,7 @@ def score_chroma(expected: ExpectedSound, ratio: float, later_frames: float = 0.
     frames = int(np.ceil(end.max())) + 1
     steps = np.zeros((12, frames + 2))
     first, last = np.floor(begin).astype(int), np.floor(end).astype(int)
-    for above, loudness in _HARMONICS:
+    for above, loudness in expected.harmonics:
         row = (expected.pitch + above) % 12
         amount = expected.loudness * loudness
         # A note fills its frames; the first and the last in part: written as differences, summed afterwards.

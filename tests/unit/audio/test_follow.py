@@ -108,6 +108,30 @@ def test_a_constant_tempo_comes_back_constant_after_any_silence(ratio: float) ->
             assert found.mean_confidence > 0.6
 
 
+def test_a_clarinet_alone_is_not_taken_for_a_twelfth_higher() -> None:
+    """A stopped pipe, whose third harmonic is as strong as its own pitch."""
+    project = steady_run(4, count=48)
+    score = project.score
+    rng = np.random.default_rng(4)
+    sound = rng.normal(scale=1e-3, size=(round((end_s(project) + 2.0) * RATE_HZ), 1))
+    for note in score.parts[0].notes:
+        begin_s, finish_s = score.tempo_map.seconds(np.array([note.onset_tick, note.end_tick], np.float64))
+        times_s = np.arange(round((finish_s - begin_s) * RATE_HZ)) / RATE_HZ
+        hz = 440.0 * 2.0 ** ((note.pitch - 69) / 12)
+        tone = sum(
+            level * np.sin(2.0 * np.pi * hz * number * times_s) for number, level in ((1, 0.5), (3, 1.0), (5, 0.3))
+        )
+        rise = np.minimum(1.0, np.minimum(times_s, times_s[-1] - times_s) / 0.01)
+        sound[round((begin_s + 1.0) * RATE_HZ) :, 0][: len(tone)] += 0.2 * tone * rise
+    found = followed(np.repeat(sound, 2, axis=1), project)
+    beats_s = score.tempo_map.seconds(found.ticks.astype(np.float64)) + 1.0
+    assert np.abs(found.recording_s - beats_s).max() < 0.05
+    assert found.mean_confidence > 0.6
+    wrong = steady_run(5, count=48)
+    with pytest.raises(AppError):
+        followed(np.repeat(sound, 2, axis=1), wrong)
+
+
 def test_the_second_likeliest_place_is_reported() -> None:
     once = steady_run(1, count=48)
     notes = once.score.parts[0].notes
