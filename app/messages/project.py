@@ -146,7 +146,7 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
     ),
     "autosave.without": (
         (
-            "autosaved without {count:a value|{count} values} that cannot be saved: {place}: {detail}; undo the last "
+            "autosaved without {count} {count:value|values} that cannot be saved: {place}: {detail}; undo the last "
             "edit or remove the value"
         ),
         (

@@ -203,14 +203,6 @@ def test_what_is_wrong_with_the_request(
     assert said in capsys.readouterr().err
 
 
-def test_damaged_notes_are_named(pieces: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    out = tmp_path / "out"
-    out.mkdir()
-    (out / "exported.json").write_text("{")
-    assert main(["export", str(pieces), "--to", str(out)]) == BAD_INPUT
-    assert "exported.json is damaged" in capsys.readouterr().err
-
-
 def test_pieces_of_one_name_and_hidden_files(tmp_path: Path) -> None:
     for name in ("song.mid", "song.suisou", "x/song.mid", ".trash/old.mid", "other.mid.bak"):
         (tmp_path / name).parent.mkdir(exist_ok=True)
