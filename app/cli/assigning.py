@@ -70,7 +70,7 @@ def assign_message(arguments: argparse.Namespace, parts: Sequence[Unassigned], i
     arguments : Namespace
         With ``file``, and ``given``, the command line.
     """
-    added = [word for one in parts for word in ("--assign", f"{one.part}={one.map_id}")]
+    added = [word for one in parts for word in _option(f"{one.part}={one.map_id}")]
     words = list(arguments.given)
     if getattr(arguments, "piece", None) is not None:
         # One of a folder, whose other pieces have other parts.
@@ -78,6 +78,11 @@ def assign_message(arguments: argparse.Namespace, parts: Sequence[Unassigned], i
     named = ", ".join(one.part for one in parts)
     command = shown(_joined(["suisou", *words, *added]))
     return Message(id, {"file": shown(arguments.file), "parts": named, "command": command})
+
+
+def _option(value: str) -> tuple[str, ...]:
+    """``--assign`` with a value, which would be an option itself if it began a word with a hyphen."""
+    return (f"--assign={value}",) if value.startswith("-") else ("--assign", value)
 
 
 def _joined(words: Sequence[str]) -> str:

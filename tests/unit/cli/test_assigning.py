@@ -10,7 +10,7 @@ import pytest
 
 from app.cli import main
 
-NAMES = ("Xyzzy", "Xyzzy", "it's me", "a=b", '$(echo) `x` "y"', "*", "")
+NAMES = ("Xyzzy", "Xyzzy", "it's me", "a=b", "-x", '$(echo) `x` "y"', "*", "")
 
 
 def piece(path: Path, names: tuple[str, ...]) -> Path:
@@ -37,7 +37,7 @@ def test_the_command_that_is_named_gives_every_part_a_player(
     file = piece(tmp_path / "a piece.mid", NAMES)
     assert main(["inspect", str(file), "--no-contacts"]) == 0
     printed = capsys.readouterr()
-    for name in ("Xyzzy 1", "Xyzzy 2", "it's me", "Track 8"):
+    for name in ("Xyzzy 1", "Xyzzy 2", "it's me", "Track 9"):
         assert name in printed.err
     program, *words = command_in(printed.err)
     assert (program, words[:3]) == ("suisou", ["inspect", str(file), "--no-contacts"])
