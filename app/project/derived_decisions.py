@@ -194,9 +194,13 @@ def _same_lengths(one: Part, other: Part, one_quarter: int, other_quarter: int) 
 
 def _left_out(project: Project, streams: Sequence[TrackChannel], silent: Sequence[int]) -> Iterator[int]:
     """Those of the streams that no part was read from which the project knows as unplayed."""
-    known = Counter((part.name, part.note_count) for part in project.score.unplayed)
+    unplayed = list(project.score.unplayed)
     for index in silent:
-        key = stream_name(streams[index]), len(streams[index].pitches)
-        if known[key]:
-            known[key] -= 1
+        name, count = stream_name(streams[index]), len(streams[index].pitches)
+        # Its name or its notes may have changed.
+        like = [part for part in unplayed if part.name == name] or [
+            part for part in unplayed if part.note_count == count
+        ]
+        if like:
+            unplayed.remove(like[0])
             yield index

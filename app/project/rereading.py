@@ -1,8 +1,8 @@
 """A MIDI file read again as it was decided at its import: its tracks are recognised, whatever order they stand in and
 whatever they are called now, and played by those who were chosen for them.
 
-Tracks of the file that no decision is about are taken as in any import. Decisions about tracks that the file does not
-have (any more) are kept: a track may come back.
+Tracks of the file that no decision is about are taken as in any import, but that the name of one need not tell its
+instrument. Decisions about tracks that the file does not have (any more) are kept: a track may come back.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from app.project.imported import (
 )
 from app.project.importing import ImportRow, decision_of, usual_rows
 from app.project.likeness import ALIKE, sketched_shares
-from app.score.choose import Candidates, How, MapChoice, TrackChannel, candidates
+from app.score.choose import Candidates, How, MapChoice, TrackChannel, candidates, refusal
 from app.score.parts import PERCUSSION, PartAssignment
 from app.score.read import MidiContents
 from instrument_maps.model import InstrumentMap
@@ -107,10 +107,26 @@ def read_as_decided(
         new = tuple(place for place in row.assignment.streams if place not in known)
         if new:
             added = msgspec.structs.replace(row, assignment=msgspec.structs.replace(row.assignment, streams=new))
+            added = _played(added, contents.streams, choices)
             rows.append(added)
             kept.append(decision_of(added, [mark_of(contents.streams[place], quarter) for place in new]))
     read = msgspec.structs.replace(contents, streams=tuple(streams))
     return Reading(read, tuple(rows), msgspec.structs.replace(decisions, rows=tuple(kept)), places)
+
+
+def _played(row: ImportRow, streams: Sequence[TrackChannel], choices: Sequence[MapChoice]) -> ImportRow:
+    """The row of new tracks; where a name that tells no instrument keeps them from being played, the map whose range
+    fits plays them, for no one is asked here."""
+    own = [
+        msgspec.structs.replace(streams[place], name="", instrument_name="", program=None)
+        for place in row.assignment.streams
+    ]
+    unknown = not row.requested and candidates([streams[place] for place in row.assignment.streams], choices).unknown
+    if not unknown or any(refusal(stream, choices) is not None for stream in own):
+        return row
+    pitches = [pitch for stream in own for pitch in stream.pitches]
+    map_id = candidates(own, choices).best(pitches).map_id
+    return ImportRow(msgspec.structs.replace(row.assignment, map_id=map_id))
 
 
 def recognised_streams(

@@ -136,6 +136,30 @@ def test_a_part_that_is_gone_is_offered_for_removal_and_one_that_came_gets_a_pla
         assert removed.part(removed.player(player.id)).notes == project.part(player).notes
 
 
+@pytest.mark.parametrize("program", [None, 0])
+def test_a_part_that_came_gets_a_player_though_its_name_tells_no_instrument(
+    project: Project, program: int | None, tmp_path: Path
+) -> None:
+    melody = []
+    for place in range(24):
+        pitch = 62 + place * place % 13
+        melody.append(mido.Message("note_on", note=pitch, velocity=80, time=0))
+        melody.append(mido.Message("note_off", note=pitch, time=240))
+    chosen = [] if program is None else [mido.Message("program_change", program=program)]
+    other, strings = (
+        mido.MidiTrack([mido.MetaMessage("track_name", name=name), *chosen, *melody])
+        for name in ("Melody F", "Violins")
+    )
+    path = written(tmp_path / "newer.mid", [*tracks(), strings, other])
+    outcome = reimported(project, path, MAPS)
+    (added,) = outcome.new_players
+    after = outcome.project
+    assert after.player(added).name == "Melody F"
+    assert len(after.part(after.player(added)).notes) == 24
+    assert [part.name for part in after.score.unplayed] == ["Violins"]
+    assert reimported(after, path, MAPS).project is after
+
+
 def test_merged_and_left_out_tracks_stay_so(tmp_path: Path) -> None:
     path = written(tmp_path / "quintet.mid", tracks())
     contents = read_contents(path)
