@@ -32,16 +32,18 @@ class LastChunk:
     """Motions of a musician's instruments over some frames, kept until other frames are asked for."""
 
     def __init__(self) -> None:
-        self._kept: tuple[tuple[Fraction, int, int] | None, dict[int, Motion]] = None, {}
+        self._kept: tuple[tuple[Fraction, int, int, int] | None, dict[int, Motion]] = None, {}
 
-    def motion(self, number: int, playing: PerformanceCurves, fps: Fraction, first_frame: int, frames: int) -> Motion:
+    def motion(
+        self, number: int, playing: PerformanceCurves, fps: Fraction, first_frame: int, frames: int, every: int
+    ) -> Motion:
         """The motion of one instrument, as ``playing`` makes it. Threads may make the same at once."""
-        kept = self._kept
-        if kept[0] != (fps, first_frame, frames):
-            kept = self._kept = (fps, first_frame, frames), {}
+        kept, asked = self._kept, (fps, first_frame, frames, every)
+        if kept[0] != asked:
+            kept = self._kept = asked, {}
         made = kept[1]
         if number not in made:
-            made[number] = playing.motion(fps, first_frame, frames)
+            made[number] = playing.motion(*asked)
         return made[number]
 
 
@@ -66,26 +68,26 @@ class Doubling(PerformanceCurves):
     number: int = 0
     last: LastChunk = field(default_factory=lambda: LastChunk())
 
-    def motion(self, fps: Fraction, first_frame: int, frames: int) -> Motion:
+    def motion(self, fps: Fraction, first_frame: int, frames: int, every: int = 1) -> Motion:
         """Make some frames: the body as it plays the current instrument, and this instrument in the hands or aside."""
-        most = max(MOST_FRAMES // len(self.played), LEAST_FRAMES)
+        most = max(MOST_FRAMES // len(self.played), LEAST_FRAMES) // every * every
         if frames > most:
             end = first_frame + frames
             starts = range(first_frame, end, most)
-            return joined([self.motion(fps, start, min(most, end - start)) for start in starts])
-        times_s = frame_times(self.start_s, fps, first_frame, frames)
+            return joined([self.motion(fps, start, min(most, end - start), every) for start in starts])
+        times_s = frame_times(self.start_s, fps, first_frame, frames)[::every]
         shares = np.array([curve.sample(times_s) for curve in self.shares])
         made = {
-            number: self.last.motion(number, one, fps, first_frame, frames)
+            number: self.last.motion(number, one, fps, first_frame, frames, every)
             for number, one in enumerate(self.played)
             if number == self.number or np.any(shares[number] > 0.0)
         }
         own = made[self.number]
         names = list(dict.fromkeys(name for motion in made.values() for name in motion.morphs))
-        nothing = np.zeros(frames, np.float32)
+        nothing = np.zeros(len(times_s), np.float32)
         leading = np.argmax(shares, axis=0)
         rotations, hips_m = np.empty_like(own.rotations), np.empty_like(own.hips_m)
-        morphs = {name: np.zeros(frames, np.float32) for name in names}
+        morphs = {name: np.zeros(len(times_s), np.float32) for name in names}
         for number in np.unique(leading).tolist():
             here = leading == number
             rotations[here], hips_m[here] = made[number].rotations[here], made[number].hips_m[here]

@@ -160,12 +160,13 @@ class PerformanceCurves:
         """Time of frame 0."""
         return self.plan.time_frame.first_frame_s
 
-    def motion(self, fps: Fraction, first_frame: int, frames: int) -> Motion:
-        """Make some frames of the motion. The same frames are the same bits in every span."""
+    def motion(self, fps: Fraction, first_frame: int, frames: int, every: int = 1) -> Motion:
+        """Make some frames of the motion, or every how many-th of them, at the rate that makes. The same frames are the
+        same in every span."""
         pad = padding(fps)
         times_s = frame_times(self.start_s, fps, first_frame - pad, frames + 2 * pad)
         curves = self.curves(self.frames(times_s))
-        return solve(self.player, curves, fps, float(frame_times(self.start_s, fps, first_frame, 1)[0]))
+        return solve(self.player, curves, fps, float(frame_times(self.start_s, fps, first_frame, 1)[0]), every)
 
     def frames(self, times_s: FloatArray) -> Frames:
         """What the player does at ascending times."""

@@ -147,7 +147,7 @@ def padding(fps: Fraction) -> int:
     return 2 * math.ceil(HELP_EASE_S * fps)
 
 
-def solve(player: Player, curves: Curves, fps: Fraction, first_frame_s: float) -> Motion:
+def solve(player: Player, curves: Curves, fps: Fraction, first_frame_s: float, every: int = 1) -> Motion:
     """Solve all poses.
 
     Parameters
@@ -156,14 +156,17 @@ def solve(player: Player, curves: Curves, fps: Fraction, first_frame_s: float) -
         With `padding` frames more at both ends than are requested.
     first_frame_s : float
         Time of the first requested frame.
+    every : int
+        Poses are made of every how many-th frame only; what needs the frames around it is made of all.
     """
     pad = padding(fps)
     uppers = [upper_body(player, curves[part]) for part in _parts(len(curves))]
     needed = [_needs(player, curves[part], upper) for part, upper in zip(_parts(len(curves)), uppers, strict=True)]
     given = spread(needed, pad // 2)
     curves = replace(curves, body=helped(player, curves.body, given))
-    asked = slice(pad, len(curves) - pad)
-    return poses(player, curves[asked], fps, first_frame_s, None if given.moves_trunk else joined(uppers)[asked])
+    asked = slice(pad, len(curves) - pad, every)
+    known = None if given.moves_trunk else joined(uppers)[asked]
+    return poses(player, curves[asked], fps / every, first_frame_s, known)
 
 
 def poses(

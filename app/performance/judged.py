@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
+from fractions import Fraction
 from typing import Final, NamedTuple
 
 from app.contacts.breaks import JUDGED_PER_S, Break, by_time, contact_problems
@@ -20,11 +21,24 @@ from app.performance.span import whole_span
 from app.plan.model import Problem
 from app.project.performers import Player
 
-FREE_FRAMES, FRAMES_PER_NOTE = 120_000, 12
-"""Frames of all players together that a report makes: in any piece, and for each of its notes. In longer pieces only
-those are made that are looked at, and in pieces of hours with few notes fewer are."""
+WHOLE_FRAMES: Final = 120_000
+"""Frames of all players together up to which motion is made of all, before every fourth is posed and looked at; in
+longer pieces nothing is made of those between."""
+MOST_FRAMES, FRAMES_PER_NOTE = 100_000, 3
+"""Frames that are looked at: in any piece, or for each of many notes. In longer pieces fewer are in each second."""
+SPARSE_S: Final = 4.0
+"""Seconds of a player for each note from which a piece counts as one with few notes: slower than any chorale ..."""
+SPARSE_FRAMES, SPARSE_PER_NOTE = 50_000, 4
+"""... of which so many are looked at, and for each note so many more, up to those of any piece."""
 LEAST_PER_S: Final = 2.0
 """At fewer frames in a second breaks of a contact would be missed, and nothing is looked at."""
+
+
+class _Looked(NamedTuple):
+    """Which frames are looked at: every how many-th at a rate."""
+
+    fps: Fraction
+    every: int
 
 
 class Judged(NamedTuple):
@@ -39,47 +53,51 @@ def all_problems(performance: Performance, players: Iterable[Player]) -> Judged:
     found = {player.id: performance.problems(player.id) for player in players}
     performers = performers_of(performance, (performance.project.player(player_id) for player_id in found)).made
     notes = sum(len(performance.project.part(one.player).notes) for one in performers.values())
-    stride, notice = _stride(performance, len(performers), notes)
-    if stride:
+    looked, notice = _looked(performance, len(performers), notes)
+    if looked is not None:
         by_musician: dict[str, list[Performer]] = {}
         for one in performers.values():
             by_musician.setdefault(performance.project.musician(one.player).id, []).append(one)
         for together in by_musician.values():
-            found |= _judged(performance, together, stride)
+            found |= _judged(performance, together, looked)
     return Judged(found, notice)
 
 
-def _judged(performance: Performance, performers: Sequence[Performer], stride: int) -> dict[str, tuple[Problem, ...]]:
+def _judged(
+    performance: Performance, performers: Sequence[Performer], looked: _Looked
+) -> dict[str, tuple[Problem, ...]]:
     """Problems of a musician's players, who share what is made of each piece of the performance."""
-    fps = performance.project.fps
+    fps, every = looked
     playing = [playing_of(performance, one) for one in performers]
     judges = [ContactJudge(curves, one.character, one.model) for curves, one in zip(playing, performers, strict=True)]
     breaks: list[list[Break]] = [[] for _ in performers]
-    count = math.ceil(whole_span(performance.time_frame, fps).count / stride)
-    for first in range(0, count, CHUNK):
+    count, chunk = whole_span(performance.time_frame, fps).count, CHUNK // every * every
+    for first in range(0, count, chunk):
         for curves, judge, mine in zip(playing, judges, breaks, strict=True):
-            mine += judge.breaks(curves.motion(fps / stride, first, min(CHUNK, count - first)))
+            mine += judge.breaks(curves.motion(fps, first, min(chunk, count - first), every))
     return {
         one.player.id: _problems(performance, one.player, mine) for one, mine in zip(performers, breaks, strict=True)
     }
 
 
-def _stride(performance: Performance, players: int, notes: int) -> tuple[int, Message | None]:
-    """Every how many-th frame of players is made to be looked at, 0 for none; and what to say of it."""
+def _looked(performance: Performance, players: int, notes: int) -> tuple[_Looked | None, Message | None]:
+    """Which frames of players are looked at, None for none; and what to say of it."""
     fps = performance.project.fps
     count = whole_span(performance.time_frame, fps).count * players
-    most = FREE_FRAMES + FRAMES_PER_NOTE * notes
-    if count <= most:
-        return 1, None
+    most = max(MOST_FRAMES, FRAMES_PER_NOTE * notes)
+    if count / float(fps) > SPARSE_S * notes:
+        most = min(MOST_FRAMES, SPARSE_FRAMES + SPARSE_PER_NOTE * notes)
     usual = max(1, round(float(fps) / JUDGED_PER_S))
+    if count <= WHOLE_FRAMES:
+        return _Looked(fps, usual), None
     stride = usual * max(1, math.ceil(count / usual / most))
     if stride == usual:
-        return usual, None
+        return _Looked(fps / usual, 1), None
     frame, rate = performance.time_frame, float(fps) / stride
     hours = round((frame.end_s - frame.first_frame_s) / 3600.0, 1)
     if rate < LEAST_PER_S:
-        return 0, Message("judged.not", {"players": players, "hours": hours})
-    return stride, Message("judged.sparsely", {"rate": round(rate, 1), "hours": hours})
+        return None, Message("judged.not", {"players": players, "hours": hours})
+    return _Looked(fps / stride, 1), Message("judged.sparsely", {"rate": round(rate, 1), "hours": hours})
 
 
 def judged_problems(performance: Performance, performer: Performer, motion: Motion) -> tuple[Problem, ...]:

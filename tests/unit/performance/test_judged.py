@@ -1,19 +1,26 @@
-"""How many frames a report makes: all in usual pieces, few in hours with little in them, and what it says of that."""
+"""How many frames a report looks at: as many in all usual pieces, few in hours with little in them, and what it says
+of that."""
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 from fractions import Fraction
 
 import msgspec
+import numpy as np
 import pytest
 
 from app.performance import judged
+from app.performance.cast import performer_of
 from app.performance.ensemble import Performance
 from app.performance.judged import all_problems
+from app.performance.motion import playing_of
+from app.performance.span import whole_span
 from app.project.model import Project
 from app.score.model import Note
 from tests.fuzz.harness.costly_projects import base
+from tests.support.doubled import flutist
 
 
 def piece(quarters: int, players: int = 1) -> Project:
@@ -41,25 +48,42 @@ def rates(monkeypatch: pytest.MonkeyPatch) -> list[tuple[Fraction, int]]:
         def __getattr__(self, name: str) -> object:
             return getattr(self._made, name)
 
-        def motion(self, fps: Fraction, first: int, frames: int) -> object:
-            found.append((fps, frames))
-            return self._made.motion(fps, first, frames)
+        def motion(self, fps: Fraction, first: int, frames: int, every: int) -> object:
+            made = self._made.motion(fps, first, frames, every)
+            found.append((fps, made.frames))
+            return made
 
     monkeypatch.setattr(judged, "playing_of", Counted)
     return found
 
 
-def test_a_usual_piece_is_made_whole(rates: list[tuple[Fraction, int]]) -> None:
+def test_of_a_usual_piece_every_fourth_frame_is_looked_at(rates: list[tuple[Fraction, int]]) -> None:
     performance = Performance(piece(40))
     assert all_problems(performance, performance.project.players).notice is None
-    assert {fps for fps, _ in rates} == {60}
+    count = whole_span(performance.time_frame, Fraction(60)).count
+    assert rates == [(Fraction(60), math.ceil(count / 4))]
+
+
+@pytest.mark.parametrize("project", [piece(8), flutist(2)], ids=["alone", "by turns"])
+def test_frames_that_are_looked_at_are_those_of_the_whole_motion(project: Project) -> None:
+    performance = Performance(project)
+    playing = playing_of(performance, performer_of(performance, project.players[0]))
+    whole, some = playing.motion(Fraction(60), 9, 203), playing.motion(Fraction(60), 9, 203, 4)
+    assert (some.fps, some.frames, some.first_frame_s) == (15, 51, whole.first_frame_s)
+    for name in ("rotations", "hips_m", "instrument_position_m", "instrument_rotation"):
+        np.testing.assert_array_equal(getattr(some, name), getattr(whole, name)[::4])
+    for name in ("controls", "morphs"):
+        mine, all_of = getattr(some, name), getattr(whole, name)
+        assert mine.keys() == all_of.keys()
+        assert all(np.array_equal(mine[one], all_of[one][::4]) for one in mine)
 
 
 def test_hours_with_few_notes_are_looked_at_sparsely(
     rates: list[tuple[Fraction, int]], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(judged, "FREE_FRAMES", 2000)
-    monkeypatch.setattr(judged, "FRAMES_PER_NOTE", 0)
+    monkeypatch.setattr(judged, "WHOLE_FRAMES", 2000)
+    monkeypatch.setattr(judged, "SPARSE_FRAMES", 2000)
+    monkeypatch.setattr(judged, "SPARSE_PER_NOTE", 0)
     performance = Performance(piece(400))
     notice = all_problems(performance, performance.project.players).notice
     assert notice is not None
