@@ -280,6 +280,13 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         "the piece already has the maximum of {most} players",
         "奏者が既に上限の {most} 人に達しています",
     ),
+    "score.too_many_for_hours": (
+        (
+            "at most {most} {most:player plays|players play} a piece of {hours:g} hours; in the source program, "
+            "split the piece"
+        ),
+        "{hours:g} 時間の曲を演奏できる奏者は {most} 人までです。元のプログラムで曲を分割してください",
+    ),
     "score.unknown_instrument": (
         "the instrument cannot be determined because the name is not understood ({lowest} to {highest}); select one",
         "トラック名から楽器を判定できません（{lowest}～{highest}）。楽器を選んでください",

@@ -25,6 +25,13 @@ MOST_STREAMS: Final = 256
 """Parts of a file, played or not: sixteen ports of sixteen channels."""
 MOST_PARTS: Final = 128
 """That a file's players may play: more than any band has."""
+MOST_PLAYER_HOURS: Final = 256
+"""Hours of all players together: in a piece of more than two hours fewer may play, of twelve hours 21."""
+
+
+def most_parts(hours: float) -> int:
+    """Parts that players may play in a piece of some hours."""
+    return MOST_PARTS if hours * MOST_PARTS <= MOST_PLAYER_HOURS else max(1, int(MOST_PLAYER_HOURS / hours))
 
 
 def too_long(score: Score, end_tick: int | None = None) -> dict[str, Argument] | None:

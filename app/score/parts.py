@@ -43,6 +43,8 @@ score.left_out : (a reason)
     "excluded on import"
 score.too_many_players : most (a reason)
     "the piece has {most} players already, and more cannot play"
+score.too_many_for_hours : most, hours (a reason)
+    "at most {most} players play a piece of {hours} hours"
 score.regions : part, count
     "{part}: {count} tracks of this name, channel and program follow one another, so one player plays them; if they
     are several players, split them in the import dialog"
@@ -80,7 +82,7 @@ from app.score.choose import (
     require_map,
     use_of,
 )
-from app.score.limits import MOST_PARTS
+from app.score.limits import MOST_PARTS, most_parts
 from app.score.model import MOST_VOICES, Note, Part, Score, UnplayedPart, sounding_spans
 from app.score.regions import follow_one_another, groups, joined
 from app.score.switches import without_key_switches
@@ -178,12 +180,15 @@ def assigned_parts(
     asked: set[int] = set()
     crowded: set[int] = set()
     percussion: set[int] = set()
+    ends = [max(stream.end_ticks) for stream in streams if stream.end_ticks]
+    hours = piece.tempo_map.seconds(float(max(ends, default=0))) / 3600.0
+    most = most_parts(hours)
     for assignment in assignments:
         raise_if_stopped(stop_requested)
         if assignment.map_id == PERCUSSION:
             percussion.update(assignment.streams)
             continue
-        room = MOST_PARTS - len(parts)
+        room = most - len(parts)
         if not room:
             crowded.update(assignment.streams)
             continue
@@ -225,7 +230,7 @@ def assigned_parts(
     unplayed = tuple(
         UnplayedPart(
             stream_name(stream),
-            _reason(stream, index in crowded, index in percussion, maps),
+            _reason(stream, _crowd(most, hours) if index in crowded else None, index in percussion, maps),
             len(stream.pitches),
             max(stream.end_ticks),
             sounding_spans(zip(stream.onset_ticks, stream.end_ticks, strict=True), piece.ticks_per_quarter),
@@ -269,12 +274,19 @@ def rhythm_parts(streams: Sequence[TrackChannel], assignments: Sequence[PartAssi
     ]
 
 
-def _reason(stream: TrackChannel, crowded: bool, percussion: bool, maps: Sequence[MapChoice]) -> Message:
+def _crowd(most: int, hours: float) -> Message:
+    """Why no more than so many players play a piece."""
+    if most == MOST_PARTS:
+        return Message("score.too_many_players", {"most": most})
+    return Message("score.too_many_for_hours", {"most": most, "hours": round(hours, 1)})
+
+
+def _reason(stream: TrackChannel, crowd: Message | None, percussion: bool, maps: Sequence[MapChoice]) -> Message:
     """Why no one plays a stream."""
     if percussion and use_of(stream) != "rhythm":
         return Message("score.percussion", {"instrument": stream_name(stream)})
-    if crowded:
-        return Message("score.too_many_players", {"most": MOST_PARTS})
+    if crowd is not None:
+        return crowd
     return refusal(stream, maps) or Message("score.left_out")
 
 

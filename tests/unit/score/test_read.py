@@ -6,9 +6,9 @@ from pathlib import Path
 
 import pytest
 
-from app.errors import FileError
+from app.errors import FileError, Message
 from app.messages import text
-from app.score.limits import LAST_TICK, MOST_NAME, MOST_PARTS, MOST_STREAMS
+from app.score.limits import LAST_TICK, MOST_NAME, MOST_PARTS, MOST_PLAYER_HOURS, MOST_STREAMS
 from app.score.metre_map import Metre
 from app.score.model import MOST_VOICES, Marker, PercussionHit
 from app.score.read import read_contents, read_midi, uncast_score
@@ -470,6 +470,16 @@ def test_more_players_than_any_band_has_are_left_out() -> None:
     score = score_of(header(1, MOST_PARTS + 2) + track * (MOST_PARTS + 2))
     assert len(score.parts) == MOST_PARTS
     assert [part.reason.id for part in score.unplayed] == ["score.too_many_players"] * 2
+
+
+def test_in_a_piece_of_hours_fewer_players_play() -> None:
+    ticks = 3 * 7200 * 96
+    later = bytes([0x80 | ticks >> 14, 0x80 | ticks >> 7 & 0x7F, ticks & 0x7F])
+    track = chunk(b"MTrk", note(60) + later + note(60)[1:] + END)
+    score = score_of(header(1, 90) + track * 90)
+    assert len(score.parts) == MOST_PLAYER_HOURS // 3
+    reason = Message("score.too_many_for_hours", {"most": len(score.parts), "hours": 3.0})
+    assert [part.reason for part in score.unplayed] == [reason] * (90 - len(score.parts))
 
 
 def test_more_notes_at_once_than_any_section_plays_are_left_out() -> None:
