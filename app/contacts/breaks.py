@@ -19,6 +19,7 @@ from app.contacts.bounds import BoolArray, FloatArray
 from app.contacts.reach import OUT_OF_REACH
 from app.errors import Message
 from app.plan.model import FingeringEvent, Problem
+from app.plan.spans import Spans
 
 JUDGED_PER_S = 15
 """So many frames of a second are looked at: no body leaves a contact and is back sooner."""
@@ -82,18 +83,13 @@ def contact_problems(
         note already (`app.contacts.reach`), and is not reported again.
     """
     problems = []
-    reported = _united(
-        [
-            (problem.start_s - APART_S, problem.end_s + APART_S)
-            for problem in known
-            if problem.message.id == OUT_OF_REACH
-        ]
-    )
+    spans_s = [
+        (problem.start_s - APART_S, problem.end_s + APART_S) for problem in known if problem.message.id == OUT_OF_REACH
+    ]
+    reported = Spans(_united(spans_s))
     starts_s = np.array([event.start_s for event in grips])
     for found in joined(breaks):
-        if found.kind == "short" and any(
-            start_s <= found.start_s and found.end_s <= end_s for start_s, end_s in reported
-        ):
+        if found.kind == "short" and reported.hold(found.start_s, found.end_s):
             continue
         note_id = None
         if found.kind != "foot":

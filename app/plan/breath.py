@@ -105,7 +105,7 @@ def plan_breaths(
     refill = stock.refill.copy()
     for event, index in zip(caught, catches, strict=True):
         refill[index] = drawn(event.end_s - event.start_s)
-    kept = [event for event in (*given.kept, *given.by_hand) if event not in spare.values()]
+    kept = [event for event in (*given.kept, *given.by_hand) if spare.get(line.number_of(event)) is not event]
     events = tuple(sorted([*kept, *caught], key=lambda event: (event.start_s, event.end_s)))
     early_end_s, cut = _cut_notes(line, events)
     return BreathPlan(

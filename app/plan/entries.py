@@ -9,6 +9,7 @@ import numpy as np
 
 from app.plan.line import IntArray, Piece, Rhythm
 from app.plan.model import FloatArray
+from app.plan.spans import Spans
 
 COMMON_REST_BARS = 2
 COMMON_REST_S = 4.0
@@ -281,14 +282,12 @@ def _joining(
             if bars >= 1.0 if begins[index] else long and bars >= LONG_REST_LEAST_BARS:
                 rows.append((tick, rest_s, line, index))
     rows.sort()
-    given = [(entry.tick, entry.tick + piece.metre_map.bar_ticks_at(entry.tick)) for entry in shared]
+    given = Spans((entry.tick, entry.tick + piece.metre_map.bar_ticks_at(entry.tick)) for entry in shared)
     found: list[Entry] = []
     for tick, rest_s, line, index in rows:
         if found and tick < found[-1].tick + piece.metre_map.bar_ticks_at(found[-1].tick):
             last = found[-1]
             found[-1] = msgspec.structs.replace(last, players=(*last.players, (line, index)))
-        elif not any(start <= tick < end for start, end in given) and lines.sounds_before(
-            tick, beat_ticks(piece, tick)
-        ):
+        elif not given.hold(tick, tick + 1) and lines.sounds_before(tick, beat_ticks(piece, tick)):
             found.append(Entry(tick, "cue.joins", rest_s, ((line, index),)))
     return found

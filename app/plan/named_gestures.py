@@ -16,7 +16,8 @@ from app.plan.line import LineTimes
 from app.plan.model import GestureEvent, Problem
 from app.plan.parameters import PlayerParameters
 from app.plan.pose import GENTLE_RAD_S2, pose_limits
-from app.plan.possible import impossible, may_start
+from app.plan.possible import Lowered, impossible, may_start
+from app.plan.spans import Spans
 from instrument_maps.model import InstrumentMap
 from metadata.gestures import Gesture, HandTrack, Key, Track
 from metadata.load import load_body
@@ -48,6 +49,7 @@ def with_definitions(
     result: list[GestureEvent] = []
     problems: list[Problem] = []
     limits: dict[str, dict[str, tuple[float, float]]] = {}
+    down = Lowered(lowered)
     busy_s = -np.inf
     for event in events:
         definition = definitions.get(event.name)
@@ -65,7 +67,7 @@ def with_definitions(
                 for track in ("bell", "head", "left_elbow", "right_elbow", "torso")
             }
         wrong = None
-        if not may_start(definition, event.start_s, event.end_s, times, lowered):
+        if not may_start(definition, event.start_s, event.end_s, times, down):
             wrong = Message("gesture.not_here", {"name": event.name, "start": definition.may_start})
         elif definition.needs_lowered:
             wrong = impossible(definition, instrument)
@@ -117,15 +119,14 @@ def _in_hand(gesture: Gesture, instrument: InstrumentMap) -> Gesture:
 def undisturbed(events: tuple[GestureEvent, ...]) -> tuple[GestureEvent, ...]:
     """Events without generated looks about, counts and other grips while a hand is away; the very same tuple where
     there are none."""
-    away = [event for event in events if event.gesture is not None and event.gesture.needs_lowered]
+    away = [(one.start_s, one.end_s) for one in events if one.gesture is not None and one.gesture.needs_lowered]
     if not away:
         return events
+    busy = Spans(away)
     return tuple(
         event
         for event in events
-        if event.corrected
-        or event.kind not in IDLE_KINDS
-        or not any(one.start_s < event.end_s and event.start_s < one.end_s for one in away)
+        if event.corrected or event.kind not in IDLE_KINDS or not busy.meet(event.start_s, event.end_s)
     )
 
 

@@ -179,9 +179,10 @@ def accents(
     strength = LOUDER * dynamics.accents[candidates] + DOWNBEAT * downbeat + LONG * longer + LEAP * up
     still = swings.still_at(ticks)
     at_s = times.onset_s[candidates]
-    nodded = np.zeros(len(at_s), np.bool_)
-    for cue in cues:
-        nodded |= np.abs(at_s - cue.end_s) < CUED_S
+    # The nearest cues before and after each.
+    cued_s = np.sort([-np.inf, *(cue.end_s for cue in cues), np.inf])
+    following = np.searchsorted(cued_s, at_s).clip(1)
+    nodded = np.minimum(at_s - cued_s[following - 1], cued_s[following] - at_s) < CUED_S
     scores = strength + CHANCE * chances - 10.0 * ((still & ~loud[candidates]) | nodded)
     chosen = _apart(at_s, scores, loud[candidates], beat_s[candidates])
     amounts = grown(np.clip(LEAST_ACCENT + 0.4 * strength + 0.6 * sizes * sizes, 0.0, 1.0), dynamics.at(at_s))

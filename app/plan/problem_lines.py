@@ -72,11 +72,18 @@ def _with_notes_named(message: Message, score: Score, wording: Wording, part_id:
 
 def _line(found: list[Problem], score: Score, wording: Wording, part_id: str | None) -> str:
     """The first of some problems of a kind, and the places of the others."""
-    message, places = found[0].message, [_place(problem, score, part_id) for problem in found]
+    message, first = found[0].message, _place(found[0], score, part_id)
     line = wording(_with_notes_named(message, score, wording, part_id))
-    if not NOTES & message.arguments.keys() and places[0]:
-        line = wording(Message("problem.at", {"problem": line, "place": places[0]}))
-    others = [place for place in dict.fromkeys(places[1:]) if place not in ("", places[0])]
+    if not NOTES & message.arguments.keys() and first:
+        line = wording(Message("problem.at", {"problem": line, "place": first}))
+    others: list[str] = []
+    for problem in found[1:]:
+        place = _place(problem, score, part_id)
+        if place not in ("", first, *others):
+            others.append(place)
+        # Those that are only counted are not named.
+        if len(others) > MOST_PLACES:
+            break
     if not others:
         return line
     listed = ", ".join(others[:MOST_PLACES]) + (", ..." if len(others) > MOST_PLACES else "")

@@ -6,7 +6,9 @@ Messages: ``rule.applied`` (rule), ``expression.effort``, ``expression.low_loud`
 
 from __future__ import annotations
 
+from bisect import bisect_right
 from collections.abc import Collection, Mapping, Sequence
+from itertools import accumulate, islice
 from typing import Final, NamedTuple, TypeVar
 
 import numpy as np
@@ -17,7 +19,8 @@ from app.plan.embouchure import efforts_of
 from app.plan.line import IntArray, LineTimes, Piece, Seeds
 from app.plan.model import EmbouchureEvent, ExpressionEvent, FloatArray, GestureEvent, Problem, StyleEvent, TimeFrame
 from app.plan.parameters import PlayerParameters
-from app.plan.possible import belongs, comes_up, may_start
+from app.plan.possible import Lowered, belongs, comes_up, may_start
+from app.plan.spans import Spans
 from app.plan.styles import styles_at
 from app.score.model import Note
 from app.score.tempo import TempoMap
@@ -102,6 +105,7 @@ def plan_by_rules(
     shown: list[ExpressionEvent] = []
     made: list[GestureEvent] = []
     problems: list[Problem] = []
+    down = Lowered(lowered)
     for rule in rules:
         if not notes or not rule.enabled or not concerns(rule.when, in_styles, habits):
             continue
@@ -129,7 +133,7 @@ def plan_by_rules(
             gesture = gestures[rule.do.gesture]
             if not belongs(gesture, instrument):
                 continue
-            made += _gestures(rule, gesture, notes, times, found, sizes, piece.clock, lowered, seeds, made)
+            made += _gestures(rule, gesture, notes, times, found, sizes, piece.clock, down, seeds, made)
     return Ruled(
         tuple(sorted(shown, key=in_order)),
         tuple(sorted(made, key=lambda event: (event.start_s, event.id))),
@@ -359,7 +363,7 @@ def _gestures(
     found: IntArray,
     sizes: FloatArray,
     clock: TempoMap,
-    lowered: tuple[tuple[float, float], ...],
+    lowered: Lowered,
     seeds: Seeds,
     others: Sequence[GestureEvent],
 ) -> list[GestureEvent]:
@@ -370,12 +374,16 @@ def _gestures(
         later_s = rule.do.spread_s * seeds.chances_at(f"rule {rule.name} later", times.onset_tick[found])
         starts_s, ends_s = starts_s + later_s, ends_s + later_s
     taken = sorted((one.start_s, one.end_s) for one in others) if gesture.may_start != "anytime" else []
+    # The first that reaches beyond a time is found, not looked for.
+    reach_s = list(accumulate((last_s + BETWEEN_S for _, last_s in taken), max))
     events: list[GestureEvent] = []
     free_s = -np.inf
     for place, start_s, end_s in zip(found.tolist(), starts_s.tolist(), ends_s.tolist(), strict=True):
-        for first_s, last_s in taken:
+        for first_s, last_s in islice(taken, bisect_right(reach_s, start_s), None):
+            if first_s >= end_s + BETWEEN_S:
+                break
             # One thing after another, as long as the rest has room for it.
-            if first_s < end_s + BETWEEN_S and start_s < last_s + BETWEEN_S:
+            if start_s < last_s + BETWEEN_S:
                 start_s, end_s = last_s + BETWEEN_S, end_s + last_s + BETWEEN_S - start_s
         if start_s < free_s or end_s <= start_s or not may_start(gesture, start_s, end_s, times, lowered):
             continue
@@ -409,20 +417,19 @@ def without_overruled(events: tuple[E, ...]) -> tuple[E, ...]:
     """Events without those of rules where the animator put one of the same kind: what is placed by hand wins. The very
     same tuple where nothing is left out."""
     placed = [event for event in events if event.corrected and ":rule:" not in event.id]
-    spans: dict[str, list[tuple[float, float]]] = {}
+    by_kind: dict[str, list[tuple[float, float]]] = {}
     for event in placed:
-        spans.setdefault(event.id.split(":", 1)[0], []).append((event.start_s, event.end_s))
-    if not spans:
+        by_kind.setdefault(event.id.split(":", 1)[0], []).append((event.start_s, event.end_s))
+    if not by_kind:
         return events
+    spans = {kind: Spans(placed_s) for kind, placed_s in by_kind.items()}
     kept = tuple(event for event in events if event.corrected or not _is_overruled(event, spans))
     return kept if len(kept) < len(events) else events
 
 
-def _is_overruled(event: GestureEvent | ExpressionEvent, spans: Mapping[str, list[tuple[float, float]]]) -> bool:
+def _is_overruled(event: GestureEvent | ExpressionEvent, spans: Mapping[str, Spans]) -> bool:
     kind, *rest = event.id.split(":", 2)
-    if rest[:1] != ["rule"]:
-        return False
-    return any(start_s < event.end_s and event.start_s < end_s for start_s, end_s in spans.get(kind, ()))
+    return rest[:1] == ["rule"] and kind in spans and spans[kind].meet(event.start_s, event.end_s)
 
 
 def lowered_spans_s(gestures: tuple[GestureEvent, ...]) -> tuple[tuple[float, float], ...]:

@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 from bisect import bisect_left, bisect_right
 from collections.abc import Sequence
+from operator import itemgetter
 from typing import NamedTuple, TypeAlias
 
 import numpy as np
@@ -70,9 +71,13 @@ class SharedLine(NamedTuple):
 
     def holds(self, place: Place, length_s: float) -> bool:
         """Whether a note of this length is held here about as long."""
-        return place in self.known and any(
-            self.places[index] == place and own_s >= ABOUT * length_s for index, own_s in self.held_s
-        )
+        if place not in self.known:
+            return False
+        for index in self.notes_at(place):
+            held = bisect_left(self.held_s, index, key=itemgetter(0))
+            if held < len(self.held_s) and self.held_s[held][0] == index and self.held_s[held][1] >= ABOUT * length_s:
+                return True
+        return False
 
 
 class Breathed(NamedTuple):
@@ -131,11 +136,13 @@ def shared_with(memo: Memo, line: SharedLine, others: tuple[SharedLine, ...], br
     for first in range(0, len(breathed), COMPARED):
         caught |= memo.nested(f"unison:{first}", _caught_by_some, line, breathed[first : first + COMPARED], first)
     held = []
+    taken: dict[Place, list[float]] = {}
+    for place, at_s in (pair for other in breathed for pair in other.within if line.held_s):
+        taken.setdefault(place, []).append(at_s)
     for index, length_s in line.held_s:
         place = line.places[index]
         if any(other.holds(place, length_s) for other in others):
-            taken = (at_s for other in breathed for own, at_s in other.within if own == place)
-            held.append((index, tuple(sorted(taken))))
+            held.append((index, tuple(sorted(taken.get(place, ())))))
     return Shared(frozenset(caught), tuple(held))
 
 
