@@ -15,7 +15,9 @@ from hypothesis import strategies as st
 from app.cli import main
 
 ROOT = Path(__file__).parents[3]
-SEED_FILE = (ROOT / "tests" / "data" / "midi" / "ensemble" / "trumpet_duet_bach_minuet.mid").read_bytes()
+_DUET = (ROOT / "tests" / "data" / "midi" / "ensemble" / "trumpet_duet_bach_minuet.mid").read_bytes()
+SEED_FILE = _DUET.replace(b"staffA:", b"Trumpet").replace(b"staffB:", b"Trumpet")
+"""A piece whose names say who plays."""
 QUARTET = ROOT / "resources" / "examples" / "quartet.mid"
 
 
@@ -32,7 +34,8 @@ def check(data: bytes) -> None:
         path.write_bytes(data)
         status, out, err = run(["inspect", str(path), "--json"])
     if status == 0:
-        assert err == ""
+        # Where the damage is in a name, nothing says which instrument plays the part.
+        assert err == "" or err.startswith(f"suisou: {path}: nothing says which instruments play ")
         json.loads(out, parse_constant=lambda name: refuse(name))
     else:
         assert status == 1

@@ -297,12 +297,12 @@ def test_a_player_without_an_instrument_is_a_problem_and_the_others_play(
     assert generator.live.pose(others[0].id, 1.0) is not None
 
 
-def test_a_piece_that_cannot_be_played_is_reported_and_the_last_performance_stays(
+def test_an_edit_that_makes_a_piece_too_long_is_refused_and_the_last_performance_stays(
     session: Session, generator: Generator
 ) -> None:
     reported: list[tuple[Message, Severity]] = []
     session.noticed.connect(lambda message, severity: reported.append((message, severity)))
-    before, score = session.performance, session.project.score
+    before, project, score = session.performance, session.project, session.project.score
     slow = msgspec.structs.replace(
         score.tempo_map,
         changes=tuple(
@@ -310,9 +310,9 @@ def test_a_piece_that_cannot_be_played_is_reported_and_the_last_performance_stay
         ),
     )
     session.apply(EDIT, replace(session.project, score=msgspec.structs.replace(score, tempo_map=slow)))
-    assert [(message.id, severity) for message, severity in reported] == [("piece.too_long", Severity.ERROR)]
+    assert [(message.id, severity) for message, severity in reported] == [("project.not_storable", Severity.ERROR)]
+    assert session.project is project
     assert session.performance is before
-    session.document.undo()
     assert generator.up_to_date
 
 

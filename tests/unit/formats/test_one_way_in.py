@@ -24,7 +24,6 @@ OUR_OWN = {
     "app/formats/atomic.py": {"open"},
     "app/formats/usd.py": {"open"},
     # What the system says of this process.
-    "app/formats/fbx/foreign_child.py": {"read_text"},
     # Files of ours, written a moment ago.
     "app/export/unreal/check.py": {"open", "read_bytes"},
 }

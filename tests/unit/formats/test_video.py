@@ -14,7 +14,7 @@ import pytest
 from app.child_limits import ChildLimits
 from app.errors import Cancelled, FileError
 from app.formats.film_sound import film_sound
-from app.formats.video import VideoFacts, video_facts, video_pictures
+from app.formats.video import VideoFacts, VideoPictures, video_facts, video_pictures
 from tests.support.films import SIZE, number_of, written
 
 PICTURES = 200
@@ -164,17 +164,21 @@ def test_a_file_that_is_not_there(tmp_path: Path) -> None:
 
 
 @pytest.mark.skipif(os.name != "posix", reason="Windows has jobs")
+def read_to_end(pictures: VideoPictures) -> None:
+    while pictures.read() is not None:
+        pass
+
+
 def test_pictures_whose_reader_is_ended_are_worded_and_those_that_are_stopped_are_not(
     film: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     with video_pictures(str(film), Fraction(24), SIZE) as pictures:
         assert pictures.read() is not None
         pictures.stop()
-        while pictures.read() is not None:
-            pass
+        read_to_end(pictures)
     monkeypatch.setattr("app.child_limits.LIMITS", {"ffmpeg.pictures": ChildLimits(2**30, cpu_s=1.0)})
     with (
         video_pictures(str(film), Fraction(48000), (1920, 1080)) as pictures,
         pytest.raises(FileError, match=r"video\.too_costly"),
     ):
-        list(iter(pictures.read, None))
+        read_to_end(pictures)
