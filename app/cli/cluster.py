@@ -7,10 +7,12 @@ Messages (`UsageError`): ``dask.missing``; ``dask.unreachable`` (address, reason
 
 from __future__ import annotations
 
+import socket
 from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import Executor, ThreadPoolExecutor
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any, Final
+from urllib.parse import urlsplit
 
 from app.cli.batch_inputs import own_digests, program_digest
 from app.errors import UsageError
@@ -19,8 +21,11 @@ from app.version import program_version
 if TYPE_CHECKING:
     from distributed import Client
 
-CONNECT_S: Final = 10.0
+REACH_S: Final = 3.0
+"""The longest that is waited for a computer to answer at all."""
+CONNECT_S: Final = 6.0
 """The longest that scheduler and workers are waited for, each."""
+_BY_TCP: Final = ("tcp", "tls")
 
 
 @contextmanager
@@ -36,6 +41,7 @@ def cluster_executor(address: str) -> Iterator[Executor]:
         from distributed import Client
     except ImportError as error:
         raise UsageError("dask.missing") from error
+    _reach(address)
     try:
         client = Client(address, timeout=CONNECT_S)  # type: ignore[no-untyped-call]
     except (OSError, ValueError) as error:
@@ -43,6 +49,17 @@ def cluster_executor(address: str) -> Iterator[Executor]:
     with client:
         _check_workers(client, address)
         yield client.get_executor(pure=False)  # type: ignore[no-untyped-call]
+
+
+def _reach(address: str) -> None:
+    """Raise ``dask.unreachable`` where nothing listens at a TCP address: a client would go on trying, and take as long
+    again to give up."""
+    try:
+        place = urlsplit(address)
+        if place.scheme in _BY_TCP and place.hostname and place.port:
+            socket.create_connection((place.hostname, place.port), timeout=REACH_S).close()
+    except (OSError, ValueError) as error:
+        raise UsageError("dask.unreachable", address=address, reason=str(error)) from error
 
 
 def _check_workers(client: Client, address: str) -> None:

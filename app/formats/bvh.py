@@ -5,8 +5,8 @@ own OFFSET is zero (some readers add it to the channels, others replace it), rot
 the frame time with enough digits for a long take. Source: M. Meredith, S. Maddock, "Motion Capture File Formats
 Explained" (University of Sheffield, 2001).
 
-Messages (with ``file``): ``file.cannot_read``, ``bvh.syntax``, ``bvh.truncated``, ``bvh.motion``, ``bvh.too_large``,
-``bvh.unsupported``.
+Messages (with ``file``): ``file.cannot_read``, ``bvh.syntax``, ``bvh.truncated``, ``bvh.motion``,
+``bvh.frame_time`` (found), ``bvh.frames`` (found), ``bvh.too_large``, ``bvh.unsupported``.
 """
 
 from __future__ import annotations
@@ -296,7 +296,11 @@ def _motion(motion: str, hierarchy: _Hierarchy, file: str) -> BvhClip:
     except (IndexError, ValueError) as error:
         raise FileError("bvh.motion", file=file, detail="a number is missing or damaged") from error
     width = sum(len(channels) for channels in hierarchy.channels)
-    if not 1e-6 < frame_time < 1e6 or not 1 <= frames < 2**31 or not np.isfinite(values).all():
+    if not 1e-6 < frame_time < 1e6:
+        raise FileError("bvh.frame_time", file=file, found=words[4][:40])
+    if not 1 <= frames < 2**31:
+        raise FileError("bvh.frames", file=file, found=words[1][:40])
+    if not np.isfinite(values).all():
         raise FileError("bvh.motion", file=file, detail="a number is out of range")
     if len(values) != frames * width:
         raise FileError("bvh.motion", file=file, detail=f"{len(values)} numbers for {frames} frames of {width}")

@@ -59,6 +59,18 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         "{file}: the motion does not match the skeleton ({detail})",
         "{file}: モーションがスケルトンに一致しません（{detail}）",
     ),
+    "bvh.frame_time": (
+        "{file}: 'Frame Time: {found}' is not the duration of a frame; enter it in seconds, such as 0.0333333 for 30 "
+        "frames per second",
+        (
+            "{file}: 「Frame Time: {found}」はフレームの長さではありません。"
+            "秒で指定してください（30 フレーム/秒なら 0.0333333）"
+        ),
+    ),
+    "bvh.frames": (
+        "{file}: 'Frames: {found}' is not a number of frames; enter how many rows of motion follow",
+        "{file}: 「Frames: {found}」はフレーム数ではありません。続くモーションの行数を指定してください",
+    ),
     "bvh.too_large": (
         "{file} declares far more data than its size allows; export only the motion",
         "{file} の内容がファイルのサイズに対して大きすぎます。モーションだけを書き出してください",

@@ -6,6 +6,7 @@ Everything that a piece asks for by time (bars, beats, frames) is bounded by its
 
 from __future__ import annotations
 
+import math
 from typing import Final
 
 from app.errors import Argument
@@ -53,7 +54,8 @@ def too_long(score: Score, end_tick: int | None = None) -> dict[str, Argument] |
     if end <= LAST_TICK and hours <= MOST_HOURS and quarters <= MOST_QUARTERS and bars <= MOST_BARS:
         return None
     return {
-        "hours": round(hours, 1),
+        # Rounded up: 12.001 hours are more than 12.
+        "hours": math.ceil(10.0 * hours - 1e-6) / 10.0,
         "quarters": quarters,
         "bars": bars,
         "most_hours": MOST_HOURS,
