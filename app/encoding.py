@@ -48,7 +48,7 @@ def guessed(data: bytes) -> str:
 
 
 def is_encoding(name: str) -> bool:
-    """Whether it is the name of an encoding that turns any bytes into text."""
+    """Return whether it is the name of an encoding that turns any bytes into text."""
     try:
         # Looks it up, which an empty text does not; one that is for ASCII alone fails.
         b"ab\xff".decode(name, errors="replace")

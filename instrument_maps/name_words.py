@@ -44,7 +44,7 @@ _KANA_SPELLED = {
 
 
 def is_wide(word: str) -> bool:
-    """Whether a word is a kana, kanji or hangul."""
+    """Return whether a word is a kana, kanji or hangul."""
     return _WIDE.match(word) is not None
 
 

@@ -123,7 +123,7 @@ def _new(
 
 
 def _ask(requirements: Sequence[Requirement], python: str, system: System) -> list[dict] | None:
-    """What pip would install; None where it cannot."""
+    """Return what pip would install; None where it cannot."""
     with tempfile.TemporaryDirectory() as folder:
         report = Path(folder) / "report.json"
         asked = subprocess.run(

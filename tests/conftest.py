@@ -74,5 +74,5 @@ def touched(monkeypatch: pytest.MonkeyPatch) -> Iterator[Touched]:
 
 @pytest.fixture(autouse=True)
 def _no_host_agreed(monkeypatch: pytest.MonkeyPatch) -> None:
-    """What one test agrees to is unknown to the next."""
+    """Forget after each test what it agreed to."""
     monkeypatch.setenv(AGREED, "")

@@ -62,7 +62,7 @@ class _Forward(soundfile.SoundFile):  # type: ignore[misc]
 
     @property
     def is_seekable(self) -> bool:
-        """Whether its length is known."""
+        """Return whether its length is known."""
         return bool(super().seekable())
 
     def seekable(self) -> bool:

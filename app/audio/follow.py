@@ -145,7 +145,7 @@ class _Prepared:
 
 
 def _found(prepared: _Prepared, reached: Callable[[float], None]) -> tuple[Following | None, RunnerUp | None]:
-    """What is likeliest, however sure, and the second likeliest place."""
+    """Return what is likeliest, however sure, and the second likeliest place."""
     shapes, recorded = prepared.shapes, prepared.recorded
     result = _followed(prepared, slice(0, shapes.shape[1]))
     reached(0.4)
@@ -210,7 +210,7 @@ def _ratio_of(prepared: _Prepared, following: Following) -> float:
 
 
 def _later_s(one: Following, other: Following) -> float:
-    """How much later beats are, in the middle of all."""
+    """Return how much later beats are, in the middle of all."""
     return float(np.median(one.recording_s - other.recording_s))
 
 
@@ -292,8 +292,8 @@ def _pins(score: Score, pinned: Mapping[int, float]) -> Pins:
 
 
 def _beats(beat_s: Floats, times: Floats, found: Floats, warped: Warped, pins: Pins) -> Floats:
-    """When the beats sound: by the onsets around each, else by the warping; at least `LEAST_GAP_S` apart, and pinned
-    ones where they are pinned."""
+    """Return when the beats sound: by the onsets around each, else by the warping; at least `LEAST_GAP_S` apart, and
+    pinned ones where they are pinned."""
     result = warped.at(beat_s)
     # What the onsets say beside the warping, so that between them its tempo goes on.
     aside = found - warped.at(times)

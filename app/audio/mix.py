@@ -33,7 +33,7 @@ def player_phrases(project: Project, player: Player) -> tuple[Phrase, ...]:
 
 
 def percussion_phrases(project: Project) -> tuple[Phrase, ...]:
-    """What the synthesiser renders for the percussion that no player plays."""
+    """Return what the synthesiser renders for the percussion that no player plays."""
     return drum_phrases(project.score.percussion, project.score.tempo_map)
 
 

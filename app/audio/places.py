@@ -40,7 +40,7 @@ class Place:
 
 
 def is_other(one: Place, other: Place) -> bool:
-    """Whether two places are more than a rounding apart."""
+    """Return whether two places are more than a rounding apart."""
     return abs(one.start_s - other.start_s) > LEAST_APART_S
 
 

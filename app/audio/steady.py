@@ -89,7 +89,7 @@ def _refined(edges: Floats, times: Floats, first_s: float, last_s: float) -> tup
 
 
 def _strength(edges: Floats, at_s: Floats) -> Floats:
-    """How strongly notes begin at some seconds of the recording."""
+    """Return how strongly notes begin at some seconds of the recording."""
     places = at_s / ONSET_S
     result: Floats = np.interp(places.ravel(), np.arange(len(edges)), edges, left=0.0, right=0.0).reshape(at_s.shape)
     return result

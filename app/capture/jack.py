@@ -60,7 +60,7 @@ class ServerWatch:
 
     @property
     def is_connected(self) -> bool:
-        """Whether a server ran at the beginning."""
+        """Return whether a server ran at the beginning."""
         return self._client is not None
 
     def _report(self, _: int | None) -> None:

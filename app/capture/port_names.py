@@ -105,7 +105,7 @@ def matching(requested: str, names: Sequence[str], *, partly: bool = False) -> t
 
 
 def _identity(full: str, index: int, system: str) -> str:
-    """What is known of one device: without the number of its place in the list."""
+    """Return what is known of one device: without the number of its place in the list."""
     return full.removesuffix(f" {index}") if system == "winmm" else full
 
 
@@ -153,6 +153,6 @@ def _of_client(client: str, port: str) -> str:
 
 
 def _key(name: str) -> str:
-    """What names of one device have in common."""
+    """Return what names of one device have in common."""
     client, colon, port = _OF_A_KIND.sub("", name).partition(":")
     return (_of_client(client, port) if colon else client).casefold()

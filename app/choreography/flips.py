@@ -177,7 +177,7 @@ def _mend(turns: FloatArray, name: str, longest: int, clip: MotionClip) -> list[
 
 
 def _returns(turns: FloatArray, there: IntArray, jumps: FloatArray, longest: int, least: float) -> IntArray:
-    """Where a segment is back after it turned away, for each of some frames before that; -1 where it is not."""
+    """Return where a segment is back after it turned away, for each of some frames before that; -1 where it is not."""
     stops = np.full(len(there), -1)
     for length in range(2, longest + 2):
         open_ = np.flatnonzero((stops < 0) & (there + length < len(turns)))

@@ -77,7 +77,7 @@ class Outcome(msgspec.Struct, frozen=True):
 
     @property
     def whole(self) -> bool:
-        """Whether every player of a complete file was exported."""
+        """Return whether every player of a complete file was exported."""
         return self.status == DONE and not self.incomplete
 
 

@@ -99,7 +99,7 @@ def check_worker(worker: str, answer: Mapping[str, Any] | BaseException) -> None
 
 
 def machine_facts() -> dict[str, Any]:
-    """What a worker says of the machine that it runs on: its program and the user's own files there."""
+    """Return what a worker says of the machine that it runs on: its program and the user's own files there."""
     return {"version": program_version(), "program": program_digest(), "own": own_digests()}
 
 

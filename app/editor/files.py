@@ -441,7 +441,7 @@ class Files(QObject):
 
     @property
     def can_leave_out(self) -> bool:
-        """Whether the project could be saved without some of its values, if it cannot be as it is."""
+        """Return whether the project could be saved without some of its values, if it cannot be as it is."""
         return salvaged(self.session.project) is not None
 
     def leave_out(self) -> None:

@@ -201,7 +201,7 @@ def _next_phrases(
 
 
 def _voices(project: Project) -> dict[str, Player | None]:
-    """What sounds, by id; None is the percussion."""
+    """Return what sounds, by id; None is the percussion."""
     voices: dict[str, Player | None] = {player.id: player for player in project.players}
     return voices | {PERCUSSION: None} if project.score.percussion else voices
 

@@ -114,7 +114,7 @@ def kinds_in(report: bytes) -> set[bytes]:
 
 
 def was_ended(status: int) -> bool:
-    """Whether the system ended a process, at a limit or because it crashed."""
+    """Return whether the system ended a process, at a limit or because it crashed."""
     return status < 0 or status >= _WINDOWS_CRASH
 
 

@@ -101,7 +101,7 @@ def _frames(data: bytes | mmap) -> Iterator[tuple[int, _Frame]]:
 
 
 def _resumed(data: bytes | mmap, at: int, key: int | None) -> int | None:
-    """Where two frames follow one another again, after something else."""
+    """Return where two frames follow one another again, after something else."""
     end = min(at + _RESYNC, len(data) - 4)
     at = data.find(b"\xff", at + 1, end)
     while at >= 0:

@@ -40,7 +40,7 @@ def _choreographer(choreography: str, version: tuple[int, int]) -> Choreographer
 
 
 def too_long_to_dance(frame: TimeFrame) -> Message | None:
-    """Why a performance cannot be danced to: a dance is made as a whole. None where it can."""
+    """Return why a performance cannot be danced to: a dance is made as a whole. None where it can."""
     length_s = frame.end_s - frame.first_frame_s
     if length_s <= MOST_DANCED_S:
         return None

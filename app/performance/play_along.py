@@ -144,7 +144,7 @@ class PlayAlong:
         self._breath.bite(min(max(value, 0.0), 1.0))
 
     def bend(self, time_s: float, value: float) -> None:
-        """How far the pitch is bent, in whole tones."""
+        """Return how far the pitch is bent, in whole tones."""
         self._time(time_s)
         self._breath.bend(value)
 

@@ -150,7 +150,7 @@ def held_plan(plan: PlayerPlan, first: str, found: Sequence[Change], names: Mapp
     ends_s = [end_s for _, end_s in spans]
 
     def meets(start_s: float, end_s: float) -> bool:
-        """Whether an event takes place while the instrument is in the hands."""
+        """Return whether an event takes place while the instrument is in the hands."""
         first = bisect_right(ends_s, start_s)
         return first < len(spans) and spans[first][0] < end_s
 

@@ -32,11 +32,11 @@ class Lowered:
         return Spans((first_s + down_s, last_s - up_s) for first_s, last_s in self._ordered)
 
     def hold(self, start_s: float, end_s: float, down_s: float, up_s: float) -> bool:
-        """Whether a time lies within one of the spans, so long after its start and before its end."""
+        """Return whether a time lies within one of the spans, so long after its start and before its end."""
         return self._narrowed(down_s, up_s).hold(start_s, end_s)
 
     def end_between(self, start_s: float, end_s: float) -> bool:
-        """Whether a span that goes on at one time ends after it, and before another time."""
+        """Return whether a span that goes on at one time ends after it, and before another time."""
         index = bisect_right(self._starts_s, start_s) - 1
         while index >= 0 and self._latest_ends_s[index] > start_s:
             if start_s < self._ordered[index][1] < end_s:

@@ -63,7 +63,7 @@ def stored_faults(project: Project, before: Project | None = None) -> Iterator[F
 
 
 def unit_faults(value: Any, kind: Any, place: str) -> Iterator[Fault]:
-    """What is wrong with one value that is to come back from a file as this type."""
+    """Return what is wrong with one value that is to come back from a file as this type."""
     value = _as_stored(value)
     try:
         decoder = _decoder(kind)

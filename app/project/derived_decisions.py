@@ -27,7 +27,7 @@ _COVERED = 0.9
 
 
 def is_read(project: Project, part: Part) -> bool:
-    """Whether a part is of the MIDI file, not made in the editor."""
+    """Return whether a part is of the MIDI file, not made in the editor."""
     return part.id in project.read_notes or not part.id.startswith(MADE_PART)
 
 
@@ -171,7 +171,7 @@ def _row(
 
 
 def _alike(project: Project, old: Sequence[Part], new: Sequence[Part], quarter: int) -> float:
-    """How much two readings of some streams have in common, 0..1: above all melodies, then lengths."""
+    """Return how much two readings of some streams have in common, 0..1: above all melodies, then lengths."""
     if not new:
         return 0.0
     before = project.score.ticks_per_quarter

@@ -37,7 +37,7 @@ def stored_rate(text: str) -> Fraction | None:
 
 
 def is_storable_rate(rate: Fraction) -> bool:
-    """Whether a project's file can hold a rate."""
+    """Return whether a project's file can hold a rate."""
     return _STORED.fullmatch(str(rate)) is not None
 
 

@@ -49,7 +49,7 @@ def turns_of(part: Part, quarter: int) -> Floats:
 
 
 def _kinship(one: Part, other: Part) -> float:
-    """What speaks for two parts being one beside what they play: decides between parts that play the same."""
+    """Return what speaks for two parts being one beside what they play: decides between parts that play the same."""
     return (
         0.25 * (one.name.casefold() == other.name.casefold())
         + 0.15 * (one.map_id == other.map_id and one.instrument == other.instrument)

@@ -287,7 +287,7 @@ class _Found:
 
     @property
     def is_unchanged(self) -> bool:
-        """Whether the file has the notes that it had, where they were."""
+        """Return whether the file has the notes that it had, where they were."""
         return self.still and not (self.added or self.conflicts) and not any(match.removed for match in self.matches)
 
     @property

@@ -153,7 +153,7 @@ def recognised_streams(
 
 
 def _kinship(mark: TrackMark, stream: TrackChannel) -> float:
-    """What speaks for a stream being the marked one beside what it plays."""
+    """Return what speaks for a stream being the marked one beside what it plays."""
     named = stream.name.casefold() in (mark.called.casefold(), mark.name.casefold())
     return (
         (0.25 if stream.name else 0.1) * named
@@ -166,7 +166,7 @@ def _kinship(mark: TrackMark, stream: TrackChannel) -> float:
 
 
 def _says_who(stream: TrackChannel, mark: TrackMark, choices: Sequence[MapChoice]) -> bool:
-    """Whether a track says who plays it at least as well as it did."""
+    """Return whether a track says who plays it at least as well as it did."""
     found = candidates([stream], choices)
     if found.how is not How.SAID or not found.maps or found.unknown:
         return False
@@ -175,7 +175,7 @@ def _says_who(stream: TrackChannel, mark: TrackMark, choices: Sequence[MapChoice
 
 
 def _understood(track: TrackChannel | TrackMark) -> int:
-    """How much the names of a track tell: 2, an instrument; 1, one perhaps; 0, nothing."""
+    """Return how much the names of a track tell: 2, an instrument; 1, one perhaps; 0, nothing."""
     named = [vocabulary().by_name(text) for text in (track.name, track.instrument_name) if text]
     return max((1 if found.vague else 2 for found in named if found is not None), default=0)
 

@@ -85,7 +85,7 @@ def _kept(place: str, values: tuple[T, ...], places: list[str]) -> tuple[T, ...]
 
 
 def _is_at(place: str, places: list[str]) -> bool:
-    """Whether one of the places is this one, or lies in it."""
+    """Return whether one of the places is this one, or lies in it."""
     return any(one == place or one.startswith((f"{place}.", f"{place}[")) for one in places)
 
 

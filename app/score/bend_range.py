@@ -70,7 +70,7 @@ class BendRanges:
         self._active: dict[int, frozenset[int]] = {}
 
     def semitones(self, channel: int) -> float:
-        """How far a full bend of a channel goes."""
+        """Return how far a full bend of a channel goes."""
         state = self._channels.get(channel)
         return USUAL_SEMITONES if state is None else min(state.semitones + state.cents / 100, 2.0 * MOST_BEND)
 

@@ -106,13 +106,13 @@ def sounding_channels(first: int, channels: Collection[int], zones: Mapping[int,
 
 
 def _one_sound(events: TrackEvents, channels: Collection[int]) -> bool:
-    """Whether the channels that choose a program have the same."""
+    """Return whether the channels that choose a program have the same."""
     programs = (frozenset(program for _, program in events.programs.get(one, [])) for one in channels)
     return len(set(filter(None, programs))) <= 1
 
 
 def _rotate(events: TrackEvents, channels: Collection[int]) -> bool:
-    """Whether a line goes through the channels note by note, all with one sound."""
+    """Return whether a line goes through the channels note by note, all with one sound."""
     spans = _spans(events, channels)
     if not _one_sound(events, channels) or len(spans) < _LEAST_ROTATING or not _is_line(spans):
         return False
@@ -130,7 +130,7 @@ def _spans(events: TrackEvents, channels: Collection[int]) -> list[_Span]:
 
 
 def _is_line(spans: Sequence[_Span]) -> bool:
-    """Whether notes follow one another, at most a legato overlapping."""
+    """Return whether notes follow one another, at most a legato overlapping."""
     near = sum(
         before[1] - after[0] <= _LEGATO_SHARE * min(before[1] - before[0], after[1] - after[0])
         for before, after in pairwise(spans)
@@ -228,7 +228,7 @@ def _moves(points: Mapping[int, float]) -> bool:
 
 
 def _is_dynamics(points: Mapping[int, float], spans: Sequence[_Span]) -> bool:
-    """Whether a controller moves and is up under most notes."""
+    """Return whether a controller moves and is up under most notes."""
     if not _moves(points):
         return False
     ticks = sorted(points)

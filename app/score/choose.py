@@ -221,7 +221,7 @@ def recognised(stream: TrackChannel) -> Instrument | None:
 
 
 def use_of(stream: TrackChannel) -> Use:
-    """What a track is: a melody, a rhythm part, whose notes name the sounds of a drum kit, or sound effects.
+    """Return what a track is: a melody, a rhythm part, whose notes name the sounds of a drum kit, or sound effects.
 
     What the sound module was set to decides, but where that is only what channel 10 or a bank usually is, a name of
     anything but percussion makes it a melody. The name of a drum kit makes a rhythm part of any channel, if its
@@ -236,7 +236,8 @@ def use_of(stream: TrackChannel) -> Use:
 
 
 def _named(stream: TrackChannel) -> tuple[Instrument | None, Instrument | None]:
-    """What the names of a track mean: the first that tells, and the first that may mean a part of any instrument."""
+    """Return what the names of a track mean: the first that tells, and the first that may mean a part of any
+    instrument."""
     words = vocabulary()
     named = [found for text in (stream.name, stream.instrument_name) if text and (found := words.by_name(text))]
     telling = next((found for found in named if not found.vague), None)
@@ -244,12 +245,12 @@ def _named(stream: TrackChannel) -> tuple[Instrument | None, Instrument | None]:
 
 
 def is_named(stream: TrackChannel) -> bool:
-    """Whether someone named a track, not the program that wrote it."""
+    """Return whether someone named a track, not the program that wrote it."""
     return not all(map(_SAYS_NOTHING.fullmatch, (stream.name, stream.instrument_name)))
 
 
 def _names_kit(pitches: Sequence[int]) -> bool:
-    """Whether most notes are bass drums, snare drums, toms, hi-hats and cymbals in General MIDI."""
+    """Return whether most notes are bass drums, snare drums, toms, hi-hats and cymbals in General MIDI."""
     return 2 * sum(map(_KIT_NOTES.__contains__, pitches)) > len(pitches)
 
 

@@ -275,7 +275,7 @@ def rhythm_parts(streams: Sequence[TrackChannel], assignments: Sequence[PartAssi
 
 
 def _crowd(most: int, hours: float) -> Message:
-    """Why no more than so many players play a piece."""
+    """Return why no more than so many players play a piece."""
     if most == MOST_PARTS:
         return Message("score.too_many_players", {"most": most})
     return Message("score.too_many_for_hours", {"most": most, "hours": round(hours, 1)})

@@ -53,7 +53,7 @@ def _key(stream: TrackChannel) -> tuple[object, ...]:
 
 
 def follow_one_another(streams: Sequence[TrackChannel]) -> bool:
-    """Whether streams are regions of one track, in their order."""
+    """Return whether streams are regions of one track, in their order."""
     if len(streams) < 2 or len(set(map(_key, streams))) > 1:
         return False
     return all(

@@ -160,7 +160,8 @@ def repaired(data: bytes, until: int | None = None) -> Repaired:
 
 
 def _goes_on(data: bytes, at: int) -> bool:
-    """Whether the event at an offset continues a system exclusive message: an F7 event that begins none itself."""
+    """Return whether the event at an offset continues a system exclusive message: an F7 event that begins none
+    itself."""
     try:
         _, at = _variable_length(data, at)
         if _byte(data, at) != 0xF7:

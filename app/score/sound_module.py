@@ -147,7 +147,7 @@ _ORCHESTRA_SOUNDS: Final[Mapping[int, int]] = {
 
 
 def channel_sounds(tracks: Sequence[Setups], quarter: int) -> list[dict[int, list[tuple[int, ChannelSound]]]]:
-    """What each channel with notes of each track sounds like, and from which tick on.
+    """Return what each channel with notes of each track sounds like, and from which tick on.
 
     A track's own banks and programs go before those of other tracks, for the channels of large scores are shared. Those
     of a track without notes on a channel hold for all that have some; those of other tracks with notes only where a
@@ -224,7 +224,8 @@ def _given(tracks: Sequence[Setups]) -> dict[tuple[Port | None, int], _Given]:
 
 
 def _listening(port: Port) -> tuple[Port | None, ...]:
-    """Where settings may be addressed to that a port heeds: itself, its number without the device's name, all ports."""
+    """Return where settings may be addressed to that a port heeds: itself, its number without the device's name, all
+    ports."""
     return tuple(dict.fromkeys((port, (port[0], b""), None)))
 
 
@@ -249,7 +250,7 @@ class _PartValue(NamedTuple):
 
 
 def _meaning(message: bytes) -> list[_Reset | _PartValue]:
-    """What a system exclusive message says about systems and parts."""
+    """Return what a system exclusive message says about systems and parts."""
     if message[:1] == b"\x7e" and len(message) >= 4 and message[2] == 9:
         systems: dict[int, System] = {1: "gm", 2: "", 3: "gm2"}
         return [_Reset(systems[message[3]])] if message[3] in systems else []
@@ -363,8 +364,8 @@ def _port_modes(rows: Sequence[_Row]) -> list[list[_Step]]:
 
 
 def _channel_mode(channel: int, modes: Mapping[int, bool], receive: Sequence[int]) -> bool | None:
-    """Whether the parts that receive on a channel are rhythm parts, if messages say so: those that were moved there, or
-    the one that has the channel anyway. A melody among them counts."""
+    """Return whether the parts that receive on a channel are rhythm parts, if messages say so: those that were moved
+    there, or the one that has the channel anyway. A melody among them counts."""
     moved = [part for part, own in enumerate(receive) if own == channel != part]
     if moved:
         return all(modes.get(part, part == DRUM_CHANNEL) for part in moved)
@@ -385,7 +386,7 @@ class _State:
 
     @property
     def is_said(self) -> bool:
-        """Whether any message was about the channel itself."""
+        """Return whether any message was about the channel itself."""
         return self.program is not None or self.mode is not None or self.bank is not None
 
     def take(self, step: _Step) -> None:

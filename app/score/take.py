@@ -238,7 +238,7 @@ def is_message(raw: str) -> bool:
 def said(
     message: mido.Message, wiring: ControllerMapping, ranges: BendRanges | None = None
 ) -> Iterator[tuple[CurveKind, float]]:
-    """What a message says of breath, bite and bend, as values of a part's curves.
+    """Return what a message says of breath, bite and bend, as values of a part's curves.
 
     Parameters
     ----------

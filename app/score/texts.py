@@ -135,7 +135,7 @@ class _Encoding(msgspec.Struct, frozen=True):
 
 
 def _evidence(encoding: str, data: bytes) -> float:
-    """How much the vocabulary knows of a name in an encoding, by more than its ASCII letters."""
+    """Return how much the vocabulary knows of a name in an encoding, by more than its ASCII letters."""
     text = data[:_MOST_BYTES].decode(encoding, errors="replace")
     found = vocabulary().by_name(text)
     if found is None or found == vocabulary().by_name(_NOT_ASCII.sub(" ", text)):
@@ -162,7 +162,7 @@ def _cost_of(encoding: str) -> Callable[[str], float]:
 
 
 def _cost(encoding: str, data: bytes) -> float:
-    """How unlikely bytes are as a text in an encoding."""
+    """Return how unlikely bytes are as a text in an encoding."""
     text = data.decode(encoding, errors="replace")
     return _cost_of(encoding)(text)
 
@@ -198,7 +198,7 @@ def _wide_cost(frequent: frozenset[str], level: Callable[[str], float]) -> Calla
 
 
 def _is_half(c: str) -> bool:
-    """Whether a character is a half width kana or a mark of one."""
+    """Return whether a character is a half width kana or a mark of one."""
     return "\uff61" <= c <= "\uff9f"
 
 

@@ -133,17 +133,17 @@ class TrackEvents(msgspec.Struct):
 
     @property
     def said_of_sounds(self) -> Setups:
-        """What the track says about the sounds of channels."""
+        """Return what the track says about the sounds of channels."""
         first_onsets = {channel: notes.onset_ticks[0] for channel, notes in self.channels.items()}
         return Setups(self.setups, first_onsets, self.port)
 
     def sound_at(self, channel: int, tick: int) -> ChannelSound:
-        """What a channel with notes sounds like at a tick."""
+        """Return what a channel with notes sounds like at a tick."""
         changes = self.sounds[channel]
         return changes[max(bisect_right(changes, tick, key=itemgetter(0)) - 1, 0) if len(changes) > 1 else 0][1]
 
     def is_melodic(self, channel: int) -> bool:
-        """Whether a channel is nothing but a melody's."""
+        """Return whether a channel is nothing but a melody's."""
         return all(sound.use == "melodic" for _, sound in self.sounds[channel])
 
     def take_turns(self, channels: Collection[int]) -> bool:

@@ -142,7 +142,7 @@ def _widgets_die_here(qapp: QApplication) -> Iterator[None]:
 
 @pytest.fixture(autouse=True)
 def _faults_of_the_program_fail(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
-    """What the program's own crash handler takes fails the test, unless it is marked ``at_fault``.
+    """Fail a test whose faults the program's own crash handler takes, unless it is marked ``at_fault``.
 
     Other uncaught exceptions are pytest-qt's, and pytest's own for threads and finalisers.
     """

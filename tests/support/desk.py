@@ -74,7 +74,7 @@ class Desk:
         return held.part(held.players[0]).notes
 
     def chosen(self) -> list[tuple[Note, Note | None]]:
-        """What was selected, before and after."""
+        """Return what was selected, before and after."""
         after = {note.id: note for note in self.notes()}
         ids = self.seen["notes"]
         assert isinstance(ids, frozenset)
@@ -90,7 +90,7 @@ class Desk:
         ]
 
     def dialog(self, name: str) -> bool:
-        """Whether a dialog is up; it is closed."""
+        """Return whether a dialog is up; it is closed."""
         found = [
             widget for widget in QApplication.topLevelWidgets() if isinstance(widget, QDialog) and widget.isVisible()
         ]
@@ -100,7 +100,7 @@ class Desk:
         return names == [name]
 
     def menu(self, *entries: str) -> bool:
-        """Whether a menu is up that has these entries; it is closed."""
+        """Return whether a menu is up that has these entries; it is closed."""
         popup = QApplication.activePopupWidget()
         if popup is None:
             return False

@@ -393,7 +393,7 @@ class ImportDialog(Retranslated, QDialog):
         return [] if self._outcome is None else [self._maps[id_] for id_ in self._outcome.instruments_of(assignment)]
 
     def _can_choose(self, row: ImportRow) -> bool:
-        """Whether a row that is not requested has an instrument to choose."""
+        """Return whether a row that is not requested has an instrument to choose."""
         return row.assignment.map_id == PERCUSSION or self._asks(row)
 
     def _asks(self, row: ImportRow) -> bool:

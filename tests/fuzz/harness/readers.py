@@ -139,7 +139,7 @@ def danced(path: Path, folder: Path) -> None:
 
 
 def piece_metadata(path: Path, folder: Path) -> None:
-    """What was said of the acting of another piece, loaded into one that is planned and saved."""
+    """Return what was said of the acting of another piece, loaded into one that is planned and saved."""
     from app.performance.ensemble import Performance
     from app.project.piece_metadata import load_metadata, with_metadata
 

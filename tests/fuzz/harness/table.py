@@ -27,7 +27,7 @@ class Cost(NamedTuple):
 
     @property
     def is_beyond(self) -> bool:
-        """Whether it costs more than the goal or fails."""
+        """Return whether it costs more than the goal or fails."""
         result = self.result
         return bool(result.failure) or result.cpu_s > GOAL_CPU_S or result.peak_mb > GOAL_MB
 

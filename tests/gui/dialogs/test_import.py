@@ -341,7 +341,7 @@ def kits(qt_app: QApplication, qtbot: QtBot, tmp_path: Path) -> ImportDialog:
 
 
 def shown(dialog: ImportDialog) -> list[tuple[bool, str]]:
-    """Whether each row is played, and the instrument that it says."""
+    """Return whether each row is played, and the instrument that it says."""
     rows = []
     for place in range(3):
         play, instrument = (

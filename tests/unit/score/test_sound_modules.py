@@ -68,7 +68,7 @@ def bank(msb: int, channel: int = 10) -> bytes:
 
 
 def found(*tracks: bytes) -> tuple[int, int, list[str]]:
-    """How many notes players have, how many hits there are, and why parts have no player."""
+    """Return how many notes players have, how many hits there are, and why parts have no player."""
     score = score_of(header(1, len(tracks)) + b"".join(chunk(b"MTrk", events + END) for events in tracks))
     played = sum(len(part.notes) for part in score.parts)
     return played, len(score.percussion), [part.reason.id for part in score.unplayed]
