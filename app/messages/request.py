@@ -115,21 +115,21 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
     ),
     "judged.sparsely": (
         (
-            "contacts were checked at {rate:g} frames/s only, because the piece lasts {hours:g} hours; export some "
-            "bars to check them at the full rate"
+            "contacts were checked at {rate:g} frames/s only: {players} {players:player|players} for {minutes:g} "
+            "{minutes:minute|minutes} are much motion; export some bars to check them at the full rate"
         ),
         (
-            "曲の長さが {hours:g} 時間あるため、接触は {rate:g} フレーム/秒だけで調べました。"
+            "奏者 {players} 人、{minutes:g} 分のモーションは多いため、接触は {rate:g} フレーム/秒だけで調べました。"
             "一部の小節を書き出すと、すべてのフレームを調べられます"
         ),
     ),
     "judged.not": (
         (
-            "contacts were not checked: {players} {players:player|players} for {hours:g} hours are too much motion to "
-            "generate here; export some bars to check them"
+            "contacts were not checked: {players} {players:player|players} for {minutes:g} "
+            "{minutes:minute|minutes} are too much motion to generate here; export some bars to check them"
         ),
         (
-            "接触は調べませんでした: 奏者 {players} 人、{hours:g} 時間のモーションは多すぎます。"
+            "接触は調べませんでした: 奏者 {players} 人、{minutes:g} 分のモーションは多すぎます。"
             "一部の小節を書き出して調べてください"
         ),
     ),

@@ -1,6 +1,6 @@
 """All that is wrong with a player's performance, its generated motion included: the same in every report.
 
-Messages: ``judged.sparsely`` (rate, hours), ``judged.not`` (players, hours, most).
+Messages: ``judged.sparsely`` (rate, players, minutes), ``judged.not`` (players, minutes).
 """
 
 from __future__ import annotations
@@ -94,10 +94,12 @@ def _looked(performance: Performance, players: int, notes: int) -> tuple[_Looked
     if stride == usual:
         return _Looked(fps / usual, 1), None
     frame, rate = performance.time_frame, float(fps) / stride
-    hours = round((frame.end_s - frame.first_frame_s) / 3600.0, 1)
+    minutes = max(1, round((frame.end_s - frame.first_frame_s) / 60.0))
     if rate < LEAST_PER_S:
-        return None, Message("judged.not", {"players": players, "hours": hours})
-    return _Looked(fps / stride, 1), Message("judged.sparsely", {"rate": round(rate, 1), "hours": hours})
+        return None, Message("judged.not", {"players": players, "minutes": minutes})
+    return _Looked(fps / stride, 1), Message(
+        "judged.sparsely", {"rate": round(rate, 1), "players": players, "minutes": minutes}
+    )
 
 
 def judged_problems(performance: Performance, performer: Performer, motion: Motion) -> tuple[Problem, ...]:

@@ -99,5 +99,5 @@ def test_hours_of_many_players_are_not_looked_at(rates: list[tuple[Fraction, int
     assert not rates
     assert notice is not None
     assert notice.id == "judged.not"
-    assert notice.arguments == {"players": 9, "hours": 11.1}
+    assert notice.arguments == {"players": 9, "minutes": 667}
     assert problems.keys() == {player.id for player in performance.project.players}
