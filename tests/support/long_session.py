@@ -48,9 +48,11 @@ class Footprint:
     ----------
     memory_mb : float
         Resident, once the allocator has returned what is free.
-    threads, files, processes, timers, widgets, objects : int
-        Python's threads, open file descriptors, child processes, active timers of Qt, widgets, all objects of Qt below
-        the application and its windows.
+    threads, files, processes, widgets, objects : int
+        Python's threads, open file descriptors, child processes, widgets, all objects of Qt below the application and
+        its windows.
+    timers : Counter
+        Active timers of Qt, by their parent's class and their interval.
     values : Counter
         Python's objects of our classes and of the drawing libraries, by class.
     widgets_by_class : Counter
@@ -60,7 +62,7 @@ class Footprint:
     threads: int
     files: int
     processes: int
-    timers: int
+    timers: Counter[str]
     widgets: int
     objects: int
     values: Counter[str]
@@ -69,7 +71,7 @@ class Footprint:
     def __str__(self) -> str:
         return (
             f"{self.memory_mb:7.1f} MB, {self.threads} threads, {self.files} files, {self.processes} processes, "
-            f"{self.timers} timers, {self.widgets} widgets, {self.objects} objects, {self.values.total()} values"
+            f"timers {dict(self.timers)}, {self.widgets} widgets, {self.objects} objects, {self.values.total()} values"
         )
 
 
@@ -99,7 +101,11 @@ def footprint() -> Footprint:
         threads=threading.active_count(),
         files=sum(1 for _ in Path("/proc/self/fd").iterdir()),
         processes=len(multiprocessing.active_children()) + len(_children()),
-        timers=sum(isinstance(each, QTimer) and each.isActive() for each in found.values()),
+        timers=Counter(
+            f"{type(each.parent()).__name__} {each.interval()} ms"
+            for each in found.values()
+            if isinstance(each, QTimer) and each.isActive()
+        ),
         widgets=len(QApplication.allWidgets()),
         objects=len(found),
         values=values,

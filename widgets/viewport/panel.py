@@ -437,8 +437,9 @@ class ViewportPanel(Retranslated, QWidget):
         self._update()
 
     def _wait(self) -> None:
-        """Look again soon, as long as poses are missing or may still change after an edit."""
-        waiting = self.scene.missing or perf_counter() < self._settle_until_s
+        """Look again soon, as long as anyone is there whose pose is missing or may still change after an edit."""
+        stage, changing = self.scene.stage, self.scene.missing or perf_counter() < self._settle_until_s
+        waiting = changing and stage is not None and bool(stage.members)
         if waiting and not self._waiter.isActive():
             self._waiter.start()
         elif not waiting:

@@ -13,7 +13,7 @@ import msgspec
 import numpy as np
 import numpy.typing as npt
 import pytest
-from PySide6.QtCore import QEvent, QPoint, QPointF, Qt
+from PySide6.QtCore import QEvent, QPoint, QPointF, Qt, QTimer
 from PySide6.QtGui import QAction, QMouseEvent, QWheelEvent
 from PySide6.QtWidgets import QApplication, QMenu, QToolButton, QWidget
 from pytestqt.qtbot import QtBot
@@ -23,12 +23,14 @@ from app.editor.session import Session
 from app.editor.tokens import LIGHT
 from app.editor.viewport_state import VIEWS
 from app.errors import AppError, Message
+from app.performance.ensemble import Performance
 from app.plan.corrections import PoseCorrection
 from app.project.casting import StagePosition
 from app.project.edit.dancers import add_dancer, place_dancers
+from app.project.edit.piece import new_piece
 from app.project.edit.players import parameter_edit
 from app.project.model import Project
-from tests.gui.conftest import quartet_project
+from tests.gui.conftest import planned_quartet, quartet_project
 from tests.gui.viewport.conftest import AT_S, SIZE, MadeNow
 from tests.support.dances import model
 from tests.support.windows import show
@@ -590,7 +592,7 @@ from PySide6.QtWidgets import QApplication, QLabel
 from app.errors import AppError
 app = QApplication(["suisou"])
 from app.shell.language import Language
-from tests.gui.conftest import quartet_project
+from tests.gui.conftest import planned_quartet, quartet_project
 from tests.support.tasks import ImmediateTasks
 from app.editor.session import Session
 from widgets.viewport.panel import ViewportPanel
@@ -675,6 +677,19 @@ def test_what_an_edit_made_is_drawn_at_once_unless_a_picture_takes_long(
         viewport.draw_now()
         assert len(drawn) == count
         assert viewport._canvas.drawing_s > 0.0
+
+
+def test_it_looks_for_changed_poses_while_anyone_is_there(viewport: ViewportPanel, session: Session) -> None:
+    def looking() -> bool:
+        return any(timer.isActive() for timer in viewport.findChildren(QTimer))
+
+    session.set_performance(Performance(session.project, planned_quartet()))
+    assert looking()
+    # After a piece is closed there is nobody, however short a while ago plans arrived.
+    session.document.open(new_piece())
+    assert not looking()
+    session.set_performance(Performance(session.project))
+    assert not looking()
 
 
 def test_a_picture_needs_no_visible_window(qtbot: QtBot, session: Session, poses: MadeNow, shot: Shot) -> None:
