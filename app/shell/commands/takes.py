@@ -144,6 +144,20 @@ def _has_row(session: Session) -> bool:
     return _has_chosen(session) or (session.selection.take == BEFORE and bool(_takes(session)))
 
 
+def _can_take_whole(session: Session) -> bool:
+    return _has_chosen(session) or (session.selection.take == BEFORE and _differs_from_before(session))
+
+
+def _differs_from_before(session: Session) -> bool:
+    """Return whether the part is no longer what it was before the first take."""
+    player = session.player
+    recorded = session.project.takes.get(player.id) if player is not None else None
+    if player is None or recorded is None or not recorded.takes:
+        return False
+    part = session.project.part(player)
+    return bool(recorded.comp) or (part.notes, part.curves) != (recorded.before_notes, recorded.before_curves)
+
+
 def _can_listen(editor: Editor) -> bool:
     return editor.session.playback is not None and _has_row(editor.session)
 
@@ -177,7 +191,7 @@ ACTIONS: tuple[Action | EditorAction, ...] = (
         enabled=_can_listen,
         icon="solo",
     ),
-    Action("takes.whole", whole, "record/takes", enabled=_has_row, icon="check"),
+    Action("takes.whole", whole, "record/takes", enabled=_can_take_whole, icon="check"),
     Action(
         "takes.above",
         on_timeline(lambda view: view.step_take(-1)),
@@ -196,7 +210,7 @@ ACTIONS: tuple[Action | EditorAction, ...] = (
         enabled=_can_step,
         icon="chevron_down",
     ),
-    Action("takes.before", before, "record/takes", enabled=_has_takes, icon="history"),
+    Action("takes.before", before, "record/takes", enabled=_differs_from_before, icon="history"),
     Action(
         "takes.rename",
         on_timeline(lambda view: view.ask_take_name()),

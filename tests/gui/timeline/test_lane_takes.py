@@ -412,3 +412,32 @@ def test_rows_keep_their_places_when_the_tempo_changes(lane: TakesLane) -> None:
 def test_double_clicking_a_row_is_no_swipe(lane: TakesLane) -> None:
     double_click(lane, place(lane, 3, 1))
     assert steps(lane) == []
+
+
+def test_the_part_goes_back_to_what_was_before_only_where_it_is_something_else(lane: TakesLane) -> None:
+    going_back = [lane.session.actions[id] for id in ("takes.whole", "takes.before")]
+
+    def can_go_back() -> list[bool]:
+        menu = lane.menu()
+        found = [action.isEnabled() for action in going_back]
+        menu.deleteLater()
+        return found
+
+    lane.choose(BEFORE)
+    QApplication.processEvents()
+    assert can_go_back() == [False, False]
+    lane.choose("take:2")
+    QApplication.processEvents()
+    assert can_go_back() == [True, False]
+    lane.session.actions["takes.whole"].trigger()
+    for action in going_back:
+        taken = lane.session.project
+        lane.choose(BEFORE)
+        QApplication.processEvents()
+        assert can_go_back() == [True, True]
+        action.trigger()
+        QApplication.processEvents()
+        assert lane.session.project is not taken
+        assert can_go_back() == [False, False]
+        lane.session.document.undo()
+        QApplication.processEvents()
