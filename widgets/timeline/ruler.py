@@ -225,7 +225,8 @@ class Ruler(Retranslated, Strip):
     def edit_mark(self, kind: str, tick: int) -> None:
         """Type the tempo or the metre at a tick; where there is none, add one."""
         mark = next((mark for mark in self._marks if (mark.kind, mark.tick) == (kind, tick)), None)
-        left = mark.rect.left() if mark is not None else self.x_px(tick)
+        # The start of a bar may lie to the left of what is shown.
+        left = mark.rect.left() if mark is not None else max(self.x_px(tick), GUTTER_PX)
         self._editor.open(kind, tick, mark_text(self.session.project.score, kind, tick), left, MARKS_PX + 2)
 
     def _type(self, kind: str, tick: int, text: str) -> None:

@@ -55,6 +55,18 @@ def choose(menu: QMenu, text: str) -> None:
     QApplication.processEvents()
 
 
+def test_a_metre_of_a_bar_that_begins_out_of_sight_is_typed_in_sight(stage: Stage) -> None:
+    clock = stage.session.project.score.tempo_map
+    stage.panel.axis.show(clock.seconds(BAR + 2.0 * TPQ), clock.seconds(3.0 * BAR))
+    ruler = ruler_of(stage)
+    ruler.edit_mark("metre", BAR)
+    editor = ruler.findChild(QLineEdit, "mark_editor")
+    assert editor is not None
+    assert editor.visibleRegion().boundingRect() == editor.rect()
+    type_into(stage, "3/4")
+    assert stage.session.project.score.metre_map.metres[-1].tick == BAR
+
+
 def test_a_click_seeks(stage: Stage) -> None:
     sought: list[float] = []
     stage.panel.sought.connect(sought.append)
