@@ -2,9 +2,8 @@
 
 A line reads ``name = subjects + others``: of a button by its object name (with that of a widget above it where several
 share it), of an entry of the table of actions by its id, of other entries of menus by place and text. ``*`` stands for
-anything. Each of the subjects changes; the others, and `BESIDES`, may. After ``?`` nothing may change where it is so
-already; in some state it does. After ``~`` it need not change anything in these
-states: `tests.gui.shell.test_what_actions_do` and tests of the panel make one in which it does.
+anything. Each of the subjects changes; the others, and `BESIDES`, may. After ``?`` the subjects may stay where it is so
+already; in some state they change.
 """
 
 from __future__ import annotations
@@ -22,7 +21,7 @@ BESIDES: Final = frozenset(
 _LINES: Final = """
 # The start page, the status line and the title of the window
 start_open = asked
-start_new = file page panels project
+start_new = file page panels project + lanes
 start_example, start_danced_example = file page players project + dancer panels
 midi_device, stream_state = dialog
 palette_button = palette popup
@@ -36,9 +35,9 @@ file.open, file.import_midi, file.add_character, file.save, file.save_as, file.r
 file.add_audio, file.add_video, file.export_midi, file.save_metadata, file.load_metadata = asked
 file.compare_metadata, file.metadata_folder = asked
 file.open_example, file.open_danced_example = project + asked file page players panels selection dancer lanes
-file.reimport, file.rules, file.piece_settings, file.evaluation_results = dialog
+file.reimport, file.rules, file.piece_settings, file.evaluation, file.evaluation_results = dialog
 file.close = file page panels project + asked players selection dancer recording tool
-export.files = dialog
+export.files, export.playblast = dialog
 application.characters, application.instruments, application.preferences, application.shortcuts = dialog
 application.about, record.devices, record.latency, stream.settings, dancers.learn, dancers.choreography = dialog
 application.palette = palette popup
@@ -57,8 +56,7 @@ notes.tool_*, tool_select, tool_draw, tool_erase, tool_split ? tool
 notes.split ? project + selection
 notes.quantise = popup quantise
 notes.* = project + selection
-fingering.type_0, fingering.type_1, fingering.type_3 ? project
-fingering.type_* ~ notice + project
+fingering.type_* ? project
 fingering.* = project
 events.gesture, events.expression, events.style = popup
 events.preparation, events.give_back, events.give_back_player = project + selection
@@ -116,7 +114,6 @@ takes_remove, takes.remove = project + selection lanes
 take_swatch = popup
 take_beats, takes.find_beats ? notice + project
 takes.rename ? lanes
-takes.before, takes.above, takes.whole ~ project + selection
 takes.* ? project + selection
 problems.* ? selection + players
 
@@ -127,15 +124,14 @@ timeline.ghosts, timeline.all, timeline.alone, ghosts_mode > * ? ghosts + lanes
 */fold ? lanes + project
 lanes.*, lanes_menu > *, lane header > * ? lanes
 front_player ? players
-lane breath > * ~ project + selection
+lane breath > * ? project + selection
 lane fingering > *, lane acting > takers > *, lane acting > givers > * ? project + selection
 lane acting > * ? project + selection
 ruler > Select Bar = selection
-ruler > Add Time Signature at This Bar ~ typing
 ruler > * ? typing
 slider > Copy Value = copied
 slider > Type Value = typing
-slider > Paste Value ~ project
+slider > Paste Value = project
 slider > * ? project
 
 # Playing and recording
@@ -143,7 +139,7 @@ play_to_start, play.to_start, play.to_end, play.frame_*, play.note_*, play.bar_*
 play_toggle, play.toggle, play.bar = playing + recording
 play_stop, play.stop ? sought + playing recording
 play_loop, play.loop = loop
-play_click, play.click, play.scrub, play.speed_*, play.source_*, sound_source ? sound
+play_click, play.click, play.percussion, play.scrub, play.speed_*, play.source_*, sound_source ? sound
 play_follow, play.follow = follow
 play.estimate_offset, play.fit_tempo = work + project
 play.follow_recording = dialog
@@ -158,7 +154,7 @@ recording_record_devices, recording_record_latency = dialog
 # Looks
 pitch.*, pitch_octave.*, pitch_names.* ? pitch
 theme.* ? theme
-language.en ~ language
+language.en ? language
 language.ja = language
 generate.* = project
 """
@@ -175,15 +171,14 @@ class Row:
         Subjects that change.
     besides : frozenset of str
         Others that may change.
-    may_be_idle, is_free : bool
-        Whether nothing may change in some state, or in every state.
+    may_be_idle : bool
+        Whether nothing may change in some states.
     """
 
     pattern: str
     changes: frozenset[str]
     besides: frozenset[str]
     may_be_idle: bool
-    is_free: bool
 
 
 def _rows() -> dict[str, Row]:
@@ -191,13 +186,11 @@ def _rows() -> dict[str, Row]:
     for line in _LINES.strip().splitlines():
         if not line or line.startswith("#"):
             continue
-        mark = next(mark for mark in (" ? ", " ~ ", " = ") if mark in line)
+        mark = " ? " if " ? " in line else " = "
         names, _, subjects = line.partition(mark)
         changes, _, others = subjects.partition(" + ")
         for name in names.split(", "):
-            rows[name] = Row(
-                name, frozenset(changes.split()), BESIDES | frozenset(others.split()), mark != " = ", mark == " ~ "
-            )
+            rows[name] = Row(name, frozenset(changes.split()), BESIDES | frozenset(others.split()), mark == " ? ")
     return rows
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections import defaultdict
+from collections import Counter, defaultdict
 from collections.abc import Callable, Iterator
 from functools import partial
 
@@ -10,11 +10,12 @@ from PySide6.QtCore import QPoint, Qt
 from PySide6.QtGui import QAction, QContextMenuEvent
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QAbstractButton, QApplication, QComboBox, QMainWindow, QMenu, QToolButton, QWidget
+from shiboken6 import isValid
 
 from app.shell.app import Program
 from tests.support import mouse
 from tests.support.click_table import expected
-from tests.support.window_state import Watcher, changed, names_of
+from tests.support.window_state import Watcher, Widgets, changed, names_of
 from widgets.common.section import SectionHeader
 
 Path = tuple[str, ...]
@@ -24,16 +25,18 @@ Open = Callable[[], QMenu | None]
 CALM = frozenset(("sought", "view", "framed", "shown", "posing", "sound", "time", "pitch", "ghosts", "tool", "follow"))
 """What may stay changed before the next click."""
 NOTHING = frozenset(("unchanged",))
+TRIES = 4
+"""Places at which an entry of a context menu is clicked that does nothing."""
 CHOSEN = frozenset(("chosen already",))
 """Of several exclusive choices the one that holds was clicked, and nothing changed."""
 
 
 def controls(window: QMainWindow) -> dict[str, QWidget]:
     """Buttons, choices and titles of sections that can be seen, by name; Qt's own parts are left out."""
+    widgets = Widgets(window)
     found: list[QWidget] = [
         widget
-        for kind in (QAbstractButton, QComboBox, SectionHeader)
-        for widget in window.findChildren(kind)
+        for widget in (*widgets[QAbstractButton], *widgets[QComboBox], *widgets[SectionHeader])
         if widget.isVisible()
         and widget.window() is window
         and not widget.objectName().startswith("qt_")
@@ -161,7 +164,7 @@ class Clicker:
     Attributes
     ----------
     seen : dict of str to dict of str to frozenset of str
-        Of every control and entry what its click changed, by state.
+        Of every control and entry what its click changed, by state and, for an entry, its menu.
     state : str
     """
 
@@ -172,8 +175,8 @@ class Clicker:
         self.state = ""
         self._turn = 0
 
-    def _note(self, name: str, found: frozenset[str]) -> None:
-        self.seen[name][self.state] = found
+    def _note(self, name: str, found: frozenset[str], where: str = "") -> None:
+        self.seen[name][f"{self.state}, {where}" if where else self.state] = found
         close_menus()
         if found - CALM - NOTHING - CHOSEN:
             self._again()
@@ -181,9 +184,12 @@ class Clicker:
     def buttons(self, every: bool = True) -> None:
         """Click every button and choice that is there and is not greyed out; unless ``every``, of those that the table
         has in one row only one, another in each state."""
-        found = list(controls(self._window))
-        for name in found if every else self._one_of_each(found):
-            control = controls(self._window).get(name)
+        found = controls(self._window)
+        for name in list(found) if every else self._one_of_each(list(found)):
+            control: QWidget | None = found[name]
+            if not isValid(control) or not control.isVisible():
+                # Perhaps it was made again.
+                control = controls(self._window).get(name)
             if control is None or not control.isEnabled() or has_menu_only(control):
                 continue
             if is_chosen_already(control):
@@ -213,16 +219,18 @@ class Clicker:
         self._turn += 1
         return [alike[self._turn % len(alike)] for alike in rows.values()]
 
-    def entries(self, menu_name: str, open_menu: Open, skipped: Callable[[Path], bool] = lambda path: False) -> None:
-        """Click every entry of a menu and its submenus."""
+    def entries(
+        self, menu_name: str, open_menu: Open, skipped: Callable[[Path], bool] = lambda path: False, where: str = ""
+    ) -> None:
+        """Click every entry of a menu and its submenus; ``where`` tells several menus of a name apart."""
         menu = open_menu()
         if menu is None:
             return
         paths = [path for path in leaves(menu) if not skipped(path)]
         close_menus()
         for path in paths:
-            name = path[-1] if path[-1] in self._program.session.actions else f"{menu_name} > {' > '.join(path)}"
-            for is_last in (False, True):
+            name = self._full_name(menu_name, path)
+            for tries_left in (2, 1, 0):
                 try:
                     found = self._choose(open_menu, path)
                     if found == CHOSEN and (other := self._beside(open_menu, path)) is not None:
@@ -231,10 +239,19 @@ class Clicker:
                 except (AssertionError, StopIteration, RuntimeError) as error:
                     found = frozenset((f"fault: {error!r}",))
                 close_menus()
-                # A display may close a menu by itself once, when the window behind it comes to the front.
-                if is_last or (found != NOTHING and not any(each.startswith("fault") for each in found)):
-                    self._note(name, found)
+                # A display may close a menu by itself, when the window behind it comes to the front.
+                fails = any(each.startswith("fault") for each in found)
+                if tries_left == 0 or not (fails or (found == NOTHING and tries_left == 2)):
+                    self._note(name, found, where or menu_name)
                     break
+
+    def _full_name(self, menu_name: str, path: Path) -> str:
+        return path[-1] if path[-1] in self._program.session.actions else f"{menu_name} > {' > '.join(path)}"
+
+    def _has_acted(self, name: str) -> bool:
+        """Return whether a click has already changed what the table says."""
+        row = expected(name)
+        return row is not None and any(row.changes <= found for found in self.seen.get(name, {}).values())
 
     def _choose(self, open_menu: Open, path: Path) -> frozenset[str]:
         menu = open_menu()
@@ -262,11 +279,10 @@ class Clicker:
         return others[0] if others and subject != "language" else None
 
     def bar(self, every: bool = True) -> None:
-        """Click every entry of the menu bar; unless ``every``, those that no click has changed anything by so far."""
+        """Click every entry of the menu bar; unless ``every``, those whose effect no click has shown so far."""
 
         def skipped(path: Path) -> bool:
-            known = any(found - NOTHING - CHOSEN for found in self.seen.get(path[-1], {}).values())
-            return path[-1] == "file.quit" or (known and not every)
+            return path[-1] == "file.quit" or (self._has_acted(path[-1]) and not every)
 
         bar = self._window.menuBar()
         for menu in [menu for path, menu in self._window.menus.menus.items() if "/" not in path]:
@@ -300,21 +316,29 @@ class Clicker:
                 self.entries(name, open_menu)
 
     def context_menus(self, spots: dict[str, QWidget], columns: int = 8, rows: int = 3) -> None:
-        """Click every entry of the context menus that places of widgets have; each entry once."""
+        """Click every entry of the context menus that places of widgets have, at up to `TRIES` places until it acts."""
         for spot, widget in spots.items():
             if not widget.isVisible():
                 continue
-            known: set[Path] = set()
-            for place in places(widget, columns, rows):
+            tried: Counter[Path] = Counter()
+            for number, place in enumerate(places(widget, columns, rows)):
                 menu = menu_under(widget, place)
                 if menu is None:
                     close_menus()
                     continue
-                new = {path for path in leaves(menu) if f"{spot} > {' > '.join(path)}" not in self.seen} - known
+                new = {path for path in leaves(menu) if self._is_tried_again(spot, path, tried[path])}
                 close_menus()
-                known |= new
+                tried.update(new)
                 if new:
-                    self.entries(spot, partial(menu_under, widget, place), partial(_is_known, new))
+                    self.entries(
+                        spot, partial(menu_under, widget, place), partial(_is_known, new), f"{spot} at {number}"
+                    )
+
+    def _is_tried_again(self, spot: str, path: Path, tries: int) -> bool:
+        name = self._full_name(spot, path)
+        if self._has_acted(name):
+            return tries == 0 and name in self._program.session.actions
+        return tries < TRIES
 
 
 def _is_known(new: set[Path], path: Path) -> bool:

@@ -12,18 +12,20 @@ import msgspec
 import numpy as np
 import pytest
 import soundfile
-from PySide6.QtWidgets import QApplication, QDialog
+from PySide6.QtCore import Qt
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QApplication, QDialog, QLineEdit
 
 from app.editor.selection import EventKey, Selection
 from app.editor.tokens import DARK
 from app.errors import Message
 from app.plan.model import PlayerPlan
 from app.project.edit.piece import set_audio, set_video
-from app.project.edit.takes import add_takes
+from app.project.edit.takes import add_takes, comp_whole
 from app.project.grid import Grid
 from app.project.model import Project
 from app.project.performers import Player
-from app.score.model import Note
+from app.score.model import Note, PercussionHit
 from app.shell.app import Program
 from tests.gui.conftest import QUARTET
 from tests.support.films import written
@@ -170,6 +172,18 @@ def recorded(take_id: str, span: tuple[int, int] | None = None, alone: bool = Fa
     return ready
 
 
+def recorded_and_taken(desk: Desk) -> None:
+    recorded("take:1")(desk)
+    desk.session.attempt(
+        Message("edit.comp_whole", {"take": "1"}), lambda project: comp_whole(project, desk.player.id, "take:1")
+    )
+
+
+def has_percussion(desk: Desk) -> None:
+    score = msgspec.structs.replace(desk.project.score, percussion=(PercussionHit(0, 36, 90),))
+    desk.session.attempt(Message("edit.piece_settings"), lambda project: dataclasses.replace(project, score=score))
+
+
 def quieten(desk: Desk, looks: bool = True) -> None:
     """Stop the sound, close menus and dialogs, and show everything as it was at first; the language and the theme only
     where ``looks`` says so."""
@@ -182,12 +196,16 @@ def quieten(desk: Desk, looks: bool = True) -> None:
     for widget in QApplication.topLevelWidgets():
         if isinstance(widget, QDialog) and widget.isVisible():
             widget.close()
+    field = QApplication.focusWidget()
+    if isinstance(field, QLineEdit):
+        # What is being typed is not meant.
+        QTest.keyClick(field, Qt.Key.Key_Escape)
     if looks:
         program.editor.speak("en")
         session.set_tokens(DARK)
     session.pitch_display.set(written=False, middle_c_octave=4, syllables=False)
     session.set_time_display("bars")
-    session.listening.set(source="recording", speed=1.0)
+    session.listening.set(source="recording", speed=1.0, percussion=True)
     session.viewport.set_posing(False)
     session.set_grid(Grid())
     session.set_loop(None)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeVar
 
 from PySide6.QtWidgets import (
     QApplication,
@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from tests.gui.shell.conftest import Answers
 
 State = Mapping[str, object]
+W = TypeVar("W", bound=QWidget)
 
 
 def _dialogs() -> frozenset[str]:
@@ -44,6 +45,21 @@ def _popup() -> object:
     return popup.objectName() or type(popup).__name__
 
 
+class Widgets:
+    """The widgets in a window, by kind, found in one pass: each pass over a window costs as much as a click.
+
+    Parameters
+    ----------
+    window : QWidget
+    """
+
+    def __init__(self, window: QWidget) -> None:
+        self._all = window.findChildren(QWidget)
+
+    def __getitem__(self, kind: type[W]) -> list[W]:
+        return [widget for widget in self._all if isinstance(widget, kind)]
+
+
 class Watcher:
     """Takes the state of an editor.
 
@@ -57,6 +73,11 @@ class Watcher:
     def __init__(self, program: Program, answers: Answers) -> None:
         self._program, self._answers = program, answers
         session = program.session
+        stage = program.window.findChild(StageView)
+        both = program.window.findChild(QToolButton, "expression_both")
+        assert stage is not None
+        assert both is not None
+        self._stage, self._both = stage, both
         self._told = dict.fromkeys(("copied", "framed", "notice", "sought", "viewed"), 0)
         for name, signal in (
             ("framed", session.viewport.framed),
@@ -74,7 +95,7 @@ class Watcher:
         """The editor as it is; documents by their identity."""
         program, session = self._program, self._program.session
         window, timeline = program.window, program.window.timeline
-        stage, both = window.findChild(StageView), window.findChild(QToolButton, "expression_both")
+        widgets = Widgets(window)
         listening, recording, video = session.listening, session.recording, session.video
         return {
             "project": session.project,
@@ -99,7 +120,14 @@ class Watcher:
             ),
             "follow": session.follow,
             "preview": session.preview_morphs,
-            "sound": (listening.speed, listening.click, listening.scrub_sound, listening.source, listening.volume),
+            "sound": (
+                listening.speed,
+                listening.click,
+                listening.percussion,
+                listening.scrub_sound,
+                listening.source,
+                listening.volume,
+            ),
             "recording": (recording.armed, recording.punch, recording.count_in_bars, recording.running),
             "streaming": session.streaming.on,
             "video": (video.placement, video.opacity),
@@ -121,14 +149,12 @@ class Watcher:
             "tool": timeline.tool,
             "ghosts": timeline.ghosts,
             "quantise": timeline.quantise.isVisible(),
-            "folded": tuple(section.header.is_open for section in window.findChildren(Section)),
-            "typing": tuple(
-                sorted(field.objectName() for field in window.findChildren(QLineEdit) if field.isVisible())
-            ),
-            "snap": stage is not None and stage.snaps,
-            "both": both is not None and both.isChecked(),
-            "tab": tuple(tabs.currentIndex() for tabs in window.findChildren(QTabWidget)),
-            "choices": tuple((box.objectName(), box.currentIndex()) for box in window.findChildren(QComboBox)),
+            "folded": tuple(section.header.is_open for section in widgets[Section]),
+            "typing": tuple(sorted(field.objectName() for field in widgets[QLineEdit] if field.isVisible())),
+            "snap": self._stage.snaps,
+            "both": self._both.isChecked(),
+            "tab": tuple(tabs.currentIndex() for tabs in widgets[QTabWidget]),
+            "choices": tuple((box.objectName(), box.currentIndex()) for box in widgets[QComboBox]),
             "work": len(program.tasks.names) if isinstance(program.tasks, ImmediateTasks) else 0,
             "copied": self._told["copied"],
         }

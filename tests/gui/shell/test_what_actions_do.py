@@ -7,7 +7,6 @@ import traceback
 from collections.abc import Callable
 from pathlib import Path
 
-import msgspec
 import numpy as np
 import pytest
 from PySide6.QtCore import Qt
@@ -22,10 +21,10 @@ from app.plan.corrections import AddGesture, PinFingering, RemoveEvent, SetBreat
 from app.project.casting import StagePosition
 from app.project.edit.notes import move
 from app.project.edit.players import join, place, set_parameters
-from app.project.edit.takes import comp_whole, set_cleaning
+from app.project.edit.takes import set_cleaning
 from app.project.model import Project, map_choices
 from app.project.piece_metadata import load_metadata, metadata_of, save_metadata
-from app.score.model import Note, PercussionHit
+from app.score.model import Note
 from app.score.read import read_midi
 from app.score.take import Cleaning
 from app.shell.commands.timeline import LANES
@@ -33,7 +32,19 @@ from app.shell.rows import rows
 from instrument_maps.load import bundled_maps
 from metadata.library import FOLDERS
 from tests.gui.conftest import QUARTET
-from tests.support.desk import Deed, Desk, a_breath, afresh, dancing, has_recording, has_video, onset_s, recorded
+from tests.support.desk import (
+    Deed,
+    Desk,
+    a_breath,
+    afresh,
+    dancing,
+    has_percussion,
+    has_recording,
+    has_video,
+    onset_s,
+    recorded,
+    recorded_and_taken,
+)
 from tests.support.tasks import ImmediateTasks
 from tests.support.windows import show_in_front, wait_until
 
@@ -155,11 +166,6 @@ def several(desk: Desk) -> None:
     desk.session.set_players(tuple(player.id for player in desk.project.players[:2]))
 
 
-def has_percussion(desk: Desk) -> None:
-    score = msgspec.structs.replace(desk.project.score, percussion=(PercussionHit(0, 36, 90),))
-    desk.session.attempt(Message("edit.piece_settings"), lambda project: dataclasses.replace(project, score=score))
-
-
 def at(seconds: float) -> Deed:
     return lambda desk: desk.session.set_playhead(seconds)
 
@@ -267,13 +273,6 @@ def own_source(desk: Desk) -> None:
 
 def set_language(code: str) -> Deed:
     return lambda desk: desk.program.editor.speak(code)
-
-
-def recorded_and_taken(desk: Desk) -> None:
-    recorded("take:1")(desk)
-    desk.session.attempt(
-        Message("edit.comp_whole", {"take": "1"}), lambda project: comp_whole(project, desk.player.id, "take:1")
-    )
 
 
 def owners(desk: Desk) -> list[str]:
