@@ -65,10 +65,10 @@ def know_motion(monkeypatch: pytest.MonkeyPatch, plans: Callable[[], Collection[
     """
     make, judge = PerformanceCurves.motion, ContactJudge.breaks
 
-    def made(curves: PerformanceCurves, fps: Fraction, first_frame: int, frames: int) -> Motion:
+    def made(curves: PerformanceCurves, fps: Fraction, first_frame: int, frames: int, every: int = 1) -> Motion:
         known, key = _KNOWN.get(curves), (fps, first_frame, frames)
-        if known is None or frames > MOST_FRAMES:
-            return make(curves, fps, first_frame, frames)
+        if known is None or frames > MOST_FRAMES or every != 1:
+            return make(curves, fps, first_frame, frames, every)
         if key not in known.made:
             known.made[key] = _locked(make(curves, fps, first_frame, frames))
         return known.made[key]
