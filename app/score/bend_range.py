@@ -1,4 +1,4 @@
-"""The range of a channel's pitch bend, and its MPE zones, as registered parameters set them.
+"""The range of a channel's pitch bend, and its MPE zones, as registered parameters and sound modules set them.
 
 Sources: MIDI 1.0 Detailed Specification 4.2 (registered parameters 0/0, pitch bend sensitivity, and 127/127, null);
 RP-018 (data increment and decrement step the cents of a range); RP-015 (reset all controllers deselects the parameter);
@@ -8,9 +8,10 @@ semitones, which all of them share).
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Collection, Iterable, Mapping
 from math import ceil
-from typing import Final
+from typing import Final, NamedTuple
 
 import msgspec
 
@@ -97,6 +98,16 @@ class BendRanges:
             return self._set_zone(channel, value)
         return ()
 
+    def take(self, one: ModuleRange) -> Collection[int]:
+        """Take the range that a message to a sound module sets; the channels that have it then."""
+        if one.channel is None:
+            self._channels.clear()
+            self._active.clear()
+            return range(16)
+        state = self._channels.setdefault(one.channel, _Channel())
+        state.semitones, state.cents = int(one.semitones), 0
+        return (one.channel,)
+
     def _set_range(self, channel: int, state: _Channel, control: int, value: int) -> Collection[int]:
         if control == _DATA:
             # Semitones alone mean no cents; both may come in either order.
@@ -129,6 +140,22 @@ class BendRanges:
         return members | {manager}
 
 
+class ModuleRange(NamedTuple):
+    """The range that a message to a sound module sets (`app.score.sound_module`).
+
+    Attributes
+    ----------
+    channel : int or None
+        None: a reset, which is for all channels.
+    semitones : float
+        Of a full bend upwards; negative where it goes down.
+    """
+
+    tick: int
+    channel: int | None
+    semitones: float
+
+
 class RangeHistory(msgspec.Struct, frozen=True):
     """What some controllers say, in the order of time.
 
@@ -144,14 +171,26 @@ class RangeHistory(msgspec.Struct, frozen=True):
     zones: dict[int, frozenset[int]]
 
     @classmethod
-    def of(cls, controls: Iterable[tuple[int, int, int, int]]) -> RangeHistory:
-        """The history of controllers (tick, channel, control, value)."""
+    def of(cls, controls: Iterable[tuple[int, int, int, int]], modules: Iterable[ModuleRange] = ()) -> RangeHistory:
+        """The history of controllers (tick, channel, control, value) and of messages to a sound module, which come
+        first at a tick; both in the order of time."""
         state = BendRanges()
         ranges: dict[int, dict[int, float]] = {}
+        waiting = deque(modules)
         for tick, channel, control, value in controls:
+            while waiting and waiting[0].tick <= tick:
+                _take(waiting.popleft(), state, ranges)
             for changed in state.receive(channel, control, value):
                 ranges.setdefault(changed, {})[tick] = state.semitones(changed)
+        for one in waiting:
+            _take(one, state, ranges)
         return cls(ranges, state.zones)
+
+
+def _take(one: ModuleRange, state: BendRanges, ranges: dict[int, dict[int, float]]) -> None:
+    """Let a sound module's range take effect."""
+    for channel in state.take(one):
+        ranges.setdefault(channel, {})[one.tick] = state.semitones(channel)
 
 
 def bent(raw: Mapping[int, float], ranges: Mapping[int, float]) -> dict[int, float]:

@@ -15,7 +15,7 @@ from typing import Final
 from app.score.bend_range import RangeHistory, bent
 from app.score.limits import LAST_TICK
 from app.score.model import MOST_BEND, ControllerCurve
-from app.score.sound_module import FIRST_PORT, Port
+from app.score.sound_module import FIRST_PORT, Port, module_ranges
 from app.score.tracks import SentKind, TrackEvents
 from instrument_maps.vocabulary import vocabulary
 
@@ -41,6 +41,7 @@ def settle_bends(tracks: Sequence[TrackEvents]) -> list[dict[int, frozenset[int]
     """Bring the pitch bends of all tracks to the usual range, in place.
 
     A track that sets the range of a channel goes by its own; for another one the other tracks of its port say it.
+    Messages to the sound module of a port are for all of its tracks; its reset ends every bend.
 
     Returns
     -------
@@ -53,16 +54,26 @@ def settle_bends(tracks: Sequence[TrackEvents]) -> list[dict[int, frozenset[int]
         # A conductor's track speaks to every port.
         for heard in rows if events.port is None and not events.channels else (port,):
             rows[heard] += events.parameters
-    said = {port: RangeHistory.of(sorted(own, key=itemgetter(0))) for port, own in rows.items()}
+    modules = module_ranges([events.said_of_sounds for events in tracks], rows)
+    said = {port: RangeHistory.of(sorted(own, key=itemgetter(0)), modules[port]) for port, own in rows.items()}
     zones = []
     for port, events in zip(ports, tracks, strict=True):
         own, shared = RangeHistory.of(events.parameters), said[port]
         zones.append(own.zones or shared.zones)
+        mixed = RangeHistory.of(events.parameters, modules[port]) if own.ranges and modules[port] else own
+        resets = [one.tick for one in modules[port] if one.channel is None]
         for (channel, kind), raw in list(events.controls.items()):
             if kind == "pitch_bend":
-                ranges = own.ranges.get(channel) or shared.ranges.get(channel, {})
-                events.controls[channel, kind] = bent(raw, ranges)
+                ranges = (mixed if channel in own.ranges else shared).ranges.get(channel, {})
+                events.controls[channel, kind] = bent(_ended(raw, resets), ranges)
     return zones
+
+
+def _ended(raw: Mapping[int, float], resets: Sequence[int]) -> Mapping[int, float]:
+    """Pitch bends, each of which a reset of the sound module ends."""
+    ticks = sorted(raw)
+    places = ((tick, bisect_left(ticks, tick)) for tick in resets if tick not in raw)
+    return {**raw, **{tick: 0.0 for tick, place in places if place and raw[ticks[place - 1]]}}
 
 
 def players_channels(events: TrackEvents, name: str, zones: Mapping[int, frozenset[int]]) -> list[tuple[int, ...]]:

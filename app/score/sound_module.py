@@ -9,12 +9,14 @@ GM (General MIDI System Level 1, MMA 1991)
 GS (Roland SC-55 and SC-88 owner's manuals, MIDI implementation)
     "GS Reset" (data set to 40 00 7F) and the mode set of the SC-88 (00 00 7F). "Use for rhythm part" (40 1x 15) makes
     a part a rhythm part (1, 2: a drum map) or a melody (0), block 0 being part 10, 1 to 9 parts 1 to 9, A to F parts 11
-    to 16; 50 1x is the other port's. "Receive channel" (40 1x 02) moves a part to another channel. The bank select has
-    variations, with MT-32 and CM-64 sounds in 126 and 127: no drums. Programs 56 and 57 of a rhythm part are effects.
+    to 16; 50 1x is the other port's. "Receive channel" (40 1x 02) moves a part to another channel. "Bend pitch control"
+    (40 2x 10, 40 to 58) is the range of its bends, 0 to 24 semitones. The bank select has variations, with MT-32 and
+    CM-64 sounds in 126 and 127: no drums. Programs 56 and 57 of a rhythm part are effects.
 XG (Yamaha MU80 and MU100 data lists)
     "XG System On" (00 00 7E), "all parameter reset" (00 00 7F). Bank MSB 127 has drum kits, 126 kits of effects, 64
     effects, anything less melodies, on every channel; "part mode" (08 pp 07) is 0 for a melody, else a drum part, and
-    "receive channel" is 08 pp 04. Parts from 16 on are the second port's.
+    "receive channel" is 08 pp 04, "bend pitch control" 08 pp 23 (28 to 58: -24 to 24 semitones). Parts from 16 on are
+    the second port's.
 GM2 (General MIDI 2, MMA RP-024)
     "GM2 System On" (universal 09 03). Bank MSB 120 is percussion, 121 a melody; program 56 of percussion is effects.
 
@@ -30,11 +32,13 @@ the number of a kit for its program such a channel stays percussion.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from heapq import merge
-from typing import Final, Literal, NamedTuple, TypeAlias
+from typing import Final, Literal, NamedTuple, TypeAlias, TypeVar
 
 import msgspec
+
+from app.score.bend_range import USUAL_SEMITONES, ModuleRange
 
 Use: TypeAlias = Literal["melodic", "rhythm", "effect"]
 System: TypeAlias = Literal["", "gm", "gs", "xg", "gm2"]
@@ -240,12 +244,15 @@ class _Reset(NamedTuple):
     system: System
 
 
+_Parameter: TypeAlias = Literal["mode", "receive", "bend"]
+
+
 class _PartValue(NamedTuple):
     """A parameter of a part, 0..15, that is set by a message."""
 
     other_port: bool
     part: int
-    parameter: Literal["mode", "receive"]
+    parameter: _Parameter
     value: int
 
 
@@ -267,11 +274,12 @@ def _roland(high: int, middle: int, low: int, data: bytes) -> list[_Reset | _Par
         return [_Reset("" if data[0] == 0x7F else "gs")]
     if (high, middle, low) == (0, 0, 0x7F):
         return [_Reset("gs")]
-    if high not in (0x40, 0x50) or middle >> 4 != 1:
+    if high not in (0x40, 0x50) or middle >> 4 not in (1, 2):
         return []
     block = middle & 15
     part = DRUM_CHANNEL if block == 0 else block - 1 if block <= DRUM_CHANNEL else block
-    return _part_values(high == 0x50, part, low, data, receive=0x02, mode=0x15)
+    places: dict[_Parameter, int] = {"receive": 0x02, "mode": 0x15} if middle >> 4 == 1 else {"bend": 0x10}
+    return _part_values(high == 0x50, part, low, data, places)
 
 
 def _yamaha(high: int, middle: int, low: int, data: bytes) -> list[_Reset | _PartValue]:
@@ -280,19 +288,23 @@ def _yamaha(high: int, middle: int, low: int, data: bytes) -> list[_Reset | _Par
         return [_Reset("xg")]
     if high != 8 or middle >= 32:
         return []
-    return _part_values(middle >= 16, middle % 16, low, data, receive=0x04, mode=0x07)
+    return _part_values(middle >= 16, middle % 16, low, data, {"receive": 0x04, "mode": 0x07, "bend": 0x23})
 
 
 def _part_values(
-    other_port: bool, part: int, low: int, data: bytes, receive: int, mode: int
+    other_port: bool, part: int, low: int, data: bytes, places: Mapping[_Parameter, int]
 ) -> list[_Reset | _PartValue]:
     """The parameters that data lie on, which begin at an address."""
-    found: list[_Reset | _PartValue] = []
-    if low <= receive < low + len(data):
-        found.append(_PartValue(other_port, part, "receive", data[receive - low]))
-    if low <= mode < low + len(data):
-        found.append(_PartValue(other_port, part, "mode", data[mode - low]))
-    return found
+    return [
+        _PartValue(other_port, part, parameter, data[place - low])
+        for parameter, place in places.items()
+        if low <= place < low + len(data)
+    ]
+
+
+_Made = TypeVar("_Made")
+_CENTRE, _MOST_BENT = 0x40, 24
+"""The value of a bend of no semitones, and the most semitones."""
 
 
 class _Row(NamedTuple):
@@ -306,14 +318,31 @@ class _Row(NamedTuple):
 
 
 def _modes(tracks: Sequence[Setups], ports: Iterable[Port]) -> dict[Port, list[list[_Step]]]:
-    """Resets and modes by port and channel. A port that no message resets is one of several that a module has, which a
-    reset at another port is for too."""
+    """Resets and modes by port and channel."""
+    return _by_port(tracks, ports, ("receive", "mode"), _port_modes)
+
+
+def module_ranges(tracks: Sequence[Setups], ports: Iterable[Port]) -> dict[Port, list[ModuleRange]]:
+    """Return the ranges of pitch bends that messages to sound modules set, by port, in the order of time."""
+    return _by_port(tracks, ports, ("receive", "bend"), _port_ranges)
+
+
+def _by_port(
+    tracks: Sequence[Setups],
+    ports: Iterable[Port],
+    parameters: Collection[_Parameter],
+    made_of: Callable[[Sequence[_Row]], list[_Made]],
+) -> dict[Port, list[_Made]]:
+    """Resets and some parameters of parts, by port. A port that no message resets is one of several that a module has,
+    which a reset at another port is for too."""
     rows: dict[Port | None, list[_Row]] = {}
     for place, track in enumerate(tracks):
         for setup in track.setups:
             if not isinstance(setup.value, bytes):
                 continue
             for meaning in _meaning(setup.value):
+                if isinstance(meaning, _PartValue) and meaning.parameter not in parameters:
+                    continue
                 port = _addressed(setup.port, track)
                 if isinstance(meaning, _PartValue) and meaning.other_port:
                     number, device = port or FIRST_PORT
@@ -322,17 +351,35 @@ def _modes(tracks: Sequence[Setups], ports: Iterable[Port]) -> dict[Port, list[l
                 rows.setdefault(port, []).append(_Row(setup.tick, rank, place, setup.number, meaning))
     first = {key: sorted(found, key=_order)[:_MOST_CHANGES] for key, found in rows.items()}
     resets = [row for found in first.values() for row in found if isinstance(row.meaning, _Reset)][:_MOST_CHANGES]
-    made: dict[tuple[Port | None, ...], list[list[_Step]]] = {}
-    modes = {}
+    made: dict[tuple[Port | None, ...], list[_Made]] = {}
+    found = {}
     for port in ports:
         heard = tuple(one for one in _listening(port) if one in first)
         if heard not in made:
             own = [row for one in heard for row in first[one]]
             if not any(isinstance(row.meaning, _Reset) for row in own):
                 own += resets
-            made[heard] = _port_modes(sorted(own, key=_order)[:_MOST_CHANGES])
-        modes[port] = made[heard]
-    return modes
+            made[heard] = made_of(sorted(own, key=_order)[:_MOST_CHANGES])
+        found[port] = made[heard]
+    return found
+
+
+def _port_ranges(rows: Sequence[_Row]) -> list[ModuleRange]:
+    """The ranges of one port's channels: a reset is every channel's, a range that of the channel on which its part
+    receives."""
+    receive = list(range(16))
+    found = []
+    for row in rows:
+        meaning = row.meaning
+        if isinstance(meaning, _Reset):
+            receive = list(range(16))
+            found.append(ModuleRange(row.tick, None, USUAL_SEMITONES))
+        elif meaning.parameter == "receive":
+            if meaning.value < 32:
+                receive[meaning.part] = meaning.value if meaning.value < 16 else -1
+        elif receive[meaning.part] >= 0 and abs(meaning.value - _CENTRE) <= _MOST_BENT:
+            found.append(ModuleRange(row.tick, receive[meaning.part], meaning.value - _CENTRE))
+    return found
 
 
 def _order(row: _Row) -> tuple[int, int, int, int]:
