@@ -15,6 +15,7 @@ from app.messages import (
     audio,
     capture,
     choreography,
+    corrections,
     edit,
     evaluation,
     evaluation_conclusions,
@@ -47,6 +48,7 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
     **audio.WORDINGS,
     **capture.WORDINGS,
     **choreography.WORDINGS,
+    **corrections.WORDINGS,
     **edit.WORDINGS,
     **evaluation.WORDINGS,
     **evaluation_conclusions.WORDINGS,
@@ -130,6 +132,8 @@ def text(message: Message, language: str = "en") -> str:
         arguments[name] = pitch_name(float(arguments[name]))
     if message.id in DETAILED:
         arguments["detail"] = detail_text(str(arguments["detail"]), language)
+    if (kind := f"{corrections.PREFIX}{arguments.get('kind')}") in WORDINGS:
+        arguments["kind"] = WORDINGS[kind][place]
     if "touch" in arguments:
         arguments["touch"] = touch_name(str(arguments["touch"]), language)
     for name in TEXTS & arguments.keys():

@@ -1,10 +1,18 @@
-"""Details of what is wrong with a table or a project, in Japanese: those of schemas and of the checks of `metadata` and
-`app.project`; any other stays as it is."""
+"""Details of what is wrong with a table or a project: kinds of corrections in words, and details of schemas and of the
+checks of `metadata` and `app.project` in Japanese; any other stays as it is."""
 
 from __future__ import annotations
 
 import re
-from typing import Final
+from collections.abc import Callable
+from functools import partial
+from typing import Final, TypeAlias
+
+from app.messages import corrections
+
+LANGUAGES: Final = ("en", "ja")
+_AT: Final = ("{what} ({where})", "{what}（{where}）")
+_COMMA: Final = (", ", "、")
 
 _JAPANESE: Final = tuple(
     (re.compile(pattern), wording)
@@ -78,24 +86,46 @@ _JAPANESE: Final = tuple(
         (r"unknown key", "この項目はありません"),
     )
 )
-_NAME = r"""('.*?'|".*?")"""
-_WHERE: Final = re.compile(rf"(.*) \((?:(player|dancer) {_NAME})?(?:, )?(?:bar (-?\d+), )?(?:(\w+) {_NAME})?\)")
-_WHO: Final = {"player": "奏者", "dancer": "ダンサー"}
+_NAME: Final = r"""('.*?'|".*?")"""
+_KIND: Final = "|".join(id.removeprefix(corrections.PREFIX) for id in corrections.WORDINGS)
+_WHERE: Final = re.compile(
+    rf"(.*) \((?:(player|dancer) {_NAME})?(?:, )?(?:bar (-?\d+))?(?:, )?(?:\b({_KIND})(?: {_NAME})?)?\)"
+)
+_PLACES: Final = {
+    "player": ("player {value}", "奏者 {value}"),
+    "dancer": ("dancer {value}", "ダンサー {value}"),
+    "bar": ("bar {value}", "{value} 小節"),
+}
+Label: TypeAlias = Callable[[str, str], str]
 
 
-def detail_text(detail: str, language: str) -> str:
-    """What is wrong, in a language."""
+def detail_text(detail: str, language: str, label: Label = lambda kind, name: name) -> str:
+    """The detail of a message in a language.
+
+    Parameters
+    ----------
+    label : callable
+        The name of a correction as the user knows it, by its kind and its name in the file.
+    """
+    index = LANGUAGES.index(language)
+    place = _WHERE.fullmatch(detail)
+    if place is not None and any(place.groups()[1:]):
+        what, who, name, bar, kind, correction = place.groups()
+        said = [_PLACES[who][index].format(value=name)] if who else []
+        said += [_PLACES["bar"][index].format(value=bar)] if bar else []
+        if kind:
+            word = corrections.WORDINGS[f"{corrections.PREFIX}{kind}"][index]
+            said.append(f"{word} {_labelled(correction, partial(label, kind))}" if correction else word)
+        return _AT[index].format(what=detail_text(what, language), where=_COMMA[index].join(said))
     if language != "ja":
         return detail
-    place = _WHERE.fullmatch(detail)
-    if place is not None and (place[2] or place[5]):
-        what, who, name, bar, kind, correction = place.groups()
-        said = [f"{_WHO[who]} {name}"] if who else []
-        said += [f"{bar} 小節"] if bar else []
-        said += [f"{kind} {correction}"] if kind else []
-        return f"{detail_text(what, language)}（{'、'.join(said)}）"
     for pattern, wording in _JAPANESE:
         found = pattern.fullmatch(detail)
         if found is not None:
             return found.expand(wording)
     return detail
+
+
+def _labelled(quoted: str, label: Callable[[str], str]) -> str:
+    """A quoted name with what the user knows it by, in the same quotes."""
+    return f"{quoted[0]}{label(quoted[1:-1])}{quoted[-1]}"

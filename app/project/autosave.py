@@ -117,9 +117,6 @@ class Writing:
             if rest is None:
                 raise
             place, detail = (str(error.message.arguments[name]) for name in ("place", "detail"))
-            if detail.endswith(")"):
-                # Player, bar and correction are named there; of the key path the value's own name is enough.
-                place = place.rpartition("].")[2]
             without: dict[str, Argument] = {"place": place, "detail": detail, "count": max(len(rest.left_out), 1)}
             written = replace(self, project=rest.project)._run()
             return replace(written, without=Message("autosave.without", without))

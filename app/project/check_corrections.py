@@ -2,20 +2,22 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from functools import partial
-from typing import Any
+from typing import Any, Final
 
 import msgspec
 
 from app.plan.additive_curve import AdditiveCurve
-from app.plan.corrections import Correction, anchor, kind
+from app.plan.corrections import Correction, kind
 from app.project import limits
 from app.project.check_curves import curve_faults
 from app.project.fault import Fault, about, between, id_faults, text_faults
 from app.project.model import Project
 
-_TICKS = (-limits.LAST_TICK, limits.LAST_TICK)
+_KEY: Final = re.compile(r"\.keys\[(\d+)\]")
+_TICKS: Final = (-limits.LAST_TICK, limits.LAST_TICK)
 
 
 def project_correction_faults(project: Project, before: Project | None = None) -> Iterator[Fault]:
@@ -45,19 +47,30 @@ def correction_faults(correction: Correction, place: str) -> Iterator[Fault]:
         yield from _plain_faults(f"{place}.{field}", getattr(correction, field))
 
 
-def _place(project: Project, correction: Correction) -> str:
-    """The bar of a correction, and its kind and name, for a message."""
-    named, score = f"{kind(correction)} {anchor(correction)!r}", project.score
-    tick = _first_tick(project, correction)
+def _place(project: Project, correction: Correction, place: str) -> str:
+    """The bar of a fault, and the kind and the name of its correction, for a message."""
+    name, score = _name(correction), project.score
+    named = f"{kind(correction)} {name!r}" if name else kind(correction)
+    tick = _tick(project, correction, place)
     if tick is None or not score.metres or score.ticks_per_quarter < 1:
         return named
     return f"bar {score.metre_map.bar_of_tick(tick)}, {named}"
 
 
-def _first_tick(project: Project, correction: Correction) -> int | None:
-    """The tick at which a correction begins; None where it is tied to nothing that has a place in the score."""
+def _name(correction: Correction) -> str:
+    """What the panels call a correction: the user's title, or what it is of; empty for those tied to a note."""
+    fields = ("title", "channel", "target", "style", "gesture", "expression")
+    known = (getattr(correction, field, None) for field in fields)
+    return next((name for name in known if isinstance(name, str) and name), "")
+
+
+def _tick(project: Project, correction: Correction, place: str) -> int | None:
+    """The tick of the key at fault, or else where the correction begins; None where it is tied to nothing that has a
+    place in the score."""
     if isinstance(correction, AdditiveCurve):
-        tick = correction.keys[0].tick if correction.keys else None
+        found = _KEY.search(place)
+        index = 0 if found is None else int(found[1])
+        tick = correction.keys[index].tick if correction.keys else None
     else:
         tick = getattr(correction, "start_tick", getattr(correction, "tick", None))
     if tick is None:

@@ -22,19 +22,19 @@ MOST_NAME: Final = 60
 
 
 def about(
-    performer: Player | Dancer | None, found: Iterable[Fault], where: Callable[[], str] = lambda: ""
+    performer: Player | Dancer | None, found: Iterable[Fault], where: Callable[[str], str] = lambda place: ""
 ) -> Iterator[Fault]:
     """Faults of one performer, with its name: a number in a list says little to a reader.
 
     Parameters
     ----------
     where : callable
-        More of the place, e.g. the bar; asked only if there is a fault.
+        More of a fault's place, e.g. the bar, by its key path.
     """
     who = "dancer" if isinstance(performer, Dancer) else "player"
     for place, detail in found:
         named = [] if performer is None else [f"{who} {shortened(performer.name, MOST_NAME)!r}"]
-        said = ", ".join((*named, *filter(None, (shortened(where(), 2 * MOST_NAME),))))
+        said = ", ".join((*named, *filter(None, (shortened(where(place), 2 * MOST_NAME),))))
         yield place, f"{detail} ({said})" if said else detail
 
 

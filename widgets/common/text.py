@@ -8,7 +8,7 @@ from collections.abc import Callable, Mapping
 from app.editor.session import Session
 from app.editor.translated import tr
 from app.errors import Argument, Message
-from app.messages import DETAILED, PITCHES, WORDINGS, filled
+from app.messages import DETAILED, PITCHES, WORDINGS, corrections, filled
 from app.messages.details import detail_text
 from app.messages.pitches import pitch_name
 from app.plan.additive_curve import CHANNELS
@@ -18,7 +18,8 @@ from app.score.model import Note
 from instrument_maps.library import all_maps
 from instrument_maps.model import PARTS
 from widgets.common.channel_names import channel_name
-from widgets.common.event_names import kind_name, pose_name
+from widgets.common.event_names import expression_name, gesture_name, kind_name, pose_name, style_name
+from widgets.common.field_names import field_name
 from widgets.common.instrument_name import instrument_name, language
 from widgets.common.pitch import pitch_text
 
@@ -64,7 +65,9 @@ def _reported(message: Message, name: str, session: Session | None, player_id: s
     if name == "parameter":
         return parameter_text(str(value))
     if name == "detail" and message.id in DETAILED:
-        return detail_text(str(value), language())
+        return detail_text(str(value), language(), _label)
+    if name == "place" and message.id in _STORED:
+        return field_name(str(value))
     words = _WORDS.get(name)
     return words().get(str(value), str(value).replace("_", " ")) if words is not None else value
 
@@ -99,24 +102,20 @@ def _anchor(session: Session, id: str, player: Player | None, is_anchor: bool) -
     return f"{kind_name(kind)} {place}"
 
 
+_STORED = frozenset({"project.cannot_save", "project.not_storable", "autosave.without"})
+"""Messages about a value of the open project: the user does not find it by the key path of a file."""
 _NOTE_ID = re.compile(r"\d+:\d+")
 
 
-def _corrections() -> dict[str, str]:
-    return {
-        "pin_fingering": tr("event.fingering"),
-        "remove": tr("event.removal"),
-        "set_breath": kind_name("breath"),
-        "set_cue": kind_name("cue"),
-        "set_embouchure": tr("event.embouchure"),
-        "change_gesture": tr("event.gesture"),
-        "add_gesture": tr("event.gesture"),
-        "change_expression": kind_name("expression"),
-        "add_expression": kind_name("expression"),
-        "pose": kind_name("pose"),
-        "additive": kind_name("additive"),
-        "vary": kind_name("vary"),
-    }
+def _label(kind: str, name: str) -> str:
+    """What the user knows a correction of a kind by."""
+    if kind == "additive":
+        return channel_name(name)
+    if kind == "pose":
+        return pose_name(name)
+    if kind == "play_style":
+        return style_name(name)
+    return gesture_name(name) if "gesture" in kind else expression_name(name)
 
 
 def _targets() -> dict[str, str]:
@@ -155,7 +154,7 @@ def parameter_text(text_id: str) -> str:
 
 
 _WORDS: Mapping[str, Callable[[], dict[str, str]]] = {
-    "kind": lambda: {tag: word.lower() for tag, word in _corrections().items()},
+    "kind": lambda: {id.removeprefix(corrections.PREFIX): tr(id) for id in corrections.WORDINGS},
     "target": _targets,
     "side": lambda: {"left": tr("word.left"), "right": tr("word.right")},
     "touch": _touches,

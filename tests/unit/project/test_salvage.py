@@ -35,7 +35,7 @@ def test_a_correction_is_left_out_and_everything_else_is_kept() -> None:
     assert rest.project == project
     [(place, detail)] = rest.left_out
     assert place.endswith(".keys[0].value")
-    assert detail == "must be from -180 to 180 (player 'Trompete: 1/2', bar 1, additive 'a1')"
+    assert detail == "must be from -180 to 180 (player 'Trompete: 1/2', bar 1, additive 'bell.up')"
 
 
 @pytest.mark.parametrize(
@@ -92,7 +92,7 @@ def test_the_autosave_goes_on_without_it_and_says_which_value_it_is(tmp_path: Pa
             autosave.written(writing, written)
             assert written.without is not None
             for language in LANGUAGES:
-                assert "a1" in text(written.without, language)
+                assert "bell.up" in text(written.without, language)
             titles.append(load(autosave_path(document)).score.title)
             assert autosave.has(project)
         # What was written before gives the seed that cannot be saved; the title is the new one.
