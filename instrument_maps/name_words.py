@@ -27,6 +27,8 @@ _SPELLING = re.compile(r"ph|oe|ue|y|(?<=[^\W\d_])([b-df-hj-np-tv-z])\1(?=[aeiouy
 _SPELLED = {"ph": "f", "oe": "o", "ue": "u", "y": "i"}
 """Greek, German and Italian spellings; a doubled consonant between vowels is written once."""
 _MARKED = re.compile(r"[^\x00-\x7f]")
+_LETTERS = {"œ": "oe", "æ": "ae", "ø": "o", "ł": "l", "đ": "d", "ı": "i"}
+"""Letters that Unicode does not decompose, and what they are written as without their marks."""
 _KANA = re.compile("ー|ヴ[ァィェォ]?|フォ|テュ|ウィ|ウェ|ウォ")
 _KANA_SPELLED = {
     "ー": "",
@@ -74,6 +76,6 @@ def _unmarked(found: re.Match[str]) -> str:
     if _WIDE.match(found[0]):
         return found[0]
     # "Bässe" are no "Basse"; ö and ü are more often written without their dots than as two letters.
-    letter = "oe" if found[0] in "œŒ" else found[0]
-    decomposed = unicodedata.normalize("NFD", letter).replace("a\u0308", "ae")
+    letter = found[0].casefold()
+    decomposed = unicodedata.normalize("NFD", _LETTERS.get(letter, letter)).replace("a\u0308", "ae")
     return "".join(c for c in decomposed if not unicodedata.combining(c))

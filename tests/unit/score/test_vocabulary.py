@@ -1,12 +1,16 @@
-"""What instruments are called, in eight languages."""
+"""What instruments are called, in many languages."""
 
 import tomllib
+import unicodedata
+from pathlib import Path
 
 import pytest
 
 from app.errors import MapError
 from instrument_maps.library import all_maps
 from instrument_maps.vocabulary import PATH, Instrument, Vocabulary, vocabulary
+
+DATA = Path(__file__).parents[2] / "data"
 
 
 @pytest.mark.parametrize(
@@ -94,3 +98,33 @@ def test_a_name_that_belongs_to_two_is_refused() -> None:
 def test_names_in_chinese_korean_and_russian_and_of_wind_controllers(id_: str, names: str) -> None:
     found = {name: vocabulary().by_name(name) for name in names.split("|")}
     assert {name: one.id if one else None for name, one in found.items()} == dict.fromkeys(found, id_)
+
+
+NAMES = {
+    line.partition(": ")[0]: line.partition(": ")[2].split(" | ")
+    for line in (DATA / "instrument_names.txt").read_text(encoding="utf-8").splitlines()
+    if not line.startswith("#")
+}
+
+
+@pytest.mark.parametrize("id_", NAMES)
+def test_names_as_notation_programs_have_them_in_many_languages(id_: str) -> None:
+    for name in NAMES[id_]:
+        spoken = [name, f"{name} 1", f"2. {name}", name.upper(), name.lower()]
+        if max(name) < "\u0370" and not {*"äæ"} & {*name.lower()}:
+            spoken.append(unmarked(name))
+        for text in spoken:
+            found = vocabulary().by_name(text)
+            assert found is not None, text
+            assert found.id == id_ or id_ == found.kind == "percussion", (text, found.id)
+
+
+def unmarked(name: str) -> str:
+    """A name as it is written where its marks cannot be typed."""
+    letters = unicodedata.normalize("NFD", name.translate(str.maketrans("łŁøØı", "lLoOi")))
+    return "".join(letter for letter in letters if not unicodedata.combining(letter))
+
+
+def test_every_instrument_with_a_map_has_names_in_many_languages() -> None:
+    played = {id_ for instrument in all_maps().values() for id_ in instrument.plays}
+    assert played - NAMES.keys() == {"euphonium_baritone_Bb_treble"}
