@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 import contextlib
 import os
-import tempfile
 import time
 from datetime import datetime
 from itertools import count as count_from
@@ -25,6 +24,7 @@ from app.encoding import shown
 from app.errors import AppError, Argument, FileError, Message, UsageError
 from app.formats.locks import is_locked
 from app.messages import text
+from app.project.journals import second_folder
 from app.score.write_take import write_take
 from metadata.load import recognised_controller
 
@@ -91,15 +91,9 @@ def record(arguments: argparse.Namespace) -> int:
     return _write(target, journal, arguments.tempo)
 
 
-def second_place(target: Path) -> Path | None:
-    """A folder for a recording whose own folder takes nothing more, on another disk where there is one; None: no folder
-    can be made."""
-    found: list[tuple[bool, int, Path]] = []
-    for folder in (platformdirs.user_state_path("suisou", appauthor=False) / "recordings", Path(tempfile.gettempdir())):
-        with contextlib.suppress(OSError):
-            folder.mkdir(parents=True, exist_ok=True)
-            found.append((folder.stat().st_dev == target.parent.stat().st_dev, len(found), folder))
-    return min(found)[2] if found else None
+def second_place(target: Path) -> Path:
+    """A folder for a recording whose own folder takes nothing more."""
+    return second_folder(target.parent, platformdirs.user_state_path("suisou", appauthor=False) / "recordings")
 
 
 def _beside_none(folder: Path, name: str) -> Path:
@@ -123,8 +117,7 @@ def _listen(arguments: argparse.Namespace, journal: Path) -> Path:
             latency_s=0.0,
             started=datetime.now().astimezone().isoformat(timespec="seconds"),
         )
-        folder = second_place(journal)
-        elsewhere = None if folder is None else _beside_none(folder, journal.name)
+        elsewhere = _beside_none(second_place(journal), journal.name)
         moved = _Moves(journal)
         listening.link.start(journal, header, elsewhere)
         listening.link.sync(begin_ns, 0.0)
@@ -241,11 +234,8 @@ def _write(target: Path, path: Path, tempo: float) -> int:
         written(target)
     except FileError as error:
         reason = error.message.arguments.get("reason", text(error.message))
-        folder = second_place(target)
+        elsewhere = _beside_none(second_place(target), target.name)
         try:
-            if folder is None:
-                raise error
-            elsewhere = _beside_none(folder, target.name)
             written(elsewhere)
         except FileError:
             kept = path.name if path.parent == target.parent else str(path)

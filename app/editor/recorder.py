@@ -29,6 +29,7 @@ from app.capture.protocol import (
     Events,
     Finished,
     Lost,
+    Moved,
     News,
     NotStarted,
     Opened,
@@ -45,10 +46,11 @@ from app.editor.settings import Settings
 from app.editor.sound import Sound
 from app.editor.translated import tr
 from app.encoding import stored
-from app.errors import AppError, Message
+from app.errors import AppError, Argument, Message
 from app.project.edit.takes import add_takes, comp
-from app.project.journals import journal_path, journals_of
+from app.project.journals import in_second_places, journal_path, journals_of, second_path
 from app.project.model import Project
+from app.project.storage import file_named
 from app.score.sounding import Sounding
 from app.score.take import ControllerMapping, Take, decoded, is_wired, said
 from metadata.load import load_controllers, recognised_controller
@@ -83,6 +85,7 @@ class _Running:
     """A take that is being recorded."""
 
     path: Path
+    second_path: Path
     player_id: str
     start_s: float
     loop_s: tuple[float, float] | None
@@ -141,7 +144,7 @@ class Recorder(QObject):
         self._live = LivePlayer(session, self.recorded_player, self)
         self._sounding: Sounding[None] = Sounding()
         self._running: _Running | None = None
-        self._adopting: dict[str, _Running] = {}
+        self._adopting: list[_Running] = []
         self._adopted: dict[Path, Take] = {}
         """Journals whose takes are in the project, and not known to be in a file yet."""
         self._sync_timer = QTimer(self, interval=SYNC_MS, timerType=Qt.TimerType.PreciseTimer)
@@ -278,6 +281,8 @@ class Recorder(QObject):
                 self._on_received(reported)
             case Written():
                 state.set(events=reported.count)
+            case Moved():
+                self._moved(Path(os.fsdecode(reported.path)), reported.reason)
             case Finished():
                 self._finished(Path(os.fsdecode(reported.path)))
 
@@ -361,8 +366,11 @@ class Recorder(QObject):
             latency_s=state.latency_s,
             started=datetime.now(UTC).isoformat(timespec="milliseconds"),
         )
-        self._running = _Running(path, player_id, start_s, session.loop_s, self._state.wiring, session.project)
-        self._link.start(path, header)
+        elsewhere = second_path(path, *self._files.recovery_stems).absolute()
+        self._running = _Running(
+            path, elsewhere, player_id, start_s, session.loop_s, self._state.wiring, session.project
+        )
+        self._link.start(path, header, elsewhere)
         self._sound.set_recording((lead_s, start_s))
         state.set(running=True, start_s=start_s, counted_from_s=lead_s, passes=1, events=0)
         playback.play(lead_s)
@@ -432,7 +440,7 @@ class Recorder(QObject):
             if not running.last_ns and self._session.playback is not None:
                 # It ended before its position was known: the take needs one.
                 self._link.sync(self.now_ns(), self._session.playback.position_s(), 0)
-            self._adopting[str(running.path)] = running
+            self._adopting.append(running)
             self._link.stop()
         self._ended()
 
@@ -443,10 +451,19 @@ class Recorder(QObject):
 
     # What becomes of it
 
+    def _moved(self, path: Path, reason: str) -> None:
+        """The journal of a take goes on in its second place, because its disk is full."""
+        for running in (*self._adopting, *([self._running] if self._running is not None else ())):
+            if running.second_path == path:
+                said: dict[str, Argument] = {"file": str(running.path), "reason": reason, "journal": str(path)}
+                running.path = path
+                self._session.notice(Message("record.goes_on_elsewhere", said), Severity.WARNING)
+
     def _finished(self, path: Path) -> None:
-        running = self._adopting.pop(str(path), None)
+        running = next((running for running in self._adopting if running.path == path), None)
         if running is None:
             return
+        self._adopting.remove(running)
         try:
             journal = read_journal(path)
         except AppError as error:
@@ -518,6 +535,21 @@ class Recorder(QObject):
                     self._recover(path, read_journal(path))
                 except AppError as error:
                     self._session.notice(error.message, Severity.WARNING)
+            self._recover_elsewhere()
+
+    def _recover_elsewhere(self) -> None:
+        """Bring in takes of the open file that went on in a second place: their journals name it."""
+        document = self._files.path
+        if document is None:
+            return
+        for path in in_second_places(*self._files.recovery_stems):
+            try:
+                journal = read_journal(path)
+            except AppError:
+                # Which project it belongs to cannot be known; it stays.
+                continue
+            if file_named(journal.header.project) == str(document):
+                self._recover(path, journal)
 
     def _recover(self, path: Path, journal: Journal) -> None:
         project = self._session.project

@@ -8,7 +8,7 @@ from collections.abc import Callable
 
 from app.capture.journal import Header, JournalWriter
 from app.capture.link import RecorderLink
-from app.capture.protocol import Events, Finished, News, Opened, Ports
+from app.capture.protocol import Events, Finished, Moved, News, Opened, Ports
 
 EWI = "EWI5000 MIDI 1"
 
@@ -41,6 +41,7 @@ class SpokenFor(RecorderLink):
         self.reported: list[News] = [Ports((EWI,), (), "test")]
         self.requested: list[str | None] = []
         self.writer: JournalWriter | None = None
+        self.elsewhere: object = None
         self.syncs: list[tuple[int, float, int]] = []
         self.closed = False
 
@@ -49,8 +50,15 @@ class SpokenFor(RecorderLink):
         if port == EWI:
             self.say(Opened(EWI, 0))
 
-    def start(self, path: object, header: Header) -> None:
-        self.writer = JournalWriter(str(path), header)
+    def start(self, path: object, header: Header, elsewhere: object = None) -> None:
+        self.writer, self.elsewhere = JournalWriter(str(path), header), elsewhere
+
+    def move(self) -> None:
+        """The disk of the journal is full."""
+        assert self.writer is not None
+        self.writer.write()
+        self.writer.move(str(self.elsewhere))
+        self.say(Moved(os.fsencode(str(self.elsewhere)), "No space left on device"))
 
     def sync(self, ns: int, position_s: float, pass_: int = 0) -> None:
         self.syncs.append((ns, position_s, pass_))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from pathlib import Path
 
 import pytest
 from PySide6.QtCore import Qt
@@ -213,6 +214,56 @@ def test_a_take_that_a_crash_tore_off_is_brought_in_when_its_project_is_opened(s
     studio.program.editor.files.save()
     studio.program.editor.files.open(path)
     assert len(studio.session.project.takes[player].takes) == 1
+
+
+@pytest.mark.parametrize("language", ["en", "ja"])
+@pytest.mark.parametrize("has_file", [True, False])
+def test_a_take_goes_on_in_a_second_place_where_its_disk_is_full(
+    studio: Studio, has_file: bool, language: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("app.project.journals.tempfile.gettempdir", lambda: str(tmp_path))
+    studio.program.editor.language.set(language)
+    if has_file:
+        studio.program.editor.questions.path = studio.folder / "piece.suisou"  # type: ignore[attr-defined]
+        studio.program.editor.files.save_as()
+    reported: list[Message] = []
+    studio.session.noticed.connect(lambda message, severity: reported.append(message))
+    studio.press(Qt.Key.Key_R)
+    studio.blow(60, 0.3)
+    writer = studio.link.writer
+    assert writer is not None
+    before = Path(writer.path)
+    studio.link.move()
+    studio.wait(lambda: any(message.id == "record.goes_on_elsewhere" for message in reported))
+    after = Path(writer.path)
+    assert after.parent == (studio.folder / "recovery" if has_file else tmp_path)
+    assert not before.exists()
+    assert str(after) in studio.program.window.status.notice_text
+    studio.blow(62, 0.6)
+    studio.press(Qt.Key.Key_R)
+    studio.wait(lambda: bool(studio.session.project.takes))
+    assert [note.pitch for note in notes(studio)] == [60, 62]
+    studio.program.editor.questions.path = studio.folder / "piece.suisou"  # type: ignore[attr-defined]
+    studio.program.editor.files.save()
+    assert not after.exists()
+
+
+def test_a_take_that_a_crash_left_in_a_second_place_is_brought_in(studio: Studio) -> None:
+    path, folder = studio.folder / "piece.suisou", studio.folder / "recovery"
+    studio.program.editor.questions.path = path  # type: ignore[attr-defined]
+    studio.program.editor.files.save_as()
+    player = studio.session.project.players[0].id
+    for number, project in enumerate((path, studio.folder / "other.suisou")):
+        header = Header(str(project), player, EWI, "ewi_5000", 0.0, f"2026-11-21T10:00:0{number}.000+00:00")
+        writer = JournalWriter(str(folder / f"0123456789abcde{number}.1.take-journal"), header)
+        writer.sync(10**9, 0.0, 0)
+        writer.event(15 * 10**8, bytes((0x90, 64 + number, 90)))
+        writer.close()
+    (folder / "damaged.1.take-journal").write_text("?\n")
+    studio.program.editor.files.open(path)
+    assert [take.played.pitches.tolist() for take in studio.session.project.takes[player].takes] == [[64]]
+    left = sorted(file.name for file in folder.glob("*.take-journal"))
+    assert left == ["0123456789abcde1.1.take-journal", "damaged.1.take-journal"]
 
 
 def test_a_take_stays_with_its_project_when_another_is_opened_meanwhile(studio: Studio) -> None:
