@@ -308,6 +308,16 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
             "別々の奏者の場合は、読み込みのダイアログで分けてください"
         ),
     ),
+    "score.spread": (
+        (
+            "{part}: one line goes through {count} {count:track|tracks}, as controllers with a channel for each note "
+            "write it, and has one player; if they are several players, split them in the import dialog"
+        ),
+        (
+            "{part}: 音ごとにチャンネルを変える楽器のように、1 つの旋律が {count} トラックに分かれているため、"
+            "1 人の奏者にまとめました。別々の奏者の場合は、読み込みのダイアログで分けてください"
+        ),
+    ),
     "score.notes_left_out": (
         (
             "{part}: split among the maximum of {most} players; {count} further overlapping {count:note was|notes "

@@ -98,7 +98,7 @@ def players_channels(events: TrackEvents, name: str, zones: Mapping[int, frozens
     melodic = all(map(events.is_melodic, channels))
     if melodic and named is not None and not named.vague and events.take_turns(channels):
         return [tuple(channels)]
-    if (melodic or len(channels) > _FEW) and _rotate(events, channels):
+    if (melodic or len(channels) > _FEW) and rotate(events, channels):
         return [tuple(channels)]
     return [(channel,) for channel in channels]
 
@@ -122,7 +122,12 @@ def _one_sound(events: TrackEvents, channels: Collection[int]) -> bool:
     return len(set(filter(None, programs))) <= 1
 
 
-def _rotate(events: TrackEvents, channels: Collection[int]) -> bool:
+def is_line(events: TrackEvents, channels: Collection[int]) -> bool:
+    """Return whether the notes of some channels follow one another, all with one sound."""
+    return _one_sound(events, channels) and _is_line(_spans(events, channels))
+
+
+def rotate(events: TrackEvents, channels: Collection[int]) -> bool:
     """Return whether a line goes through the channels note by note, all with one sound."""
     spans = _spans(events, channels)
     if not _one_sound(events, channels) or len(spans) < _LEAST_ROTATING or not _is_line(spans):

@@ -82,6 +82,8 @@ class TrackChannel(msgspec.Struct, frozen=True):
         A message says so that means nothing else.
     struck : list of int
         Of a rhythm part: the sounds of its notes as General MIDI numbers them; empty where they are its pitches.
+    line : int
+        The first of the tracks over which its line is spread (`app.score.spread`); -1: it has the line to itself.
     """
 
     track: int
@@ -102,6 +104,7 @@ class TrackChannel(msgspec.Struct, frozen=True):
     use: Use = "melodic"
     certain: bool = False
     struck: list[int] = []
+    line: int = -1
 
     @property
     def place(self) -> tuple[int, int, int]:

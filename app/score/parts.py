@@ -48,6 +48,9 @@ score.too_many_for_hours : most, hours (a reason)
 score.regions : part, count
     "{part}: {count} tracks of this name, channel and program follow one another, so one player plays them; if they
     are several players, split them in the import dialog"
+score.spread : part, count
+    "{part}: one line goes through {count} tracks, as controllers with a channel for each note write it, so one player
+    plays them; if they are several players, split them in the import dialog"
 score.voices : part, voices, count, place, pitch
     "{part}: {voices} players share it, for {count} notes sound together with others, the first at ..."
 score.unisons : part, count, place, pitch
@@ -84,7 +87,7 @@ from app.score.choose import (
 )
 from app.score.limits import MOST_PARTS, most_parts
 from app.score.model import MOST_VOICES, Note, Part, Score, UnplayedPart, sounding_spans
-from app.score.regions import follow_one_another, groups, joined
+from app.score.regions import are_one_line, groups, is_spread, joined
 from app.score.switches import without_key_switches
 from app.score.tempo import TempoMap
 from app.score.voices import Shared, split_voices
@@ -213,8 +216,9 @@ def assigned_parts(
         if lead.change and lead.played_on and len(chosen) == 1:
             instrument = vocabulary().instruments[lead.played_on].names[0]
             warnings.append(_about("score.doubling", mine[0].name, notes, piece, instrument=instrument))
-        if follow_one_another(chosen):
-            warnings.append(Message("score.regions", {"part": mine[0].name, "count": len(chosen)}))
+        if are_one_line(chosen):
+            id_ = "score.spread" if is_spread(chosen) else "score.regions"
+            warnings.append(Message(id_, {"part": mine[0].name, "count": len(chosen)}))
         if shared.unisons:
             warnings.append(_about("score.unisons", mine[0].name, shared.unisons, piece))
         if len(mine) > 1:
@@ -252,7 +256,7 @@ def _shared(
     """The notes among their players."""
     if assignment.split == "never":
         return Shared([tuple(notes)], [], [], [])
-    alone = len(chosen) == 1 or follow_one_another(chosen)
+    alone = len(chosen) == 1 or are_one_line(chosen)
     said = vocabulary().by_name(chosen[0].name or chosen[0].instrument_name) if alone else None
     return split_voices(
         notes,

@@ -85,6 +85,7 @@ from app.score.parts import PartAssignment, assigned_parts, parts_of, rhythm_par
 from app.score.ports import split_by_port
 from app.score.repair import Repaired, last_suspicious, repaired
 from app.score.sound_module import FIRST_PORT, Port, Use, channel_sounds
+from app.score.spread import spread_lines
 from app.score.stuck import cut_stuck_notes
 from app.score.tempo import TempoChange, TempoMap
 from app.score.texts import Texts
@@ -435,10 +436,12 @@ def _streams(
             key = (events.port or FIRST_PORT, channel)
             given.setdefault(key, set()).update(program for _, program in events.programs[channel])
     streams = []
+    lines = spread_lines(tracks, zones, [texts.read(events.name) for events in tracks])
     for index, events in enumerate(tracks):
         name = texts.read(events.name)[:MOST_NAME]
         if lilypond and (match := _LILYPOND_NAME.match(name)):
             name = "" if match[1].startswith("\\") else match[1].strip()
+        spread = lines.get(index)
         groups = players_channels(events, "" if alone else name, zones[index])
         if alone:
             name = name if len(groups) == 1 and len(tracks) == 1 else ""
@@ -446,11 +449,13 @@ def _streams(
         for channels in groups:
             notes = events.notes(channels)
             first = leading(events, channels)
-            sounding = sounding_channels(first, channels, zones[index])
-            curves = curves_of(events, channels, zones[index])
+            heard, among = (events, channels) if spread is None else (spread.events, spread.channels)
+            sounding = sounding_channels(first, among, zones[index])
+            curves = curves_of(heard, among, zones[index])
             played_on = doubled_instruments(events, channels, name, said if len(groups) == 1 else (), notes.onset_ticks)
             muted = muted_spans(events, channels, name, said if len(groups) == 1 else ())
-            sounds = [events.sound_at(first, tick) for tick in notes.onset_ticks]
+            lead = leading(heard, among)
+            sounds = [heard.sound_at(lead, tick) for tick in notes.onset_ticks]
             kinds = [(sound.use, instrument) for sound, instrument in zip(sounds, played_on, strict=True)]
             for change, kind in enumerate(sorted(dict.fromkeys(kinds), key=_kind_order)):
                 use, instrument = kind
@@ -463,7 +468,7 @@ def _streams(
                         channel=first,
                         name=_doubled_name(name, instrument)[:MOST_NAME] if change and instrument else name,
                         instrument_name=texts.read(events.instrument_name)[:MOST_NAME],
-                        program=_program(events, sounding, own.onset_ticks[0], given),
+                        program=_program(heard, sounding, own.onset_ticks[0], given),
                         use=use,
                         certain=mine[0].certain,
                         struck=struck if use == "rhythm" and struck != own.pitches else [],
@@ -476,6 +481,7 @@ def _streams(
                         played_on=instrument,
                         change=change,
                         muted=muted,
+                        line=-1 if spread is None else spread.first,
                     )
                 )
     return streams

@@ -1,6 +1,6 @@
-"""Regions of one track: tracks that a sequencer wrote one after the other for a single player.
+"""Regions of one track, which a sequencer wrote one after the other for a single player, and lines spread over tracks.
 
-They have one name, channel and program, and each begins where the one before has ended. Players of one name who play
+Regions have one name, channel and program, and each begins where the one before has ended. Players of one name who play
 together or in alternation are several.
 """
 
@@ -29,12 +29,12 @@ def groups(streams: Sequence[TrackChannel]) -> list[tuple[int, ...]]:
     alone = _alone(streams)
     same: dict[tuple[object, ...], list[int]] = {}
     for place, stream in enumerate(streams):
-        key = _key(stream) if place in alone else (place,)
+        key = ("line", stream.line) if stream.line >= 0 else _key(stream) if place in alone else (place,)
         same.setdefault(key, []).append(place)
     found: list[tuple[int, ...]] = []
     for places in same.values():
         in_time = sorted(places, key=lambda place: streams[place].onset_ticks[0])
-        one = len(places) == 1 or follow_one_another([streams[place] for place in in_time])
+        one = len(places) == 1 or are_one_line([streams[place] for place in in_time])
         found += [tuple(in_time)] if one else [(place,) for place in places]
     return sorted(found, key=min)
 
@@ -50,6 +50,16 @@ def _alone(streams: Sequence[TrackChannel]) -> frozenset[int]:
 
 def _key(stream: TrackChannel) -> tuple[object, ...]:
     return _COPY.sub("", stream.name).casefold(), stream.instrument_name, stream.channel, stream.program
+
+
+def are_one_line(streams: Sequence[TrackChannel]) -> bool:
+    """Return whether streams are one player's: regions of one track, or all that a line is spread over."""
+    return is_spread(streams) or follow_one_another(streams)
+
+
+def is_spread(streams: Sequence[TrackChannel]) -> bool:
+    """Return whether one line is spread over streams."""
+    return len(streams) > 1 and len({stream.line for stream in streams}) == 1 and streams[0].line >= 0
 
 
 def follow_one_another(streams: Sequence[TrackChannel]) -> bool:
@@ -70,7 +80,7 @@ def joined(streams: Sequence[TrackChannel]) -> TrackChannel:
     Where the streams do not follow one another the curves are those of the first that has any.
     """
     curves = next((stream.curves for stream in streams if stream.curves), ())
-    if follow_one_another(streams):
+    if not is_spread(streams) and follow_one_another(streams):
         curves = _curves(streams)
     muted = tuple(sorted({span for stream in streams for span in stream.muted}))
     return msgspec.structs.replace(streams[0], curves=curves, muted=muted)

@@ -162,3 +162,63 @@ def test_a_zone_of_several_sounds_is_none() -> None:
     """A whole band in one track, in which a sequencer wrote that channel 1 may be a zone."""
     programs = bytes([0, 0xC1, 56, 0, 0xC2, 57])
     assert len(scored(track(rotating(channels=(1, 2)), ZONE + programs), b"").parts) == 2
+
+
+def spread(
+    channels: Sequence[int], zone: bytes = b"", name: str = "Trumpet", program: bool = True, more: Sequence[Event] = ()
+) -> Score:
+    """The scale with every channel on a track of its own, behind a track of settings."""
+    events = rotating(channels=channels, more=more)
+    tracks = [zone + (b"" if program else bytes([0, 0xC0 | (15 if 14 in channels else 0), 56]))]
+    for channel in channels:
+        said = meta(3, name.format(channel + 1).encode()) + (bytes([0, 0xC0 | channel, 56]) if program else b"")
+        tracks.append(track([event for event in events if event[1][0] & 15 == channel], said))
+    data = header(1, len(tracks)) + b"".join(chunk(b"MTrk", one + END) for one in tracks)
+    return score_of(data, maps=MAPS)
+
+
+@pytest.mark.parametrize("name", ["", "Trumpet", "Trumpet Ch. {}", "Trumpet - {}", "MIDI {}"])
+@pytest.mark.parametrize(
+    ("channels", "zone", "program"),
+    [
+        ((1, 2, 3, 4, 5), ZONE, True),
+        ((1, 2, 3, 4, 5), ZONE, False),
+        ((1, 2), ZONE, True),
+        ((14, 13, 12), set_to((101, 0), (100, 6), (6, 5), channel=15), False),
+        ((1, 2, 3), b"", True),
+        ((0, 1, 2, 3), b"", True),
+        # Channel 10 among them.
+        (tuple(range(7, 12)), set_to((101, 0), (100, 6), (6, 15)), False),
+    ],
+)
+def test_one_melody_over_several_tracks_is_one_player(
+    channels: Sequence[int], zone: bytes, program: bool, name: str
+) -> None:
+    score = spread(channels, zone, name, program)
+    part = only(score)
+    assert [note.pitch for note in part.notes] == list(SCALE)
+    assert [note.onset_tick for note in part.notes] == [96 * place for place in range(len(SCALE))]
+    assert (part.map_id, score.unplayed, score.percussion) == ("trumpet", (), ())
+    assert len({note.id for note in part.notes}) == len(SCALE)
+    assert [warning.id for warning in score.warnings if warning.id != "midi.no_notes"] == ["score.spread"]
+
+
+def test_two_players_in_dialogue_and_players_of_several_names_are_several() -> None:
+    assert len(spread((1, 2)).parts) == 2
+    assert len(spread((1, 2, 3), name="Trumpet {}").parts) == 1
+    assert len(spread((1, 2, 3), ZONE, "Trumpet {}0").parts) == 3
+    chorale = [(96 * place, bytes([0x91, 55, 64])) for place in range(8)]
+    chorale += [(96 * place + 90, bytes([0x81, 55, 0])) for place in range(8)]
+    # Three tracks, and two voices on the first.
+    assert len(spread((1, 2, 3), more=chorale).parts) == 4
+
+
+def test_bends_and_the_managers_breath_come_from_all_tracks() -> None:
+    bend = [(96 * 1 + 10, bytes([0xE2, 0, 0x50])), (96 * 2 + 10, bytes([0xE3, 0, 0x60]))]
+    settings = ZONE + bytes([0, 0xB0, 2, 40, 96, 0xB0, 2, 80])
+    part = only(spread((1, 2, 3), settings, more=bend))
+    bends = curve(part, "pitch_bend")
+    # A quarter and half of 48 semitones.
+    assert (bends[106], bends[202]) == (0.25 * 24, 0.5 * 24)
+    assert curve(part, "breath") == {0: 40 / 127, 96: 80 / 127}
+    assert only(spread((1, 2, 3), settings, "", more=bend)).curves == part.curves

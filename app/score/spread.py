@@ -1,0 +1,103 @@
+"""Lines spread over tracks: each channel of a controller that gives every note the next channel has a track of its own.
+
+Programs that divide a recording by channel write MIDI Polyphonic Expression so. The tracks have one name, but for the
+number of their channel, and one sound; an MPE zone holds all of them, or the line goes through three of them and more,
+note by note. A line in two tracks without a zone is two players in dialogue.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from typing import Final, NamedTuple
+
+import msgspec
+
+from app.score.channels import is_line, rotate
+from app.score.sound_module import FIRST_PORT, Port
+from app.score.tracks import TrackEvents
+
+_CHANNEL: Final = re.compile(
+    r"[\s_\-–:,/(\[#]*(?:midi[\s_]*)?(?:ch(?:annel|an)?|kanal|canal|canale|mpe|チャンネル|通道|채널|канал)?"
+    r"[\s_.\-#]*(\d+)[\s)\]]*$",
+    re.IGNORECASE,
+)
+_LEAST_TRACKS: Final = 3
+"""Tracks of a line that no zone announces."""
+
+
+class Spread(NamedTuple):
+    """A line that several tracks share.
+
+    Attributes
+    ----------
+    first : int
+        The first of its tracks.
+    events : TrackEvents
+        The channels of all of them, and what the manager of their zone sends.
+    channels : tuple of int
+    """
+
+    first: int
+    events: TrackEvents
+    channels: tuple[int, ...]
+
+
+def spread_lines(
+    tracks: Sequence[TrackEvents], zones: Sequence[Mapping[int, frozenset[int]]], names: Sequence[str]
+) -> dict[int, Spread]:
+    """Return the lines that are spread over tracks, by the place of each of their tracks.
+
+    Parameters
+    ----------
+    zones : sequence of mapping of int to frozenset of int
+        MPE zones of each track: members by manager channel.
+    """
+    alike: dict[tuple[Port, int | None, str, bytes], list[int]] = {}
+    for place, events in enumerate(tracks):
+        if len(events.channels) == 1:
+            (channel,) = events.channels
+            manager = next((one for one, own in zones[place].items() if channel == one or channel in own), None)
+            key = events.port or FIRST_PORT, manager, _base(names[place], channel), events.instrument_name
+            alike.setdefault(key, []).append(place)
+    found: dict[int, Spread] = {}
+    for (port, manager, *_), places in alike.items():
+        channels = tuple(sorted(next(iter(tracks[place].channels)) for place in places))
+        if len({*channels}) != len(places) or len(places) < (_LEAST_TRACKS if manager is None else 2):
+            continue
+        managing = [one for one in tracks if (one.port or FIRST_PORT) == port and manager not in one.channels]
+        events = _together([tracks[place] for place in places], managing, manager)
+        if is_line(events, channels) if manager is not None else rotate(events, channels):
+            found.update(dict.fromkeys(places, Spread(places[0], events, channels)))
+    return found
+
+
+def _base(name: str, channel: int) -> str:
+    """The name of a track without the number of its channel."""
+    number = _CHANNEL.search(name)
+    return (name[: number.start()] if number and int(number[1]) == channel + 1 else name).casefold().strip()
+
+
+def _together(own: Sequence[TrackEvents], managing: Sequence[TrackEvents], manager: int | None) -> TrackEvents:
+    """The channels of some tracks as those of one, with what others send on the manager's channel."""
+    events = TrackEvents(port=own[0].port)
+    for one in own:
+        events.channels.update(one.channels)
+        events.controls.update(one.controls)
+        events.programs.update(one.programs)
+        events.sounds.update(one.sounds)
+    for one in managing:
+        for key, points in one.controls.items():
+            if key[0] == manager:
+                events.controls[key] = {**points, **events.controls.get(key, {})}
+        if manager is not None and manager in one.programs:
+            events.programs.setdefault(manager, one.programs[manager])
+    # Numbers count the notes of each track: of the line they count by onset.
+    numbers = sorted((onset, channel) for channel, notes in events.channels.items() for onset in notes.onset_ticks)
+    events.channels = {
+        channel: msgspec.structs.replace(
+            notes, numbers=[place for place, (_, other) in enumerate(numbers, 1) if other == channel]
+        )
+        for channel, notes in events.channels.items()
+    }
+    return events
