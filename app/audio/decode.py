@@ -2,8 +2,8 @@
 
 The reader is chosen by what is in a file, whatever its name.
 
-Messages: ``audio.not_readable``, ``audio.empty``, ``audio.too_long``, ``audio.too_dense``, ``audio.unusable``,
-``audio.breaks_off``; of what ffmpeg reads, those of `app.formats.film_sound`.
+Messages: ``audio.not_readable``, ``audio.empty``, ``audio.too_long``, ``audio.too_dense``, ``audio.too_many_samples``,
+``audio.unusable``, ``audio.breaks_off``; of what ffmpeg reads, those of `app.formats.film_sound`.
 """
 
 from __future__ import annotations
@@ -29,12 +29,17 @@ from app.formats.mpeg_audio import MpegAudio, mpeg_audio
 MOST_HOURS: Final = 4
 """Longer recordings would fill the memory: an hour takes 0.7 GB."""
 FREE_S: Final = 600.0
-LEAST_BYTES_PER_S: Final = 100.0
-"""A file may hold `FREE_S`, and a second more for so many of its bytes: the least that speech takes is ten times that,
-but silence can be packed into a thousandth of it, and a small file fill the memory."""
+LEAST_BYTES_PER_S: Final = 500.0
+"""A file may hold `FREE_S`, and a second more for so many of its bytes: the least that speech takes is more than that,
+but silence can be packed into a hundredth of it, and a small file fill the memory."""
+FREE_VALUES: Final = 2**26
+VALUES_PER_BYTE: Final = 256
+"""The same of samples of all channels: a few bytes can stand for 65,536 samples of each of eight channels."""
 MOST_CHANNELS: Final = 64
 LEAST_RATE_HZ, MOST_RATE_HZ = 1000, 768_000
 _BLOCK: Final = 1 << 16
+_UNKNOWN: Final = 2**63 - 1
+"""Length of a file that libsndfile does not know, such as one of many Ogg streams."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -99,8 +104,7 @@ def decode(
         return Recording(path, samples, _breaks_off(path, len(samples) / RATE_HZ) if headless.breaks_off else ())
     try:
         with open_file(path) as stream, _Forward(stream) as file:
-            most_s = _most_s(os.fstat(stream.fileno()).st_size)
-            return _read(path, file, most_s, progress, stop_requested)
+            return _read(path, file, os.fstat(stream.fileno()).st_size, progress, stop_requested)
     except (soundfile.SoundFileError, RuntimeError, TypeError) as error:
         raise FileError("audio.not_readable", file=path, detail=_detail(error)) from error
 
@@ -115,6 +119,14 @@ def _check_length(path: str, seconds: float, most_s: float) -> None:
         raise FileError("audio.too_long", file=path, most_hours=MOST_HOURS)
     if seconds > most_s:
         raise FileError("audio.too_dense", file=path, minutes=int(most_s // 60))
+
+
+def _check_said(path: str, file: _Forward, most_s: float) -> None:
+    """Refuse at once what the file itself says is too long. Headers may be wrong; but Ogg has none, its length is where
+    the last page ends, and what the file's size allows is no mistake."""
+    said_s = file.frames / file.samplerate
+    if file.frames < _UNKNOWN and (file.format == "OGG" or said_s <= most_s):
+        _check_length(path, said_s, most_s)
 
 
 def _headless(path: str) -> MpegAudio | None:
@@ -150,7 +162,7 @@ def _by_ffmpeg(
 def _read(
     path: str,
     file: _Forward,
-    most_s: float,
+    size: int,
     progress: Callable[[float], None],
     stop_requested: Callable[[], bool],
 ) -> Recording:
@@ -158,7 +170,10 @@ def _read(
     if not (LEAST_RATE_HZ <= rate_hz <= MOST_RATE_HZ and 1 <= channels <= MOST_CHANNELS):
         raise FileError("audio.unusable", file=path, rate_hz=rate_hz, channels=channels)
     resampler = soxr.ResampleStream(rate_hz, RATE_HZ, 2, dtype="float32") if rate_hz != RATE_HZ else None
-    blocks: list[Samples] = []
+    most_s = _most_s(size)
+    _check_said(path, file, most_s)
+    # It grows in place: a list of blocks would have to be copied at the end, which takes the memory twice.
+    made = bytearray()
     warnings: tuple[Message, ...] = ()
     frames = 0
     # The length in the header is a claim: it is used for the progress only.
@@ -174,10 +189,12 @@ def _read(
             warnings = _breaks_off(path, frames / rate_hz)
         frames += len(raw)
         _check_length(path, frames / rate_hz, most_s)
+        if frames * channels > FREE_VALUES + VALUES_PER_BYTE * size:
+            raise FileError("audio.too_many_samples", file=path, rate_hz=rate_hz, channels=channels)
         block = _stereo(np.nan_to_num(raw, nan=0.0, posinf=1.0, neginf=-1.0))
         if resampler is not None:
             block = resampler.resample_chunk(block, last=not len(raw))
-        blocks.append(np.round(np.clip(block, -1.0, 1.0) * 32767.0).astype(np.int16))
+        made += np.round(np.clip(block, -1.0, 1.0) * 32767.0).astype(np.int16).tobytes()
         progress(min(frames / expected, 1.0))
         if not len(raw):
             break
@@ -185,7 +202,7 @@ def _read(
         raise FileError("audio.empty", file=path)
     if frames < expected and not warnings and file.is_seekable and expected < MOST_HOURS * 3600 * rate_hz:
         warnings = _breaks_off(path, frames / rate_hz)
-    return Recording(path, np.concatenate(blocks), warnings)
+    return Recording(path, np.frombuffer(made, np.int16).reshape(-1, 2), warnings)
 
 
 def _stereo(block: Block) -> Block:

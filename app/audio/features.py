@@ -99,7 +99,7 @@ def onset_strength(sound: Sound, rate_hz: int, size: int, hop: int) -> Floats:
     edges = np.geomspace(_LOWEST_BAND_HZ, rate_hz / 2, _BANDS, endpoint=False) * size / rate_hz
     starts = np.unique(np.round(edges).astype(np.intp))
     # A window's energy, spread over the bands.
-    mean = max(float((sound.astype(np.float64) ** 2).mean()) * size**2 / 8 / len(starts), 1e-12)
+    mean = max(float(np.square(sound, dtype=np.float64).mean()) * size**2 / 8 / len(starts), 1e-12)
     result: list[Floats] = []
     before: Floats | None = None
     for power in _spectra(sound, size, hop):

@@ -10,10 +10,9 @@ from collections.abc import Callable
 from typing import Final
 
 import numpy as np
-import soxr
 
-from app.audio.features import tuning
-from app.audio.score_sound import ANALYSIS_RATE_HZ, Floats
+from app.audio.features import Sound, tuning
+from app.audio.score_sound import ANALYSIS_RATE_HZ, Floats, analysed
 from app.audio.track import Samples
 from app.score.model import Score
 
@@ -59,14 +58,14 @@ def note_onsets(
     progress : callable
         Called now and then with the share 0..1 that is done.
     """
-    sound = soxr.resample(samples.astype(np.float32).mean(axis=1) / 32768.0, rate_hz, ANALYSIS_RATE_HZ)
+    sound = analysed(samples, rate_hz)
     middle = len(sound) // 2
     tuned = tuning(sound[max(middle - 30 * ANALYSIS_RATE_HZ, 0) : middle + 30 * ANALYSIS_RATE_HZ], ANALYSIS_RATE_HZ)
     notes = [note for part in score.parts for note in part.notes]
     begin_s = score.tempo_map.seconds(np.array([note.onset_tick for note in notes], np.float64)) - offset_s
     end_s = score.tempo_map.seconds(np.array([note.end_tick for note in notes], np.float64)) - offset_s
     pitches = np.array([note.pitch for note in notes], np.float64) + tuned
-    floor = 1e-5 * float((sound.astype(np.float64) ** 2).mean()) * _SIZE**2 + 1e-12
+    floor = 1e-5 * float(np.square(sound, dtype=np.float64).mean()) * _SIZE**2 + 1e-12
     shifts: dict[str, float] = {}
     for index, note in enumerate(notes):
         if index % 100 == 0:
@@ -102,7 +101,7 @@ def _without_lateness(score: Score, shifts: dict[str, float]) -> dict[str, float
     return result
 
 
-def _shift(sound: Floats, at_s: float, hz: Floats, floor: float) -> float | None:
+def _shift(sound: Sound, at_s: float, hz: Floats, floor: float) -> float | None:
     """Where these frequencies begin to sound, around a moment; None where that is not clear."""
     reach = round((_REACH_S + 2 * _EDGE_S) / _STEP_S)
     centre = round(at_s * ANALYSIS_RATE_HZ)

@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 import soxr
 
-from app.audio.features import chroma, onset_strength, tuning
+from app.audio.features import Sound, chroma, onset_strength, tuning
 from app.audio.track import Samples
 from app.errors import AppError
 from app.score.model import Score
@@ -18,6 +18,8 @@ from app.score.model import Score
 Floats: TypeAlias = npt.NDArray[np.float64]
 
 ANALYSIS_RATE_HZ: Final = 22050
+_BLOCK: Final = 1 << 20
+"""Samples that are mixed to one channel at once."""
 _CHROMA_HOP: Final = 2048
 CHROMA_S: Final = _CHROMA_HOP / ANALYSIS_RATE_HZ
 _ONSET_HOP: Final = 220
@@ -82,6 +84,20 @@ def sounds_to_compare(
     return expected, recorded_sound(samples, rate_hz, progress)
 
 
+def analysed(samples: Samples, rate_hz: int) -> Sound:
+    """One channel at `ANALYSIS_RATE_HZ`, from -1 to 1.
+
+    Parameters
+    ----------
+    samples : int16 array, shape (n, channels)
+    """
+    mono = np.empty(len(samples), np.float32)
+    for first in range(0, len(samples), _BLOCK):  # All of an hour would take gigabytes.
+        part = samples[first : first + _BLOCK].astype(np.float32)
+        mono[first : first + _BLOCK] = part.mean(axis=1) / 32768.0
+    return np.asarray(soxr.resample(mono, rate_hz, ANALYSIS_RATE_HZ))
+
+
 def recorded_sound(samples: Samples, rate_hz: int, progress: Callable[[float], None]) -> RecordedSound:
     """What a recording sounds like, whatever it is tuned to.
 
@@ -91,7 +107,7 @@ def recorded_sound(samples: Samples, rate_hz: int, progress: Callable[[float], N
     progress : callable
         Called with the share 0..1 that is done.
     """
-    sound = soxr.resample(samples.astype(np.float32).mean(axis=1) / 32768.0, rate_hz, ANALYSIS_RATE_HZ)
+    sound = analysed(samples, rate_hz)
     sound = np.pad(sound, (0, max(_LEAST_SAMPLES - len(sound), 0)))
     progress(0.2)
     sounding = np.flatnonzero(np.abs(sound) > 1e-3)

@@ -125,32 +125,35 @@ def film_sound(
         ``video.no_sound``, those of `app.formats.ffmpeg`, those of ``check``.
     Cancelled
     """
+    # ffmpeg would take a gap of more than thirty hours for a mistake and leave it out.
+    exact = ("-dts_error_threshold", "1e12")
     heard = ("-map", "0:a:0", "-af", "ashowinfo", "-ac", "2", "-ar", str(rate_hz))
-    blocks: list[bytes] = []
-    total = 0
-    with ffmpeg_on(path, "ffmpeg.sound", (), (*heard, "-c:a", "pcm_s16le", "-f", "s16le", "pipe:1")) as process:
+    made = bytearray()
+    with ffmpeg_on(path, "ffmpeg.sound", exact, (*heard, "-c:a", "pcm_s16le", "-f", "s16le", "pipe:1")) as process:
         assert process.stdout is not None
         assert process.stderr is not None
         timing = _Timing(process.stderr)
         watcher = Thread(target=_end_if_stopped, args=(process, stop_requested), name="ffmpeg stop", daemon=True)
         watcher.start()
-        while block := process.stdout.read(_BLOCK):
-            blocks.append(block)
-            total += len(block)
-            check(max(total / (4 * rate_hz), timing.reached_s))
-        status = process.wait()
-        timing.thread.join()
-        watcher.join()
+        try:
+            while block := process.stdout.read(_BLOCK):
+                made += block
+                check(max(len(made) / (4 * rate_hz), timing.reached_s))
+            status = process.wait()
+        finally:
+            # The threads end with the process, and before its streams are closed.
+            process.kill()
+            timing.thread.join()
+            watcher.join()
     raise_if_stopped(stop_requested)
-    check(max(total / (4 * rate_hz), timing.reached_s))
+    check(max(len(made) / (4 * rate_hz), timing.reached_s))
     report = timing.report()
     if status:
         kinds = kinds_in(report)
         if b"Video" in kinds and b"Audio" not in kinds and status > 0:
             raise FileError("video.no_sound", file=path)
         raise refusal(report, path, status)
-    sound = np.frombuffer(b"".join(blocks)[: total // 4 * 4], "<i2").reshape(-1, 2)
-    blocks.clear()
+    sound = np.frombuffer(made, "<i2", len(made) // 4 * 2).reshape(-1, 2)
     late_s = timing.first_block_s if delay_s is None else delay_s
     return _placed(sound, timing.stretches, rate_hz)[round(late_s * rate_hz) :]
 

@@ -33,6 +33,16 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
             "曲の長さに切り詰めてください"
         ),
     ),
+    "audio.too_many_samples": (
+        (
+            "{file} has {channels} channels at {rate_hz} Hz, far more samples than a file of its size should contain; "
+            "export it as stereo at 48000 Hz"
+        ),
+        (
+            "{file} は {channels} チャンネル・{rate_hz} Hz で、ファイルのサイズに対してサンプル数が多すぎます。"
+            "48000 Hz のステレオで書き出してください"
+        ),
+    ),
     "audio.too_long": (
         "{file} is longer than {most_hours} hours; trim it to the piece",
         "{file} は {most_hours} 時間を超えています。曲の長さに切り詰めてください",

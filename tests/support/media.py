@@ -31,11 +31,11 @@ def heard_s(samples: np.ndarray, around_s: float, rate_hz: int) -> float:
     return (first + int(loud.argmax())) / rate_hz
 
 
-def with_gap(path: Path, gap_s: float, pictures: bool = False, length_s: float = 0.4) -> Path:
+def with_gap(path: Path, gap_s: float, pictures: bool = False, length_s: float = 0.4, codec: str = "aac") -> Path:
     """A tone, and pictures, in which time jumps in the middle."""
     later = f"PTS+gt(T\\,{length_s / 2})*{gap_s}/TB"
     inputs = ["-f", "lavfi", "-i", f"sine=440:r=48000:d={length_s}"]
     if pictures:
         inputs += ["-f", "lavfi", "-i", f"testsrc=s=64x64:r=25:d={length_s}", "-vf", f"setpts={later}"]
-    ffmpeg(*inputs, "-af", f"asetpts={later}", "-fps_mode", "passthrough", "-c:a", "aac", str(path))
+    ffmpeg(*inputs, "-af", f"asetpts={later}", "-fps_mode", "passthrough", "-c:a", codec, str(path))
     return path

@@ -15,7 +15,8 @@ import numpy.typing as npt
 from app.formats.fbx import encode
 from app.formats.fbx.encode import Element, PackedArray
 from metadata.model import REQUIRED_JOINTS
-from tests.fuzz.harness.costly_media import COSTLY_RECORDINGS
+from tests.fuzz.harness.costly_media import COSTLY_RECORDINGS, m4a_minutes
+from tests.fuzz.harness.costly_sound import COSTLY_SOUND, flac_steps
 from tests.support.encoded import encode_elements
 
 ABOVE: Final = {
@@ -317,38 +318,6 @@ def bvh_frames(size: int) -> bytes:
     return head + b"9" * (size // 2) + b"\nFrame Time: 0.01\n" + b"0 0 0\n" * (size // 12)
 
 
-def flac_slow_silence(size: int) -> bytes:
-    """Silence at 8 kHz, six times as long."""
-    return flac_silence(size, 8_000)
-
-
-def wav_hours(size: int) -> bytes:
-    """A file that says it is hours long, and ends."""
-    head = b"WAVEfmt " + struct.pack("<IHHIIHH", 16, 1, 1, 1000, 1000, 1, 8)
-    return b"RIFF" + struct.pack("<I", 2**32 - 1) + head + b"data" + struct.pack("<I", 2**32 - 16) + b"\x80" * size
-
-
-def flac_silence(size: int, rate_hz: int = 48_000) -> bytes:
-    """Silence, 14 bytes for 65,535 samples. Source: RFC 9639, sections 8.2 and 9."""
-    frames, count = b"", 0
-    while len(frames) < size - 42:
-        head = b"\xff\xf8\x70\x08" + chr(count).encode() + struct.pack(">H", 65_534)
-        head += bytes([_crc(head, 8, 0x07)])
-        frames += head + bytes(3) + struct.pack(">H", _crc(head + bytes(3), 16, 0x8005))
-        count += 1
-    samples = struct.pack(">Q", rate_hz << 44 | 15 << 36 | count * 65_535)
-    return b"fLaC\x80\0\0\x22" + struct.pack(">HH", 65_535, 65_535) + bytes(6) + samples + bytes(16) + frames
-
-
-def _crc(data: bytes, bits: int, polynomial: int) -> int:
-    value, top = 0, 1 << (bits - 1)
-    for byte in data:
-        value ^= byte << (bits - 8)
-        for _ in range(8):
-            value = ((value << 1) ^ (polynomial if value & top else 0)) & (2 * top - 1)
-    return value
-
-
 COSTLY_FILES: Final[dict[str, tuple[Callable[[int], bytes], ...]]] = {
     "gltf": (
         *(glb_zeros, glb_strips, glb_bind_poses, glb_joint_sets, glb_overlap, glb_instances, glb_morphs, glb_parts),
@@ -358,6 +327,7 @@ COSTLY_FILES: Final[dict[str, tuple[Callable[[int], bytes], ...]]] = {
     "foreign_fbx": (fbx_packed, fbx_instances, fbx_polygon, fbx_deep, fbx_nodes, fbx_clusters, fbx_morphs),
     "fbx": (fbx_packed, fbx_instances),
     "bvh": (bvh_still, bvh_deep, bvh_frames),
-    "audio": (flac_silence, flac_slow_silence, wav_hours, *COSTLY_RECORDINGS),
+    "audio": (*COSTLY_SOUND, *COSTLY_RECORDINGS),
+    "followed": (flac_steps, m4a_minutes),
 }
 """By kind of file, as in `tests.fuzz.harness.readers.KINDS`: what makes a file of about so many bytes."""

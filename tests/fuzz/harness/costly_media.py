@@ -38,6 +38,16 @@ def m4a_gaps(size: int) -> bytes:
     return _made("a.m4a", *_tone(size), "-af", "asetpts=PTS+N*60/TB", "-c:a", "aac")
 
 
+def m4a_minutes(size: int) -> bytes:
+    """A gap as long as it may be."""
+    return _made("a.m4a", *_tone(size), "-af", "asetpts=PTS+gt(N\\,3)*550/TB", "-c:a", "aac")
+
+
+def mkv_days(size: int) -> bytes:
+    """Two weeks that pass after the first blocks of sound."""
+    return _made("a.mkv", *_tone(size), "-af", "asetpts=PTS+gt(N\\,3)*1200000/TB", "-c:a", "aac")
+
+
 def mkv_gap(size: int) -> bytes:
     """Hours that pass in sound and pictures."""
     later = ("-vf", "setpts=PTS+gt(N\\,3)*36000/TB", "-af", "asetpts=PTS+gt(N\\,3)*36000/TB")
@@ -72,5 +82,5 @@ COSTLY_MEDIA: Final[dict[str, tuple[Callable[[int], bytes], ...]]] = {
     "film": (mkv_gap, mp4_late_sound, mkv_large_pictures, transport),
 }
 """As `tests.fuzz.harness.costly_files.COSTLY_FILES`."""
-COSTLY_RECORDINGS: Final = (m4a_gap, m4a_gaps, mkv_gap, mp4_late_sound, transport, mp3_slow)
+COSTLY_RECORDINGS: Final = (m4a_gap, m4a_gaps, m4a_minutes, mkv_days, mkv_gap, mp4_late_sound, transport, mp3_slow)
 """Those of the kind "audio"."""

@@ -396,6 +396,14 @@ def audio(path: Path, folder: Path) -> None:
     require(recording.samples.ndim == 2 and recording.samples.shape[1] == 2, "samples are not in two channels")
 
 
+def followed(path: Path, folder: Path) -> None:
+    """Listen to a recording for all that it can say of a piece."""
+    from app.audio.decode import decode
+    from app.audio.followed import FollowOptions, listen
+
+    listen(_quartet(), decode(str(path)).samples, path, FollowOptions(notes=True, dynamics=True))
+
+
 def film(path: Path, folder: Path) -> None:
     """Look at a film, see pictures at its beginning, middle and end, and hear its sound."""
     from app.audio.decode import decode
@@ -515,6 +523,7 @@ KINDS: Final[dict[str, Kind]] = {
         Kind("motion", gltf_motion, seeds.gltf_motion, tuple(mutators.GLB), ".glb"),
         Kind("motion", fbx_motion, seeds.fbx_motion, tuple(mutators.FBX), ".fbx"),
         Kind("exchange", audio, seeds.audio, (), ".wav", 2.0),
+        Kind("exchange", followed, seeds.audio, (), ".wav", 0.5),
         Kind("exchange", film, seeds.film, (), ".mp4"),
         Kind("exchange", unreal_description, seeds.unreal_description, _JSON, ".json"),
         Kind("exchange", unreal_manifest, seeds.unreal_manifest, _JSON, ".json"),

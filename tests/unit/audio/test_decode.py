@@ -13,6 +13,7 @@ from app.audio.decode import MOST_HOURS, decode
 from app.audio.track import RATE_HZ
 from app.errors import Cancelled, FileError
 from app.messages import error_text, text
+from tests.fuzz.harness.costly_sound import flac, opus_silence
 from tests.support.media import clicks, ffmpeg, heard_s, with_gap
 
 
@@ -87,6 +88,41 @@ def test_a_gap_of_an_hour_is_refused_and_costs_nothing(tmp_path: Path) -> None:
     path = with_gap(tmp_path / "gap.m4a", 3600.0)
     with pytest.raises(FileError, match=r"audio\.too_dense"):
         decode(str(path))
+
+
+@pytest.mark.parametrize("suffix", ["mkv", "webm", "flv"])
+def test_a_gap_of_days_is_refused_too(tmp_path: Path, suffix: str) -> None:
+    """ffmpeg takes more than thirty hours for a mistake, and would leave them out without a word."""
+    codec = "libopus" if suffix == "webm" else "aac"
+    for seconds in (200_000.0, 1_000_000.0):
+        path = with_gap(tmp_path / f"gap.{suffix}", seconds, codec=codec)
+        with pytest.raises(FileError, match=r"audio\.too_long"):
+            decode(str(path))
+
+
+def test_silence_of_many_channels_and_a_high_rate_is_refused(tmp_path: Path) -> None:
+    path = tmp_path / "wide.flac"
+    path.write_bytes(flac(20_000, rate_hz=655_350, channels=8))
+    with pytest.raises(FileError, match=r"audio\.too_many_samples") as error:
+        decode(str(path))
+    assert "8 channels at 655350 Hz" in error_text(error.value)
+
+
+def test_ten_hours_of_silence_are_refused_before_they_are_read(tmp_path: Path) -> None:
+    path = tmp_path / "long.opus"
+    path.write_bytes(opus_silence(36_000.0))
+    shares: list[float] = []
+    with pytest.raises(FileError, match=r"audio\.too_long"):
+        decode(str(path), shares.append)
+    assert not shares
+    path.write_bytes(opus_silence(60.0))
+    assert decode(str(path)).duration_s == pytest.approx(60.0, abs=0.05)
+
+
+def test_many_streams_in_one_file_are_read_although_their_length_is_unknown(tmp_path: Path) -> None:
+    path = tmp_path / "chain.opus"
+    path.write_bytes(b"".join(opus_silence(0.12, serial) for serial in range(800)))
+    assert decode(str(path)).duration_s == pytest.approx(0.12, abs=0.01)
 
 
 def test_resampling_keeps_the_moment(tmp_path: Path) -> None:

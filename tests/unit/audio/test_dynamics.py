@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import tracemalloc
 from dataclasses import replace
 from functools import cache
 
@@ -12,6 +13,7 @@ from scipy.stats import spearmanr
 
 from app.audio.dynamics import Loudness, dynamics, loudness
 from app.audio.mix import mixdown
+from app.audio.score_sound import analysed
 from app.audio.track import RATE_HZ
 from app.errors import AppError
 from app.performance.ensemble import Performance
@@ -133,3 +135,17 @@ def test_breath_follows() -> None:
 def test_silence_says_nothing() -> None:
     with pytest.raises(AppError, match="nothing_to_compare"):
         found(quartet(), loudness(np.zeros((10 * RATE_HZ, 2), np.int16), RATE_HZ))
+
+
+def test_listening_takes_little_more_memory_than_the_recording() -> None:
+    """All of an hour in double precision would take gigabytes."""
+    samples = np.random.default_rng(1).integers(-9000, 9000, (60 * RATE_HZ, 2)).astype(np.int16)
+    loudness(samples[:RATE_HZ], RATE_HZ)  # Libraries are loaded.
+    for listen in (loudness, analysed):
+        tracemalloc.start()
+        try:
+            listen(samples, RATE_HZ)
+            peak = tracemalloc.get_traced_memory()[1]
+        finally:
+            tracemalloc.stop()
+        assert peak < 3 * samples.nbytes, listen
