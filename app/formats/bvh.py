@@ -6,6 +6,7 @@ the frame time with enough digits for a long take. Source: M. Meredith, S. Maddo
 Explained" (University of Sheffield, 2001).
 
 Messages (with ``file``): ``file.cannot_read``, ``bvh.syntax``, ``bvh.truncated``, ``bvh.motion``,
+``bvh.no_frames``, ``bvh.number``,
 ``bvh.frame_time`` (found), ``bvh.frames`` (found), ``bvh.too_large``, ``bvh.unsupported``.
 """
 
@@ -290,20 +291,20 @@ def _motion(motion: str, hierarchy: _Hierarchy, file: str) -> BvhClip:
     words = motion.split()
     try:
         if words[0] != "Frames:" or words[2:4] != ["Frame", "Time:"]:
-            raise FileError("bvh.motion", file=file, detail="no Frames or Frame Time")
+            raise FileError("bvh.no_frames", file=file)
         frames, frame_time = int(words[1]), float(words[4])
         values = np.array(words[5:], dtype=np.float64)
     except (IndexError, ValueError) as error:
-        raise FileError("bvh.motion", file=file, detail="a number is missing or damaged") from error
+        raise FileError("bvh.number", file=file) from error
     width = sum(len(channels) for channels in hierarchy.channels)
     if not 1e-6 < frame_time < 1e6:
         raise FileError("bvh.frame_time", file=file, found=words[4][:40])
     if not 1 <= frames < 2**31:
         raise FileError("bvh.frames", file=file, found=words[1][:40])
     if not np.isfinite(values).all():
-        raise FileError("bvh.motion", file=file, detail="a number is out of range")
+        raise FileError("bvh.number", file=file)
     if len(values) != frames * width:
-        raise FileError("bvh.motion", file=file, detail=f"{len(values)} numbers for {frames} frames of {width}")
+        raise FileError("bvh.motion", file=file, found=len(values), frames=frames, width=width)
     if frames * len(hierarchy.names) > _FREE_ROTATIONS + 4 * len(values):
         # Joints need not have channels, and then cost the file nothing in a frame.
         raise FileError("bvh.too_large", file=file)

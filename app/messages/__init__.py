@@ -96,10 +96,8 @@ PITCHES: Final[dict[str, tuple[str, ...]]] = {
 """Arguments that are MIDI numbers of pitches: they are named, in the editor as its user chose."""
 
 
-DETAILED: Final = frozenset(
-    {"table.invalid", "project.invalid", "project.cannot_save", "project.not_storable", "autosave.without"}
-)
-"""Messages with a detail that `app.messages.details` knows."""
+DETAILS: Final = frozenset({"detail", "reason"})
+"""Arguments that `app.messages.details` words."""
 
 TEXTS: Final = frozenset({"parameter", "variant", "beside", "presentation", "aspect", "scale"})
 """Arguments that may be ids of texts themselves."""
@@ -130,8 +128,8 @@ def text(message: Message, language: str = "en") -> str:
     arguments = dict(message.arguments)
     for name in PITCHES.get(message.id, ()):
         arguments[name] = pitch_name(float(arguments[name]))
-    if message.id in DETAILED:
-        arguments["detail"] = detail_text(str(arguments["detail"]), language)
+    for name in DETAILS & arguments.keys():
+        arguments[name] = detail_text(str(arguments[name]), language)
     if (kind := f"{corrections.PREFIX}{arguments.get('kind')}") in WORDINGS:
         arguments["kind"] = WORDINGS[kind][place]
     if "touch" in arguments:

@@ -1,8 +1,10 @@
-"""Details of what is wrong with a table or a project: kinds of corrections in words, and details of schemas and of the
-checks of `metadata` and `app.project` in Japanese; any other stays as it is."""
+"""Details of what is wrong with a file, a table or a project, and the system's reasons, in Japanese; kinds of
+corrections in words. What a library says and is not known here stays as it is."""
 
 from __future__ import annotations
 
+import errno
+import os
 import re
 from collections.abc import Callable
 from functools import partial
@@ -84,8 +86,102 @@ _JAPANESE: Final = tuple(
         (r"must be before the end", "終わりより前にしてください"),
         (r"would come back from the file as another value", "ファイルから読むと別の値になります"),
         (r"unknown key", "この項目はありません"),
+        (r"must be one of (.*)", r"使える値: \1"),
+        (
+            r"must be the path of a (\S+) file or the name of a bundled choreography",
+            r"\1 ファイルのパスか、付属の振り付けの名前にしてください",
+        ),
+        (r"must be like (.*) or (.*)", r"\1 や \2 のように書いてください"),
+        (r"must be like (.*)", r"\1 のように書いてください"),
+        (r"must be a fraction of whole numbers of at most nine digits", "9 桁までの整数の分数にしてください"),
+        (r"must be a table", "テーブルにしてください"),
+        (r"must not be empty", "空にはできません"),
+        (r"must not be before the start", "始まりより後にしてください"),
+        (r"must be as many as the (?:ticks|times)", "時刻と同じ個数にしてください"),
+        (r"must ascend|ticks and seconds must rise", "昇順にしてください"),
+        (r"must be in order and apart|spans must be in order and apart", "順に並べ、重ならないようにしてください"),
+        (r"(?:markers|hits|notes|spans) must be ordered by .*", "時刻の順に並べてください"),
+        (r"differs from the score's", "スコアの値と異なります"),
+        (r"no metre begins after the pickup", "アウフタクトの後に始まる拍子がありません"),
+        (r"(.*) is no MIDI message in hexadecimal", r"\1 は 16 進数の MIDI メッセージではありません"),
+        (r"(.*) is not about acting", r"\1 は演技の項目ではありません"),
+        (r"not a parameter of presets", "プリセットの項目ではありません"),
+        (r"(\d+) MB; a project's file is at most (\d+) MB", r"\1 MB です。プロジェクトファイルは \2 MB までです"),
+        (r"no (\w+)", r"\1 がありません"),
+        (r"must be the name of a file in this folder \((.*)\)", r"このフォルダーのファイル名にしてください（\1）"),
+        (
+            r"(.*) must be the name of a file in this folder \((.*)\)",
+            r"\1 はこのフォルダーのファイル名ではありません（\2）",
+        ),
+        (r"nested in more than (\d+) others", r"入れ子が \1 段を超えています"),
+        (r"not a finite number", "有限の数にしてください"),
+        (r"a number that is too large", "数が大きすぎます"),
+        (r"two clips have the same code", "同じコードの映像が 2 つあります"),
+        (r"status (-?\d+)", r"終了コード \1"),
+        (r"its reader ended with (.*)", r"読み込みプロセスが終了しました（\1）"),
+        (r"it has no FileVersion", "FileVersion がありません"),
+        (r"EngineAssociation is no text", "EngineAssociation が文字列ではありません"),
+        (r"(.*) is not made of finite (\S+)s", r"\1 に \2 型の有限の数でない値があります"),
+        (r"(.*) is not a matrix", r"\1 が行列ではありません"),
+        (r"UVIndex beyond UV", "UVIndex が UV の範囲外です"),
+        (r"(.*) is its own ancestor", r"\1 が自分自身の子孫になっています"),
+        (r"weights of (.*)", r"\1 のウェイト"),
+        (r"two different curves of (.*)", r"\1 に異なるカーブが 2 つあります"),
+        (r"times and values of (.*)", r"\1 の時刻と値"),
+        (r"a bone's transform is not finite", "ボーンの変換に有限でない数があります"),
+        (r"no node named (.*)", r"\1 という名前のノードがありません"),
+        (r"damaged: (.*)", r"壊れています: \1"),
+        (r"(.*) is not the id of a map", r"\1 という id のマップはありません"),
+        (r"'(.*)' extends itself", r"'\1' が自分自身を継承しています"),
+        (r"more than (\d+) maps extend one another", r"マップの継承が \1 段を超えています"),
+        (r"there is no map named (.*)", r"\1 というマップはありません"),
+        (r"(.*) is not the file's name, (.*)", r"\1 がファイル名 \2 と一致しません"),
+        (r"no such model", "モデルがありません"),
+        (r"program (\d+) belongs to two instruments", r"プログラム \1 が 2 つの楽器に使われています"),
+        (r"(.*) belongs to two instruments", r"\1 が 2 つの楽器に使われています"),
+        (r"(.*) has no place in the seating", r"\1 の席順がありません"),
+        (r"the seating and the score order have different families", "席順とスコア順で楽器群が異なります"),
+        (r"(.*) is a form that the table does not have", r"\1 という形は表にありません"),
+        (r"(.*) is a sort of (.*), which is no other instrument", r"\1 の親 \2 は別の楽器ではありません"),
+        (r"the take had ended before", "テイクの終わりより後です"),
+        (r"(.*) is no word of a journal", r"\1 という語は使えません"),
+        (r"(.*) is no moment", r"\1 は時刻ではありません"),
+        (r"(.*) is no message of a MIDI channel", r"\1 は MIDI のチャンネルメッセージではありません"),
+        (r"(.*) is no place of a piece", r"\1 は曲の位置ではありません"),
+        (r"time goes back", "時刻が戻っています"),
+        (r"the device is back and was never lost", "切断されていないデバイスの再接続です"),
+        (r"too few or too many values", "値の個数が違います"),
+        (r"not ASCII", "ASCII の文字ではありません"),
+        (r"Input data was truncated", "途中で終わっています"),
+        (r"JSON is malformed: (.*) \(byte (\d+)\)", r"JSON の書式が正しくありません（\2 バイト目）"),
+        (r"maximum recursion depth exceeded.*", "入れ子が深すぎます"),
+        (r"'utf-8' codec can't decode .*", "UTF-8 の文字ではありません"),
+        (r"(Expected .*|Object .*|Invalid .*) - at `(.*)`", r"\2: \1"),
     )
 )
+_SYSTEM: Final = {
+    os.strerror(number): wording
+    for number, wording in (
+        (errno.ENOSPC, "空き容量がありません"),
+        (errno.EDQUOT if hasattr(errno, "EDQUOT") else errno.ENOSPC, "ディスクの割り当てを超えています"),
+        (errno.EACCES, "アクセスが許可されていません"),
+        (errno.EPERM, "操作が許可されていません"),
+        (errno.ENOENT, "ファイルまたはフォルダーがありません"),
+        (errno.EEXIST, "すでに存在します"),
+        (errno.EISDIR, "フォルダーです"),
+        (errno.ENOTDIR, "フォルダーではありません"),
+        (errno.EROFS, "書き込み禁止のディスクです"),
+        (errno.EIO, "ディスクの読み書きでエラーが起きました"),
+        (errno.ENAMETOOLONG, "名前が長すぎます"),
+        (errno.EBUSY, "使用中です"),
+        (errno.EMFILE, "開いているファイルが多すぎます"),
+        (errno.ETIMEDOUT, "応答がありません"),
+        (errno.ECONNREFUSED, "接続を拒否されました"),
+        (errno.ENETUNREACH, "ネットワークに接続できません"),
+        (errno.EHOSTUNREACH, "相手のコンピューターに接続できません"),
+    )
+}
+"""Reasons of the system."""
 _NAME: Final = r"""('.*?'|".*?")"""
 _KIND: Final = "|".join(id.removeprefix(corrections.PREFIX) for id in corrections.WORDINGS)
 _WHERE: Final = re.compile(
@@ -119,6 +215,8 @@ def detail_text(detail: str, language: str, label: Label = lambda kind, name: na
         return _AT[index].format(what=detail_text(what, language), where=_COMMA[index].join(said))
     if language != "ja":
         return detail
+    if detail in _SYSTEM:
+        return _SYSTEM[detail]
     for pattern, wording in _JAPANESE:
         found = pattern.fullmatch(detail)
         if found is not None:

@@ -56,8 +56,22 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         "{file} が途中で終わっています。コピーまたは書き出しをやり直してください",
     ),
     "bvh.motion": (
-        "{file}: the motion does not match the skeleton ({detail})",
-        "{file}: モーションがスケルトンに一致しません（{detail}）",
+        (
+            "{file}: the motion does not match the skeleton ({found} numbers for {frames} frames of {width}); "
+            "export it again"
+        ),
+        (
+            "{file}: モーションがスケルトンに一致しません"
+            "（1 フレーム {width} 個、{frames} フレームに対して {found} 個）。書き出し直してください"
+        ),
+    ),
+    "bvh.no_frames": (
+        "{file}: 'Frames:' and 'Frame Time:' are missing after MOTION; export it again",
+        "{file}: MOTION の後に 'Frames:' と 'Frame Time:' がありません。書き出し直してください",
+    ),
+    "bvh.number": (
+        "{file}: a number of the motion is missing, damaged or too large; export it again",
+        "{file}: モーションの数値が欠けているか、壊れているか、大きすぎます。書き出し直してください",
     ),
     "bvh.frame_time": (
         "{file}: 'Frame Time: {found}' is not the duration of a frame; enter it in seconds, such as 0.0333333 for 30 "

@@ -2,12 +2,18 @@
 
 from __future__ import annotations
 
+import ast
+import errno
+import os
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 
-from app.errors import MapError
+from app.errors import FileError, MapError, Message
 from app.messages import text
+from app.messages.details import detail_text
+from app.project.storage import load
 from metadata.library import READERS
 
 GESTURE = 'title = { en = "x" }\nlength_s = 2.0\n'
@@ -35,6 +41,10 @@ WRONG = {
 }
 
 
+def is_japanese(words: str) -> bool:
+    return any("぀" <= letter <= "鿿" for letter in words)
+
+
 @pytest.mark.parametrize(("kind", "wrong"), [(kind, wrong) for kind, some in WRONG.items() for wrong in some])
 def test_what_is_wrong_is_said_in_japanese(tmp_path: Path, kind: str, wrong: str) -> None:
     (tmp_path / kind).mkdir()
@@ -46,4 +56,74 @@ def test_what_is_wrong_is_said_in_japanese(tmp_path: Path, kind: str, wrong: str
     place = f"{kind}/mine.toml: {raised.value.message.arguments['place']}: "
     assert english.startswith(place)
     assert japanese.startswith(place)
-    assert any("぀" <= letter <= "鿿" for letter in japanese), japanese
+    assert is_japanese(japanese), japanese
+
+
+ROOT = Path(__file__).parents[2]
+NAMES = frozenset({"detail", "wrong"})
+"""Keywords and variables that hold details."""
+FOR_MAKERS = frozenset({"instrument_maps/validate.py", "instrument_maps/check_model.py"})
+"""What is wrong with an instrument map of one's own is worded in English, for those who make one."""
+MADE_OF_OTHERS = frozenset({"7: 7", "7 (7)"})
+"""An exception of ours by its name, and a detail with its place."""
+FOLDERS = ("app", "instrument_maps", "metadata")
+
+
+def worded(node: ast.expr) -> Iterator[str]:
+    """The texts that an expression may be, every field filled with a number."""
+    if isinstance(node, ast.Constant) and isinstance(node.value, str):
+        yield node.value
+    elif isinstance(node, ast.JoinedStr):
+        yield "".join(str(part.value) if isinstance(part, ast.Constant) else "7" for part in node.values)
+    elif isinstance(node, ast.IfExp):
+        yield from worded(node.body)
+        yield from worded(node.orelse)
+
+
+def details(tree: ast.AST) -> Iterator[str]:
+    """The details that a module gives to messages: as a keyword, a variable, an argument of its own functions for
+    errors, what a check yields beside a place, and reasons of parsers that become details."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.keyword):
+            yield from worded(node.value) if node.arg == "detail" else ()
+        elif isinstance(node, ast.Assign):
+            yield from worded(node.value) if NAMES & {getattr(target, "id", "") for target in node.targets} else ()
+        elif isinstance(node, ast.Call) and getattr(node.func, "id", "") in ("invalid", "unplayable", "_refused"):
+            for argument in node.args[1:]:
+                yield from worded(argument)
+        elif isinstance(node, ast.Yield) and isinstance(node.value, ast.Tuple) and len(node.value.elts) == 2:
+            yield from worded(node.value.elts[1])
+
+
+def modules() -> Iterator[Path]:
+    for folder in FOLDERS:
+        for path in sorted((ROOT / folder).rglob("*.py")):
+            if "messages" not in path.parts and str(path.relative_to(ROOT)) not in FOR_MAKERS:
+                yield path
+
+
+@pytest.mark.parametrize("number", [errno.ENOSPC, errno.EACCES, errno.ENOENT, errno.EROFS])
+def test_reasons_of_the_system_are_worded_in_japanese(number: int) -> None:
+    message = Message("file.cannot_write", {"file": "a.mid", "reason": os.strerror(number)})
+    assert text(message) == f"a.mid cannot be written: {os.strerror(number)}"
+    assert is_japanese(text(message, "ja").partition(": ")[2])
+
+
+@pytest.mark.parametrize("content", [b"", b"{", b"[" * 100_000, b"\xff\xfe", b'{"schema_version": "x"}', b"3"])
+def test_a_damaged_project_is_worded_in_japanese(tmp_path: Path, content: bytes) -> None:
+    file = tmp_path / "work.suisou"
+    file.write_bytes(content)
+    with pytest.raises(FileError) as raised:
+        load(file)
+    message = raised.value.message
+    assert "detail" not in message.arguments or is_japanese(detail_text(str(message.arguments["detail"]), "ja"))
+
+
+def test_every_detail_of_ours_is_worded_in_japanese() -> None:
+    missing = {
+        f"{path.relative_to(ROOT)}: {detail}"
+        for path in modules()
+        for detail in details(ast.parse(path.read_text(encoding="utf-8")))
+        if " " in detail and detail not in MADE_OF_OTHERS and not is_japanese(detail_text(detail, "ja"))
+    }
+    assert missing == set()

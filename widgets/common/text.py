@@ -8,7 +8,7 @@ from collections.abc import Callable, Mapping
 from app.editor.session import Session
 from app.editor.translated import tr
 from app.errors import Argument, Message
-from app.messages import DETAILED, PITCHES, WORDINGS, corrections, filled
+from app.messages import DETAILS, PITCHES, WORDINGS, corrections, filled
 from app.messages.details import detail_text
 from app.messages.pitches import pitch_name
 from app.plan.additive_curve import CHANNELS
@@ -64,7 +64,7 @@ def _reported(message: Message, name: str, session: Session | None, player_id: s
             return _anchor(session, value, player, is_anchor=name == "anchor")
     if name == "parameter":
         return parameter_text(str(value))
-    if name == "detail" and message.id in DETAILED:
+    if name in DETAILS:
         return detail_text(str(value), language(), _label)
     if name == "place" and message.id in _STORED:
         return field_name(str(value))
