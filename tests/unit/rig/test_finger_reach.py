@@ -1,0 +1,63 @@
+"""Fingers that are brought to a place: what is asked for again and again is solved once, to the same bits."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from app.rig import finger_reach
+from app.rig.character_library import character_named
+from app.rig.finger_reach import Asked, brought, distinct_rows
+from app.rig.hold_file import hold_for
+from instrument_maps.load import bundled_maps
+from metadata.load import load_body
+from tests.support.models import bundled_instrument
+
+PLACES = 40
+
+
+def _asked(rows: np.ndarray[tuple[int], np.dtype[np.intp]]) -> list[Asked]:
+    """Two fingers of a clarinettist, each brought to some of 40 places about a centimetre around."""
+    instrument = bundled_maps()["clarinet_Bb"]
+    hold = hold_for(character_named("woman_adult"), bundled_instrument(instrument), instrument, load_body())
+    offsets_m = np.random.default_rng(3).normal(0.0, 0.01, (PLACES, 3))
+    found = []
+    for table in hold.hands[0].fingers[1:3]:
+        assert table.chain is not None
+        rotations = table.stations[0].rotations[-1]
+        tip_m = table.stations[0].tip_m
+        at_m = table.chain.offsets_m.sum(axis=0) + offsets_m
+        found.append(Asked(table.chain, np.repeat(rotations[None], len(rows), axis=0), 2, tip_m, at_m[rows]))
+    return found
+
+
+def test_a_place_that_is_asked_for_often_is_solved_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    rows = np.random.default_rng(5).integers(0, PLACES, 500)
+    alone = [np.concatenate(ways) for ways in zip(*(brought(_asked(rows[[row]])) for row in range(60)), strict=True)]
+    solved = []
+    solve = finger_reach._brought
+
+    def counted(chains: object, rotations: np.ndarray, *others: object) -> object:  # type: ignore[type-arg]
+        solved.append(len(rotations))
+        return solve(chains, rotations, *others)  # type: ignore[arg-type]
+
+    monkeypatch.setattr(finger_reach, "_brought", counted)
+    together = brought(_asked(rows))
+    assert solved == [2 * len(set(rows.tolist()))]
+    assert len(together) == 2
+    for ours, single in zip(together, alone, strict=True):
+        assert ours.shape == (500, 3, 4)
+        assert np.array_equal(ours[:60], single)
+
+
+@given(st.lists(st.tuples(st.sampled_from([0.0, -0.0, 1.0, float("nan"), 2.0**-60]), st.integers(0, 3)), max_size=120))
+def test_distinct_rows_are_those_whose_bits_differ(rows: list[tuple[float, int]]) -> None:
+    values = np.array([value for value, _ in rows])
+    numbers = np.array([number for _, number in rows], np.intp)
+    firsts, same = distinct_rows((values, numbers))
+    keys = [(value.tobytes(), int(number)) for value, number in zip(values, numbers, strict=True)]
+    assert [keys[firsts[row]] for row in same.tolist()] == keys
+    if len(rows) >= finger_reach.LEAST_COMPARED:
+        assert len(firsts) == len(set(keys))
