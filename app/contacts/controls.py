@@ -55,19 +55,18 @@ class NoteFrames:
         self._times_s = times_s
         self.notes: Sequence[FingeringEvent] = notes
         self._targets: dict[str, FloatArray] = {}
-        self._spans: dict[tuple[float, float], slice] = {}
+        bounds_s = [(note.start_s, note.end_s) for note in notes]
+        self._starts_s, self._ends_s = np.array(bounds_s, dtype=np.float64).reshape(-1, 2).T
 
     @cached_property
     def sounding(self) -> BoolArray:
         """Frames (F,) at which a note sounds."""
-        return self.within([(note.start_s, note.end_s) for note in self.notes])
+        return self._inside(*self._bounds(self._starts_s, self._ends_s))
 
     def within(self, spans_s: Iterable[tuple[float, float]]) -> BoolArray:
         """Frames (F,) inside any of these spans."""
-        inside = np.zeros(len(self._times_s), dtype=np.bool_)
-        for start_s, end_s in spans_s:
-            inside[self._span(start_s, end_s)] = True
-        return inside
+        starts_s, ends_s = np.array(list(spans_s), dtype=np.float64).reshape(-1, 2).T
+        return self._inside(*self._bounds(starts_s, ends_s))
 
     def targets(self, control: Control) -> FloatArray:
         """Value of a control that each note asks for."""
@@ -91,17 +90,14 @@ class NoteFrames:
     def _frames_of_notes(self) -> tuple[IntArray, IntArray]:
         """The frames at which each note sounds, one note after another, and which note it is: one may sound on under
         the next."""
-        spans = [self._span(note.start_s, note.end_s) for note in self.notes]
-        frames = [np.arange(span.start, span.stop) for span in spans]
-        notes = np.repeat(np.arange(len(frames)), np.array([len(own) for own in frames], dtype=np.intp))
-        return np.concatenate([np.zeros(0, dtype=np.intp), *frames]), notes
+        starts, stops = self._bounds(self._starts_s, self._ends_s)
+        return _indices(starts, stops), np.repeat(np.arange(len(starts)), np.maximum(stops - starts, 0))
 
     def asked(self, requested: Sequence[bool] | BoolArray) -> BoolArray:
         """Frames of the sounding notes for which ``requested`` (N,) is true."""
-        frames = np.zeros(len(self._times_s), dtype=np.bool_)
-        for index in np.flatnonzero(requested).tolist():
-            frames[self._belongs(index)] = True
-        return frames
+        starts, stops = self._own
+        chosen = np.asarray(requested, dtype=np.bool_)
+        return self._inside(starts[chosen], stops[chosen])
 
     def kept(self, station: int, worked: IntArray, controls: Sequence[Control]) -> BoolArray:
         """Frames of the notes that a finger works at this of its stations, until it may leave for the next note.
@@ -113,26 +109,23 @@ class NoteFrames:
         controls : sequence of Control
             All that it works anywhere.
         """
-        frames = np.zeros(len(self._times_s), dtype=np.bool_)
-        targets = [(control, self.targets(control)) for control in controls]
-        for index in np.flatnonzero(worked == station).tolist():
-            span = self._belongs(index)
-            frames[span] = True
-            following = min(index + 1, len(self.notes) - 1)
-            leaves_s = [
-                self._leaves_s(control, values, index)
-                for control, values in targets
-                if values[index] != values[following]
-            ]
-            if leaves_s:
-                frames[self._span(min(leaves_s), math.inf).start : span.stop] = False
-        return frames
+        starts, stops = self._own
+        here = np.flatnonzero(worked == station)
+        following = np.minimum(here + 1, len(self.notes) - 1)
+        leaves_s = np.full(len(here), math.inf)
+        for control in controls:
+            targets = self.targets(control)
+            goes = targets[here] != targets[following]
+            leaves_s[goes] = np.minimum(leaves_s[goes], self._leaves_s(control, targets)[here[goes]])
+        # One that must leave before its note begins leaves the notes before it as early.
+        until = np.minimum.accumulate(np.searchsorted(self._times_s, leaves_s - 1e-9)[::-1])[::-1]
+        return self._inside(starts[here], np.minimum(stops[here], until))
 
     def targets_at_frames(self, control: Control) -> FloatArray:
         """Value of a control (F,) that the note at each frame asks for; NaN where none sounds."""
         result = np.full(len(self._times_s), np.nan)
-        for index, target in enumerate(self.targets(control).tolist()):
-            result[self._belongs(index)] = target
+        starts, stops = self._own
+        result[_indices(starts, stops)] = np.repeat(self.targets(control), np.maximum(stops - starts, 0))
         return result
 
     def measure(
@@ -150,7 +143,7 @@ class NoteFrames:
             Ids of the notes for which a hand cannot bring what it carries to its place.
         """
         targets = self.targets(control)
-        starts_s, ends_s = np.array([(note.start_s, note.end_s) for note in self.notes]).reshape(-1, 2).T
+        starts_s, ends_s = self._starts_s, self._ends_s
         unreached = np.array([note.note_id in out_of_reach for note in self.notes], dtype=np.bool_)
         frames = np.ceil((starts_s - self._times_s[0]) * fps).astype(np.int64)
         inside = (frames >= 0) & (frames < len(self._times_s))
@@ -162,8 +155,9 @@ class NoteFrames:
         stopped[inside] = _stops_short(control, at_onsets, targets[inside], unreached[inside])
         held = wrong = held_stopped = 0
         most_short = 0.0
+        firsts, stops = self._bounds(starts_s, self._leaves_s(control, targets))
         for index in np.flatnonzero(long).tolist():
-            span = self._span(self.notes[index].start_s, self._leaves_s(control, targets, index))
+            span = slice(firsts[index], stops[index])
             there = in_place(control, values[span], targets[index])
             held += len(there)
             wrong += len(there) - int(np.count_nonzero(there))
@@ -184,37 +178,47 @@ class NoteFrames:
             most_short_mm=round(1000.0 * most_short * (control.travel_m or 0.0), 2),
         )
 
-    def _leaves_s(self, control: Control, targets: FloatArray, index: int) -> float:
-        """The earliest time at which a control may leave the place of a note: its end, or shortly before.
+    def _leaves_s(self, control: Control, targets: FloatArray) -> FloatArray:
+        """The earliest times (N,) at which a control may leave the places of the notes: their ends, or shortly before.
 
         Where its share of the note is not enough for the way at the speed the map gives, it may take the time it
         needs: the plan flags such notes.
         """
-        note = self.notes[index]
-        if index + 1 == len(targets):
-            return note.end_s
-        needed_s = 0.0
+        starts_s, next_s = self._starts_s[:-1], self._starts_s[1:]
+        needed_s = np.zeros(len(next_s))
         if control.max_speed_m_s and control.travel_m:
-            needed_s = abs(targets[index + 1] - targets[index]) * control.travel_m / control.max_speed_m_s
-        next_s = self.notes[index + 1].start_s
+            needed_s = np.abs(targets[1:] - targets[:-1]) * control.travel_m / control.max_speed_m_s
         # A note may sound on under the next one (legato); its control belongs to it until then only.
-        end_s = min(note.end_s, next_s)
-        allowed_s = max(next_s - end_s, control.move_note_share * (end_s - note.start_s))
-        window_s = max(needed_s, min(control.move_window_s, allowed_s))
-        return min(end_s, next_s - window_s)
+        ends_s = np.minimum(self._ends_s[:-1], next_s)
+        allowed_s = np.maximum(next_s - ends_s, control.move_note_share * (ends_s - starts_s))
+        window_s = np.maximum(needed_s, np.minimum(control.move_window_s, allowed_s))
+        return np.concatenate([np.minimum(ends_s, next_s - window_s), self._ends_s[-1:]])
 
-    def _belongs(self, index: int) -> slice:
-        """The frames of a note, to the next one's onset at most."""
-        note = self.notes[index]
-        following_s = self.notes[index + 1].start_s if index + 1 < len(self.notes) else math.inf
-        return self._span(note.start_s, min(note.end_s, following_s))
+    @cached_property
+    def _own(self) -> tuple[IntArray, IntArray]:
+        """From which frame (N,) to before which each note has the frames, to the next one's onset at most."""
+        following_s = np.append(self._starts_s[1:], math.inf)
+        return self._bounds(self._starts_s, np.minimum(self._ends_s, following_s[: len(self.notes)]))
 
-    def _span(self, start_s: float, end_s: float) -> slice:
-        span = self._spans.get((start_s, end_s))
-        if span is None:
-            found = np.searchsorted(self._times_s, [start_s - 1e-9, end_s - 1e-9])
-            span = self._spans[start_s, end_s] = slice(*found.tolist())
-        return span
+    def _bounds(self, starts_s: FloatArray, ends_s: FloatArray) -> tuple[IntArray, IntArray]:
+        """First frames (K,) of spans, and the frames after their last."""
+        return np.searchsorted(self._times_s, starts_s - 1e-9), np.searchsorted(self._times_s, ends_s - 1e-9)
+
+    def _inside(self, starts: IntArray, stops: IntArray) -> BoolArray:
+        """Frames (F,) inside any of the spans that begin and end there."""
+        count = len(self._times_s) + 1
+        some = stops > starts
+        changes = np.bincount(starts[some], minlength=count) - np.bincount(stops[some], minlength=count)
+        inside: BoolArray = np.cumsum(changes[:-1]) > 0
+        return inside
+
+
+def _indices(starts: IntArray, stops: IntArray) -> IntArray:
+    """The indices of spans (K,), one span after another."""
+    lengths = np.maximum(stops - starts, 0)
+    before = np.cumsum(lengths) - lengths
+    indices: IntArray = np.arange(lengths.sum()) + np.repeat(starts - before, lengths)
+    return indices
 
 
 def _stops_short(control: Control, values: FloatArray, targets: FloatArray, unreached: BoolArray) -> BoolArray:

@@ -10,7 +10,7 @@ from __future__ import annotations
 import itertools
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import TypeAlias
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
@@ -150,24 +150,32 @@ def _visits(
     found: list[_Visit] = []
     if not fingerings:
         return found
-    nothing: frozenset[str] = frozenset()
     firsts = np.flatnonzero(~(follows[1:] & (worked[1:] == worked[:-1]))) + 1
     edges = [0, *firsts.tolist(), len(fingerings)]
-    for first, end in itertools.pairwise(edges):
-        work = sets[worked[first]]
-        if not work:
+    onsets_s = [fingerings[first].start_s for first in edges[:-1]]
+    last_onsets_s = [fingerings[end - 1].start_s for end in edges[1:]]
+    moved = {name: _Moves.of(controls[name], onsets_s, last_onsets_s) for name in sorted(frozenset().union(*sets))}
+    numbers = [station_for(places, work) if work else -1 for work in sets]
+    orders = [sorted(work) for work in sets]
+    nothing: frozenset[str] = frozenset()
+    for visit, (first, end) in enumerate(itertools.pairwise(edges)):
+        kind = int(worked[first])
+        if numbers[kind] < 0:
             continue
         before = sets[worked[first - 1]] if first and follows[first] else nothing
         after = sets[worked[end]] if end < len(fingerings) and follows[end] else nothing
-        onset_s, last_onset_s, end_s = fingerings[first].start_s, fingerings[end - 1].start_s, fingerings[end - 1].end_s
-        down = {name: _down(controls[name], onset_s) for name in sorted(work)}
-        up = {name: _up(controls[name], last_onset_s, end_s) for name in sorted(work)}
+        onset_s, end_s = onsets_s[visit], fingerings[end - 1].end_s
         # What it works at both of two notes comes up between them where there is a rest.
         ended_s = fingerings[first - 1].end_s if first else -np.inf
         next_s = fingerings[end].start_s if end < len(fingerings) else np.inf
-        downs = [span for name, span in down.items() if name not in before or ended_s <= span[0] < span[1]]
-        ups = [span for name, span in up.items() if name not in after or end_s <= span[0] < span[1] <= next_s]
-        found.append(_Visit(station_for(places, work), first, end, onset_s, end_s, _hull(downs), _hull(ups)))
+        downs, ups = [], []
+        for name in orders[kind]:
+            down, up = moved[name].down(visit, onset_s), moved[name].up(visit, end_s)
+            if name not in before or ended_s <= down[0] < down[1]:
+                downs.append(down)
+            if name not in after or end_s <= up[0] < up[1] <= next_s:
+                ups.append(up)
+        found.append(_Visit(numbers[kind], first, end, onset_s, end_s, _hull(downs), _hull(ups)))
     return found
 
 
@@ -177,19 +185,34 @@ def _hull(spans: Sequence[Span]) -> Span | None:
     return min(start_s for start_s, _ in spans), max(end_s for _, end_s in spans)
 
 
-def _down(curve: Curve, onset_s: float) -> Span:
-    """While a control goes to the place it has at an onset."""
-    index = int(np.searchsorted(curve.end_s, onset_s - 1e-6))
-    there = index < len(curve.end_s) and abs(curve.end_s[index] - onset_s) < 1e-6
-    return (float(curve.start_s[index]) if there else onset_s), onset_s
+class _Moves(NamedTuple):
+    """The moves of a control by which a finger comes to its visits and leaves them.
 
+    ``coming`` and ``leaving`` are indices of the moves ``start_s``..``end_s`` for every visit; past the last, there is
+    none.
+    """
 
-def _up(curve: Curve, onset_s: float, end_s: float) -> Span:
-    """While a control leaves the place it has at an onset."""
-    index = int(np.searchsorted(curve.start_s, onset_s - 1e-6))
-    if index == len(curve.start_s):
-        return end_s, end_s
-    return float(curve.start_s[index]), float(curve.end_s[index])
+    start_s: list[float]
+    end_s: list[float]
+    coming: list[int]
+    leaving: list[int]
+
+    @classmethod
+    def of(cls, curve: Curve, onsets_s: Sequence[float], last_onsets_s: Sequence[float]) -> _Moves:
+        coming = np.searchsorted(curve.end_s, np.array(onsets_s) - 1e-6)
+        leaving = np.searchsorted(curve.start_s, np.array(last_onsets_s) - 1e-6)
+        return cls(curve.start_s.tolist(), curve.end_s.tolist(), coming.tolist(), leaving.tolist())
+
+    def down(self, visit: int, onset_s: float) -> Span:
+        """While the control goes to the place it has at the onset of a visit."""
+        index = self.coming[visit]
+        there = index < len(self.end_s) and abs(self.end_s[index] - onset_s) < 1e-6
+        return (self.start_s[index] if there else onset_s), onset_s
+
+    def up(self, visit: int, end_s: float) -> Span:
+        """While it leaves the place it has at the last onset of a visit."""
+        index = self.leaving[visit]
+        return (end_s, end_s) if index == len(self.start_s) else (self.start_s[index], self.end_s[index])
 
 
 def _ways(visits: Sequence[_Visit]) -> list[tuple[float, float, float]]:

@@ -159,6 +159,7 @@ def _posed(
     At their places first, for the wrist there is; what is between two places is lifted over what lies between.
     """
     given = [(lean, weight) for lean in hand.leans for weight in [given_way(lean, placed)] if weight is not None]
+    wrist = wrist_given(hand, given)
     ends: list[FloatArray | Asked] = []
     for way in ways:
         values = _sampled(way.table, controls, way.frames)
@@ -166,7 +167,8 @@ def _posed(
             way.table, way.first, way.second, way.share, values, raised[way.table.finger][way.frames]
         )
         if way.given:
-            now = [(lean, weight[way.frames]) for lean, weight in given]
+            here = (wrist[0][way.frames], wrist[1][way.frames]) if given else wrist
+            now = _Given(given, way.frames, here)
             near, far = poses
             assert not isinstance(near, Asked)
             assert not isinstance(far, Asked)
@@ -252,8 +254,23 @@ def _sampled(table: FingerTable, controls: Controls, here: IntArray) -> Controls
     return {name: np.asarray(controls[name])[here] for name in sorted(names)}
 
 
+@dataclass(frozen=True)
+class _Given:
+    """How a hand gives way in some frames: how far (F,) for each of its leans in all frames, and where its wrist is in
+    these, (K, 3) and (K, 4), or in one that stands for all."""
+
+    leans: Sequence[tuple[WristOffset, FloatArray]]
+    frames: IntArray
+    wrist: tuple[FloatArray, FloatArray]
+
+    def waits(self, lean: WristOffset) -> FloatArray:
+        """How far (K,) it is from giving way."""
+        weight = next((weight[self.frames] for one, weight in self.leans if one is lean), np.zeros(len(self.frames)))
+        return 1.0 - weight
+
+
 def _at_place(
-    hand: HandHold, table: FingerTable, index: int, rotations: FloatArray, given: list[tuple[WristOffset, FloatArray]]
+    hand: HandHold, table: FingerTable, index: int, rotations: FloatArray, given: _Given
 ) -> FloatArray | Asked:
     """Rotations (K, n, 4) at a station, for another wrist than the one they were solved for."""
     station = table.stations[index]
@@ -261,11 +278,10 @@ def _at_place(
         return rotations
     lean = next((lean for lean in hand.leans if lean.places == ((table.finger, index),)), None)
     if lean is None:
-        return with_wrist(table, station, rotations, wrist_given(hand, []), wrist_given(hand, given))
-    waits = 1.0 - next((weight for one, weight in given if one is lean), np.zeros(len(rotations)))
-    lifted = np.multiply.outer(waits, station.waits_m)
+        return with_wrist(table, station, rotations, wrist_given(hand, []), given.wrist)
+    lifted = np.multiply.outer(given.waits(lean), station.waits_m)
     own = wrist_given(hand, [(lean, np.ones(1))])
-    return with_wrist(table, station, rotations, own, wrist_given(hand, given), lifted)
+    return with_wrist(table, station, rotations, own, given.wrist, lifted)
 
 
 def with_wrist(

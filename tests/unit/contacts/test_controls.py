@@ -106,3 +106,53 @@ def test_what_works_is_what_is_found_note_by_note(
     pressed, released = NoteFrames(times_s, events).working(press, values)
     np.testing.assert_array_equal(pressed, expected[True])
     np.testing.assert_array_equal(released, expected[False])
+
+
+def _kept_slowly(
+    times_s: npt.NDArray[np.float64], notes: list[FingeringEvent], asked: list[bool], moved: Control
+) -> list[bool]:
+    """Frames of the notes asked for, until the control may leave for the next one, note after note."""
+    frames = [False] * len(times_s)
+
+    def within(start_s: float, end_s: float) -> list[int]:
+        return [index for index, time_s in enumerate(times_s) if start_s - 1e-9 <= time_s < end_s - 1e-9]
+
+    for index, note in enumerate(notes):
+        following = notes[index + 1] if index + 1 < len(notes) else None
+        end_s = note.end_s if following is None else min(note.end_s, following.start_s)
+        if not asked[index]:
+            continue
+        for frame in within(note.start_s, end_s):
+            frames[frame] = True
+        way = 0.0 if following is None else abs(following.controls.get("c", 0.0) - note.controls.get("c", 0.0))
+        if following is not None and way:
+            needed_s = way * 0.6 / 2.5
+            shared_s = max(following.start_s - end_s, moved.move_note_share * (end_s - note.start_s))
+            window_s = max(needed_s, min(moved.move_window_s, shared_s))
+            for frame in within(min(end_s, following.start_s - window_s), end_s):
+                frames[frame] = False
+    return frames
+
+
+@given(
+    st.lists(
+        st.tuples(st.floats(0.0, 0.6), st.floats(0.01, 1.5), st.sampled_from([0.0, 0.5, 1.0]), st.booleans()),
+        max_size=12,
+    )
+)
+def test_frames_of_notes_are_those_of_one_note_after_another(rows: list[tuple[float, float, float, bool]]) -> None:
+    slide = control(kind="slide", motion=Motion((0.0, 0.0, 1.0), travel_m=0.6), max_speed_m_s=2.5)
+    times_s = FIRST_FRAME_S + np.arange(40) / FPS
+    starts_s = np.cumsum([row[0] for row in rows]).tolist()
+    notes = [event(start_s, start_s + row[1], row[2]) for start_s, row in zip(starts_s, rows, strict=True)]
+    asked = [row[3] for row in rows]
+    frames = NoteFrames(times_s, notes)
+    worked = np.where(asked, 1, 0) if rows else np.zeros(0, np.intp)
+    assert frames.kept(1, worked, [slide]).tolist() == _kept_slowly(times_s, notes, asked, slide)
+    sounding = [any(note.start_s - 1e-9 <= time_s < note.end_s - 1e-9 for note in notes) for time_s in times_s]
+    assert frames.sounding.tolist() == sounding
+    last = [max((i for i, note in enumerate(notes) if note.start_s - 1e-9 <= t), default=-1) for t in times_s]
+    owned = [i if i >= 0 and t < notes[i].end_s - 1e-9 else -1 for i, t in zip(last, times_s, strict=True)]
+    assert frames.asked(asked).tolist() == [i >= 0 and asked[i] for i in owned]
+    targets = frames.targets_at_frames(slide)
+    assert np.array_equal(targets, [rows[i][2] if i >= 0 else np.nan for i in owned], equal_nan=True)

@@ -9,7 +9,9 @@ from hypothesis import strategies as st
 
 from app.rig import finger_reach
 from app.rig.character_library import character_named
+from app.rig.finger_poses import finger_rotations
 from app.rig.finger_reach import Asked, brought, distinct_rows
+from app.rig.hold import Placed, giving_for
 from app.rig.hold_file import hold_for
 from instrument_maps.load import bundled_maps
 from metadata.load import load_body
@@ -50,6 +52,24 @@ def test_a_place_that_is_asked_for_often_is_solved_once(monkeypatch: pytest.Monk
     for ours, single in zip(together, alone, strict=True):
         assert ours.shape == (500, 3, 4)
         assert np.array_equal(ours[:60], single)
+
+
+def test_fingers_wait_for_a_hand_that_does_not_give_way_as_frame_by_frame() -> None:
+    instrument = bundled_maps()["clarinet_bass_Bb"]
+    hold = hold_for(character_named("woman_adult"), bundled_instrument(instrument), instrument, load_body())
+    share = np.array([0.0, 0.3, 1.0, 1.0, 0.0])
+    home = Placed(np.zeros(5), np.zeros(5), np.ones(5))
+    leans = [lean for hand in hold.hands for lean in hand.leans if not lean.beside]
+    assert leans
+    for lean in leans:
+        coming = Placed(np.zeros(5), np.full(5, float(lean.station)), share)
+        together = finger_rotations(hold, {}, 5, {lean.finger: coming, giving_for(lean.finger): home})
+        for frame in range(5):
+            one = {
+                name: Placed(*(values[[frame]] for values in placed))
+                for name, placed in ((lean.finger, coming), (giving_for(lean.finger), home))
+            }
+            assert np.array_equal(together[[frame]], finger_rotations(hold, {}, 1, one))
 
 
 @given(st.lists(st.tuples(st.sampled_from([0.0, -0.0, 1.0, float("nan"), 2.0**-60]), st.integers(0, 3)), max_size=120))
