@@ -20,6 +20,7 @@ Messages (`UsageError`): ``reimport.no_note``, ``reimport.not_played``, ``piece.
 from __future__ import annotations
 
 from bisect import bisect_right
+from collections import Counter
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
@@ -56,7 +57,7 @@ from app.project.model import Project, map_choices
 from app.project.part_matching import matched_parts
 from app.project.recording import with_places
 from app.project.rereading import Reading, characters_of, read_as_decided
-from app.score.model import Note, Part, Score
+from app.score.model import Note, Part, Score, UnplayedPart
 from app.score.parts import transposed
 from app.score.read import read_contents
 from instrument_maps.model import InstrumentMap
@@ -128,6 +129,8 @@ class Reimport:
         Ids of notes that are new in the project, and of notes that are in it no more.
     new_players, gone_players : tuple of str
         Ids in the project: of new parts; of parts that the file does not have any more, which can be removed.
+    new_unplayed : tuple of UnplayedPart
+        Parts of the file that get no player and were not in it before, by name.
     orphans : tuple of Orphan
         Corrections that lost their note now or earlier.
     conflicts : tuple of Conflict
@@ -145,6 +148,7 @@ class Reimport:
     orphans: tuple[Orphan, ...]
     conflicts: tuple[Conflict, ...]
     replaced: tuple[ReplacedKind, ...] = ()
+    new_unplayed: tuple[UnplayedPart, ...] = ()
 
 
 def reimported(project: Project, path: Path, maps: Mapping[str, InstrumentMap]) -> Reimport:
@@ -220,7 +224,19 @@ def reimport(
         orphans=orphaned(result),
         conflicts=found.conflicts,
         replaced=(*timing.replaced, *replaced),
+        new_unplayed=_new_unplayed(project.score, score),
     )
+
+
+def _new_unplayed(before: Score, now: Score) -> tuple[UnplayedPart, ...]:
+    known = Counter(part.name for part in before.unplayed)
+    found = []
+    for part in now.unplayed:
+        if known[part.name]:
+            known[part.name] -= 1
+        else:
+            found.append(part)
+    return tuple(found)
 
 
 def orphaned(project: Project) -> tuple[Orphan, ...]:

@@ -26,6 +26,7 @@ from app.score.model import Note
 from widgets.common.controls import Caption, OkCancel, Retranslated, named, selectable, wrapped
 from widgets.common.layouts import in_column
 from widgets.common.plain import Label
+from widgets.common.text import message_text
 
 
 class ReimportDialog(Retranslated, QDialog):
@@ -67,6 +68,9 @@ class ReimportDialog(Retranslated, QDialog):
         self._table.horizontalHeader().setSectionResizeMode(0, QHeaderView.ResizeMode.Stretch)
         self._table.horizontalHeader().setDefaultAlignment(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter)
         self._players, self._conflict_title = named(wrapped(Label()), "reimport_players"), wrapped(Label())
+        self._unplayed_title = wrapped(Caption("reimport_dialog.new_parts_without_player"))
+        self._unplayed = named(QListWidget(), "reimport_unplayed")
+        self._unplayed.setWordWrap(True)
         self._gone_title = wrapped(Caption("reimport_dialog.players_whose_part_is_gone"))
         self._gone = named(QListWidget(), "reimport_gone")
         self._gone.setMaximumHeight(min(140, LEAST_TARGET_PX * len(outcome.gone_players) + 6))
@@ -82,7 +86,7 @@ class ReimportDialog(Retranslated, QDialog):
         self._orphan_title = wrapped(Caption("reimport_dialog.these_corrections_have_lost_their"))
         self._conflicts = named(QListWidget(), "reimport_conflicts")
         self._orphans = named(QListWidget(), "reimport_orphans")
-        for items in (self._conflicts, self._orphans):
+        for items in (self._unplayed, self._conflicts, self._orphans):
             items.setSelectionMode(QAbstractItemView.SelectionMode.NoSelection)
             items.setMaximumHeight(140)
         self._buttons = OkCancel("reimport_dialog.re_import", "reimport_dialog.cancel")
@@ -92,6 +96,8 @@ class ReimportDialog(Retranslated, QDialog):
             self._heading,
             (self._table, 1),
             self._players,
+            self._unplayed_title,
+            self._unplayed,
             self._gone_title,
             self._gone,
             self._replaced,
@@ -156,6 +162,15 @@ class ReimportDialog(Retranslated, QDialog):
         new = ", ".join(names[id_] for id_ in outcome.new_players)
         self._players.setText(self.tr("reimport_dialog.new_players").format(names=new))
         self._players.setVisible(bool(new))
+        self._unplayed.clear()
+        self._unplayed.addItems(
+            [
+                self.tr("import_dialog.is_not_played").format(name=part.name, reason=message_text(part.reason))
+                for part in outcome.new_unplayed
+            ]
+        )
+        for widget in (self._unplayed_title, self._unplayed):
+            widget.setVisible(bool(outcome.new_unplayed))
         self._conflict_title.setText(
             self.tr("reimport_dialog.changed_here_and_in_file").format(count=len(outcome.conflicts))
         )

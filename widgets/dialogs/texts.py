@@ -945,6 +945,10 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
     "reimport_dialog.kept": ("Kept", "維持"),
     "reimport_dialog.metres": ("time signatures", "拍子"),
     "reimport_dialog.new": ("New", "新規"),
+    "reimport_dialog.new_parts_without_player": (
+        "New parts without a player. To give one a player, import the file again as a new project:",
+        "奏者のいない新しいパートです。奏者を付けるには、新規プロジェクトとして読み込んでください:",
+    ),
     "reimport_dialog.new_players": ("New players: {names}", "新しい奏者: {names}"),
     "reimport_dialog.not_in_file_any_more": ("no longer in the file", "ファイルに存在しません"),
     "reimport_dialog.part": ("Part", "パート"),

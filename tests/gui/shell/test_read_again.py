@@ -47,8 +47,7 @@ def program(request: pytest.FixtureRequest, start: Start, tmp_path: Path) -> Pro
 
 
 def shown(program: Program) -> ReimportDialog:
-    (dialog,) = program.window.findChildren(ReimportDialog)
-    return dialog
+    return program.window.findChildren(ReimportDialog)[-1]
 
 
 def agree(dialog: ReimportDialog) -> None:
@@ -112,6 +111,37 @@ def test_a_player_is_removed_with_the_update_as_one_step(program: Program, answe
     assert after.corrections == {id_: before.corrections[id_] for id_ in kept}
     program.session.document.undo()
     assert program.session.project is before
+
+
+@pytest.mark.parametrize("language", ["en", "ja"])
+def test_new_parts_without_a_player_are_listed_with_the_reason(
+    program: Program, answers: Answers, language: str, tmp_path: Path
+) -> None:
+    program.editor.language.set(language)
+    strings = mido.MidiTrack(
+        [mido.MetaMessage("track_name", name="Violins"), mido.Message("program_change", program=48)]
+    )
+    drums = mido.MidiTrack([mido.MetaMessage("track_name", name="Kit")])
+    for place in range(12):
+        for track, pitch, channel in ((strings, 72 + place, 0), (drums, 36, 9)):
+            track.append(mido.Message("note_on", note=pitch, velocity=80, channel=channel))
+            track.append(mido.Message("note_off", note=pitch, time=240, channel=channel))
+    answers.path = written(tmp_path / "newer.mid", [*tracks(), strings, drums])
+    trigger(program, "file.reimport_other")
+    dialog = shown(program)
+    listed = dialog.findChild(QListWidget, "reimport_unplayed")
+    assert listed is not None
+    assert listed.isVisible()
+    texts = [listed.item(row).text() for row in range(listed.count())]
+    assert [text.split()[0].rstrip(":") for text in texts] == ["Violins", "Kit"]
+    assert all(text.isascii() == (language == "en") for text in texts)
+    agree(dialog)
+    # The second time they are known.
+    trigger(program, "file.reimport")
+    again = shown(program).findChild(QListWidget, "reimport_unplayed")
+    assert again is not None
+    assert not again.isVisible()
+    shown(program).reject()
 
 
 def test_the_encoding_chosen_at_the_import_is_used_again(
