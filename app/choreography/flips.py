@@ -32,6 +32,8 @@ LONGEST_S: Final = 0.035
 STEP_TIMES: Final = 2.5
 LEAST_STEP_RAD_S: Final = 6.0
 """In a step the hips turn faster than so many times the speed before and after it, and by this more."""
+LEAST_APART_S: Final = 0.2
+"""Frames are not missing again so soon after a step: what turns by steps more often than this moves so."""
 STEP_FADE_S: Final = 0.4
 """What a step leaves of lean and height goes over into what was captured within this time."""
 LEAD_IN_S: Final = 0.15
@@ -93,11 +95,13 @@ def mend_steps(clip: MotionClip) -> tuple[MotionClip, tuple[Flip, ...]]:
     turns = _angle(clip.rotations[:-1, 0], clip.rotations[1:, 0])
     following = _Following(clip)
     found = []
-    for at in range(1, len(turns) - 1):
-        beside = STEP_TIMES * max(turns[at - 1], turns[at + 1])
-        if (turns[at] - beside) * float(clip.fps) > LEAST_STEP_RAD_S:
+    beside = STEP_TIMES * np.maximum(turns[:-2], turns[2:])
+    next_from = 0.0
+    for at in (np.flatnonzero((turns[1:-1] - beside) * float(clip.fps) > LEAST_STEP_RAD_S) + 1).tolist():
+        if at >= next_from:
             following.go_on(at)
             found.append(Flip("hips", at + 1, min(len(clip), at + 1 + following.fade)))
+            next_from = at + LEAST_APART_S * float(clip.fps)
     return (following.clip(), tuple(found)) if found else (clip, ())
 
 

@@ -101,8 +101,11 @@ class Dancing:
             return self._steps
 
     def _chosen(self) -> tuple[Step, ...]:
-        constraints = assignments_of(self._corrections, grid_of(self.rhythm), self._tempo_map)
+        constraints = self._constraints(grid_of(self.rhythm))
         return self.choreographer.steps(self.rhythm, self._manner, constraints=constraints)
+
+    def _constraints(self, grid: Grid) -> Constraints:
+        return assignments_of(self._corrections, grid, self._tempo_map, self.choreographer.model.states)
 
     @property
     def _manner(self) -> Manner:
@@ -147,7 +150,7 @@ class Dancing:
                     self.rhythm,
                     self._manner,
                     fps,
-                    constraints=assignments_of(self._corrections, grid, self._tempo_map),
+                    constraints=self._constraints(grid),
                     first_s=frame.first_frame_s,
                     # Half a frame less: rounding must not add one.
                     end_s=frame.first_frame_s + (count - 0.5) * fps.denominator / fps.numerator,
@@ -208,20 +211,25 @@ def dance_frame(performance: Performance) -> TimeFrame:
     return _same_frame(performance.time_frame.first_frame_s, performance.time_frame.end_s)
 
 
-def assignments_of(corrections: Sequence[DanceCorrection], grid: Grid, tempo_map: TempoMap) -> Constraints:
-    """Corrections, which hold for ticks, on the nearest places of a grid; of several for one place the last counts."""
+def assignments_of(
+    corrections: Sequence[DanceCorrection], grid: Grid, tempo_map: TempoMap, states: int | None = None
+) -> Constraints:
+    """Corrections, which hold for ticks, on the nearest places of a grid; of several for one place the last counts.
+
+    ``states``, where it is given, is the number of basic motions: others need not be forbidden.
+    """
     if not len(grid.times_s):
         return Constraints()
-    pinned, segments, forbidden = dict[int, int](), dict[int, int](), set[tuple[int, int]]()
+    pinned, segments, forbidden = dict[int, int](), dict[int, int](), dict[int, set[int]]()
     for item in corrections:
         match item:
             case PinState():
                 pinned[place_of(item.tick, grid, tempo_map)] = item.state
             case UseSegment():
                 segments[place_of(item.tick, grid, tempo_map)] = item.segment
-            case ForbidState():
-                forbidden |= {(at, item.state) for at in _places(item, grid, tempo_map)}
-    return Constraints(pinned, segments, frozenset(forbidden))
+            case ForbidState() if states is None or item.state < states:
+                forbidden.setdefault(item.state, set()).update(_places(item, grid, tempo_map))
+    return Constraints(pinned, segments, frozenset((at, state) for state, places in forbidden.items() for at in places))
 
 
 def not_held(
@@ -230,8 +238,8 @@ def not_held(
     """A problem for every correction that these steps do not hold: there is no such basic motion or segment, or other
     corrections are against it. The corrections stay."""
     there = {step.place: step for step in steps}
-    constraints = assignments_of(corrections, grid, tempo_map)
-    pinned = {*constraints.pinned, *constraints.segments}
+    pins = [item for item in corrections if not isinstance(item, ForbidState)]
+    pinned = {place_of(item.tick, grid, tempo_map) for item in pins} if len(grid.times_s) else set[int]()
     found = []
     for item in corrections:
         if isinstance(item, ForbidState):

@@ -174,6 +174,9 @@ def test_corrections_go_to_the_nearest_place() -> None:
     assert found.pinned == {2: 3}
     assert found.segments == {2: 7}
     assert found.forbidden == {(0, 1), (1, 1)}
+    # A basic motion that there is not need not be forbidden at every place.
+    many = [ForbidState(0, round(tempo.ticks(9.0)), state) for state in (*range(1, 900), 1)]
+    assert assignments_of(many, grid, tempo, states=3).forbidden == {(at, state) for at in range(9) for state in (1, 2)}
 
 
 def test_dancers_are_seen_beside_the_players(choreography: str) -> None:
