@@ -24,8 +24,10 @@ from app.project.performers import Player
 WHOLE_FRAMES: Final = 120_000
 """Frames of all players together up to which motion is made of all, before every fourth is posed and looked at; in
 longer pieces nothing is made of those between."""
-MOST_FRAMES, FRAMES_PER_NOTE = 100_000, 3
-"""Frames that are looked at: in any piece, or for each of many notes. In longer pieces fewer are in each second."""
+MOST_WORK: Final = 110_000
+"""Work on a piece at most, in frames of one player that are looked at. In longer pieces fewer are in each second."""
+PLAYER_WORK, NOTE_WORK = 700, 1
+"""What a player and a note take beside them, in the same measure: curves are made of every one."""
 SPARSE_S: Final = 4.0
 """Seconds of a player for each note from which a piece counts as one with few notes: slower than any chorale ..."""
 SPARSE_FRAMES, SPARSE_PER_NOTE = 50_000, 4
@@ -84,13 +86,13 @@ def _looked(performance: Performance, players: int, notes: int) -> tuple[_Looked
     """Which frames of players are looked at, None for none; and what to say of it."""
     fps = performance.project.fps
     count = whole_span(performance.time_frame, fps).count * players
-    most = max(MOST_FRAMES, FRAMES_PER_NOTE * notes)
+    most = max(MOST_WORK - PLAYER_WORK * players - NOTE_WORK * notes, 1)
     if count / float(fps) > SPARSE_S * notes:
-        most = min(MOST_FRAMES, SPARSE_FRAMES + SPARSE_PER_NOTE * notes)
+        most = min(most, SPARSE_FRAMES + SPARSE_PER_NOTE * notes)
     usual = max(1, round(float(fps) / JUDGED_PER_S))
-    if count <= WHOLE_FRAMES:
-        return _Looked(fps, usual), None
     stride = usual * max(1, math.ceil(count / usual / most))
+    if stride == usual and count <= WHOLE_FRAMES:
+        return _Looked(fps, usual), None
     if stride == usual:
         return _Looked(fps / usual, 1), None
     frame, rate = performance.time_frame, float(fps) / stride

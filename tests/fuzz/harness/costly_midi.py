@@ -99,6 +99,21 @@ def _everyone_often(size: int) -> bytes:
     return midi(tempo + END, *[notes + END] * min(128, size // 60), division=96)
 
 
+def _everyones_own(size: int) -> bytes:
+    """Many players of all instruments for less than a minute: what is made for each of them costs most."""
+    programs = (*range(56, 62), *range(64, 75))
+    count = max(min(size // 40, 128), 1)
+    rest = variable_length(96 * 95 // (notes := max(size // count // 7 - 4, 2)))
+    later = (rest + b"\x40\x50\x30\x40\0") * (notes - 1)
+    return midi(
+        *(
+            bytes([0, 0xC0, programs[index % len(programs)]]) + b"\0\x90\x40\x50\x30\x40\0" + later + END
+            for index in range(count)
+        ),
+        division=96,
+    )
+
+
 COSTLY: Final[dict[str, Callable[[int], bytes]]] = {
     "hours at 10 ms a quarter": lambda size: _hours(4_300_000, 10),
     "hours of bars of 1/64": lambda size: _hours(4_300_000, 16, metre(1, 6)),
@@ -128,6 +143,7 @@ COSTLY: Final[dict[str, Callable[[int], bytes]]] = {
     "everyone for twelve hours of bars of 1/4": lambda size: _everyone(size, 215_000, 199_000, metre(1, 2)),
     "everyone for 200,000 quarters at 10 ms": lambda size: _everyone(size, 10_000, 199_000, metre(1, 2)),
     "everyone often for twelve hours": _everyone_often,
+    "everyone on an instrument of their own for a minute": _everyones_own,
     "a rest of six seconds after every note": lambda size: midi(
         b"\0\x90\x3c\x50\x10\x3c\0" + b"\x89\x10\x3c\x50\x10\x3c\0" * min(size // 7, 7000) + END, division=96
     ),

@@ -6,10 +6,14 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 from fractions import Fraction
+from types import SimpleNamespace
+from typing import cast
 
 import msgspec
 import numpy as np
 import pytest
+from hypothesis import example, given
+from hypothesis import strategies as st
 
 from app.performance import judged
 from app.performance.cast import performer_of
@@ -17,6 +21,7 @@ from app.performance.ensemble import Performance
 from app.performance.judged import all_problems
 from app.performance.motion import playing_of
 from app.performance.span import whole_span
+from app.plan.model import TimeFrame
 from app.project.model import Project
 from app.score.model import Note
 from tests.fuzz.harness.costly_projects import base
@@ -91,6 +96,29 @@ def test_hours_with_few_notes_are_looked_at_sparsely(
     assert sum(frames for _, frames in rates) <= 2000
     assert {fps for fps, _ in rates} == {Fraction(60, 8)}
     assert notice.arguments["rate"] == 7.5
+
+
+@given(
+    players=st.integers(1, 128),
+    notes=st.integers(1, 40_000),
+    seconds=st.floats(1.0, 43_200.0),
+    fps=st.sampled_from([Fraction(24), Fraction(30000, 1001), Fraction(60)]),
+)
+@example(players=128, notes=12_800, seconds=10.0, fps=Fraction(60))
+@example(players=1, notes=40_000, seconds=3000.0, fps=Fraction(60))
+def test_the_work_on_a_piece_is_bounded(players: int, notes: int, seconds: float, fps: Fraction) -> None:
+    frame = TimeFrame(0.0, seconds)
+    piece_of_so_many = SimpleNamespace(project=SimpleNamespace(fps=fps), time_frame=frame)
+    looked, notice = judged._looked(cast(Performance, piece_of_so_many), players, notes)
+    if looked is None:
+        assert notice is not None
+        assert notice.id == "judged.not"
+        return
+    rate = float(looked.fps) / looked.every
+    beside = judged.PLAYER_WORK * players + judged.NOTE_WORK * notes
+    assert rate * seconds * players + beside <= judged.MOST_WORK + players
+    assert (notice is None) == (rate > 10.0)
+    assert rate >= judged.LEAST_PER_S
 
 
 def test_hours_of_many_players_are_not_looked_at(rates: list[tuple[Fraction, int]]) -> None:
