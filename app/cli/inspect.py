@@ -23,7 +23,7 @@ from app.performance.ensemble import Performance
 from app.performance.judged import all_problems
 from app.performance.loudness import controller_input
 from app.plan.bends import bends
-from app.plan.line import dynamic_mark, staccato
+from app.plan.line import staccato
 from app.plan.model import (
     AdditiveEvent,
     BreathEvent,
@@ -163,7 +163,7 @@ def _player(performance: Performance, player: Player, instrument: InstrumentMap)
     fingerings = {event.note_id: event for event in plan.fingerings}
     played = [note for note in part.notes if note.id in fingerings]
     loudness = {event.note_id: event.air for event in plan.embouchures}
-    blown = controller_input(part)
+    marks, blown = performance.marks(player), controller_input(part)
     articulation = _articulations(played, {event.note_id for event in plan.tongues}, clock.ticks_per_quarter)
     table = {
         "name": player.name,
@@ -177,7 +177,7 @@ def _player(performance: Performance, player: Player, instrument: InstrumentMap)
                 "articulation": said,
                 "bend": list(bent),
                 "loudness": loudness[note.id],
-                "dynamic": dynamic_mark(loudness[note.id]),
+                "dynamic": marks[note.id],
                 "muted": is_muted(part.muted, note.onset_tick),
             }
             for note, said, bent in zip(

@@ -22,7 +22,7 @@ from app.errors import AppError, Cancelled, MapError, Message, raise_if_stopped
 from app.performance.acting_problems import unknown_acting
 from app.performance.bodies import hold_now, is_held, suited_to
 from app.performance.body_problems import body_problems
-from app.performance.loudness import controller_input, note_loudness
+from app.performance.loudness import controller_input, note_loudness, note_marks, piece_reading, velocities_of
 from app.plan.acting import Acting, acting_of, with_style
 from app.plan.corrections import PlayStyle, RemoveEvent, SetBreath, SetCue, Vary
 from app.plan.doubling import Change, changes, first_played, held_plan
@@ -31,6 +31,7 @@ from app.plan.glances import StagePlace
 from app.plan.memo import Memo
 from app.plan.model import CONDUCTOR, PlayerPlan, Problem, TimeFrame
 from app.plan.parameters import PlayerParameters, deciding
+from app.plan.velocities import VelocityReading
 from app.project.model import Project
 from app.project.performers import Player
 from app.rig.character_library import character_library
@@ -113,10 +114,25 @@ class Performance:
                 lines.append(self._line(player, instrument))
             return tuple(lines)
 
+    @cached_property
+    def velocity_reading(self) -> VelocityReading:
+        """How the velocities of all parts together are read."""
+        with self._lock:
+            parts = (
+                self._memo.step(f"velocities:{player.id}", velocities_of, self.project.part(player))
+                for player in self.project.players
+            )
+            return self._memo.step("velocities", piece_reading, *parts)
+
+    def marks(self, player: Player) -> dict[str, str]:
+        """The dynamic mark in force at each of a player's notes, by note id."""
+        part = self.project.part(player)
+        return {note.id: mark for note, mark in zip(part.notes, note_marks(part, self.velocity_reading), strict=True)}
+
     def _line(self, player: Player, instrument: InstrumentMap) -> MonophonicPart:
         part = self.project.part(player)
         corrections = self.project.corrections.get(player.id, ())
-        loudness = self._memo.step(f"loudness:{player.id}", note_loudness, part)
+        loudness = self._memo.step(f"loudness:{player.id}", note_loudness, part, self.velocity_reading)
         blown = self._memo.step(f"controller:{player.id}", controller_input, part)
         named = tuple(sorted({item.style for item in corrections if isinstance(item, PlayStyle)}))
         # Only regions name styles: without them a new name or style leaves the line as it was.

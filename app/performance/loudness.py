@@ -9,7 +9,16 @@ import numpy.typing as npt
 
 from app.identity_cache import IdentityCache
 from app.plan.breath_envelope import STOPS_AT, step_means
-from app.plan.line import MEZZOFORTE, ControllerInput, Steps, velocity_loudness
+from app.plan.line import MEZZOFORTE, ControllerInput, Steps
+from app.plan.velocities import (
+    DYNAMICS,
+    VelocityReading,
+    nearest_marks,
+    phrase_levels,
+    read_velocities,
+    velocity_loudness,
+    velocity_marks,
+)
 from app.score.model import ControllerCurve, Part
 
 Floats: TypeAlias = npt.NDArray[np.float64]
@@ -25,14 +34,43 @@ _STEPS: Final[IdentityCache[Steps]] = IdentityCache(64)
 """A minute of a wind controller has ten thousand steps, and an edit of a note changes none of them."""
 
 
-def note_loudness(part: Part) -> tuple[float, ...]:
-    """Mean loudness 0..1 of every note, by the first controller that moves while notes sound, expression and volume
-    relative to its velocity; by the velocity alone where it was not blown at all (drawn beside the recorded bars).
+Velocities: TypeAlias = tuple[bytes, int | None]
+"""The velocities of a part's notes in order, one byte each, and its General MIDI program."""
 
-    A controller that is set once is a mixer's level and says nothing about playing; empty if no controller speaks.
+
+def velocities_of(part: Part) -> Velocities:
+    """The velocities of a part; equal after every edit that changes none."""
+    return bytes(note.velocity for note in part.notes), part.program
+
+
+def piece_reading(*parts: Velocities) -> VelocityReading:
+    """How the velocities of all parts of a piece are read."""
+    return read_velocities((np.frombuffer(velocities, np.uint8), program) for velocities, program in parts)
+
+
+def note_loudness(part: Part, reading: VelocityReading | None = None) -> tuple[float, ...]:
+    """Mean loudness 0..1 of every note, by the first controller that moves while notes sound, expression and volume
+    relative to its velocity; by the velocity alone where there is none, or where it was not blown at all (drawn beside
+    the recorded bars).
+
+    A controller that is set once is a mixer's level and says nothing about playing.
+
+    Parameters
+    ----------
+    reading : VelocityReading, optional
+        Of the whole piece (`piece_reading`); by default that of the part alone.
     """
     curve = speaking_curve(part)
-    return () if curve is None else tuple(_loudness(part, curve).tolist())
+    found = _by_velocity(part, reading) if curve is None else _loudness(part, curve, reading)
+    return tuple(found.tolist())
+
+
+def note_marks(part: Part, reading: VelocityReading | None = None) -> tuple[str, ...]:
+    """The dynamic mark in force at every note: an accent is none."""
+    curve = speaking_curve(part)
+    if curve is None:
+        return velocity_marks(_velocity(part), part.program, reading)
+    return tuple(DYNAMICS[mark][0] for mark in nearest_marks(phrase_levels(_loudness(part, curve, reading))).tolist())
 
 
 def controller_input(part: Part) -> ControllerInput | None:
@@ -63,7 +101,7 @@ def speaking_curve(part: Part) -> ControllerCurve | None:
     return None
 
 
-def sounding_curve(part: Part) -> ControllerCurve | None:
+def sounding_curve(part: Part, reading: VelocityReading | None = None) -> ControllerCurve | None:
     """The same as it sounds: a note that was not blown at all sounds as loud as its velocity says."""
     curve = speaking_curve(part)
     if curve is None:
@@ -73,7 +111,7 @@ def sounding_curve(part: Part) -> ControllerCurve | None:
     silent = np.flatnonzero(means <= STOPS_AT).tolist()
     if not silent:
         return curve
-    loudness = _loudness(part, curve)
+    loudness = _loudness(part, curve, reading)
     onsets, ends = (array.astype(np.int64) for array in _spans(part))
     levels = dict(zip(curve.ticks, curve.values, strict=True))
     for index in silent:
@@ -89,11 +127,22 @@ def sounding_curve(part: Part) -> ControllerCurve | None:
     return ControllerCurve(curve.kind, tuple(ticks), tuple(levels[tick] for tick in ticks))
 
 
-def _loudness(part: Part, curve: ControllerCurve) -> Floats:
+def _loudness(part: Part, curve: ControllerCurve, reading: VelocityReading | None) -> Floats:
     means: Floats = np.clip(_means(part, _steps(curve)), 0.0, 1.0)
-    by_velocity = velocity_loudness(np.array([note.velocity for note in part.notes]))
+    by_velocity = _by_velocity(part, reading)
+    if curve.kind in _SCALING and len({note.velocity for note in part.notes}) == 1:
+        # Who draws the dynamics as a curve leaves the velocity as it is.
+        by_velocity = np.full(len(part.notes), MEZZOFORTE)
     blown = np.minimum(means * by_velocity / MEZZOFORTE, 1.0) if curve.kind in _SCALING else means
     return np.where(means <= STOPS_AT, by_velocity, blown)
+
+
+def _velocity(part: Part) -> npt.NDArray[np.int64]:
+    return np.array([note.velocity for note in part.notes], np.int64)
+
+
+def _by_velocity(part: Part, reading: VelocityReading | None) -> Floats:
+    return velocity_loudness(_velocity(part), part.program, reading)
 
 
 def _steps(curve: ControllerCurve) -> Steps:

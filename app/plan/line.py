@@ -14,34 +14,18 @@ from app.plan.acting import Acting
 from app.plan.corrections import Correction
 from app.plan.model import FloatArray
 from app.plan.parameters import PlayerParameters
+from app.plan.velocities import LEVELS, velocity_loudness
+from app.plan.velocities import MEZZOFORTE as MEZZOFORTE
 from app.score.metre_map import IntArray as IntArray
 from app.score.metre_map import MetreMap
 from app.score.model import Note
 from app.score.tempo import TempoMap
 from instrument_maps.model import InstrumentMap
 
-MEZZOFORTE = 0.63
-"""Loudness 0..1 of mezzoforte: MIDI velocity 80 of 127."""
-STROKES = 5
-"""In a line of more than four times as many notes, one that differs from so many around it is no dynamic."""
-UNMEANT_SPREAD = 16.0
-"""Velocities between the 10th and 90th percentile of notes played equally loud (a standard deviation of 6)."""
-MEANT_SPREAD = 32.0
-"""From here on the velocities are dynamics: two marks apart."""
-
-DYNAMICS = (("ppp", 16), ("pp", 33), ("p", 49), ("mp", 64), ("mf", 80), ("f", 96), ("ff", 112), ("fff", 126))
-"""Dynamic marks and the velocities with which notation programs play them."""
-
-
-def dynamic_mark(loudness: float) -> str:
-    """The dynamic mark nearest to a loudness 0..1."""
-    return min(DYNAMICS, key=lambda row: abs(row[1] - 127.0 * loudness))[0]
-
 
 def marked(loudness: FloatArray) -> FloatArray:
     """(N,): the loudness of the dynamic mark nearest to each; mezzoforte is exactly that."""
-    levels = np.array([MEZZOFORTE if mark == "mf" else velocity / 127.0 for mark, velocity in DYNAMICS])
-    return np.asarray(levels[np.searchsorted((levels[1:] + levels[:-1]) / 2.0, loudness)])
+    return np.asarray(LEVELS[np.searchsorted((LEVELS[1:] + LEVELS[:-1]) / 2.0, loudness)])
 
 
 @dataclass(frozen=True, eq=False)
@@ -201,29 +185,6 @@ BEFORE_FIRST_TICK = 1 << 40
 """Silence before the first note of a line, in ticks: longer than any threshold."""
 LEAP_SEMITONES = 5
 """A leap may divide phrases."""
-
-
-def velocity_loudness(velocity: IntArray) -> FloatArray:
-    """Loudness 0..1 by velocities (N,) alone.
-
-    One velocity throughout says nothing about dynamics (engraved scores, most wind controllers): mezzoforte. Nor do
-    the differences between the strokes of one hand: the level, and how much louder or softer than usual a note is,
-    count as far as the velocities of several notes together spread beyond them.
-    """
-    if not len(velocity):
-        return np.zeros(0)
-    usual = float(np.median(velocity))
-    several = velocity
-    if len(velocity) >= 4 * STROKES:
-        several = np.median(np.lib.stride_tricks.sliding_window_view(velocity, STROKES), axis=1)
-    low, high = np.percentile(several, [10, 90])
-    meant = np.clip((high - low - UNMEANT_SPREAD) / (MEANT_SPREAD - UNMEANT_SPREAD), 0.0, 1.0)
-    level = MEZZOFORTE + meant * (usual / 127.0 - MEZZOFORTE)
-    unmeant = (1.0 - meant) * UNMEANT_SPREAD / 2.0
-    stroke = velocity - usual
-    accent: FloatArray = np.sign(stroke) * np.maximum(np.abs(stroke) - unmeant, 0.0)
-    loudness: FloatArray = np.clip(level + accent / 127.0, 0.0, 1.0)
-    return loudness
 
 
 TOUCHING_GATE = 0.97

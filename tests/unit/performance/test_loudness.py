@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from app.performance.loudness import note_loudness, sounding_curve
+from app.performance.loudness import note_loudness, note_marks, sounding_curve
 from app.score.model import ControllerCurve, Note, Part
 
 
@@ -25,17 +25,22 @@ def test_the_mean_is_the_mean_over_ticks(steps: list[tuple[int, float]]) -> None
     means = (float(np.mean(each[0:50])), float(np.mean(each[60:150])))
     # A note that was not blown has the loudness of its velocity: with one velocity throughout, mezzoforte.
     expected = tuple(mean if mean > 2 / 127 else 0.63 for mean in means)
-    found = note_loudness(made)
-    if found:
-        assert found == pytest.approx(expected)
-    else:
-        assert len(set(each)) == 1 or max(means) == 0.0
+    silent = len(set(each)) == 1 or max(means) == 0.0
+    assert note_loudness(made) == pytest.approx((0.63, 0.63) if silent else expected)
 
 
 def test_a_level_that_is_set_once_says_nothing() -> None:
-    assert note_loudness(part([(0, 10)], ControllerCurve("volume", (0,), (0.8,)))) == ()
-    assert note_loudness(part([(100, 10)], ControllerCurve("volume", (0, 50), (0.1, 0.8)))) == ()
+    assert note_loudness(part([(0, 10)], ControllerCurve("volume", (0,), (0.8,)))) == (0.63,)
+    assert note_loudness(part([(100, 10)], ControllerCurve("volume", (0, 50), (0.1, 0.8)))) == (0.63,)
     assert note_loudness(part([])) == ()
+
+
+def test_a_velocity_that_never_changes_leaves_the_dynamics_to_a_drawn_curve() -> None:
+    notes = tuple(Note(f"1:{n}", 10 * n, 10, 60, 49) for n in range(10))
+    swelling = ControllerCurve("expression", tuple(range(0, 100, 10)), (0.4,) * 5 + (0.8,) * 5)
+    made = Part("1.1.1", "x", 0, 0, 0, None, None, "m", notes, (swelling,))
+    assert note_loudness(made) == pytest.approx((0.4,) * 5 + (0.8,) * 5)
+    assert note_marks(made) == ("p",) * 5 + ("f",) * 5
 
 
 def test_breath_speaks_before_volume() -> None:

@@ -1,0 +1,431 @@
+"""Dynamics from note velocities: the ladders of notation programs, and the piece's own distribution.
+
+A notation program writes every dynamic mark as one velocity, and each program has its own: *forte* is 96 in MuseScore,
+88 in Finale, 95 in LilyPond and 66 in LilyPond's flutes. Which ladder a piece was written with is recognised by all its
+velocities together (`read_velocities`). What was played has no ladder: its levels are those of the piece's own
+distribution.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Final, TypeAlias
+
+import msgspec
+import numpy as np
+import numpy.typing as npt
+
+FloatArray: TypeAlias = npt.NDArray[np.float64]
+IntArray: TypeAlias = npt.NDArray[np.int64]
+
+MEZZOFORTE: Final = 0.63
+"""Loudness 0..1 of mezzoforte: MIDI velocity 80 of 127."""
+DYNAMICS: Final = (
+    ("ppp", 16), ("pp", 33), ("p", 49), ("mp", 64), ("mf", 80), ("f", 96), ("ff", 112), ("fff", 126)
+)  # fmt: skip
+"""Dynamic marks and the velocities that stand for them here; they are MuseScore's."""
+LEVELS: Final[FloatArray] = np.array([MEZZOFORTE if mark == "mf" else at / 127.0 for mark, at in DYNAMICS])
+"""(8,): loudness of each mark, the softest first."""
+_BETWEEN: Final[FloatArray] = (LEVELS[1:] + LEVELS[:-1]) / 2.0
+_LOUDEST_FROM: Final = 123.5 / 127.0
+"""Loudness from which on a velocity without a ladder is *fff*: hardly any music for winds asks for it."""
+_MARKS: Final = {mark: index for index, (mark, _) in enumerate(DYNAMICS)}
+_MF: Final = _MARKS["mf"]
+
+STROKES: Final = 5
+"""In a line of more than four times as many notes, one that differs from so many around it is no dynamic."""
+UNMEANT_SPREAD: Final = 16.0
+"""Velocities between the 10th and 90th percentile of notes played equally loud (a standard deviation of 6)."""
+MEANT_SPREAD: Final = 32.0
+"""From here on the velocities are dynamics: two marks apart."""
+
+DEFAULTS: Final = frozenset({64, 80, 90, 96, 100, 127})
+"""Velocities that programs write where the music has no dynamics."""
+UNMARKED: Final = 0.95
+"""This share of a part without dynamic marks has the default, or what articulations make of it."""
+MOST_OFTEN: Final = 0.3
+"""A default that so many of the notes have is the level without dynamics."""
+RUN, SHARED, APART = 3, 0.3, 4
+"""Levels are written, not played, where this share of the notes stands in runs of so many alike, or where they are so
+many velocities apart."""
+MOST_SHIFT: Final = 7.0
+"""So many velocities the middle of what is played goes towards mezzoforte: not half a mark."""
+USUAL_RANGE: Final = (49.0, 96.0)
+"""*Piano* to *forte*: the middle of a piece lies there, however hard its keys were struck."""
+
+
+@dataclass(frozen=True)
+class Ladder:
+    """The velocities with which one program writes dynamic marks.
+
+    Attributes
+    ----------
+    steps : tuple of (mark, velocity)
+        Ascending by velocity; a mark may occur several times (``"sf"``: a stress after which the level returns).
+    default : int or None
+        Velocity without any dynamic mark; None: one of `DEFAULTS`.
+    added : tuple of int
+        What articulations add to a velocity.
+    accent_share : float
+        What an accent multiplies it by; 1: nothing.
+    usual : float
+        How common the program is: the logarithm of a share.
+    """
+
+    name: str
+    steps: tuple[tuple[str, int], ...]
+    default: int | None = None
+    added: tuple[int, ...] = ()
+    accent_share: float = 1.0
+    usual: float = 0.0
+
+
+_LILYPOND_VOLUMES: Final = (
+    ("ppp", 0.25), ("ppp", 0.34), ("ppp", 0.42), ("pp", 0.49), ("p", 0.55), ("mp", 0.61), ("mf", 0.68),
+    ("mf", 90 / 127), ("f", 0.75), ("ff", 0.80), ("fff", 0.85), ("fff", 0.92), ("sf", 1.0),
+)  # fmt: skip
+"""LilyPond's ``scm/midi.scm``: ppppp to ffff and sf; 90 of 127 is its volume without a mark."""
+_LILYPOND_RANGES: Final = {
+    73: (0.0, 0.7), 68: (0.0, 0.7), 71: (0.0, 0.7), 70: (0.0, 0.6), 60: (0.1, 0.7), 56: (0.1, 0.8),
+}  # fmt: skip
+"""LilyPond's ``instrument-equalizer-alist`` by General MIDI program (from 0): flute, oboe, clarinet, bassoon, French
+horn and trumpet; all others have the whole range."""
+_LILYPOND_ADDED: Final = (4, 6, 20, 24, 40)
+"""``ly/script-init.ly``: staccato, staccatissimo, accent, accent and staccato, marcato."""
+
+
+def _lilypond(program: int | None, name: str = "LilyPond") -> Ladder:
+    low, high = _LILYPOND_RANGES.get(-1 if program is None else program, (0.0, 1.0))
+    # Floored, rounding errors and all, as LilyPond does it: a flute without a mark has 62.
+    steps = tuple((mark, int(127 * (low + (high - low) * volume))) for mark, volume in _LILYPOND_VOLUMES)
+    return Ladder(name, steps, steps[7][1], _LILYPOND_ADDED, usual=-1.0 if name == _PLAIN else 0.0)
+
+
+def _ladder(name: str, velocities: str, **more: object) -> Ladder:
+    """A ladder of eight steps from *ppp* to *fff*."""
+    values = [int(value) for value in velocities.split()]
+    marks = [mark for mark, _ in DYNAMICS]
+    return Ladder(name, tuple(zip(marks, values, strict=True)), **more)  # type: ignore[arg-type]
+
+
+_FIXED: Final = (
+    _ladder("MuseScore", "16 33 49 64 80 96 112 126", accent_share=1.2),
+    _ladder("Finale", "23 36 49 62 75 88 101 114", default=64, usual=-0.5),
+    _ladder("Sibelius", "20 39 61 71 84 98 113 127", usual=-0.5),
+    _ladder("NoteWorthy", "10 30 45 60 75 92 108 127", usual=-1.5),
+    # Strong, weaker and weak beats: what is added is negative.
+    _ladder("abc2midi", "30 45 60 75 90 105 120 127", default=105, added=(-10, -25), usual=-1.5),
+    _ladder("music21", "19 32 44 57 70 89 108 114", usual=-1.5),
+)
+_PLAIN: Final = "LilyPond without equaliser"
+_NAMES: Final = ("LilyPond", *(ladder.name for ladder in _FIXED), _PLAIN)
+_BY_NAME: Final = {ladder.name: ladder for ladder in _FIXED}
+_SHARES: Final = {
+    "ppp": 0.01, "pp": 0.07, "p": 0.22, "mp": 0.13, "mf": 0.2, "f": 0.22, "ff": 0.11, "fff": 0.02, "sf": 0.02
+}  # fmt: skip
+"""How often marks occur, about."""
+
+
+def _ladder_of(name: str, program: int | None) -> Ladder:
+    if name == "LilyPond":
+        return _lilypond(program)
+    return _lilypond(None, _PLAIN) if name == _PLAIN else _BY_NAME[name]
+
+
+class VelocityReading(msgspec.Struct, frozen=True):
+    """How the velocities of a piece are read.
+
+    Attributes
+    ----------
+    ladder : str
+        Name of the program whose ladder they are; empty: none.
+    marked : bool
+        Whether the ladder's levels are marks: a piece that is all at the default level has none.
+    usual : float
+        Median velocity of what has no ladder.
+    meant : float
+        How far, 0..1, its levels are dynamics.
+    shift : float
+        Velocities to add before its levels are compared with `DYNAMICS`.
+    """
+
+    ladder: str = ""
+    marked: bool = True
+    usual: float = 80.0
+    meant: float = 0.0
+    shift: float = 0.0
+
+
+def read_velocities(parts: Iterable[tuple[Sequence[int] | IntArray, int | None]]) -> VelocityReading:
+    """How the velocities of all parts of a piece together are read.
+
+    Parameters
+    ----------
+    parts : iterable of (velocities (N,), General MIDI program from 0 or None)
+        Notes in order.
+    """
+    given = [(np.asarray(velocities, np.int64), program) for velocities, program in parts if len(velocities)]
+    if not given:
+        return VelocityReading()
+    written = [(velocities, program) for velocities, program in given if _engraved(velocities)]
+    levels = [(_levels(velocities), program) for velocities, program in written]
+    alone = {int(velocity) for values, _ in given for velocity in np.unique(values)}
+    if len(alone) == 1 and alone <= DEFAULTS:
+        return VelocityReading("", marked=False)
+    ladder = _recognised(levels)
+    if ladder and len(written) == len(given) and _unmarked(ladder, written):
+        return VelocityReading(ladder, marked=False)
+    unread = given if not ladder else [one for one in given if not any(one[0] is other for other, _ in written)]
+    usual, meant, shift = _distribution([velocities for velocities, _ in unread], constant=len(alone) == 1)
+    return VelocityReading(ladder, True, usual, meant, shift)
+
+
+def _engraved(velocity: IntArray) -> bool:
+    """Whether a part's velocities are levels that notes share, not strokes of a hand."""
+    edges = np.flatnonzero(np.append(True, velocity[1:] != velocity[:-1]))
+    lengths = np.diff(np.append(edges, len(velocity)))
+    if lengths[lengths >= RUN].sum() >= SHARED * len(velocity):
+        return True
+    values, counts = np.unique(velocity, return_counts=True)
+    common = values[counts > len(velocity) * 0.02]
+    return len(velocity) < 2 * STROKES or (len(common) * 4 <= len(velocity) and bool((np.diff(common) >= APART).all()))
+
+
+def _levels(velocity: IntArray) -> dict[int, int]:
+    """Velocities at which the music stays, with the number of their notes; hairpins pass through all others."""
+    edges = np.flatnonzero(np.append(True, velocity[1:] != velocity[:-1]))
+    lengths = np.diff(np.append(edges, len(velocity)))
+    for least in (3, 1):
+        stays: dict[int, int] = {}
+        for value, length in zip(velocity[edges].tolist(), lengths.tolist(), strict=True):
+            if length >= least:
+                stays[value] = stays.get(value, 0) + length
+        if stays:
+            return stays
+    return {}
+
+
+def _recognised(levels: Sequence[tuple[dict[int, int], int | None]]) -> str:
+    """Name of the ladder that explains the levels best; empty where any velocity would do as well."""
+    best, name = 0.0, ""
+    for one in _NAMES:
+        total = 0.0
+        for found, program in levels:
+            gains = _gains(one, program)
+            total += sum(gains[value] * math.log1p(count) for value, count in found.items())
+        total += _ladder_of(one, None).usual
+        if total > best:
+            best, name = total, one
+    return name
+
+
+@lru_cache(maxsize=64)
+def _gains(name: str, program: int | None) -> tuple[float, ...]:
+    """(128,): logarithm of how much likelier each velocity is on a ladder than anywhere."""
+    ladder = _ladder_of(name, program)
+    likely = np.full(128, 0.05 / 60.0)
+    for mark, velocity in ladder.steps:
+        for more, share in _articulated(ladder, velocity):
+            for off, near in ((0, 0.9), (-1, 0.05), (1, 0.05)):
+                place = min(max(velocity + more + off, 0), 127)
+                likely[place] += _SHARES[mark] * share * near
+    if ladder.default is not None:
+        likely[ladder.default] += 0.1
+    return tuple(np.log(likely * 60.0).tolist())
+
+
+def _articulated(ladder: Ladder, velocity: int) -> list[tuple[int, float]]:
+    """What articulations add to a velocity of a ladder, and how often."""
+    more = [*ladder.added]
+    if ladder.accent_share != 1.0:
+        more.append(int(velocity * (ladder.accent_share - 1.0)))
+    return [(0, 0.85), *((one, 0.15 / len(more)) for one in more)]
+
+
+def _unmarked(name: str, written: Sequence[tuple[IntArray, int | None]]) -> bool:
+    """Whether all parts stay at what a program writes without dynamic marks, but for articulations and slips."""
+    default: int | None = None
+    for velocities, program in written:
+        values, counts = np.unique(velocities, return_counts=True)
+        usual, ladder = int(values[counts.argmax()]), _ladder_of(name, program)
+        if usual != ladder.default and (ladder.default is not None or usual not in DEFAULTS):
+            return False
+        if ladder.default is None and default not in (None, usual):
+            return False
+        default = usual
+        articulated = {usual + more for more, _ in _articulated(ladder, usual)}
+        if counts[[int(value) in articulated for value in values]].sum() < UNMARKED * len(velocities):
+            return False
+    return True
+
+
+def _distribution(unread: Sequence[IntArray], constant: bool) -> tuple[float, float, float]:
+    """Usual level, how far levels are meant, and their shift, of what no ladder explains."""
+    if not unread:
+        return 80.0, 0.0, 0.0
+    several = np.concatenate([_smoothed(velocities) for velocities in unread])
+    usual = float(np.median(several))
+    low, high = np.percentile(several, [10, 90])
+    meant = float(np.clip((high - low - UNMEANT_SPREAD) / (MEANT_SPREAD - UNMEANT_SPREAD), 0.0, 1.0))
+    if constant:
+        # One velocity that no program writes by itself was set by a person.
+        return usual, 1.0, 0.0
+    inside = float(np.clip(usual, *USUAL_RANGE))
+    shift = inside - usual + float(np.clip((80.0 - inside) / 2.0, -MOST_SHIFT, MOST_SHIFT))
+    values, counts = np.unique(np.concatenate(list(unread)), return_counts=True)
+    most = int(values[counts.argmax()])
+    if most in DEFAULTS and counts.max() >= MOST_OFTEN * counts.sum():
+        shift = 80.0 - most
+    return usual, meant, shift
+
+
+def _smoothed(velocity: IntArray) -> FloatArray:
+    """(M,): medians of several notes, or the velocities of a short line."""
+    if len(velocity) < 4 * STROKES:
+        return velocity.astype(np.float64)
+    return np.median(np.lib.stride_tricks.sliding_window_view(velocity, STROKES), axis=1)
+
+
+def velocity_loudness(
+    velocity: IntArray, program: int | None = None, reading: VelocityReading | None = None
+) -> FloatArray:
+    """Loudness 0..1 by velocities (N,) alone.
+
+    On a ladder each note has the loudness of its mark, a little more with an accent, and what lies between in a
+    hairpin. Otherwise the differences between the strokes of one hand say nothing about dynamics: the level, and how
+    much louder or softer than usual a note is, count as far as the velocities of several notes together spread beyond
+    them.
+
+    Parameters
+    ----------
+    reading : VelocityReading, optional
+        Of the whole piece; by default that of these velocities alone.
+    """
+    return _read(velocity, program, reading)[0]
+
+
+def velocity_marks(
+    velocity: IntArray, program: int | None = None, reading: VelocityReading | None = None
+) -> tuple[str, ...]:
+    """The dynamic mark in force at each note, by velocities (N,); an accent is none."""
+    return tuple(DYNAMICS[mark][0] for mark in _read(velocity, program, reading)[1].tolist())
+
+
+def _read(velocity: IntArray, program: int | None, reading: VelocityReading | None) -> tuple[FloatArray, IntArray]:
+    if not len(velocity):
+        return np.zeros(0), np.zeros(0, np.int64)
+    found = _known(np.clip(velocity, 0, 127).astype(np.uint8).tobytes(), program, reading)
+    return found[0].copy(), found[1].copy()
+
+
+@lru_cache(maxsize=128)
+def _known(velocities: bytes, program: int | None, reading: VelocityReading | None) -> tuple[FloatArray, IntArray]:
+    """Kept, since most edits change no velocity."""
+    velocity = np.frombuffer(velocities, np.uint8).astype(np.int64)
+    reading = read_velocities([(velocity, program)]) if reading is None else reading
+    plain = not reading.ladder and int(velocity[0]) in DEFAULTS and bool((velocity == velocity[0]).all())
+    if plain or not reading.marked:
+        accents = velocity - float(np.median(velocity))
+        if reading.ladder:
+            accents[np.abs(accents) < _STRESS] = 0.0
+        return np.clip(MEZZOFORTE + accents / 127.0, 0.0, 1.0), np.full(len(velocity), _MF)
+    if reading.ladder and _engraved(velocity):
+        return _on_ladder(velocity, reading.ladder, program)
+    return _by_distribution(velocity, reading)
+
+
+def _by_distribution(velocity: IntArray, reading: VelocityReading) -> tuple[FloatArray, IntArray]:
+    """Loudness and marks of what was played, or written with unknown levels."""
+    unmeant = (1.0 - reading.meant) * UNMEANT_SPREAD / 2.0
+    level = MEZZOFORTE + reading.meant * ((reading.usual + reading.shift) / 127.0 - MEZZOFORTE)
+    stroke = velocity - reading.usual
+    accent: FloatArray = np.sign(stroke) * np.maximum(np.abs(stroke) - unmeant, 0.0)
+    loudness: FloatArray = np.clip(level + accent / 127.0, 0.0, 1.0)
+    return loudness, nearest_marks(phrase_levels(loudness))
+
+
+def phrase_levels(loudness: FloatArray) -> FloatArray:
+    """(N,): the loudness of several notes around each: an accent is no dynamic."""
+    if len(loudness) < 4 * STROKES:
+        return loudness
+    padded = np.pad(loudness, STROKES // 2, mode="edge")
+    return np.asarray(np.median(np.lib.stride_tricks.sliding_window_view(padded, STROKES), axis=1))
+
+
+def nearest_marks(loudness: FloatArray) -> IntArray:
+    """(N,): the rows in `DYNAMICS` of the marks nearest to each loudness 0..1."""
+    between = np.append(_BETWEEN[:-1], _LOUDEST_FROM)
+    return np.asarray(np.searchsorted(between, loudness), np.int64)
+
+
+_STRESS: Final = 12
+"""An articulation that adds so much is an accent; less is staccato's."""
+_ACCENT: Final = 0.16
+"""How much louder an accented note is: about a mark."""
+_CHANGE_COST, _FURTHER_COST = 0.8, 0.15
+"""What a change of level costs, and each mark more that it goes."""
+_NEAR_COST, _OFF_COST, _STEP_COST, _MOST_COST = 0.6, 1.2, 0.6, 3.0
+"""What a note costs whose velocity is beside the step, or off it (more for every mark away, at most so much)."""
+_ARTICULATION_COST, _ADDED_COST = 0.25, 0.015
+"""What a note costs that an articulation makes louder, and each velocity that this adds."""
+
+
+@lru_cache(maxsize=64)
+def _costs(name: str, program: int | None) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """(128, S) each: cost and accent of every velocity on every step of a ladder; (S, S): cost of a change."""
+    ladder = _ladder_of(name, program)
+    values = np.array([velocity for _, velocity in ladder.steps])
+    loud = np.array([LEVELS[_MARKS["fff" if mark == "sf" else mark]] for mark, _ in ladder.steps])
+    between = np.interp(np.arange(128), values, loud)
+    cost = np.minimum(_OFF_COST + _STEP_COST * np.abs(between[:, None] - loud) / 0.126, _MOST_COST)
+    accent = np.clip(between[:, None] - loud, -_ACCENT, _ACCENT)
+    for step, (_, velocity) in enumerate(ladder.steps):
+        more = [added for added, _ in _articulated(ladder, velocity)]
+        rows = [(added, _ARTICULATION_COST + _ADDED_COST * abs(added)) for added in more[1:]]
+        for added, paid in ((-1, _NEAR_COST), (1, _NEAR_COST), *rows, (0, 0.0)):
+            place = min(max(velocity + added, 0), 127)
+            if paid <= cost[place, step]:
+                cost[place, step] = paid
+                accent[place, step] = _ACCENT if added >= _STRESS else 0.0 if added < -1 else accent[place, step]
+    if ladder.default is not None and ladder.default not in values:
+        cost[ladder.default, _MF], accent[ladder.default, _MF] = 0.0, 0.0
+    marks = np.array([_MARKS.get(mark, _MF) for mark, _ in ladder.steps])
+    further = np.maximum(np.abs(marks[:, None] - marks) - 1, 0)
+    change = np.where(np.eye(len(marks), dtype=bool), 0.0, _CHANGE_COST + _FURTHER_COST * further)
+    return cost, accent, change
+
+
+def _on_ladder(velocity: IntArray, name: str, program: int | None) -> tuple[FloatArray, IntArray]:
+    """Loudness and marks on a ladder: the cheapest way along its steps, where each change of level costs."""
+    cost, accent, change = _costs(name, program)
+    edges = np.flatnonzero(np.append(True, velocity[1:] != velocity[:-1]))
+    lengths = np.diff(np.append(edges, len(velocity)))
+    paid = cost[velocity[edges]] * lengths[:, None]
+    total, back, each = paid[0], np.zeros(paid.shape, np.int64), np.arange(paid.shape[1])
+    for run in range(1, len(paid)):
+        ways = total[:, None] + change
+        back[run] = ways.argmin(axis=0)
+        total = ways[back[run], each] + paid[run]
+    steps = np.zeros(len(paid), np.int64)
+    steps[-1] = int(total.argmin())
+    for run in range(len(paid) - 1, 0, -1):
+        steps[run - 1] = back[run, steps[run]]
+    along = np.repeat(steps, lengths)
+    more = accent[velocity, along]
+    marks = np.array([_MARKS.get(mark, -1) for mark, _ in _ladder_of(name, program).steps], np.int64)[along]
+    if (marks < 0).any():
+        marks, more = _after_stress(marks, more)
+    return np.clip(LEVELS[marks] + more, 0.0, 1.0), marks
+
+
+def _after_stress(marks: IntArray, more: FloatArray) -> tuple[IntArray, FloatArray]:
+    """Give notes at a stress's velocity the level before it, and an accent to the first of them: LilyPond stays there
+    until the next mark, players do not."""
+    stressed = marks < 0
+    first = stressed & ~np.insert(stressed[:-1], 0, False)
+    known = np.maximum.accumulate(np.where(stressed, -1, np.arange(len(marks))))
+    level = np.where(known < 0, _MF, marks[np.maximum(known, 0)])
+    return level, np.where(stressed, np.where(first, _ACCENT, 0.0), more)
