@@ -91,7 +91,7 @@ class StatusLine(Retranslated, QStatusBar):
         self._had_piece = False
         self._fade, self._poll, self._age = QTimer(self), QTimer(self), QTimer(self)
         self._fade.setSingleShot(True)
-        self._fade.timeout.connect(self.dismiss)
+        self._fade.timeout.connect(self._fade_away)
         self._poll.setInterval(POLL_MS)
         self._poll.timeout.connect(self._look)
         self._age.timeout.connect(self._report_saved)
@@ -162,7 +162,17 @@ class StatusLine(Retranslated, QStatusBar):
         self._show_notice()
         self._fade.stop()
         if severity is Severity.INFORMATION:
-            self._fade.start(round(INFORMATION_S * 1000))
+            self._begin_fade()
+
+    def _begin_fade(self) -> None:
+        self._fade.start(round(INFORMATION_S * 1000))
+
+    def _fade_away(self) -> None:
+        if self._details.isVisible():
+            # The list is being read.
+            self._begin_fade()
+        else:
+            self.dismiss()
 
     def _show_notice(self) -> None:
         message, severity = self._log[-1]

@@ -67,6 +67,21 @@ def test_what_is_said_again_and_again_is_listed_once(program: Program) -> None:
     listed.hide()
 
 
+def test_the_list_of_notices_stays_while_it_is_read(program: Program) -> None:
+    status = program.window.status
+    program.session.notice(Message("problems.none"))
+    notice, listed = status.findChild(QPushButton, "notice"), program.window.findChild(QFrame, "notices")
+    assert notice is not None
+    assert listed is not None
+    QTest.mouseClick(notice, Qt.MouseButton.LeftButton)
+    status._fade.timeout.emit()
+    assert listed.isVisible()
+    assert status.notice_text
+    listed.hide()
+    status._fade.timeout.emit()
+    assert not status.notice_text
+
+
 def test_a_path_in_a_notice_can_be_copied_and_its_folder_shown(
     program: Program, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
