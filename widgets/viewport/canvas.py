@@ -79,6 +79,13 @@ class Canvas(vispy_app.Canvas):  # type: ignore[misc]
         self._prepare = prepare
         self.update()
 
+    def clear_stage(self) -> None:
+        """Draw no one from now on; the figures are let go of at once, since a hidden canvas draws no next picture."""
+        self._prepare = None
+        if self._renderer is not None:
+            self._renderer.clear_stage()
+        self.update()
+
     def on_draw(self, event: Any) -> None:
         """Called by vispy when Qt paints."""
         width, height = self.physical_size

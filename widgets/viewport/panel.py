@@ -460,7 +460,10 @@ class ViewportPanel(Retranslated, QWidget):
         if self._canvas is None or self._pointer is None or loaded is None:
             return
         self._pointer.forget()
-        self._canvas.prepare(lambda renderer: self._send(renderer, loaded))
+        if loaded.stage.members:
+            self._canvas.prepare(lambda renderer: self._send(renderer, loaded))
+        else:
+            self._canvas.clear_stage()
         self.refresh()
 
     def _send(self, renderer: Renderer, loaded: Loaded) -> None:

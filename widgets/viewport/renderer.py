@@ -207,6 +207,7 @@ class Renderer:
         Parameters
         ----------
         stage : Stage
+            Someone is on it: see `clear_stage`.
         shapes : Shapes
         everyone : Crowd or None
             Of this stage and these shapes (`crowd_of`), made away from the window's thread. None: as the stage before,
@@ -227,8 +228,6 @@ class Renderer:
         self._solids = {key: solid for key, solid in self._solids.items() if key in alive}
         self._morphed.clear()
         count = len(stage.members)
-        if not count:
-            return
         if everyone is None:
             raise ValueError("other figures need their crowd")
         self._limbs = Limbs(stage)
@@ -256,6 +255,13 @@ class Renderer:
         corners[:, :, 2] = np.arange(count)[:, None]
         self._shadows["a_corner"] = corners.reshape(-1, 3)
         self._fill_batch(everyone)
+
+    def clear_stage(self) -> None:
+        """Draw no one from now on, and keep nothing of who was drawn; the card frees it with the next picture."""
+        self._stage = self._shapes = self._limbs = None
+        self._solids.clear()
+        self._morphed.clear()
+        self._sent.clear()
 
     def _draws_without_card(self) -> bool:
         if self._software is None:

@@ -21,6 +21,7 @@ WARM_UP, ROUNDS, MOST_ROUNDS = 2, 2, 8
 DRAWN = ("widgets.viewport.renderer._Solid", "vispy.gloo.")
 """One for each level of detail that was drawn of the figures that are there: which, the speed of drawing decides. They
 go with the figures."""
+OF_A_PIECE = ("app.performance.chunks.Chunk", "app.performance.chunks.Pose", "widgets.viewport.cast.Member")
 MOST_MB = 48.0
 """What the graphics driver holds rises and falls by this much from round to round, while what Python holds stays the
 same to 0.1 MB: so only growth that no later round gives back is a leak."""
@@ -47,6 +48,8 @@ def test_after_some_rounds_everything_is_as_it_was(program: Program, tmp_path: P
     for _ in range(WARM_UP):
         day.round()
     before = footprint()
+    # No piece is open.
+    assert {name: before.values[name] for name in OF_A_PIECE if before.values[name]} == {}
     for _ in range(ROUNDS):
         day.round()
     after = footprint()
