@@ -11,6 +11,7 @@ from tests.fuzz.harness.costly_media import COSTLY_MEDIA
 from tests.fuzz.harness.costly_midi import COSTLY, STUCK
 from tests.fuzz.harness.costly_motion import COSTLY_MOTION
 from tests.fuzz.harness.costly_projects import COSTLY_DANCES, COSTLY_METADATA, COSTLY_PROJECTS
+from tests.fuzz.harness.own_files import COSTLY_OWN
 
 Make = Callable[[int], bytes]
 """Makes a file of about so many bytes."""
@@ -29,6 +30,7 @@ ALL_COSTLY: Final[Mapping[str, Mapping[str, Make]]] = {
     **_named(COSTLY_FILES),
     **_named(COSTLY_MEDIA),
     **_named(COSTLY_MOTION),
+    **_named(COSTLY_OWN),
 }
 """By kind of file, as in `tests.fuzz.harness.readers.KINDS`, and by way."""
 

@@ -16,9 +16,10 @@ from pathlib import Path
 from typing import Any, Final
 
 from app.errors import AppError
-from tests.fuzz.harness import mutators, seeds
+from tests.fuzz.harness import mutators, own_files, seeds
 from tests.fuzz.harness.costly_projects import base
 from tests.fuzz.harness.mutators import Mutator
+from tests.fuzz.harness.own_readers import answers, cuts, evaluation_key, exported, keyframes
 
 
 class Broken(AssertionError):
@@ -522,6 +523,11 @@ KINDS: Final[dict[str, Kind]] = {
         Kind("motion", motion, seeds.motion, _TEXT, ".bvh", 2.0),
         Kind("motion", gltf_motion, seeds.gltf_motion, tuple(mutators.GLB), ".glb"),
         Kind("motion", fbx_motion, seeds.fbx_motion, tuple(mutators.FBX), ".fbx"),
+        Kind("motion", keyframes, own_files.keyframes, _TEXT, ".bvh"),
+        Kind("motion", cuts, own_files.cuts, _TEXT, ".txt", 0.5),
+        Kind("exchange", evaluation_key, own_files.evaluation_key, _JSON, ".json"),
+        Kind("exchange", answers, own_files.answers, _TEXT, ".csv"),
+        Kind("exchange", exported, own_files.exported, _JSON, ".json", 0.5),
         Kind("exchange", audio, seeds.audio, (), ".wav", 2.0),
         Kind("exchange", followed, seeds.audio, (), ".wav", 0.5),
         Kind("exchange", film, seeds.film, (), ".mp4"),
