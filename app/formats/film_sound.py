@@ -7,6 +7,7 @@ was measured.
 Messages
 --------
 video.no_sound(file): there are pictures alone.
+video.sound_times(file): by its time stamps much of the sound would be heard at once.
 """
 
 from __future__ import annotations
@@ -33,6 +34,8 @@ _KEPT_LINES: Final = 200
 """Lines of a report that are kept: the streams are among the first, the reason of a failure among the last."""
 _LOOK_S: Final = 0.1
 """Between two looks whether to stop."""
+_MOST_LEFT_OUT: Final = 0.25
+"""Of the sound: overlaps are short, or the time stamps are wrong."""
 _JUMP_S: Final = 0.02
 """Time stamps that are off by less are rounded ones."""
 
@@ -155,7 +158,10 @@ def film_sound(
         raise refusal(report, path, status)
     sound = np.frombuffer(made, "<i2", len(made) // 4 * 2).reshape(-1, 2)
     late_s = timing.first_block_s if delay_s is None else delay_s
-    return _placed(sound, timing.stretches, rate_hz)[round(late_s * rate_hz) :]
+    placed, left_out = _placed(sound, timing.stretches, rate_hz)
+    if left_out > _MOST_LEFT_OUT * len(sound):
+        raise FileError("video.sound_times", file=path)
+    return placed[round(late_s * rate_hz) :]
 
 
 def _end_if_stopped(process: subprocess.Popen[bytes], stop_requested: Callable[[], bool]) -> None:
@@ -167,11 +173,12 @@ def _end_if_stopped(process: subprocess.Popen[bytes], stop_requested: Callable[[
             process.wait(_LOOK_S)
 
 
-def _placed(sound: Samples, stretches: list[tuple[float, float]], rate_hz: int) -> Samples:
-    """The stretches of a sound at their places, one after the other; what overlaps the one before is left out."""
+def _placed(sound: Samples, stretches: list[tuple[float, float]], rate_hz: int) -> tuple[Samples, int]:
+    """The stretches of a sound at their places, one after the other; what overlaps the one before is left out, and how
+    many samples that are."""
     begins = [min(round(sound_s * rate_hz), len(sound)) for sound_s, _ in stretches]
     parts: list[Samples] = []
-    length = 0
+    length = heard = 0
     for begin, end, (_, at_s) in zip(begins, [*begins[1:], len(sound)], stretches, strict=True):
         at = round(at_s * rate_hz)
         if at > length and end > begin:
@@ -180,4 +187,5 @@ def _placed(sound: Samples, stretches: list[tuple[float, float]], rate_hz: int) 
         part = sound[begin + length - at : end] if at < length else sound[begin:end]
         parts.append(part)
         length += len(part)
-    return np.concatenate(parts) if parts else sound
+        heard += len(part)
+    return (np.concatenate(parts), len(sound) - heard) if parts else (sound, 0)

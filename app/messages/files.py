@@ -55,6 +55,13 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         "{file} is an MPEG transport stream (.ts, .mts), which cannot be read; convert it to MP4 (H.264)",
         "{file} は MPEG トランスポートストリーム（.ts、.mts）のため読み込めません。MP4（H.264）に変換してください",
     ),
+    "video.sound_times": (
+        (
+            "{file}: the time stamps of its sound are damaged, and much of it would be lost; convert it to WAV with "
+            "another program"
+        ),
+        ("{file} は音声のタイムスタンプが壊れており、多くの部分が失われます。別のプログラムで WAV に変換してください"),
+    ),
     "video.too_costly": (
         (
             "reading {file} takes more memory or time than a file of its size should need: it may be damaged; "

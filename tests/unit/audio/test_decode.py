@@ -90,6 +90,13 @@ def test_a_gap_of_an_hour_is_refused_and_costs_nothing(tmp_path: Path) -> None:
         decode(str(path))
 
 
+def test_time_stamps_that_would_lose_the_sound_are_refused(tmp_path: Path) -> None:
+    """MP4 counts samples in 32 bits: after a gap of 28 hours all blocks are at the same time."""
+    path = with_gap(tmp_path / "gap.m4a", 100_000.0)
+    with pytest.raises(FileError, match=r"video\.sound_times"):
+        decode(str(path))
+
+
 @pytest.mark.parametrize("suffix", ["mkv", "webm", "flv"])
 def test_a_gap_of_days_is_refused_too(tmp_path: Path, suffix: str) -> None:
     """ffmpeg takes more than thirty hours for a mistake, and would leave them out without a word."""
