@@ -25,6 +25,8 @@ _LEAST_ROTATING: Final = 5
 """Notes of a track that say whether its channels rotate."""
 _ROTATING_SHARE: Final = 0.75
 """Share of the notes that come on another channel than the one before, where the channels rotate."""
+_UNISON_SHARE: Final = 0.9
+"""Share of the notes that the channels of two voices in unison strike together."""
 _FEW: Final = 8
 """More channels than these may rotate with channel 10 among them: no drum kit takes its turn so."""
 _LEGATO_SHARE: Final = 0.5
@@ -80,7 +82,7 @@ def players_channels(events: TrackEvents, name: str, zones: Mapping[int, frozens
     """The channels of a track that belong together, each group by number.
 
     Those of an MPE zone do if they have one sound; all do where the track's name is an instrument's and they take
-    turns, or where they take turns note by note with one sound. Else each is for itself.
+    turns, or where with one sound they take turns note by note or are in unison. Else each is for itself.
     """
     channels = sorted(events.channels)
     together = [
@@ -99,6 +101,8 @@ def players_channels(events: TrackEvents, name: str, zones: Mapping[int, frozens
     if melodic and named is not None and not named.vague and events.take_turns(channels):
         return [tuple(channels)]
     if (melodic or len(channels) > _FEW) and rotate(events, channels):
+        return [tuple(channels)]
+    if melodic and _in_unison(events, channels):
         return [tuple(channels)]
     return [(channel,) for channel in channels]
 
@@ -134,6 +138,13 @@ def rotate(events: TrackEvents, channels: Collection[int]) -> bool:
         return False
     changes = sum(before[2] != after[2] for before, after in pairwise(spans))
     return changes >= _ROTATING_SHARE * (len(spans) - 1)
+
+
+def _in_unison(events: TrackEvents, channels: Collection[int]) -> bool:
+    """Return whether channels with one sound strike nearly all notes together: two voices of a staff."""
+    struck = [{*zip(events.channels[one].onset_ticks, events.channels[one].pitches, strict=True)} for one in channels]
+    most = max(map(len, struck))
+    return len(set.intersection(*struck)) >= _UNISON_SHARE * most and _one_sound(events, channels)
 
 
 def _spans(events: TrackEvents, channels: Collection[int]) -> list[_Span]:

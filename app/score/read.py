@@ -8,10 +8,11 @@ A channel is one of its port (meta events 33 and 9): tracks of other ports do no
 melodies, rhythm parts and sound effects `app.score.sound_module` knows.
 
 What a note is: a note-on with velocity 0 is a note-off. A note-off ends the *oldest* note of its pitch and channel
-that still sounds (first in, first out), so notes of one pitch may overlap. Only where a channel would be one melody
-but for notes that sound on below whole others so, a note ends where its pitch is struck again: a wind controller has
-struck it without having ended it. A note-off and a note-on at one tick are two
-notes in a row. A note of no length lasts one tick.
+that still sounds (first in, first out). A pitch that is struck again ends there and begins again, as in takes
+(`app.score.sounding`), where its own end comes late: where the channel is one melody then, or where the pitch would
+sound three times at once. Two players on one channel may have one pitch together, and what lasts into the next note by
+less than a quarter of its length is legato; such notes overlap. A note-off and a note-on at one tick are two notes in a
+row. A note of no length lasts one tick.
 
 A note that no note-off ends lasts until the next note of its channel begins, and four quarters at most: a lost note-off
 must neither make a second player of a line nor a drone of hours, and the end of the track, where a synthesiser would

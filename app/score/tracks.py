@@ -223,6 +223,7 @@ def gather(messages: Iterable[Any], begin_tick: int, most_unended_ticks: int) ->
             events.hanging += _end_unended(notes, silenced[channel], most_unended_ticks, tick)
     for channel in struck_again:
         _end_where_struck_again(channels[channel])
+        _end_late(channels[channel])
     _close(events)
     return events
 
@@ -354,6 +355,34 @@ def _end_where_struck_again(notes: ChannelNotes) -> None:
     sounding = sum(followed) - sum(onsets)
     if swallowed_then < swallowed and together_then < together and together_then <= _MOST_TOGETHER * sounding:
         ends[:] = followed
+
+
+def _end_late(notes: ChannelNotes) -> None:
+    """End notes where their pitch is struck again, if their own ends come late.
+
+    A key is struck again once it is up, so no instrument sounds one pitch twice; two players on one channel may, where
+    other notes sound together too and at most two of the pitch do. What lasts into the next by less than a quarter of
+    its length is legato.
+    """
+    onsets, ends = notes.onset_ticks, notes.end_ticks
+    of_pitch: dict[int, list[int]] = {}
+    for index, pitch in enumerate(notes.pitches):
+        of_pitch.setdefault(pitch, []).append(index)
+    cut = list(ends)
+    deep: set[int] = set()
+    for pitch, places in of_pitch.items():
+        at = list(dict.fromkeys(onsets[index] for index in places))
+        for index in places:
+            later = bisect_right(at, onsets[index])
+            again = at[later] if later < len(at) else ends[index]
+            if ends[index] > again and 4 * (ends[index] - again) >= ends[index] - onsets[index]:
+                cut[index] = again
+            if later + 1 < len(at) and ends[index] > at[later + 1]:
+                deep.add(pitch)
+    melody = _covered(notes, cut)[1] <= _MOST_TOGETHER * (sum(cut) - sum(onsets))
+    ends[:] = [
+        new if melody or pitch in deep else old for new, old, pitch in zip(cut, ends, notes.pitches, strict=True)
+    ]
 
 
 def _covered(notes: ChannelNotes, ends: Sequence[int]) -> tuple[int, int]:

@@ -46,9 +46,9 @@ def test_off_and_on_at_one_tick_are_two_notes_in_either_order() -> None:
     assert notes_of(one_track(off_first)) == notes_of(one_track(on_first)) == [(0, 48, 60), (48, 48, 60)]
 
 
-def test_overlapping_notes_of_one_pitch_end_first_in_first_out() -> None:
+def test_a_pitch_that_is_struck_again_ends_there_and_the_second_has_the_last_end() -> None:
     score = one_track(bytes([0, 0x90, 60, 64, 24, 60, 64, 24, 60, 0, 24, 60, 0]))
-    assert notes_of(score) == [(0, 48, 60), (24, 48, 60)]
+    assert notes_of(score) == [(0, 24, 60), (24, 48, 60)]
 
 
 def test_notes_without_end_end_with_the_track_and_notes_without_length_last_a_tick() -> None:
