@@ -20,8 +20,9 @@ from PySide6.QtWidgets import (
 
 from app.editor.tokens import LEAST_TARGET_PX, Tokens
 from app.plan.corrections import Correction
+from app.project.found_parts import Conflict
 from app.project.model import Project
-from app.project.reimport import Conflict, Reimport
+from app.project.reimport import Reimport
 from app.score.model import Note
 from widgets.common.controls import Caption, OkCancel, Retranslated, named, selectable, wrapped
 from widgets.common.layouts import in_column
@@ -169,8 +170,8 @@ class ReimportDialog(Retranslated, QDialog):
                 for part in outcome.new_unplayed
             ]
         )
-        for widget in (self._unplayed_title, self._unplayed):
-            widget.setVisible(bool(outcome.new_unplayed))
+        self._unplayed_title.setVisible(bool(outcome.new_unplayed))
+        self._unplayed.setVisible(bool(outcome.new_unplayed))
         self._conflict_title.setText(
             self.tr("reimport_dialog.changed_here_and_in_file").format(count=len(outcome.conflicts))
         )

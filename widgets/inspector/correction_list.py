@@ -16,8 +16,8 @@ from app.plan.model import Event, PlayerPlan
 from app.project.edit import events as edit
 from app.project.edit.corrections import take_back
 from app.project.model import Project
+from app.project.orphans import orphaned, reattached
 from app.project.performers import Player
-from app.project.reimport import orphaned, reattached
 from widgets.common.controls import Button, Caption, PictureButton, Retranslated, named, wrapped
 from widgets.common.layouts import in_column, in_row
 from widgets.common.text import message_text

@@ -42,7 +42,8 @@ from app.project.edit import dance_corrections, dancers, events, generation, not
 from app.project.edit.corrections import put, take_back
 from app.project.edit.found_events import event_id_of, events_of
 from app.project.model import Project
-from app.project.reimport import orphaned, reattached, reimport
+from app.project.orphans import orphaned, reattached
+from app.project.reimport import reimport
 from app.project.storage import load, save
 from app.score.take import Cleaning
 from instrument_maps.load import bundled_maps

@@ -30,8 +30,9 @@ from app.project.edit.tempo import scale_tempo, set_metre, set_tempo
 from app.project.file_timing import timing_of
 from app.project.midi_out import export_midi
 from app.project.model import Project, map_choices, project_from_score
+from app.project.orphans import orphaned, reattached
 from app.project.performers import Dancer
-from app.project.reimport import orphaned, reattached, reimport
+from app.project.reimport import reimport
 from app.project.storage import load, save
 from app.score.model import Marker, Note, Part, PercussionHit, Score
 from app.score.parts import usual_assignments

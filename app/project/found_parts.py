@@ -1,0 +1,306 @@
+"""Parts and notes of a MIDI file that is read again, recognised as those of the project.
+
+A note found again keeps its id; of a change here and one in the file the file's is taken.
+"""
+
+from __future__ import annotations
+
+from bisect import bisect_right
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+
+import msgspec
+import numpy as np
+
+from app.project.alignment import AlignmentPart, align
+from app.project.derived_decisions import held_by_file, is_read
+from app.project.ids import MADE_PART, READ_NOTE, READ_PART, fresh_note_ids, fresh_part_ids, is_made_here
+from app.project.imported import Place
+from app.project.model import Project
+from app.project.moved_ticks import place_map
+from app.project.part_matching import matched_parts
+from app.score.model import Note, Part, Score
+from app.score.parts import transposed
+
+
+@dataclass(frozen=True)
+class PartMatch:
+    """A part that was found again.
+
+    Attributes
+    ----------
+    part_id : str
+        It keeps this id.
+    kept, added, removed : int
+        Notes.
+    by_hand : int
+        Notes whose change by hand stays.
+    """
+
+    part_id: str
+    former_name: str
+    name: str
+    kept: int
+    added: int
+    removed: int
+    by_hand: int
+
+
+@dataclass(frozen=True)
+class Conflict:
+    """A note that both the user and the file changed; the file's version is taken.
+
+    Attributes
+    ----------
+    read : Note
+        What the file held before.
+    by_hand : Note or None
+        What the user made of it; None: erased.
+    file : Note or None
+        What the file holds now; None: it is gone.
+    """
+
+    part_id: str
+    note_id: str
+    read: Note
+    by_hand: Note | None
+    file: Note | None
+
+
+@dataclass(frozen=True)
+class FoundParts:
+    """The parts of the file as those of the project.
+
+    Attributes
+    ----------
+    parts : tuple of Part
+        With the ids of the project.
+    former : tuple of (Part or None)
+        What each of them was; None: it is new.
+    others : tuple of Part
+        The project's parts that the file does not have.
+    places : mapping of str to list of (int, int)
+        Of the notes that were found again, by part id: former and present tick.
+    added : tuple of str
+        Ids of new notes.
+    still : bool
+        No note has moved.
+    """
+
+    parts: tuple[Part, ...]
+    former: tuple[Part | None, ...]
+    others: tuple[Part, ...]
+    matches: tuple[PartMatch, ...]
+    conflicts: tuple[Conflict, ...]
+    read_notes: dict[str, dict[str, Note]]
+    places: dict[str, list[tuple[int, int]]]
+    added: tuple[str, ...]
+    still: bool
+
+    @property
+    def is_unchanged(self) -> bool:
+        """Return whether the file has the notes that it had, where they were."""
+        return self.still and not (self.added or self.conflicts) and not any(match.removed for match in self.matches)
+
+    @property
+    def pairs_of_ticks(self) -> list[tuple[int, int]]:
+        """Former and present ticks of all parts; none where nothing has moved."""
+        return [] if self.still else [pair for own in self.places.values() for pair in own]
+
+
+def found_again(project: Project, score: Score, places_now: Mapping[Place, Place], scale: Fraction) -> FoundParts:
+    """Find the parts and notes of the project in a score that was read.
+
+    Parameters
+    ----------
+    places_now : mapping of Place to Place
+        Where tracks are that are recognised, by where they were.
+    """
+    old = project.score
+    hints = [places_now.get(part.place) if is_read(project, part) else None for part in old.parts]
+    partners = matched_parts(old, score, hints)
+    former_of = {new: former for former, new in partners}
+    score = _as_read(score, old, former_of)
+    part_ids = iter(fresh_part_ids(project, len(score.parts), READ_PART))
+    note_ids = iter(fresh_note_ids(project, sum(len(part.notes) for part in score.parts), READ_NOTE))
+    parts: list[Part] = []
+    matches: list[PartMatch] = []
+    conflicts: list[Conflict] = []
+    read_notes: dict[str, dict[str, Note]] = {}
+    added: list[str] = []
+    places: dict[str, list[tuple[int, int]]] = {}
+    for index, part in enumerate(score.parts):
+        former = former_of.get(index)
+        if former is None:
+            ids = [next(note_ids) for _ in part.notes]
+            added += ids
+            parts.append(_renamed(part, next(part_ids), ids))
+            read_notes[parts[-1].id] = {note.id: note for note in parts[-1].notes}
+            continue
+        before = old.parts[former]
+        was = held_by_file(project, before)
+        read = project.read_notes.get(before.id) or {note.id: note for note in was}
+        pairs = _same_notes([index for index, note in enumerate(was) if note.id in read], was, part.notes, scale)
+        if pairs is None:
+            lines = (was, old.ticks_per_quarter), (part.notes, score.ticks_per_quarter)
+            pairs = [(int(one), int(new)) for one, new in align(*(AlignmentPart.of(*line) for line in lines))]
+        kept = {new: was[one].id for one, new in pairs}
+        ids = [kept[number] if number in kept else next(note_ids) for number in range(len(part.notes))]
+        renamed = _renamed(part, before.id, ids)
+        read_notes[before.id] = {note.id: note for note in renamed.notes}
+        merged = _merged(before, was, renamed, pairs, scale)
+        conflicts += merged.conflicts
+        known = {note.id: note for note in before.notes}
+        places[before.id] = [
+            (known[note.id].onset_tick, note.onset_tick) for note in merged.part.notes if note.id in known
+        ]
+        drawn = _drawn(before, frozenset(kept.values()), place_map(places[before.id], scale), scale, merged.part)
+        parts.append(_with_more(merged.part, drawn))
+        stayed, came = len(places[before.id]), [note.id for note in merged.part.notes if note.id not in known]
+        added += came
+        lost = len(before.notes) - stayed - len(drawn)
+        matches.append(
+            PartMatch(before.id, before.name, part.name, stayed + len(drawn), len(came), lost, merged.by_hand)
+        )
+    again = set(former_of.values())
+    return FoundParts(
+        parts=tuple(parts),
+        former=tuple(old.parts[former_of[index]] if index in former_of else None for index in range(len(parts))),
+        others=tuple(part for index, part in enumerate(old.parts) if index not in again),
+        matches=tuple(matches),
+        conflicts=tuple(conflicts),
+        read_notes=read_notes,
+        places=places,
+        added=tuple(added),
+        still=scale == 1 and all(tick == now for own in places.values() for tick, now in own),
+    )
+
+
+def _same_notes(
+    places: Sequence[int], was: Sequence[Note], now: Sequence[Note], scale: Fraction
+) -> list[tuple[int, int]] | None:
+    """The pairs of notes of a line that is the same as before, or begins earlier or later as a whole; None: it is not.
+
+    Parameters
+    ----------
+    places : sequence of int
+        Of those of the former notes that the file had.
+    """
+    if len(places) != len(now):
+        return None
+    shift = now[0].onset_tick - round(was[places[0]].onset_tick * scale) if now else 0
+    former = [
+        (round(note.onset_tick * scale) + shift, note.pitch, max(round(note.duration_tick * scale), 1), place)
+        for note, place in ((was[place], place) for place in places)
+    ]
+    present = [(note.onset_tick, note.pitch, note.duration_tick, place) for place, note in enumerate(now)]
+    pairs = list(zip(sorted(former), sorted(present), strict=True))
+    if any(one[:3] != other[:3] for one, other in pairs):
+        return None
+    return [(one[3], other[3]) for one, other in pairs]
+
+
+def _as_read(score: Score, old: Score, former_of: Mapping[int, int]) -> Score:
+    """The score with the parts that were found again transposed as they were, and on the map that they were read for
+    where nothing else is said."""
+    parts = list(score.parts)
+    for new, former in former_of.items():
+        before, part = old.parts[former], parts[new]
+        shift = before.transposed_semitones
+        notes = transposed(part.notes, shift - part.transposed_semitones)
+        map_id = before.map_id if part.instrument == before.instrument else part.map_id
+        parts[new] = msgspec.structs.replace(part, notes=notes, transposed_semitones=shift, map_id=map_id)
+    return msgspec.structs.replace(score, parts=tuple(parts))
+
+
+@dataclass(frozen=True)
+class _Merged:
+    """The file's part with what stays of the changes by hand."""
+
+    part: Part
+    by_hand: int
+    conflicts: tuple[Conflict, ...]
+
+
+def _merged(
+    before: Part, was: Sequence[Note], part: Part, pairs: Sequence[tuple[int, int]], scale: Fraction
+) -> _Merged:
+    """Of three versions of each note one: the user's where the file did not change it, else the file's.
+
+    Parameters
+    ----------
+    before : Part
+        As the user has it.
+    was : sequence of Note
+        As the file had it.
+    part : Part
+        As the file has it, with the ids of the project.
+    pairs : sequence of (int, int)
+        Which of ``was`` is which of the part's notes.
+    """
+    here = {note.id: note for note in before.notes}
+    distances = [part.notes[new].onset_tick - round(was[one].onset_tick * scale) for one, new in pairs]
+    notes = {note.id: note for note in part.notes}
+    by_hand, conflicts = 0, []
+    for place, (one, new) in enumerate(pairs):
+        read, now = was[one], part.notes[new]
+        mine = here.get(read.id)
+        if mine == read:
+            continue
+        beside = distances[max(place - 1, 0) : place] + distances[place + 1 : place + 2]
+        still = distances[place] in beside or distances[place] == 0
+        if not still or (now.duration_tick, now.pitch, now.velocity) != (
+            max(round(read.duration_tick * scale), 1),
+            read.pitch,
+            read.velocity,
+        ):
+            conflicts.append(Conflict(before.id, read.id, read, mine, now))
+            continue
+        by_hand += 1
+        if mine is None:
+            del notes[read.id]
+            continue
+        onset = now.onset_tick + round((mine.onset_tick - read.onset_tick) * scale)
+        length = max(round(mine.duration_tick * scale), 1)
+        notes[read.id] = Note(mine.id, max(onset, 0), length, mine.pitch, mine.velocity)
+    found = {one for one, _ in pairs}
+    for index, read in enumerate(was):
+        mine = here.get(read.id)
+        if index not in found and mine is not None and mine != read:
+            conflicts.append(Conflict(before.id, read.id, read, mine, None))
+    ordered = sorted(notes.values(), key=lambda note: (note.onset_tick, note.pitch))
+    conflicts.sort(key=lambda conflict: conflict.read.onset_tick)
+    return _Merged(msgspec.structs.replace(part, notes=tuple(ordered)), by_hand, tuple(conflicts))
+
+
+def _renamed(part: Part, part_id: str, note_ids: Sequence[str]) -> Part:
+    notes = tuple(
+        note if note.id == id else Note(id, note.onset_tick, note.duration_tick, note.pitch, note.velocity)
+        for note, id in zip(part.notes, note_ids, strict=True)
+    )
+    return msgspec.structs.replace(part, id=part_id, notes=notes)
+
+
+def _drawn(
+    before: Part, kept: frozenset[str], place: Callable[[int], int], scale: Fraction, part: Part
+) -> tuple[Note, ...]:
+    """Notes drawn here that the file does not have: those that still have room, at their new places."""
+    ends = np.maximum.accumulate(np.array([0, *(note.end_tick for note in part.notes)]))
+    onsets = [note.onset_tick for note in part.notes]
+    result = []
+    for note in before.notes:
+        if note.id in kept or not (is_made_here(note.id) or before.id.startswith(MADE_PART)):
+            continue
+        onset, length = max(place(note.onset_tick), 0), max(round(note.duration_tick * scale), 1)
+        at = bisect_right(onsets, onset)
+        if ends[at] <= onset and (at == len(onsets) or onset + length <= onsets[at]):
+            result.append(msgspec.structs.replace(note, onset_tick=onset, duration_tick=length))
+    return tuple(result)
+
+
+def _with_more(part: Part, notes: tuple[Note, ...]) -> Part:
+    if not notes:
+        return part
+    ordered = sorted((*part.notes, *notes), key=lambda note: (note.onset_tick, note.pitch))
+    return msgspec.structs.replace(part, notes=tuple(ordered))

@@ -1,0 +1,51 @@
+"""Corrections whose note is gone: they stay and do nothing until they get another note or are taken back.
+
+Messages (`UsageError`): ``reimport.no_note``, ``reimport.not_played``.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from app.errors import UsageError
+from app.plan.corrections import Correction, kind
+from app.project.anchors import moved, note_of
+from app.project.edit.corrections import put, take_back
+from app.project.model import Project
+
+
+@dataclass(frozen=True)
+class Orphan:
+    """A correction whose note is gone."""
+
+    player_id: str
+    correction: Correction
+
+
+def orphaned(project: Project) -> tuple[Orphan, ...]:
+    """Every correction about a note that its player does not play (any more)."""
+    found = []
+    for player in project.players:
+        corrections = project.corrections.get(player.id, ())
+        if not corrections:
+            continue
+        played = {note.id for note in project.part(player).notes}
+        for correction in corrections:
+            note = note_of(correction)
+            if note is not None and note not in played:
+                found.append(Orphan(player.id, correction))
+    return tuple(found)
+
+
+def reattached(project: Project, player_id: str, correction: Correction, note_id: str) -> Project:
+    """Let a correction be about another note of its player; lengths relative to the note stay. It takes the place of
+    one that is about the same there."""
+    former = note_of(correction)
+    if former is None:
+        raise UsageError("reimport.no_note", kind=kind(correction))
+    if note_id not in {note.id for note in project.part(project.player(player_id)).notes}:
+        raise UsageError("reimport.not_played", note=note_id)
+    if former == note_id:
+        return project
+    without = take_back(project, player_id, [correction])
+    return put(without, player_id, [moved(correction, {former: note_id})])
