@@ -18,12 +18,12 @@ PREFIX: Final = "bytes://"
 """Begins a stored path that is not UTF-8; no other path begins so, because two slashes are one in a path."""
 
 HIDDEN: Final = re.compile("[\x00-\x1f\x7f-\x9f\u2028\u2029\u202a-\u202e\u2066-\u2069\ud800-\udfff]")
-"""What no text for users holds: what ends a line, commands a terminal or turns the direction, and lone surrogates."""
+"""Characters that texts for users never hold: line ends, terminal commands, changes of direction, lone surrogates."""
 
 ENCODINGS: Final = (
     *("utf-8", "cp932", "euc_jp", "gb18030", "big5hkscs", "cp949", "cp1251", "koi8_r", "cp1252", "mac_roman", "cp1250"),
 )
-"""Of texts that users meet in files, to choose from."""
+"""Encodings of texts in files, to choose from."""
 
 _ESCAPED = re.compile("[%\ud800-\udfff]")
 # One character from beyond ASCII, alone, touching a small Latin letter: what "Flöte" in Latin-1 looks like in CP932.

@@ -15,7 +15,7 @@ _JUMP_S: Final = 0.04
 """A difference that has moved by more is no jitter: the device stood still, or was suspended."""
 _SHIFT_S: Final = 0.01
 _SHIFTED: Final = 8
-"""So many observations in a row, all off by more to the same side, are no jitter either."""
+"""Observations in a row, all off by more to the same side, that count as a shift and not as jitter."""
 _AHEAD_S: Final = 0.03
 """The time is never further ahead of what the device has said."""
 

@@ -29,9 +29,9 @@ _STEPS: Final = 200
 """Filtered at once."""
 _FLOOR_DB: Final = -70.0
 _MIDDLE: Final = 0.62
-"""Where the middle of a piece lies: mezzoforte."""
+"""Level of the middle of a piece: mezzoforte."""
 _PER_DB: Final = 0.025
-"""Of the scale of controllers, for a decibel, where there is room: 10 dB, twice as loud, are a quarter of it."""
+"""Share of the scale of controllers for a decibel, if there is room: 10 dB, twice as loud, are a quarter of it."""
 _QUIETEST, _LOUDEST = 0.2, 0.95
 """Quiet and loud places (one in twenty is beyond) lie within these."""
 _LEAST, _MOST = 0.1, 1.0
@@ -149,7 +149,7 @@ class _Sounding:
     at_s: Floats
     sounds: npt.NDArray[np.bool_]
     pitch: npt.NDArray[np.int64]
-    """Of the note that began last."""
+    """Pitch of the note that began last."""
 
     @classmethod
     def of(cls, part: Part, score: Score) -> _Sounding:

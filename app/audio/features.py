@@ -17,7 +17,7 @@ Sound = npt.NDArray[np.float32]
 
 _A4_HZ: Final = 440.0
 _PITCHED_HZ: Final = (60.0, 5000.0)
-"""Where fundamentals and low harmonics of winds lie; other peaks tell nothing of the tuning."""
+"""Range of fundamentals and low harmonics of winds; other peaks say nothing about the tuning."""
 _CENTRE_HZ: Final = 880.0
 _OCTAVES: Final = 2.0
 """Pitch classes are reported by the middle of the range: standard deviation of the weights around its centre."""

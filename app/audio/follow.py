@@ -42,9 +42,9 @@ from app.score.model import Score
 _NEIGHBOURS_BEATS: Final = 1.0
 """A beat is read off the onsets this far on both sides."""
 _ALONG_BEATS: Final = 4
-"""So many beats around a pinned one go along with what it is away from where it would be read off."""
+"""Number of beats around a pinned one that share its distance from the place that was read off."""
 _OF_PINS: Final = 1e6
-"""What a pinned beat counts where beats are in one another's way."""
+"""Weight of a pinned beat among beats that exclude one another."""
 _LOCAL_S: Final = 2.5
 """Half the width over which a beat's confidence is measured."""
 _EVEN_BEATS: Final = 4
@@ -65,7 +65,7 @@ _SURE: Final = 0.6
 _PARTIAL: Final = 0.97
 """A part is at most so much of the piece."""
 _PART_RECOGNISED: Final = 0.6
-"""As `RECOGNISED` of a part, which is found wherever it is most alike ..."""
+"""Like `RECOGNISED`, for a part, which is found wherever it is most alike ..."""
 _SHORT_S: Final = (10.0, 20.0)
 _SHORT_RECOGNISED: Final = 0.2
 """... and so much more where it goes on for the first of these at most; less up to the second. Of eight pieces, 8 s of

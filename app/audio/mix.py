@@ -21,9 +21,9 @@ _LEVEL: Final = 4.5
 PERCUSSION: Final = ""
 """Stands for the percussion where there is the id of a player."""
 _PERCUSSION_LEVEL: Final = 0.5
-"""Of its kit beside the players', whose loudest strokes are far above a wind's tone."""
+"""Level of the percussion relative to the players: a kit's loudest strokes are far above a wind's tone."""
 _SIDE: Final = 0.6
-"""How far to the side the outermost player is panned; 1 is one channel alone."""
+"""Pan of the outermost player; 1 is one channel alone."""
 
 
 def player_phrases(project: Project, player: Player) -> tuple[Phrase, ...]:

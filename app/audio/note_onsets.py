@@ -23,7 +23,7 @@ _PARTIALS: Final = 6
 _REACH_S: Final = 0.09
 """A note is looked for so far from where its beat puts it."""
 _EDGE_S: Final = 0.03
-"""What sounds so long after a moment is held against what did before."""
+"""Length of the sound after a moment that is compared with the sound before it."""
 _USUAL_S: Final = 0.05
 """Standard deviation of where notes are expected."""
 _LEAST_RISE: Final = 1.5
@@ -36,7 +36,7 @@ _APART: Final = 0.9
 """Semitones between partials that are not the same."""
 _LEAST_PARTIALS: Final = 2
 _LEAST_NOTES: Final = 8
-"""Of a part, to know how softly its instrument speaks."""
+"""Notes of a part that are needed to know how softly its instrument speaks."""
 
 
 def note_onsets(

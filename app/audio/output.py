@@ -134,7 +134,7 @@ class Queue:
         self._put = 0
         self._fetched_s = now()
         self._fetches: deque[tuple[float, int, int]] = deque([(now(), 0, 0)])
-        """When what was fetched begins to sound, samples that were fetched before, and samples of this one."""
+        """For each fetch: the time at which it begins to sound, samples fetched before, and samples of this one."""
 
     def put(self, block: Block) -> None:
         """Add sound at the end; shape (n, 2)."""

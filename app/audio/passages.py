@@ -19,7 +19,7 @@ from app.audio.score_sound import CHROMA_S, Floats
 Integers: TypeAlias = npt.NDArray[np.int64]
 
 _JUMP: Final = 6.0
-"""What a jump costs, in frames that are wholly alike."""
+"""Cost of a jump, in frames that are wholly alike."""
 _UNEVEN: Final = 0.25
 """The same of standing still, and of skipping a frame."""
 _LEAST_S: Final = 3.0

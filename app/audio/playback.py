@@ -24,7 +24,7 @@ _GRAINS_REST_MS: Final = 3000
 _LEAST_S: Final = 1e-3
 _HOPELESS_S: Final = 1.0
 _RETRY_S: Final = 2.0
-"""How often a missing device is looked for."""
+"""Interval at which a missing device is looked for."""
 
 
 class Playback(QObject):
@@ -66,7 +66,7 @@ class Playback(QObject):
         self._gain = 1.0
         self._silent = False
         self._retry_s = 0.0
-        """When a missing device is looked for again."""
+        """Time at which a missing device is looked for again."""
         self._sink: Sink | None = None
         self._clock = DeviceClock(now)
         self._reader = Reader(self._mix)

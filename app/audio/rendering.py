@@ -16,7 +16,7 @@ from app.score.sound_module import DRUM_CHANNEL
 
 FOLDER: Final = Path(__file__).parents[2] / "resources" / "soundfont"
 _FIRST_STATUS: Final = 23
-"""Where the status of the first event stands in a file of one track, behind its chunks' heads and a delta of 0."""
+"""Byte of the first event's status in a file of one track, after the chunks' heads and a delta of 0."""
 
 
 @cache

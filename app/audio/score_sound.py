@@ -32,7 +32,7 @@ USUAL_HARMONICS: Final[Harmonics] = ((0, 1.0), (7, 0.25), (4, 0.08))
 ODD_HARMONICS: Final[Harmonics] = ((0, 1.0), (7, 1.0), (4, 0.3))
 """Those of a stopped pipe, as clarinets have them: alone they sound a twelfth higher as much as at their own pitch."""
 EARLY_S: Final = 0.007
-"""How much earlier than the note its onset is found, by windows that reach ahead: mean over seven pieces by the
+"""Lead of the onsets found over the notes, by windows that reach ahead: mean over seven pieces by the
 built-in synthesiser."""
 
 

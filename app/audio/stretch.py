@@ -19,7 +19,7 @@ HOP: Final = round(0.03 * RATE_HZ)
 """Samples that a step makes."""
 _LENGTH: Final = 2 * HOP
 _SEARCH: Final = round(0.012 * RATE_HZ)
-"""How far a frame may lie from its ideal place: more than half a period of the lowest notes of winds."""
+"""Largest distance of a frame from its ideal place: more than half a period of the lowest notes of winds."""
 _COARSE: Final = 4
 _WINDOW: Final = np.hanning(_LENGTH + 1)[:-1].astype(np.float32)[:, None]
 
@@ -40,7 +40,7 @@ class Stretch:
         """Place in the stream of the buffer's first sample."""
         self._ideal = 0.0
         self._before: int | None = None
-        """Where the frame before was taken."""
+        """Place of the frame before."""
         self._tail = np.zeros((HOP, 2), np.float32)
 
     @property

@@ -24,9 +24,9 @@ from app.score.following import Span
 Integers: TypeAlias = npt.NDArray[np.int64]
 
 _MOST_CELLS: Final = 60_000_000
-"""Of the matrix of the warping, 8 bytes each: longer ones are warped with coarser frames."""
+"""Largest matrix of the warping, 8 bytes a cell: longer pieces are warped with coarser frames."""
 _EVEN: Final = 0.7
-"""What it costs to stand still in one of the two, beside the distance: the tempo changes where something says so."""
+"""Cost of standing still in one of the two, besides the distance: the tempo changes only for a reason."""
 _FILLER_S: Final = 2.2
 """From one frame of silence to the next."""
 _LEAST_LIKENESS: Final = 0.25
@@ -95,7 +95,7 @@ class Warped:
     missing: tuple[Span, ...]
     added: tuple[Span, ...]
     length_s: float
-    """Of the score."""
+    """Duration of the score."""
 
     def later(self, score_s: float, end_s: float) -> Warped:
         """The same, found in a part of a score that begins so much later than the whole, which lasts until ``end_s``;

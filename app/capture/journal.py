@@ -37,10 +37,10 @@ _LARGEST_NS: Final = 1 << 62
 _LARGEST_S: Final = 1e7
 LARGEST_LATENCY_S: Final = 10.0
 MOST_BYTES: Final = 2**28
-"""Of a journal; an hour of playing with breath has some 20 MB."""
+"""Largest journal; an hour of playing with breath has some 20 MB."""
 
 Gap: TypeAlias = tuple[int, int | None]
-"""When the device had gone and when it was back; None where it stayed away."""
+"""Times of the device's loss and return; None if it stayed away."""
 
 
 class Header(msgspec.Struct, frozen=True):

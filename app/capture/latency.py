@@ -12,7 +12,7 @@ from app.capture.learn import breath_value
 from metadata.model import BreathSource
 
 EARLIEST_S: Final = -0.2
-"""Who blows earlier than this means another click."""
+"""Hits earlier than this belong to another click."""
 LATEST_S: Final = 0.35
 LEAST_HITS: Final = 7
 MOST_SPREAD_S: Final = 0.035

@@ -47,7 +47,7 @@ _MOST_DEATHS: Final = 3
 _DEATHS_WITHIN_S: Final = 10.0
 _END_WITHIN_S: Final = 5.0
 _OPEN_AGAIN_S: Final = 5.0
-"""How long a port whose opening ended the recorder is left alone."""
+"""Pause before a port whose opening ended the recorder is tried again."""
 
 
 class RecorderLink:

@@ -20,7 +20,7 @@ MidiCallback: TypeAlias = Callable[[int, bytes], None]
 raise: rtmidi2 ignores exceptions."""
 
 _RTMIDI2_SYSTEMS: Final = {"linux": ("alsa", "jack"), "darwin": ("core",), "win32": ("winmm",)}
-"""What its wheels are built with, by platform: the module does not say."""
+"""MIDI systems of the wheels, by platform: the module does not report them."""
 
 
 class PortLists(Protocol):

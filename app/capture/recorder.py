@@ -66,9 +66,9 @@ _NO_SYSTEM_LOOK_S: Final = 2.0
 _TO_DISK_S: Final = 0.25
 _SENT_WITHIN_S: Final = 1.0
 _SWITCH_S: Final = 0.0005
-"""How long a thread of ours may keep the driver's from stamping."""
+"""Longest time for which a thread of ours may keep the driver's from stamping."""
 _PRIORITY: Final = -10
-"""Where there is no real time: as Unix counts it, less is before others."""
+"""Unix priority without real-time scheduling: lower runs first."""
 
 _NO_ROOM: Final = frozenset({errno.ENOSPC, getattr(errno, "EDQUOT", errno.ENOSPC)})
 """Errors of a full disk."""
@@ -76,7 +76,7 @@ _NO_ROOM: Final = frozenset({errno.ENOSPC, getattr(errno, "EDQUOT", errno.ENOSPC
 StampedMessage: TypeAlias = tuple[int, bytes]
 """A moment of `time.perf_counter_ns` and a message."""
 NewsQueue: TypeAlias = "SimpleQueue[News | StampedMessage | threading.Event | None]"
-"""What is sent, in order; an event is set when all before it is sent, None ends the sending."""
+"""Items to send, in order; an event is set once all before it is sent, None ends the sending."""
 
 
 class Recorder:

@@ -39,7 +39,7 @@ from app.own_process import core_count, own_process
 NOTES: Final = "exported.json"
 SUFFIXES: Final = (".mid", ".midi", ".suisou")
 _STOP_S: Final = 10.0
-"""How long a process may take to remove what it has not finished."""
+"""Time for a process to remove its unfinished files."""
 _MOST_BYTES: Final = 64 * 2**20
 _DASK_VARIABLES: Final = ("MALLOC_TRIM_THRESHOLD_",)
 """Environment variables that Dask sets for its workers: with them an export spends seconds on returning memory."""

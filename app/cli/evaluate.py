@@ -134,7 +134,7 @@ def evaluate(arguments: argparse.Namespace) -> int:
 
     _check_options(arguments)
     clean_up()
-    project = open_project(arguments, nobody="picture.no_players")
+    project = open_project(arguments, if_empty="picture.no_players")
     request = _request(arguments, project)
     variants_of(request)
     require_writable(arguments.to, nearest(arguments.to))

@@ -213,7 +213,7 @@ def export(arguments: argparse.Namespace) -> int:
 
         unreal = find_project(arguments.unreal)
     clean_up()
-    project = open_project(arguments, nobody="export.no_players")
+    project = open_project(arguments, if_empty="export.no_players")
     performance = Performance(project)
     names = [*(player.name for player in project.players), *(dancer.name for dancer in project.dancers)]
     chosen = select_players(arguments.players, names)

@@ -153,7 +153,7 @@ def film(arguments: argparse.Namespace) -> int:
     kind = _kind(arguments)
     _check_options(arguments, kind)
     clean_up()
-    project = open_project(arguments, nobody="picture.no_players")
+    project = open_project(arguments, if_empty="picture.no_players")
     view, player_ids = seen(arguments, project)
     performance = Performance(project)
     span = requested_span(performance, arguments, _rate(arguments, project, kind))

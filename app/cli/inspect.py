@@ -304,7 +304,7 @@ def _tempo(tempos: list[Table]) -> str:
 
 
 FIRST, FIRST_WORDS = 10, 3
-"""So many fingerings of each player are shown."""
+"""Number of fingerings shown of each player, and of words."""
 
 
 def _row(player: Table) -> tuple[str, ...]:

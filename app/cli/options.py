@@ -95,7 +95,7 @@ AUTOMATIC: Final = "auto"
 NO_CONDUCTOR: Final = "none"
 USUAL_CONDUCTOR: Final = "usual"
 seconds = within(-LONGEST_S, LONGEST_S, "a number of seconds", float)
-"""Of the performance; before the first beat it is negative."""
+"""Seconds of the performance; negative before the first beat."""
 
 
 def picture_size(least_px: tuple[int, int], most_px: tuple[int, int]) -> Callable[[str], tuple[int, int]]:
@@ -235,14 +235,14 @@ def add_rate_option(command: argparse.ArgumentParser) -> None:
     )
 
 
-def open_project(arguments: argparse.Namespace, nobody: str = "") -> Project:
+def open_project(arguments: argparse.Namespace, if_empty: str = "") -> Project:
     """The project that a file holds, or a MIDI file with its players cast; what the options say comes on top. What is
     wrong with the user's own instruments is reported, and those are excluded; so are the parts of a MIDI file that
     nothing gives an instrument, with the command that does.
 
     Parameters
     ----------
-    nobody : str
+    if_empty : str
         Message (``file``) of a command that needs players or dancers; empty: it does without.
 
     Raises
@@ -250,7 +250,7 @@ def open_project(arguments: argparse.Namespace, nobody: str = "") -> Project:
     AppError
         Those of reading, and `UsageError` of what makes no sense, ``project.encoding`` (file),
         ``project.written`` (file) and ``project.assign`` (file) among them; `FileError` ``assign.parts`` (file, parts,
-        command) and ``nobody``.
+        command) and ``if_empty``.
     """
     known = library()
     maps = known.maps
@@ -259,8 +259,8 @@ def open_project(arguments: argparse.Namespace, nobody: str = "") -> Project:
     for problems in metadata_library().problems.values():
         warn(worded(problems[0]))
     project, message = _opened(arguments, maps)
-    if nobody and not project.performers:
-        refused = message or Message(nobody, {"file": shown(arguments.file)})
+    if if_empty and not project.performers:
+        refused = message or Message(if_empty, {"file": shown(arguments.file)})
         raise FileError(refused.id, **refused.arguments)
     if message is not None:
         warn(worded(message))

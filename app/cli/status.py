@@ -19,7 +19,7 @@ NO_DISPLAY: Final = 3
 PARTIAL: Final = 4
 """Done, but players were excluded, or a take lies elsewhere than asked."""
 STOPPED: Final = 128 + signal.SIGINT
-"""With Ctrl-C."""
+"""Stopped with Ctrl-C."""
 
 
 def report_left_out(left_out: Iterable[tuple[str, str]]) -> int:

@@ -97,7 +97,7 @@ def stream(arguments: argparse.Namespace) -> int:
     from app.performance.ensemble import Performance
     from app.performance.span import whole_span
 
-    project = open_project(arguments, nobody="stream.no_players")
+    project = open_project(arguments, if_empty="stream.no_players")
     performance = Performance(project)
     span = whole_span(performance.time_frame, arguments.fps)
     first = _first_frame(span, arguments.from_s)

@@ -15,11 +15,11 @@ from app.project.edit.events import Edited, GestureKind
 from app.project.model import Project
 
 Addition: TypeAlias = tuple[PlayerPlan, Callable[[Project], Edited]]
-"""Whose plan it is, and the edit."""
+"""A player's plan, and the edit."""
 Places: TypeAlias = Iterable[tuple[PlayerPlan, int]]
-"""Whose event it is, and its tick."""
+"""A player's plan, and the tick of an event."""
 Spans: TypeAlias = Iterable[tuple[PlayerPlan, int, int]]
-"""Whose event it is, and its ticks."""
+"""A player's plan, and the ticks of an event."""
 
 
 STYLE_BARS = 2

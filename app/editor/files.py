@@ -41,7 +41,7 @@ VIDEO_SUFFIXES: Final = SUFFIXES
 EXAMPLE: Final = "quartet.mid"
 DANCED_EXAMPLE: Final = "montuno.mid"
 EXAMPLE_VARIATION: Final = 14
-"""Of the dance: it has many basic motions, seldom one many times in a row, and mostly faces the audience."""
+"""Seed of the example's dance: many basic motions, seldom one many times in a row, mostly facing the audience."""
 MOST_SLEEP_S: Final = 60.0
 """After this long at the latest it is asked whether unsaved work is to be written down."""
 
@@ -99,13 +99,13 @@ class Files(QObject):
         """`storage.content_hash` of the file as this editor read or wrote it last; empty where it was not there."""
         self.is_open = False
         self.saved_s: float | None = None
-        """When the project, or unsaved work on it, was written last; of `time.monotonic`."""
+        """Time of the last save or autosave, of `time.monotonic`."""
         self.autosaved = False
-        """Whether that was an autosave."""
+        """True if that was an autosave."""
         self.risk: Message | None = None
-        """Why unsaved work is in no file, not even in an autosave; None: it is, or is about to be."""
+        """Reason for which unsaved work is in no file, not even in an autosave; None: it is, or is about to be."""
         self._warned: set[str] = set()
-        """What was said about autosaves of the open project: it is said once."""
+        """Ids of warnings about autosaves of the open project: each is shown once."""
         self._recovered: tuple[str, ...] = ()
         """Editors that are gone whose work this is."""
         session.changed.connect(self._project_changed)

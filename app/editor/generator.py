@@ -29,11 +29,11 @@ from instrument_maps.library import library
 from metadata.library import metadata_library
 
 AT_ONCE_NOTES = 2500
-"""So many notes are planned within the time of two pictures ..."""
+"""Number of notes that are planned within the time of two pictures ..."""
 AT_ONCE_S = 0.1
 """... unless they turn out to cost more of the processor than this: many players, or what no musician writes."""
 REPORTED_NOTES = 6000
-"""So many take long enough that the user sees how far it is, and may stop it."""
+"""Number of notes from which planning shows its progress and can be stopped."""
 SWITCH_S = 0.001
 """The window gets the interpreter back from the worker within this time."""
 REPORT_S = 0.04
@@ -49,7 +49,7 @@ MOST_REST_S = 0.1
 GIVE_BACK_CHUNKS = 64
 """Memory that was needed on the way is returned once everything is made, but not after a few chunks of an edit."""
 REPORT_BROKEN_S = 0.5
-"""Of contacts that are found broken while much is made, this often: every list of problems shows them anew."""
+"""Interval of reports of broken contacts while much is made: every list of problems is filled again by one."""
 REST_WHILE_JUDGING = 3.0
 """Contacts of motion that there is no room to keep are judged while nothing plays, resting this many times as long as
 the work took: an hour of an orchestra takes minutes, and no one waits for it."""
@@ -92,7 +92,7 @@ class Generator(QObject):
         self._shown = 0
         """Number of the newest that was shown, or would be of no use: older ones are dropped."""
         self._long = False
-        """Whether a long planning is under way."""
+        """True while a long planning is under way."""
         self._holding: frozenset[tuple[str, str]] = frozenset()
         """Characters and instruments whose holds are being found ..."""
         self._hold_stopped: StopRequested = _goes_on
@@ -296,12 +296,12 @@ class _Worker:
         self._playing = False
         self._paused = False
         self._given_back = 0
-        """How much was made when memory was returned last."""
+        """Amount of motion made when memory was returned last."""
         self._reported_s = 0.0
         self._reported_seen = live.seen
         self._reported_seen_s = 0.0
         self._judging = True
-        """Whether there may be contacts to judge beside what is made to be seen."""
+        """True while there may be contacts to judge besides the motion that is made to be seen."""
         self._reported_broken = live.broken
         self._reported_broken_s = 0.0
         self._thread = threading.Thread(target=self._run, name="generator", daemon=True)

@@ -17,7 +17,7 @@ from app.plan.model import AdditiveEvent, PoseEvent
 from app.score.take import ControllerMapping
 
 REST_S: Final = 4.0
-"""So long after the last event the player is shown as the performance has them again."""
+"""Time after the last event until the player is shown as in the performance again."""
 
 
 class LivePlayer(QObject):
@@ -34,9 +34,9 @@ class LivePlayer(QObject):
         self._session, self._chosen = session, chosen
         self._play_along: PlayAlong | None = None
         self._of: tuple[object, ...] = ()
-        """What the one that plays along was made from."""
+        """Inputs of the performer that plays along."""
         self._held: tuple[tuple[PoseEvent, ...], tuple[AdditiveEvent, ...]] = ((), ())
-        """How that one stands."""
+        """Pose of that performer."""
         self._rest = QTimer(self, singleShot=True, interval=round(1000 * REST_S))
         self._rest.timeout.connect(self._rested)
 

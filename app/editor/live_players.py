@@ -56,7 +56,7 @@ class LivePlayers(QObject):
         super().__init__()
         self._playing: dict[str, PlayAlong] = {}
         self._lock = threading.Lock()
-        """What plays along is asked for poses by the thread that streams them, too."""
+        """Guards the performers that play along: the thread that streams poses reads them too."""
         self._poses: dict[str, tuple[float, Pose]] = {}
         """The last pose of each player, and when it was made; also of players that have just ended."""
         self._blends: dict[str, _Blend] = {}

@@ -16,7 +16,7 @@ AHEAD: Final = 12
 BACK: Final = 24
 """Pictures before the one that is sought, where the playhead goes back: stepping on finds them."""
 PASSED: Final = 60
-"""What lies so few pictures ahead is reached by reading on; anything else is sought."""
+"""Number of pictures ahead that are reached by reading on; others are sought."""
 
 
 class PictureReader:
@@ -49,7 +49,7 @@ class PictureReader:
         self._kept: dict[int, Picture] = {}
         self._sought = 0
         self._from = 0
-        """Where reading begins if the one that is sought has to be found anew."""
+        """Picture at which reading begins again if the one that is sought is not found."""
         self._end: int | None = None
         """One more than the last picture's number, once that is known."""
         self._stream: VideoPictures | None = None

@@ -57,9 +57,9 @@ from metadata.load import load_controllers, recognised_controller
 from metadata.model import Controller
 
 EARLY_S: Final = 0.12
-"""So much before the beginning of a take a note may be struck that is meant for it."""
+"""Time before the beginning of a take in which a note still belongs to it."""
 SYNC_MS: Final = 40
-"""How often the recorder gets the position of playback."""
+"""Interval at which the recorder gets the position of playback."""
 _STILL_S: Final = 1e-6
 
 _JUMP_S: Final = 0.25

@@ -12,7 +12,7 @@ from app.errors import Message
 from app.score.take import ControllerMapping
 
 Connection = Literal["none", "waiting", "open", "lost", "refused"]
-"""Of the chosen device: none is chosen; it is not there (yet); it is listened to; it has gone; it cannot be had."""
+"""State of the chosen device: none is chosen; not there (yet); listened to; gone; not available."""
 
 
 class Recording(State):

@@ -151,7 +151,7 @@ class Session(QObject):
         self._dancer_id = project.dancers[-1].id if project.dancers else ""
         self._folded: dict[str, bool] = {}
         self.variety = 0.3
-        """How far apart `randomise` makes players, 0..1."""
+        """Spread of the players after `randomise`, 0..1."""
         self.document.observe(self._document_changed)
 
     # The project and its plans
@@ -313,12 +313,12 @@ class Session(QObject):
             self.selection_changed.emit()
 
     playhead_s = Watched("playhead_changed", 0.0, is_sent=True)
-    """Where the performance is shown, seconds."""
+    """Position that is shown, in seconds of the performance."""
     set_playhead = playhead_s.setter
     """Show the performance here. While playing only the transport calls this; others call its `seek` action."""
 
     playing = Watched("playing_changed", False, is_sent=True)
-    """Whether the performance plays."""
+    """True while the performance plays."""
     set_playing = playing.setter
     """Said by the transport."""
 
@@ -327,7 +327,7 @@ class Session(QObject):
     set_loop = loop_s.setter
 
     grid = Watched("grid_changed", Grid())
-    """What edits snap to."""
+    """Grid that edits snap to."""
     set_grid = grid.setter
 
     tokens = Watched("theme_changed", DARK)
@@ -335,11 +335,11 @@ class Session(QObject):
     set_tokens = tokens.setter
 
     time_display = Watched[TimeDisplay]("time_display_changed", "bars")
-    """How times are written."""
+    """Format of times."""
     set_time_display = time_display.setter
 
     follow = Watched("follow_changed", True)
-    """Whether the timeline follows the playhead."""
+    """True if the timeline follows the playhead."""
     set_follow = follow.setter
 
     preview_morphs = Watched[dict[str, float] | None]("preview_changed", None)

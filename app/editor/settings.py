@@ -37,7 +37,7 @@ T = TypeVar("T")
 MOST_RECENT: Final = 12
 """Recent files kept."""
 WRITE_MS: Final = 300
-"""What is dragged changes many times a second: it is written once in this time."""
+"""Interval of writing: a dragged value changes many times a second."""
 
 
 def settings_path() -> Path:
@@ -197,16 +197,16 @@ class Settings(QObject):
         ),
     )
     folded = Setting("interface/folded", dict[str, bool](), dict[str, bool], held=FOLDED)
-    """Which parts of panels are folded, by name."""
+    """Folded parts of panels, by name."""
 
     volume = Setting("sound/volume", 0.8, Annotated[float, msgspec.Meta(ge=0.0, le=1.0)], held=in_listening("volume"))
     """0..1 as the ear judges it."""
     click = Setting("sound/click", False, held=in_listening("click"))
-    """Whether the metronome sounds."""
+    """Metronome on or off."""
     percussion = Setting("sound/percussion", True, held=in_listening("percussion"))
-    """Whether the percussion sounds."""
+    """Percussion on or off."""
     scrub_sound = Setting("sound/scrub", True, held=in_listening("scrub_sound"))
-    """Whether scrubbing sounds."""
+    """Sound while scrubbing, on or off."""
     source = Setting("sound/source", "recording", Source, held=in_listening("source"))
     """The sound of a project that has a recording."""
 
@@ -227,26 +227,26 @@ class Settings(QObject):
     stream_everyone = Setting("stream/everyone", False)
     """Every player is streamed, not only the one in front."""
     stream_faces = Setting("stream/faces", "")
-    """Of `app.stream.faces.FACE_NAMES`; empty: none was chosen."""
+    """One of `app.stream.faces.FACE_NAMES`; empty: none was chosen."""
     stream_rate_hz = Setting("stream/rate_hz", 0)
     """Frames in a second; 0: none were chosen."""
 
     geometry = _Bytes("window/geometry")
-    """Where the window is and how large."""
+    """Position and size of the window."""
     workspace = Setting("window/workspace", "")
-    """Of `app.shell.workspaces.WORKSPACES`; empty: none was chosen."""
+    """One of `app.shell.workspaces.WORKSPACES`; empty: none was chosen."""
     _workspaces = Setting("workspaces", dict[str, dict[str, str]](), dict[str, dict[str, str]])
 
     folder = _FilePath("files/folder", "")
-    """Where a file was last opened or saved."""
+    """Folder in which a file was last opened or saved."""
     export_folder = _FilePath("files/export_folder", "")
-    """Where players were last exported to."""
+    """Folder of the last export."""
     unreal_project = _FilePath("files/unreal_project", "")
     """The Unreal project that players were last exported into; empty: none."""
     export_into = Setting("files/export_into", "folder")
-    """Where players were last exported to: ``"folder"`` or ``"unreal"``."""
+    """Destination of the last export: ``"folder"`` or ``"unreal"``."""
     export_keys = Setting[KeyChoice]("files/export_keys", "every", KeyChoice)
-    """Which frames of exported files last had keys."""
+    """Keys of the last export."""
     _recent = Setting("files/recent", tuple[str, ...](), tuple[str, ...])
 
     _shortcuts = Setting("shortcuts", dict[str, str](), dict[str, str])
@@ -256,7 +256,7 @@ class Settings(QObject):
         super().__init__()
         self.path = path
         self.problems: tuple[Message, ...] = ()
-        """What is wrong with the file, as it was found at the start."""
+        """Problems of the file that were found at the start."""
         self._is_reported = False
         self._changes: dict[tuple[str, str], object] = {}
         self._timer = QTimer(self, interval=WRITE_MS, singleShot=True)

@@ -71,7 +71,7 @@ class Sound(QObject):
         self._stems = Stems(session.tasks, self)
         self._recording: Recording | None = None
         self._path = ""
-        """Of the recording that was asked for last, whether it could be read or not."""
+        """Path of the recording that was requested last, readable or not."""
         self._estimated: set[str] = set()
         """Paths of recordings whose place was looked for."""
         self._unplaced = ""

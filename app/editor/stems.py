@@ -22,9 +22,9 @@ from app.project.performers import Player
 _SETTLE_MS = 120
 """Rendering waits until a drag rests for so long."""
 _LOOK_MS = 250
-"""How often newly rendered sound is added to the mix."""
+"""Interval at which newly rendered sound is added to the mix."""
 _MOST_BYTES = 160 * 1024 * 1024
-"""Of sound that is requested: four players for six minutes, fifty for half a minute. Of what is longer, the part that
+"""Most sound that is requested: four players for six minutes, fifty for half a minute. Of longer sound the part that
 sounds next is kept, and the window moves along."""
 _AHEAD_S = 20.0
 """The next window is begun so long before the end of this one is reached."""
@@ -50,7 +50,7 @@ class _Job:
     made: dict[str, _Made] = field(default_factory=dict)
     """Everyone's phrases, once they are cut, and `PERCUSSION`'s; the same object until then."""
     window_s: tuple[float, float] = (-inf, inf)
-    """What is rendered when it has ended."""
+    """Span that is rendered once the work has ended."""
     share: float = 0.0
     """0..1 of it that is."""
     is_cut: bool = False

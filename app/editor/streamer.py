@@ -38,11 +38,11 @@ from app.stream.vmc import IN_THE_MIDDLE, Sent
 RESTING_S: Final = 0.2
 """Between two frames while nothing moves."""
 SETTLED_S: Final = 0.5
-"""So long after the last movement frames are sent at their full rate: receivers smooth what they get."""
+"""Time after the last movement for which frames are sent at the full rate: receivers smooth them."""
 RETRY_S: Final = 2.0
 """After nothing could be sent."""
 REPORT_S: Final = 0.5
-"""How often is reported how it goes."""
+"""Interval of reports on the stream."""
 ALONE_S: Final = 1.0
 """A window that says nothing of where the sound is for so long hangs: nothing goes on without it."""
 _SECOND_S: Final = 1.0
@@ -67,7 +67,7 @@ class Streamer(QObject):
         self._poses = LivePoses(session, poses)
         self._address: Address | None = None
         self._asked: tuple[str, int, bool] | None = None
-        """What the address was, or is, looked up from, and whether it may be that of many computers."""
+        """Host and port of the address that is looked up, and whether it may be a broadcast address."""
         self._thread: _Thread | None = None
         self._ending: weakref.finalize[[], Streamer] | None = None
         """Closes the thread, also where the owner does not."""

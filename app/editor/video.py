@@ -27,7 +27,7 @@ from app.score.following import message_of_place
 MOST_PX: Final = (1280, 720)
 """Pictures are read no larger."""
 _NEAR: Final = 1e-3
-"""Of a picture: a playhead so little before it shows it."""
+"""Share of a picture by which the playhead may be before it and show it."""
 
 
 class ReferenceVideo(QObject):
@@ -43,7 +43,7 @@ class ReferenceVideo(QObject):
         super().__init__(session)
         self._session = session
         self._path = ""
-        """Of the video that was looked at last, whether it could be read or not."""
+        """Path of the video that was opened last, readable or not."""
         self._facts: VideoFacts | None = None
         self._reader: PictureReader | None = None
         self._unplaced = ""

@@ -120,4 +120,4 @@ FILE_FORMATS: Final[Mapping[Format, FileFormat]] = {
 """In the order in which they are written and listed."""
 
 USUAL_FORMATS: Final[tuple[Format, ...]] = ("fbx", "bvh")
-"""What is written by default."""
+"""Formats by default."""

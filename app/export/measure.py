@@ -101,7 +101,7 @@ class _Read:
     torso: FloatArray
     bone_deviation_m: FloatArray
     depth_m: FloatArray
-    """Of the sounding frames; where it is not among the deepest, which are reported, it may be less than it is."""
+    """Depth in the sounding frames; a lower bound unless it is among the deepest, which are reported."""
 
 
 def measure_player(

@@ -28,12 +28,12 @@ Picture = npt.NDArray[np.uint8]
 """(H, W, 3) or (H, W, 4), top row first; alpha is dropped."""
 
 MOST_SHEET_PX: Final = 16_384
-"""What programs and graphics cards show in one picture."""
+"""Largest side of a picture that programs and graphics cards show."""
 GAP_PX: Final = 4
 """Around every picture of a sheet."""
 _FRAME: Final = re.compile(r"frame_\d{5,}\.png")
 _COMPRESSION: Final = 3
-"""Of zlib: half again as large as the smallest, in a fraction of the time."""
+"""Level of zlib: half again as large as the smallest, in a fraction of the time."""
 
 
 class PictureWriter(Protocol):

@@ -45,7 +45,7 @@ at once and to the same side."""
 _BOX = float(np.sqrt(2.0))
 """Each number of a rotation or place may be off by its tolerance over this."""
 _MORPHS = 0.5
-"""Of what a mark may be off, for all morphs together."""
+"""Share of a mark's tolerance for all morphs together."""
 _SAMPLES, _CHUNK, _ROUNDS = 16, 512, 8
 _STILL = 1e-7
 
@@ -157,7 +157,7 @@ class _Motion:
         face[0, clip.keys.face] = True
         self._face_weights = Spans.of(face).straight(self.weights.T[None])[0].T
         self.chains = marks.hang_on(self.parents)[:, self.moving]
-        """Whether each mark (K,) hangs on each moving bone (N,)."""
+        """True for each mark (K,) that hangs on a moving bone (N,)."""
         self.reach_m = self._reach_m()
 
     # How much each bone may be off

@@ -21,7 +21,7 @@ SWAY_CORRELATION = 0.9
 
 
 SLIDE_BOUND_MM_S = 5.0
-"""Of a foot that stands, in the mean; beyond it a viewer may see it."""
+"""Mean slide of a standing foot beyond which a viewer may see it."""
 BONES_BOUND_MM = 0.1
 
 
@@ -78,7 +78,7 @@ class SkeletonReport(msgspec.Struct, frozen=True):
     """Name of the asset's file."""
     differences: tuple[Difference, ...] = ()
     rig: RigOptions = DEFAULT_RIG
-    """What was asked for beside the bones; what a character's own skeleton does not take is among the warnings."""
+    """Options besides the bones; those that a character's own skeleton does not take are among the warnings."""
 
 
 class DoubleReport(msgspec.Struct, frozen=True):
@@ -94,9 +94,9 @@ class DoubleReport(msgspec.Struct, frozen=True):
     notes: int
     measures: PlayerMeasures | None
     keys: KeyCount | None = None
-    """Of the instrument's files."""
+    """Keys of the instrument's files."""
     socket: str | None = None
-    """As of the player."""
+    """Socket, as the player's."""
 
 
 class PlayerReport(msgspec.Struct, frozen=True):
@@ -118,13 +118,13 @@ class PlayerReport(msgspec.Struct, frozen=True):
     """The same of its forward and backward motion, which breaths and rests in common make alike."""
     skeleton: SkeletonReport = SkeletonReport("suisou")
     size: float = 1.0
-    """Of the instrument, as a multiple of its model: a small player has a small one."""
+    """Size of the instrument as a multiple of its model: a small player has a small one."""
     missed: dict[str, float] = {}
     """Touches that the hold of this body does not meet however it moves, millimetres: reported, and counted apart."""
     doubles: tuple[DoubleReport, ...] = ()
     """The other instruments that the player changes to."""
     keys: KeyCount | None = None
-    """Of the character's and the instrument's files, FBX and GLB."""
+    """Keys of the character's and the instrument's files, FBX and GLB."""
     socket: str | None = None
     """The character's bone that the instrument's root bone hangs on; None: its file has its motion in the world."""
 
@@ -201,9 +201,9 @@ class Report(msgspec.Struct, frozen=True):
     stage: StageReport | None = None
     """None where none was asked for."""
     incomplete: tuple[str, ...] = ()
-    """What is missing of the piece's file, which was read as far as it goes; these are among the warnings."""
+    """Missing content of the piece's file, which was read as far as it goes; also among the warnings."""
     keys: KeyChoice = "every"
-    """Which frames have keys; how many that are is said of each performer."""
+    """Frames that have keys; their number is reported for each performer."""
 
     @property
     def file_count(self) -> int:

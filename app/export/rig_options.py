@@ -37,4 +37,4 @@ class RigOptions(msgspec.Struct, frozen=True):
 
 
 DEFAULT_RIG: Final = RigOptions()
-"""As the skeleton is, the instrument free."""
+"""The skeleton unchanged, the instrument free."""

@@ -38,7 +38,7 @@ Progress = Callable[[float, str], None]
 _SOUND_WORK = 0.3
 """Beside a player's."""
 _STAGE_WORK = 0.4
-"""As a share of a player's work, for each player and format of the stage."""
+"""Share of a player's work for each player and format of the stage."""
 
 
 def export(

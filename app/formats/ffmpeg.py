@@ -30,9 +30,9 @@ from app.formats.files import open_file
 from app.formats.media_kind import MediaKind, media_kind
 
 _CONTAINERS: Final = "mov,matroska,avi,mpeg,asf,ogg,flv,mxf,mp3,wav,aac,flac"
-"""What may be opened: no playlist, which would open other files, and no transport stream."""
+"""Formats that may be opened: no playlist, which would open other files, and no transport stream."""
 _MOST_PIXELS: Final = 1 << 26
-"""Of a picture: 8192 x 8192."""
+"""Largest picture: 8192 x 8192."""
 _DETAIL: Final = 300
 """Characters of ffmpeg's complaint that are passed on."""
 _STREAM: Final = re.compile(rb"^  Stream #0:\d+.*?: (Video|Audio): ", re.MULTILINE)

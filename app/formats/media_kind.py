@@ -19,7 +19,7 @@ _OGG_PICTURES: Final = (b"\x80theora", b"OVP80", b"fishead\0", b"\x01video\0", b
 _PACKETS: Final = ((188, 0), (192, 4), (204, 0))
 """Lengths of the packets of transport streams, and where in one its mark is."""
 _MARKS: Final = 5
-"""So many marks in a row are no chance."""
+"""Marks in a row that are no coincidence."""
 
 
 class MediaKind(Enum):

@@ -38,7 +38,7 @@ from app.formats.skin import influences
 
 METERS_PER_UNIT = 0.01
 _MODULES: Final = ("Tf", "Gf", "Kind", "Sdf", "Usd", "UsdGeom", "UsdMedia", "UsdShade", "UsdSkel", "UsdUtils", "Vt")
-"""Of the package, those that are used here."""
+"""Modules of the package that are used here."""
 
 
 @dataclass(frozen=True)

@@ -24,7 +24,7 @@ VRM_PRESETS: Final[Mapping[str, Mapping[str, float]]] = {
     # The whole face changes with it: half of it says as much as two brows.
     "Angry": {"browDownLeft": 0.25, "browDownRight": 0.25},
 }
-"""What ARKit's shapes amount to, where a face has nothing finer; sums are cut at 1."""
+"""Weights of ARKit's shapes for a face without finer shapes; sums are cut at 1."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -17,7 +17,7 @@ from pythonosc.osc_message import OscMessage
 from pythonosc.osc_message_builder import OscMessageBuilder
 
 MOST_BYTES: Final = 1400
-"""Of a bundle: what Ethernet carries in one packet, with room for tunnels."""
+"""Largest bundle: an Ethernet packet, with room for tunnels."""
 _BUNDLE_HEAD: Final = 16
 """Its mark and its time."""
 _LENGTH: Final = 4

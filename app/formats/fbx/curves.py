@@ -14,7 +14,7 @@ from app.formats.scene import Clip, FloatArray, IntArray
 # FBX calls this order XYZ: x turns first, so the matrix is Rz Ry Rx.
 EULER_ORDER = "ZYX"
 STEADY_DEG, STEADY_CM = 1e-3, 1e-4
-"""Where keys are reduced, an axis that changes by no more has one key: that much is rounding."""
+"""Change of an axis up to which reduced keys keep one: that much is rounding."""
 
 # Linear keys. The bits beside "linear" (4) and the tangent data are those that every reader has met before.
 _KEY_FLAGS = np.array([0x6104], dtype=np.int32)

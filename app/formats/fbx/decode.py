@@ -33,7 +33,7 @@ _MOST_TIMES = 256
 _MOST_KEPT_BYTES, _LARGEST_KEPT_BYTES = 2**26, 2**24
 _SMALL_BYTES = 1024
 _Packed = tuple[np.dtype[np.generic], int, bytes]
-"""What an array is packed as: type, number of values and compressed bytes."""
+"""A packed array: type, number of values and compressed bytes."""
 
 _ARRAYS: Final = {
     ord(code): np.dtype(kind)

@@ -37,11 +37,11 @@ IntArray = npt.NDArray[np.int64]
 T = TypeVar("T")
 
 MOST_BYTES: Final = 2**30
-"""Of a file; characters have a hundredth of it."""
+"""Largest file; characters have a hundredth of it."""
 MOTION: Final = "motion"
-"""As in the child, which this process does not import."""
+"""The child's constant; this process does not import it."""
 UNREADABLE, NO_MEMORY, NO_READER = 3, 4, 5
-"""What the child's end means."""
+"""Exit statuses of the child."""
 _LIMITS: Final = frozenset(-number for name in ("SIGXCPU", "SIGKILL") if (number := getattr(signal, name, 0)))
 """The system ended the child: it had taken too long, or all the memory there is."""
 

@@ -42,7 +42,7 @@ MOST_S: Final = 24 * 3600.0
 USUAL_FPS, OTHERWISE_FPS = (1.0, 240.0), 30.0
 
 DEEPEST: Final = 500
-"""How many nodes may hang from one another, as in glTF."""
+"""Deepest nesting of nodes, as in glTF."""
 
 T = TypeVar("T")
 _kept: list[object] = []

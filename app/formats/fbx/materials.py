@@ -21,7 +21,7 @@ from dataclasses import dataclass
 from app.formats.scene import Material
 
 DIELECTRIC_REFLECTANCE = 0.04
-"""Of skin, cloth and lacquer at normal incidence (glTF 2.0, appendix B)."""
+"""Reflectance of skin, cloth and lacquer at normal incidence (glTF 2.0, appendix B)."""
 _BLENDER_SPECULAR = 0.25
 """SpecularFactor of that reflectance in Blender."""
 # A metal without any diffuse part is black in viewers that have nothing to reflect.
@@ -30,7 +30,7 @@ _METAL_DIFFUSE = 0.4
 SHADING_MODEL = "PHONG"
 """The FBX SDK knows it in any case of letters (measured on 2019.2), ufbx as "Phong" and "phong" only."""
 PHYSICAL_MATERIAL = {"ClassIDa": 1030429932, "ClassIDb": -559038463, "SuperClassID": 3072}
-"""What 3ds Max calls its Physical Material; the parameters are below ``3dsMax|Parameters``."""
+"""Class of 3ds Max's Physical Material; the parameters are below ``3dsMax|Parameters``."""
 
 
 @dataclass(frozen=True)

@@ -36,10 +36,10 @@ from app.formats.gltf.model import (
 )
 
 MOST_BYTES = 2**30
-"""Of a file; characters have a hundredth of it."""
+"""Largest file; characters have a hundredth of it."""
 MOST_NODES = 20_000
 DEEPEST = 500
-"""How many nodes may hang from one another; strands of hair have some dozens of bones."""
+"""Deepest nesting of nodes; strands of hair have some dozens of bones."""
 _FREE_NUMBERS = 2**19
 """A small file may show its meshes as often as comes to so many numbers."""
 _ANIMATED = {"translation": 3, "rotation": 4, "scale": 3}
