@@ -6,15 +6,12 @@ What comes of the choices is worked out beside the window: a file can ask for mi
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from threading import Event
 from typing import NamedTuple
 
 import msgspec
-import numpy as np
-import numpy.typing as npt
-from PySide6.QtCore import QPoint, QRectF, QSize, Qt, QTimer
-from PySide6.QtGui import QColor, QPainter, QPaintEvent
+from PySide6.QtCore import QPoint, QSize, Qt, QTimer
 from PySide6.QtWidgets import (
     QAbstractItemView,
     QCheckBox,
@@ -44,7 +41,7 @@ from app.project.importing import (
     usual_rows,
 )
 from app.rig.character_library import characters
-from app.score.choose import TrackChannel, use_of
+from app.score.choose import use_of
 from app.score.model import UnplayedPart
 from app.score.parts import PERCUSSION, PartAssignment, stream_name
 from app.score.read import MidiContents
@@ -56,9 +53,9 @@ from widgets.common.layouts import STRETCH, begin_with_size, in_column, in_row, 
 from widgets.common.plain import ComboBox, Label
 from widgets.common.text import message_text, sentence
 from widgets.dialogs.encoding_choice import EncodingChoice
+from widgets.dialogs.notes_preview import ROW_PX, NotesPreview
 
 _USE, _NAME, _PREVIEW, _NOTES, _SPLIT, _INSTRUMENT, _PITCHES, _CHARACTER = range(8)
-_ROW_PX = 40
 _SIZE = QSize(1280, 580)
 _TITLE_PX = 600
 _INSTRUMENT_LETTERS = 31
@@ -123,7 +120,7 @@ class ImportDialog(Retranslated, QDialog):
         self._heading = named(Label(), "heading")
         self._table = named(QTableWidget(0, 8), "import_tracks")
         self._table.verticalHeader().hide()
-        self._table.verticalHeader().setDefaultSectionSize(_ROW_PX)
+        self._table.verticalHeader().setDefaultSectionSize(ROW_PX)
         self._table.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
         self._table.setShowGrid(False)
         header = self._table.horizontalHeader()
@@ -527,44 +524,6 @@ class ImportDialog(Retranslated, QDialog):
     def done(self, result: int) -> None:
         self._closing.set()
         super().done(result)
-
-
-class NotesPreview(QWidget):
-    """A track's notes over the whole piece, as a small piano roll."""
-
-    def __init__(self, streams: Sequence[TrackChannel], end_tick: int, tokens: Tokens) -> None:
-        super().__init__()
-        self._onsets = np.concatenate([np.asarray(stream.onset_ticks, np.float64) for stream in streams])
-        self._ends = np.concatenate([np.asarray(stream.end_ticks, np.float64) for stream in streams])
-        self._pitches = np.concatenate([np.asarray(stream.pitches, np.intp) for stream in streams])
-        self._end_tick, self._tokens = max(end_tick, 1), tokens
-        self.setMinimumHeight(_ROW_PX - 8)
-
-    def paintEvent(self, event: QPaintEvent) -> None:
-        painter = QPainter(self)
-        area = QRectF(self.rect()).adjusted(2, 5, -2, -5)
-        painter.fillRect(self.rect().adjusted(0, 2, 0, -2), QColor(self._tokens.sunken))
-        low = int(self._pitches.min())
-        span = max(int(self._pitches.max()) - low, 11) + 1
-        height = area.height() / span
-        colour = QColor(self._tokens.accent if self.isEnabled() else self._tokens.text_dim)
-        for pitch, begin, end in self._runs(area.width()):
-            top = area.bottom() - (pitch - low + 1) * height
-            painter.fillRect(QRectF(area.left() + begin, top, end - begin, max(height, 1.5)), colour)
-
-    def _runs(self, width_px: float) -> list[tuple[int, int, int]]:
-        """Pitches and the columns of pixels, from the first to the one behind the last, that their notes fill."""
-        columns = max(int(width_px), 1)
-        begins = np.clip((self._onsets * columns / self._end_tick).astype(np.intp), 0, columns - 1)
-        ends = np.clip(np.ceil(self._ends * columns / self._end_tick).astype(np.intp), begins + 1, columns)
-        changes: npt.NDArray[np.int64] = np.zeros((128, columns + 1), np.int64)
-        np.add.at(changes, (self._pitches, begins), 1)
-        np.add.at(changes, (self._pitches, ends), -1)
-        sounding = np.cumsum(changes, axis=1) > 0
-        edges = np.diff(sounding, axis=1, prepend=False)
-        pitches, columns_of = np.nonzero(edges)
-        pairs = zip(pitches[::2].tolist(), columns_of[::2].tolist(), columns_of[1::2].tolist(), strict=True)
-        return list(pairs)
 
 
 class _Tick(QCheckBox):

@@ -31,7 +31,8 @@ from app.project.reimport import reimported
 from app.score.read import read_contents, read_midi
 from instrument_maps.load import bundled_maps
 from tests.support.tasks import ImmediateTasks
-from widgets.dialogs.import_midi import ImportDialog, NotesPreview
+from widgets.dialogs.import_midi import ImportDialog
+from widgets.dialogs.notes_preview import NotesPreview
 
 LUTKIN = Path(__file__).parents[2] / "data" / "midi" / "ensemble" / "brass_quartet_lutkin_2tpt_tbn_tuba.mid"
 MAPS = {
