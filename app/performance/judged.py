@@ -26,7 +26,7 @@ WHOLE_FRAMES: Final = 120_000
 longer pieces nothing is made of those between."""
 MOST_WORK: Final = 110_000
 """Work on a piece at most, in frames of one player that are looked at. In longer pieces fewer are in each second."""
-PLAYER_WORK, NOTE_WORK = 700, 1
+PLAYER_WORK, NOTE_WORK = 850, 1
 """What a player and a note take beside them, in the same measure: curves are made of every one."""
 SPARSE_S: Final = 4.0
 """Seconds of a player for each note from which a piece counts as one with few notes: slower than any chorale ..."""
