@@ -21,7 +21,8 @@ HIDDEN: Final = re.compile("[\x00-\x1f\x7f-\x9f\u2028\u2029\u202a-\u202e\u2066-\
 """Characters that texts for users never hold: line ends, terminal commands, changes of direction, lone surrogates."""
 
 ENCODINGS: Final = (
-    *("utf-8", "cp932", "euc_jp", "gb18030", "big5hkscs", "cp949", "cp1251", "koi8_r", "cp1252", "mac_roman", "cp1250"),
+    *("utf-8", "cp932", "euc_jp", "gb18030", "big5hkscs", "cp949", "cp1251", "koi8_r", "cp866", "cp1252", "mac_roman"),
+    *("cp1250", "cp1253", "iso8859_7"),
 )
 """Encodings of texts in files, to choose from."""
 

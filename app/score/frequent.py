@@ -45,3 +45,20 @@ CYRILLIC: Final = {
 }
 """Letters of Russian, and how unlikely they are, in nats."""
 ACCENTED: Final = frozenset("äöüßéèêëàâáãåçñíìîïóòôõøúùûœæ")
+CENTRAL: Final = frozenset("ąćęłńóśźżáčďéěíňřšťúůýžľôäöőüű")
+"""Letters with marks of Polish, Czech, Slovak and Hungarian."""
+GREEK: Final = {
+    form: cost + capital
+    for letters, cost in (
+        ("αοι", 2.4),
+        ("ετσνηυρ", 2.8),
+        ("πκμλς", 3.1),
+        ("γδωχθφ", 4.0),
+        ("άέίόήύώ", 3.8),
+        ("βξζψϊϋΐΰ", 5.0),
+    )
+    for letter in letters
+    for form, capital in ((letter, 0.0), (letter.upper(), 1.2))
+    if len(form) == 1
+}
+"""Letters of Greek, and how unlikely they are, in nats."""

@@ -18,7 +18,7 @@ from typing import Final
 
 import msgspec
 
-from app.score.frequent import ACCENTED, CYRILLIC, HANGUL, KANJI, SIMPLIFIED, TRADITIONAL
+from app.score.frequent import ACCENTED, CENTRAL, CYRILLIC, GREEK, HANGUL, KANJI, SIMPLIFIED, TRADITIONAL
 from instrument_maps.name_words import is_wide
 from instrument_maps.vocabulary import vocabulary
 
@@ -257,6 +257,7 @@ def _cyrillic_cost(text: str) -> float:
         small = c.lower()
         if small not in CYRILLIC:
             total += 5.5 if c in "«»—–№“”„…’іїєґўІЇЄҐЎ" else 0.5 * _ODD + 3.0
+            total += _BESIDE_LATIN if c.isalpha() and before.isascii() and before.isalpha() else 0.0
         else:
             total += CYRILLIC[small]
             if c != small:
@@ -292,6 +293,44 @@ def _latin_cost(text: str) -> float:
     return total
 
 
+def _dos_cost(text: str) -> float:
+    """The cost of a Cyrillic text of DOS, whose code page has lines and blocks too: as Windows has it, but that no text
+    is drawn."""
+    return _cyrillic_cost(text) + 2.0 * sum("\u2500" <= c <= "\u25ff" for c in text)
+
+
+def _greek_cost(text: str) -> float:
+    """The cost of a Greek text: small letters in words, of which one has an accent."""
+    total = 0.0
+    for place, c in enumerate(text):
+        if c < "\x80":
+            continue
+        before = text[place - 1] if place else " "
+        if c not in GREEK:
+            total += 5.5 if c in "«»—–“”’…·" else 0.5 * _ODD + 3.0
+            continue
+        total += GREEK[c] - (0.8 if c.isupper() and before.isupper() else 0.0)
+        if before.islower() and c.isupper():
+            total += _NO_WORD
+        total += _BESIDE_LATIN if before.isascii() and before.isalpha() else 0.0
+        after = text[place + 1 : place + 2]
+        total += 0.0 if before in GREEK or after in GREEK else _NO_WORD
+        # Sigma has a form of its own at the end of words, and there alone.
+        total += _NO_WORD * ((c == "ς") == (after in GREEK) and c in "ςσ")
+    return total
+
+
+_FRENCH: Final = re.compile("č[cdfgprs]")
+"""What is no Czech, but "Pièce" and "Prière" in a Western encoding."""
+
+
+def _central_cost(text: str) -> float:
+    """The cost of a text in Polish, Czech, Slovak or Hungarian: as in the West, with other letters."""
+    western = "".join("é" if c.lower() in CENTRAL else c for c in text if c.lower() in CENTRAL or c.isascii())
+    others = sum(c >= "\x80" and c.lower() not in CENTRAL for c in text)
+    return _latin_cost(western) + 3.0 * _NO_WORD * (others + len(_FRENCH.findall(text)))
+
+
 _ENCODINGS: Final = (
     _Encoding("cp932", 0.0, _wide_cost(KANJI, _japanese)),
     _Encoding("cp1252", 0.0, _latin_cost),
@@ -302,4 +341,8 @@ _ENCODINGS: Final = (
     _Encoding("euc_jp", 2.0, _wide_cost(KANJI, _japanese)),
     _Encoding("mac_roman", 2.0, _latin_cost),
     _Encoding("koi8_r", 2.0, _cyrillic_cost),
+    _Encoding("cp1250", 2.0, _central_cost),
+    _Encoding("cp866", 2.0, _dos_cost),
+    _Encoding("cp1253", 1.0, _greek_cost),
+    _Encoding("iso8859_7", 1.5, _greek_cost),
 )

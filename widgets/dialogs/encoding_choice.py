@@ -38,6 +38,7 @@ class EncodingChoice(Retranslated, ComboBox):
         japanese, western = self.tr("import_dialog.japanese"), self.tr("import_dialog.western")
         simplified, cyrillic = self.tr("import_dialog.simplified_chinese"), self.tr("import_dialog.cyrillic")
         traditional, korean = self.tr("import_dialog.traditional_chinese"), self.tr("import_dialog.korean")
+        greek = self.tr("import_dialog.greek")
         titles = {
             "cp932": japanese.format(name="Shift_JIS"),
             "euc_jp": japanese.format(name="EUC-JP"),
@@ -46,9 +47,12 @@ class EncodingChoice(Retranslated, ComboBox):
             "cp949": korean.format(name="EUC-KR"),
             "cp1251": cyrillic.format(name="Windows-1251"),
             "koi8_r": cyrillic.format(name="KOI8-R"),
+            "cp866": cyrillic.format(name="CP866"),
             "cp1252": western.format(name="Windows-1252"),
             "mac_roman": western.format(name="Mac Roman"),
             "cp1250": self.tr("import_dialog.central_european").format(name="Windows-1250"),
+            "cp1253": greek.format(name="Windows-1253"),
+            "iso8859_7": greek.format(name="ISO 8859-7"),
         }
         with QSignalBlocker(self):
             self.clear()

@@ -363,6 +363,7 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
         "ファイル内の名前の文字コード。文字化けする場合は別のものを選びます",
     ),
     "import_dialog.finding_out_who_plays_what": ("Assigning instruments…", "楽器を割り当て中…"),
+    "import_dialog.greek": ("Greek ({name})", "ギリシャ文字（{name}）"),
     "import_dialog.import": ("Import", "読み込み"),
     "import_dialog.import_midi": ("Import MIDI", "MIDI の読み込み"),
     "import_dialog.instrument": ("Instrument", "楽器"),

@@ -70,6 +70,16 @@ def test_control_characters_and_outer_space_fall_away() -> None:
         ("mac_roman", "Canción"),
         ("cp1252", "Flöte Überstimme L’été 2ª"),
         ("cp1252", "Gänsemarsch"),
+        ("cp1252", "Pièce en ré"),
+        ("cp1250", "Trąbka Róg Puzon"),
+        ("cp1250", "Křídlovka"),
+        ("cp866", "Калинка Мелодия Баян"),
+        ("cp866", "Труба Валторна Ударные"),
+        ("cp866", "ВАЛЬС"),
+        ("cp1253", "Τρομπέτα Μελωδία"),
+        ("cp1253", "Σόλο"),
+        ("cp1253", "ΤΡΟΜΠΕΤΑ"),
+        ("iso8859_7", "Άλτο σαξόφωνο"),
     ],
 )
 def test_the_texts_of_a_file_say_together_how_they_are_encoded(encoding: str, names: str) -> None:
