@@ -71,7 +71,8 @@ def read_fbx_motion(path: Path) -> BvhClip:
     if len(content.transforms) < 2:
         raise FileError("motion.no_animation", file=str(path))
     frames, nodes = content.transforms.shape[:2]
-    require_frames(str(path), (frames - 1) / content.fps, float(content.fps), nodes, path.stat().st_size)
+    seconds = float((frames - 1) / content.fps)
+    require_frames(str(path), seconds, float(content.fps), nodes, path.stat().st_size)
     parents = [node.parent for node in content.nodes]
     posed = np.array([node.world_from_node for node in content.nodes])
     bound = {node: world for node, world in content.bound if abs(np.linalg.det(world)) > SINGULAR}

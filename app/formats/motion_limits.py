@@ -43,7 +43,8 @@ def require_frames(file: str, seconds: float, fps: float, nodes: int, size_bytes
     most = min(FREE_FRAMES + FRAMES_PER_KB * size_bytes // 1000, most_transforms // max(nodes, 1))
     # A comparison that a NaN fails.
     if not frames <= most:
-        raise FileError("motion.too_long", file=file, seconds=round(seconds, 1), nodes=nodes, most=round(most / fps, 1))
+        said = {"seconds": round(float(seconds), 1), "most": round(most / float(fps), 1)}
+        raise FileError("motion.too_long", file=file, nodes=nodes, **said)
 
 
 def require_rate(fps: Fraction, file: str) -> None:

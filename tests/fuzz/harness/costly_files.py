@@ -202,7 +202,7 @@ def _png(side: int) -> bytes:
 # FBX
 
 
-def _fbx(objects: list[Element], connections: list[tuple[int, int]]) -> bytes:
+def fbx(objects: list[Element], connections: list[tuple[int, int]]) -> bytes:
     links = tuple(Element("C", ("OO", np.int64(child), np.int64(parent))) for child, parent in connections)
     return encode_elements(
         (
@@ -239,27 +239,27 @@ def _triangles(corners: int) -> npt.NDArray[np.int32]:
 
 def fbx_packed(size: int) -> bytes:
     """A mesh of equal points and corners."""
-    return _fbx([_geometry(_triangles(100 * size), 20 * size), _node(2)], [(1, 2), (2, 0)])
+    return fbx([_geometry(_triangles(100 * size), 20 * size), _node(2)], [(1, 2), (2, 0)])
 
 
 def fbx_instances(size: int) -> bytes:
     """One packed mesh on hundreds of nodes."""
     nodes = range(10, 10 + size // 150)
     links = [(1, number) for number in nodes] + [(number, 0) for number in nodes]
-    return _fbx([_geometry(_triangles(100 * size)), *map(_node, nodes)], links)
+    return fbx([_geometry(_triangles(100 * size)), *map(_node, nodes)], links)
 
 
 def fbx_polygon(size: int) -> bytes:
     """One polygon of millions of corners."""
     corners = np.zeros(200 * size, np.int32)
     corners[-1] = -1
-    return _fbx([_geometry(corners), _node(2)], [(1, 2), (2, 0)])
+    return fbx([_geometry(corners), _node(2)], [(1, 2), (2, 0)])
 
 
 def fbx_deep(size: int) -> bytes:
     """Bones that hang from one another."""
     nodes = range(10, 10 + size // 100)
-    return _fbx(
+    return fbx(
         [_node(number, "LimbNode") for number in nodes], [(number, number - 1) for number in nodes[1:]] + [(10, 0)]
     )
 
@@ -267,7 +267,7 @@ def fbx_deep(size: int) -> bytes:
 def fbx_nodes(size: int) -> bytes:
     """Thousands of nodes beside one another."""
     nodes = range(10, 10 + size // 100)
-    return _fbx([_node(number, "Null") for number in nodes], [(number, 0) for number in nodes])
+    return fbx([_node(number, "Null") for number in nodes], [(number, 0) for number in nodes])
 
 
 def fbx_clusters(size: int) -> bytes:
@@ -279,7 +279,7 @@ def fbx_clusters(size: int) -> bytes:
     links = [(1, 2), (2, 0), (3, 1)]
     for number in clusters:
         links += [(number, 3), (2, number)]
-    return _fbx([_geometry(_triangles(3)), _node(2), skin, *parts], links)
+    return fbx([_geometry(_triangles(3)), _node(2), skin, *parts], links)
 
 
 def fbx_morphs(size: int) -> bytes:
@@ -294,7 +294,7 @@ def fbx_morphs(size: int) -> bytes:
         parts.append(Element("Deformer", (np.int64(channel), "c\0\x01SubDeformer", "BlendShapeChannel"), ()))
         parts.append(Element("Geometry", (np.int64(shape), "s\0\x01Geometry", "Shape"), moved))
         links += [(channel, 3), (shape, channel)]
-    return _fbx(parts, links)
+    return fbx(parts, links)
 
 
 # Others
@@ -318,6 +318,7 @@ def bvh_frames(size: int) -> bytes:
     return head + b"9" * (size // 2) + b"\nFrame Time: 0.01\n" + b"0 0 0\n" * (size // 12)
 
 
+PACKED_FBX: Final = (fbx_packed, fbx_instances, fbx_polygon, fbx_deep, fbx_nodes)
 COSTLY_FILES: Final[dict[str, tuple[Callable[[int], bytes], ...]]] = {
     "gltf": (
         *(glb_zeros, glb_strips, glb_bind_poses, glb_joint_sets, glb_overlap, glb_instances, glb_morphs, glb_parts),
@@ -326,7 +327,6 @@ COSTLY_FILES: Final[dict[str, tuple[Callable[[int], bytes], ...]]] = {
     "instrument_model": (glb_zeros, glb_instances, glb_deep),
     "foreign_fbx": (fbx_packed, fbx_instances, fbx_polygon, fbx_deep, fbx_nodes, fbx_clusters, fbx_morphs),
     "fbx": (fbx_packed, fbx_instances, fbx_polygon, fbx_deep, fbx_nodes, fbx_clusters, fbx_morphs),
-    "fbx_motion": (fbx_packed, fbx_instances, fbx_polygon, fbx_deep, fbx_nodes),
     "bvh": (bvh_still, bvh_deep, bvh_frames),
     "audio": (*COSTLY_SOUND, *COSTLY_RECORDINGS),
     "followed": (flac_steps, m4a_minutes),

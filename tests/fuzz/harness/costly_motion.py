@@ -6,7 +6,13 @@ import struct
 from collections.abc import Callable, Sequence
 from typing import Any, Final
 
-from tests.fuzz.harness.costly_files import ABOVE, PLACES, figure, glb
+import numpy as np
+
+from app.formats.fbx.encode import Element
+from tests.fuzz.harness.costly_files import ABOVE, PACKED_FBX, PLACES, fbx, figure, glb
+
+TICKS_PER_S: Final = 46_186_158_000
+"""Of FBX."""
 
 
 def _body(channels: str) -> str:
@@ -134,11 +140,48 @@ def glb_dense_keys(size: int) -> bytes:
     return _animated(900.0, count)
 
 
+def fbx_take(seconds: float, more: int = 0) -> bytes:
+    """A figure with a take of so many seconds and no keys, and nodes beside it."""
+    numbers = {joint: 10 + at for at, joint in enumerate(sorted(PLACES, key=lambda joint: joint != "hips"))}
+    objects, links = [], [(3, 2)]
+    for joint, number in numbers.items():
+        place = Element("P", ("Lcl Translation", "Lcl Translation", "", "A", *(100.0 * at for at in PLACES[joint])))
+        kept = (Element("Properties70", (), (place,)),)
+        objects.append(Element("Model", (np.int64(number), f"{joint}\0\x01Model", "LimbNode"), kept))
+        links.append((number, numbers.get(ABOVE.get(joint, ""), 0)))
+    for number in range(1000, 1000 + more):
+        objects.append(Element("Model", (np.int64(number), "a\0\x01Model", "Null"), ()))
+        links.append((number, 0))
+    end = Element("P", ("LocalStop", "KTime", "Time", "", np.int64(round(seconds * TICKS_PER_S))))
+    begin = Element("P", ("LocalStart", "KTime", "Time", "", np.int64(0)))
+    span = (Element("Properties70", (), (begin, end)),)
+    objects.append(Element("AnimationStack", (np.int64(2), "a\0\x01AnimStack", ""), span))
+    objects.append(Element("AnimationLayer", (np.int64(3), "a\0\x01AnimLayer", ""), ()))
+    return fbx(objects, links)
+
+
+def fbx_longest_motion(size: int) -> bytes:
+    """A take as long as may be."""
+    return fbx_take(899.0)
+
+
+def fbx_half_an_hour(size: int) -> bytes:
+    """A take of half an hour."""
+    return fbx_take(2000.0)
+
+
+def fbx_still_nodes(size: int) -> bytes:
+    """A take of as many nodes as there is room for."""
+    nodes = max((size - 4000) // 100, 1)
+    return fbx_take(min(2**20 / (nodes + 18) / 30.0, 899.0), nodes)
+
+
 COSTLY_MOTION: Final[dict[str, tuple[Callable[[int], bytes], ...]]] = {
     "motion": (
         *(bvh_one_channel, bvh_slow, bvh_days, bvh_milliseconds),
         *(bvh_flips, bvh_noise, bvh_steps, bvh_steps_of_one),
     ),
+    "fbx_motion": (fbx_longest_motion, fbx_half_an_hour, fbx_still_nodes, *PACKED_FBX),
     "gltf_motion": (glb_longest_motion, glb_hours_of_motion, glb_still_nodes, glb_targets, glb_dense_keys),
 }
 """As `tests.fuzz.harness.costly_files.COSTLY_FILES`."""

@@ -128,7 +128,7 @@ def exported() -> list[bytes]:
 
     from app.cli.batch import Outcome, _Note
 
-    return [msgspec.json.encode({"a.mid": _Note("0" * 32, Outcome(0, "", 4, 10.0))})]
+    return [msgspec.json.encode({"a.mid": _Note("0" * 32, Outcome(0, players=4, seconds=10.0))})]
 
 
 def exported_pieces(size: int) -> bytes:

@@ -368,6 +368,7 @@ MADE: Final[dict[str, dict[str, Callable[[], bytes]]]] = {
     "bvh": costly("bvh", 100_000),
     "motion": costly("motion", 30_000),
     "gltf_motion": costly("gltf_motion", 2000),
+    "fbx_motion": {"fbx_half_an_hour": costly("fbx_motion")["fbx_half_an_hour"]},
     "audio": costly("audio"),
     "film": costly("film"),
     "unreal_description": {
