@@ -59,13 +59,22 @@ class Range(_Table, frozen=True):
     """Concert MIDI pitches, both ends inclusive.
 
     ``low``..``high`` is what the table of fingerings covers; ``easy_low``..``easy_high`` is where the
-    embouchure is neither relaxed to its limit nor drawn tight.
+    embouchure is neither relaxed to its limit nor drawn tight. ``usual_low``..``usual_high`` is the range without
+    pedal tones and altissimo, by which an instrument is chosen for a part; None: as far as the table goes.
     """
 
     low: int
     high: int
     easy_low: int
     easy_high: int
+    usual_low: int | None = None
+    usual_high: int | None = None
+
+    @property
+    def usual(self) -> tuple[int, int]:
+        """Lowest and highest pitch without pedal tones and altissimo."""
+        low = self.low if self.usual_low is None else self.usual_low
+        return low, self.high if self.usual_high is None else self.usual_high
 
 
 EmbouchureKind: TypeAlias = Literal["cup", "single_reed", "double_reed", "air_jet", "fipple"]

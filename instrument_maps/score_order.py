@@ -10,7 +10,7 @@ from instrument_maps.vocabulary import vocabulary
 
 def in_score_order(maps: Iterable[InstrumentMap]) -> list[InstrumentMap]:
     """Instruments by family as in a score (``score_order`` of the vocabulary), those of no known family last; in a
-    family the higher one first, by its lowest and then its highest sounding pitch; of equal range by id.
+    family the higher one first, by its lowest and then its highest usual pitch; of equal range by id.
 
     Those that are called the same, in several keys, stay together: where the highest of them has its place."""
     listed = list(maps)
@@ -21,7 +21,8 @@ def in_score_order(maps: Iterable[InstrumentMap]) -> list[InstrumentMap]:
 
 
 def _height(instrument: InstrumentMap) -> tuple[int, int, str]:
-    return -instrument.range.low, -instrument.range.high, instrument.id
+    low, high = instrument.range.usual
+    return -low, -high, instrument.id
 
 
 def _kind(instrument: InstrumentMap) -> tuple[int, str]:

@@ -84,6 +84,9 @@ def _head(instrument: InstrumentMap) -> Iterator[Problem]:
     limits = instrument.range
     if not 0 <= limits.low <= limits.easy_low <= limits.easy_high <= limits.high <= 127:
         yield "range", "must be 0 <= low <= easy_low <= easy_high <= high <= 127"
+    low, high = limits.usual
+    if not limits.low <= low <= limits.easy_low <= limits.easy_high <= high <= limits.high:
+        yield "range", "must be low <= usual_low <= easy_low <= easy_high <= usual_high <= high"
     if abs(instrument.transposition_semitones) > 36:
         yield "transposition_semitones", f"{instrument.transposition_semitones} is more than three octaves"
     if not instrument.model.endswith(".glb") or "/" in instrument.model or "\\" in instrument.model:

@@ -30,9 +30,10 @@ SMEAR_M = 0.04
 
 
 def tension_of(pitch: FloatArray, instrument: InstrumentMap) -> FloatArray:
-    """Tension 0..1 by register alone: piecewise linear over the map's range."""
+    """Tension 0..1 by register alone: piecewise linear over the map's usual range."""
     limits = instrument.range
-    knots = np.array([limits.low, limits.easy_low, limits.easy_high, limits.high], dtype=np.float64)
+    low, high = limits.usual
+    knots = np.array([low, limits.easy_low, limits.easy_high, high], dtype=np.float64)
     # Equal knots (a map whose easy range is its range) would make np.interp jump; a semitone's slack keeps the order.
     knots = np.maximum.accumulate(knots + np.array([-0.03, -0.02, 0.02, 0.03]))
     return np.interp(pitch, knots, [0.0, EASY_TENSION[0], EASY_TENSION[1], 1.0])

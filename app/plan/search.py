@@ -38,6 +38,10 @@ IN_PLACE_COST = {"trill": 0.5, "fast": 0.5, "forte": 0.5, "piano": 0.5, "chromat
 whatever its rank, ..."""
 OUT_OF_PLACE_COST = 6.0
 """... and so much more than its rank elsewhere."""
+BESIDE_COST = -0.5
+"""A fingering that keeps a lever turned (tag "beside") costs this next to a note whose first choice turns it, ..."""
+BESIDE_S = 0.5
+"""... unless so long a silence is between them."""
 HELD_COST = 0.1
 """A key left down that the note does not need (tag "held") costs this, whatever its rank."""
 RARE_COST = 10.0
@@ -130,6 +134,10 @@ class Table:
         How many breaks lie below the pitch.
     rare : (P, K) bool
         Which are hardly ever used.
+    beside : (P, K) bool
+        Which keep a lever turned for their neighbours.
+    levers : (P, K) int64
+        Levers that each turns, as bits.
     leaves_down : bool
         Whether any fingering of the instrument leaves a key down that its note does not need (tag "held").
     places : FingerPlaces
@@ -144,6 +152,8 @@ class Table:
     meant_for: dict[str, BoolArray]
     register: IntArray
     rare: BoolArray
+    beside: BoolArray
+    levers: IntArray
     leaves_down: bool
     places: FingerPlaces
 
@@ -208,10 +218,24 @@ class FingeringProblem:
                 fits = which[index] & self._where(tag)[:, None]
                 least = np.where(fits, np.minimum(least, IN_PLACE_COST[tag]), least)
             cost = np.where(meant, np.where(np.isfinite(least), least, cost + OUT_OF_PLACE_COST), cost)
+        if table.beside.any():
+            cost = np.where(self._beside, BESIDE_COST, cost)
         cost = cost + out_of_tune[index] * audible
         if table.rare.any() and self.in_trill.any():
             cost += RARE_TRILL_COST * (table.rare[index] & self._where("trill")[:, None])
         return np.where(self.allowed, cost, np.inf)
+
+    @property
+    def _beside(self) -> BoolArray:
+        """(N, K): fingerings that keep a lever turned which the first choice of a neighbour at another pitch turns."""
+        table, times, index = self.table, self.times, self.pitch_index
+        near = (times.onset_s[1:] - times.played_end_s[:-1] < BESIDE_S) & (index[1:] != index[:-1])
+        first = table.levers[index, 0]
+        here = table.levers[index]
+        found = np.zeros(here.shape, dtype=bool)
+        found[1:] |= near[:, None] & (here[1:] == first[:-1, None])
+        found[:-1] |= near[:, None] & (here[:-1] == first[1:, None])
+        return np.asarray(found & table.beside[index] & (here != 0))
 
     def _where(self, tag: str) -> BoolArray:
         """(N,): the notes that fingerings with this tag are meant for."""
@@ -391,7 +415,8 @@ def table_of(pitches: tuple[int, ...], instrument: InstrumentMap) -> Table:
     shape = (len(choices), max((len(ranked) for ranked in choices), default=1))
     values = np.zeros((*shape, len(controls)))
     cost, cents, valid = np.zeros(shape), np.zeros(shape), np.zeros(shape, dtype=bool)
-    rare = np.zeros(shape, dtype=bool)
+    rare, beside, levers = np.zeros(shape, dtype=bool), np.zeros(shape, dtype=bool), np.zeros(shape, dtype=np.int64)
+    turned = {item.name: 1 << place for place, item in enumerate(controls) if item.kind == "lever"}
     meant_for: dict[str, BoolArray] = {}
     for row, ranked in enumerate(choices):
         for column, fingering in enumerate(ranked):
@@ -401,6 +426,8 @@ def table_of(pitches: tuple[int, ...], instrument: InstrumentMap) -> Table:
             cost[row, column] = RANK_COST * min(fingering.rank - 1, MOST_RANKS) + forked + RARE_COST * rare[row, column]
             if fingering.rank > 1 and "held" in fingering.tags:
                 cost[row, column] = HELD_COST
+            beside[row, column] = fingering.rank > 1 and "beside" in fingering.tags
+            levers[row, column] = sum(turned.get(name, 0) for name, value in fingering.controls.items() if value > 0.0)
             cents[row, column] = fingering.cents
             valid[row, column] = not fingering.is_obsolete
             for tag in IN_PLACE_COST:
@@ -410,7 +437,20 @@ def table_of(pitches: tuple[int, ...], instrument: InstrumentMap) -> Table:
     register = np.searchsorted(np.sort(np.array(instrument.breaks, dtype=np.int64)), written, side="right")
     places = finger_places(choices, shape, controls, instrument.contacts)
     leaves_down = any("held" in fingering.tags for fingering in instrument.fingerings)
-    return Table(choices, values, cost, cents, valid, meant_for, register.astype(np.int64), rare, leaves_down, places)
+    return Table(
+        choices,
+        values,
+        cost,
+        cents,
+        valid,
+        meant_for,
+        register.astype(np.int64),
+        rare,
+        beside,
+        levers,
+        leaves_down,
+        places,
+    )
 
 
 def _either_side(steps: BoolArray, count: int) -> BoolArray:
@@ -563,11 +603,14 @@ def never_worse(problem: FingeringProblem, path: IntArray) -> IntArray:
     # A slide that stays near for a note between two alternates gains on the first what it may lose on the second.
     breaks = np.flatnonzero(np.diff(different) > (2 if problem.has_slide else 1))
     starts, ends = different[np.append(0, breaks + 1)], different[np.append(breaks, len(different) - 1)]
-    # With the notes on either side, which runs may share: no step belongs to two of them.
-    worse = problem.goes_further(path, first_path, np.maximum(starts - 1, 0), np.minimum(ends + 1, count - 1))
+    silence = problem.times.onset_s[1:] - problem.times.played_end_s[:-1] >= PHRASE_SILENCE_S
+    # With the notes on either side, which runs may share (no step belongs to two of them), but across no rest: there
+    # is time to change.
+    before = starts - ~np.append(True, silence)[starts]
+    after = ends + ~np.append(silence, True)[ends]
+    worse = problem.goes_further(path, first_path, before, after)
     path = _with_first_choices(path, first_path, starts[worse], ends[worse])
-    silence = problem.times.onset_s[1:] - problem.times.played_end_s[:-1]
-    starts = np.append(0, np.flatnonzero(silence >= PHRASE_SILENCE_S) + 1)
+    starts = np.append(0, np.flatnonzero(silence) + 1)
     ends = np.append(starts[1:], count) - 1
     worse = problem.goes_further(path, first_path, starts, ends)
     return _with_first_choices(path, first_path, starts[worse], ends[worse])

@@ -318,6 +318,7 @@ def map_choices(maps: Iterable[InstrumentMap]) -> tuple[MapChoice, ...]:
             concert_low=instrument.range.low,
             concert_high=instrument.range.high,
             transposition_semitones=instrument.transposition_semitones,
+            usual=instrument.range.usual,
         )
         for instrument in maps
     )

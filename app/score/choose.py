@@ -40,6 +40,8 @@ class MapChoice(msgspec.Struct, frozen=True):
         Its range at concert pitch, both included, MIDI numbers.
     transposition_semitones : int
         How much higher its parts are written than they sound.
+    usual : (int, int) or None
+        Its range without pedal tones and altissimo, where that is smaller.
     """
 
     map_id: str
@@ -48,11 +50,19 @@ class MapChoice(msgspec.Struct, frozen=True):
     concert_low: int
     concert_high: int
     transposition_semitones: int = 0
+    usual: tuple[int, int] | None = None
 
-    def outside(self, pitches: Sequence[int], written: bool = False) -> int:
-        """How many of these pitches, sounding or written ones, it does not reach."""
+    @property
+    def usual_range(self) -> tuple[int, int]:
+        """Its range without pedal tones and altissimo."""
+        return (self.concert_low, self.concert_high) if self.usual is None else self.usual
+
+    def outside(self, pitches: Sequence[int], written: bool = False, usual: bool = False) -> int:
+        """How many of these pitches, sounding or written ones, it does not reach (``usual``: without pedal tones and
+        altissimo)."""
         shift = self.transposition_semitones if written else 0
-        low, high = self.concert_low + shift, self.concert_high + shift
+        low, high = self.usual_range if usual else (self.concert_low, self.concert_high)
+        low, high = low + shift, high + shift
         return 0 if low <= min(pitches) and max(pitches) <= high else sum(not low <= pitch <= high for pitch in pitches)
 
 
@@ -190,9 +200,11 @@ class Candidates(msgspec.Struct, frozen=True):
         lowest, highest = min(pitches), max(pitches)
 
         def rank(choice: MapChoice) -> tuple[bool, float, int, int]:
-            share = _share(pitches, choice, written)
+            # Who is asked for by name plays pedal tones too; nobody is chosen for them.
+            share = _share(pitches, choice, written, usual=choice.map_id not in self.exact)
             shift = choice.transposition_semitones if written else 0
-            below, above = lowest - shift - choice.concert_low, choice.concert_high - highest + shift
+            low, high = choice.usual_range
+            below, above = lowest - shift - low, high - highest + shift
             few = (1.0 - share) * len(pitches) < _FEW + 0.5 and share >= _FEW_SHARE
             return (
                 choice.map_id in self.exact and (few or share >= _OWN_SHARE),
@@ -361,6 +373,6 @@ def _where(maps: Iterable[MapChoice], requested: Callable[[Instrument], bool]) -
     return [choice for choice in maps if any(id not in known or requested(known[id]) for id in choice.plays)]
 
 
-def _share(pitches: Sequence[int], choice: MapChoice, written: bool = False) -> float:
+def _share(pitches: Sequence[int], choice: MapChoice, written: bool = False, usual: bool = True) -> float:
     """How many of the notes a map reaches, 0..1."""
-    return (len(pitches) - choice.outside(pitches, written)) / len(pitches)
+    return (len(pitches) - choice.outside(pitches, written, usual)) / len(pitches)

@@ -49,7 +49,8 @@ def without_key_switches(
         # Where nothing but the range chose them, what was found fits the switches too.
         own = found if found.how is not How.RANGE else candidates([rest], maps)
         choice = own.best(rest.pitches)
-        low, high = choice.concert_low - _AWAY, choice.concert_high + _AWAY
+        low, high = choice.usual_range
+        low, high = low - _AWAY, high + _AWAY
         if ((pitches[away] <= low) | (pitches[away] >= high)).all() and _switch(stream, away, tempo_map):
             return rest, tuple(np.flatnonzero(away).tolist())
     return stream, ()

@@ -69,15 +69,15 @@ UNCHARTED = {
     "trumpet_Bb": "85-89",
     "trumpet_C": "85-89",
     "horn_F_single": "42-52",
-    "horn_double_F_Bb": "42-52",
-    "trombone_tenor_F_attachment": "71-77",
+    "horn_double_F_Bb": "36-52",
+    "trombone_tenor_F_attachment": "28-35 71-77",
     "trombone_bass_F_Gb": "29-34 71-74",
-    "euphonium_Bb_bassclef": "42-46 61-70",
-    "euphonium_baritone_Bb_treble": "56-60 75-84",
-    "tuba_BBb": "36-37",
-    "tuba_CC": "38-39",
-    "tuba_Eb": "41-42",
-    "tuba_F": "43-44",
+    "euphonium_Bb_bassclef": "29-34 42-46 61-70",
+    "euphonium_baritone_Bb_treble": "43-48 56-60 75-84",
+    "tuba_BBb": "20-22 36-37",
+    "tuba_CC": "21-24 38-39",
+    "tuba_Eb": "22-27 41-42",
+    "tuba_F": "24-29 43-44",
     "sousaphone_BBb": "36-37",
 }
 """Written pitches of which no chart speaks."""
@@ -215,7 +215,7 @@ def test_what_no_chart_says_is_the_simplest_that_is_in_tune(name: str) -> None:
 
 
 def test_the_euphonium_above_and_between_its_charts_plays_as_the_tuba_an_octave_below() -> None:
-    for written in sorted(uncharted("euphonium_Bb_bassclef")):
+    for written in sorted(uncharted("euphonium_Bb_bassclef") - set(range(MAPS["tuba_BBb"].range.low + 12))):
         assert first_choice("euphonium_Bb_bassclef", written) == first_choice("tuba_BBb", written - 12)
 
 
@@ -239,5 +239,5 @@ def test_first_choices_are_in_tune_unless_a_valve_sum_is_too_long(name: str) -> 
     for written in written_range(MAPS[name]):
         concert = written - MAPS[name].transposition_semitones
         fingering = MAPS[name].fingerings_for(concert)[0]
-        if abs(fingering.cents) > OUT_OF_TUNE_CENTS:
+        if abs(fingering.cents) > OUT_OF_TUNE_CENTS and "lipped" not in fingering.tags:
             assert fingering.label in ("123", "1234"), (written, fingering)

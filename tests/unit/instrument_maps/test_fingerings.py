@@ -106,7 +106,7 @@ def sounding_cents(instrument: InstrumentMap, fingering: Fingering, partial: int
 def test_every_fingering_is_a_harmonic_of_its_tube_and_its_cents_are_true(instrument: InstrumentMap) -> None:
     for fingering in instrument.fingerings:
         deviation = min((sounding_cents(instrument, fingering, partial) for partial in range(1, 17)), key=abs)
-        assert abs(deviation) < 60, fingering
+        assert abs(deviation) < 60 or ("lipped" in fingering.tags and abs(deviation) < 105), fingering
         assert fingering.cents == pytest.approx(deviation, abs=2.0), fingering
 
 
