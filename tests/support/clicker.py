@@ -127,8 +127,10 @@ def popup() -> QMenu | None:
 
 
 def menu_under(widget: QWidget, place: QPoint) -> QMenu | None:
-    """Right-click a place; None: it has no context menu."""
-    QTest.mouseMove(widget, place)
+    """Right-click a place; None: it has no context menu, or cannot be seen."""
+    if not widget.visibleRegion().contains(place):
+        return None
+    mouse.move(widget, place)
     QTest.mouseClick(widget, Qt.MouseButton.RightButton, mouse.NONE, place)
     if QApplication.activePopupWidget() is None:
         event = QContextMenuEvent(QContextMenuEvent.Reason.Mouse, place, widget.mapToGlobal(place))
@@ -140,6 +142,7 @@ def close_menus() -> None:
     """Close whatever pops up."""
     while (found := QApplication.activePopupWidget()) is not None:
         found.close()
+        QApplication.processEvents()
 
 
 def places(widget: QWidget, columns: int, rows: int) -> Iterator[QPoint]:
@@ -159,7 +162,7 @@ class Clicker:
     program : Program
     watcher : Watcher
     again : callable
-        Makes the present state once more, after a click that changed it.
+        Makes the present state once more, after a click that changed the given subjects; None: perhaps all of them.
 
     Attributes
     ----------
@@ -168,7 +171,7 @@ class Clicker:
     state : str
     """
 
-    def __init__(self, program: Program, watcher: Watcher, again: Callable[[], None]) -> None:
+    def __init__(self, program: Program, watcher: Watcher, again: Callable[[frozenset[str] | None], None]) -> None:
         self._program, self._watcher, self._again = program, watcher, again
         self._window = program.window
         self.seen: dict[str, dict[str, frozenset[str]]] = defaultdict(dict)
@@ -179,7 +182,7 @@ class Clicker:
         self.seen[name][f"{self.state}, {where}" if where else self.state] = found
         close_menus()
         if found - CALM - NOTHING - CHOSEN:
-            self._again()
+            self._again(found)
 
     def buttons(self, every: bool = True) -> None:
         """Click every button and choice that is there and is not greyed out; unless ``every``, of those that the table
@@ -199,7 +202,7 @@ class Clicker:
                 self._click(name, control)
             except AssertionError:
                 # The layout may not be done yet.
-                self._again()
+                self._again(None)
                 try:
                     self._click(name, controls(self._window)[name])
                 except (AssertionError, KeyError) as error:
@@ -230,20 +233,14 @@ class Clicker:
         close_menus()
         for path in paths:
             name = self._full_name(menu_name, path)
-            for tries_left in (2, 1, 0):
-                try:
+            try:
+                found = self._choose(open_menu, path)
+                if found == CHOSEN and (other := self._beside(open_menu, path)) is not None:
+                    self._choose(open_menu, other)
                     found = self._choose(open_menu, path)
-                    if found == CHOSEN and (other := self._beside(open_menu, path)) is not None:
-                        self._choose(open_menu, other)
-                        found = self._choose(open_menu, path)
-                except (AssertionError, StopIteration, RuntimeError) as error:
-                    found = frozenset((f"fault: {error!r}",))
-                close_menus()
-                # A display may close a menu by itself, when the window behind it comes to the front.
-                fails = any(each.startswith("fault") for each in found)
-                if tries_left == 0 or not (fails or (found == NOTHING and tries_left == 2)):
-                    self._note(name, found, where or menu_name)
-                    break
+            except (AssertionError, StopIteration) as error:
+                found = frozenset((f"fault: {error!r}",))
+            self._note(name, found, where or menu_name)
 
     def _full_name(self, menu_name: str, path: Path) -> str:
         return path[-1] if path[-1] in self._program.session.actions else f"{menu_name} > {' > '.join(path)}"
@@ -254,6 +251,8 @@ class Clicker:
         return row is not None and any(row.changes <= found for found in self.seen.get(name, {}).values())
 
     def _choose(self, open_menu: Open, path: Path) -> frozenset[str]:
+        # At a click that comes as soon as a submenu, Qt may leave the menu above it open.
+        close_menus()
         menu = open_menu()
         assert menu is not None, "the menu did not come again"
         before = {**self._watcher.state(), "popup": None}
@@ -265,6 +264,7 @@ class Clicker:
 
     def _beside(self, open_menu: Open, path: Path) -> Path | None:
         """Another choice beside one that holds; None: there is none."""
+        close_menus()
         menu = open_menu()
         assert menu is not None, "the menu did not come again"
         inner, entry = entry_at(menu, path)
@@ -320,6 +320,8 @@ class Clicker:
         for spot, widget in spots.items():
             if not widget.isVisible():
                 continue
+            mouse.bring_into_view(widget)
+            QApplication.processEvents()
             tried: Counter[Path] = Counter()
             for number, place in enumerate(places(widget, columns, rows)):
                 menu = menu_under(widget, place)

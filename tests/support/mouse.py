@@ -1,4 +1,9 @@
-"""A user's mouse: presses what can be seen, and goes through menus as far as an entry."""
+"""A user's mouse: presses what can be seen, and goes through menus as far as an entry.
+
+It moves by events of its own. `QTest.mouseMove` of a widget asks the display to move its pointer and does not wait for
+it: on a busy machine Qt then believes the mouse to be where it was before. A menu that comes up in the meantime closes
+at a click there, since Qt takes that for the end of the click that opened it.
+"""
 
 from __future__ import annotations
 
@@ -10,8 +15,29 @@ from PySide6.QtGui import QAction, QContextMenuEvent, QCursor
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QCheckBox, QMenu, QMenuBar, QRadioButton, QScrollArea, QToolButton, QWidget
 
+from tests.support.windows import wait_until
+
 LEFT = Qt.MouseButton.LeftButton
 NONE = Qt.KeyboardModifier.NoModifier
+
+_place = QPoint()
+"""The mouse on the screen, as Qt knows it."""
+
+
+def park_pointer() -> None:
+    """Put the display's own pointer into a corner where no menu comes up under it."""
+    QCursor.setPos(QApplication.primaryScreen().geometry().topRight())
+    # The answer comes after the display has moved it.
+    QCursor.pos()
+    QApplication.processEvents()
+
+
+def move(widget: QWidget, place: QPoint) -> None:
+    """Move the mouse to a place of a widget."""
+    global _place
+    window = widget.window()
+    _place = widget.mapToGlobal(place)
+    QTest.mouseMove(window.windowHandle(), widget.mapTo(window, place))
 
 
 def bring_into_view(widget: QWidget) -> None:
@@ -40,7 +66,7 @@ def press(widget: QWidget, place: QPoint | None = None) -> None:
     if place is None:
         # A box with a text is hit at its mark, however wide it is.
         place = seen.center() if not isinstance(widget, QCheckBox | QRadioButton) else QPoint(10, seen.center().y())
-    QTest.mouseMove(widget, place)
+    move(widget, place)
     QTest.mouseClick(widget, LEFT, NONE, place)
 
 
@@ -48,15 +74,15 @@ def choose(menu: QMenu, entry: QAction) -> None:
     """Click an entry of a menu that is open."""
     assert menu.isVisible(), "the menu is closed"
     # Qt leaves a click alone where the mouse was when the menu came.
-    bounds, mouse = menu.actionGeometry(entry), menu.mapFromGlobal(QCursor.pos())
+    bounds, mouse = menu.actionGeometry(entry), menu.mapFromGlobal(_place)
     sides = (QPoint(bounds.left() + 14, bounds.center().y()), QPoint(bounds.right() - 14, bounds.center().y()))
     place = max(sides, key=lambda side: (side - mouse).manhattanLength())
-    QTest.mouseMove(menu, place)
+    move(menu, place)
     QTest.mouseClick(menu, LEFT, NONE, place)
 
 
 def open_submenu(menu: QMenu, entry: QAction, inner: QMenu) -> None:
-    """Open a submenu by a click on its entry, or by the arrow where Qt's own delay closed it again.
+    """Open a submenu by a click on its entry.
 
     Raises
     ------
@@ -64,9 +90,8 @@ def open_submenu(menu: QMenu, entry: QAction, inner: QMenu) -> None:
         It does not open.
     """
     choose(menu, entry)
-    if not inner.isVisible():
-        menu.setActiveAction(entry)
-        QTest.keyClick(menu, Qt.Key.Key_Right)
+    # It comes after a moment.
+    wait_until(lambda: inner.isVisible() or not menu.isVisible())
     assert inner.isVisible(), f"{entry.text()} does not open"
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING, TypeVar, cast
 
 from PySide6.QtWidgets import (
     QApplication,
@@ -54,10 +54,12 @@ class Widgets:
     """
 
     def __init__(self, window: QWidget) -> None:
-        self._all = window.findChildren(QWidget)
+        self._all = [(type(widget), widget) for widget in window.findChildren(QWidget)]
+        self._classes = {its_class for its_class, _ in self._all}
 
     def __getitem__(self, kind: type[W]) -> list[W]:
-        return [widget for widget in self._all if isinstance(widget, kind)]
+        classes = {its_class for its_class in self._classes if issubclass(its_class, kind)}
+        return cast(list[W], [widget for its_class, widget in self._all if its_class in classes])
 
 
 class Watcher:

@@ -114,6 +114,8 @@ BAR_ONLY = ("typing fingerings",)
 WITH_BAR = ("no piece", "by hand")
 WITH_MENUS = ("by hand",)
 WITH_CONTEXT = ("by hand", "takes")
+ARRANGED = frozenset(("folded", "full_screen", "lanes", "page", "panels", "workspace"))
+"""Subjects of the window's layout."""
 
 
 class Stage:
@@ -135,8 +137,8 @@ class Stage:
         quieten(self.desk)
         self.again()
 
-    def again(self) -> None:
-        """Make the present state."""
+    def again(self, changed: frozenset[str] | None = None) -> None:
+        """Make the present state; ``changed`` names the subjects that differ from it, None: perhaps all."""
         desk, session = self.desk, self.desk.session
         if self.deed is None:
             quieten(desk)
@@ -153,7 +155,8 @@ class Stage:
             if self.deed is muted_light_japanese:
                 session.set_tokens(LIGHT)
                 desk.program.editor.speak("ja")
-            self._lay_out()
+            if changed is None or changed & ARRANGED:
+                self._lay_out()
         else:
             self._opened = afresh(desk, self._opened)
             self._lay_out()
@@ -168,7 +171,7 @@ class Stage:
                 self._plans = session.performance
         desk.answers.asked.clear()
         clipboard = QApplication.clipboard()
-        if clipboard.text():
+        if (changed is None or "copied" in changed) and clipboard.text():
             # A number that was copied elsewhere.
             clipboard.setText("0.37")
         QApplication.processEvents()
@@ -220,6 +223,7 @@ def stage(desk: Desk, monkeypatch: pytest.MonkeyPatch) -> Stage:
     monkeypatch.setattr(FacePicture, "_draw", lambda self: None)
     desk.program.window.setUpdatesEnabled(False)
     desk.program.window.setAnimated(False)
+    mouse.park_pointer()
     stage = Stage(desk)
     monkeypatch.setattr("app.editor.generator.Performance", stage.performance)
     return stage
