@@ -15,6 +15,7 @@ from app.contacts.breaks import Break, joined
 from app.contacts.judge import ContactJudge
 from app.motion.face import Drivers
 from app.motion.gaze import BLINK_SHUT_S
+from app.motion.model import Motion
 from app.performance.bodies import character_of, model_of
 from app.performance.chunks import Pose
 from app.performance.live_breath import LiveBreath, LiveLook
@@ -38,6 +39,13 @@ def run(instrument_id: str) -> Played:
     return played(playing_alone(instrument_id, notes), notes)
 
 
+@cache
+def offline_motion(instrument_id: str) -> Motion:
+    """The same notes, as a performance has them."""
+    seen = run(instrument_id)
+    return seen.playing.motion(Fraction(FPS), 0, seen.motion.frames)
+
+
 def along(instrument_id: str = "trumpet_Bb") -> PlayAlong:
     return PlayAlong(playing_alone(instrument_id, [(4 * QUARTER, QUARTER, bundled_maps()[instrument_id].range.low)]))
 
@@ -57,7 +65,7 @@ def looked(player: PlayAlong, start_s: float, length_s: float) -> list[Pose]:
 @pytest.mark.parametrize("instrument_id", KINDS)
 def test_soon_after_every_onset_the_controls_are_those_of_the_performance(instrument_id: str) -> None:
     seen = run(instrument_id)
-    offline = seen.playing.motion(Fraction(FPS), 0, seen.motion.frames)
+    offline = offline_motion(instrument_id)
     held = {control.name for control in seen.playing.instrument_map.controls if control.role == "intonation"}
     slides = {hand.motion.control for hand in seen.playing.player.hold.hands if hand.motion is not None}
     compared = 0
@@ -85,7 +93,7 @@ def test_lips_fingers_and_feet_stay_where_they_belong(instrument_id: str) -> Non
     seen = run(instrument_id)
     performance = performance_of(instrument_id, line(instrument_id, 16))
     player = performance.project.players[0]
-    offline = seen.playing.motion(Fraction(FPS), 0, seen.motion.frames)
+    offline = offline_motion(instrument_id)
     known = {item.contact for item in breaks(seen.playing, player, offline)}
     assert [item for item in breaks(seen, player, seen.motion) if item.contact not in known] == []
 
@@ -99,7 +107,7 @@ def breaks(of: object, player: Player, motion: object) -> list[Break]:
 def test_no_joint_jumps(instrument_id: str) -> None:
     seen, profile = run(instrument_id), load_skeleton()
     skeleton, body = seen.playing.player.skeleton, seen.playing.body
-    offline = seen.playing.motion(Fraction(FPS), 0, seen.motion.frames)
+    offline = offline_motion(instrument_id)
     for joint, name in enumerate(skeleton.names):
         if name == "root":
             continue
