@@ -134,6 +134,8 @@ def text(message: Message, language: str = "en") -> str:
         arguments["kind"] = WORDINGS[kind][place]
     if "touch" in arguments:
         arguments["touch"] = touch_name(str(arguments["touch"]), language)
+    if "why" in arguments:
+        arguments["why"] = filled(WORDINGS[str(arguments["why"])][place], arguments)
     for name in TEXTS & arguments.keys():
         arguments[name] = WORDINGS.get(str(arguments[name]), (arguments[name],) * len(LANGUAGES))[place]
     return filled(WORDINGS[message.id][place], arguments)

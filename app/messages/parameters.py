@@ -12,8 +12,8 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
     ),
     "parameter.breath_min_beats": ("Breathe in rests from", "ブレスする休符の下限"),
     "parameter.breath_min_beats_tip": (
-        "In shorter rests the player does not breathe",
-        "これより短い休符ではブレスしません",
+        "In shorter rests the player does not breathe, unless they last 0.75 s or more",
+        "これより短い休符ではブレスしません（0.75 秒以上続く休符を除く）",
     ),
     "unit.beats": ("beats", "拍"),
     "parameter.breath_last_beat_beats": ("Breathe on last beat from", "最後の拍で吸う下限"),
@@ -71,12 +71,13 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
     "parameter.breath_need": ("Air used before breath", "ブレスまでに使う息"),
     "parameter.breath_need_tip": (
         (
-            "Share of air used before the player breathes in a rest too short to prepare in: 0 breathes in every "
-            "such rest, 1 only when out of air"
+            "How much is played before a breath in a rest shorter than 1.5 s: 0 breathes in every rest, 1 only when "
+            "out of air. 0.35 is usual: 0.75 s of rest after 1 s of playing; 0.5 s after 2.5 s or 20 % of the air; "
+            "0.3 s after about 4 s or 40 % of the air."
         ),
         (
-            "準備動作のできない短い休符で吸うまでに使う息の割合。0 ではどの休符でも吸い、1 "
-            "では息が尽きたときだけ吸います"
+            "1.5 秒未満の休符で吸うまでにどれだけ吹くか。0 ではどの休符でも吸い、1 では息が尽きたときだけ吸います。"
+            "標準は 0.35: 0.75 秒の休符では 1 秒、0.5 秒では 2.5 秒または息の 20 %、0.3 秒では約 4 秒または息の 40 %。"
         ),
     ),
     "parameter.circular_breathing": ("Circular breathing", "循環呼吸"),

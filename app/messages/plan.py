@@ -180,10 +180,13 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
     ),
     "breath.rest_whole": (
         (
-            "rest of {rest_beats:g} beats (from {min_beats:g} to less than {last_beat_beats:g}): the breath takes "
-            "the whole rest"
+            "rest of {rest_beats:g} beats ({rest_s:g} s), breathed in because {why}; shorter than {last_beat_beats:g} "
+            "beats: the breath takes the whole rest"
         ),
-        "{rest_beats:g} 拍の休符（{min_beats:g} 以上 {last_beat_beats:g} 未満）: 休符全体でブレスします",
+        (
+            "{rest_beats:g} 拍（{rest_s:g} 秒）の休符。{why}ためブレスします。{last_beat_beats:g} 拍未満なので"
+            "休符全体で吸います"
+        ),
     ),
     "breath.blown": (
         "from the recorded breath: {gap_s:g} s without blowing",
@@ -199,14 +202,44 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
     ),
     "breath.last_beat": (
         (
-            "rest of {rest_beats:g} beats (from {last_beat_beats:g} to less than {prepare_beats:g}): the breath "
-            "takes the last beat"
+            "rest of {rest_beats:g} beats ({rest_s:g} s), breathed in because {why}; from {last_beat_beats:g} to less "
+            "than {prepare_beats:g} beats: the breath takes the last beat"
         ),
-        "{rest_beats:g} 拍の休符（{last_beat_beats:g} 以上 {prepare_beats:g} 未満）: 最後の拍でブレスします",
+        (
+            "{rest_beats:g} 拍（{rest_s:g} 秒）の休符。{why}ためブレスします。{last_beat_beats:g} 拍以上 "
+            "{prepare_beats:g} 拍未満なので最後の拍で吸います"
+        ),
     ),
     "breath.prepared": (
-        "rest of {rest_beats:g} beats (at least {prepare_beats:g}): preparation, then breath on the last beat",
-        "{rest_beats:g} 拍の休符（{prepare_beats:g} 以上）: 準備動作をしてから最後の拍でブレスします",
+        (
+            "rest of {rest_beats:g} beats ({rest_s:g} s), breathed in because {why}; at least {prepare_beats:g} beats: "
+            "preparation, then breath on the last beat"
+        ),
+        (
+            "{rest_beats:g} 拍（{rest_s:g} 秒）の休符。{why}ためブレスします。{prepare_beats:g} 拍以上なので"
+            "準備動作をしてから最後の拍で吸います"
+        ),
+    ),
+    "breath.why_long": (
+        "rests of {always_s:g} s and more are always used",
+        "{always_s:g} 秒以上の休符では必ず吸う",
+    ),
+    "breath.why_every": ("every rest is used", "すべての休符で吸う設定の"),
+    "breath.why_played": (
+        "{played_s:g} s were played since the last breath (at least {enough_s:g} s)",
+        "前のブレスから {played_s:g} 秒吹いている（{enough_s:g} 秒以上）",
+    ),
+    "breath.why_air": (
+        "{spent:g} % of the air is used (at least {share:g} %)",
+        "息を {spent:g} % 使っている（{share:g} % 以上）",
+    ),
+    "breath.why_short": (
+        "the air does not last until a better place",
+        "次のよい場所まで息が続かない",
+    ),
+    "breath.why_not_recorded": (
+        "no breath was recorded for this note",
+        "この音のブレスは録音されていない",
     ),
     "breath.preparation": (
         "rest of {rest_beats:g} beats (at least {prepare_beats:g}): breath preparation",

@@ -1,8 +1,9 @@
 """Where a player breathes.
 
-By the length of the rest, in felt beats (T6 of the 2018 thesis; the thresholds are the player's): in [min,
-last_beat) the breath takes the whole rest; in [last_beat, prepare) the last beat; from prepare on a preparatory
-motion comes in the beat before that. Every breath ends at the onset it serves. Where no rest serves within the
+Which rests are breathed in says `app.plan.rest_needs`: by seconds, playing and air. How, says the length of the rest in
+felt beats (T6 of the 2018 thesis; the thresholds are the player's): below last_beat the breath takes the whole rest; in
+[last_beat, prepare) the last beat; from prepare on a preparatory motion comes in the beat before that. Every breath
+ends at the onset it serves. Where no rest serves within the
 lungs' budget, a catch breath is taken before a note that follows a phrase's end: in the short silence there, or out
 of the tail of the note before, whose lips then leave early while its sound stays. In runs whose notes are too short
 for that the player leaves out a note: its lips leave at once.
@@ -22,7 +23,7 @@ import numpy as np
 from app.errors import Argument, Message
 from app.plan.breath_depths import is_within, too_long, with_depths
 from app.plan.breath_envelope import BoolArray, BreathEnvelope, Silences, gaps_within, silences
-from app.plan.catch_lengths import CATCH_MIN_S, Room, catch_lengths_s, drop_lengths_s
+from app.plan.catch_lengths import CATCH_MIN_S, Room, catch_lengths_s, drop_lengths_s, gaps_s
 from app.plan.catch_places import catch_places
 from app.plan.corrections import BY_HAND, Correction, SetBreath, removed_ids, without_removed
 from app.plan.line import IntArray, LineTimes, Piece, Seeds
@@ -33,15 +34,15 @@ from app.plan.lungs import (
     drawn,
     levels,
     lungful_s,
-    needed_rests,
     where_short,
     with_circular_breathing,
 )
 from app.plan.model import BreathEvent, FloatArray, Problem, TimeFrame
 from app.plan.notation import at_score_tempo, notated
 from app.plan.parameters import PlayerParameters
-from app.plan.rest_breaths import blown_breaths, blown_catch, rest_breaths, within_note
-from app.plan.rests import rest_ticks
+from app.plan.rest_breaths import AIR_SHORT, because, blown_breaths, blown_catch, rest_breaths, within_note
+from app.plan.rest_needs import ALWAYS_S, Decided, RestNeeds, breathed_in, rest_needs, why
+from app.plan.rests import Rests, rest_ticks
 from app.plan.stagger import ALONE, Shared, within_held
 from app.score.model import Note
 from instrument_maps.model import Air
@@ -99,14 +100,16 @@ def plan_breaths(
     line = _Breather(notes, times, piece, parameters, {note.id: index for index, note in enumerate(notes)})
     score = _read(line, air, envelope)
     given = _given(line, score, frame, corrections, shared)
-    stock, spare = _stock(line, score, given)
+    rests = _rests_used(line, score, given)
+    stock = _stock(line, score, given, rests.spare)
     catches = _catches(line, score, stock, given.may, shared, seeds)
-    caught = _caught(line, score, stock, spare, catches)
+    caught = _caught(line, score, stock, [index for index in catches if index not in rests.spare])
+    in_rests = _in_rests(line, score, given, rests, catches)
     refill = stock.refill.copy()
-    for event, index in zip(caught, catches, strict=True):
-        refill[index] = drawn(event.end_s - event.start_s)
-    kept = [event for event in (*given.kept, *given.by_hand) if spare.get(line.number_of(event)) is not event]
-    events = tuple(sorted([*kept, *caught], key=lambda event: (event.start_s, event.end_s)))
+    for event in (*caught, *in_rests):
+        if event.kind == "breath" and not is_within(event) and refill[line.number_of(event)] == 0.0:
+            refill[line.number_of(event)] = drawn(event.end_s - event.start_s)
+    events = tuple(sorted([*in_rests, *given.by_hand, *caught], key=lambda event: (event.start_s, event.end_s)))
     early_end_s, cut = _cut_notes(line, events)
     return BreathPlan(
         events=with_depths(events, stock.used, score.lung_s, refill, line.index_of),
@@ -138,8 +141,6 @@ class _Score(NamedTuple):
     ----------
     written, steady : LineTimes
         As a score would have it, and that without short changes of tempo, by which is decided what is needed.
-    rests : (N,) int64
-        Ticks of rest before each note.
     gaps : Silences or None
         Where the breath that was blown shows breaths.
     used, steady_used : (N + 1,) float
@@ -152,7 +153,7 @@ class _Score(NamedTuple):
 
     written: LineTimes
     steady: LineTimes
-    rests: IntArray
+    rests: Rests
     gaps: Silences | None
     used: FloatArray
     steady_used: FloatArray
@@ -177,6 +178,22 @@ class _Given(NamedTuple):
     kept: tuple[BreathEvent, ...]
     by_hand: tuple[BreathEvent, ...]
     may: BoolArray
+
+
+class _RestsUsed(NamedTuple):
+    """Which of the breaths in rests are taken.
+
+    Attributes
+    ----------
+    needs, decided : RestNeeds, Decided
+        By note.
+    spare : dict of int to BreathEvent
+        The breaths in rests that are not needed, by their notes.
+    """
+
+    needs: RestNeeds
+    decided: Decided
+    spare: dict[int, BreathEvent]
 
 
 class _Stock(NamedTuple):
@@ -212,13 +229,19 @@ def _read(line: _Breather, air: Air | None, envelope: BreathEnvelope | None) -> 
     steady = at_score_tempo(written, piece)
     used = air_used_s(written, air)
     steady_used = used if steady is written else air_used_s(steady, air)
-    return _Score(written, steady, _rests(written, times, piece), None, used, steady_used, lung_s, ())
+    return _Score(written, steady, _rests(steady, times, piece), None, used, steady_used, lung_s, ())
 
 
-def _rests(written: LineTimes, times: LineTimes, piece: Piece) -> IntArray:
-    """What is a rest is read from the score, how long it is from what sounds."""
-    rests = rest_ticks(written, piece.beat_ticks_at(times.onset_tick))
-    return np.where(rests > 0, times.silence_tick, 0)
+def _rests(steady: LineTimes, times: LineTimes, piece: Piece) -> Rests:
+    """The rests of the score, which decides what is one.
+
+    What is so long that it is always breathed in is so at any tempo.
+    """
+    written = rest_ticks(steady, piece.beat_ticks_at(times.onset_tick))
+    is_rest = (written > 0) & (times.silence_tick > 0)
+    written_s, sounding_s = gaps_s(steady), gaps_s(times)
+    lasts_s = np.where(sounding_s >= ALWAYS_S - EPSILON, np.maximum(written_s, sounding_s), written_s)
+    return Rests(*(np.where(is_rest, column, 0) for column in (times.silence_tick, written, lasts_s)))
 
 
 def _given(
@@ -238,19 +261,38 @@ def _given(
     kept = [event for event in without_removed(generated, removed) if event.id not in hand_ids]
     if score.gaps is None and parameters.breath_need > 0.0:
         # In a rest too short for it no one breathes unless the note before is shortened too: a catch breath.
-        kept = [
-            event for event in kept if event.kind != "breath" or event.end_s - event.start_s >= CATCH_MIN_S - EPSILON
-        ]
+        gasps = {line.number_of(event) for event in kept if event.kind == "breath"
+                 and event.end_s - event.start_s < CATCH_MIN_S - EPSILON}  # fmt: skip
+        kept = [event for event in kept if line.number_of(event) not in gasps]
     may = np.ones(len(notes), dtype=bool)
     ids = (id.removeprefix("breath:") for id in removed | hand_ids if id.startswith("breath:"))
     may[[line.index_of[id] for id in ids if id in line.index_of]] = False
     return _Given(generated, tuple(kept), by_hand, may)
 
 
-def _stock(line: _Breather, score: _Score, given: _Given) -> tuple[_Stock, dict[int, BreathEvent]]:
-    """The air there is, and the breaths in rests that are not needed, by their notes."""
-    times, lung_s, count = line.times, score.lung_s, len(line.notes)
-    refill, spared_s = np.zeros(count), np.zeros(count)
+def _stock(line: _Breather, score: _Score, given: _Given, spare: dict[int, BreathEvent]) -> _Stock:
+    """The air there is."""
+    times, lung_s = line.times, score.lung_s
+    used, steady_used, refill = _taken(line, score, given)
+    length_s = catch_lengths_s(score.steady, times, score.rests.sounding_tick)
+    for index, event in spare.items():
+        refill[index], length_s[index] = 0.0, _lasts_s(score, line, event)
+    if score.gaps is not None:
+        length_s = np.where(score.gaps.played, score.gaps.length_s, length_s)
+        drop_s, dropped = np.zeros(len(line.notes)), np.zeros(len(line.notes), np.int64)
+    else:
+        drop_s, dropped = drop_lengths_s(score.steady, times)
+    if line.parameters.circular_breathing:
+        used = with_circular_breathing(used, lung_s, refill)
+        steady_used = with_circular_breathing(steady_used, lung_s, refill)
+    air_s = levels(used, lung_s, refill) * lung_s
+    return _Stock(used, steady_used, refill, air_s, Room(length_s, drop_s, dropped))
+
+
+def _taken(line: _Breather, score: _Score, given: _Given) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """The air used, as it is played and at the tempo of the score, less what breaths within notes bring; and the part
+    of the lungs that the breath before each note fills."""
+    refill, spared_s = np.zeros(len(line.notes)), np.zeros(len(line.notes))
     for event in (*given.kept, *given.by_hand):
         index, share = (
             line.number_of(event),
@@ -258,25 +300,10 @@ def _stock(line: _Breather, score: _Score, given: _Given) -> tuple[_Stock, dict[
         )
         if is_within(event):
             # Lungs are counted from note to note: such a note takes so much less.
-            spared_s[index] += share * lung_s
+            spared_s[index] += share * score.lung_s
         elif event.kind == "breath":
             refill[index] = share
-    used, steady_used = _less(score.used, spared_s), _less(score.steady_used, spared_s)
-    length_s = catch_lengths_s(score.steady, times, score.rests)
-    spare: dict[int, BreathEvent] = {}
-    drop_s, dropped = np.zeros(count), np.zeros(count, np.int64)
-    if score.gaps is not None:
-        length_s = np.where(score.gaps.played, score.gaps.length_s, length_s)
-    else:
-        spare = _spare(line, score, given, steady_used, refill)
-        for index, event in spare.items():
-            refill[index], length_s[index] = 0.0, _lasts_s(score, line, event)
-        drop_s, dropped = drop_lengths_s(score.steady, times)
-    if line.parameters.circular_breathing:
-        used = with_circular_breathing(used, lung_s, refill)
-        steady_used = with_circular_breathing(steady_used, lung_s, refill)
-    air_s = levels(used, lung_s, refill) * lung_s
-    return _Stock(used, steady_used, refill, air_s, Room(length_s, drop_s, dropped)), spare
+    return _less(score.used, spared_s), _less(score.steady_used, spared_s), refill
 
 
 def _lasts_s(score: _Score, line: _Breather, event: BreathEvent) -> float:
@@ -288,18 +315,38 @@ def _lasts_s(score: _Score, line: _Breather, event: BreathEvent) -> float:
     return min(length_s, rest_s) if rest_s > 0.0 else length_s
 
 
-def _spare(
-    line: _Breather, score: _Score, given: _Given, steady_used: FloatArray, refill: FloatArray
-) -> dict[int, BreathEvent]:
-    """The breaths in rests that are not needed, by their notes."""
-    onset_tick, parameters = line.times.onset_tick, line.parameters
-    optional = score.rests < parameters.breath_prepare_beats * line.piece.beat_ticks_at(onset_tick)
-    optional[0] = False
-    optional[[line.number_of(event) for event in given.by_hand]] = False
-    needed = needed_rests(steady_used, score.lung_s, refill, optional, parameters.breath_need)
+def _rests_used(line: _Breather, score: _Score, given: _Given) -> _RestsUsed:
+    """Decide which rests are breathed in: the first breath, those set by hand and those that were blown always are."""
+    _, steady_used, refill = _taken(line, score, given)
+    needs = rest_needs(score.rests.lasts_s, line.parameters.breath_need, score.lung_s)
+    by_hand = [line.number_of(event) for event in given.by_hand]
+    for column in needs:
+        column[[0, *by_hand]] = 0.0
+    played_s = np.concatenate(([0.0], np.cumsum(score.steady.duration_s)))
+    decided = breathed_in(steady_used, played_s, score.lung_s, refill, needs)
+    if score.gaps is not None:
+        return _RestsUsed(needs, decided, {})
     kept = [event for event in given.kept if event.kind == "breath" and not is_within(event)]
-    in_rests = [(line.number_of(event), event) for event in kept]
-    return {index: event for index, event in in_rests if not needed[index]}
+    spare = {line.number_of(event): event for event in kept if not decided.breathed[line.number_of(event)]}
+    return _RestsUsed(needs, decided, spare)
+
+
+def _in_rests(
+    line: _Breather, score: _Score, given: _Given, rests: _RestsUsed, catches: list[int]
+) -> list[BreathEvent]:
+    """The breaths in rests that are taken, each with its preparation and its reason; catch breaths among them."""
+    unused = rests.spare.keys() - set(catches)
+    result = []
+    for event in given.kept:
+        index = line.number_of(event)
+        if is_within(event) or index == 0 or score.gaps is not None:
+            result.append(event)
+        elif index not in unused:
+            reason = AIR_SHORT if index in rests.spare else why(index, score.rests.lasts_s, rests.needs, rests.decided)
+            if event.kind == "breath":
+                event = msgspec.structs.replace(event, reason=because(event.reason, reason))
+            result.append(event)
+    return result
 
 
 def _catches(line: _Breather, score: _Score, stock: _Stock, may: BoolArray, shared: Shared, seeds: Seeds) -> list[int]:
@@ -311,7 +358,17 @@ def _catches(line: _Breather, score: _Score, stock: _Stock, may: BoolArray, shar
     def between(times: LineTimes, used: FloatArray, filled: FloatArray) -> list[int]:
         full = levels(used, score.lung_s, filled)
         return catch_places(
-            times, used, line.piece, score.lung_s, filled, full, may, taken, seeds, score.rests, stock.room
+            times,
+            used,
+            line.piece,
+            score.lung_s,
+            filled,
+            full,
+            may,
+            taken,
+            seeds,
+            score.rests.sounding_tick,
+            stock.room,
         )
 
     catches = between(score.steady, stock.steady_used, stock.refill)
@@ -326,14 +383,12 @@ def _catches(line: _Breather, score: _Score, stock: _Stock, may: BoolArray, shar
     return catches
 
 
-def _caught(
-    line: _Breather, score: _Score, stock: _Stock, spare: dict[int, BreathEvent], catches: list[int]
-) -> list[BreathEvent]:
-    """The catch breaths before some notes; in a rest it is the one that the rest would have given."""
-    found = {index: spare[index] for index in catches if index in spare}
+def _caught(line: _Breather, score: _Score, stock: _Stock, catches: list[int]) -> list[BreathEvent]:
+    """The catch breaths before some notes, but for those in rests that would have given one."""
+    found: dict[int, BreathEvent] = {}
     if score.gaps is not None:
-        blown = [index for index in catches if index not in spare and score.gaps.played[index]]
-        found |= {index: blown_catch(line.notes[index], line.piece, score.gaps, index) for index in blown}
+        blown = [index for index in catches if score.gaps.played[index]]
+        found = {index: blown_catch(line.notes[index], line.piece, score.gaps, index) for index in blown}
     found |= _made(line, stock, score.lung_s, [index for index in catches if index not in found])
     return [found[index] for index in catches]
 

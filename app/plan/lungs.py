@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-import numpy.typing as npt
 
 from app.plan.breath_envelope import STOPS_AT, BreathEnvelope, step_means
 from app.plan.dynamics import mean_around
@@ -107,33 +106,6 @@ def where_short(used: FloatArray, lung_s: float, refill: FloatArray, filled: Flo
         place = int(np.searchsorted(rests, start, side="right"))
         result[max(first, int(rests[place - 1]) if place else 0) : rests[place]] = True
     return np.flatnonzero(result & (filled > 0.0) & (refill == 0.0))
-
-
-def needed_rests(
-    used: FloatArray, lung_s: float, refill: FloatArray, optional: npt.NDArray[np.bool_], need: float
-) -> npt.NDArray[np.bool_]:
-    """(N,): before which notes a rest is breathed in, of those that ``refill`` (`levels`) names.
-
-    Parameters
-    ----------
-    optional : (N,) bool
-        Rests that are left alone as long as less than ``need`` (0..1) of the lungs is used up, and where the next
-        rest that is none of them comes soon.
-    """
-    result = refill > 0.0
-    level, before = (0.5 if refill[0] == 0.0 else 0.0), 0
-    certain = np.append(np.flatnonzero(result & ~optional), len(refill))
-    comes = used[certain[np.searchsorted(certain, np.arange(len(refill)), side="right").clip(max=len(certain) - 1)]]
-    soon = np.minimum(HASTY_SHARE, need)
-    for index in np.flatnonzero(result).tolist():
-        level = max(level - float(used[index] - used[before]) / lung_s, 0.0)
-        before = index
-        until = float(comes[index] - used[index]) / lung_s
-        if optional[index] and (1.0 - level < need - EPSILON or (until < soon and until <= level)):
-            result[index] = False
-        else:
-            level = min(level + float(refill[index]), 1.0)
-    return result
 
 
 def with_circular_breathing(used: FloatArray, lung_s: float, refill: FloatArray) -> FloatArray:

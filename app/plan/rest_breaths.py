@@ -1,24 +1,30 @@
 """The breaths in rests, or in the silences of a recorded breath.
 
-Their messages are those of `app.plan.breath`.
+Their messages are those of `app.plan.breath`; and ``breath.why_short``, ``breath.why_not_recorded``.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from functools import lru_cache
-from typing import Literal, NamedTuple
+from typing import Final, Literal, NamedTuple
 
 import numpy as np
 
-from app.errors import Message
+from app.errors import Argument, Message
 from app.plan.breath_envelope import BREATH_S, Silences
 from app.plan.corrections import WITHIN
 from app.plan.line import IntArray, LineTimes, Piece
 from app.plan.lungs import EPSILON
 from app.plan.model import BreathEvent, FloatArray, TimeFrame
 from app.plan.parameters import PlayerParameters
+from app.plan.rest_needs import LONG_S
+from app.plan.rests import Rests
 from app.score.model import Note
+
+AIR_SHORT: Final[Mapping[str, Argument]] = {"why": "breath.why_short"}
+"""Why a rest is breathed in that is not needed as such, for `because`: nothing better comes in time."""
+NOT_RECORDED: Final[Mapping[str, Argument]] = {"why": "breath.why_not_recorded"}
 
 
 def rest_breaths(
@@ -27,15 +33,16 @@ def rest_breaths(
     piece: Piece,
     parameters: PlayerParameters,
     frame: TimeFrame,
-    rests: IntArray,
+    rests: Rests,
 ) -> tuple[BreathEvent, ...]:
-    """The breaths that the rests may give, by the thresholds."""
-    silence = rests.astype(np.float64)
-    silence[0] = _before_first(times, piece, frame)
+    """The breaths that the rests may give, by the thresholds; `because` says why each is taken."""
+    silence, written = rests.sounding_tick.astype(np.float64), rests.written_tick.astype(np.float64)
+    silence[0] = written[0] = _before_first(times, piece, frame)
     beats = piece.beat_ticks_at(times.onset_tick)
-    serving = np.flatnonzero((silence / beats >= parameters.breath_min_beats) & (silence > 0))
+    enough = (written / beats >= parameters.breath_min_beats) | (rests.lasts_s >= LONG_S - EPSILON)
+    serving = np.flatnonzero(enough & (silence > 0))
     reported = _Report(
-        lambda index, rest, long, prepared: _rest_reason(index, rest, long, prepared, parameters),
+        lambda index, rest, long, prepared: _rest_reason(index, rest, rests.lasts_s, long, prepared, parameters),
         lambda index, rest: _preparation_reason(rest, parameters),
     )
     room = times.silence_tick.astype(np.float64)
@@ -67,12 +74,13 @@ def blown_breaths(
     recorded = np.zeros(len(notes), dtype=bool)
     recorded[known] = True
     recorded[0] = False
+    rest_s = np.insert(np.maximum(times.onset_s[1:] - times.played_end_s[:-1], 0.0), 0, 0.0)
     serving = np.flatnonzero(guessed | recorded)
 
     def reason(index: int, rest: float, long: bool, prepared: bool) -> Message:
         if recorded[index]:
             return _blown_reason("breath.blown", gaps, index)
-        return _rest_reason(index, rest, long, prepared, parameters)
+        return because(_rest_reason(index, rest, rest_s, long, prepared, parameters), NOT_RECORDED)
 
     def preparation(index: int, rest: float) -> Message:
         if recorded[index]:
@@ -167,20 +175,23 @@ def _preparation_reason(rest: float, parameters: PlayerParameters) -> Message:
     return _preparation(rest, parameters.breath_prepare_beats)
 
 
-def _rest_reason(index: int, rest: float, long: bool, prepared: bool, parameters: PlayerParameters) -> Message:
+def _rest_reason(
+    index: int, rest: float, rest_s: FloatArray, long: bool, prepared: bool, parameters: PlayerParameters
+) -> Message:
     if index == 0:
         return Message("breath.first", {"beats": rest})
+    last, prepare = parameters.breath_last_beat_beats, parameters.breath_prepare_beats
+    lasts: dict[str, Argument] = {"rest_beats": rest, "rest_s": round(float(rest_s[index]), 2)}
     if prepared:
-        return _prepared(rest, parameters.breath_prepare_beats)
-    last = parameters.breath_last_beat_beats
+        return Message("breath.prepared", {**lasts, "prepare_beats": prepare})
     if long:
-        return Message(
-            "breath.last_beat",
-            {"rest_beats": rest, "last_beat_beats": last, "prepare_beats": parameters.breath_prepare_beats},
-        )
-    return Message(
-        "breath.rest_whole", {"rest_beats": rest, "min_beats": parameters.breath_min_beats, "last_beat_beats": last}
-    )
+        return Message("breath.last_beat", {**lasts, "last_beat_beats": last, "prepare_beats": prepare})
+    return Message("breath.rest_whole", {**lasts, "last_beat_beats": last})
+
+
+def because(reason: Message, why: Mapping[str, Argument]) -> Message:
+    """The reason of a breath in a rest, with why it is taken: ``why`` is the id of a text, the rest its arguments."""
+    return reason if reason.id == "breath.first" else Message(reason.id, {**reason.arguments, **why})
 
 
 def blown_catch(note: Note, piece: Piece, gaps: Silences, index: int) -> BreathEvent:
@@ -193,14 +204,7 @@ def within_note(note: Note, piece: Piece, start_s: float, end_s: float) -> Breat
     return breath_at(f"{WITHIN}:{note.id}", piece, start_s, end_s, reason)
 
 
-# Equal reasons are kept once: there are thousands. Of equal numbers a whole one is said otherwise.
-
-
 @lru_cache(maxsize=1024, typed=True)
 def _preparation(rest_beats: float, prepare_beats: float) -> Message:
+    """Equal ones are kept once: there are thousands. Of equal numbers a whole one is said otherwise."""
     return Message("breath.preparation", {"rest_beats": rest_beats, "prepare_beats": prepare_beats})
-
-
-@lru_cache(maxsize=1024, typed=True)
-def _prepared(rest_beats: float, prepare_beats: float) -> Message:
-    return Message("breath.prepared", {"rest_beats": rest_beats, "prepare_beats": prepare_beats})

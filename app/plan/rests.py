@@ -1,30 +1,60 @@
 """Which silences between the notes of a line are rests of the score.
 
-A MIDI file has no rests: a note that stops early may be followed by one, or may be played detached. Notes that follow
-one another in equal steps and all sound for the same part of them are articulated so; and so is every note that
-sounds for the part of its step that most notes of the line do.
+A MIDI file has no rests: a note that stops early may be followed by one, or may be played detached. A silence of a beat
+is a rest, and so is one that lasts, or that is audible after a long note, whatever the notes around do. Of the other
+notes those are detached that stand in a run of equal steps with equal gates, and those that sound for the part of their
+step for which most notes of the line do.
 """
 
 from __future__ import annotations
+
+from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
 from app.plan.line import IntArray, LineTimes
+from app.plan.lungs import EPSILON
 from app.plan.model import FloatArray
 
 BoolArray = npt.NDArray[np.bool_]
 
-SAME_STEP = 0.12
-"""Steps that differ by less of their length are played as equal ones."""
+AUDIBLE_S = 0.3
+"""Length of a silence that is a rest after a long note, whatever the notes around do."""
+LONG_NOTE_S = 0.8
+"""Sounding time of a long note: no one plays it staccato."""
+SILENT_S = 0.75
+"""Length of a silence that is a rest after any note: no staccato is as slow."""
+SAME_STEP = 0.05
+"""Steps of a run, the longest and the shortest of three, differ by less of the shortest: they are written ones."""
 SAME_GATE = 0.12
 """Parts of the step that sound (0..1) which differ by less are the same articulation."""
 RUN_NOTES = 3
-"""So many notes in a row show an articulation; a pair may be two notes with a rest each."""
+"""Number of notes in a row that show an articulation; a pair may be two notes with a rest each."""
 HABIT_SHARE = 0.5
-"""What at least this part of a line's notes do is its habit ..."""
+"""Part of a line's notes that makes what they do its habit."""
+HABIT_NOTES = 6
+"""The least number of notes that make one."""
 HABIT_GATE = 0.04
-"""... which is kept more closely than a run's articulation."""
+"""Difference between parts of a step within which a habit is kept: more closely than the articulation of a run."""
+
+
+class Rests(NamedTuple):
+    """The rests of a line, before each note: (N,) each, 0 where there is none.
+
+    Attributes
+    ----------
+    sounding_tick : int64
+        As long as nothing sounds.
+    written_tick : int64
+        As the score would have it, ...
+    lasts_s : float64
+        ... and so in seconds, at its tempo.
+    """
+
+    sounding_tick: IntArray
+    written_tick: IntArray
+    lasts_s: FloatArray
 
 
 def rest_ticks(times: LineTimes, beat_ticks: IntArray) -> IntArray:
@@ -32,13 +62,18 @@ def rest_ticks(times: LineTimes, beat_ticks: IntArray) -> IntArray:
 
     Parameters
     ----------
+    times : LineTimes
+        As the score would have the line, at its tempo.
     beat_ticks : (N,) int64
         The felt beat at each note: a silence of a beat and more is always a rest.
     """
     rests = times.silence_tick.copy()
     if len(rests) > 1:
         gap = rests[1:]
-        gap[_detached(times) & (gap < beat_ticks[1:])] = 0
+        silence_s = times.onset_s[1:] - times.played_end_s[:-1]
+        audible = (times.duration_s[:-1] >= LONG_NOTE_S - EPSILON) & (silence_s >= AUDIBLE_S - EPSILON)
+        audible |= (silence_s >= SILENT_S - EPSILON) | (gap >= beat_ticks[1:])
+        gap[_detached(times) & ~audible] = 0
     return rests
 
 
@@ -54,11 +89,11 @@ def _in_a_run(steps: FloatArray, gates: FloatArray) -> BoolArray:
     """(N-1,): whether a note stands in a run of equal steps with equal gates."""
     result = np.zeros(len(steps), dtype=bool)
     if len(steps) >= RUN_NOTES:
-        alike = np.abs(np.diff(steps)) < SAME_STEP * np.minimum(steps[1:], steps[:-1])
-        alike &= np.abs(np.diff(gates)) < SAME_GATE
-        runs = np.all(np.lib.stride_tricks.sliding_window_view(alike, RUN_NOTES - 1), axis=1, keepdims=True)[:, 0]
+        runs = np.lib.stride_tricks.sliding_window_view(np.stack((steps, gates)), RUN_NOTES, axis=1)
+        (shortest, low), (longest, high) = runs.min(axis=2), runs.max(axis=2)
+        alike = (longest - shortest < SAME_STEP * shortest) & (high - low < SAME_GATE)
         for place in range(RUN_NOTES):
-            result[place : place + len(runs)] |= runs
+            result[place : place + len(alike)] |= alike
     return result
 
 
@@ -67,4 +102,5 @@ def _habit(gates: FloatArray, silent: BoolArray) -> float:
     counts = np.bincount(np.round(gates[silent] / HABIT_GATE).astype(np.int64), minlength=1)
     usual = float(np.argmax(counts)) * HABIT_GATE
     near = silent & (np.abs(gates - usual) < HABIT_GATE)
-    return float(np.mean(gates[near])) if np.count_nonzero(near) >= max(HABIT_SHARE * len(gates), RUN_NOTES) else np.nan
+    enough = max(HABIT_SHARE * len(gates), HABIT_NOTES)
+    return float(np.mean(gates[near])) if np.count_nonzero(near) >= enough else np.nan

@@ -15,9 +15,19 @@ from tests.support.plan import PlainClock, PlainNote, line_of, piece_of, valves
 Q = 480
 
 
-def rests(notes: tuple[PlainNote, ...]) -> list[int]:
-    times = line_times(MonophonicPart("p", notes, valves()), PlainClock())
-    return rest_ticks(times, piece_of(PlainClock()).beat_ticks_at(times.onset_tick)).tolist()[1:]  # type: ignore[no-any-return]
+def rests(notes: tuple[PlainNote, ...], bpm: float = 120.0) -> list[int]:
+    clock = PlainClock(((0, bpm),))
+    times = line_times(MonophonicPart("p", notes, valves()), clock)
+    return rest_ticks(times, piece_of(clock).beat_ticks_at(times.onset_tick)).tolist()[1:]  # type: ignore[no-any-return]
+
+
+def line(*pairs: tuple[float, float]) -> tuple[PlainNote, ...]:
+    """Notes and the silences after them, in quarters."""
+    at, rows = 0.0, []
+    for length, silence in pairs:
+        rows.append((round(at * Q), round(length * Q), 65))
+        at += length + silence
+    return line_of(*rows)
 
 
 @pytest.mark.parametrize("gate", [0.3, 0.5, 0.8, 0.95])
@@ -46,6 +56,36 @@ def test_notes_of_any_length_that_keep_the_habit_of_the_line_have_no_rests() -> 
         notes.append((onset, round(0.8 * step * Q / 2), 65))
         onset += step * Q // 2
     assert rests(line_of(*notes)) == [0] * 7
+
+
+@pytest.mark.parametrize("bpm", [60.0, 96.0, 144.0, 200.0])
+@pytest.mark.parametrize("gate", [0.3, 0.5, 0.7])
+@pytest.mark.parametrize("steps", [(1.0,), (0.5,), (0.5, 0.5, 1.0), (0.75, 0.25, 1.0), (1.0, 0.5)])
+def test_a_staccato_run_at_one_gate_has_no_rests(steps: tuple[float, ...], gate: float, bpm: float) -> None:
+    """Alone, and of equal steps also among other notes; the last note of a run may have a rest."""
+    run = [(gate * step, (1.0 - gate) * step) for step in steps * 8]
+    assert not any(rests(line(*run, (1, 0)), bpm))
+    if len(steps) == 1:
+        assert not any(rests(line(*[(1, 0)] * 40, *run, (1, 0)), bpm))
+
+
+@pytest.mark.parametrize("bpm", [48.0, 72.0, 96.0])
+@pytest.mark.parametrize("count", [3, 8, 30])
+def test_equal_rests_after_long_notes_are_rests(bpm: float, count: int) -> None:
+    """A beat and a half and half a beat of rest: no one holds a staccato note for 0.8 s."""
+    assert rests(line(*[(1.5, 0.5)] * count, (1, 0)), bpm) == [Q // 2] * count
+
+
+def test_rests_that_grow_between_equal_notes_are_no_run() -> None:
+    """Steps that differ little from the next, and much from the last."""
+    silences = [0.4, 0.45, 0.5, 0.6, 0.7, 0.8, 0.9]
+    found = rests(line(*((0.5, silence) for silence in silences), (0.5, 0)))
+    assert found == [round(silence * Q) for silence in silences]
+
+
+def test_a_silence_of_three_quarters_of_a_second_is_a_rest() -> None:
+    assert rests(line(*[(0.125, 0.875)] * 8, (1, 0)), bpm=60.0) == [round(0.875 * Q)] * 8
+    assert not any(rests(line(*[(0.125, 0.875)] * 8, (1, 0)), bpm=100.0))
 
 
 @pytest.mark.parametrize(
