@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 import math
-from collections.abc import Sequence, Set
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -23,7 +23,6 @@ from app.performance.ensemble import Performance
 from app.performance.judged import all_problems
 from app.performance.loudness import controller_input
 from app.plan.bends import bends
-from app.plan.line import staccato
 from app.plan.model import (
     AdditiveEvent,
     BreathEvent,
@@ -33,6 +32,7 @@ from app.plan.model import (
     GestureEvent,
     PoseEvent,
     StyleEvent,
+    TongueEvent,
 )
 from app.plan.problem_lines import problem_lines
 from app.project.performers import Dancer, Player
@@ -164,7 +164,7 @@ def _player(performance: Performance, player: Player, instrument: InstrumentMap)
     played = [note for note in part.notes if note.id in fingerings]
     loudness = {event.note_id: event.air for event in plan.embouchures}
     marks, blown = performance.marks(player), controller_input(part)
-    articulation = _articulations(played, {event.note_id for event in plan.tongues}, clock.ticks_per_quarter)
+    tongues = {event.note_id: event for event in plan.tongues}
     table = {
         "name": player.name,
         "instrument": player.instrument_id,
@@ -174,15 +174,13 @@ def _player(performance: Performance, player: Player, instrument: InstrumentMap)
         "notes": [
             _note(note, fingerings[note.id], instrument, clock)
             | {
-                "articulation": said,
+                **_tongued(tongues.get(note.id), reason),
                 "bend": list(bent),
                 "loudness": loudness[note.id],
                 "dynamic": marks[note.id],
                 "muted": is_muted(part.muted, note.onset_tick),
             }
-            for note, said, bent in zip(
-                played, articulation, bends(played, None if blown is None else blown.bend), strict=True
-            )
+            for note, bent in zip(played, bends(played, None if blown is None else blown.bend), strict=True)
         ],
         "breaths": _events(plan.breaths, clock, reason, "kind"),
         "cues": _events(plan.cues, clock, reason, "", "peak_s", "beat_s", "downbeat_s", "takers"),
@@ -200,15 +198,11 @@ def _player(performance: Performance, player: Player, instrument: InstrumentMap)
     return table
 
 
-def _articulations(notes: Sequence[Note], tongued: Set[str], quarter_ticks: int) -> list[str]:
-    """How each note begins, ``tongued`` or ``slurred``; ``staccato`` where it is also short."""
-    onsets = np.array([note.onset_tick for note in notes], np.int64)
-    ends = onsets + np.array([note.duration_tick for note in notes], np.int64)
-    short = staccato(onsets, ends, quarter_ticks).tolist() if notes else []
-    return [
-        "slurred" if note.id not in tongued else "staccato" if is_short else "tongued"
-        for note, is_short in zip(notes, short, strict=True)
-    ]
+def _tongued(event: TongueEvent | None, reason: _Reasons) -> Table:
+    """How a note begins: slurred, or with which stroke of the tongue and why."""
+    if event is None:
+        return {"articulation": "slurred", "tongue": "", "tongue_reason": ""}
+    return {"articulation": event.articulation, "tongue": event.stroke, "tongue_reason": reason(event.reason)}
 
 
 def _note(note: Note, fingering: FingeringEvent, instrument: InstrumentMap, clock: TempoMap) -> Table:

@@ -449,6 +449,32 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         "{pitch} in a range of {low} to {high}; from the recorded breath: average loudness {loudness:g}",
         "音域 {low}～{high} の中の {pitch}、録音したブレスから: 平均音量 {loudness:g}",
     ),
+    "tongue.attack": ("tongued", "タンギング"),
+    "tongue.staccato": (
+        "staccato: short for the time to the next note",
+        "スタッカート: 次の音までの長さに対して短い音",
+    ),
+    "tongue.accent": ("accent: louder than the notes around it", "アクセント: 前後の音より強い音"),
+    "tongue.marcato": (
+        "marcato: louder than the notes around it and shorter than its full length",
+        "マルカート: 前後の音より強く、音価より短い音",
+    ),
+    "tongue.tenuto": (
+        "tenuto: held for its full length, tongued softly",
+        "テヌート: 音価いっぱいに保ち、柔らかく舌を突く音",
+    ),
+    "tongue.slide": (
+        "tongued softly, so that the slide's way is not heard",
+        "スライドの移動音を隠す柔らかいタンギング",
+    ),
+    "tongue.double": (
+        "double tonguing: {rate:g} notes per second, more than {limit:g} by single strokes",
+        "ダブルタンギング: 毎秒 {rate:g} 音（シングルの限界 {limit:g} 音を超過）",
+    ),
+    "tongue.triple": (
+        "triple tonguing: triplets at {rate:g} notes per second, more than {limit:g} by single strokes",
+        "トリプルタンギング: 三連符、毎秒 {rate:g} 音（シングルの限界 {limit:g} 音を超過）",
+    ),
     "expression.default": ("neutral face", "力を抜いた顔"),
     "expression.effort": (
         "effort {effort:g} (threshold {threshold:g}): high, loud or long",

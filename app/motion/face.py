@@ -26,6 +26,8 @@ HOLD_S = 0.8
 """In rests shorter than this the lips stay formed (but for a breath)."""
 TONGUE_HOLD_SHARE = 0.3
 TONGUE_RELEASE_S = 0.05
+PULSE_S = 0.14
+"""The breath of an accented attack is back at its level after this."""
 SWELL_S = 0.35
 """Effort and air swell and fade slowly, over several notes."""
 
@@ -98,8 +100,19 @@ def _tongue(plan: PlayerPlan) -> Envelopes:
     rows = []
     for event in plan.tongues:
         full_s = event.end_s - TONGUE_HOLD_SHARE * (event.end_s - event.start_s)
-        rows.append((event.start_s, full_s, event.end_s, event.end_s + TONGUE_RELEASE_S, 1.0))
+        rows.append((event.start_s, full_s, event.end_s, event.end_s + TONGUE_RELEASE_S, min(event.strength, 1.0)))
     return Envelopes.of(rows)
+
+
+def attack_pulses(plan: PlayerPlan) -> Envelopes:
+    """A push of breath with every accented attack, by how much stronger than a plain one it is."""
+    strong = [event for event in plan.tongues if event.strength > 1.0]
+    return Envelopes.of(
+        [
+            (event.start_s - PULSE_S / 2.0, event.end_s, event.end_s, event.end_s + PULSE_S, event.strength - 1.0)
+            for event in strong
+        ]
+    )
 
 
 def _shown(plan: PlayerPlan) -> dict[str, Envelopes]:
@@ -120,6 +133,7 @@ class Drivers:
     effort: FloatArray
     air: FloatArray
     tongue: FloatArray
+    pulse: FloatArray
     mouth_open: FloatArray
     firm: FloatArray
     eased: FloatArray
@@ -182,6 +196,7 @@ class Face:
     effort: Curve | Trace
     air: Curve | Trace
     tongue: Envelopes
+    pulse: Envelopes
     mouth_open: Envelopes
     firm: Curve
     eased: Curve
@@ -211,6 +226,7 @@ class Face:
             effort=face.effort if face and effort else _strain(asked, EFFORT),
             air=face.air if face and air else _strain(asked, AIR),
             tongue=face.tongue if face and tongues else _tongue(plan),
+            pulse=face.pulse if face and tongues else attack_pulses(plan),
             mouth_open=face.mouth_open if face and breaths else breath_opening(plan),
             firm=face.firm if face and air and tongues else firmness(plan),
             eased=face.eased if face and times else easing(plan),

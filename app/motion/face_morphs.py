@@ -152,7 +152,7 @@ def _lips(
     drivers: list[Driver] = [
         (formed * (1.0 - tension) + resting, embouchure.relaxed),
         (formed * tension, embouchure.tight),
-        (formed * face.air, embouchure.air),
+        (formed * np.minimum(face.air + face.pulse, 1.0), embouchure.air),
         (formed * (1.0 - face.air), embouchure.soft),
         (formed * face.effort, embouchure.effort),
         (alive * face.firm, embouchure.onset),

@@ -54,10 +54,11 @@ def firmness(plan: PlayerPlan) -> Curve:
     tongued_s = np.array([event.end_s for event in plan.tongues])
     near = np.searchsorted(tongued_s, starts_s - 1e-3)
     tongued = (near < len(tongued_s)) & (np.append(tongued_s, np.inf)[near] < starts_s + 1e-3)
+    strokes = np.append([event.strength for event in plan.tongues], 0.0)[near]
     before_s = np.append(starts_s[:1] - 1.0, starts_s[:-1])
     from_s = np.maximum(starts_s - PREPARES_S, before_s + PREPARES_SHARE * (starts_s - before_s))
     until_s = np.minimum(starts_s + SETTLES_S, np.append(from_s[1:], np.inf))
-    size = np.where(tongued, 1.0, SLURRED) * (0.55 + 0.45 * air) * np.minimum((ends_s - starts_s) / WHOLE_S, 1.0)
+    size = np.where(tongued, strokes, SLURRED) * (0.55 + 0.45 * air) * np.minimum((ends_s - starts_s) / WHOLE_S, 1.0)
     rested = starts_s - np.append(-np.inf, ends_s[:-1]) > RESTED_S
     size = np.minimum(np.where(rested, RESTED * size, size), 1.0)
     rows = np.empty((len(starts_s), 2, 3))

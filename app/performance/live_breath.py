@@ -252,6 +252,7 @@ class LiveBreath:
             effort=pair(self._effort.value),
             air=pair(self._air.value),
             tongue=pair(self._tongue.at(now_s)),
+            pulse=nothing,
             mouth_open=pair(self._mouth.at(now_s)),
             firm=nothing,
             eased=nothing,

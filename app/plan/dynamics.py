@@ -110,12 +110,17 @@ def mean_around(
     return np.where(sums[0] > 1e-9, sums[1] / np.maximum(sums[0], 1e-9), loudness)
 
 
-def _accents(loudness: FloatArray) -> FloatArray:
-    """How much louder each accented note is than those around it."""
+def louder_by(loudness: FloatArray) -> FloatArray:
+    """(N,): how much louder each note is than those around it."""
     if len(loudness) < 2:
         return np.zeros(len(loudness))
     padded = np.pad(loudness, ACCENT_NOTES, mode="reflect" if len(loudness) > ACCENT_NOTES else "edge")
     around = np.median(np.lib.stride_tricks.sliding_window_view(padded, 2 * ACCENT_NOTES + 1), axis=1)
-    more = loudness - around
+    return np.asarray(loudness - around)
+
+
+def _accents(loudness: FloatArray) -> FloatArray:
+    """How much louder each accented note is than those around it; of several in a row the first counts."""
+    more = louder_by(loudness)
     louder = np.append(-np.inf, loudness[:-1]) + ACCENT / 2.0 <= loudness
     return np.where((more >= ACCENT) & louder, more, 0.0)

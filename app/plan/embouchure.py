@@ -1,5 +1,5 @@
-"""Lips and tongue: one embouchure per note (T5 of the thesis: high notes drawn tight, low notes relaxed), and the
-tongue's stroke before each attack.
+"""Lips: one embouchure per note (T5 of the thesis: high notes drawn tight, low notes relaxed). The tongue is in
+`app.plan.tonguing`.
 
 Messages: ``embouchure.register``, ``embouchure.controller``.
 """
@@ -12,21 +12,17 @@ import numpy as np
 
 from app.errors import Message
 from app.plan.line import MEZZOFORTE, LineTimes
-from app.plan.model import EmbouchureEvent, FingeringEvent, FloatArray, TongueEvent
+from app.plan.model import EmbouchureEvent, FloatArray
 from app.plan.parameters import PlayerParameters
 from app.score.model import Note
 from instrument_maps.model import InstrumentMap
 
-TONGUE_S = 0.0345
-"""Contact of the tongue before an attack, independent of tempo (Hofmann 2012)."""
 EASY_TENSION = (0.3, 0.6)
 """Tension at the two ends of the easy range; 0 and 1 at the ends of the range."""
 LOUD_TENSION = 0.15
 """What going from mezzoforte to the loudest adds to tension."""
 LONG_S = 6.0
 """A note held this long costs as much effort as it can."""
-SMEAR_M = 0.04
-"""A slide that moves further than this under a slur smears, so trombonists tongue it softly: tongued here too."""
 
 
 def tension_of(pitch: FloatArray, instrument: InstrumentMap) -> FloatArray:
@@ -104,29 +100,3 @@ def _reason(reported: str, pitch: int, low: int, high: int, loudness: float) -> 
 def efforts_of(embouchures: tuple[EmbouchureEvent, ...]) -> FloatArray:
     """How hard each note is to play, 0..1 (N,) float64."""
     return np.array([event.effort for event in embouchures], np.float64)
-
-
-def plan_tongues(
-    notes: tuple[Note, ...], times: LineTimes, instrument: InstrumentMap, fingerings: tuple[FingeringEvent, ...]
-) -> tuple[TongueEvent, ...]:
-    """The tongue's stroke before every attacked note.
-
-    Attacked is every note but one that is slurred to (`app.plan.line.slurs_next`), at another pitch, and no slide has
-    to move far.
-    """
-    if not notes:
-        return ()
-    slides = [(control.name, control.travel_m) for control in instrument.controls
-              if control.role == "pitch" and control.kind == "slide"]  # fmt: skip
-    slurred = np.zeros(len(notes), dtype=bool)
-    slurred[1:] = times.slurs_next[:-1] & (np.diff(times.pitch) != 0)
-    for index in np.flatnonzero(slurred).tolist():
-        before, here = fingerings[index - 1].controls, fingerings[index].controls
-        slurred[index] = all(
-            abs(here.get(name, 0.0) - before.get(name, 0.0)) * travel_m <= SMEAR_M for name, travel_m in slides
-        )
-    return tuple(
-        TongueEvent(note.id, onset_s - TONGUE_S, onset_s)
-        for note, onset_s, legato in zip(notes, times.onset_s.tolist(), slurred.tolist(), strict=True)
-        if not legato
-    )

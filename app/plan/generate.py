@@ -39,7 +39,7 @@ from app.plan.corrections import (
 )
 from app.plan.cue import plan_cues
 from app.plan.dynamics import dynamics_of
-from app.plan.embouchure import plan_embouchures, plan_tongues
+from app.plan.embouchure import plan_embouchures
 from app.plan.ending import Ending, ending_of
 from app.plan.entries import entries
 from app.plan.expression import SMILE_ID, all_shown, neutral_face
@@ -57,6 +57,7 @@ from app.plan.rules import lowered_spans_s, plan_by_rules, with_ruled, without_o
 from app.plan.stagger import Breathed, Shared, SharedLine, breathed_of, shared_line, shared_with
 from app.plan.styles import plan_styles
 from app.plan.together import one_at_a_time
+from app.plan.tonguing import plan_tongues
 from app.plan.traces import plan_traces
 from app.score.model import Note
 from app.score.tempo import TempoMap
@@ -413,7 +414,7 @@ def _plan_line(memo: Memo, given: _Given) -> tuple[PlayerPlan, Breathed]:
     faced = _of(corrections, ChangeExpression, AddExpression, RemoveEvent, SetBreath, SetCue)
     expressions = memo.step("corrected expressions", correct_expressions, made_expressions, faced, clock)
     expressions = memo.step("expressions by hand", without_overruled, expressions)
-    tongues = memo.step("tongues", plan_tongues, notes, times, instrument, fingerings)
+    tongues = memo.step("tongues", plan_tongues, notes, times, instrument, fingerings, piece, seeds)
     posed = _of(corrections, PoseCorrection)
     poses, pose_problems = memo.step("poses", plan_poses, posed, instrument, restricted(parameters, "poses"), clock)
     keyed = _of(corrections, AdditiveCurve)

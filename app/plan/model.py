@@ -71,12 +71,25 @@ class BreathEvent(msgspec.Struct, frozen=True, gc=False):
     corrected: bool = False
 
 
+Stroke: TypeAlias = Literal["ta", "ka", "da"]
+"""The tip of the tongue, its back, and the tip softly."""
+Articulation: TypeAlias = Literal["tongued", "staccato", "accent", "marcato", "tenuto"]
+ATTACK: Final = Message("tongue.attack")
+
+
 class TongueEvent(msgspec.Struct, frozen=True, gc=False):
-    """The tongue's stroke before an attacked note; it releases at ``end_s``, the onset."""
+    """The tongue's stroke before an attacked note; it releases at ``end_s``, the onset.
+
+    ``strength`` is its size as a share of a plain stroke of the tip's.
+    """
 
     note_id: str
     start_s: float
     end_s: float
+    stroke: Stroke = "ta"
+    articulation: Articulation = "tongued"
+    strength: float = 1.0
+    reason: Message = ATTACK
 
     @property
     def id(self) -> str:

@@ -273,6 +273,8 @@ def _distribution(unread: Sequence[IntArray], constant: bool) -> tuple[float, fl
     if constant:
         # One velocity that no program writes by itself was set by a person.
         return usual, 1.0, 0.0
+    if len(several) < 4 * STROKES:
+        return usual, meant, 0.0
     inside = float(np.clip(usual, *USUAL_RANGE))
     shift = inside - usual + float(np.clip((80.0 - inside) / 2.0, -MOST_SHIFT, MOST_SHIFT))
     values, counts = np.unique(np.concatenate(list(unread)), return_counts=True)

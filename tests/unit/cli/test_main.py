@@ -177,10 +177,10 @@ def test_inspect_has_exactly_these_keys(run: Run) -> None:
         for note in player["notes"]:
             assert set(note) == {
                 "id", "onset_tick", "duration_tick", "onset_s", "duration_s", "pitch", "velocity", "fingering",
-                "controls", "articulation", "bend", "loudness", "dynamic", "muted",
+                "controls", "articulation", "tongue", "tongue_reason", "bend", "loudness", "dynamic", "muted",
             }  # fmt: skip
             assert all(0.0 <= value <= 1.0 for value in (*note["controls"].values(), note["loudness"]))
-            assert note["articulation"] in ("tongued", "slurred", "staccato")
+            assert note["articulation"] in ("tongued", "slurred", "staccato", "accent", "marcato", "tenuto")
         for expression in player["expressions"]:
             assert set(expression) == {
                 "expression", "start_s", "end_s", "start_beat", "end_beat", "strength", "fade_in_s", "fade_out_s",

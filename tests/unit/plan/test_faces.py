@@ -7,11 +7,11 @@ import pytest
 
 from app.chance import chance
 from app.plan.corrections import ChangeExpression, RemoveEvent
-from app.plan.embouchure import TONGUE_S
 from app.plan.generate import AFTER_LAST_S, MonophonicPart, make_plans, time_frame
 from app.plan.line import MEZZOFORTE, line_times
 from app.plan.model import ExpressionEvent, PlayerPlan
 from app.plan.parameters import PlayerParameters
+from app.plan.tonguing import TONGUE_S
 from app.score.metre_map import Metre
 from instrument_maps.load import bundled_maps
 from tests.support.plan import PlainClock, PlainNote, even, line_of, piece_of, slide, valves

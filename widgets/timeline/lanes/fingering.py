@@ -351,9 +351,16 @@ class FingeringLane(Lane):
         event = self.event_at(mouse.time_s) if mouse is not None else None
         if event is not self._hovered:
             self._hovered = event
-            self.plot.setToolTip(
-                f"{event.label}\n{message_text(event.reason, self.session)}" if event is not None else ""
-            )
+            self.plot.setToolTip("" if event is None else self._tip(event))
+
+    def _tip(self, event: FingeringEvent) -> str:
+        """What is under the mouse: the fingering and the tongue's stroke, each with its reason."""
+        lines = [event.label, message_text(event.reason, self.session)]
+        strokes = () if self._plan is None else self._plan.tongues
+        stroke = next((one for one in strokes if one.note_id == event.note_id), None)
+        if stroke is not None:
+            lines.append(f"{stroke.stroke}: {message_text(stroke.reason, self.session)}")
+        return "\n".join(lines)
 
     def context_menu(self, mouse: LaneMouse) -> QMenu | None:
         event = self.event_at(mouse.time_s)

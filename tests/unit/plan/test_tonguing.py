@@ -1,0 +1,109 @@
+"""Strokes of the tongue: single as long as the tip can, then double and triple; and what articulation asks for."""
+
+from __future__ import annotations
+
+import pytest
+
+from app.plan.generate import MonophonicPart, make_plans, time_frame
+from app.plan.model import PlayerPlan, TongueEvent
+from app.score.metre_map import Metre
+from instrument_maps.load import bundled_maps
+from tests.support.plan import PlainClock, PlainNote, line_of, piece_of
+
+Q = 480
+COMMON = Metre(0, 4, 4)
+
+
+def plan(notes: tuple[PlainNote, ...], bpm: float, instrument: str = "trumpet_Bb", metre: Metre = COMMON) -> PlayerPlan:
+    clock = PlainClock(((0, bpm),))
+    line = MonophonicPart("p", notes, bundled_maps()[instrument])
+    return make_plans(piece_of(clock, (metre,)), (line,), time_frame((line,), clock))["p"]
+
+
+def run(count: int, step: int, pitch: int = 67, gate: float = 0.9) -> list[tuple[int, int, int]]:
+    return [(place * step, round(step * gate), pitch) for place in range(count)]
+
+
+def strokes(found: PlayerPlan) -> str:
+    return " ".join(event.stroke for event in found.tongues)
+
+
+@pytest.mark.parametrize("scale", [False, True])
+def test_fast_sixteenths_are_double_tongued_and_slower_ones_are_not(scale: bool) -> None:
+    notes = line_of(*((at, long, pitch + (place % 8 if scale else 0)) for place, (at, long, pitch) in
+                      enumerate(run(16, Q // 4))), (4 * Q, Q, 67))  # fmt: skip
+    assert strokes(plan(notes, 120.0)) == " ".join(["ta"] * 17)
+    fast = plan(notes, 150.0)
+    assert strokes(fast) == " ".join(["ta ka"] * 8) + " ta"
+    assert {event.reason.id for event in fast.tongues} == {"tongue.double"}
+
+
+def test_triplets_are_triple_tongued() -> None:
+    notes = line_of(*run(12, Q // 3), (4 * Q, Q, 67))
+    found = plan(notes, 200.0)
+    assert strokes(found) == " ".join(["ta ta ka"] * 4) + " ta"
+    assert found.tongues[0].reason.id == "tongue.triple"
+    # In six eight, threes in a dotted beat are triplets too, and its sixteenths are not.
+    compound = Metre(0, 6, 8)
+    assert strokes(plan(line_of(*run(12, Q // 2)), 300.0, metre=compound)).startswith("ta ta ka ta ta ka")
+    assert strokes(plan(line_of(*run(12, Q // 4)), 150.0, metre=compound)).startswith("ta ka ta ka ta ka")
+
+
+def test_a_pair_of_quick_notes_is_tongued_singly_and_a_group_of_three_is_not() -> None:
+    dotted = line_of((0, 360, 67), (360, 100, 67), (480, 360, 67), (840, 100, 67), (960, 480, 67))
+    assert "ka" not in strokes(plan(dotted, 150.0))
+    galop = line_of((0, 200, 67), (240, 100, 67), (360, 100, 67), (480, 200, 67))
+    assert strokes(plan(galop, 150.0)) == "ta ta ka ta"
+
+
+def test_the_limit_is_each_players_own_and_higher_on_a_reed() -> None:
+    notes = line_of(*run(16, Q // 4), (4 * Q, Q, 67))
+    assert "ka" not in strokes(plan(notes, 131.0))
+    assert "ka" in strokes(plan(notes, 145.0))
+    assert "ka" not in strokes(plan(notes, 142.0, "clarinet_Bb"))
+    assert "ka" in strokes(plan(notes, 157.0, "clarinet_Bb"))
+
+
+def test_slurred_notes_have_no_stroke_and_the_pattern_goes_by_strokes() -> None:
+    # Slurred in pairs at sixteenths: strokes come in eighths, which the tip makes.
+    notes = line_of(*((place * Q // 4, 130 if place % 2 == 0 else 100, 60 + place) for place in range(8)))
+    found = plan(notes, 160.0)
+    assert len(found.tongues) == 4
+    assert strokes(found) == "ta ta ta ta"
+
+
+def kinds(notes: tuple[PlainNote, ...]) -> list[str]:
+    return [event.articulation for event in plan(notes, 100.0).tongues]
+
+
+def test_articulation_is_read_from_length_and_loudness() -> None:
+    plain = [(place * Q, 432, 60 + 2 * place, 80) for place in range(4)]
+    marked = [
+        (4 * Q, 240, 67, 80),  # staccato
+        (5 * Q, 440, 65, 110),  # accent
+        (6 * Q, 320, 67, 110),  # marcato
+        (7 * Q, 480, 65, 80),  # tenuto: held to the next stroke of the same note
+        (8 * Q, 432, 65, 80),
+        (9 * Q, 432, 64, 80),
+        (10 * Q, 432, 62, 80),
+    ]
+    found = kinds(line_of(*plain, *marked))
+    assert found[4:8] == ["staccato", "accent", "marcato", "tenuto"]
+    assert set(found[:4] + found[8:]) == {"tongued"}
+
+
+def test_strokes_differ_in_size() -> None:
+    def size(found: PlayerPlan, kind: str) -> float:
+        return next(event.strength for event in found.tongues if kind in (event.articulation, event.stroke))
+
+    notes = line_of(
+        (0, 432, 60, 80), (Q, 440, 62, 110), (2 * Q, 320, 64, 80), (3 * Q, 432, 65, 80), (4 * Q, 432, 65, 80)
+    )
+    found = plan(notes, 100.0)
+    assert size(found, "accent") > size(found, "tongued")
+    fast = plan(line_of(*run(16, Q // 4)), 160.0)
+    assert size(fast, "ka") == pytest.approx(0.5 * size(fast, "ta"))
+
+
+def test_strokes_keep_their_ids() -> None:
+    assert TongueEvent("1:1", 0.0, 0.1).id == "tongue:1:1"
