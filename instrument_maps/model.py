@@ -534,6 +534,24 @@ class Water(_Table, frozen=True):
     normal: Vector | None = None
 
 
+class Stopped(_Table, frozen=True):
+    """How notes are played with the bell closed by the hand, which makes the tube shorter.
+
+    Attributes
+    ----------
+    fingered_semitones : int
+        How much higher than it sounds a note is fingered; -1: a semitone lower.
+    hand : "left" or "right"
+        The hand in the bell.
+    without : tuple of str
+        Controls of pitch that are at rest meanwhile.
+    """
+
+    fingered_semitones: int
+    hand: Hand
+    without: tuple[str, ...] = ()
+
+
 class Air(_Table, frozen=True):
     """How long one full breath of an adult lasts on the instrument, seconds of playing by dynamic."""
 
@@ -573,6 +591,8 @@ class InstrumentMap(_Table, frozen=True):
         None: as the body's lungs say, whatever the instrument.
     water : Water or None
         None: it is let out where no one sees it.
+    stopped : Stopped or None
+        None: no hand closes its bell.
     fingerings : tuple of Fingering
         Sorted by written pitch and rank.
     size : float
@@ -602,6 +622,7 @@ class InstrumentMap(_Table, frozen=True):
     breaks: tuple[int, ...] = ()
     air: Air | None = None
     water: Water | None = None
+    stopped: Stopped | None = None
     acoustics: Acoustics | None = None
     sources: tuple[str, ...] = ()
     size: float = 1.0

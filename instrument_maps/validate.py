@@ -59,6 +59,7 @@ def problems(instrument: InstrumentMap) -> Iterator[Problem]:
     yield from _acoustics(instrument)
     yield from _air(instrument)
     yield from _water(instrument)
+    yield from _stopped(instrument)
     yield from _fingerings(instrument)
 
 
@@ -380,6 +381,17 @@ def _air(instrument: InstrumentMap) -> Iterator[Problem]:
     for index, written in enumerate(instrument.breaks):
         if not instrument.range.low + shift < written <= instrument.range.high + shift:
             yield f"breaks[{index}]", f"written pitch {written} is not within the range"
+
+
+def _stopped(instrument: InstrumentMap) -> Iterator[Problem]:
+    stopped = instrument.stopped
+    if stopped is None:
+        return
+    yield from _within("stopped.fingered_semitones", stopped.fingered_semitones, -12, 12)
+    known = {control.name for control in instrument.controls if control.role == "pitch"}
+    for index, name in enumerate(stopped.without):
+        if name not in known:
+            yield f"stopped.without[{index}]", f"there is no control named '{name}' with the role 'pitch'"
 
 
 def _water(instrument: InstrumentMap) -> Iterator[Problem]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 import math
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 
@@ -30,6 +30,7 @@ from app.plan.model import (
     ExpressionEvent,
     FingeringEvent,
     GestureEvent,
+    MuteEvent,
     PoseEvent,
     StyleEvent,
     TongueEvent,
@@ -42,6 +43,7 @@ from app.score.tempo import TempoMap
 from instrument_maps.model import InstrumentMap
 
 Table = dict[str, Any]
+Spanning: TypeAlias = BreathEvent | CueEvent | ExpressionEvent | GestureEvent | MuteEvent | PoseEvent | StyleEvent
 
 
 def add_arguments(command: argparse.ArgumentParser) -> None:
@@ -191,6 +193,8 @@ def _player(performance: Performance, player: Player, instrument: InstrumentMap)
         # Only where the animator held something differently: nothing else has any.
         angles = ("up_deg", "left_deg", "roll_deg")
         table["poses"] = _events(plan.poses, clock, reason, "target", *angles, "fade_in_s", "fade_out_s")
+    if plan.mutes:
+        table["mutes"] = _events(plan.mutes, clock, reason, "kind")
     if plan.styles:
         table["styles"] = _events(plan.styles, clock, reason, "style", "fade_in_s", "fade_out_s")
     if plan.additive:
@@ -223,7 +227,7 @@ def _note(note: Note, fingering: FingeringEvent, instrument: InstrumentMap, cloc
 
 
 def _events(
-    events: Sequence[BreathEvent | CueEvent | ExpressionEvent | GestureEvent | PoseEvent | StyleEvent],
+    events: Sequence[Spanning],
     clock: TempoMap,
     reason: _Reasons,
     what: str,
@@ -237,7 +241,9 @@ def _events(
 
 
 def _spans(
-    events: Sequence[BreathEvent | CueEvent | ExpressionEvent | GestureEvent | PoseEvent | StyleEvent | AdditiveEvent],
+    events: Sequence[
+        BreathEvent | CueEvent | ExpressionEvent | GestureEvent | MuteEvent | PoseEvent | StyleEvent | AdditiveEvent
+    ],
     clock: TempoMap,
     what: str,
     *fields: str,

@@ -449,6 +449,17 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         "{pitch} in a range of {low} to {high}; from the recorded breath: average loudness {loudness:g}",
         "音域 {low}～{high} の中の {pitch}、録音したブレスから: 平均音量 {loudness:g}",
     ),
+    "fingering.stopped": (
+        "stopped by the hand: fingered {label}, as the note a semitone lower",
+        "ゲシュトップ: 半音低い音の運指 {label}",
+    ),
+    "mute.mute": ("with a mute in the bell", "ミュートを装着"),
+    "mute.no_hand": (
+        "stopped, which is played with a mute on this instrument",
+        "ゲシュトップの指示（この楽器ではミュートを使用）",
+    ),
+    "mute.stopped_right": ("stopped: the right hand closes the bell", "ゲシュトップ: 右手でベルを閉じる"),
+    "mute.stopped_left": ("stopped: the left hand closes the bell", "ゲシュトップ: 左手でベルを閉じる"),
     "tongue.attack": ("tongued", "タンギング"),
     "tongue.staccato": (
         "staccato: short for the time to the next note",

@@ -140,6 +140,8 @@ class Performance:
         said = (
             *(self.parameters(player), corrections, loudness, blown, player.doubles),
             *(shown if named else ((), "", "")),
+            part.muted,
+            part.stopped,
         )
         return self._memo.step(f"line:{player.id}", MonophonicPart, player.id, part.notes, instrument, *said)
 

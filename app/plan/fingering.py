@@ -5,7 +5,7 @@ alternate worth its intonation and its unfamiliarity. Afterwards every run of al
 with the first choices: one that travels further or needs a faster motion is played with first choices after all.
 
 Messages: ``fingering.first_choice``, ``fingering.trill``, ``fingering.speed``, ``fingering.by_hand``,
-``fingering.out_of_range``, ``fingering.starts_early``.
+``fingering.stopped``, ``fingering.out_of_range``, ``fingering.starts_early``.
 """
 
 from __future__ import annotations
@@ -18,6 +18,7 @@ import numpy as np
 from app.errors import Message
 from app.plan.line import IntArray, LineTimes
 from app.plan.model import FingeringEvent, Problem, Vent
+from app.plan.muting import stopped_notes
 from app.plan.search import TOLERANCE, FingeringProblem, best_path, even_trills, fingering_problem, never_worse
 from app.score.model import Note
 from instrument_maps.model import Fingering, InstrumentMap
@@ -27,7 +28,11 @@ LEAST_HELD_S = 0.1
 
 
 def plan_fingerings(
-    notes: tuple[Note, ...], times: LineTimes, instrument: InstrumentMap, pins: dict[str, str]
+    notes: tuple[Note, ...],
+    times: LineTimes,
+    instrument: InstrumentMap,
+    pins: dict[str, str],
+    stopped: tuple[tuple[int, int], ...] = (),
 ) -> tuple[tuple[FingeringEvent, ...], tuple[Problem, ...]]:
     """Choose a fingering for every note.
 
@@ -35,10 +40,13 @@ def plan_fingerings(
     ----------
     pins : dict of str to str
         Labels demanded by corrections, by note id.
+    stopped : tuple of (start tick, end tick), optional
+        Where the hand stops the bell: notes are fingered as the map says of it.
     """
     if not notes:
         return (), ()
-    problem = fingering_problem(notes, times, instrument, pins)
+    by_hand = stopped_notes(notes, stopped, instrument)
+    problem = fingering_problem(notes, times, instrument, pins, by_hand)
     path = never_worse(problem, even_trills(problem, best_path(problem)))
     events = []
     problems: list[Problem] = []
@@ -70,6 +78,8 @@ def plan_fingerings(
             controls = corrected[place]
         if pinned:
             reason = Message("fingering.by_hand", {"label": fingering.label})
+        elif by_hand[index]:
+            reason = Message("fingering.stopped", {"label": fingering.label})
         else:
             rule, first, time_ms = "fingering.first_choice", fingering.label, 0
             if fingering.rank > 1:

@@ -50,6 +50,7 @@ from app.plan.line import LineTimes, MonophonicPart, Piece, Seeds, note_times, w
 from app.plan.memo import Memo
 from app.plan.model import CONDUCTOR, CueEvent, ExpressionEvent, GestureEvent, PlayerPlan, Problem, TimeFrame
 from app.plan.moments import Around, plan_moments
+from app.plan.muting import plan_mutes
 from app.plan.named_gestures import undisturbed, with_definitions
 from app.plan.parameters import restricted
 from app.plan.pose import plan_poses
@@ -313,7 +314,10 @@ def _plan_line(memo: Memo, given: _Given) -> tuple[PlayerPlan, Breathed]:
     varied = tuple((item.start_tick, item.end_tick, item.seed) for item in corrections if isinstance(item, Vary))
     seeds = Seeds((given.seed, parameters.seed, line.player_id), varied)
     pins = {item.note_id: item.label for item in corrections if isinstance(item, PinFingering)}
-    fingerings, fingering_problems = memo.step("fingerings", plan_fingerings, notes, times, instrument, pins)
+    fingerings, fingering_problems = memo.step(
+        "fingerings", plan_fingerings, notes, times, instrument, pins, line.stopped
+    )
+    mutes = memo.step("mutes", plan_mutes, notes, line.muted, line.stopped, instrument, clock)
     steps = None if line.controller is None else line.controller.breath
     envelope = None if steps is None else memo.step("blown", blown, steps, clock)
     breaths = memo.step(
@@ -451,6 +455,7 @@ def _plan_line(memo: Memo, given: _Given) -> tuple[PlayerPlan, Breathed]:
         traces=traces,
         glances=glances,
         styles=styles,
+        mutes=mutes,
     )
     return plan, breathed_of(given.shared_line, notes, breaths.catches, events)
 

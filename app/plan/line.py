@@ -87,6 +87,8 @@ class MonophonicPart(msgspec.Struct, frozen=True):
         By style that a region names, what the player shows in it.
     name, styles_known : str
         What the player and the styles there are are called, for what is reported.
+    muted, stopped : tuple of (start tick, end tick)
+        Where it is played with a mute, and where among these the hand stops the bell.
     """
 
     player_id: str
@@ -100,6 +102,8 @@ class MonophonicPart(msgspec.Struct, frozen=True):
     actings: tuple[tuple[str, Acting], ...] = ()
     name: str = ""
     styles_known: str = ""
+    muted: tuple[tuple[int, int], ...] = ()
+    stopped: tuple[tuple[int, int], ...] = ()
 
 
 class Piece(msgspec.Struct, frozen=True):

@@ -97,6 +97,21 @@ class TongueEvent(msgspec.Struct, frozen=True, gc=False):
         return f"tongue:{self.note_id}"
 
 
+MuteKind: TypeAlias = Literal["mute", "stopped"]
+
+
+class MuteEvent(msgspec.Struct, frozen=True, gc=False):
+    """A passage played with a mute in the bell, or with the hand closing it."""
+
+    id: str
+    kind: MuteKind
+    start_tick: int
+    end_tick: int
+    start_s: float
+    end_s: float
+    reason: Message
+
+
 class EmbouchureEvent(msgspec.Struct, frozen=True, gc=False):
     """Lips during one note. All values 0..1: ``tension`` (register), ``effort`` (height, loudness, length), ``air``
     (dynamics).
@@ -412,6 +427,7 @@ class PlayerPlan(msgspec.Struct, frozen=True):
     traces: SampledCurves | None = None
     glances: tuple[GlanceEvent, ...] = ()
     styles: tuple[StyleEvent, ...] = ()
+    mutes: tuple[MuteEvent, ...] = ()
 
     @property
     def grips(self) -> tuple[FingeringEvent, ...]:

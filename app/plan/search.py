@@ -7,7 +7,7 @@ is counted in `app.plan.finger_ways`.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -387,13 +387,24 @@ class FingeringProblem:
 
 
 def fingering_problem(
-    notes: tuple[Note, ...], times: LineTimes, instrument: InstrumentMap, pins: dict[str, str]
+    notes: tuple[Note, ...],
+    times: LineTimes,
+    instrument: InstrumentMap,
+    pins: dict[str, str],
+    by_hand: BoolArray | None = None,
 ) -> FingeringProblem:
     """Set up the search. ``pins`` maps note ids to labels that a correction demands; a label that is no fingering of
-    its note is passed over (see `plan_fingerings`)."""
+    its note is passed over (see `plan_fingerings`). ``by_hand`` (N,) are notes that the hand stops."""
+    stopped = instrument.stopped if by_hand is not None and by_hand.any() else None
+    if stopped is not None and by_hand is not None:
+        times = replace(times, pitch=times.pitch + stopped.fingered_semitones * by_hand)
     pitches, pitch_index = np.unique(times.pitch, return_inverse=True)
     table = table_of(tuple(int(pitch) for pitch in pitches), instrument)
     allowed = table.valid[pitch_index]
+    if stopped is not None and by_hand is not None and stopped.without:
+        without = [place for place, item in enumerate(pitch_controls(instrument)) if item.name in stopped.without]
+        plain = allowed & (table.values[pitch_index][:, :, without] == 0.0).all(axis=2)
+        allowed = np.where((by_hand & plain.any(axis=1))[:, None], plain, allowed)
     if pins:
         for index, note in enumerate(notes):
             pinned = _pinned(table.choices[pitch_index[index]], pins.get(note.id))

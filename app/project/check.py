@@ -224,11 +224,12 @@ def _part_faults(part: Part, place: str) -> Iterator[Fault]:
     yield from between(f"{place}.transposed_semitones", part.transposed_semitones, (-127, 127))
     if part.program is not None:
         yield from between(f"{place}.program", part.program, (0, 127))
-    for index, (start, end) in enumerate(part.muted):
-        yield from between(f"{place}.muted[{index}][0]", start, (0, limits.LAST_TICK))
-        yield from between(f"{place}.muted[{index}][1]", end, (start, limits.LAST_TICK))
-    if part.muted != tuple(sorted(part.muted)):
-        yield f"{place}.muted", "spans must be ordered by start"
+    for name, spans in (("muted", part.muted), ("stopped", part.stopped)):
+        for index, (start, end) in enumerate(spans):
+            yield from between(f"{place}.{name}[{index}][0]", start, (0, limits.LAST_TICK))
+            yield from between(f"{place}.{name}[{index}][1]", end, (start, limits.LAST_TICK))
+        if spans != tuple(sorted(spans)):
+            yield f"{place}.{name}", "spans must be ordered by start"
     yield from _note_faults(part.notes, f"{place}.notes")
     for index, curve in enumerate(part.curves):
         yield from _curve_faults(curve, f"{place}.curves[{index}]")

@@ -77,6 +77,12 @@ def _with_parameters(raw: Raw, version: int) -> Raw:
     return {**raw, "dancers": [{**dancer, **of_dancers} for dancer in raw["dancers"]]} if of_dancers else raw
 
 
+def _with_stopped(raw: Raw) -> Raw:
+    """14 to 15: where the hand stops the bell is kept; a piece that was read before has it when it is read again."""
+    parts = [{**part, "stopped": []} for part in raw["score"]["parts"]]
+    return {**raw, "score": {**raw["score"], "parts": parts}}
+
+
 STRUCTURE: Final[Mapping[int, Migration]] = {
     # What the MIDI file held is kept; of an older file it is unknown.
     2: lambda raw: {**raw, "edited_notes": {}},
@@ -95,6 +101,7 @@ STRUCTURE: Final[Mapping[int, Migration]] = {
     # What was decided at the import is kept, and controllers and timing of the MIDI file; of an older file they are
     # derived from its parts when it is read again.
     14: lambda raw: {**raw, "imported": None, "edited_curves": {}, "read_timing": None},
+    15: _with_stopped,
 }
 """By the version that they lead to. New parameters say themselves since which version they are there."""
 

@@ -226,8 +226,11 @@ def _moved_part(part: Part, id: str, place: Callable[[int], int], scale: Fractio
     ]
     ordered = tuple(sorted(notes, key=lambda note: (note.onset_tick, note.pitch)))
     curves = tuple(moved_curve(curve, place) for curve in part.curves)
-    muted = tuple(sorted((max(place(start), 0), max(place(end), 0)) for start, end in part.muted))
-    return msgspec.structs.replace(part, id=id, notes=ordered, curves=curves, muted=muted)
+    muted, stopped = (
+        tuple(sorted((max(place(start), 0), max(place(end), 0)) for start, end in spans))
+        for spans in (part.muted, part.stopped)
+    )
+    return msgspec.structs.replace(part, id=id, notes=ordered, curves=curves, muted=muted, stopped=stopped)
 
 
 def _with_players(

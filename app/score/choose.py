@@ -86,6 +86,8 @@ class TrackChannel(msgspec.Struct, frozen=True):
         Which of its player's instruments that is, from 0.
     muted : tuple of (start, end)
         Spans of ticks in which the track is played with a mute.
+    stopped : tuple of (start, end)
+        Those of them in which the hand stops the bell.
     use : {"melodic", "rhythm", "effect"}
         What its channel is on a sound module while it plays (`app.score.sound_module`).
     certain : bool
@@ -111,6 +113,7 @@ class TrackChannel(msgspec.Struct, frozen=True):
     played_on: str = ""
     change: int = 0
     muted: tuple[tuple[int, int], ...] = ()
+    stopped: tuple[tuple[int, int], ...] = ()
     use: Use = "melodic"
     certain: bool = False
     struck: list[int] = []

@@ -134,6 +134,8 @@ class Part(msgspec.Struct, frozen=True, dict=True):
         How much higher it was read than the file has it, which had written pitches (lower: negative).
     muted : tuple of (start, end)
         Spans of ticks, by start, in which it is played with a mute.
+    stopped : tuple of (start, end)
+        Those of them in which the hand stops the bell; no older file has any.
     """
 
     id: str
@@ -148,6 +150,7 @@ class Part(msgspec.Struct, frozen=True, dict=True):
     curves: tuple[ControllerCurve, ...] = ()
     transposed_semitones: int = 0
     muted: tuple[tuple[int, int], ...] = ()
+    stopped: tuple[tuple[int, int], ...] = ()
 
     @property
     def place(self) -> tuple[int, int, int]:

@@ -1,4 +1,4 @@
-"""Where a part is played with a mute: by its program, its name, or what the track says on the way.
+"""Where a part is played with a mute or stopped by the hand: by its program, its name, or what the track says.
 
 A muted note is played by the same player; the mute is a technique, kept in spans of ticks.
 """
@@ -8,7 +8,7 @@ from __future__ import annotations
 import re
 from bisect import bisect_right
 from collections.abc import Collection, Sequence
-from typing import Final
+from typing import Final, Literal, NamedTuple, TypeAlias
 
 from app.score.limits import MOST_NAME
 from app.score.tracks import TrackEvents
@@ -19,10 +19,17 @@ MUTED_TRUMPET: Final = 59
 _MUTE: Final = r"(?:sord(?:\.|in[oai]?|ine)?|mutes?|muted|dämpfern?|d[äa]mpfer|sourdines?|surdinas?|ミュート|弱音器)"
 _ON: Final = re.compile(
     rf"(?:.*\b)?(?:con|with|mit|avec|com|add|put on)\s+(?:(?:a|the|la|il)\s+)?(?:\w+\s+)?{_MUTE}\b.*"
-    rf"|(?:(?:cup|straight|harmon|wah[- ]?wah|plunger|bucket|practice)\s+)?{_MUTE}(?:\s+on|\s*(?:付き|つき|装着|あり))?"
-    r"|(?:c\.|m\.)\s*(?:sord|d)\.?|gestopft|gest\.?|stopped|bouch[ée]|chiuso|ゲシュトップ|ストップ奏法",
+    rf"|(?:(?:cup|straight|harmon|wah[- ]?wah|plunger|bucket|practice|stop|solotone|pixie)\s+)?{_MUTE}"
+    r"(?:\s+(?:on|in)|\s*(?:付き|つき|装着|あり))?"
+    r"|harmon(?:\s*,?\s*stem\s+(?:in|out|half))?|plunger|in\s+(?:cup|straight|harmon|bucket|plunger|hat)"
+    r"|(?:c\.|m\.)\s*(?:sord|d)\.?",
     re.IGNORECASE,
 )
+_HAND: Final = re.compile(
+    r"gestopft|gest\.?|stopped|hand[- ]?stopped|bouch[ée]|chiuso|chius[ae]|ゲシュトップ|ストップ奏法", re.IGNORECASE
+)
+_STOPPED_NOTE: Final = "+"
+"""This sign stops only the notes that begin with it."""
 _OFF: Final = re.compile(
     r"(?:.*\b)?(?:senza|without|no|ohne|sans|sem|sin|remove|take off|via|ôtez|enlevez)\s+"
     rf"(?:(?:the|la|le|les|il)\s+)?{_MUTE}.*"
@@ -35,12 +42,18 @@ _IN_NAME: Final = re.compile(
 )
 
 Span = tuple[int, int]
+How: TypeAlias = Literal["open", "mute", "hand"]
 
 
-def muted_spans(
-    events: TrackEvents, channels: Collection[int], name: str, texts: Sequence[tuple[int, str]]
-) -> tuple[Span, ...]:
-    """Spans (first onset, last end) of ticks in which the notes of some channels are played with a mute, in order.
+class Mutes(NamedTuple):
+    """Spans (first onset, last end) of ticks, in order: all that are muted, and those of them that the hand stops."""
+
+    muted: tuple[Span, ...] = ()
+    stopped: tuple[Span, ...] = ()
+
+
+def mutes_of(events: TrackEvents, channels: Collection[int], name: str, texts: Sequence[tuple[int, str]]) -> Mutes:
+    """Spans of ticks in which the notes of some channels are played with a mute, or stopped.
 
     Parameters
     ----------
@@ -49,29 +62,41 @@ def muted_spans(
     texts : sequence of (tick, text)
         What the track says to the player of these channels.
     """
-    always = _IN_NAME.search(name) is not None
-    said = [(tick, on) for tick, text in sorted(texts) if (on := _says(text)) is not None]
+    always: How = "mute" if _IN_NAME.search(name) is not None else "open"
+    said = [(tick, how) for tick, text in sorted(texts) if (how := _says(text)) is not None]
+    signed = {tick for tick, text in texts if text.strip() == _STOPPED_NOTE}
     sounds = {program for channel in channels for _, program in events.programs.get(channel, [])}
-    if not (always or said or MUTED_TRUMPET in sounds):
-        return ()
+    if not (always != "open" or said or signed or MUTED_TRUMPET in sounds):
+        return Mutes()
     at = [tick for tick, _ in said]
-    rows: list[tuple[int, int, bool]] = []
+    rows: list[tuple[int, int, How]] = []
     for channel in channels:
         notes = events.channels[channel]
         programs = sorted(events.programs.get(channel, []))
         ticks = [tick for tick, _ in programs]
         for onset, end in zip(notes.onset_ticks, notes.end_ticks, strict=True):
             program, word = bisect_right(ticks, onset), bisect_right(at, onset)
-            by_program = bool(program) and programs[program - 1][1] == MUTED_TRUMPET
-            rows.append((onset, end, by_program or (said[word - 1][1] if word else always)))
+            how = said[word - 1][1] if word else always
+            if onset in signed:
+                how = "hand"
+            elif program and programs[program - 1][1] == MUTED_TRUMPET:
+                how = "mute"
+            rows.append((onset, end, how))
+    rows.sort()
+    return Mutes(_spans(rows, ("mute", "hand")), _spans(rows, ("hand",)))
+
+
+def _spans(rows: Sequence[tuple[int, int, How]], ways: Collection[str]) -> tuple[Span, ...]:
+    """Notes in a row that are played in some ways, joined."""
     spans: list[Span] = []
     before = False
-    for onset, end, muted in sorted(rows):
-        if muted and before:
+    for onset, end, how in rows:
+        within = how in ways
+        if within and before:
             spans[-1] = spans[-1][0], max(spans[-1][1], end)
-        elif muted:
+        elif within:
             spans.append((onset, end))
-        before = muted
+        before = within
     return tuple(spans)
 
 
@@ -81,9 +106,11 @@ def is_muted(spans: Sequence[Span], tick: int) -> bool:
     return bool(place) and tick < spans[place - 1][1]
 
 
-def _says(text: str) -> bool | None:
-    """Whether a text puts a mute in (True) or takes it out (False); None: it speaks of something else."""
+def _says(text: str) -> How | None:
+    """Whether a text puts a mute in, has the hand stop the bell, or ends both; None: it speaks of something else."""
     words = " ".join(text[:MOST_NAME].split()).strip("()[]")
     if _OFF.fullmatch(words):
-        return False
-    return True if _ON.fullmatch(words) else None
+        return "open"
+    if _HAND.fullmatch(words):
+        return "hand"
+    return "mute" if _ON.fullmatch(words) else None

@@ -388,6 +388,7 @@ def _parts(
                 curves=stream.curves,
                 transposed_semitones=shift,
                 muted=stream.muted,
+                stopped=stream.stopped,
             )
         )
     return parts

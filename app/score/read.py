@@ -81,7 +81,7 @@ from app.score.doublings import doubled_instruments
 from app.score.limits import MOST_NAME, MOST_STREAMS, too_long
 from app.score.metre_map import Metre
 from app.score.model import MOST_VOICES, Marker, Part, PercussionHit, Score, UnplayedPart
-from app.score.mutes import muted_spans
+from app.score.mutes import mutes_of
 from app.score.parts import PartAssignment, assigned_parts, parts_of, rhythm_parts, stream_name
 from app.score.ports import split_by_port
 from app.score.repair import Repaired, last_suspicious, repaired
@@ -454,7 +454,7 @@ def _streams(
             sounding = sounding_channels(first, among, zones[index])
             curves = curves_of(heard, among, zones[index])
             played_on = doubled_instruments(events, channels, name, said if len(groups) == 1 else (), notes.onset_ticks)
-            muted = muted_spans(events, channels, name, said if len(groups) == 1 else ())
+            muted, stopped = mutes_of(events, channels, name, said if len(groups) == 1 else ())
             lead = leading(heard, among)
             sounds = [heard.sound_at(lead, tick) for tick in notes.onset_ticks]
             kinds = [(sound.use, instrument) for sound, instrument in zip(sounds, played_on, strict=True)]
@@ -482,6 +482,7 @@ def _streams(
                         played_on=instrument,
                         change=change,
                         muted=muted,
+                        stopped=stopped,
                         line=-1 if spread is None else spread.first,
                     )
                 )

@@ -83,7 +83,8 @@ def joined(streams: Sequence[TrackChannel]) -> TrackChannel:
     if not is_spread(streams) and follow_one_another(streams):
         curves = _curves(streams)
     muted = tuple(sorted({span for stream in streams for span in stream.muted}))
-    return msgspec.structs.replace(streams[0], curves=curves, muted=muted)
+    stopped = tuple(sorted({span for stream in streams for span in stream.stopped}))
+    return msgspec.structs.replace(streams[0], curves=curves, muted=muted, stopped=stopped)
 
 
 def _curves(streams: Sequence[TrackChannel]) -> tuple[ControllerCurve, ...]:

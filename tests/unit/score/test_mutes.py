@@ -55,3 +55,22 @@ def test_a_name_mutes_all_until_a_text_says_otherwise(tmp_path: Path, name: str)
 def test_other_texts_say_nothing(tmp_path: Path, text: str) -> None:
     (part,) = score_of(tmp_path, "Trumpet", LOW, words(text), LOW).parts
     assert part.muted == ()
+
+
+@pytest.mark.parametrize("text", ["gestopft", "stopped", "bouché", "chiuso", "ゲシュトップ"])
+def test_the_hand_stops_what_is_stopped_and_no_mute_does(tmp_path: Path, text: str) -> None:
+    (part,) = score_of(tmp_path, "Horn", LOW, words(text), LOW, words("con sord."), LOW, words("open"), LOW).parts
+    assert muted(part) == [False, False, True, True, True, True, False, False]
+    assert [is_muted(part.stopped, note.onset_tick) for note in part.notes] == [False] * 2 + [True] * 2 + [False] * 4
+
+
+def test_a_plus_stops_only_the_notes_that_begin_with_it(tmp_path: Path) -> None:
+    (part,) = score_of(tmp_path, "Horn", LOW, words("+"), LOW, LOW).parts
+    assert [is_muted(part.stopped, note.onset_tick) for note in part.notes] == [False, False, True, False, False, False]
+
+
+@pytest.mark.parametrize("text", ["harmon", "harmon, stem out", "in cup", "plunger", "stop mute", "mute in"])
+def test_mutes_are_known_by_their_own_names(tmp_path: Path, text: str) -> None:
+    (part,) = score_of(tmp_path, "Trumpet", LOW, words(text), LOW, words("open"), LOW).parts
+    assert muted(part) == [False, False, True, True, False, False]
+    assert part.stopped == ()

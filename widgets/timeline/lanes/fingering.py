@@ -13,7 +13,7 @@ from PySide6.QtWidgets import QMenu, QWidget
 from app.editor.selection import Selection
 from app.editor.session import Session
 from app.errors import AppError
-from app.plan.model import FingeringEvent, PlayerPlan
+from app.plan.model import FingeringEvent, MuteEvent, PlayerPlan
 from app.project.document import Change
 from app.project.performers import Player
 from instrument_maps.model import Control, InstrumentMap
@@ -105,6 +105,21 @@ class _Bars(LaneItem["FingeringLane"]):
         for values in data.slides:
             self._paint_slide(painter, exposed, left, width, values[shown], chosen, colour)
         self._paint_labels(painter, data, shown, left, width, chosen)
+        self._paint_mutes(painter, exposed)
+
+    def _paint_mutes(self, painter: QPainter, exposed: QRectF) -> None:
+        """A line along the top of every passage with a mute, or stopped by the hand; words where there is room."""
+        lane, tokens = self.lane, self.lane.session.tokens
+        for mute in lane.mutes:
+            left, right = (float(x) for x in lane.axis.x_px(np.array([mute.start_s, mute.end_s])))
+            if right < exposed.left() or left > exposed.right():
+                continue
+            painter.fillRect(QRectF(left, 0.0, max(right - left, 2.0), 2.0), QColor(tokens.text))
+            word = lane.tr("fingering_lane.stopped" if mute.kind == "stopped" else "fingering_lane.muted")
+            wide = QFontMetricsF(painter.font()).horizontalAdvance(word)
+            if right - left > wide + 4.0:
+                painter.setPen(QColor(tokens.text_dim))
+                draw_text(painter, QRectF(left + 2.0, 2.0, wide + 2.0, LABEL_PX), word)
 
     def _paint_selection(self, painter: QPainter, left: Floats, width: Floats) -> None:
         height = np.full(len(left), self.lane.plot_rect.height())
@@ -258,6 +273,11 @@ class FingeringLane(Lane):
         top = sum(self.bar_box(len(self._pressable) - 1)) if self._pressable else 2.0
         return top + 6.0, max(room - top - 10.0, 4.0)
 
+    @property
+    def mutes(self) -> tuple[MuteEvent, ...]:
+        """The muted passages of the player in front."""
+        return () if self._plan is None else self._plan.mutes
+
     def event_at(self, time_s: float) -> FingeringEvent | None:
         """The fingering at a time."""
         if self.data is None:
@@ -360,6 +380,8 @@ class FingeringLane(Lane):
         stroke = next((one for one in strokes if one.note_id == event.note_id), None)
         if stroke is not None:
             lines.append(f"{stroke.stroke}: {message_text(stroke.reason, self.session)}")
+        here = (one for one in self.mutes if one.start_tick <= event.start_tick < one.end_tick)
+        lines += [message_text(one.reason, self.session) for one in here]
         return "\n".join(lines)
 
     def context_menu(self, mouse: LaneMouse) -> QMenu | None:
