@@ -64,7 +64,8 @@ class Ladder:
     Attributes
     ----------
     steps : tuple of (mark, velocity)
-        Ascending by velocity; a mark may occur several times (``"sf"``: a stress after which the level returns).
+        Ascending by velocity; a mark may occur several times (``"sf"``: a stress after which the level returns; empty:
+        no mark).
     default : int or None
         Velocity without any dynamic mark; None: one of `DEFAULTS`.
     added : tuple of int
@@ -83,9 +84,14 @@ class Ladder:
     usual: float = 0.0
 
 
+_LILYPOND: Final = "LilyPond"
+_OWN_RANGE: Final = 6.0
+"""By so much (a logarithm of likelihood) another instrument's range must explain a part better than its own."""
+_UNMARKED: Final = ""
+"""The step of notes without a mark: the mark before them goes on."""
 _LILYPOND_VOLUMES: Final = (
     ("ppp", 0.25), ("ppp", 0.34), ("ppp", 0.42), ("pp", 0.49), ("p", 0.55), ("mp", 0.61), ("mf", 0.68),
-    ("mf", 90 / 127), ("f", 0.75), ("ff", 0.80), ("fff", 0.85), ("fff", 0.92), ("sf", 1.0),
+    (_UNMARKED, 90 / 127), ("f", 0.75), ("ff", 0.80), ("fff", 0.85), ("fff", 0.92), ("sf", 1.0),
 )  # fmt: skip
 """LilyPond's ``scm/midi.scm``: ppppp to ffff and sf; 90 of 127 is its volume without a mark."""
 _LILYPOND_RANGES: Final = {
@@ -93,15 +99,15 @@ _LILYPOND_RANGES: Final = {
 }  # fmt: skip
 """LilyPond's ``instrument-equalizer-alist`` by General MIDI program (from 0): flute, oboe, clarinet, bassoon, French
 horn and trumpet; all others have the whole range."""
-_LILYPOND_ADDED: Final = (4, 6, 20, 24, 40)
-"""``ly/script-init.ly``: staccato, staccatissimo, accent, accent and staccato, marcato."""
+_LILYPOND_ADDED: Final = (4, 6, 20, 24, 26, 40)
+"""``ly/script-init.ly``: staccato, staccatissimo, accent, accent with either, marcato."""
 
 
-def _lilypond(program: int | None, name: str = "LilyPond") -> Ladder:
+def _lilypond(program: int | None) -> Ladder:
     low, high = _LILYPOND_RANGES.get(-1 if program is None else program, (0.0, 1.0))
     # Floored, rounding errors and all, as LilyPond does it: a flute without a mark has 62.
     steps = tuple((mark, int(127 * (low + (high - low) * volume))) for mark, volume in _LILYPOND_VOLUMES)
-    return Ladder(name, steps, steps[7][1], _LILYPOND_ADDED, usual=-1.0 if name == _PLAIN else 0.0)
+    return Ladder(_LILYPOND, steps, steps[7][1], _LILYPOND_ADDED)
 
 
 def _ladder(name: str, velocities: str, **more: object) -> Ladder:
@@ -120,19 +126,16 @@ _FIXED: Final = (
     _ladder("abc2midi", "30 45 60 75 90 105 120 127", default=105, added=(-10, -25), usual=-1.5),
     _ladder("music21", "19 32 44 57 70 89 108 114", usual=-1.5),
 )
-_PLAIN: Final = "LilyPond without equaliser"
-_NAMES: Final = ("LilyPond", *(ladder.name for ladder in _FIXED), _PLAIN)
+_NAMES: Final = (_LILYPOND, *(ladder.name for ladder in _FIXED))
 _BY_NAME: Final = {ladder.name: ladder for ladder in _FIXED}
 _SHARES: Final = {
-    "ppp": 0.01, "pp": 0.07, "p": 0.22, "mp": 0.13, "mf": 0.2, "f": 0.22, "ff": 0.11, "fff": 0.02, "sf": 0.02
+    "ppp": 0.01, "pp": 0.07, "p": 0.22, "mp": 0.13, "mf": 0.2, "f": 0.22, "ff": 0.11, "fff": 0.02, "sf": 0.02, "": 0.2
 }  # fmt: skip
 """How often marks occur, about."""
 
 
 def _ladder_of(name: str, program: int | None) -> Ladder:
-    if name == "LilyPond":
-        return _lilypond(program)
-    return _lilypond(None, _PLAIN) if name == _PLAIN else _BY_NAME[name]
+    return _lilypond(program) if name == _LILYPOND else _BY_NAME[name]
 
 
 class VelocityReading(msgspec.Struct, frozen=True):
@@ -212,17 +215,31 @@ def _recognised(levels: Sequence[tuple[dict[int, int], int | None]]) -> str:
     """Name of the ladder that explains the levels best; empty where any velocity would do as well."""
     best, name = 0.0, ""
     for one in _NAMES:
-        total = 0.0
+        total = _ladder_of(one, None).usual
         for found, program in levels:
-            gains = _gains(one, program)
-            total += sum(gains[value] * math.log1p(count) for value, count in found.items())
-        total += _ladder_of(one, None).usual
+            wrote = _written_as(one, found, program)
+            total += _gain(one, wrote, found) - (_OWN_RANGE if wrote != program else 0.0)
         if total > best:
             best, name = total, one
     return name
 
 
-@lru_cache(maxsize=64)
+def _gain(name: str, program: int | None, levels: dict[int, int]) -> float:
+    """How much likelier the levels of a part are on a ladder than anywhere, as a logarithm."""
+    gains = _gains(name, program)
+    return sum(gains[value] * math.log1p(count) for value, count in levels.items())
+
+
+def _written_as(name: str, levels: dict[int, int], program: int | None) -> int | None:
+    """The program in whose range LilyPond wrote a part: its own, or that of an instrument it was written for before."""
+    if name != _LILYPOND:
+        return program
+    own = _gain(name, program, levels) + _OWN_RANGE
+    other = max((None, *_LILYPOND_RANGES), key=lambda one: _gain(name, one, levels))
+    return other if _gain(name, other, levels) > own else program
+
+
+@lru_cache(maxsize=128)
 def _gains(name: str, program: int | None) -> tuple[float, ...]:
     """(128,): logarithm of how much likelier each velocity is on a ladder than anywhere."""
     ladder = _ladder_of(name, program)
@@ -250,7 +267,8 @@ def _unmarked(name: str, written: Sequence[tuple[IntArray, int | None]]) -> bool
     default: int | None = None
     for velocities, program in written:
         values, counts = np.unique(velocities, return_counts=True)
-        usual, ladder = int(values[counts.argmax()]), _ladder_of(name, program)
+        usual = int(values[counts.argmax()])
+        ladder = _ladder_of(name, _written_as(name, _levels(velocities), program))
         if usual != ladder.default and (ladder.default is not None or usual not in DEFAULTS):
             return False
         if ladder.default is None and default not in (None, usual):
@@ -335,7 +353,7 @@ def _known(velocities: bytes, program: int | None, reading: VelocityReading | No
             accents[np.abs(accents) < _STRESS] = 0.0
         return np.clip(MEZZOFORTE + accents / 127.0, 0.0, 1.0), np.full(len(velocity), _MF)
     if reading.ladder and _engraved(velocity):
-        return _on_ladder(velocity, reading.ladder, program)
+        return _on_ladder(velocity, reading.ladder, _written_as(reading.ladder, _levels(velocity), program))
     return _by_distribution(velocity, reading)
 
 
@@ -371,7 +389,7 @@ _CHANGE_COST, _FURTHER_COST = 0.8, 0.15
 """What a change of level costs, and each mark more that it goes."""
 _NEAR_COST, _OFF_COST, _STEP_COST, _MOST_COST = 0.6, 1.2, 0.6, 3.0
 """What a note costs whose velocity is beside the step, or off it (more for every mark away, at most so much)."""
-_ARTICULATION_COST, _ADDED_COST = 0.25, 0.015
+_ARTICULATION_COST, _ADDED_COST = 0.25, 0.03
 """What a note costs that an articulation makes louder, and each velocity that this adds."""
 
 
@@ -380,14 +398,16 @@ def _costs(name: str, program: int | None) -> tuple[FloatArray, FloatArray, Floa
     """(128, S) each: cost and accent of every velocity on every step of a ladder; (S, S): cost of a change."""
     ladder = _ladder_of(name, program)
     values = np.array([velocity for _, velocity in ladder.steps])
-    loud = np.array([LEVELS[_MARKS["fff" if mark == "sf" else mark]] for mark, _ in ladder.steps])
+    loud = np.array([LEVELS[_MARKS.get("fff" if mark == "sf" else mark, _MF)] for mark, _ in ladder.steps])
     between = np.interp(np.arange(128), values, loud)
     cost = np.minimum(_OFF_COST + _STEP_COST * np.abs(between[:, None] - loud) / 0.126, _MOST_COST)
     accent = np.clip(between[:, None] - loud, -_ACCENT, _ACCENT)
-    for step, (_, velocity) in enumerate(ladder.steps):
+    for step, (mark, velocity) in enumerate(ladder.steps):
         more = [added for added, _ in _articulated(ladder, velocity)]
         rows = [(added, _ARTICULATION_COST + _ADDED_COST * abs(added)) for added in more[1:]]
-        for added, paid in ((-1, _NEAR_COST), (1, _NEAR_COST), *rows, (0, 0.0)):
+        # A hairpin passes by the level without a mark.
+        near = () if mark == _UNMARKED else ((-1, _NEAR_COST), (1, _NEAR_COST))
+        for added, paid in (*near, *rows, (0, 0.0)):
             place = min(max(velocity + added, 0), 127)
             if paid <= cost[place, step]:
                 cost[place, step] = paid
@@ -418,16 +438,17 @@ def _on_ladder(velocity: IntArray, name: str, program: int | None) -> tuple[Floa
     along = np.repeat(steps, lengths)
     more = accent[velocity, along]
     marks = np.array([_MARKS.get(mark, -1) for mark, _ in _ladder_of(name, program).steps], np.int64)[along]
+    stressed = np.array([mark == "sf" for mark, _ in _ladder_of(name, program).steps])[along]
     if (marks < 0).any():
-        marks, more = _after_stress(marks, more)
+        marks, more = _carried(marks, stressed, more)
     return np.clip(LEVELS[marks] + more, 0.0, 1.0), marks
 
 
-def _after_stress(marks: IntArray, more: FloatArray) -> tuple[IntArray, FloatArray]:
-    """Give notes at a stress's velocity the level before it, and an accent to the first of them: LilyPond stays there
-    until the next mark, players do not."""
-    stressed = marks < 0
+def _carried(marks: IntArray, stressed: npt.NDArray[np.bool_], more: FloatArray) -> tuple[IntArray, FloatArray]:
+    """Give notes without a mark of their own (-1) the mark before them, and the first of some stressed ones an accent:
+    LilyPond stays at a *sf* until the next mark, players do not; and it plays a voice without marks at its default."""
+    unmarked = marks < 0
     first = stressed & ~np.insert(stressed[:-1], 0, False)
-    known = np.maximum.accumulate(np.where(stressed, -1, np.arange(len(marks))))
+    known = np.maximum.accumulate(np.where(unmarked, -1, np.arange(len(marks))))
     level = np.where(known < 0, _MF, marks[np.maximum(known, 0)])
     return level, np.where(stressed, np.where(first, _ACCENT, 0.0), more)

@@ -128,6 +128,18 @@ def test_after_a_stress_the_level_returns() -> None:
     assert int(velocity_loudness(velocities)[:14].argmax()) == 8
 
 
+def test_notes_without_a_mark_keep_the_mark_before_them() -> None:
+    """LilyPond plays a second voice, or one after an empty one, at its default: 90, in a flute 62."""
+    velocities = np.array([48] * 12 + [62] * 6 + [66] * 12 + [62] * 4)
+    assert velocity_marks(velocities, 73) == ("p",) * 18 + ("f",) * 16
+
+
+def test_lilyponds_range_of_another_instrument_is_known() -> None:
+    """A flute's part that was written for a voice: 69 is *piano*, 95 *forte*."""
+    velocities = np.array([69] * 12 + [95] * 12 + [101] * 12 + [69] * 8)
+    assert velocity_marks(velocities, 73) == ("p",) * 12 + ("f",) * 12 + ("ff",) * 12 + ("p",) * 8
+
+
 @given(st.integers(40, 100), st.integers(2, 6), st.integers(0, 1000))
 @settings(max_examples=30, deadline=None)
 def test_strokes_of_one_level_are_mezzoforte(level: int, spread: int, seed: int) -> None:
