@@ -105,7 +105,8 @@ def rest_needs(rest_s: FloatArray, need: float, lung_s: float) -> RestNeeds:
     return RestNeeds(
         np.select(lengths, [0.0, least, least, short_least], short_least),
         np.select(lengths, [0.0, scaled(LONG_PLAYED_S, lung_s), scaled(MIDDLE_PLAYED_S, lung_s), short_s], np.inf),
-        np.select(lengths, [0.0, middle, middle, shares], scaled(1.0, 1.0)),
+        # Who waits in a catch breath's rest until the lungs are empty would better have breathed before.
+        np.select(lengths, [0.0, middle, middle, shares], scaled(1.0, 1.0) if need < USUAL_NEED else np.inf),
     )
 
 

@@ -26,11 +26,15 @@ LONG_NOTE_S = 0.8
 SILENT_S = 0.75
 """Length of a silence that is a rest after any note: no staccato is as slow."""
 SAME_STEP = 0.05
-"""Steps of a run, the longest and the shortest of three, differ by less of the shortest: they are written ones."""
+"""Steps of a run, the longest and the shortest, differ by less of the shortest: they are written ones."""
 SAME_GATE = 0.12
 """Parts of the step that sound (0..1) which differ by less are the same articulation."""
 RUN_NOTES = 3
 """Number of notes in a row that show an articulation; a pair may be two notes with a rest each."""
+SLOW_S = 0.5
+"""Length of silences between which ..."""
+SLOW_RUN_NOTES = 8
+"""... more notes are needed for a run: a few may have a rest each."""
 HABIT_SHARE = 0.5
 """Part of a line's notes that makes what they do its habit."""
 HABIT_NOTES = 6
@@ -73,26 +77,28 @@ def rest_ticks(times: LineTimes, beat_ticks: IntArray) -> IntArray:
         silence_s = times.onset_s[1:] - times.played_end_s[:-1]
         audible = (times.duration_s[:-1] >= LONG_NOTE_S - EPSILON) & (silence_s >= AUDIBLE_S - EPSILON)
         audible |= (silence_s >= SILENT_S - EPSILON) | (gap >= beat_ticks[1:])
-        gap[_detached(times) & ~audible] = 0
+        gap[_detached(times, silence_s) & ~audible] = 0
     return rests
 
 
-def _detached(times: LineTimes) -> BoolArray:
+def _detached(times: LineTimes, silence_s: FloatArray) -> BoolArray:
     """(N-1,): whether the silence after each note but the last is its articulation."""
     steps = np.maximum(np.diff(times.onset_tick), 1).astype(np.float64)
     gates = 1.0 - times.silence_tick[1:] / steps
     silent = times.silence_tick[1:] > 0
-    return silent & (_in_a_run(steps, gates) | (np.abs(gates - _habit(gates, silent)) < HABIT_GATE))
+    slow = silence_s >= SLOW_S - EPSILON
+    in_a_run = np.where(slow, _in_a_run(steps, gates, SLOW_RUN_NOTES), _in_a_run(steps, gates, RUN_NOTES))
+    return np.asarray(silent & (in_a_run | (np.abs(gates - _habit(gates, silent)) < HABIT_GATE)))
 
 
-def _in_a_run(steps: FloatArray, gates: FloatArray) -> BoolArray:
-    """(N-1,): whether a note stands in a run of equal steps with equal gates."""
+def _in_a_run(steps: FloatArray, gates: FloatArray, notes: int) -> BoolArray:
+    """(N-1,): whether a note stands in a run of so many, of equal steps with equal gates."""
     result = np.zeros(len(steps), dtype=bool)
-    if len(steps) >= RUN_NOTES:
-        runs = np.lib.stride_tricks.sliding_window_view(np.stack((steps, gates)), RUN_NOTES, axis=1)
+    if len(steps) >= notes:
+        runs = np.lib.stride_tricks.sliding_window_view(np.stack((steps, gates)), notes, axis=1)
         (shortest, low), (longest, high) = runs.min(axis=2), runs.max(axis=2)
         alike = (longest - shortest < SAME_STEP * shortest) & (high - low < SAME_GATE)
-        for place in range(RUN_NOTES):
+        for place in range(notes):
             result[place : place + len(alike)] |= alike
     return result
 

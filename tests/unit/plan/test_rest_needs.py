@@ -65,7 +65,7 @@ def is_enough(rest_s: float, played_s: float, spent: float, need: float) -> bool
         return played_s >= scaled(5.0, LUNG_S) * (1 - middle) + scaled(3.5, LUNG_S) * middle or spent >= (
             scaled(0.4, 1.0) * (1 - middle) + scaled(0.35, 1.0) * middle
         )
-    return spent >= scaled(1.0, 1.0)
+    return need < 0.35 and spent >= scaled(1.0, 1.0)
 
 
 # Odd lengths: no sum of them lies on a threshold.

@@ -69,6 +69,12 @@ def test_a_staccato_run_at_one_gate_has_no_rests(steps: tuple[float, ...], gate:
         assert not any(rests(line(*[(1, 0)] * 40, *run, (1, 0)), bpm))
 
 
+@pytest.mark.parametrize(("count", "found"), [(4, True), (5, True), (12, False)])
+def test_a_few_slow_notes_with_half_a_second_of_rest_each_are_no_staccato_run(count: int, found: bool) -> None:
+    assert rests(line((2, 0), *[(0.5, 0.5)] * count, (2, 0)), bpm=60.0) == [0, *[found * Q // 2] * count]
+    assert not any(rests(line((2, 0), *[(0.5, 0.5)] * count, (2, 0)), bpm=66.0))
+
+
 @pytest.mark.parametrize("bpm", [48.0, 72.0, 96.0])
 @pytest.mark.parametrize("count", [3, 8, 30])
 def test_equal_rests_after_long_notes_are_rests(bpm: float, count: int) -> None:
