@@ -7,8 +7,10 @@ import dataclasses
 import numpy as np
 import numpy.typing as npt
 
-from app.plan.line import IntArray, LineTimes, Piece
+from app.plan.line import TOUCHING_GATE, IntArray, LineTimes, Piece
+from app.plan.lungs import EPSILON
 from app.plan.model import FloatArray
+from app.plan.rests import AUDIBLE_S, LONG_NOTE_S
 
 WRITTEN_SHARE = 0.9
 """Where so many notes lie on fractions of a quarter, they were not played into the file ..."""
@@ -22,8 +24,15 @@ EARLY_OR_LATE_S = 0.025
 """How far from its place a note begins."""
 EARLY_RELEASE_S = 0.08
 """How much sooner than written a note ends ..."""
-RELEASE_SHARE = 0.1
-"""... or which part of the time to the next onset, if that is more, ..."""
+RELEASE_SHARES = (0.1, 0.22)
+"""... or which part of the time to the next onset, if that is more: the first at least, and up to the last where the
+line's notes are usually released so early, ..."""
+RELEASE_GATES = (0.7, 1.02)
+"""Parts of the time to the next onset that notes without a rest after them sound for."""
+EARLIEST_PERCENT = 10.0
+"""Percentile of these parts that stands for an early release."""
+LEAST_RELEASED = 8
+"""Number of such notes below which the line's releases are unknown."""
 RELEASE_NOTE_SHARE = 0.5
 """... but no more than this part of what sounds of it, ..."""
 LATE_RELEASE = 0.05
@@ -95,7 +104,12 @@ def notated(times: LineTimes, piece: Piece) -> LineTimes:
     else:
         early = np.rint(clock.ticks(times.played_end_s[:-1] + EARLY_RELEASE_S)).astype(np.int64) - end
         sounding = RELEASE_NOTE_SHARE * (end - times.onset_tick[:-1])
-        latest = end + np.minimum(np.maximum(early, RELEASE_SHARE * np.diff(onset)), sounding)
+        # A note that began early ended early, too.
+        moved = 0 if onset is times.onset_tick else near[:-1]
+        latest = end + np.minimum(np.maximum(early, _release_share(times) * np.diff(onset) + moved), sounding)
+        # An audible silence after a long note is a rest.
+        audible = np.ceil(clock.ticks(times.played_end_s[:-1] + AUDIBLE_S)) - 1.0
+        latest = np.where(times.duration_s[:-1] >= LONG_NOTE_S, np.minimum(latest, audible), latest)
         begins = bar_starts(end, bars)
         since = end - begins
         rest_from = begins + simplest_places(since - LATE_RELEASE * quarter, latest - begins, since, quarter)
@@ -111,10 +125,38 @@ def notated(times: LineTimes, piece: Piece) -> LineTimes:
         times,
         onset_tick=onset,
         played_end_tick=ends,
+        slurs_next=_meant_slurs(times, clock.seconds(onset.astype(np.float64))),
         silence_tick=np.append(times.silence_tick[:1], following - written),
         onset_s=clock.seconds(onset.astype(np.float64)),
         played_end_s=clock.seconds(ends.astype(np.float64)),
     )
+
+
+def _meant_slurs(times: LineTimes, onset_s: FloatArray) -> npt.NDArray[np.bool_]:
+    """(N,): which notes are slurred to the next, without those that meet it only because it came early.
+
+    Where slurs are meant, most of the slurred notes last as long as written.
+
+    Parameters
+    ----------
+    onset_s : (N,) float64
+        Where the notes are written.
+    """
+    slurred = times.slurs_next.copy()
+    shares = times.duration_s[:-1] / np.maximum(np.diff(onset_s), EPSILON)
+    meet = slurred[:-1]
+    if meet.any() and np.median(shares[meet]) < TOUCHING_GATE:
+        meet &= shares >= TOUCHING_GATE
+    return slurred
+
+
+def _release_share(times: LineTimes) -> float:
+    """The part of the time to the next onset by which notes without a rest after them end early at most."""
+    gates = 1.0 - times.silence_tick[1:] / np.maximum(np.diff(times.onset_tick), 1)
+    gates = gates[(gates >= RELEASE_GATES[0]) & (gates <= RELEASE_GATES[1])]
+    if len(gates) < LEAST_RELEASED:
+        return RELEASE_SHARES[0]
+    return float(np.clip(1.0 - np.percentile(gates, EARLIEST_PERCENT), *RELEASE_SHARES))
 
 
 def at_score_tempo(times: LineTimes, piece: Piece) -> LineTimes:

@@ -25,6 +25,8 @@ LONG_NOTE_S = 0.8
 """Sounding time of a long note: no one plays it staccato."""
 SILENT_S = 0.75
 """Length of a silence that is a rest after any note: no staccato is as slow."""
+LEAST_BEATS = 0.1
+"""Felt beats of silence below which a score has no rest: the end of a note before a grace note."""
 SAME_STEP = 0.05
 """Steps of a run, the longest and the shortest, differ by less of the shortest: they are written ones."""
 SAME_GATE = 0.12
@@ -77,7 +79,7 @@ def rest_ticks(times: LineTimes, beat_ticks: IntArray) -> IntArray:
         silence_s = times.onset_s[1:] - times.played_end_s[:-1]
         audible = (times.duration_s[:-1] >= LONG_NOTE_S - EPSILON) & (silence_s >= AUDIBLE_S - EPSILON)
         audible |= (silence_s >= SILENT_S - EPSILON) | (gap >= beat_ticks[1:])
-        gap[_detached(times, silence_s) & ~audible] = 0
+        gap[(_detached(times, silence_s) & ~audible) | (gap < LEAST_BEATS * beat_ticks[1:])] = 0
     return rests
 
 

@@ -9,9 +9,11 @@ import numpy as np
 import pytest
 
 from app.plan.generate import MonophonicPart, make_plans, time_frame
-from app.plan.line import MEZZOFORTE, marked
+from app.plan.line import MEZZOFORTE, line_times, marked
 from app.plan.model import PlayerPlan
+from app.plan.notation import notated
 from app.plan.parameters import PlayerParameters
+from app.plan.rests import rest_ticks
 from tests.support.plan import PlainClock, PlainNote, line_of, piece_of, valves
 
 Q = 480
@@ -112,3 +114,35 @@ def test_rests_after_notes_let_go_early_serve_as_written_ones(early_s: float, lu
     written, found = (breaths(plan(line_of(*notes), clock, lung_s=lung_s)) for notes in (rows, as_played_))
     assert len(written) > 5
     assert len(written & found) >= 0.8 * len(written)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_rests_of_a_line_with_short_gates_are_those_of_its_score(seed: int) -> None:
+    """Every note sounds for 80 to 95 % of its length and begins up to 20 ms early or late, as programs humanise."""
+    chance = random.Random(seed)
+    lengths = (1, 1, 0.5, 0.5, 1, 1.5, 0.5, 2, 1, 0.75, 0.25, 1) * 8
+    rests = (0, 0, 0, 0.5, 0, 0.5, 0, 0, 1, 0, 0, 2) * 8
+    written, as_played_, at = [], [], 1.0
+    per_s = Q * 96.0 / 60.0
+    for index, (length, rest) in enumerate(zip(lengths, rests, strict=True)):
+        written.append((round(at * Q), round(length * Q), PITCHES[index % len(PITCHES)]))
+        late = round(chance.uniform(-0.02, 0.02) * per_s)
+        as_played_.append((written[-1][0] + late, round(length * chance.uniform(0.8, 0.95) * Q), written[-1][2]))
+        at += length + rest
+    clock = PlainClock(((0, 96.0),))
+    found = []
+    for rows in (written, as_played_):
+        times = line_times(MonophonicPart("p", line_of(*rows), valves()), clock)
+        score = notated(times, piece_of(clock))
+        found.append(rest_ticks(score, piece_of(clock).beat_ticks_at(score.onset_tick))[1:].tolist())
+        assert not score.slurs_next[:-1].any()
+    assert found[0] == found[1]
+    assert breaths(plan(line_of(*written), clock)) == breaths(plan(line_of(*as_played_), clock))
+
+
+def test_half_a_second_after_a_long_note_is_a_rest_in_a_played_line_too() -> None:
+    """Notes of three seconds and 0.55 s of silence lie on no grid."""
+    notes = [(round(index * 3.55 * Q), 3 * Q, 65) for index in range(6)]
+    times = line_times(MonophonicPart("p", line_of(*notes), valves()), PlainClock(((0, 60.0),)))
+    score = notated(times, piece_of(PlainClock(((0, 60.0),))))
+    assert (rest_ticks(score, np.full(6, Q))[1:] > 0).all()
