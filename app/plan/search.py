@@ -438,7 +438,10 @@ def table_of(pitches: tuple[int, ...], instrument: InstrumentMap) -> Table:
             if fingering.rank > 1 and "held" in fingering.tags:
                 cost[row, column] = HELD_COST
             beside[row, column] = fingering.rank > 1 and "beside" in fingering.tags
-            levers[row, column] = sum(turned.get(name, 0) for name, value in fingering.controls.items() if value > 0.0)
+            if turned:
+                levers[row, column] = sum(
+                    turned.get(name, 0) for name, value in fingering.controls.items() if value > 0
+                )
             cents[row, column] = fingering.cents
             valid[row, column] = not fingering.is_obsolete
             for tag in IN_PLACE_COST:

@@ -68,15 +68,19 @@ def plan_tongues(
     """
     if not notes:
         return ()
-    slurred, smears = _slurred(times, instrument, fingerings)
+    slurred, smeared = _slurred(times, instrument, fingerings)
     attacked = np.flatnonzero(~slurred)
     kinds = _articulations(notes, times, slurred, piece)
     limit_s = single_limit_s(instrument, seeds)
     strokes, why = _strokes(times, attacked, piece, limit_s)
+    smears = smeared.tolist()
     onset_s = times.onset_s[attacked].tolist()
     events = []
     for at, start_s, stroke, (group, rate) in zip(attacked.tolist(), onset_s, strokes, why, strict=True):
         kind: Articulation = kinds[at]
+        if kind == "tongued" and not group and not smears[at]:
+            events.append(TongueEvent(notes[at].id, start_s - TONGUE_S, start_s))
+            continue
         strength = STRENGTHS[kind]
         if stroke == "ka":
             strength *= BACK
