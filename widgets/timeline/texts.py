@@ -133,8 +133,6 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
     "dance_menu.return_to_generator": ("Revert to Generated", "自動生成に戻す"),
     "dance_menu.return_whole_dance_to_generator": ("Revert Whole Dance to Generated", "ダンス全体を自動生成に戻す"),
     "dance_menu.s": ("{source}, {start:.2f} s", "{source}、{start:.2f} 秒"),
-    "fingering_lane.muted": ("muted", "ミュート"),
-    "fingering_lane.stopped": ("stopped", "ゲシュトップ"),
     "fingering_lane.click_note_to_see_its": (
         "Click a note for alternate fingerings; type a fingering to pin it",
         "音符をクリックすると替え指を表示します。運指を入力すると固定されます",

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from itertools import pairwise
 
+import msgspec
 import numpy as np
 import pytest
 from PySide6.QtCore import QPoint, QPointF, Qt
@@ -25,6 +26,7 @@ from widgets.timeline.lanes.curves import CurvesLane
 from widgets.timeline.lanes.fingering import FingeringLane, slide_places
 from widgets.timeline.lanes.problems import ProblemsLane
 from widgets.timeline.lanes.waveform import WaveformLane
+from widgets.timeline.model.hand import LaneMouse
 from widgets.timeline.panel import TimelinePanel
 
 
@@ -287,3 +289,30 @@ def test_the_menu_pins_all_selected_notes_that_can_be_played_so(panel: TimelineP
     next(action for action in menu.actions() if action.text().split()[0] == label).trigger()
     assert pins(session) == dict.fromkeys(able, label)
     assert len(session.document.done) == 1
+
+
+def tip_over(lane: FingeringLane, event: FingeringEvent) -> str:
+    time_s = (event.start_s + event.end_s) / 2
+    lane.hover(LaneMouse(float(lane.axis.x_px(time_s)), 5.0, time_s, 5.0, 0.0, 0))
+    return lane.plot.toolTip()
+
+
+def test_a_muted_passage_is_marked_and_told_under_the_mouse(session: Session, panel: TimelinePanel) -> None:
+    lane, player = fingering_lane(panel), session.player
+    assert player is not None
+    part = session.project.part(player)
+    spans = ((part.notes[2].onset_tick, part.notes[6].end_tick),)
+    before = lane.grab().toImage()
+    parts = tuple(
+        msgspec.structs.replace(one, muted=spans) if one.id == part.id else one for one in session.project.score.parts
+    )
+    score = msgspec.structs.replace(session.project.score, parts=parts)
+    session.document.apply(Message("edit.rename"), replace(session.project, score=score))
+    (mute,) = front_plan(session).mutes
+    assert lane.mutes == (mute,)
+    assert lane.grab().toImage() != before
+    event = next(one for one in front_plan(session).fingerings if one.start_tick == spans[0][0])
+    assert "with a mute in the bell" in tip_over(lane, event)
+    stroke = front_plan(session).tongues[0]
+    first = next(one for one in front_plan(session).fingerings if one.note_id == stroke.note_id)
+    assert tip_over(lane, first).endswith("ta: tongued")

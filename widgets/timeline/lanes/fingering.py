@@ -108,18 +108,15 @@ class _Bars(LaneItem["FingeringLane"]):
         self._paint_mutes(painter, exposed)
 
     def _paint_mutes(self, painter: QPainter, exposed: QRectF) -> None:
-        """A line along the top of every passage with a mute, or stopped by the hand; words where there is room."""
+        """A line above the labels of every muted passage, dashed with a mute and whole where the hand stops it."""
         lane, tokens = self.lane, self.lane.session.tokens
+        y = lane.plot_rect.height() - LABEL_PX - 2.0
         for mute in lane.mutes:
             left, right = (float(x) for x in lane.axis.x_px(np.array([mute.start_s, mute.end_s])))
-            if right < exposed.left() or left > exposed.right():
-                continue
-            painter.fillRect(QRectF(left, 0.0, max(right - left, 2.0), 2.0), QColor(tokens.text))
-            word = lane.tr("fingering_lane.stopped" if mute.kind == "stopped" else "fingering_lane.muted")
-            wide = QFontMetricsF(painter.font()).horizontalAdvance(word)
-            if right - left > wide + 4.0:
-                painter.setPen(QColor(tokens.text_dim))
-                draw_text(painter, QRectF(left + 2.0, 2.0, wide + 2.0, LABEL_PX), word)
+            if right >= exposed.left() and left <= exposed.right():
+                style = Qt.PenStyle.SolidLine if mute.kind == "stopped" else Qt.PenStyle.DashLine
+                painter.setPen(QPen(QColor(tokens.text), 2.0, style))
+                painter.drawLine(QPointF(left, y), QPointF(right, y))
 
     def _paint_selection(self, painter: QPainter, left: Floats, width: Floats) -> None:
         height = np.full(len(left), self.lane.plot_rect.height())
