@@ -20,7 +20,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import partial
-from typing import Any, Final, TypeVar
+from typing import Any, Final, TypeVar, get_args
 
 import msgspec
 import numpy as np
@@ -244,7 +244,8 @@ def _value(arrays: Mapping[str, npt.NDArray[Any]], kind: type, given: Any) -> An
         found = np.vstack([np.array(given, dtype=np.float64), (0.0, 0.0, 0.0, 1.0)])
     if not np.isfinite(found).all():
         raise ValueError("a number is not finite")
-    return found.astype(np.int64 if kind == IntArray else np.float64)
+    # Since NumPy 2.5 `npt.NDArray` is an alias that msgspec resolves, so that a kind is no longer equal to `IntArray`.
+    return found.astype(np.int64 if np.dtype[np.int64] in get_args(kind) else np.float64)
 
 
 def _checked_motion(motion: FbxMotion) -> FbxMotion:
