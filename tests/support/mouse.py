@@ -15,7 +15,7 @@ from PySide6.QtGui import QAction, QContextMenuEvent, QCursor
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QCheckBox, QMenu, QMenuBar, QRadioButton, QScrollArea, QToolButton, QWidget
 
-from tests.support.windows import wait_until
+from tests.support.windows import PATIENCE_MS, wait_until
 
 LEFT = Qt.MouseButton.LeftButton
 NONE = Qt.KeyboardModifier.NoModifier
@@ -73,6 +73,8 @@ def press(widget: QWidget, place: QPoint | None = None) -> None:
 def choose(menu: QMenu, entry: QAction) -> None:
     """Click an entry of a menu that is open."""
     assert menu.isVisible(), "the menu is closed"
+    # When the display first shows it, Qt takes it for the menu in front, also if a submenu has come up meanwhile.
+    assert QTest.qWaitForWindowExposed(menu, PATIENCE_MS), "the display does not show the menu"
     # Qt leaves a click alone where the mouse was when the menu came.
     bounds, mouse = menu.actionGeometry(entry), menu.mapFromGlobal(_place)
     sides = (QPoint(bounds.left() + 14, bounds.center().y()), QPoint(bounds.right() - 14, bounds.center().y()))
