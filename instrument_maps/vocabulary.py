@@ -108,7 +108,30 @@ class Instrument(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     marks: tuple[str, ...] = ()
 
 
+class Ensemble(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """Who plays together.
+
+    Attributes
+    ----------
+    parts : tuple of str
+        Ids of instruments in the order of the staves.
+    pitches : tuple of int
+        The usual median of each part's notes at concert pitch, MIDI numbers.
+    names : tuple of str
+        What titles call it.
+    unusual : float
+        Semitones by which each part must fit better than that of a usual ensemble.
+    """
+
+    parts: tuple[str, ...]
+    pitches: tuple[int, ...]
+    names: tuple[str, ...] = ()
+    unusual: float = 0.0
+
+
 class _Table(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    ranges: dict[str, tuple[int, int]]
+    ensembles: tuple[Ensemble, ...]
     seating: tuple[tuple[str, ...], ...]
     score_order: tuple[str, ...]
     sizes: dict[str, tuple[str, ...]]
@@ -133,6 +156,10 @@ class Vocabulary:
         The marks that tell the forms of an instrument apart, and the words for each.
     score_order : tuple of str
         The same families, from the top of a score to its foot.
+    ensembles : tuple of Ensemble
+        Those that are known by their parts.
+    ranges : mapping of str to (int, int)
+        Concert pitches, both included, that the parts of ensembles stay in, by instrument.
     prefixes : tuple of str
         Words that may be joined to a name and do not change its meaning ("Soloflöte", "ソロホルン").
     words_known : mapping of str to tuple of str
@@ -155,7 +182,10 @@ class Vocabulary:
         prefixes: tuple[str, ...] = (),
         score_order: tuple[str, ...] = (),
         words_known: Mapping[str, tuple[str, ...]] = MappingProxyType({}),
+        ensembles: tuple[Ensemble, ...] = (),
+        ranges: Mapping[str, tuple[int, int]] = MappingProxyType({}),
     ) -> None:
+        self.ensembles, self.ranges = ensembles, ranges
         self.seating, self.score_order = seating, score_order
         self._meant = lru_cache(_MOST_MEANINGS)(self._by_name)
         self.instruments = {instrument.id: instrument for instrument in instruments}
@@ -211,6 +241,12 @@ class Vocabulary:
                 raise MapError("vocabulary.invalid", file=file, detail=detail)
             for general in instrument.form_of:
                 self._forms.setdefault(general, []).append(instrument)
+        for ensemble in ensembles:
+            if not {*ensemble.parts} <= self.instruments.keys() & ranges.keys() or len(ensemble.parts) != len(
+                ensemble.pitches
+            ):
+                detail = f"an ensemble of {', '.join(ensemble.parts)} has a part without instrument, range or pitch"
+                raise MapError("vocabulary.invalid", file=file, detail=detail)
         families = {"", *(family for row in seating for family in row)}
         if families != {"", *score_order}:
             detail = "the seating and the score order have different families"
@@ -238,6 +274,43 @@ class Vocabulary:
             and bool(known.sort_of)
             and (known.sort_of == general or self.is_sort(known.sort_of, general))
         )
+
+    def within(self, text: str, member: Instrument) -> Instrument | None:
+        """The instrument of the same family that a text names by a size or key alone, as "Alto" and "Bari 1" do among
+        saxophones; None where it says more or less than that. A single letter counts after "in" only.
+
+        Parameters
+        ----------
+        member : Instrument
+            Any instrument of the family.
+        """
+        tokens = words_of(text)[:_MOST_WORDS]
+        beside = self._marks_beside(tokens, tuple(map(self._singular, tokens)), len(tokens), len(tokens))
+        rest = [word for word in tokens if not _PLAYER.fullmatch(word) and word not in _IN]
+        if not rest or len(rest) != sum(beside.values()) or (len(rest) == len(rest[0]) == 1 and len(tokens) == 1):
+            return None
+        general = member
+        while general.sort_of:
+            general = self.instruments[general.sort_of]
+        form, reported_by = self._form(general, beside.keys())
+        return form if reported_by else None
+
+    def relatives(self, instrument: Instrument) -> list[tuple[Instrument, ...]]:
+        """The other winds that a part for an instrument may be meant for, the likeliest first: its sizes and keys; of
+        those that the range may choose, the ones whose English names end in the same word, its section, any."""
+        general = instrument
+        while general.sort_of:
+            general = self.instruments[general.sort_of]
+        winds = [one for one in self.instruments.values() if one.kind == "wind" and not one.any_pitch]
+        usual = [one for one in winds if not one.by_name_only]
+        last = words_of(instrument.names[0])[-1]
+        sections = [one.families for one in self.instruments.values() if instrument.family in one.families]
+        return [
+            tuple(one for one in winds if self.is_kind(one, general) or one == general),
+            tuple(one for one in usual if words_of(one.names[0])[-1] == last),
+            tuple(one for one in usual if any(one.family in families for families in sections)),
+            tuple(usual),
+        ]
 
     def family(self, ids: tuple[str, ...]) -> str:
         """The section of the first of these instruments that has one; empty if none has."""
@@ -277,12 +350,12 @@ class Vocabulary:
         before, bracket, _ = text.partition("(")
         # An abbreviation may mean anything: "Cor. 1 (Cornet)" is a cornet.
         first = self._of_player(before) if bracket and self.all_by_name(before) else None
-        if found is None or first is None or first.vague or self._is_kind(found, first):
+        if found is None or first is None or first.vague or self.is_kind(found, first):
             return found
         return first
 
-    def _is_kind(self, named: Instrument, general: Instrument) -> bool:
-        """Whether one instrument is a form or a sort of another one."""
+    def is_kind(self, named: Instrument, general: Instrument) -> bool:
+        """Return whether one instrument is a form or a sort of another one."""
         return general.id in named.form_of or self.is_sort(named.id, general.id)
 
     def _of_player(self, text: str) -> Instrument | None:
@@ -450,6 +523,8 @@ def vocabulary() -> Vocabulary:
         table.prefixes,
         table.score_order,
         found.words,
+        table.ensembles,
+        table.ranges,
     )
 
 

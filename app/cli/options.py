@@ -169,7 +169,15 @@ def add_file_options(command: argparse.ArgumentParser) -> None:
         default=[],
         metavar="PLAYER",
         help="a MIDI file has this player's pitches as they are written for a transposing instrument, not as they "
-        "sound; PLAYER may be a pattern such as '*sax*'; repeatable",
+        "sound (default: where a tenth of them and more are outside the instrument's range and all fit as written); "
+        "PLAYER may be a pattern such as '*sax*'; repeatable",
+    )
+    command.add_argument(
+        "--sounding",
+        action="append",
+        default=[],
+        metavar="PLAYER",
+        help="a MIDI file has this player's pitches as they sound, whatever their range; repeatable",
     )
 
 
@@ -298,7 +306,7 @@ def _piece(arguments: argparse.Namespace, project: Project) -> PieceSettings:
 def _saved_project(arguments: argparse.Namespace) -> Project:
     if arguments.encoding is not None:
         raise UsageError("project.encoding", file=str(arguments.file))
-    if arguments.written:
+    if arguments.written or arguments.sounding:
         raise UsageError("project.written", file=str(arguments.file))
     if arguments.assign:
         raise UsageError("project.assign", file=str(arguments.file))
@@ -312,8 +320,9 @@ def _opened(arguments: argparse.Namespace, maps: Mapping[str, InstrumentMap]) ->
     contents, choices = read_contents(arguments.file, encoding=arguments.encoding), map_choices(maps.values())
     rows = _assigned(contents.streams, usual_rows(contents, maps), arguments.assign, list(maps))
     unassigned = unassigned_parts(contents.streams, rows, choices)
-    if arguments.written:
-        rows = _written(contents, rows, arguments.written, maps)
+    for names, written in ((arguments.written, True), (arguments.sounding, False)):
+        if names:
+            rows = _with_pitches(contents, rows, names, written, maps)
     seed = getattr(arguments, "seed", None) or 0
     source = str(arguments.file.absolute())
     project = import_project(contents, rows, maps, source, encoding=arguments.encoding, seed=seed)
@@ -323,14 +332,18 @@ def _opened(arguments: argparse.Namespace, maps: Mapping[str, InstrumentMap]) ->
     return project, assign_message(arguments, others, "assign.others") if others else None
 
 
-def _written(
-    contents: MidiContents, rows: Sequence[ImportRow], names: Sequence[str], maps: Mapping[str, InstrumentMap]
+def _with_pitches(
+    contents: MidiContents,
+    rows: Sequence[ImportRow],
+    names: Sequence[str],
+    written: bool,
+    maps: Mapping[str, InstrumentMap],
 ) -> Sequence[ImportRow]:
-    """The rows with the pitches of the players of these names taken for written ones."""
+    """The rows with the pitches of the players of these names taken for written or for sounding ones."""
     parts = score_of_rows(contents, rows, maps).parts
     places = {parts[index].place for index in select_players(names, unique_names(part.name for part in parts))}
     return [
-        msgspec.structs.replace(row, assignment=msgspec.structs.replace(row.assignment, written=True))
+        msgspec.structs.replace(row, assignment=msgspec.structs.replace(row.assignment, written=written))
         if contents.streams[row.assignment.streams[0]].place in places
         else row
         for row in rows

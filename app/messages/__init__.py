@@ -84,6 +84,8 @@ PITCHES: Final[dict[str, tuple[str, ...]]] = {
     "score.unknown_instrument": ("lowest", "highest"),
     "score.chosen_by_range_partly": ("pitch",),
     "score.looks_written": ("pitch",),
+    "score.program_gives_way": ("pitch",),
+    "score.read_as_written": ("pitch",),
     "score.notes_left_out": ("pitch",),
     "score.stray_notes": ("pitch",),
     "score.slurred": ("pitch",),

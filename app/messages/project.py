@@ -57,11 +57,11 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
     ),
     "project.written": (
         (
-            "--written sets how the pitches of a MIDI file are read, but {file} is a project; transpose its notes "
-            "in the editor"
+            "--written and --sounding set how the pitches of a MIDI file are read, but {file} is a project; transpose "
+            "its notes in the editor"
         ),
         (
-            "--written は MIDI ファイルの音高の読み方の指定ですが、{file} はプロジェクトです。"
+            "--written と --sounding は MIDI ファイルの音高の読み方の指定ですが、{file} はプロジェクトです。"
             "音符の移調はエディターで行ってください"
         ),
     ),

@@ -252,6 +252,23 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         "{part}: the instrument cannot be determined from name or program; {map} was chosen from the title",
         "{part}: 名前やプログラム番号から楽器を判定できないため、曲名から {map} を選びました",
     ),
+    "score.chosen_by_ensemble": (
+        (
+            "{part}: the instrument cannot be determined from name or program; {map} was chosen because the staves "
+            "match a known ensemble"
+        ),
+        "{part}: 名前やプログラム番号から楽器を判定できないため、よくある編成と一致する {map} を選びました",
+    ),
+    "score.program_gives_way": (
+        (
+            "{part}: the program number selects {instrument}, but {outside} of {total} notes are outside its range, "
+            "the first at {place} ({pitch}); {map} is used because the range fits"
+        ),
+        (
+            "{part}: プログラム番号の楽器は {instrument} ですが、{total} 音のうち {outside} 音が音域外のため（最初は "
+            "{place} の {pitch}）、音域の合う {map} を使います"
+        ),
+    ),
     "score.chosen_by_range": (
         "{part}: the instrument cannot be determined from name or program; {map} was chosen by range",
         "{part}: 名前やプログラム番号から楽器を判定できないため、音域の合う {map} を選びました",
@@ -275,6 +292,20 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
             "{part}: {total} 音のうち {outside} 音が {map} の音域外ですが（最初は {place} の {pitch}）、"
             "記譜音と見なすとすべて収まります。このパートを「記譜音」として読み込んでください"
         ),
+    ),
+    "score.read_as_written": (
+        (
+            "{part}: {outside} of {total} notes are outside the range of {map} as sounding pitches, the first at "
+            "{place} ({pitch}), but all fit as written pitches; this part is imported as written pitch"
+        ),
+        (
+            "{part}: 実音と見なすと {total} 音のうち {outside} 音が {map} の音域外ですが（最初は {place} の {pitch}）、"
+            "記譜音と見なすとすべて収まるため、「記譜音」として読み込みます"
+        ),
+    ),
+    "score.written": (
+        "{part}: imported as written pitch for {map}",
+        "{part}: {map} の記譜音として読み込みます",
     ),
     "score.too_many_players": (
         "the piece already has the maximum of {most} players",

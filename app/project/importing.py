@@ -12,7 +12,7 @@ from app.project.doubling import doubled_parts
 from app.project.imported import ImportDecisions, RowDecision, TrackMark, mark_of
 from app.project.model import Project, map_choices, project_from_score
 from app.score.model import Score, UnplayedPart
-from app.score.parts import PERCUSSION, PartAssignment, usual_groups
+from app.score.parts import PERCUSSION, PartAssignment, suggestions
 from app.score.read import MidiContents, assigned_score
 from instrument_maps.model import InstrumentMap
 
@@ -55,8 +55,8 @@ class ImportRequest(msgspec.Struct, frozen=True):
 
 def usual_rows(contents: MidiContents, maps: Mapping[str, InstrumentMap]) -> tuple[ImportRow, ...]:
     """A row for every track, or for the regions of one, as it is imported by default."""
-    found = usual_groups(contents.streams, map_choices(maps.values()))
-    return tuple(ImportRow(PartAssignment(streams), playable) for streams, playable in found)
+    found = suggestions(contents.streams, map_choices(maps.values()))
+    return tuple(ImportRow(one.assignment, one.playable) for one in found)
 
 
 def merged(rows: Sequence[ImportRow], places: Sequence[int]) -> tuple[ImportRow, ...]:

@@ -15,6 +15,7 @@ from typing import Final
 from app.score.bend_range import RangeHistory, bent
 from app.score.limits import LAST_TICK
 from app.score.model import MOST_BEND, ControllerCurve
+from app.score.mutes import sounds_of
 from app.score.sound_module import FIRST_PORT, Port, module_ranges
 from app.score.tracks import SentKind, TrackEvents
 from instrument_maps.vocabulary import vocabulary
@@ -78,11 +79,19 @@ def _ended(raw: Mapping[int, float], resets: Sequence[int]) -> Mapping[int, floa
     return {**raw, **{tick: 0.0 for tick, place in places if place and raw[ticks[place - 1]]}}
 
 
-def players_channels(events: TrackEvents, name: str, zones: Mapping[int, frozenset[int]]) -> list[tuple[int, ...]]:
+def players_channels(
+    events: TrackEvents, name: str, zones: Mapping[int, frozenset[int]], *, staff: bool = False
+) -> list[tuple[int, ...]]:
     """The channels of a track that belong together, each group by number.
 
-    Those of an MPE zone do if they have one sound; all do where the track's name is an instrument's and they take
-    turns, or where with one sound they take turns note by note or are in unison. Else each is for itself.
+    Those of an MPE zone do if they have one sound; all do where they take turns and the track's name is an
+    instrument's, one of them is the muted sound of the others or the track is a staff, or where with one sound they
+    take turns note by note or are in unison. Else each is for itself.
+
+    Parameters
+    ----------
+    staff : bool
+        The track is one of several: a staff, not a file divided by channel.
     """
     channels = sorted(events.channels)
     together = [
@@ -98,11 +107,13 @@ def players_channels(events: TrackEvents, name: str, zones: Mapping[int, frozens
         return [(channel,) for channel in channels]
     named = vocabulary().by_name(name)
     melodic = all(map(events.is_melodic, channels))
-    if melodic and named is not None and not named.vague and events.take_turns(channels):
+    sure = named is not None and not named.vague
+    one_player = sure or (_one_player(events, channels) and (staff or not _one_sound(events, channels)))
+    if melodic and one_player and (events.take_turns(channels) or _is_line(_spans(events, channels))):
         return [tuple(channels)]
     if (melodic or len(channels) > _FEW) and rotate(events, channels):
         return [tuple(channels)]
-    if melodic and _in_unison(events, channels):
+    if melodic and _in_unison(events, channels, least=staff):
         return [tuple(channels)]
     return [(channel,) for channel in channels]
 
@@ -126,6 +137,14 @@ def _one_sound(events: TrackEvents, channels: Collection[int]) -> bool:
     return len(set(filter(None, programs))) <= 1
 
 
+def _one_player(events: TrackEvents, channels: Collection[int]) -> bool:
+    """Return whether the programs of channels are all one instrument's, with and without a mute."""
+    sounds = [sounds_of(sorted(events.programs.get(one, []))) for one in channels]
+    together = sounds_of(sorted(row for rows in sounds for row in rows))
+    found = {vocabulary().by_program(program) for _, program in together}
+    return len(found) == 1 and None not in found
+
+
 def is_line(events: TrackEvents, channels: Collection[int]) -> bool:
     """Return whether the notes of some channels follow one another, all with one sound."""
     return _one_sound(events, channels) and _is_line(_spans(events, channels))
@@ -140,11 +159,17 @@ def rotate(events: TrackEvents, channels: Collection[int]) -> bool:
     return changes >= _ROTATING_SHARE * (len(spans) - 1)
 
 
-def _in_unison(events: TrackEvents, channels: Collection[int]) -> bool:
-    """Return whether channels with one sound strike nearly all notes together: two voices of a staff."""
+def _in_unison(events: TrackEvents, channels: Collection[int], *, least: bool) -> bool:
+    """Return whether channels with one sound strike nearly all notes together: two voices of a staff.
+
+    Parameters
+    ----------
+    least : bool
+        All notes of the one with the fewest: a voice that doubles another for a while.
+    """
     struck = [{*zip(events.channels[one].onset_ticks, events.channels[one].pitches, strict=True)} for one in channels]
-    most = max(map(len, struck))
-    return len(set.intersection(*struck)) >= _UNISON_SHARE * most and _one_sound(events, channels)
+    counted = min(map(len, struck)) if least else max(map(len, struck))
+    return len(set.intersection(*struck)) >= _UNISON_SHARE * counted and _one_sound(events, channels)
 
 
 def _spans(events: TrackEvents, channels: Collection[int]) -> list[_Span]:

@@ -10,6 +10,7 @@ import re
 from collections.abc import Callable, Collection, Iterable, Sequence
 from enum import Enum
 from operator import sub
+from typing import Final, Literal
 
 import msgspec
 
@@ -18,10 +19,13 @@ from app.score.model import ControllerCurve, Note
 from app.score.sound_module import KIT_PROGRAMS, Use
 from instrument_maps.vocabulary import Instrument, vocabulary
 
-_KIT, _EFFECT = "drums", "effect"
+_KIT, _EFFECT, _VOICE = "drums", "effect", "voice"
 """Ids in the vocabulary."""
 _KIT_NOTES = range(35, 60)
 _NEEDED_SHARE = 0.5
+LEAST_OUTSIDE: Final = 0.1
+"""The share of a part's notes beyond its instrument's range from which on its pitches are taken for written ones, or
+its program for another instrument's."""
 _OWN_SHARE = 0.96
 _FEW = 3
 _FEW_SHARE = 0.9
@@ -78,7 +82,9 @@ class TrackChannel(msgspec.Struct, frozen=True):
     onset_ticks, end_ticks, pitches, velocities, numbers : list of int
         One entry per note, by onset; ``numbers`` is the note's place among the track's note-ons, from 1.
     reported : tuple of str
-        Of a track that says nothing itself: ids of the instruments that the piece's title says it may be for.
+        Of a track that says nothing itself: ids of the instruments that it may be for.
+    reported_by : {"title", "ensemble"}
+        What says so: the piece's title, or the staves together (`app.score.ensembles`).
     played_on : str
         Id of the instrument that its player changes to for these notes (`app.score.doublings`); empty: that of the
         track.
@@ -110,6 +116,7 @@ class TrackChannel(msgspec.Struct, frozen=True):
     numbers: list[int]
     curves: tuple[ControllerCurve, ...]
     reported: tuple[str, ...] = ()
+    reported_by: Literal["title", "ensemble"] = "title"
     played_on: str = ""
     change: int = 0
     muted: tuple[tuple[int, int], ...] = ()
@@ -137,8 +144,9 @@ _PLAYERS = re.compile(
 )
 _NO_PROGRAM = 0
 _SAYS_NOTHING = re.compile(
-    r"(?:midi|new|part|track|staff|voice|channel|untitled|instrument|spur|piste|pista|дорожка|трек|канал|"
-    r"パート|トラック|チャンネル|트랙|채널|音轨|音軌|轨道|軌道|通道|[\W\d_])*",
+    r"(?:(?:midi|new|part|track|staff|voice|channel|untitled|instrument|spur|stimme|system|piste|pista)[a-h]?|"
+    r"(?<![^\W\d_])(?:[a-h]|one|two|three|four|five|six|upper|lower|top|middle|bottom|uno|due|tre)(?![^\W\d_])|"
+    r"дорожка|трек|канал|パート|トラック|チャンネル|트랙|채널|音轨|音軌|轨道|軌道|通道|[\W\d_])*",
     re.IGNORECASE,
 )
 """What programs call a track that no one has named."""
@@ -165,6 +173,8 @@ class How(Enum):
 
     SAID = "said"
     """Its names or its program."""
+    ENSEMBLE = "ensemble"
+    """The staves together, which are those of a known ensemble."""
     TITLE = "title"
     """The title of the piece, as the file holds it; what the file is called says nothing."""
     RANGE = "range"
@@ -180,6 +190,8 @@ class Candidates(msgspec.Struct, frozen=True):
         What the track is for, where that is said.
     exact : frozenset of str
         Ids of the maps that play just this instrument, not a kind of it.
+    refused : Instrument or None
+        What the track's program names, which cannot play it.
     unknown : bool
         The track has a name, and nothing says what it means: any of the maps might play it, so the user must say.
     """
@@ -189,6 +201,7 @@ class Candidates(msgspec.Struct, frozen=True):
     maps: tuple[MapChoice, ...]
     exact: frozenset[str] = frozenset()
     unknown: bool = False
+    refused: Instrument | None = None
 
     def best(self, pitches: Sequence[int], written: bool = False) -> MapChoice:
         """The map that plays just this instrument where it has the notes; else the one that reaches most of them, among
@@ -264,7 +277,12 @@ def _named(stream: TrackChannel) -> tuple[Instrument | None, Instrument | None]:
 
 def is_named(stream: TrackChannel) -> bool:
     """Return whether someone named a track, not the program that wrote it."""
-    return not all(map(_SAYS_NOTHING.fullmatch, (stream.name, stream.instrument_name)))
+    return not all(map(is_no_name, (stream.name, stream.instrument_name)))
+
+
+def is_no_name(text: str) -> bool:
+    """Return whether a track's name is what a program calls a track that no one has named, or none."""
+    return _SAYS_NOTHING.fullmatch(text) is not None
 
 
 def _names_kit(pitches: Sequence[int]) -> bool:
@@ -272,8 +290,47 @@ def _names_kit(pitches: Sequence[int]) -> bool:
     return 2 * sum(map(_KIT_NOTES.__contains__, pitches)) > len(pitches)
 
 
+def says_nothing(stream: TrackChannel) -> bool:
+    """Return whether a melody has neither a name nor a program that tells more than a section; the piano's program is
+    what many programs write for none."""
+    if stream.played_on or is_named(stream) or any(_named(stream)):
+        return False
+    numbered = None if stream.program is None else vocabulary().by_program(stream.program)
+    return numbered is None or stream.program == _NO_PROGRAM or numbered.any_pitch
+
+
+def _by_program(stream: TrackChannel) -> Instrument | None:
+    """The wind that nothing but a track's program names; None where a name does, or the program names none."""
+    telling, _ = _named(stream)
+    if stream.played_on or stream.program is None or telling is not None or use_of(stream) != "melodic":
+        return None
+    numbered = vocabulary().by_program(stream.program)
+    return numbered if numbered is not None and numbered.kind == "wind" and not numbered.any_pitch else None
+
+
+def _member(stream: TrackChannel) -> Instrument | None:
+    """The instrument of its program's family that a track's name says by a size or key alone: "Alto" among saxophones;
+    of a name that is an instrument's too, as "Baritone", only where voices are called so."""
+    words = vocabulary()
+    numbered = None if stream.program in (None, _NO_PROGRAM) else words.by_program(stream.program or _NO_PROGRAM)
+    if numbered is None or numbered.kind != "wind" or use_of(stream) != "melodic":
+        return None
+    text = next(filter(None, (stream.name, stream.instrument_name)), "")
+    member = words.within(text, numbered)
+    if member is None or (_named(stream)[0] is not None and words.within(text, words.instruments[_VOICE]) is None):
+        return None
+    return member
+
+
 def _said(stream: TrackChannel) -> Instrument | None:
-    """What a track says of itself."""
+    """What a track says of itself, in the ensemble that it is in."""
+    if stream.reported and stream.reported_by == "ensemble":
+        return None
+    return (None if stream.played_on else _member(stream)) or _said_plainly(stream)
+
+
+def _said_plainly(stream: TrackChannel) -> Instrument | None:
+    """What the names or the program of a track are called."""
     words = vocabulary()
     if stream.played_on:
         return words.instruments[stream.played_on]
@@ -314,19 +371,26 @@ def named_by_title(streams: Sequence[TrackChannel], title: str) -> list[TrackCha
 
 def candidates(streams: Sequence[TrackChannel], maps: Sequence[MapChoice]) -> Candidates:
     """The maps that tracks which are played as one may go to; those whose range fits where nothing is said."""
-    said = next((found for found in map(_said, streams) if found is not None), None)
-    if said is not None and not said.any_pitch:
-        return _of_instrument(How.SAID, said, maps)
-    reported = dict.fromkeys(id for stream in streams for id in stream.reported) if said is None else {}
+    lead = next((one for one in streams if _said(one) is not None), streams[0])
+    said = _said(lead)
     pitches = [pitch for stream in streams for pitch in stream.pitches]
+    if said is not None and not said.any_pitch:
+        found = _of_instrument(How.SAID, said, maps)
+        numbered, general = _by_program(lead), _said_plainly(lead)
+        if general is not None and general != said and not any(plays(choice, said) for choice in found.maps):
+            # A size of its family that no map plays.
+            found = _of_instrument(How.SAID, general, maps)
+        return found if numbered is None else _instead(numbered, found, pitches, maps) or found
+    reported = dict.fromkeys(id for stream in streams for id in stream.reported) if said is None else {}
+    how = How.ENSEMBLE if any(one.reported_by == "ensemble" for one in streams) else How.TITLE
     named = [vocabulary().instruments[id] for id in reported]
-    found = [_of_instrument(How.TITLE, one, maps) for one in named if not one.any_pitch]
-    fitting = [one for one in found if any(_share(pitches, choice) > _NEEDED_SHARE for choice in one.maps)]
+    possible = [_of_instrument(how, one, maps) for one in named if not one.any_pitch]
+    fitting = [one for one in possible if any(_share(pitches, choice) > _NEEDED_SHARE for choice in one.maps)]
     if len(fitting) == 1:
         return fitting[0]
     if fitting:
         together = {choice.map_id: choice for one in fitting for choice in one.maps}
-        return Candidates(How.TITLE, None, tuple(together.values()))
+        return Candidates(how, None, tuple(together.values()))
     section = said or next((one for one in named if one.any_pitch), None)
     families = () if section is None else section.families
     usual = _where(maps, lambda one: not one.by_name_only and (not families or one.family in families))
@@ -350,6 +414,32 @@ def refusal(stream: TrackChannel, maps: Sequence[MapChoice]) -> Message | None:
         return Message("score.unknown_instrument", range_)
     if max((_share(stream.pitches, choice) for choice in found.maps), default=0.0) <= _NEEDED_SHARE:
         return Message("score.outside_ranges", range_)
+    return None
+
+
+def _instead(
+    numbered: Instrument, found: Candidates, pitches: Sequence[int], maps: Sequence[MapChoice]
+) -> Candidates | None:
+    """The maps of another instrument where a part's program names one that cannot play it, at sounding or written
+    pitch: of its family, of its name ("horn" for an English horn), of its section, or any; None where it stays."""
+    least = LEAST_OUTSIDE * len(pitches)
+    if not found.maps or any(
+        choice.outside(pitches) < least or not choice.outside(pitches, written=True) for choice in found.maps
+    ):
+        return None
+    words = vocabulary()
+    for relatives in words.relatives(numbered):
+        fitting = [
+            choice
+            for choice in maps
+            if _share(pitches, choice) >= _OWN_SHARE
+            and any(id in words.instruments and words.instruments[id] in relatives for id in choice.plays)
+        ]
+        if fitting:
+            best = Candidates(How.SAID, None, tuple(fitting)).best(pitches)
+            instrument = next(words.instruments[id] for id in best.plays if id in words.instruments)
+            other = _of_instrument(How.SAID, instrument, maps)
+            return msgspec.structs.replace(other, refused=numbered)
     return None
 
 

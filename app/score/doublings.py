@@ -10,6 +10,7 @@ import re
 from collections.abc import Sequence
 
 from app.score.limits import MOST_NAME
+from app.score.mutes import sounds_of
 from app.score.tracks import TrackEvents
 from instrument_maps.vocabulary import Instrument, vocabulary
 
@@ -39,8 +40,14 @@ def doubled_instruments(
     """
     if not all(map(events.is_melodic, channels)):
         return [""] * len(onset_ticks)
+    named = vocabulary().by_name(name)
     programs = sorted({row for channel in channels for row in events.programs.get(channel, [])})
-    changes = [(tick, 0, found) for tick, program in programs if (found := _doubling(vocabulary().by_program(program)))]
+    # A program knows no keys and few sizes: that of a clarinet is the clarinet in A's too.
+    changes = [
+        (tick, 0, named if named is not None and vocabulary().is_kind(named, found) else found)
+        for tick, program in sounds_of(programs, named)
+        if (found := _doubling(vocabulary().by_program(program)))
+    ]
     changes += [(tick, 1, found) for tick, text in texts if (found := _requested(text))]
     changes.sort(key=lambda row: row[:2])
     if not changes:
@@ -48,7 +55,6 @@ def doubled_instruments(
     # What the track begins with is what it is for, whatever its name calls that ("Cornet" with a trumpet's program),
     # unless it names that as the second ("Flute / Piccolo") or changes to what it names later.
     begun = [found for tick, _, found in changes if tick <= onset_ticks[0]]
-    named = vocabulary().by_name(name)
     first = begun[-1] if begun else named
     mine = {found.id for found in (first, named) if found is not None}
     if first is not None and named is not None and first.id != named.id:

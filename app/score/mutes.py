@@ -12,6 +12,7 @@ from typing import Final, Literal, NamedTuple, TypeAlias
 
 from app.score.limits import MOST_NAME
 from app.score.tracks import TrackEvents
+from instrument_maps.vocabulary import Instrument, vocabulary
 
 MUTED_TRUMPET: Final = 59
 """The one muted sound of General MIDI's wind programs."""
@@ -43,6 +44,23 @@ _IN_NAME: Final = re.compile(
 
 Span = tuple[int, int]
 How: TypeAlias = Literal["open", "mute", "hand"]
+
+
+def sounds_of(programs: Sequence[tuple[int, int]], named: Instrument | None = None) -> list[tuple[int, int]]:
+    """The changes (tick, program) of a player without those to the muted sound, where other changes or the name say
+    which brass instrument is muted: notation programs give muted horns and trombones the trumpet's."""
+    known = vocabulary()
+    brass = {family for one in known.instruments.values() if one.any_pitch for family in _sections(one)}
+    others = [known.by_program(program) for _, program in programs if program != MUTED_TRUMPET]
+    if any(one is not None and one.family in brass for one in (named, *others)):
+        return [row for row in programs if row[1] != MUTED_TRUMPET]
+    return list(programs)
+
+
+def _sections(section: Instrument) -> tuple[str, ...]:
+    """The families of the section that the muted sound's instrument is in; empty for another section."""
+    muted = vocabulary().by_program(MUTED_TRUMPET)
+    return section.families if muted is not None and muted.family in section.families else ()
 
 
 class Mutes(NamedTuple):

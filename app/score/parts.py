@@ -31,6 +31,12 @@ score.substituted : part, instrument, map
     "{part}: there is no instrument map for {instrument}; {map} plays it instead"
 score.instrument_from_title : part, map
     "{part}: neither its name nor its program says what it is; the title does, so {map} plays it"
+score.chosen_by_ensemble : part, map
+    "{part}: neither its name nor its program says what it is; the staves together are those of a known ensemble,
+    in which {map} plays it"
+score.program_gives_way : part, instrument, map, outside, total, place, pitch
+    "{part}: its program names {instrument}, but {outside} of {total} notes lie outside its range, the first at ...;
+    {map} fits and plays it"
 score.chosen_by_range : part, map
     "{part}: neither its name nor its program says what it is; {map} plays it because the range fits"
 score.chosen_by_range_partly : part, map, outside, total, place, pitch
@@ -39,6 +45,11 @@ score.chosen_by_range_partly : part, map, outside, total, place, pitch
 score.looks_written : part, map, outside, total, place, pitch
     "{part}: {outside} of {total} notes lie outside the range of {map}, the first at ..., but all fit as written
     pitches: the part looks untransposed; import its pitches as written"
+score.read_as_written : part, map, outside, total, place, pitch
+    "{part}: {outside} of {total} notes lie outside the range of {map} as sounding pitches, the first at ..., but
+    all fit as written ones, so they were read as such"
+score.written : part, map
+    "{part}: read as written pitches for {map}"
 score.left_out : (a reason)
     "excluded on import"
 score.too_many_players : most (a reason)
@@ -73,6 +84,7 @@ import msgspec
 
 from app.errors import Argument, Message, raise_if_stopped
 from app.score.choose import (
+    LEAST_OUTSIDE,
     Candidates,
     How,
     MapChoice,
@@ -95,8 +107,6 @@ from instrument_maps.vocabulary import Instrument, vocabulary
 
 PERCUSSION: Final = "percussion"
 """What is assigned to a part in place of an instrument where dancers are to hear its notes as percussion."""
-LEAST_OUTSIDE = 0.01
-"""The share of a part's notes beyond its instrument's range from which on its pitches are taken for written ones."""
 
 
 def parts_of(
@@ -142,15 +152,61 @@ class PartAssignment(msgspec.Struct, frozen=True):
     written: bool = False
 
 
+class Suggestion(msgspec.Struct, frozen=True):
+    """How the tracks of one player are imported by default.
+
+    Attributes
+    ----------
+    playable : bool
+        A map plays them.
+    """
+
+    assignment: PartAssignment
+    playable: bool
+
+
 def usual_assignments(streams: Sequence[TrackChannel], maps: Sequence[MapChoice]) -> tuple[PartAssignment, ...]:
     """Suggested assignments by names, programs and ranges, for the user to change: one for every playable stream, and
     one for the regions of a track."""
-    return tuple(PartAssignment(own) for own, playable in usual_groups(streams, maps) if playable)
+    return tuple(found.assignment for found in suggestions(streams, maps) if found.playable)
 
 
-def usual_groups(streams: Sequence[TrackChannel], maps: Sequence[MapChoice]) -> list[tuple[tuple[int, ...], bool]]:
-    """The places of the streams, those that are one player's together, and whether a map plays them."""
-    return [(own, all(refusal(streams[index], maps) is None for index in own)) for own in groups(streams)]
+def suggestions(streams: Sequence[TrackChannel], maps: Sequence[MapChoice]) -> list[Suggestion]:
+    """Suggested assignments of all streams, those that are one player's together.
+
+    The pitches of a part are taken for written ones where many lie outside its instrument's range as they sound and
+    none as they are written; where one of a family is written so, the others are with any note that is unusually low or
+    high.
+    """
+    found = []
+    likely: list[tuple[bool, str]] = []
+    certain = set()
+    for own in groups(streams):
+        tracks = [streams[index] for index in own]
+        playable = all(refusal(stream, maps) is None for stream in tracks)
+        written, family = False, ""
+        possible = candidates(tracks, maps) if playable else None
+        if possible is not None and possible.how is not How.RANGE:
+            pitches = [pitch for stream in tracks for pitch in stream.pitches]
+            choice = possible.best(pitches)
+            family = vocabulary().family(choice.plays)
+            high = choice.outside(pitches, usual=True) > 0
+            written = high and not choice.outside(pitches, written=True, usual=choice.outside(pitches) == 0)
+            if _fits_as_written(choice, pitches):
+                certain.add(family)
+        likely.append((written, family))
+        found.append(Suggestion(PartAssignment(own), playable))
+    return [
+        msgspec.structs.replace(one, assignment=msgspec.structs.replace(one.assignment, written=True))
+        if written and family in certain
+        else one
+        for one, (written, family) in zip(found, likely, strict=True)
+    ]
+
+
+def _fits_as_written(choice: MapChoice, pitches: Sequence[int]) -> bool:
+    # A wrong note or two says nothing.
+    return choice.outside(pitches) >= LEAST_OUTSIDE * len(pitches) and not choice.outside(pitches, written=True)
 
 
 def assigned_parts(
@@ -324,17 +380,36 @@ def _instrument_warnings(
 ) -> list[Message]:
     """What was guessed about the instrument."""
     warnings = []
-    if found.how is not How.RANGE and not assignment.written:
+    if found.how is not How.RANGE:
         warnings += _written_warnings(parts, maps, piece)
     if assignment.map_id is not None:
         return warnings
     if found.how is How.RANGE:
         return [*warnings, *(_range_warning(part, maps, piece) for part in parts)]
-    if found.how is How.TITLE:
-        warnings.append(Message("score.instrument_from_title", {"part": parts[0].name, "map": parts[0].map_id}))
-    if found.instrument is not None:
+    if found.how in _REASONS:
+        warnings.append(Message(_REASONS[found.how], {"part": parts[0].name, "map": parts[0].map_id}))
+    if found.refused is not None:
+        warnings.append(_refused(parts, found.refused, maps, piece))
+    elif found.instrument is not None:
         warnings += _substitutions(parts, found.instrument, maps)
     return warnings
+
+
+_REASONS: Final = {How.TITLE: "score.instrument_from_title", How.ENSEMBLE: "score.chosen_by_ensemble"}
+
+
+def _refused(parts: Sequence[Part], instrument: Instrument, maps: Sequence[MapChoice], piece: Score) -> Message:
+    """A message about the notes that the instrument of a program does not reach."""
+    own = [choice for choice in maps if plays(choice, instrument) or instrument.id in choice.substitutes_for]
+    notes = sorted((note for part in parts for note in part.notes), key=lambda note: (note.onset_tick, note.pitch))
+    outside = [note for note in notes if all(choice.outside([note.pitch]) for choice in own)]
+    more: dict[str, Argument] = {
+        "instrument": instrument.names[0],
+        "map": parts[0].map_id,
+        "outside": len(outside),
+        "total": len(notes),
+    }
+    return _about("score.program_gives_way", parts[0].name, outside or notes, piece, **more)
 
 
 def _substitutions(parts: Sequence[Part], instrument: Instrument, maps: Sequence[MapChoice]) -> list[Message]:
@@ -402,15 +477,19 @@ def transposed(notes: tuple[Note, ...], semitones: int) -> tuple[Note, ...]:
 
 
 def _written_warnings(parts: Sequence[Part], maps: Sequence[MapChoice], piece: Score) -> list[Message]:
-    """Of parts that the instrument has no notes for unless they are read as they are written."""
+    """Of parts that the instrument has no notes for unless they are read as they are written, and those that are."""
     choices = {choice.map_id: choice for choice in maps}
     found = []
     for part in parts:
-        choice, pitches = choices[part.map_id], [note.pitch for note in part.notes]
-        outside, total = choice.outside(pitches), len(pitches)
-        # A wrong note or two in a long part says nothing.
-        if outside >= LEAST_OUTSIDE * total and outside and not choice.outside(pitches, written=True):
-            found.append(_outside("score.looks_written", part, choice, piece))
+        shift = part.transposed_semitones
+        given = msgspec.structs.replace(part, notes=transposed(part.notes, -shift))
+        choice, pitches = choices[part.map_id], [note.pitch for note in given.notes]
+        if shift and choice.outside(pitches) and not choice.outside(pitches, written=True):
+            found.append(_outside("score.read_as_written", given, choice, piece))
+        elif shift:
+            found.append(Message("score.written", {"part": part.name, "map": part.map_id}))
+        elif _fits_as_written(choice, pitches):
+            found.append(_outside("score.looks_written", given, choice, piece))
     return found
 
 

@@ -75,9 +75,10 @@ import msgspec
 from app.encoding import shown
 from app.errors import FileError, Message
 from app.score.channels import curves_of, leading, players_channels, settle_bends, sounding_channels
-from app.score.choose import MapChoice, TrackChannel, named_by_title, use_of
+from app.score.choose import MapChoice, TrackChannel, is_no_name, named_by_title, use_of
 from app.score.chunks import Container, Track, read_container
 from app.score.doublings import doubled_instruments
+from app.score.ensembles import named_by_ensemble
 from app.score.limits import MOST_NAME, MOST_STREAMS, too_long
 from app.score.metre_map import Metre
 from app.score.model import MOST_VOICES, Marker, Part, PercussionHit, Score, UnplayedPart
@@ -266,7 +267,7 @@ def read_contents(path: Path, *, encoding: str | None = None) -> MidiContents:
         tempo_map=tempo_map,
         metres=metres,
         pickup_ticks=pickup_ticks,
-        streams=tuple(named_by_title(streams, title)),
+        streams=tuple(named_by_ensemble(named_by_title(streams, title), title)),
         warnings=(*no_notes(tracks, counts, texts), *warnings, *tempo_warnings, *metre_warnings, *stuck),
         markers=_markers(tracks, texts),
         encoding=texts.encoding,
@@ -441,9 +442,9 @@ def _streams(
     for index, events in enumerate(tracks):
         name = texts.read(events.name)[:MOST_NAME]
         if lilypond and (match := _LILYPOND_NAME.match(name)):
-            name = "" if match[1].startswith("\\") else match[1].strip()
+            name = _lilypond_name(match[1].strip(), match[2].strip())
         spread = lines.get(index)
-        groups = players_channels(events, "" if alone else name, zones[index])
+        groups = players_channels(events, "" if alone else name, zones[index], staff=not alone)
         if alone:
             name = name if len(groups) == 1 and len(tracks) == 1 else ""
         said = [(tick, texts.read(text)) for tick, text in (*events.texts, *events.markers)]
@@ -487,6 +488,14 @@ def _streams(
                     )
                 )
     return streams
+
+
+def _lilypond_name(staff: str, voice: str) -> str:
+    """The name of a track that is called after a staff and a voice: the staff's, but the voice's where that alone tells
+    an instrument, or anything at all."""
+    staff, voice = ("" if name.startswith("\\") else name for name in (staff, voice))
+    tells = [found is not None and not found.vague for found in map(vocabulary().by_name, (staff, voice))]
+    return voice if tells == [False, True] or (not staff and not is_no_name(voice)) else staff
 
 
 def _kind_order(kind: tuple[Use, str]) -> tuple[int, bool]:

@@ -210,7 +210,7 @@ WINDS = {
     "solo_flute_bach_partita_corrente": ["flute"],
     "solo_horn_mozart_k447_mv1": ["horn_double_F_Bb"],
     "solo_trumpet_bach_bist_du_bei_mir": ["trumpet_Bb"],
-    "trombone_quartet_bach_air": ["trombone_tenor_F_attachment"] * 4,
+    "trombone_quartet_bach_air": [*["trombone_tenor_F_attachment"] * 3, "trombone_bass_F_Gb"],
     "trumpet_duet_bach_minuet": ["trumpet_Bb"] * 2,
     "trumpet_organ_brown_wedding_CCBY4": ["trumpet_Bb"],
 }  # fmt: skip

@@ -118,7 +118,7 @@ def test_an_export_has_the_projects_frame_rate(run: Run, project: Path, tmp_path
     assert json.loads((tmp_path / "other" / "report.json").read_text())["fps_exact"] == "12"
 
 
-@pytest.mark.parametrize(("option", "value"), [("--encoding", "cp932"), ("--written", "*")])
+@pytest.mark.parametrize(("option", "value"), [("--encoding", "cp932"), ("--written", "*"), ("--sounding", "*")])
 def test_what_only_midi_has_is_bad_use(run: Run, project: Path, option: str, value: str) -> None:
     status, _, complaint = run("inspect", project, option, value)
     assert status == 2

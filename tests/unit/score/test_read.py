@@ -147,7 +147,7 @@ def test_format_0_is_split_by_channel() -> None:
     [
         (note(60) + note(62, channel=1) + note(64), 1),
         # One tick together.
-        (note(60) + bytes([0, 0x91, 62, 64, 47, 0x90, 64, 64, 1, 0x81, 62, 0, 47, 0x80, 64, 0]), 2),
+        (note(60) + bytes([0, 0x91, 62, 64, 47, 0x90, 64, 64, 1, 0x81, 62, 0, 47, 0x80, 64, 0]), 1),
         # The first note of two that overlap lasts longer than the second.
         (bytes([0, 0x90, 60, 64, 6, 64, 64, 18, 64, 0, 0, 0x91, 67, 64, 12, 0x81, 67, 0, 12, 0x80, 60, 0]), 3),
     ],
