@@ -123,6 +123,17 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
             "一部の小節を書き出すと、すべてのフレームを調べられます"
         ),
     ),
+    "judged.some": (
+        (
+            "contacts were checked only of the first {judged} of {players} players, up to {last}, at {rate:g} "
+            "frames/s: {players} {players:player|players} for {minutes:g} {minutes:minute|minutes} are much motion; "
+            "export some bars to check them all"
+        ),
+        (
+            "奏者 {players} 人、{minutes:g} 分のモーションは多いため、接触は最初の {judged} 人（{last} まで）だけを "
+            "{rate:g} フレーム/秒で調べました。一部の小節を書き出すと、全員を調べられます"
+        ),
+    ),
     "judged.not": (
         (
             "contacts were not checked: {players} {players:player|players} for {minutes:g} "

@@ -1,6 +1,7 @@
 """All that is wrong with a player's performance, its generated motion included: the same in every report.
 
-Messages: ``judged.sparsely`` (rate, players, minutes), ``judged.not`` (players, minutes).
+Messages: ``judged.sparsely`` (rate, players, minutes), ``judged.some`` (judged, players, last, rate, minutes),
+``judged.not`` (players, minutes).
 """
 
 from __future__ import annotations
@@ -12,7 +13,7 @@ from typing import Final, NamedTuple
 
 from app.contacts.breaks import JUDGED_PER_S, Break, by_time, contact_problems
 from app.contacts.judge import ContactJudge
-from app.errors import Message
+from app.errors import Argument, Message
 from app.motion.model import Motion
 from app.performance.cast import Performer, performers_of
 from app.performance.ensemble import Performance
@@ -24,16 +25,19 @@ from app.project.performers import Player
 WHOLE_FRAMES: Final = 120_000
 """Frames of all players together up to which motion is made of all, before every fourth is posed and looked at; in
 longer pieces nothing is made of those between."""
-MOST_WORK: Final = 110_000
-"""Work on a piece at most, in frames of one player that are looked at. In longer pieces fewer are in each second."""
-PLAYER_WORK, NOTE_WORK = 850, 1
-"""What a player and a note take beside them, in the same measure: curves are made of every one."""
+MOST_WORK: Final = 74_000
+"""Work on a piece at most, in frames of one player that are looked at: 44 us each. In longer pieces fewer are in each
+second, and then fewer players are looked at."""
+NOTE_WORK: Final = 3.0
+"""What a note takes beside them, in the same measure: it is read, planned and printed."""
+PLAYER_WORK, CURVE_WORK = 1300, 1.0
+"""What a player who is looked at and each of their notes take: they are posed, and curves are made of them."""
 SPARSE_S: Final = 4.0
 """Seconds of a player for each note from which a piece counts as one with few notes: slower than any chorale ..."""
 SPARSE_FRAMES, SPARSE_PER_NOTE = 50_000, 4
 """... of which so many are looked at, and for each note so many more, up to those of any piece."""
 LEAST_PER_S: Final = 2.0
-"""At fewer frames in a second breaks of a contact would be missed, and nothing is looked at."""
+"""At fewer frames in a second breaks of a contact would be missed: sooner, fewer players are looked at."""
 
 
 class _Looked(NamedTuple):
@@ -54,15 +58,16 @@ def all_problems(performance: Performance, players: Iterable[Player]) -> Judged:
     """`judged_problems` of players; of those who cannot be seen, what is known without a motion."""
     found = {player.id: performance.problems(player.id) for player in players}
     performers = performers_of(performance, (performance.project.player(player_id) for player_id in found)).made
-    notes = sum(len(performance.project.part(one.player).notes) for one in performers.values())
-    looked, notice = _looked(performance, len(performers), notes)
-    if looked is not None:
-        by_musician: dict[str, list[Performer]] = {}
-        for one in performers.values():
-            by_musician.setdefault(performance.project.musician(one.player).id, []).append(one)
-        for together in by_musician.values():
+    by_musician: dict[str, list[Performer]] = {}
+    for one in performers.values():
+        by_musician.setdefault(performance.project.musician(one.player).id, []).append(one)
+    groups = list(by_musician.values())
+    notes = [sum(len(performance.project.part(one.player).notes) for one in together) for together in groups]
+    looked, judged = _looked(performance, [len(together) for together in groups], notes)
+    for together in groups[:judged]:
+        if looked is not None:
             found |= _judged(performance, together, looked)
-    return Judged(found, notice)
+    return Judged(found, _notice(performance, looked, groups, judged))
 
 
 def _judged(
@@ -82,26 +87,48 @@ def _judged(
     }
 
 
-def _looked(performance: Performance, players: int, notes: int) -> tuple[_Looked | None, Message | None]:
-    """Which frames of players are looked at, None for none; and what to say of it."""
+def _looked(performance: Performance, players: Sequence[int], notes: Sequence[int]) -> tuple[_Looked | None, int]:
+    """Which frames are looked at, None for none, and of how many musicians, the first ones.
+
+    Parameters
+    ----------
+    players, notes : sequence of int
+        How many each musician has.
+    """
     fps = performance.project.fps
-    count = whole_span(performance.time_frame, fps).count * players
-    most = max(MOST_WORK - PLAYER_WORK * players - NOTE_WORK * notes, 1)
-    if count / float(fps) > SPARSE_S * notes:
-        most = min(most, SPARSE_FRAMES + SPARSE_PER_NOTE * notes)
+    frames = whole_span(performance.time_frame, fps).count
     usual = max(1, round(float(fps) / JUDGED_PER_S))
-    stride = usual * max(1, math.ceil(count / usual / most))
-    if stride == usual and count <= WHOLE_FRAMES:
-        return _Looked(fps, usual), None
-    if stride == usual:
-        return _Looked(fps / usual, 1), None
-    frame, rate = performance.time_frame, float(fps) / stride
+    count, most = frames * sum(players), MOST_WORK
+    if count / float(fps) > SPARSE_S * sum(notes):
+        most = min(most, SPARSE_FRAMES + SPARSE_PER_NOTE * sum(notes))
+    left = most - NOTE_WORK * sum(notes)
+    works = [PLAYER_WORK * some + CURVE_WORK * many for some, many in zip(players, notes, strict=True)]
+    for judged in range(len(players), 0, -1):
+        room = left - sum(works[:judged])
+        looked = frames * sum(players[:judged])
+        stride = usual * max(1, math.ceil(looked / usual / max(room, 1.0)))
+        if room >= 1.0 and float(fps) / stride >= LEAST_PER_S:
+            if stride == usual and count <= WHOLE_FRAMES:
+                return _Looked(fps, usual), judged
+            return _Looked(fps / stride, 1), judged
+    return None, 0
+
+
+def _notice(
+    performance: Performance, looked: _Looked | None, groups: Sequence[Sequence[Performer]], judged: int
+) -> Message | None:
+    """Say where fewer frames are looked at than usual, or not all players."""
+    frame, players = performance.time_frame, sum(map(len, groups))
     minutes = max(1, round((frame.end_s - frame.first_frame_s) / 60.0))
-    if rate < LEAST_PER_S:
-        return None, Message("judged.not", {"players": players, "minutes": minutes})
-    return _Looked(fps / stride, 1), Message(
-        "judged.sparsely", {"rate": round(rate, 1), "players": players, "minutes": minutes}
-    )
+    if looked is None:
+        return Message("judged.not", {"players": players, "minutes": minutes}) if groups else None
+    rate = float(looked.fps) / looked.every
+    usual = max(1, round(float(performance.project.fps) / JUDGED_PER_S))
+    said: dict[str, Argument] = {"rate": round(rate, 1), "players": players, "minutes": minutes}
+    if judged < len(groups):
+        last = groups[judged - 1][-1].player.name
+        return Message("judged.some", {**said, "judged": sum(map(len, groups[:judged])), "last": last})
+    return Message("judged.sparsely", said) if rate < float(performance.project.fps) / usual else None
 
 
 def judged_problems(performance: Performance, performer: Performer, motion: Motion) -> tuple[Problem, ...]:

@@ -89,6 +89,7 @@ def test_hours_with_few_notes_are_looked_at_sparsely(
     monkeypatch.setattr(judged, "WHOLE_FRAMES", 2000)
     monkeypatch.setattr(judged, "SPARSE_FRAMES", 2000)
     monkeypatch.setattr(judged, "SPARSE_PER_NOTE", 0)
+    monkeypatch.setattr(judged, "PLAYER_WORK", 0)
     performance = Performance(piece(400))
     notice = all_problems(performance, performance.project.players).notice
     assert notice is not None
@@ -99,26 +100,65 @@ def test_hours_with_few_notes_are_looked_at_sparsely(
 
 
 @given(
-    players=st.integers(1, 128),
+    players=st.lists(st.integers(1, 3), min_size=1, max_size=128),
     notes=st.integers(1, 40_000),
     seconds=st.floats(1.0, 43_200.0),
     fps=st.sampled_from([Fraction(24), Fraction(30000, 1001), Fraction(60)]),
 )
-@example(players=128, notes=12_800, seconds=10.0, fps=Fraction(60))
-@example(players=1, notes=40_000, seconds=3000.0, fps=Fraction(60))
-def test_the_work_on_a_piece_is_bounded(players: int, notes: int, seconds: float, fps: Fraction) -> None:
-    frame = TimeFrame(0.0, seconds)
-    piece_of_so_many = SimpleNamespace(project=SimpleNamespace(fps=fps), time_frame=frame)
-    looked, notice = judged._looked(cast(Performance, piece_of_so_many), players, notes)
-    if looked is None:
-        assert notice is not None
-        assert notice.id == "judged.not"
-        return
-    rate = float(looked.fps) / looked.every
-    beside = judged.PLAYER_WORK * players + judged.NOTE_WORK * notes
-    assert rate * seconds * players + beside <= judged.MOST_WORK + players
-    assert (notice is None) == (rate > 10.0)
-    assert rate >= judged.LEAST_PER_S
+@example(players=[1] * 128, notes=12_800, seconds=10.0, fps=Fraction(60))
+@example(players=[1] * 16, notes=8_600, seconds=357.0, fps=Fraction(60))
+@example(players=[1], notes=40_000, seconds=3000.0, fps=Fraction(60))
+def test_the_work_on_a_piece_is_bounded(players: list[int], notes: int, seconds: float, fps: Fraction) -> None:
+    performance, each = of_length(seconds, fps), [notes // len(players)] * len(players)
+    looked, count = judged._looked(performance, players, each)
+    assert (looked is None) == (count == 0)
+
+    def work(rate: float, some: int) -> float:
+        curves = judged.PLAYER_WORK * sum(players[:some]) + judged.CURVE_WORK * sum(each[:some])
+        return rate * seconds * sum(players[:some]) + curves + judged.NOTE_WORK * sum(each)
+
+    if looked is not None:
+        rate = float(looked.fps) / looked.every
+        assert rate >= judged.LEAST_PER_S
+        assert work(rate, count) <= judged.MOST_WORK + sum(players)
+    if count < len(players):
+        # One musician more could not be looked at even as sparsely as anyone is.
+        few = judged.SPARSE_FRAMES + judged.SPARSE_PER_NOTE * sum(each)
+        assert work(judged.LEAST_PER_S, count + 1) > min(judged.MOST_WORK, few)
+
+
+@pytest.mark.parametrize(
+    ("players", "notes", "seconds", "rate"),
+    [(4, 530, 107.0, 15.0), (3, 3424, 482.0, 15.0), (27, 7188, 113.0, 2.5), (12, 4197, 501.0, 5.0)],
+    ids=["quartet", "Brandenburg concerto", "concert band", "overture"],
+)
+def test_everyone_is_looked_at_in_known_pieces(players: int, notes: int, seconds: float, rate: float) -> None:
+    looked, count = judged._looked(of_length(seconds, Fraction(60)), [1] * players, [notes // players] * players)
+    assert count == players
+    assert looked is not None
+    assert float(looked.fps) / looked.every >= rate
+
+
+def of_length(seconds: float, fps: Fraction) -> Performance:
+    """What is asked of a performance."""
+    return cast(Performance, SimpleNamespace(project=SimpleNamespace(fps=fps), time_frame=TimeFrame(0.0, seconds)))
+
+
+def test_the_first_players_are_looked_at_where_all_are_too_many(
+    rates: list[tuple[Fraction, int]], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    project = piece(40, 4)
+    seconds = whole_span(Performance(project).time_frame, Fraction(60)).count / 60.0
+    monkeypatch.setattr(judged, "NOTE_WORK", 0.0)
+    monkeypatch.setattr(judged, "CURVE_WORK", 0.0)
+    monkeypatch.setattr(judged, "MOST_WORK", 2 * (judged.PLAYER_WORK + 2.5 * seconds))
+    performance = Performance(project)
+    problems, notice = all_problems(performance, project.players)
+    assert len(rates) == 2
+    assert notice is not None
+    assert notice.id == "judged.some"
+    assert (notice.arguments["judged"], notice.arguments["last"]) == (2, project.players[1].name)
+    assert problems.keys() == {player.id for player in project.players}
 
 
 def test_hours_of_many_players_are_not_looked_at(rates: list[tuple[Fraction, int]]) -> None:
