@@ -116,7 +116,8 @@ def plan_by_rules(
         if rule.when.moment is not None:
             continue
         facts = facts_of(times, piece, instrument, dynamics, embouchures) if facts is None else facts
-        here = matches(rule.when, facts) & by_chance(rule, times.onset_tick, seeds)
+        here = matches(rule.when, facts)
+        here[here] = by_chance(rule, times.onset_tick[here], seeds)
         if styles and rule.when.styles:
             here &= np.array([style in rule.when.styles for style in played_in])
         if styles and rule.when.not_styles:

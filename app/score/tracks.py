@@ -351,6 +351,8 @@ def _end_where_struck_again(notes: ChannelNotes) -> None:
                 first_off = offs[bisect_right(offs, onsets[index])]
                 followed[index] = first_off if again < 0 else min(first_off, onsets[again])
     swallowed, together = _covered(notes, ends)
+    if not swallowed or not together:
+        return
     swallowed_then, together_then = _covered(notes, followed)
     sounding = sum(followed) - sum(onsets)
     if swallowed_then < swallowed and together_then < together and together_then <= _MOST_TOGETHER * sounding:
@@ -388,15 +390,24 @@ def _end_late(notes: ChannelNotes) -> None:
 def _covered(notes: ChannelNotes, ends: Sequence[int]) -> tuple[int, int]:
     """Count the notes that lie wholly within one of another pitch, and the ticks of notes that such a one covers."""
     swallowed = together = 0
-    longest: dict[int, int] = {}
-    """The latest end so far, of the two pitches that end last."""
+    # The latest ends so far of the two pitches that end last: of the pitch whose last one that is, and of any other.
+    last, last_end, other_end = -1, -1, -1
     for onset, end, pitch in zip(notes.onset_ticks, ends, notes.pitches, strict=True):
-        other = max((until for known, until in longest.items() if known != pitch), default=onset)
-        swallowed += other >= end
-        together += max(min(other, end) - onset, 0)
-        longest[pitch] = max(end, longest.get(pitch, end))
-        if len(longest) > 2:
-            del longest[min(longest, key=longest.__getitem__)]
+        until = other_end if pitch == last else last_end
+        if until < 0:
+            until = onset
+        if until >= end:
+            swallowed += 1
+            together += end - onset if end > onset else 0
+        elif until > onset:
+            together += until - onset
+        if pitch == last:
+            if end > last_end:
+                last_end = end
+        elif end > last_end:
+            last, last_end, other_end = pitch, end, last_end
+        elif end > other_end:
+            other_end = end
     return swallowed, together
 
 
