@@ -232,6 +232,10 @@ def _expected_controls(kind: str, label: str, controls: Mapping[str, float]) -> 
     return abs(out_m - tube_m * (2 ** ((place - 1) / 12) - 1) / 2) < 0.036
 
 
+VALVE_KEPT = {41: "T1", 48: "T1"}
+"""F 2 and C 3 of a trombone with an F valve."""
+
+
 def _fingerings(player: Mapping[str, Any]) -> list[str]:
     wrong = []
     kind = FAMILY.get(player["instrument"])
@@ -248,6 +252,13 @@ def _fingerings(player: Mapping[str, Any]) -> list[str]:
             abs(other["onset_s"] - note["onset_s"])
             for other in [*notes[max(index - 1, 0) : index], *notes[index + 1 : index + 2]]
         ]
+        # Next to a note that needs the thumb's valve, a trombonist leaves it turned.
+        beside = {
+            FIRST[kind].get(other["pitch"], "")
+            for other in [*notes[max(index - 1, 0) : index], *notes[index + 1 : index + 2]]
+        }
+        if label == VALVE_KEPT.get(pitch) and any(one.startswith("T") for one in beside):
+            continue
         if pitch in FIRST[kind] and min(around, default=9.0) > SLOW_S and label != FIRST[kind][pitch]:
             wrong.append(f"note {note['id']}: {pitch} with {label} though there is time for {FIRST[kind][pitch]}")
         if pitch in TABLE[kind] and min(around, default=9.0) > SLOW_S and label != TABLE[kind][pitch]:
