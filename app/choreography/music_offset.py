@@ -16,6 +16,7 @@ from scipy.ndimage import gaussian_filter1d
 
 from app.choreography.clip import MotionClip
 from app.choreography.features import points_m
+from app.choreography.peaks import prominent_peaks
 from app.choreography.rhythm import Rhythm
 
 FloatArray = npt.NDArray[np.float64]
@@ -100,10 +101,7 @@ def summed_speed_m_s(clip: MotionClip) -> FloatArray:
 def speed_minima(speed: FloatArray, fps: float, smoothing_s: float) -> tuple[IntArray, FloatArray]:
     """Frames of the local minima of a speed, averaged by a Gaussian of a standard deviation, and how deep each is."""
     smooth = gaussian_filter1d(speed, smoothing_s * fps, mode="nearest")
-    from scipy.signal import find_peaks  # heavy; only who learns a dance needs it
-
-    frames, found = find_peaks(-smooth, prominence=max(PROMINENCE * float(np.median(smooth)), 1e-6))
-    return frames.astype(np.int64), found["prominences"]
+    return prominent_peaks(-smooth, max(PROMINENCE * float(np.median(smooth)), 1e-6))
 
 
 def _pulses(times_s: FloatArray, weights: FloatArray, length_s: float) -> FloatArray:
@@ -118,7 +116,7 @@ def _pulses(times_s: FloatArray, weights: FloatArray, length_s: float) -> FloatA
 def _fit(motion: FloatArray, music: FloatArray) -> tuple[FloatArray, IntArray]:
     """Correlation of what both share at each lag of the music, from -1 to 1, and the lags in steps of the grid."""
     lags = np.arange(-(len(music) - 1), len(motion))
-    from scipy.signal import correlate  # heavy, as above
+    from scipy.signal import correlate  # heavy; only who learns a dance needs it
 
     shared = correlate(np.ones_like(motion), np.ones_like(music), method="fft").round()
     enough = shared >= LEAST_OVERLAP * min(len(motion), len(music))

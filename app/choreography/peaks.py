@@ -1,0 +1,56 @@
+"""Peaks of a curve and how prominent they are, found without the modules of `scipy.signal`.
+
+Loading those takes a second, and the first dance of a session, or of a process that shows one, would wait for it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import numpy as np
+import numpy.typing as npt
+
+FloatArray = npt.NDArray[np.float64]
+IntArray = npt.NDArray[np.int64]
+
+
+def prominent_peaks(values: FloatArray, least: float) -> tuple[IntArray, FloatArray]:
+    """Places (N,) of local maxima, ascending, and their prominences (N,): as `scipy.signal.find_peaks` finds them.
+
+    A flat peak is in its middle. A prominence is the height above the higher one of the lowest places on both sides,
+    each up to where the curve is higher than the peak.
+
+    Parameters
+    ----------
+    values : (F,) float64
+    least : float
+        Prominence of a peak at least.
+    """
+    steps = np.flatnonzero(np.diff(values))
+    if len(steps) < 2:
+        return np.zeros(0, np.int64), np.zeros(0)
+    levels = values[np.concatenate([steps, steps[-1:] + 1])]
+    is_peak = (levels[1:-1] > levels[:-2]) & (levels[1:-1] > levels[2:])
+    peaks = (((steps[:-1] + 1) + steps[1:]) // 2)[is_peak]
+    if not len(peaks):
+        return peaks, np.zeros(0)
+    heights = values[peaks].tolist()
+    # The lowest place before the first peak, between each two, and after the last one.
+    valleys = np.minimum.reduceat(values, np.concatenate([[0], peaks])).tolist()
+    before = _lowest_sides(heights, valleys[:-1])
+    after = _lowest_sides(reversed(heights), reversed(valleys[1:]))[::-1]
+    prominences = np.array(heights) - np.maximum(before, after)
+    kept = prominences >= least
+    return peaks[kept], prominences[kept]
+
+
+def _lowest_sides(heights: Iterable[float], valleys: Iterable[float]) -> list[float]:
+    """The lowest place before each peak, back to the last one that is higher; ``valleys`` are before each."""
+    lowest: list[float] = []
+    higher: list[tuple[float, float]] = []
+    for height, valley in zip(heights, valleys, strict=True):
+        while higher and higher[-1][0] <= height:
+            valley = min(valley, higher.pop()[1])
+        lowest.append(valley)
+        higher.append((height, valley))
+    return lowest
