@@ -18,7 +18,7 @@ from dataclasses import replace
 from fractions import Fraction
 from functools import lru_cache
 from threading import Lock
-from typing import Final
+from typing import Final, NamedTuple
 
 import msgspec
 import numpy as np
@@ -39,6 +39,7 @@ from app.motion.model import Motion
 from app.motion.perform import frame_count
 from app.performance.choreographers import choreographer_of, too_long_to_dance
 from app.performance.ensemble import Performance
+from app.performance.forgetting import Remembered
 from app.plan.model import Problem, TimeFrame
 from app.project.casting import StagePosition
 from app.project.dance_corrections import DanceCorrection, ForbidState, PinState, UseSegment
@@ -56,6 +57,8 @@ BLINK_S: Final = (0.08, 0.05, 0.16)
 BLINKS_EVERY_S: Final = (1.8, 6.0)
 
 _DANCING: IdentityCache[Dancing] = IdentityCache(64)
+_REMEMBERED: Final = Remembered(2**30)
+"""Generated dances: a dozen of a quarter of an hour, or two hundred of a minute, take so many bytes."""
 _RHYTHMS: IdentityCache[Rhythm] = IdentityCache(8)
 _recent_rhythms: deque[Rhythm] = deque(maxlen=4)
 _recent_rhythms_lock = Lock()
@@ -89,7 +92,7 @@ class Dancing:
         self.time_frame = time_frame
         self._corrections, self._tempo_map = corrections, tempo_map
         self._problems: tuple[Problem, ...] = ()
-        self._made: tuple[Fraction, Dance, Motion] | None = None
+        self._made: _Made | None = None
         self._steps: tuple[Step, ...] | None = None
         self._lock = Lock()
 
@@ -97,7 +100,8 @@ class Dancing:
         """Which segments are danced when, at every frame rate."""
         with self._lock:
             if self._steps is None:
-                self._steps = self._made[1].steps if self._made is not None else self._chosen()
+                made = self._made
+                self._steps = made.dance.steps if made is not None else self._chosen()
             return self._steps
 
     def _chosen(self) -> tuple[Step, ...]:
@@ -113,11 +117,11 @@ class Dancing:
 
     def dance(self, fps: Fraction) -> Dance:
         """The dance, from the first frame of the performance to its last."""
-        return self._whole(fps)[0]
+        return self._whole(fps).dance
 
     def motion(self, fps: Fraction, first: int, count: int) -> Motion:
         """Some frames of the performance. The same frames are the same bits in every span."""
-        _, whole = self._whole(fps)
+        whole = self._whole(fps).motion
         here = slice(first, first + count)
         return replace(
             whole,
@@ -140,29 +144,53 @@ class Dancing:
         generated."""
         return self._problems
 
-    def _whole(self, fps: Fraction) -> tuple[Dance, Motion]:
+    def forget(self) -> None:
+        """Give back the memory of what was generated; it is generated again when it is asked for."""
+        self._made = None
+
+    def _whole(self, fps: Fraction) -> _Made:
         with self._lock:
-            if self._made is None or self._made[0] != fps:
-                frame = self.time_frame
-                count = frame_count(frame, fps)
-                grid = grid_of(self.rhythm)
-                dance = self.choreographer.dance(
-                    self.rhythm,
-                    self._manner,
-                    fps,
-                    constraints=self._constraints(grid),
-                    first_s=frame.first_frame_s,
-                    # Half a frame less: rounding must not add one.
-                    end_s=frame.first_frame_s + (count - 0.5) * fps.denominator / fps.numerator,
-                )
-                held = not_held(self._corrections, dance.steps, grid, self._tempo_map)
-                seen = visible_faults(dance, self.choreographer.usual_change_rad_s(fps))
-                self._problems = tuple(sorted(held + seen, key=lambda problem: problem.start_s))
-                motion = retarget(dance.clip, self.character, frame.first_frame_s)
-                times_s = frame.first_frame_s + np.arange(count) * fps.denominator / fps.numerator
-                shut = _blinks(self.dancer, frame).sample(times_s).astype(np.float32)
-                self._made = fps, dance, replace(motion, morphs={"eyeBlinkLeft": shut, "eyeBlinkRight": shut})
-            return self._made[1], self._made[2]
+            made = self._made
+            if made is None or made.fps != fps:
+                made = self._made = self._generated(fps)
+        _REMEMBERED.use(self, made.size_bytes)
+        return made
+
+    def _generated(self, fps: Fraction) -> _Made:
+        frame = self.time_frame
+        count = frame_count(frame, fps)
+        grid = grid_of(self.rhythm)
+        dance = self.choreographer.dance(
+            self.rhythm,
+            self._manner,
+            fps,
+            constraints=self._constraints(grid),
+            first_s=frame.first_frame_s,
+            # Half a frame less: rounding must not add one.
+            end_s=frame.first_frame_s + (count - 0.5) * fps.denominator / fps.numerator,
+        )
+        held = not_held(self._corrections, dance.steps, grid, self._tempo_map)
+        seen = visible_faults(dance, self.choreographer.usual_change_rad_s(fps))
+        self._problems = tuple(sorted(held + seen, key=lambda problem: problem.start_s))
+        motion = retarget(dance.clip, self.character, frame.first_frame_s)
+        times_s = frame.first_frame_s + np.arange(count) * fps.denominator / fps.numerator
+        shut = _blinks(self.dancer, frame).sample(times_s).astype(np.float32)
+        return _Made(fps, dance, replace(motion, morphs={"eyeBlinkLeft": shut, "eyeBlinkRight": shut}))
+
+
+class _Made(NamedTuple):
+    """A generated dance at a frame rate, and the motion of its dancer's character."""
+
+    fps: Fraction
+    dance: Dance
+    motion: Motion
+
+    @property
+    def size_bytes(self) -> int:
+        """Memory of its frames."""
+        clip, motion = self.dance.clip, self.motion
+        arrays = (clip.rotations, clip.hips_m, motion.rotations, motion.hips_m, motion.instrument_position_m)
+        return sum(one.nbytes for one in (*arrays, motion.instrument_rotation, *motion.morphs.values()))
 
 
 def manner_of(dancer: Dancer, sources: int) -> Manner:

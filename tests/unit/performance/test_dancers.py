@@ -15,6 +15,7 @@ from app.choreography.dance import Manner
 from app.choreography.generate import Choreographer
 from app.choreography.model_file import write_model
 from app.errors import AppError
+from app.performance import dancers
 from app.performance.dancers import assignments_of, dancing_of, visible_faults
 from app.performance.ensemble import Performance
 from app.performance.live import LiveMotion
@@ -267,3 +268,26 @@ def test_what_can_be_seen_of_a_dance_is_a_problem() -> None:
     at = next(number for number, step in enumerate(dance.steps) if abs(step.start_s - (seam / 60.0 - 1.0)) < 0.02)
     assert found["dance.seam_shows", seam / 60.0 - 1.0] == {"before": states[at - 1], "after": states[at]}
     assert found["dance.foot_slides", stand.start / 60.0 - 1.0] == {"side": ("left", "right")[stand.foot]}
+
+
+def test_dances_take_no_more_memory_than_allowed(choreography: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    project = with_dancers(choreography)
+    some = tuple(msgspec.structs.replace(project.dancers[0], id=f"dancer:{at}", seed=at) for at in range(4))
+    performance = Performance(replace(project, dancers=some))
+    dancings = [dancing_of(performance, one) for one in some]
+    size_bytes = dancings[0]._whole(FPS).size_bytes
+    monkeypatch.setattr(dancers._REMEMBERED, "most_bytes", 2 * size_bytes)
+    first = [one.motion(FPS, 0, 40) for one in dancings]
+    assert [one._made is not None for one in dancings] == [False, False, True, True]
+    assert dancings[0].steps()
+    again = dancings[0].motion(FPS, 0, 40)
+    np.testing.assert_array_equal(again.rotations, first[0].rotations)
+    assert [one._made is not None for one in dancings] == [True, False, False, True]
+
+
+def test_a_large_dance_is_kept_alone(choreography: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(dancers._REMEMBERED, "most_bytes", 1)
+    performance = Performance(with_dancers(choreography, seed=77))
+    dancing = dancing_of(performance, performance.project.dancers[0])
+    made = dancing._whole(FPS)
+    assert dancing._whole(FPS) is made
