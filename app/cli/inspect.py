@@ -97,7 +97,7 @@ def inspection(performance: Performance, *, contacts: bool = True) -> Table:
         Whether all motion is generated to check what the bodies reach.
     """
     project = performance.project
-    score, place = project.score, project.conductor
+    score, place = project.score, project.conducting
     # No one plans for an instrument that is not there.
     playable = attempt(project.players, performance.instrument)
     absent = {one.player.id for one in playable.left_out}

@@ -17,7 +17,7 @@ from app.errors import FileError, Message, UsageError
 from app.messages import text as worded
 from app.plan.generate import COME_UP_S, PREROLL_BEATS, PREROLL_LEAST_S
 from app.project import limits
-from app.project.casting import MOST_IN_ARC, ConductorPlace, conductor_place
+from app.project.casting import ConductorPlace, conductor_place
 from app.project.edit.piece import PieceSettings, piece_settings, set_piece_settings, set_preroll
 from app.project.frame_rate import exact_number
 from app.project.frame_rate import frame_rate as typed_rate
@@ -130,7 +130,7 @@ def conductor(text: str) -> ConductorPlace | str:
     x, comma, z = said.partition(",")
     if not comma:
         raise argparse.ArgumentTypeError(f"{text[:_MOST_SHOWN]!r} is not a place such as 0,1.5, nor usual, nor none")
-    return ConductorPlace(_stage_m(x), _stage_m(z))
+    return ConductorPlace(_stage_m(x), _stage_m(z), on_stage=True)
 
 
 def text_encoding(text: str) -> str:
@@ -221,8 +221,7 @@ def add_source_options(command: argparse.ArgumentParser) -> None:
         type=conductor,
         metavar="PLACE",
         help="where a conductor stands, who gives the entries: X,Z in metres (--conductor=-0.5,2 where X is negative), "
-        "usual for before the players, or none (default: the project's; of a MIDI file none for up to "
-        f"{MOST_IN_ARC} players, usual for more)",
+        "usual for before the players, or none: the players give them (default: the project's; of a MIDI file none)",
     )
 
 
@@ -299,7 +298,8 @@ def _piece(arguments: argparse.Namespace, project: Project) -> PieceSettings:
     if given.get("conductor") == NO_CONDUCTOR:
         given["conductor"] = None
     elif given.get("conductor") == USUAL_CONDUCTOR:
-        given["conductor"] = conductor_place([player.stage for player in project.bodies])
+        place = conductor_place([player.stage for player in project.bodies])
+        given["conductor"] = msgspec.structs.replace(place, on_stage=True)
     return msgspec.structs.replace(piece_settings(project), **given)
 
 

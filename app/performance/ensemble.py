@@ -184,12 +184,12 @@ class Performance:
 
     @property
     def places(self) -> dict[str, StagePlace]:
-        """Where every player is on the stage, and the conductor."""
+        """Where every player is on the stage, and the conductor who stands there."""
         found = {}
         for player in self.project.players:
             stage, eyes_m = player.stage, EYES_M[player.parameters.posture]
             found[player.id] = StagePlace(stage.x_m, stage.z_m, stage.turn_rad, eyes_m)
-        conductor = self.project.conductor
+        conductor = self.project.conducting
         if conductor is not None:
             found[CONDUCTOR] = StagePlace(conductor.x_m, conductor.z_m, math.pi, CONDUCTOR_EYES_M)
         return found

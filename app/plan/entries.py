@@ -7,34 +7,28 @@ from typing import Literal, TypeAlias
 import msgspec
 import numpy as np
 
+from app.plan.fermatas import OTHER_TEMPO, Fermata, fermatas
 from app.plan.line import IntArray, Piece, Rhythm
 from app.plan.model import FloatArray
 from app.plan.spans import Spans
 
-COMMON_REST_BARS = 2
-COMMON_REST_S = 4.0
-"""A rest of all players this long needs a new start: everyone has lost the beat (either is enough)."""
-COMMON_REST_LEAST_S = 2.0
-"""Short bars rest quickly over: no one has lost the beat by then."""
-PAUSE_LEAST_S = 1.5
-"""A silence of all for a whole bar, and so long, is a general pause."""
-LEAST_BEATS = 2.0
-"""A cue needs the preparatory beat and room before it."""
+COMMON_REST_S = 1.5
+COMMON_REST_BEATS, COMMON_REST_LEAST_S = 2.0, 0.75
+"""A rest of all players needs a new start if it lasts so many seconds, or so many beats that are not too quick."""
+PAUSE_BARS, PAUSE_MOST_S = (1.0, 2.0), 4.0
+"""A silence of all for a whole bar is a general pause; one that is longer in either way is a rest that is counted."""
+EXACT = 1e-6
+"""Seconds and beats that differ by less are equal."""
 HELD_S, HELD_BEATS = 3.0, 3.0
 """What all hold so long, in seconds and in beats, and leave together, was held by a fermata."""
 HELD_SILENCE_BEATS = 0.5
-"""From this silence on it was left; one of `LEAST_BEATS` is a rest that is counted."""
+"""From this silence on it was left; one of `COMMON_REST_BEATS` is a rest that is counted."""
 LONG_HELD_S, LONG_HELD_BEATS = 6.0, 6.0
 """What all hold so long no one counts: they need a cue even where they go on without any silence."""
-OTHER_TEMPO = 1.15
-"""A tempo that is faster or slower by this factor is another one."""
 STEADY_TEMPO, STEADY_BEATS = 1.1, 4
 """A new tempo holds for so many beats, within this factor; one that goes on changing is followed, not given."""
-HELD_TEMPO = 1.5
-"""A beat that is longer by this factor, for no more than `STEADY_BEATS`, is held by a fermata."""
-LIVE_TEMPO, LIVE_HELD_TEMPO = 1.35, 2.0
-"""Where the tempo was played, and so never steady: beats within the one factor are one tempo, and what is longer by the
-other was held."""
+SLOWED_TEMPO = 1.5
+"""After no more than `STEADY_BEATS` beats that were longer by this factor the tempo from before is given again."""
 
 LONG_REST_S, LONG_REST_BARS = 8.0, 4
 """After a rest of either length a player is brought in ..."""
@@ -76,7 +70,8 @@ def entries(all_times: tuple[Rhythm, ...], piece: Piece, musicians: tuple[str, .
     if not sounding:
         return ()
     lines = _Spans.of([_stretches(times) for _, times in sounding])
-    found = {entry.tick: entry for entry in _tempo_entries(sounding, lines, piece)}
+    held = fermatas(all_times, piece)
+    found = {entry.tick: entry for entry in _tempo_entries(sounding, lines, piece, held)}
     found |= {entry.tick: entry for entry in _held_entries(sounding, piece)}
     found |= {entry.tick: entry for entry in _common_entries(sounding, lines, piece)}
     shared: list[Entry] = []
@@ -160,12 +155,11 @@ def _common_entries(sounding: list[tuple[int, Rhythm]], lines: _Spans, piece: Pi
 def _silence(sounding: list[tuple[int, Rhythm]], end: int, tick: int, rest_s: float, piece: Piece) -> Reason | None:
     """Why all need a cue after a silence of all from ``end`` to ``tick``; None if no one does."""
     bars, beats = (tick - end) / piece.metre_map.bar_ticks_at(end), (tick - end) / beat_ticks(piece, tick)
-    if beats >= LEAST_BEATS:
-        if rest_s >= COMMON_REST_S or (bars >= COMMON_REST_BARS and rest_s >= COMMON_REST_LEAST_S):
-            return "cue.after_rest"
-        if bars >= 1.0 and rest_s >= PAUSE_LEAST_S:
-            return "cue.after_pause"
-    if not HELD_SILENCE_BEATS <= beats < LEAST_BEATS:
+    long = rest_s >= COMMON_REST_S - EXACT
+    if long or (beats >= COMMON_REST_BEATS - EXACT and rest_s >= COMMON_REST_LEAST_S - EXACT):
+        pause = PAUSE_BARS[0] <= bars < PAUSE_BARS[1] and rest_s < PAUSE_MOST_S
+        return "cue.after_pause" if pause else "cue.after_rest"
+    if not HELD_SILENCE_BEATS <= beats < COMMON_REST_BEATS:
         return None
     left = []
     for _, times in sounding:
@@ -204,54 +198,55 @@ def _nothing_begins(times: Rhythm, begin: int, tick: int) -> bool:
     return index < 0 or bool(times.onset_tick[index] <= begin and times.played_end_tick[index] <= tick)
 
 
-def _tempo_entries(sounding: list[tuple[int, Rhythm]], lines: _Spans, piece: Piece) -> list[Entry]:
+def _tempo_entries(
+    sounding: list[tuple[int, Rhythm]], lines: _Spans, piece: Piece, held: tuple[Fermata, ...]
+) -> list[Entry]:
     """Where a new tempo begins and stays, or the old one goes on after a fermata."""
     beats = piece.metre_map.felt_between(int(lines.starts[0]), int(lines.ends[-1]))
     seconds = piece.clock.seconds(beats.astype(np.float64))
     lasts_s: FloatArray = np.diff(seconds) / np.maximum(np.diff(beats), 1)
     changes = np.abs(np.diff(np.log(np.maximum(lasts_s, 1e-12)))) >= np.log(OTHER_TEMPO)
+    # Into a fermata no one needs a beat; its end is an entry of its own.
+    slow = Spans((one.start_tick - beat_ticks(piece, one.start_tick) + 1, one.entry_tick + 1) for one in held)
+    places = [place for place in (np.flatnonzero(changes) + 1).tolist() if not slow.hold(beats[place], beats[place])]
+    found = [(int(beats[place]), float(lasts_s[place])) for place in places if _new_tempo(lasts_s, place)]
+    found += [(one.entry_tick, 0.0 if one.returns else _tempo_after(one, piece)) for one in held]
     accompaniment = _Spans.of([tuple(np.array(piece.accompaniment, np.int64).reshape(-1, 2).T)])  # type: ignore[list-item]
-    found = []
-    for place in (np.flatnonzero(changes) + 1).tolist():
-        tick, beat = int(beats[place]), beat_ticks(piece, int(beats[place]))
-        reason = _new_tempo(lasts_s, place)
+    entries = []
+    for tick, tick_s in found:
+        beat = beat_ticks(piece, tick)
         players = coming_in(sounding, tick, beat)
         # A single player with an accompaniment follows it.
         carried = len(sounding) == 1 and accompaniment.sounds_before(tick, beat)
-        if reason is None or not players or carried or tick <= lines.starts[0]:
+        if not players or carried or tick <= lines.starts[0]:
             continue
-        bpm = 60.0 / (float(lasts_s[place]) * beat)
-        found.append(Entry(tick, reason, None if reason == "cue.after_fermata" else bpm, players))
-    return found
+        if tick_s:
+            entries.append(Entry(tick, "cue.tempo", 60.0 / (tick_s * beat), players))
+        else:
+            entries.append(Entry(tick, "cue.after_fermata", None, players))
+    return entries
 
 
-def _new_tempo(lasts_s: FloatArray, place: int) -> Literal["cue.tempo", "cue.after_fermata"] | None:
-    """What begins at a beat, by how long a tick lasts in each beat."""
+def _tempo_after(fermata: Fermata, piece: Piece) -> float:
+    """Seconds per tick of the tempo that begins after a fermata."""
+    first, beat = fermata.entry_tick, beat_ticks(piece, fermata.entry_tick)
+    return (piece.clock.seconds(float(first + beat)) - piece.clock.seconds(float(first))) / beat
+
+
+def _new_tempo(lasts_s: FloatArray, place: int) -> bool:
+    """Whether a tempo begins at a beat that is given, by how long a tick lasts in each beat."""
     following = lasts_s[place : place + STEADY_BEATS]
-    if len(following) < 2:
-        return None
-    here = float(np.median(following))
-    before = lasts_s[max(place - STEADY_BEATS - 1, 0) : place] / here
-    if following.max() > STEADY_TEMPO * following.min():
-        return "cue.after_fermata" if _held_while_live(before, following) else None
+    if len(following) < 2 or following.max() > STEADY_TEMPO * following.min():
+        return False
+    before = lasts_s[max(place - STEADY_BEATS - 1, 0) : place] / float(np.median(following))
     other = np.maximum(before, 1.0 / before) >= OTHER_TEMPO
     if not other[-1]:
-        return None
+        return False
     stretch = int(np.argmin(other[::-1])) if not other.all() else len(other)
     if stretch <= STEADY_BEATS and stretch < len(other):
-        # The tempo was the same shortly before: that was a fermata, or only a delay.
-        return "cue.after_fermata" if before[-stretch:].max() >= HELD_TEMPO else None
-    return "cue.tempo"
-
-
-def _held_while_live(before: FloatArray, following: FloatArray) -> bool:
-    """Whether the last of the beats before, relative to the tempo that follows, were held, and the others were not,
-    where no two beats are alike."""
-    if following.max() > LIVE_TEMPO * following.min():
-        return False
-    slow = before >= LIVE_TEMPO
-    stretch = int(np.argmin(slow[::-1])) if not slow.all() else len(slow)
-    return 0 < stretch < len(slow) and bool(before[-stretch:].max() >= LIVE_HELD_TEMPO)
+        # The tempo was the same shortly before: that was a ritardando, or only a delay.
+        return bool(before[-stretch:].max() >= SLOWED_TEMPO)
+    return True
 
 
 def _joining(

@@ -51,11 +51,19 @@ class StagePosition(msgspec.Struct, frozen=True):
     turn_rad: float
 
 
-class ConductorPlace(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """Where a conductor stands, facing the players: as `StagePosition`."""
+class ConductorPlace(msgspec.Struct, frozen=True, forbid_unknown_fields=True, omit_defaults=True):
+    """A place before the players for a conductor, who faces them: as `StagePosition`.
+
+    Attributes
+    ----------
+    on_stage : bool
+        Whether a conductor stands there, who gives the entries. An empty place conducts no one; so do those of older
+        projects, in which no one said that there is a conductor.
+    """
 
     x_m: float
     z_m: float
+    on_stage: bool = False
 
 
 class Footprint(msgspec.Struct, frozen=True):
@@ -104,8 +112,8 @@ def stage_seats(footprints: Sequence[Footprint]) -> tuple[StagePosition, ...]:
 
 
 def conductor_place(stages: Sequence[StagePosition]) -> ConductorPlace:
-    """Where a conductor stands before players: in their middle, as far from the nearest as that one needs, and on the
-    audience's side of them."""
+    """Where a conductor would stand before players: in their middle, as far from the nearest as that one needs, and on
+    the audience's side of them."""
     if not stages:
         return ConductorPlace(0.0, CONDUCTOR_AWAY_M)
     x_m = math.fsum(stage.x_m for stage in stages) / len(stages)
@@ -113,11 +121,6 @@ def conductor_place(stages: Sequence[StagePosition]) -> ConductorPlace:
     while min(math.hypot(stage.x_m - x_m, stage.z_m - z_m) for stage in stages) < CONDUCTOR_AWAY_M:
         z_m += CONDUCTOR_STEP_M
     return ConductorPlace(round(x_m, 2), round(z_m, 2))
-
-
-def has_conductor(count: int) -> bool:
-    """Whether an ensemble of so many is conducted: chamber music leads itself, a band does not."""
-    return count > MOST_IN_ARC
 
 
 def usual_posture(count: int) -> Posture:

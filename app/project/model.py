@@ -19,8 +19,6 @@ from app.project.casting import (
     ConductorPlace,
     amplitude,
     choose_characters,
-    conductor_place,
-    has_conductor,
     player_seed,
     stage_seats,
     usual_posture,
@@ -106,7 +104,7 @@ class Project:
     section_intensity : float
         Multiplies what all players show of their acting; 1: as their styles and parameters have it.
     conductor : ConductorPlace or None
-        Where the conductor stands who gives the entries; None: the players give them themselves.
+        A conductor's place; where no one stands there, or None, the players give the entries themselves.
     felt_beat_quarters : float or None
         The beat that is felt throughout, in quarters: 1.5 where a fast 6/8 is felt in two. None: metre and tempo say.
     fps : Fraction
@@ -205,6 +203,11 @@ class Project:
         """The dancer of this id; KeyError where there is none."""
         return self._dancers[dancer_id]
 
+    @property
+    def conducting(self) -> ConductorPlace | None:
+        """Where a conductor stands who gives the entries; None: there is none, or the place is empty."""
+        return self.conductor if self.conductor is not None and self.conductor.on_stage else None
+
     def performer_names(self, but: str = "") -> list[str]:
         """What players and dancers are called, except the one of the id ``but``: no two share a name, also where case
         does not count."""
@@ -290,14 +293,7 @@ def project_from_score(score: Score, maps: Mapping[str, InstrumentMap], *, seed:
         read_curves={part.id: part.curves for part in parts},
         read_timing=ReadTiming(score.tempo_map, score.metres, score.pickup_ticks),
     )
-    return replace(project, preroll_beats=preroll_of_new(project), conductor=conductor_of_new(project))
-
-
-def conductor_of_new(project: Project) -> ConductorPlace | None:
-    """Where the conductor of a new piece stands; None for an ensemble that leads itself."""
-    if not has_conductor(len(project.bodies)):
-        return None
-    return conductor_place([player.stage for player in project.bodies])
+    return replace(project, preroll_beats=preroll_of_new(project))
 
 
 def preroll_of_new(project: Project) -> float:

@@ -40,6 +40,7 @@ class PieceSettingsDialog(Retranslated, QDialog):
         self._session = session
         self._before = piece_settings(session.project)
         self._shown: dict[str, tuple[Any, Any]] = {}
+        self._has_place = False
         """Of each field what it shows of a value, and the value: a field may show less than there is."""
         self._title = named(QLineEdit(), "piece_title")
         self._title.setMaxLength(limits.MOST_NAME)
@@ -122,12 +123,17 @@ class PieceSettingsDialog(Retranslated, QDialog):
             felt_beat_quarters=self._felt.currentData(),
             seed=seed,
             section_intensity=self._kept("intensity", self._intensity.value()),
-            conductor=self._place() if self._conducted.isChecked() else None,
+            conductor=self._place(),
         )
 
-    def _place(self) -> ConductorPlace:
+    def _place(self) -> ConductorPlace | None:
+        """The conductor's place; None where there was none and none is selected."""
         across, ahead = self._conductor
-        return ConductorPlace(self._kept("conductor x", across.value()), self._kept("conductor z", ahead.value()))
+        on_stage = self._conducted.isChecked()
+        if not on_stage and not self._has_place:
+            return None
+        x_m, z_m = self._kept("conductor x", across.value()), self._kept("conductor z", ahead.value())
+        return ConductorPlace(x_m, z_m, on_stage)
 
     def _kept(self, name: str, value: Value) -> Value:
         """A value that the user left alone is what it was, to the last digit and sign."""
@@ -159,11 +165,12 @@ class PieceSettingsDialog(Retranslated, QDialog):
         self._intensity.setValue(settings.section_intensity)
         self._seed.setText(str(settings.seed))
         stages = [player.stage for player in self._session.project.bodies]
+        self._has_place = settings.conductor is not None
         place = settings.conductor or conductor_place(stages)
-        self._conducted.setChecked(settings.conductor is not None)
+        self._conducted.setChecked(place.on_stage)
         for field, place_m in zip(self._conductor, (place.x_m, place.z_m), strict=True):
             field.setValue(place_m)
-            field.setEnabled(settings.conductor is not None)
+            field.setEnabled(place.on_stage)
         self._shown = {
             "title": (self._title.text(), settings.title),
             "preroll": (self._preroll.value(), settings.preroll_beats),

@@ -823,14 +823,16 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
         "Towards the audience from the middle of the stage",
         "ステージ中央から客席側への距離",
     ),
-    "piece_settings_dialog.conductor_gives_entries": ("Gives the entries", "入りの合図を出す"),
+    "piece_settings_dialog.conductor_gives_entries": ("On stage, gives the entries", "ステージ上で入りの合図を出す"),
     "piece_settings_dialog.conductor_left": (
         "To the right of the audience from the middle of the stage",
         "ステージ中央から客席の右手側への距離",
     ),
     "piece_settings_dialog.conductor_tip": (
-        "Players look up to the conductor instead of cueing each other",
-        "奏者は互いに合図せず、指揮者を見ます",
+        "For a conductor whom you animate yourself: players look up there instead of cueing each other.\n"
+        "Off: no one stands there, and the players cue each other.",
+        "指揮者を自分でアニメーションする場合にオン: 奏者は互いに合図せず、指揮者を見ます。\n"
+        "オフ: 指揮者はおらず、奏者どうしで合図します。",
     ),
     "piece_settings_dialog.cancel": ("Cancel", "キャンセル"),
     "piece_settings_dialog.dotted_eighth": ("Dotted eighth", "付点8分音符"),

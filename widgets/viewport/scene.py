@@ -195,7 +195,7 @@ class Scene(QObject):
 
     def podium(self) -> tuple[float, float, Color] | None:
         """Where the conductor stands, and the colour that marks it."""
-        place = self._session.project.conductor
+        place = self._session.project.conducting
         return None if place is None else (place.x_m, place.z_m, rgb(self._session.tokens.text_dim))
 
     def _is_selected(self, performer: Player | Dancer) -> bool:
@@ -228,8 +228,8 @@ class Scene(QObject):
             for (_, player), over_m in zip(known, places_m, strict=True):
                 selected = self._is_selected(player)
                 names.append(Name(player.name, session.colour(player) if selected else "", over_m, selected))
-            if project.conductor is not None:
-                over_m = np.array([project.conductor.x_m, PODIUM_NAME_M, project.conductor.z_m])
+            if project.conducting is not None:
+                over_m = np.array([project.conducting.x_m, PODIUM_NAME_M, project.conducting.z_m])
                 names.append(Name(_conductors_name(), "", over_m, False))
         if state.shows("skeleton"):
             skeletons = [(row, session.colour(player)) for row, player in known]

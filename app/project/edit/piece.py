@@ -20,7 +20,7 @@ from app.project import limits
 from app.project.casting import ConductorPlace
 from app.project.check import expression_faults
 from app.project.edit.tempo import set_metre, set_tempo
-from app.project.model import Project, conductor_of_new, preroll_of_new
+from app.project.model import Project, preroll_of_new
 from app.project.names import clean_name
 from app.project.recording import AudioTrack
 from app.project.video import VideoTrack
@@ -67,7 +67,7 @@ def set_section_intensity(project: Project, intensity: float) -> Project:
 
 
 def set_conductor(project: Project, place: ConductorPlace | None) -> Project:
-    """Where the conductor stands; None: there is none."""
+    """The conductor's place; None: there is none."""
     if place is not None:
         _check("conductor.x_m", place.x_m, limits.STAGE_M)
         _check("conductor.z_m", place.z_m, limits.STAGE_M)
@@ -111,8 +111,7 @@ def usual_settings(title: str, project: Project | None = None) -> PieceSettings:
     usual = piece_settings(new_piece(title))
     if project is None:
         return usual
-    own = {"preroll_beats": preroll_of_new(project), "conductor": conductor_of_new(project)}
-    return msgspec.structs.replace(usual, **own)
+    return msgspec.structs.replace(usual, preroll_beats=preroll_of_new(project))
 
 
 def set_piece_settings(project: Project, settings: PieceSettings) -> Project:

@@ -30,7 +30,9 @@ from app.shell.app import Program
 from tests.gui.shell.conftest import Answers, trigger
 from widgets.dialogs.piece_settings import PieceSettingsDialog
 
-OTHER = PieceSettings("Fanfare & Co.", Fraction(24000, 1001), 2.5, 1.5, 7, 0.8, ConductorPlace(-0.5, 1.75))
+OTHER = PieceSettings(
+    "Fanfare & Co.", Fraction(24000, 1001), 2.5, 1.5, 7, 0.8, ConductorPlace(-0.5, 1.75, on_stage=True)
+)
 
 
 @pytest.fixture

@@ -7,6 +7,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
+import msgspec
 import pytest
 
 from app.cli import main
@@ -139,6 +140,8 @@ def test_a_conductor_is_placed_where_a_piece_is_named(run: Run, tmp_path: Path) 
     usual = conductor_place([player.stage for player in small_project().players])
     assert placed("--conductor", "usual") == {"x_m": usual.x_m, "z_m": usual.z_m}
     save(replace(small_project(), conductor=usual), piece)
+    assert placed() is None, "an empty place of an older version"
+    save(replace(small_project(), conductor=msgspec.structs.replace(usual, on_stage=True)), piece)
     assert placed() == {"x_m": usual.x_m, "z_m": usual.z_m}
     assert placed("--conductor", "none") is None
     for wrong in ("1", "a,b", "0,1e9", "0,nan"):

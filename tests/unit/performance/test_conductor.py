@@ -24,7 +24,7 @@ from tests.support.performed import playing_of
 
 FPS = 60
 QUARTER = 480
-PLACE = ConductorPlace(0.0, 1.6)
+PLACE = ConductorPlace(0.0, 1.6, on_stage=True)
 
 
 def ensemble(count: int, *, slower_from: int | None = None) -> Project:
@@ -48,17 +48,14 @@ def looks(performance: Performance, player_id: str) -> list[GlanceEvent]:
     return [glance for glance in performance.plans[player_id].glances if glance.at == CONDUCTOR]
 
 
-def test_chamber_music_leads_itself_and_a_band_does_not() -> None:
-    assert ensemble(4).conductor is None
-    assert ensemble(MOST_IN_ARC).conductor is None
+@pytest.mark.parametrize("place", [None, ConductorPlace(0.0, 2.0)])
+def test_where_no_conductor_stands_a_band_leads_itself(place: ConductorPlace | None) -> None:
     band = ensemble(MOST_IN_ARC + 1)
-    assert band.conductor is not None
-    assert usual_settings("x", band).conductor == band.conductor
-    nearest_m = min(
-        math.hypot(player.stage.x_m - band.conductor.x_m, player.stage.z_m - band.conductor.z_m)
-        for player in band.players
-    )
-    assert 1.85 < nearest_m < 3.0
+    assert band.conductor is None
+    assert usual_settings("x", band).conductor is None
+    performance = Performance(replace(band, conductor=place))
+    assert [len(plan.cues) for plan in performance.plans.values()] == [2] + [0] * MOST_IN_ARC
+    assert all(not looks(performance, player_id) for player_id in performance.plans)
 
 
 def test_the_usual_place_is_in_the_middle_before_the_players() -> None:
@@ -123,7 +120,7 @@ def test_without_a_conductor_no_one_looks_there() -> None:
 
 @pytest.mark.parametrize("number", [0, 1, 2])
 def test_eyes_meet_the_conductor_and_lead_the_head(number: int) -> None:
-    project = replace(ensemble(3), conductor=ConductorPlace(0.0, 2.0))
+    project = replace(ensemble(3), conductor=ConductorPlace(0.0, 2.0, on_stage=True))
     player = project.players[number]
     performance = Performance(project)
     playing = playing_of(performance, player)

@@ -72,23 +72,24 @@ def test_who_must_not_lead_does_not() -> None:
 
 
 @pytest.mark.parametrize(
-    ("rest_beats", "bpm", "expected"), [(3, 120.0, 1), (4, 120.0, 2), (8, 120.0, 2), (4, 60.0, 2), (3, 60.0, 1)]
+    ("rest_beats", "bpm", "expected"),
+    [(1, 120.0, 1), (2, 120.0, 2), (8, 120.0, 2), (1, 100.0, 1), (1.5, 60.0, 2), (1, 40.0, 2), (2, 180.0, 1)],
 )
-def test_long_common_rests_and_general_pauses_need_a_new_start(rest_beats: int, bpm: float, expected: int) -> None:
-    line = MonophonicPart("p", line_of((0, 4 * Q, 65), ((4 + rest_beats) * Q, Q, 65)), valves())
+def test_long_common_rests_and_general_pauses_need_a_new_start(rest_beats: float, bpm: float, expected: int) -> None:
+    line = MonophonicPart("p", line_of((0, 4 * Q, 65), (round((4 + rest_beats) * Q), Q, 65)), valves())
     assert len(cues(line, clock=PlainClock(((0, bpm),)))) == expected
     holding = MonophonicPart("q", line_of((0, 40 * Q, 60), track=2), valves())
     assert len(cues(line, holding, clock=PlainClock(((0, bpm),)))) == 1
 
 
 def test_a_bar_cut_short_is_no_measure_of_a_rest() -> None:
-    # 3/4, restated a quarter after a bar line: the rest of two quarters that holds it is not two bars long.
+    # 3/4, restated a quarter after a bar line: the rest of two quarters that holds it is no bar long.
     metres = (Metre(0, 3, 4), Metre(7 * Q, 3, 4))
     notes = line_of((5 * Q, Q // 2, 65), (8 * Q, Q, 67))
     piece = piece_of(PlainClock(), metres)
     line = MonophonicPart("p", notes, valves())
     cues = make_plans(piece, (line,), time_frame((line,), piece.clock))["p"].cues
-    assert [cue.end_tick for cue in cues] == [5 * Q]
+    assert [(cue.end_tick, cue.reason.id) for cue in cues] == [(5 * Q, "cue.start"), (8 * Q, "cue.after_rest")]
 
 
 def test_no_notes_no_cue() -> None:

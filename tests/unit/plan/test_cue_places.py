@@ -88,6 +88,47 @@ TUNED = (
         tempi=((0, 120), (15, 40), (16, 120)),
     ),
     Row(
+        "a fermata of a whole bar is one cue, after it and in the tempo that follows",
+        (
+            ("tpt", TRUMPET, [*run(0, 12, 72), (12, 3.9, 72), *run(16, 16, 72)]),
+            ("hn", HORN, [*run(0, 12, 60), (12, 3.9, 60), *run(16, 16, 60)]),
+        ),
+        ((0, "tpt", 0.5), (16, "tpt", 0.5)),
+        tempi=((0, 120), (12, 40), (16, 120)),
+    ),
+    Row(
+        "a fermata before a new tempo: one cue, in the new one",
+        (
+            ("tpt", TRUMPET, [*run(0, 12, 72), (12, 3.9, 72), *run(16, 16, 72)]),
+            ("hn", HORN, [*run(0, 12, 60), (12, 3.9, 60), *run(16, 16, 60)]),
+        ),
+        ((0, "tpt", 0.75), (16, "tpt", 0.5)),
+        tempi=((0, 80), (12, 30), (16, 120)),
+    ),
+    Row(
+        "a slower tempo that begins with a long chord and stays",
+        (("tpt", TRUMPET, [*run(0, 12, 72), (12, 4, 72), *run(16, 16, 72)]), ("hn", HORN, run(0, 32, 60))),
+        ((0, "tpt", 0.5), (12, "tpt", 1.0)),
+        tempi=((0, 120), (12, 60)),
+    ),
+    Row(
+        "a fermata over a silence",
+        (("tpt", TRUMPET, run(0, 15, 72) + run(16, 16, 72)), ("hn", HORN, run(0, 15, 60) + run(16, 16, 60))),
+        ((0, "tpt", 0.5), (16, "tpt", 0.5)),
+        tempi=((0, 120), (15, 30), (16, 120)),
+    ),
+    Row(
+        "two beats of silence of all are counted",
+        (("tpt", TRUMPET, run(0, 14, 72) + run(16, 16, 72)), ("hn", HORN, run(0, 14, 60) + run(16, 16, 60))),
+        ((0, "tpt", 0.5), (16, "tpt", 0.5)),
+    ),
+    Row(
+        "a beat of silence of all in a slow tempo is long enough to lose it",
+        (("tpt", TRUMPET, run(0, 15, 72) + run(16, 16, 72)), ("hn", HORN, run(0, 15, 60) + run(16, 16, 60))),
+        ((0, "tpt", 1.5), (16, "tpt", 1.5)),
+        tempi=((0, 40),),
+    ),
+    Row(
         "the Allegro after the Adagio is given in its own tempo",
         (("fl", FLUTE, run(0, 48, 76)), ("cl", CLARINET, run(0, 48, 64))),
         ((0, "fl", 1.2), (24, "fl", 60 / 140)),
