@@ -212,10 +212,10 @@ def _cues(
             rest_s = slow_seconds(onset, changes, quarter) - slow_seconds(reach, changes, quarter)
             entry_s = slow_seconds(onset, changes, quarter)
             given = any(abs(end_s - entry_s) < 1e-5 for end_s in ends)
-            if rest_s >= 4.0 and onset - reach >= 2 * felt_beat * quarter and not given:
+            if rest_s >= 1.5 + 1e-6 and not given:
                 wrong.append(f"no cue for the entry at {entry_s} after {rest_s} s of rest")
             given = any(abs(end_s - entry_s) < 1e-5 for end_s in common)
-            if rest_s < 1.5 and onset - reach < 4 * quarter and given:
+            if rest_s < 1.5 - 1e-6 and (onset - reach < 2 * felt_beat * quarter or rest_s < 0.75) and given:
                 wrong.append(f"a cue at {entry_s} after {rest_s} s of rest")
         reach = max(reach, end)
     return wrong
