@@ -86,6 +86,7 @@ PITCHES: Final[dict[str, tuple[str, ...]]] = {
     "score.looks_written": ("pitch",),
     "score.program_gives_way": ("pitch",),
     "score.read_as_written": ("pitch",),
+    "score.solos": ("pitch",),
     "score.notes_left_out": ("pitch",),
     "score.stray_notes": ("pitch",),
     "score.slurred": ("pitch",),

@@ -303,6 +303,10 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
             "記譜音と見なすとすべて収まるため、「記譜音」として読み込みます"
         ),
     ),
+    "score.solos": (
+        "{part}: {count} notes are marked for one player, the first at {place} ({pitch}); the others rest",
+        "{part}: {count} 音は奏者 1 人の指定があるため（最初は {place} の {pitch}）、ほかの奏者は休みます",
+    ),
     "score.written": (
         "{part}: imported as written pitch for {map}",
         "{part}: {map} の記譜音として読み込みます",

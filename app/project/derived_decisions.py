@@ -152,7 +152,7 @@ def _row(
     if not streams:
         return msgspec.structs.replace(decision, map_id=first.map_id)
     mine = msgspec.structs.replace(contents, streams=tuple(contents.streams[index] for index in streams))
-    asked = PartAssignment(tuple(range(len(streams))), written=written)
+    asked = PartAssignment(tuple(range(len(streams))), written=written, solos=False)
     read = assigned_score(mine, [asked], choices).parts
     if own is not None and (not read or read[0].map_id != own.map_id):
         asked = msgspec.structs.replace(asked, map_id=own.map_id)

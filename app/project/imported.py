@@ -67,6 +67,8 @@ class RowDecision(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
         As in `app.score.parts.PartAssignment`.
     character_id : str or None
         None: chosen automatically.
+    solos : bool
+        As in `PartAssignment`; imports of earlier versions did not follow such words, and do not when read again.
     """
 
     tracks: tuple[TrackMark, ...]
@@ -76,6 +78,7 @@ class RowDecision(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     split: Split = "sustained"
     written: bool = False
     character_id: str | None = None
+    solos: bool = False
 
 
 class ImportDecisions(msgspec.Struct, frozen=True, forbid_unknown_fields=True):

@@ -249,5 +249,12 @@ def decision_of(row: ImportRow, marks: Iterable[TrackMark]) -> RowDecision:
     """A row as it is kept with the project, with the marks of its streams."""
     chosen = row.assignment
     return RowDecision(
-        tuple(marks), row.requested, chosen.map_id, chosen.name, chosen.split, chosen.written, row.character_id
+        tuple(marks),
+        row.requested,
+        chosen.map_id,
+        chosen.name,
+        chosen.split,
+        chosen.written,
+        row.character_id,
+        chosen.solos,
     )

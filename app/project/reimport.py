@@ -93,7 +93,9 @@ def reimported(project: Project, path: Path, maps: Mapping[str, InstrumentMap]) 
     """Read a MIDI file, as it was decided when the project was made from an earlier version of it, and let it take the
     place of the project's score. Raises as `app.score.read.read_contents`."""
     decisions = project.imported
-    contents = read_contents(path, encoding=None if decisions is None else decisions.encoding)
+    apart = {(part.track, part.channel) for part in project.score.parts}
+    apart.update((mark.track, mark.channel) for row in (decisions.rows if decisions else ()) for mark in row.tracks)
+    contents = read_contents(path, encoding=None if decisions is None else decisions.encoding, apart=apart)
     choices = map_choices(maps.values())
     if decisions is None:
         decisions = derived_decisions(project, contents, choices)

@@ -180,6 +180,12 @@ def _understood(track: TrackChannel | TrackMark) -> int:
     return max((1 if found.vague else 2 for found in named if found is not None), default=0)
 
 
+def _says_the_same(stream: TrackChannel, marks: Sequence[TrackMark]) -> bool:
+    """Return whether a track says what one of the marks did when its player was chosen."""
+    said = stream.name, stream.instrument_name, stream.program
+    return any((mark.name, mark.instrument_name, mark.program) == said for mark in marks)
+
+
 def _as_before(stream: TrackChannel, mark: TrackMark) -> TrackChannel:
     """The stream as it said at its import who plays it."""
     return msgspec.structs.replace(
@@ -213,14 +219,17 @@ def _row(
     map_id = decision.map_id if decision.map_id in installed else None
     if map_id is None and decision.requested and before is not None:
         found = candidates(own, choices)
-        if found.unknown or not found.maps:
+        if found.how is How.SAID and before in installed and _says_the_same(own[0], decision.tracks):
+            # It was chosen by the same words, in an earlier version by other rules.
+            map_id = None if any(choice.map_id == before for choice in found.maps) else before
+        elif found.unknown or not found.maps:
             # Its player stays, and has an instrument of its own; any map reads the notes.
             pitches = [pitch for stream in own for pitch in stream.pitches]
             map_id = before if before in installed else Candidates(How.RANGE, None, tuple(choices)).best(pitches).map_id
     name = decision.name
     if not name and own[0].name != called[places[0]].name:
         name = called[places[0]].name
-    assignment = PartAssignment(tuple(places), map_id, name, decision.split, decision.written)
+    assignment = PartAssignment(tuple(places), map_id, name, decision.split, decision.written, decision.solos)
     return ImportRow(assignment, decision.requested, decision.character_id)
 
 

@@ -94,6 +94,8 @@ class TrackChannel(msgspec.Struct, frozen=True):
         Spans of ticks in which the track is played with a mute.
     stopped : tuple of (start, end)
         Those of them in which the hand stops the bell.
+    solos : tuple of (tick, player)
+        Who of several players has the notes alone from there on, from 1; 0: all play (`app.score.solos`).
     use : {"melodic", "rhythm", "effect"}
         What its channel is on a sound module while it plays (`app.score.sound_module`).
     certain : bool
@@ -121,6 +123,7 @@ class TrackChannel(msgspec.Struct, frozen=True):
     change: int = 0
     muted: tuple[tuple[int, int], ...] = ()
     stopped: tuple[tuple[int, int], ...] = ()
+    solos: tuple[tuple[int, int], ...] = ()
     use: Use = "melodic"
     certain: bool = False
     struck: list[int] = []

@@ -66,6 +66,8 @@ score.voices : part, voices, count, place, pitch
     "{part}: {voices} players share it, for {count} notes sound together with others, the first at ..."
 score.unisons : part, count, place, pitch
     "{part}: {count} notes are struck twice in unison, the first at ...; one player has each of them once"
+score.solos : part, count, place, pitch
+    "{part}: {count} notes are marked for one of its players, the first at ...; the others rest"
 score.doubling : part, instrument, count, place, pitch
     "{part}: the player of this track changes to {instrument} for {count} notes, the first at ...; a player has one
     instrument here, so another one plays them"
@@ -100,9 +102,10 @@ from app.score.choose import (
 from app.score.limits import MOST_PARTS, most_parts
 from app.score.model import MOST_VOICES, Note, Part, Score, UnplayedPart, sounding_spans
 from app.score.regions import are_one_line, groups, is_spread, joined
+from app.score.solos import solo_notes, with_solos
 from app.score.switches import without_key_switches
 from app.score.tempo import TempoMap
-from app.score.voices import Shared, split_voices
+from app.score.voices import Shared, file_id, split_voices
 from instrument_maps.vocabulary import Instrument, vocabulary
 
 PERCUSSION: Final = "percussion"
@@ -143,6 +146,8 @@ class PartAssignment(msgspec.Struct, frozen=True):
         Another player for notes that go on sounding together; for every note that does; or one player has them all.
     written : bool
         The file has the pitches that stand in the part of a transposing instrument, not those that sound.
+    solos : bool
+        The track's words about who plays ("1. Solo", "a2") are followed.
     """
 
     streams: tuple[int, ...]
@@ -150,6 +155,7 @@ class PartAssignment(msgspec.Struct, frozen=True):
     name: str = ""
     split: Split = "sustained"
     written: bool = False
+    solos: bool = True
 
 
 class Suggestion(msgspec.Struct, frozen=True):
@@ -277,6 +283,9 @@ def assigned_parts(
             warnings.append(Message(id_, {"part": mine[0].name, "count": len(chosen)}))
         if shared.unisons:
             warnings.append(_about("score.unisons", mine[0].name, shared.unisons, piece))
+        if shared.solos:
+            marked = [note for note in notes if note.id in {*shared.solos}]
+            warnings.append(_about("score.solos", mine[0].name, marked, piece))
         if len(mine) > 1:
             warnings.append(_about("score.voices", mine[0].name, shared.together, piece, voices=len(mine)))
         if len(mine) == MOST_VOICES and shared.left_out:
@@ -314,7 +323,7 @@ def _shared(
         return Shared([tuple(notes)], [], [], [])
     alone = len(chosen) == 1 or are_one_line(chosen)
     said = vocabulary().by_name(chosen[0].name or chosen[0].instrument_name) if alone else None
-    return split_voices(
+    shared = split_voices(
         notes,
         tempo_map,
         most,
@@ -322,6 +331,11 @@ def _shared(
         every_chord=assignment.split == "every",
         unison=said is not None and not said.vague,
     )
+    if len(shared.voices) < 2 or not (assignment.solos and alone and chosen[0].solos):
+        return shared
+    solos = solo_notes(notes, chosen[0].solos)
+    original = {note.id: file_id(note.id) for voice in shared.voices for note in voice}
+    return shared._replace(voices=with_solos(shared.voices, solos, original), solos=sorted(solos))
 
 
 def rhythm_parts(streams: Sequence[TrackChannel], assignments: Sequence[PartAssignment] = ()) -> list[TrackChannel]:

@@ -64,7 +64,7 @@ from __future__ import annotations
 import codecs
 import io
 import re
-from collections.abc import Callable, Mapping, Sequence, Set
+from collections.abc import Callable, Collection, Mapping, Sequence, Set
 from fractions import Fraction
 from pathlib import Path
 from typing import Final
@@ -86,6 +86,7 @@ from app.score.mutes import mutes_of
 from app.score.parts import PartAssignment, assigned_parts, parts_of, rhythm_parts, stream_name
 from app.score.ports import split_by_port
 from app.score.repair import Repaired, last_suspicious, repaired
+from app.score.solos import words_of_players
 from app.score.sound_module import FIRST_PORT, Port, Use, channel_sounds
 from app.score.spread import spread_lines
 from app.score.stuck import cut_stuck_notes
@@ -215,8 +216,15 @@ def _percussion(streams: Sequence[TrackChannel]) -> tuple[PercussionHit, ...]:
     return tuple(PercussionHit(tick, pitch, velocity) for tick, pitch, velocity in sorted(hits))
 
 
-def read_contents(path: Path, *, encoding: str | None = None) -> MidiContents:
-    """Read a MIDI file's notes, tempo, metres and markers. Raises as `read_midi`."""
+def read_contents(path: Path, *, encoding: str | None = None, apart: Collection[tuple[int, int]] = ()) -> MidiContents:
+    """Read a MIDI file's notes, tempo, metres and markers. Raises as `read_midi`.
+
+    Parameters
+    ----------
+    apart : collection of (int, int)
+        Track and channel of those that are players of their own, whatever the channels of a track have in common: those
+        of a project that was made from the file.
+    """
     if encoding is not None:
         try:
             codecs.lookup(encoding)
@@ -259,7 +267,7 @@ def read_contents(path: Path, *, encoding: str | None = None) -> MidiContents:
     stuck = cut_stuck_notes(tracks, tempo_map, empty.metre_map, unended)
     _require_length(empty, tracks, str(path))
     texts = _texts(tracks, encoding)
-    streams = _streams(tracks, settle_bends(tracks), texts, alone)
+    streams = _streams(tracks, settle_bends(tracks), texts, alone, frozenset(apart))
     _require_few(len(streams), str(path))
     title = _title(tracks[0], texts, alone)
     return MidiContents(
@@ -428,7 +436,11 @@ def _title(first: TrackEvents, texts: Texts, alone: bool) -> str:
 
 
 def _streams(
-    tracks: Sequence[TrackEvents], zones: Sequence[Mapping[int, frozenset[int]]], texts: Texts, alone: bool
+    tracks: Sequence[TrackEvents],
+    zones: Sequence[Mapping[int, frozenset[int]]],
+    texts: Texts,
+    alone: bool,
+    apart: Set[tuple[int, int]],
 ) -> list[TrackChannel]:
     """The notes of every track by channel, or by what belongs together; ``alone``: of a file with one track."""
     lilypond = any(b"LilyPond" in text for _, text in tracks[0].texts)
@@ -445,6 +457,8 @@ def _streams(
             name = _lilypond_name(match[1].strip(), match[2].strip())
         spread = lines.get(index)
         groups = players_channels(events, "" if alone else name, zones[index], staff=not alone)
+        if any(sum((index, channel) in apart for channel in own) > 1 for own in groups):
+            groups = [(channel,) for own in groups for channel in own]
         if alone:
             name = name if len(groups) == 1 and len(tracks) == 1 else ""
         said = [(tick, texts.read(text)) for tick, text in (*events.texts, *events.markers)]
@@ -456,6 +470,7 @@ def _streams(
             curves = curves_of(heard, among, zones[index])
             played_on = doubled_instruments(events, channels, name, said if len(groups) == 1 else (), notes.onset_ticks)
             muted, stopped = mutes_of(events, channels, name, said if len(groups) == 1 else ())
+            solos = words_of_players(said) if len(groups) == 1 else ()
             lead = leading(heard, among)
             sounds = [heard.sound_at(lead, tick) for tick in notes.onset_ticks]
             kinds = [(sound.use, instrument) for sound, instrument in zip(sounds, played_on, strict=True)]
@@ -482,6 +497,7 @@ def _streams(
                         curves=curves,
                         played_on=instrument,
                         change=change,
+                        solos=solos,
                         muted=muted,
                         stopped=stopped,
                         line=-1 if spread is None else spread.first,

@@ -113,6 +113,8 @@ class Shared(NamedTuple):
         Those that lasted further into the next note of their player than legato notes do, as they were.
     unisons : sequence of Note
         Those that were left out because the one player has each of them already: two voices of a staff in unison.
+    solos : sequence of str
+        Ids of those that words over the staff give to one player.
     """
 
     voices: list[tuple[Note, ...]]
@@ -120,6 +122,7 @@ class Shared(NamedTuple):
     left_out: list[Note]
     shortened: list[Note]
     unisons: Sequence[Note] = ()
+    solos: Sequence[str] = ()
 
 
 class _Spans(NamedTuple):
@@ -161,6 +164,12 @@ def unison_id(id: str, voice: int) -> str:
     """The id of a note of the file that the player of another voice has too: numbered beyond every note-on."""
     track, _, number = id.rpartition(":")
     return f"{track}:{int(number) + _UNISON_NUMBERS * (voice + 1)}"
+
+
+def file_id(id: str) -> str:
+    """The id that a note of several players has in the file."""
+    track, _, number = id.rpartition(":")
+    return f"{track}:{int(number) % _UNISON_NUMBERS}"
 
 
 def split_voices(

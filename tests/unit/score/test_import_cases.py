@@ -10,8 +10,9 @@ from app.project.model import map_choices
 from app.score.model import Score
 from app.score.mutes import is_muted
 from app.score.read import read_midi
+from app.score.solos import words_of_players
 from instrument_maps.load import bundled_maps
-from tests.unit.score.midi_bytes import END, chunk, header, note, score_of
+from tests.unit.score.midi_bytes import END, chunk, header, meta, note, score_of
 
 CASES = Path(__file__, "../../../data/import_cases").resolve()
 CHOICES = map_choices(bundled_maps().values())
@@ -32,6 +33,7 @@ def read(stem: str) -> Score:
         ("14", ["flute", "oboe", "clarinet_Bb", "horn_double_F_Bb", "bassoon"]),
         ("25", ["clarinet_A"]),
         ("27", ["tuba_Eb"]),
+        ("28", ["horn_double_F_Bb", "horn_double_F_Bb"]),
     ],
 )
 def test_every_track_gets_the_players_it_is_for(stem: str, maps: list[str]) -> None:
@@ -119,3 +121,41 @@ def test_what_a_file_is_called_decides_nothing(file: Path, stem: str, tmp_path: 
     copy.write_bytes(file.read_bytes())
     before, now = read_midi(file, maps=CHOICES), read_midi(copy, maps=CHOICES)
     assert (now.parts, now.unplayed, now.warnings) == (before.parts, before.unplayed, before.warnings)
+
+
+def test_the_second_horn_rests_in_a_solo() -> None:
+    score = read("28")
+    first, second = score.parts
+    from_solo = 12 * score.ticks_per_quarter
+    assert [note.onset_tick for note in second.notes if note.onset_tick >= from_solo] == []
+    assert [note.onset_tick for note in first.notes if note.onset_tick >= from_solo] != []
+    assert [note.onset_tick for note in second.notes] == [
+        note.onset_tick for note in first.notes if note.onset_tick < from_solo
+    ]
+
+
+@pytest.mark.parametrize(
+    ("text", "player"),
+    [
+        *[(text, 1) for text in ("1. Solo", "Solo", "1.", "I. Solo", "Solo I", "1st only", "1er", "1°", "(1. solo)")],
+        *[(text, 2) for text in ("2.", "II. solo", "2nd only", "Solo 2", "2. ソロ")],
+        *[(text, 0) for text in ("a2", "a 2", "à 2", "zu 2", "unis.", "tutti", "div.", "Soli", "1.2.", "both")],
+    ],
+)
+def test_words_over_a_staff_say_who_plays(text: str, player: int) -> None:
+    assert words_of_players([(96, text)]) == ((96, player),)
+
+
+@pytest.mark.parametrize("text", ["1", "A", "rit.", "2x", "solo voice enters", "Allegro", "dolce", "12.", "a tempo"])
+def test_other_words_say_nothing_about_players(text: str) -> None:
+    assert words_of_players([(96, text)]) == ()
+
+
+def test_the_second_player_has_a_solo_until_notes_sound_together() -> None:
+    chords = b"".join(bytes([0, 0x90, 67, 64, 0, 0x90, 60, 64, 48, 0x80, 67, 0, 0, 0x80, 60, 0]) for _ in range(8))
+    events = meta(3, b"Horns 1.2") + bytes([0, 0xC0, 60]) + chords + meta(1, b"2. Solo")
+    events += b"".join(map(note, (64, 65, 67, 69))) + chords + b"".join(map(note, (64, 62, 60, 62)))
+    score = score_of(header(1, 2) + chunk(b"MTrk", END) + chunk(b"MTrk", events + END), maps=CHOICES)
+    first, second = ([note.onset_tick // 48 for note in part.notes] for part in score.parts)
+    assert first == [*range(8), *range(12, 24)]
+    assert second == [*range(24)]
