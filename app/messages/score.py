@@ -304,7 +304,7 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         ),
     ),
     "score.solos": (
-        "{part}: {count} notes are marked for one player, the first at {place} ({pitch}); the others rest",
+        "{part}: {count} {count:note is|notes are} marked for one player, the first at {place} ({pitch}); others rest",
         "{part}: {count} 音は奏者 1 人の指定があるため（最初は {place} の {pitch}）、ほかの奏者は休みます",
     ),
     "score.written": (
