@@ -18,14 +18,32 @@ import numpy.typing as npt
 from app.score.take import Cleaning, Controlled, Played, Take
 
 Fault: TypeAlias = Literal["", "ghost", "silent", "slip", "double"]
-"""Why a note is excluded: short and soft; no audible breath; a finger that was late; struck twice. Empty: it is
-kept."""
+"""Why a note is excluded: short and soft; no audible breath; a finger or an octave key that was late; struck twice.
+Empty: it is kept."""
 
 SILENT_SHARE: Final = 0.4
 """Hysteresis: a note whose breath stays below this share of `Cleaning.ghost_loudness` is inaudible, however long it
 is; above the whole of it it is audible, however short."""
+_FLICKER_VELOCITY: Final = 10
+"""No note that is meant is sent so softly ..."""
+_ALIVE_S: Final = 3.0
+"""... and where the breath is not audible for so long before and after a note that is sent louder, it is not sent."""
 _TOUCHING_S: Final = 0.012
 """Notes this near to one another are legato."""
+_OCTAVES: Final = (12, 24)
+_OCTAVE_SLIP_S: Final = 0.13
+"""A slip of the octave keys is no longer ..."""
+_BESIDE_SLIP: Final = 1.8
+"""... and the notes beside it are longer by this factor: notes of about one length are a figure."""
+_RESTRUCK_S: Final = 0.06
+"""A note that begins again within this time of its end was not struck again, where the breath goes on: a tongue would
+have stopped it."""
+_GOES_ON: Final = 0.7
+"""The breath goes on where it stays above this share of what it is just before and after."""
+_AROUND_S: Final = (0.15, 0.02)
+"""From so long before a moment until so long before it is just before; after it in the same way."""
+_TRILL_S, _TRILL_SEMITONES, _TRILL_NOTES = 0.16, 4, 5
+"""So many notes of two pitches in turn, no longer and no further apart than this, are a trill."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,32 +71,46 @@ class Cleaned:
 
 def cleaned(take: Take) -> Cleaned:
     """The notes of a take, cleaned by its settings; kept for the takes that are looked at."""
-    return _cleaned(take.played, take.cleaning)
+    return clean_notes(take.played, take.cleaning)
 
 
 @lru_cache(maxsize=64)
-def _cleaned(notes: Played, cleaning: Cleaning) -> Cleaned:
-    count = len(notes)
+def clean_notes(notes: Played, cleaning: Cleaning) -> Cleaned:
+    """Notes cleaned by some settings, of a take or of a track that is one."""
     onsets, ends = notes.onsets_s.copy(), notes.ends_s.copy()
-    loudness = loudest(notes)
-    breathes = "breath" in notes.curves
-    faults: list[Fault] = [""] * count
+    sent = _is_sent(notes, cleaning)
+    loudness = np.where(sent, loudest(notes), notes.velocities / 127.0)
+    trills = _trills(notes)
+    faults: list[Fault] = [""] * len(notes)
+    # What cannot be heard stands between nothing: the other faults are those of the notes that are left.
+    audible = []
+    for index in range(len(notes)):
+        if cleaning.ghost_s and sent[index] and loudness[index] < SILENT_SHARE * cleaning.ghost_loudness:
+            faults[index] = "silent"
+        elif ends[index] - onsets[index] < cleaning.ghost_s and loudness[index] < cleaning.ghost_loudness:
+            faults[index] = "ghost"
+        else:
+            audible.append(index)
     held = -1
-    for index in range(count):
-        length_s = ends[index] - onsets[index]
-        short = length_s < cleaning.ghost_s
-        soft = loudness[index] < cleaning.ghost_loudness
+    for place, index in enumerate(audible):
+        following = audible[place + 1] if place + 1 < len(audible) else -1
         if held >= 0 and _is_double(held, index, onsets, ends, notes, cleaning):
             faults[index] = "double"
             ends[held] = max(ends[held], ends[index])
-        elif cleaning.ghost_s and breathes and loudness[index] < SILENT_SHARE * cleaning.ghost_loudness:
-            faults[index] = "silent"
-        elif short and soft:
-            faults[index] = "ghost"
-        elif short and held >= 0 and _is_between(index, held, onsets, ends, notes):
+        elif held < 0 or following < 0 or not cleaning.ghost_s or trills[index]:
+            held = index
+        elif _is_octave_slip(held, index, following, onsets, ends, notes):
+            faults[index] = "slip"
+            if notes.pitches[following] != notes.pitches[held] and _octave(notes, index, following):
+                # The fingers were there: the note that was meant began with the slip.
+                onsets[following] = onsets[index]
+                ends[held] = max(ends[held], onsets[index])
+            else:
+                ends[held] = max(ends[held], onsets[following])
+        elif ends[index] - onsets[index] < cleaning.ghost_s and _touches(held, index, following, onsets, ends):
             # The note before goes on until the one that was meant.
             faults[index] = "slip"
-            ends[held] = max(ends[held], onsets[index + 1])
+            ends[held] = max(ends[held], onsets[following])
         else:
             held = index
     kept = [index for index, fault in enumerate(faults) if not fault]
@@ -87,6 +119,35 @@ def _cleaned(notes: Played, cleaning: Cleaning) -> Cleaned:
     out = np.array([bool(fault) for fault in faults], bool)
     onsets[out], ends[out] = notes.onsets_s[out], notes.ends_s[out]
     return Cleaned(onsets, ends, notes.pitches, notes.velocities, tuple(faults))
+
+
+def _is_sent(notes: Played, cleaning: Cleaning) -> npt.NDArray[np.bool_]:
+    """(N,): whether the breath says how loud each note is: not where none comes with notes that are sent loudly."""
+    breath = notes.curves.get("breath")
+    if breath is None:
+        return np.zeros(len(notes), bool)
+    around = highest(breath, notes.onsets_s - _ALIVE_S, notes.ends_s + _ALIVE_S)
+    audible = around >= SILENT_SHARE * cleaning.ghost_loudness
+    return np.asarray(audible | (notes.velocities <= _FLICKER_VELOCITY))
+
+
+def _trills(notes: Played) -> npt.NDArray[np.bool_]:
+    """(N,): whether each note belongs to a trill."""
+    found = np.zeros(len(notes), bool)
+    if len(notes) < _TRILL_NOTES:
+        return found
+    pitches, lasts_s = notes.pitches, np.diff(notes.onsets_s)
+    steps = np.abs(np.diff(pitches))
+    # From each note to the next but one.
+    turns = (pitches[2:] == pitches[:-2]) & (steps[:-1] > 0) & (steps[:-1] <= _TRILL_SEMITONES)
+    turns &= lasts_s[1:] <= _TRILL_S
+    first = 0
+    for place in range(len(turns) + 1):
+        if place == len(turns) or not turns[place]:
+            if place - first + 2 >= _TRILL_NOTES:
+                found[first : place + 2] = True
+            first = place + 1
+    return found
 
 
 def loudest(notes: Played) -> npt.NDArray[np.float64]:
@@ -118,9 +179,12 @@ def _is_double(
     notes: Played,
     cleaning: Cleaning,
 ) -> bool:
-    if notes.pitches[held] != notes.pitches[index]:
+    if notes.pitches[held] != notes.pitches[index] or not cleaning.double_s:
         return False
-    again_s = min(onsets[index] - onsets[held], max(onsets[index] - ends[held], 0.0))
+    silence_s = max(onsets[index] - ends[held], 0.0)
+    if silence_s <= _RESTRUCK_S and _goes_on(notes, ends[held], onsets[index]):
+        return True
+    again_s = min(onsets[index] - onsets[held], silence_s)
     # Two strokes of the tongue leave longer notes than a key that springs back.
     bounced = (
         ends[index] - onsets[index] < 2 * cleaning.double_s or onsets[index] - onsets[held] < 2 * cleaning.double_s
@@ -128,11 +192,48 @@ def _is_double(
     return bool(again_s < cleaning.double_s and bounced)
 
 
-def _is_between(
-    index: int, held: int, onsets: npt.NDArray[np.float64], ends: npt.NDArray[np.float64], notes: Played
+def _goes_on(notes: Played, end_s: float, onset_s: float) -> bool:
+    """Whether the breath is sent and does not fall from the end of one note to the onset of the next."""
+    breath = notes.curves.get("breath")
+    if breath is None or not len(breath.times_s):
+        return False
+    first_s, last_s = min(end_s, onset_s) - _AROUND_S[1], max(end_s, onset_s) + _AROUND_S[1]
+    inside = breath.values[(breath.times_s > first_s) & (breath.times_s < last_s)]
+    least = min([*inside.tolist(), *breath.at(np.array([first_s, last_s])).tolist()])
+    before, after = (
+        float(breath.at(np.linspace(start_s, stop_s, 8)).max())
+        for start_s, stop_s in ((first_s - _AROUND_S[0], first_s), (last_s, last_s + _AROUND_S[0]))
+    )
+    # A breath that only rises or falls slowly goes on too.
+    return bool(least > 0.0 and least >= _GOES_ON * min(before, after))
+
+
+def _is_octave_slip(
+    held: int,
+    index: int,
+    following: int,
+    onsets: npt.NDArray[np.float64],
+    ends: npt.NDArray[np.float64],
+    notes: Played,
+) -> bool:
+    """Whether a note is an octave, or two, off the note before it or after it, and short in a legato of long ones."""
+    lasts_s = ends[index] - onsets[index]
+    beside_s = min(ends[held] - onsets[held], ends[following] - onsets[following])
+    if lasts_s > _OCTAVE_SLIP_S or beside_s < _BESIDE_SLIP * lasts_s:
+        return False
+    if not (_octave(notes, index, following) or _octave(notes, index, held)):
+        return False
+    breathes = "breath" not in notes.curves or _goes_on(notes, onsets[index], ends[index])
+    return breathes and _touches(held, index, following, onsets, ends)
+
+
+def _octave(notes: Played, index: int, other: int) -> bool:
+    return abs(int(notes.pitches[index] - notes.pitches[other])) in _OCTAVES
+
+
+def _touches(
+    held: int, index: int, following: int, onsets: npt.NDArray[np.float64], ends: npt.NDArray[np.float64]
 ) -> bool:
     """Whether a note only leads from one note of a legato to the next."""
-    if index + 1 >= len(notes):
-        return False
-    before_s, after_s = onsets[index] - ends[held], onsets[index + 1] - ends[index]
-    return bool(before_s <= _TOUCHING_S and after_s <= _TOUCHING_S and ends[index + 1] - onsets[index + 1] > 0.0)
+    before_s, after_s = onsets[index] - ends[held], onsets[following] - ends[index]
+    return bool(before_s <= _TOUCHING_S and after_s <= _TOUCHING_S and ends[following] > onsets[following])
