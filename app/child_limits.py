@@ -72,7 +72,7 @@ LIMITS: Final[Mapping[str, ChildLimits]] = MappingProxyType(
         "ffmpeg.join": ChildLimits(12 * _GB),
         # ufbx, for files of others.
         "ufbx.figure": ChildLimits(512 * _MB, 64, cpu_s=3.0, cpu_s_per_mb=4.0, wall_s=180.0, written_bytes=0),
-        "ufbx.motion": ChildLimits(512 * _MB, 64, cpu_s=4.0, cpu_s_per_mb=30.0, wall_s=180.0, written_bytes=0),
+        "ufbx.motion": ChildLimits(512 * _MB, 64, cpu_s=3.0, cpu_s_per_mb=8.0, wall_s=180.0, written_bytes=0),
         # Our own modules work on values that were checked when they were read. The recorder runs as long as a take, the
         # others as long as there is work: they end with their input.
         "recorder": ChildLimits(8 * _GB),

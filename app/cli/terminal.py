@@ -32,7 +32,10 @@ def warn(sentence: str) -> None:
 
 def say_json(value: Any) -> None:
     """Print a value as JSON, which every reader takes back exactly; what a terminal would obey is escaped in it."""
-    text = HIDDEN.sub(lambda found: f"\\u{ord(found[0]):04x}", json.dumps(value, ensure_ascii=False))
+    text = json.dumps(value, ensure_ascii=False)
+    # Of ASCII JSON escapes all but one itself: megabytes need not be searched.
+    if not text.isascii() or "\x7f" in text:
+        text = HIDDEN.sub(lambda found: f"\\u{ord(found[0]):04x}", text)
     print(msgspec.json.format(text, indent=2))
 
 

@@ -37,6 +37,16 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         "{file} declares far more data than its size allows; export only the character",
         "{file} の内容がファイルのサイズに対して大きすぎます。キャラクターだけを書き出してください",
     ),
+    "fbx.motion_too_large": (
+        (
+            "{file} declares far more data than its size allows; export only the skeleton and its animation, without "
+            "meshes, textures and other takes"
+        ),
+        (
+            "{file} の内容がファイルのサイズに対して大きすぎます。メッシュ、テクスチャ、ほかのテイクを含めず、"
+            "スケルトンとそのアニメーションだけを書き出してください"
+        ),
+    ),
     "fbx.no_reader": (
         (
             "{file} cannot be read: FBX files of other programs require the Python package ufbx, which is missing here "

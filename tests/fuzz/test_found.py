@@ -39,6 +39,7 @@ def test_a_found_file(kind: str, name: str, children: dict[str, Child]) -> None:
         ("motion", "bvh_slow", "motion.too_long"),
         ("gltf_motion", "glb_hours_of_motion", "motion.too_long"),
         ("fbx_motion", "fbx_half_an_hour", "motion.too_long"),
+        ("fbx_motion", "fbx_polygon", "fbx.motion_too_large"),
         ("audio", "flac_silence", "audio.too_dense"),
     ],
 )

@@ -73,6 +73,10 @@ def test_one_kilobyte_may_cost_a_gigabyte_and_five_seconds() -> None:
         assert cpu_s <= 5
 
 
+def test_a_hundred_kilobytes_of_fbx_motion_cost_less_than_five_seconds() -> None:
+    assert LIMITS["ufbx.motion"].cpu_of(100_000) == 4
+
+
 def test_the_structures_of_windows_have_their_sizes() -> None:
     if ctypes.sizeof(ctypes.c_void_p) == 8:
         assert ctypes.sizeof(JobLimits) == 144

@@ -5,7 +5,7 @@ units and axes. It runs in a process of its own (`foreign_child`): what a damage
 error.
 
 Messages (all with ``file``): ``file.cannot_read``, ``file.too_large``, ``fbx.not_fbx``, ``fbx.foreign_damaged``,
-``fbx.too_large``, ``fbx.no_reader``.
+``fbx.too_large``, ``fbx.motion_too_large``, ``fbx.no_reader``.
 """
 
 from __future__ import annotations
@@ -197,7 +197,9 @@ def _read(path: str | os.PathLike[str], kind: type[T], checked: Callable[[T], T]
 
 def _child(data: bytes, file: str, *arguments: str) -> bytes:
     """What the child printed of a file's bytes. Raises FileError."""
-    limits = f"ufbx.{MOTION}" if arguments == (MOTION,) else "ufbx.figure"
+    of_motion = arguments == (MOTION,)
+    limits = f"ufbx.{MOTION}" if of_motion else "ufbx.figure"
+    too_large = "fbx.motion_too_large" if of_motion else "fbx.too_large"
     try:
         process: subprocess.Popen[bytes]
         with subprocess.Popen(
@@ -213,12 +215,12 @@ def _child(data: bytes, file: str, *arguments: str) -> bytes:
             finally:
                 process.kill()
     except subprocess.TimeoutExpired as error:
-        raise FileError("fbx.too_large", file=file) from error
+        raise FileError(too_large, file=file) from error
     except OSError as error:
         raise FileError("file.cannot_read", file=file, reason=str(error)) from error
     status = process.returncode
     if status in (NO_MEMORY, *_LIMITS):
-        raise FileError("fbx.too_large", file=file)
+        raise FileError(too_large, file=file)
     if status == NO_READER:
         raise FileError("fbx.no_reader", file=file)
     if status == UNREADABLE:

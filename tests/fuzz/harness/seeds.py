@@ -368,7 +368,10 @@ MADE: Final[dict[str, dict[str, Callable[[], bytes]]]] = {
     "bvh": costly("bvh", 100_000),
     "motion": costly("motion", 30_000),
     "gltf_motion": costly("gltf_motion", 2000),
-    "fbx_motion": {"fbx_half_an_hour": costly("fbx_motion")["fbx_half_an_hour"]},
+    "fbx_motion": {
+        "fbx_half_an_hour": costly("fbx_motion")["fbx_half_an_hour"],
+        "fbx_polygon": costly("fbx_motion", 100_000)["fbx_polygon"],
+    },
     "audio": costly("audio"),
     "film": costly("film"),
     "unreal_description": {
