@@ -510,7 +510,8 @@ def _lilypond_name(staff: str, voice: str) -> str:
     """The name of a track that is called after a staff and a voice: the staff's, but the voice's where that alone tells
     an instrument, or anything at all."""
     staff, voice = ("" if name.startswith("\\") else name for name in (staff, voice))
-    tells = [found is not None and not found.vague for found in map(vocabulary().by_name, (staff, voice))]
+    found = map(vocabulary().by_name, (staff, voice))
+    tells = [one is not None and not (one.vague or one.any_pitch) for one in found]
     return voice if tells == [False, True] or (not staff and not is_no_name(voice)) else staff
 
 

@@ -319,6 +319,11 @@ def test_lilypond_contexts_are_cut_from_names_in_lilypond_files_only() -> None:
         return [part.name for part in score_of(header(1, 4) + chunks).parts]
 
     assert names(b"LilyPond 2.24.1") == ["Sopran", "trumpet", "trumpet"]
+    # A voice tells the instrument where its staff does not.
+    tracks = [meta(3, name) + SCALE_BYTES + END for name in (b"winds:trumpetMusic", b"upper:trumpetI", b"trumpet:one")]
+    chunks = b"".join(chunk(b"MTrk", track) for track in (meta(1, b"LilyPond 2.24.1") + END, *tracks))
+    parts = score_of(header(1, 4) + chunks).parts
+    assert [part.name for part in parts] == ["trumpetMusic", "trumpetI", "trumpet"]
     assert names(b"") == ["Sopran:1", ":one", "\\new:"]
 
 
