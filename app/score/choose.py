@@ -7,6 +7,7 @@ A, else to that of a clarinet; one for a recorder to the size its notes fit.
 from __future__ import annotations
 
 import re
+from collections import Counter
 from collections.abc import Callable, Collection, Iterable, Sequence
 from enum import Enum
 from operator import sub
@@ -67,7 +68,10 @@ class MapChoice(msgspec.Struct, frozen=True):
         shift = self.transposition_semitones if written else 0
         low, high = self.usual_range if usual else (self.concert_low, self.concert_high)
         low, high = low + shift, high + shift
-        return 0 if low <= min(pitches) and max(pitches) <= high else sum(not low <= pitch <= high for pitch in pitches)
+        if low <= min(pitches) and max(pitches) <= high:
+            return 0
+        # Of thousands of notes few are different.
+        return sum(count for pitch, count in Counter(pitches).items() if not low <= pitch <= high)
 
 
 class TrackChannel(msgspec.Struct, frozen=True):
