@@ -64,7 +64,7 @@ def test_a_middle_voice_gives_no_rhythm(tmp_path):
     [
         pytest.param([(4, 0.5, 72, 110)], id="louder"),
         pytest.param([(4, 0.5, pitch, 80) for pitch in (72, 68, 65, 62)], id="fuller"),
-        pytest.param([(4, 2.0, 72, 80)], id="longer"),
+        pytest.param([(4, 2.0, 74, 80)], id="longer"),
     ],
 )
 def test_what_is_louder_fuller_or_longer_is_an_accent(tmp_path, accented):
