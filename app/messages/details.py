@@ -139,6 +139,10 @@ _JAPANESE: Final = tuple(
         (r"no such model", "モデルがありません"),
         (r"program (\d+) belongs to two instruments", r"プログラム \1 が 2 つの楽器に使われています"),
         (r"(.*) belongs to two instruments", r"\1 が 2 つの楽器に使われています"),
+        (
+            r"an ensemble of (.*) has a part without instrument, range or pitch",
+            r"編成 \1 に楽器・音域・音高のないパートがあります",
+        ),
         (r"(.*) has no place in the seating", r"\1 の席順がありません"),
         (r"the seating and the score order have different families", "席順とスコア順で楽器群が異なります"),
         (r"(.*) is a form that the table does not have", r"\1 という形は表にありません"),
