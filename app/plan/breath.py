@@ -9,12 +9,13 @@ of the tail of the note before, whose lips then leave early while its sound stay
 for that the player leaves out a note: its lips leave at once.
 
 Messages: ``breath.first``, ``breath.rest_whole``, ``breath.last_beat``, ``breath.prepared``, ``breath.preparation``,
-``breath.catch``, ``breath.catch_dropped``, ``breath.catch_dropped_two``, ``breath.blown``,
+``breath.catch``, ``breath.catch_dropped``, ``breath.catch_dropped_two``, ``breath.after_hold``, ``breath.blown``,
 ``breath.blown_preparation``, ``breath.blown_short``.
 """
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from typing import NamedTuple
 
 import msgspec
@@ -25,7 +26,7 @@ from app.plan.breath_depths import is_within, too_long, with_depths
 from app.plan.breath_envelope import BoolArray, BreathEnvelope, Silences, gaps_within, silences
 from app.plan.catch_lengths import CATCH_MIN_S, Room, catch_lengths_s, drop_lengths_s, gaps_s
 from app.plan.catch_places import catch_places
-from app.plan.corrections import BY_HAND, Correction, SetBreath, removed_ids, without_removed
+from app.plan.corrections import BY_HAND, Correction, SetBreath, breath_id, removed_ids, without_removed
 from app.plan.line import IntArray, LineTimes, Piece, Seeds
 from app.plan.lungs import (
     EPSILON,
@@ -103,7 +104,7 @@ def plan_breaths(
     rests = _rests_used(line, score, given)
     stock = _stock(line, score, given, rests.spare)
     catches = _catches(line, score, stock, given.may, shared, seeds)
-    caught = _caught(line, score, stock, [index for index in catches if index not in rests.spare])
+    caught = _caught(line, score, stock, [index for index in catches if index not in rests.spare], shared.after_hold)
     in_rests = _in_rests(line, score, given, rests, catches)
     refill = stock.refill.copy()
     for event in (*caught, *in_rests):
@@ -254,7 +255,7 @@ def _given(
         generated = rest_breaths(notes, times, piece, parameters, frame, score.rests)
         if not parameters.circular_breathing:
             generated += within_held(notes, times, piece, score.used, score.lung_s, shared)
-    placed = {(item.kind, item.note_id): item for item in corrections
+    placed = {breath_id(item): item for item in corrections
               if isinstance(item, SetBreath) and item.note_id in line.index_of}  # fmt: skip
     by_hand = tuple(_by_hand(item, times, line.index_of[item.note_id], piece) for item in placed.values())
     removed, hand_ids = removed_ids(corrections), frozenset(event.id for event in by_hand)
@@ -273,10 +274,10 @@ def _given(
 def _stock(line: _Breather, score: _Score, given: _Given, spare: dict[int, BreathEvent]) -> _Stock:
     """The air there is."""
     times, lung_s = line.times, score.lung_s
-    used, steady_used, refill = _taken(line, score, given)
+    used, steady_used, refill = _taken(line, score, given, spare)
     length_s = catch_lengths_s(score.steady, times, score.rests.sounding_tick)
     for index, event in spare.items():
-        refill[index], length_s[index] = 0.0, _lasts_s(score, line, event)
+        length_s[index] = _lasts_s(score, line, event)
     if score.gaps is not None:
         length_s = np.where(score.gaps.played, score.gaps.length_s, length_s)
         drop_s, dropped = np.zeros(len(line.notes)), np.zeros(len(line.notes), np.int64)
@@ -289,21 +290,60 @@ def _stock(line: _Breather, score: _Score, given: _Given, spare: dict[int, Breat
     return _Stock(used, steady_used, refill, air_s, Room(length_s, drop_s, dropped))
 
 
-def _taken(line: _Breather, score: _Score, given: _Given) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """The air used, as it is played and at the tempo of the score, less what breaths within notes bring; and the part
-    of the lungs that the breath before each note fills."""
-    refill, spared_s = np.zeros(len(line.notes)), np.zeros(len(line.notes))
+def _taken(
+    line: _Breather, score: _Score, given: _Given, spare: Collection[int] = ()
+) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """The air used, as it is played and at the tempo of the score, and the part of the lungs that the breath before
+    each note fills; rests before notes of ``spare`` give none."""
+    refill = np.zeros(len(line.notes))
+    within: dict[int, list[_Within]] = {}
     for event in (*given.kept, *given.by_hand):
-        index, share = (
-            line.number_of(event),
-            max(0.0, drawn(_lasts_s(score, line, event)) * (event.depth if event.corrected else 1.0)),
-        )
+        index = line.number_of(event)
+        share = max(0.0, drawn(_lasts_s(score, line, event)) * (event.depth if event.corrected else 1.0))
         if is_within(event):
-            # Lungs are counted from note to note: such a note takes so much less.
-            spared_s[index] += share * score.lung_s
-        elif event.kind == "breath":
+            within.setdefault(index, []).append(_Within(event.start_s, event.end_s, share))
+        elif event.kind == "breath" and index not in spare:
             refill[index] = share
-    return _less(score.used, spared_s), _less(score.steady_used, spared_s), refill
+    if not within:
+        return score.used, score.steady_used, refill
+    spent = [np.diff(used) for used in (score.used, score.steady_used)]
+    for index, breaths in within.items():
+        _breathe_within(line, index, sorted(breaths), spent, refill, score.lung_s)
+    used, steady_used = (np.concatenate(([0.0], np.cumsum(column))) for column in spent)
+    return used, steady_used, refill
+
+
+class _Within(NamedTuple):
+    """A breath within a note, and the part of the lungs that it fills."""
+
+    start_s: float
+    end_s: float
+    share: float
+
+
+def _breathe_within(
+    line: _Breather,
+    index: int,
+    breaths: list[_Within],
+    spent: list[FloatArray],
+    refill: FloatArray,
+    lung_s: float,
+) -> None:
+    """Count breaths within a note, each its start and the part of the lungs it fills: lungs are counted from note to
+    note, so what is held before the first of them is counted with the note before, as if they came before this one."""
+    onset_s, end_s = float(line.times.onset_s[index]), float(line.times.played_end_s[index])
+    first_s, last_s = max(breaths[0].start_s - onset_s, 0.0), max(end_s - breaths[-1].end_s, 0.0)
+    held_s = end_s - breaths[0].start_s - sum(breath.end_s - breath.start_s for breath in breaths)
+    brought_s = sum(breath.share for breath in breaths[1:]) * lung_s
+    for column in spent:
+        rate = float(column[index]) / max(end_s - onset_s, EPSILON)
+        before_s = first_s * rate
+        column[index] = max(last_s * rate, held_s * rate - brought_s)
+        if index and refill[index] == 0.0:
+            column[index - 1] += before_s
+        else:
+            column[index] = max(column[index], before_s)
+    refill[index] = max(refill[index], min(breaths[0].share, 1.0))
 
 
 def _lasts_s(score: _Score, line: _Breather, event: BreathEvent) -> float:
@@ -319,9 +359,11 @@ def _rests_used(line: _Breather, score: _Score, given: _Given) -> _RestsUsed:
     """Decide which rests are breathed in: the first breath, those set by hand and those that were blown always are."""
     _, steady_used, refill = _taken(line, score, given)
     needs = rest_needs(score.rests.lasts_s, line.parameters.breath_need, score.lung_s)
-    by_hand = [line.number_of(event) for event in given.by_hand]
+    certain = [line.number_of(event) for event in given.by_hand]
+    # No rest is needed for a breath within a note.
+    certain += [index for index in map(line.number_of, filter(is_within, given.kept)) if not score.rests.lasts_s[index]]
     for column in needs:
-        column[[0, *by_hand]] = 0.0
+        column[[0, *certain]] = 0.0
     played_s = np.concatenate(([0.0], np.cumsum(score.steady.duration_s)))
     decided = breathed_in(steady_used, played_s, score.lung_s, refill, needs)
     if score.gaps is not None:
@@ -371,25 +413,33 @@ def _catches(line: _Breather, score: _Score, stock: _Stock, may: BoolArray, shar
             stock.room,
         )
 
-    catches = between(score.steady, stock.steady_used, stock.refill)
-    if score.steady is score.written or not catches:
-        return catches
-    filled = stock.refill.copy()
+    # All breathe after what they held together, and no one just before it.
+    after_hold = sorted(shared.after_hold) if score.gaps is None else []
+    first = [index for index in after_hold if may[index] and stock.refill[index] == 0.0]
+    first = [index for index in first if stock.room.length_s[index] > 0.0]
+    given = stock.refill.copy()
+    given[first] = np.minimum(stock.room.lasts_s[first] / FULL_BREATH_S, 1.0)
+    may = may.copy()
+    may[[index - 1 for index in after_hold]] = False
+    catches = between(score.steady, stock.steady_used, given)
+    if score.steady is score.written:
+        return sorted((*first, *catches))
+    filled = given.copy()
     filled[catches] = np.minimum(stock.room.lasts_s[catches] / FULL_BREATH_S, 1.0)
-    again = where_short(stock.used, score.lung_s, stock.refill, filled)
-    if len(again):
-        filled[again] = stock.refill[again]
-        catches = sorted({*catches} - {*again.tolist()} | {*between(score.written, stock.used, filled)})
-    return catches
+    again = where_short(stock.used, score.lung_s, given, filled)
+    filled[again] = given[again]
+    return sorted({*first, *catches} - {*again.tolist()} | {*between(score.written, stock.used, filled)})
 
 
-def _caught(line: _Breather, score: _Score, stock: _Stock, catches: list[int]) -> list[BreathEvent]:
+def _caught(
+    line: _Breather, score: _Score, stock: _Stock, catches: list[int], after_hold: Collection[int]
+) -> list[BreathEvent]:
     """The catch breaths before some notes, but for those in rests that would have given one."""
     found: dict[int, BreathEvent] = {}
     if score.gaps is not None:
         blown = [index for index in catches if score.gaps.played[index]]
         found = {index: blown_catch(line.notes[index], line.piece, score.gaps, index) for index in blown}
-    found |= _made(line, stock, score.lung_s, [index for index in catches if index not in found])
+    found |= _made(line, stock, score.lung_s, [index for index in catches if index not in found], after_hold)
     return [found[index] for index in catches]
 
 
@@ -422,7 +472,9 @@ def _needed_s(stock: _Stock, lung_s: float, first: IntArray, last: IntArray) -> 
     return np.where(is_short, played_s, steady_s), np.where(is_short, stock.air_s[first], full_s)
 
 
-def _made(line: _Breather, stock: _Stock, lung_s: float, catches: list[int]) -> dict[int, BreathEvent]:
+def _made(
+    line: _Breather, stock: _Stock, lung_s: float, catches: list[int], after_hold: Collection[int]
+) -> dict[int, BreathEvent]:
     """Catch breaths out of the notes before, by the notes that they come before."""
     if not catches:
         return {}
@@ -452,7 +504,9 @@ def _made(line: _Breather, stock: _Stock, lung_s: float, catches: list[int]) -> 
             "lung_s": round(full_s, 2),
         }
         after = notes[index - 1].id
-        if dropped > 1:
+        if index in after_hold:
+            reason = Message("breath.after_hold", {"after_note": after})
+        elif dropped > 1:
             first_note = notes[index - dropped].id
             reason = Message("breath.catch_dropped_two", {"first_note": first_note, "after_note": after, **why})
         elif dropped:
@@ -472,16 +526,11 @@ def _made(line: _Breather, stock: _Stock, lung_s: float, catches: list[int]) -> 
     return found
 
 
-def _less(used: FloatArray, spared_s: FloatArray) -> FloatArray:
-    """(N + 1,): air used by notes that take so much less, at least none."""
-    return np.concatenate(([0.0], np.cumsum(np.maximum(np.diff(used) - spared_s, 0.0))))
-
-
 def _by_hand(item: SetBreath, times: LineTimes, index: int, piece: Piece) -> BreathEvent:
     onset_tick = int(times.onset_tick[index])
     start_tick, end_tick = onset_tick + item.start_offset_tick, onset_tick + item.end_offset_tick
     return BreathEvent(
-        id=f"{item.kind}:{item.note_id}",
+        id=breath_id(item),
         kind="preparation" if item.kind == "preparation" else "breath",
         start_tick=start_tick,
         end_tick=end_tick,

@@ -11,7 +11,7 @@ import msgspec
 import numpy as np
 
 from app.errors import Message
-from app.plan.corrections import WITHIN
+from app.plan.corrections import WITHIN, kind_of
 from app.plan.line import IntArray, LineTimes
 from app.plan.lungs import EPSILON, drawn, levels
 from app.plan.model import BreathEvent, FloatArray, Problem
@@ -63,4 +63,4 @@ def too_long(
 
 def is_within(event: BreathEvent) -> bool:
     """Whether a breath is taken within a note, not before it."""
-    return event.id.startswith(f"{WITHIN}:")
+    return kind_of(event.id) == WITHIN

@@ -57,7 +57,8 @@ class SetBreath(_Correction, frozen=True, tag="set_breath"):
     Ticks are relative to the note's onset, so the breath moves with its note.
 
     ``added`` says that the generator had none here: to delete it is to forget it. ``moved_from`` is the note whose
-    breath it was before the animator dragged it here; that one is then left out.
+    breath it was before the animator dragged it here; that one is then left out. ``number`` counts the breaths within
+    one note.
     """
 
     note_id: str
@@ -67,6 +68,7 @@ class SetBreath(_Correction, frozen=True, tag="set_breath"):
     kind: Literal["preparation", "breath", "within"] = "breath"
     added: bool = False
     moved_from: str | None = None
+    number: int = 1
 
 
 class SetCue(_Correction, frozen=True, tag="set_cue"):
@@ -219,9 +221,24 @@ Span = TypeVar("Span", GestureEvent, ExpressionEvent)
 
 
 WITHIN: Final = "within"
-"""The first part of the ids of breaths within a note."""
+"""The first part of the ids of breaths within a note; from the second of a note on, with a dot and its number."""
 REMOVABLE = ("breath", "preparation", WITHIN, "cue", *GESTURE_KINDS, "expression")
-"""Kinds of event a `RemoveEvent` may leave out: the first part of their ids."""
+"""Kinds of event a `RemoveEvent` may leave out: see `kind_of`."""
+
+
+def within_id(note_id: str, number: int) -> str:
+    """Return the id of a breath within a note."""
+    return f"{WITHIN}:{note_id}" if number == 1 else f"{WITHIN}.{number}:{note_id}"
+
+
+def kind_of(event_id: str) -> str:
+    """Return the kind of an event: the first part of its id, less the number of a breath within a note."""
+    return event_id.partition(":")[0].partition(".")[0]
+
+
+def breath_id(item: SetBreath) -> str:
+    """Return the id of the breath that is set."""
+    return within_id(item.note_id, item.number) if item.kind == WITHIN else f"{item.kind}:{item.note_id}"
 
 
 def sound_corrections(
@@ -426,7 +443,7 @@ def orphans(
             alive = item.note_id in note_ids or (isinstance(item, SetCue) and item.tick is not None)
         elif isinstance(item, RemoveEvent):
             known = item.note_id in note_ids if item.note_id is not None else item.event_id in event_ids
-            alive = known and item.event_id.split(":")[0] in REMOVABLE
+            alive = known and kind_of(item.event_id) in REMOVABLE
         elif isinstance(item, ChangeGesture | ChangeExpression):
             alive = item.event_id in event_ids
         else:

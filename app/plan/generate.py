@@ -43,6 +43,7 @@ from app.plan.embouchure import plan_embouchures
 from app.plan.ending import Ending, ending_of
 from app.plan.entries import entries
 from app.plan.expression import SMILE_ID, all_shown, neutral_face
+from app.plan.fermatas import fermatas
 from app.plan.fingering import plan_fingerings
 from app.plan.gesture import Pulse, plan_gestures, pulse
 from app.plan.glances import StagePlace, glances_of
@@ -55,7 +56,7 @@ from app.plan.named_gestures import undisturbed, with_definitions
 from app.plan.parameters import restricted
 from app.plan.pose import plan_poses
 from app.plan.rules import lowered_spans_s, plan_by_rules, with_ruled, without_overruled
-from app.plan.stagger import Breathed, Shared, SharedLine, breathed_of, shared_line, shared_with
+from app.plan.stagger import Breathed, Shared, SharedLine, after_holds, breathed_of, shared_line, shared_with
 from app.plan.styles import plan_styles
 from app.plan.together import one_at_a_time
 from app.plan.tonguing import plan_tongues
@@ -203,6 +204,7 @@ def plan_ensemble(
     found = shared.step("entries", entries, rhythms, piece, musicians)
     leading = tuple(_leading(line) for line in lines)
     conducted = places is not None and CONDUCTOR in places
+    held = shared.step("fermatas", fermatas, rhythms, piece)
     cues, cue_ids = shared.step("cues", plan_cues, found, leading, all_times, piece, frame, conducted)
     first_s = min((float(times.onset_s[0]) for times in all_times if len(times.onset_s)), default=0.0)
     beat = shared.step("pulse", pulse, piece, frame, first_s)
@@ -216,7 +218,7 @@ def plan_ensemble(
         this = together[done]
         others = (*together[:done], *together[done + 1 :])
         memo = own[line.player_id]
-        shared_breaths = memo.nested("shared", shared_with, this, others, tuple(breathed))
+        shared_breaths = memo.nested("shared", shared_with, this, others, tuple(breathed), after_holds(held, times))
         own_cues = memo.step("cues", _cues_of, cues, line.player_id)
         answered = memo.step("answered", _answered, cues, line.player_id)
         seen = memo.step("seen", _seen, line.player_id, own_cues, answered, {} if places is None else places)

@@ -1,5 +1,7 @@
 """Players in unison or in octaves breathe one after another: not before the same notes, and within held notes too.
 
+After what all of them hold, a fermata, they breathe together.
+
 Messages: ``breath.staggered``.
 """
 
@@ -14,8 +16,10 @@ from typing import NamedTuple, TypeAlias
 import numpy as np
 
 from app.errors import Message
-from app.plan.corrections import WITHIN
+from app.plan.corrections import WITHIN, kind_of, within_id
+from app.plan.fermatas import Fermata
 from app.plan.line import LineTimes, Piece
+from app.plan.lungs import EPSILON, FULL_BREATH_S
 from app.plan.memo import Memo
 from app.plan.model import BreathEvent, FloatArray
 from app.plan.notation import PLACES, notated
@@ -30,13 +34,14 @@ ABOUT = 0.8
 """Who holds a note for this part of its length holds it on while another breathes."""
 HELD_SHARE = 0.75
 """Part of the lungs that a player spends on one note."""
-BREATH_S = 0.4
 APART_S = 2.0
 """Breaths of a section that are this far apart are not noticed."""
+LED_TO_SHARE = 0.4
+"""Part of a lungful that there is at least for a held note that other notes lead to."""
 FROM_EDGES_S = 1.0
 """No one breathes so soon after a held note begins, or before it ends."""
 TRIED = 17
-"""Times that are compared for each breath."""
+"""Times that are compared for the breaths in a note."""
 COMPARED = 8
 """So many players' catch breaths are one step of the plan: it is done again after an edit of one of them only."""
 
@@ -97,10 +102,13 @@ class Shared(NamedTuple):
         Notes before which others of the unison take catch breaths.
     held : tuple of (int, tuple of float)
         Held notes that others hold too, with the times (seconds) at which those breathe in them.
+    after_hold : frozenset of int
+        Notes with which all go on after what they held together: they breathe before these, not before what is held.
     """
 
     caught: frozenset[int] = frozenset()
     held: tuple[tuple[int, tuple[float, ...]], ...] = ()
+    after_hold: frozenset[int] = frozenset()
 
 
 ALONE = Shared()
@@ -120,7 +128,22 @@ def shared_line(times: LineTimes, piece: Piece) -> SharedLine:
     return SharedLine(places, frozenset(places), ordered, held_s)
 
 
-def shared_with(memo: Memo, line: SharedLine, others: tuple[SharedLine, ...], breathed: tuple[Breathed, ...]) -> Shared:
+def after_holds(held: tuple[Fermata, ...], times: LineTimes) -> frozenset[int]:
+    """Return the notes with which a line goes on after fermatas: the first that begin when most of the hold is over."""
+    if not held or not len(times.onset_tick):
+        return frozenset()
+    over = [one.start_tick + 3 * (one.release_tick - one.start_tick) // 4 for one in held]
+    notes = np.searchsorted(times.onset_tick, np.array(over))
+    return frozenset(notes[(notes > 0) & (notes < len(times.onset_tick))].tolist())
+
+
+def shared_with(
+    memo: Memo,
+    line: SharedLine,
+    others: tuple[SharedLine, ...],
+    breathed: tuple[Breathed, ...],
+    after_hold: frozenset[int],
+) -> Shared:
     """What a player must keep clear of.
 
     Parameters
@@ -131,6 +154,8 @@ def shared_with(memo: Memo, line: SharedLine, others: tuple[SharedLine, ...], br
         Of all other players.
     breathed : tuple of Breathed
         Of those whose breaths are placed already.
+    after_hold : frozenset of int
+        `after_holds` of the player.
     """
     caught: set[int] = set()
     for first in range(0, len(breathed), COMPARED):
@@ -143,7 +168,7 @@ def shared_with(memo: Memo, line: SharedLine, others: tuple[SharedLine, ...], br
         place = line.places[index]
         if any(other.holds(place, length_s) for other in others):
             held.append((index, tuple(sorted(taken.get(place, ())))))
-    return Shared(frozenset(caught), tuple(held))
+    return Shared(frozenset(caught), tuple(held), after_hold)
 
 
 def _caught_by_some(memo: Memo, line: SharedLine, some: tuple[Breathed, ...], first: int) -> frozenset[int]:
@@ -178,7 +203,7 @@ def _in_unison(line: SharedLine, other: SharedLine, index: int) -> bool:
 def within_held(
     notes: Sequence[Note], times: LineTimes, piece: Piece, used: FloatArray, lung_s: float, shared: Shared
 ) -> tuple[BreathEvent, ...]:
-    """A breath within each note that takes most of a player's air or more, as far as others hold it on.
+    """Return the breaths within each note that takes most of a player's air or more, as far as others hold it on.
 
     Parameters
     ----------
@@ -191,13 +216,37 @@ def within_held(
         if air_s <= HELD_SHARE * lung_s:
             continue
         first_s, last_s = float(times.onset_s[index]), float(times.played_end_s[index])
-        middle_s = (first_s + last_s) / 2.0
-        tried = np.linspace(first_s + FROM_EDGES_S, last_s - FROM_EDGES_S - BREATH_S, TRIED)
-        apart = np.min(np.abs(tried[:, None] - np.array([*others_s, math.inf])), axis=1)
-        start_s = float(tried[np.lexsort((np.abs(tried - middle_s), -np.minimum(apart, APART_S)))[0]])
         reason = Message("breath.staggered", {"air_s": round(air_s, 2), "lung_s": round(lung_s, 2)})
-        events.append(breath_at(f"{WITHIN}:{notes[index].id}", piece, start_s, start_s + BREATH_S, reason))
+        lungful_s = (last_s - first_s) * lung_s / air_s
+        # What leads to it takes air too.
+        begun_s = lungful_s if index == 0 or times.silence_tick[index] > 0 else LED_TO_SHARE * lungful_s
+        starts_s = _handed_on(first_s, last_s, lungful_s, begun_s, others_s)
+        for number, start_s in enumerate(starts_s, 1):
+            id = within_id(notes[index].id, number)
+            events.append(breath_at(id, piece, start_s, start_s + FULL_BREATH_S, reason))
     return tuple(events)
+
+
+def _handed_on(
+    first_s: float, last_s: float, lungful_s: float, begun_s: float, others_s: tuple[float, ...]
+) -> list[float]:
+    """Choose when a player breathes within a note: in equal steps, no stretch longer than the air lasts, away from the
+    others' breaths; of such ways the one with the fewest breaths, the nearest to the middle. The first comes at most
+    ``begun_s`` after the note begins."""
+    length_s, taken_s = last_s - first_s, np.array([*others_s, math.inf])
+    least = max(math.ceil(length_s / lungful_s - EPSILON) - 1, 1)
+    found: list[tuple[tuple[float, float, int, float], list[float]]] = []
+    for count in range(least, least + 3):
+        for step_s in (length_s / count, length_s / (count + 1)):
+            ends_s = length_s - (count - 1) * step_s - FULL_BREATH_S
+            for first in np.linspace(FROM_EDGES_S, ends_s - FROM_EDGES_S, TRIED).tolist():
+                starts_s = first_s + first + step_s * np.arange(count)
+                longest_s = max(first, ends_s - first, step_s - FULL_BREATH_S if count > 1 else 0.0)
+                apart_s = float(np.abs(starts_s[:, None] - taken_s).min())
+                over_s = max(0.0, longest_s - lungful_s - EPSILON, first - begun_s)
+                order = (over_s, -min(apart_s, APART_S), count, abs(first - ends_s / 2.0))
+                found.append((order, starts_s.tolist()))
+    return min(found)[1]
 
 
 def breathed_of(
@@ -212,10 +261,10 @@ def breathed_of(
     events : sequence of BreathEvent
         All breaths of the player.
     """
-    within = {event.id.split(":", 1)[1]: event.start_s for event in events if event.id.startswith(f"{WITHIN}:")}
-    held = [index for index, note in enumerate(notes) if note.id in within] if within else []
+    within = [(event.id.split(":", 1)[1], event.start_s) for event in events if kind_of(event.id) == WITHIN]
+    index_of = {note.id: index for index, note in enumerate(notes)} if within else {}
     return Breathed(
         line,
         frozenset(line.places[index] for index in caught),
-        tuple((line.places[index], within[notes[index].id]) for index in held),
+        tuple((line.places[index_of[note_id]], start_s) for note_id, start_s in within),
     )

@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QGridLayout, QWidget
 
 from app.editor.session import Session
 from app.errors import Message
-from app.plan.corrections import PoseCorrection, SetBreath, SetCue
+from app.plan.corrections import PoseCorrection, SetBreath, SetCue, kind_of
 from app.plan.cue import LEAD_BEATS
 from app.plan.model import SIGNED_KINDS, CueEvent, ExpressionEvent, GestureEvent, PlayerPlan, PoseEvent, StyleEvent
 from app.project.edit import events as edit
@@ -123,9 +123,7 @@ class EventSection(Retranslated, QWidget):
         player = self._session.project.player(self._plan.player_id)
         title = event_title(first)
         if len(self._events) > 1:
-            title = self.tr("event_section.text").format(
-                count=len(self._events), what=kind_name(first.id.split(":")[0])
-            )
+            title = self.tr("event_section.text").format(count=len(self._events), what=kind_name(kind_of(first.id)))
         self._section.header.set_texts(title, player.name)
         self._show_places(first, made)
         self._show_amounts(first, made)

@@ -18,6 +18,7 @@ from app.plan.corrections import (
     SetCue,
     SetEmbouchure,
     Vary,
+    kind_of,
 )
 from app.plan.model import (
     BreathEvent,
@@ -53,7 +54,7 @@ def event_title(event: Event) -> str:
         return tr("inspector.pose").format(name=pose_name(event.target))
     if isinstance(event, StyleEvent):
         return tr("inspector.style").format(name=style_name(event.style))
-    return kind_name(event.id.split(":")[0])
+    return kind_name(kind_of(event.id))
 
 
 def event_text(score: Score, event: Event | None) -> str:
@@ -98,7 +99,7 @@ def correction_title(item: Correction) -> str:
         case PinFingering():
             return tr("inspector.fingering").format(label=item.label)
         case RemoveEvent():
-            return tr("inspector.removed").format(what=kind_name(item.event_id.split(":")[0]))
+            return tr("inspector.removed").format(what=kind_name(kind_of(item.event_id)))
         case SetBreath():
             return kind_name(item.kind)
         case SetCue():
@@ -106,7 +107,7 @@ def correction_title(item: Correction) -> str:
         case SetEmbouchure():
             return tr("inspector.embouchure")
         case ChangeGesture():
-            return kind_name(item.event_id.split(":")[0])
+            return kind_name(kind_of(item.event_id))
         case AddGesture():
             return kind_name(item.kind)
         case ChangeExpression():

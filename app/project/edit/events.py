@@ -439,10 +439,12 @@ def _breath(project: Project, player_id: str, event: BreathEvent) -> SetBreath:
     for item in corrections_of(project, player_id, (event.id,)):
         if isinstance(item, SetBreath):
             return item
-    kind, note_id = event.id.split(":", 1)
+    numbered, note_id = event.id.split(":", 1)
+    kind, _, number = numbered.partition(".")
     onset = next(note.onset_tick for note in _notes(project, player_id) if note.id == note_id)
     offsets = event.start_tick - onset, event.end_tick - onset
-    return SetBreath(note_id, *offsets, event.depth, "within" if kind == WITHIN else event.kind)
+    set_kind: Literal["preparation", "breath", "within"] = "within" if kind == WITHIN else event.kind
+    return SetBreath(note_id, *offsets, event.depth, set_kind, number=int(number or 1))
 
 
 def _breath_at(

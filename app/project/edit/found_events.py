@@ -18,6 +18,8 @@ from app.plan.corrections import (
     SetCue,
     SetEmbouchure,
     Vary,
+    breath_id,
+    kind_of,
 )
 from app.plan.model import (
     BreathEvent,
@@ -48,7 +50,7 @@ def event_id_of(correction: Correction) -> str:
         case SetEmbouchure():
             return f"embouchure:{correction.note_id}"
         case SetBreath():
-            return f"{correction.kind}:{correction.note_id}"
+            return breath_id(correction)
         case SetCue():
             return f"cue:{correction.note_id}"
         case AddGesture():
@@ -89,7 +91,7 @@ def is_there(project: Project, player_id: str, event_id: str) -> bool:
         player = project.player(player_id)
     except KeyError:
         return False
-    kind, _, of = event_id.partition(":")
+    kind, of = kind_of(event_id), event_id.partition(":")[2]
     if kind in ("pose", "additive", "vary", "style") or of.startswith(OWN):
         return bool(corrections_of(project, player_id, (event_id,)))
     return kind not in _OF_NOTES or of.startswith("@") or of in project.part(player).note_ids

@@ -7,8 +7,11 @@ import random
 
 import msgspec
 import pytest
+from hypothesis import Phase, given, settings
+from hypothesis import strategies as st
 
 from app.plan import stagger
+from app.plan.breath_depths import is_within
 from app.plan.corrections import Correction, PinFingering, RemoveEvent, SetBreath
 from app.plan.generate import MonophonicPart, make_plans, plan_ensemble, time_frame
 from app.plan.model import PlayerPlan
@@ -56,7 +59,7 @@ def caught(plan: PlayerPlan) -> set[float]:
 
 
 def within(plan: PlayerPlan) -> list[float]:
-    return [event.start_s for event in plan.breaths if event.id.startswith("within:")]
+    return [event.start_s for event in plan.breaths if is_within(event)]
 
 
 def test_a_unison_in_a_part_of_the_piece_is_staggered() -> None:
@@ -141,8 +144,9 @@ def test_a_long_held_note_is_handed_on(count: int) -> None:
         *([(onset, length, pitch + 12 * (number % 2)) for onset, length, pitch in held] for number in range(count))
     )
     times = sorted(time for plan in made for time in within(plan))
-    assert len(times) == count
-    assert all(after - before >= 1.5 for before, after in itertools.pairwise(times))
+    # Some breathe twice, to keep away from the others.
+    assert count <= len(times) <= 2 * count
+    assert all(after - before >= 0.9 for before, after in itertools.pairwise(times))
     assert all(1.0 <= time <= 10.6 for time in times)
     assert not [problem for plan in made for problem in plan.problems if problem.message.id == "breath.too_long"]
 
@@ -150,7 +154,7 @@ def test_a_long_held_note_is_handed_on(count: int) -> None:
 def test_a_held_note_out_of_a_line_without_rests_is_handed_on() -> None:
     line = [*running(0, 8), (8 * Q, 24 * Q, 62), *running(32, 8)]
     made = plans(line, [(onset, length, pitch - 12) for onset, length, pitch in line])
-    assert all(len(within(plan)) == 1 and 4.0 < within(plan)[0] < 16.0 for plan in made)
+    assert all(1 <= len(within(plan)) <= 2 and all(4.0 < time < 16.0 for time in within(plan)) for plan in made)
 
 
 def test_who_holds_a_note_alone_does_not_break_it() -> None:
@@ -173,5 +177,71 @@ def test_a_breath_in_a_held_note_can_be_removed() -> None:
 def test_a_breath_in_a_held_note_is_as_near_its_middle_as_others_allow() -> None:
     held = [(0, 24 * Q, 62)]
     first, second = (within(plan) for plan in plans(held, held))
-    assert min(abs(time - 6.0) for time in first + second) <= 0.3
-    assert all(abs(time - 6.0) <= 2.6 for time in first + second)
+    assert len(first) == 1
+    assert abs(first[0] - 6.0) <= 0.3
+    assert all(abs(time - first[0]) >= 2.0 for time in second)
+
+
+@given(
+    count=st.integers(2, 6),
+    quarters=st.integers(12, 240),
+    lung_s=st.floats(6.0, 12.0),
+    before=st.sampled_from((0, 4, 7, 12)),
+    after=st.integers(0, 12),
+)
+@settings(max_examples=15, deadline=None, phases=(Phase.explicit, Phase.reuse, Phase.generate))
+def test_a_pedal_is_held_on_by_breaths_no_further_apart_than_the_lungs(
+    count: int, quarters: int, lung_s: float, before: int, after: int
+) -> None:
+    """Notes of half a second, a pedal, and again notes: all in unison, without a rest."""
+    rows = [*running(0, before), (before * Q, quarters * Q, 62), *running(before + quarters, after)]
+    made = plans(*[rows] * count, lung_s=lung_s)
+    for plan in made:
+        breaths = sorted((event.start_s, event.end_s) for event in plan.breaths if event.kind == "breath")
+        edges = [*breaths[1:], (0.5 * (before + quarters + after), 0.0)]
+        assert all(start - end <= lung_s + 0.01 for (_, end), (start, _) in zip(breaths, edges, strict=True))
+        assert not [problem for problem in plan.problems if problem.message.id == "breath.too_long"]
+    times = sorted(time for plan in made for time in within(plan))
+    assert count > 2 or all(one - other >= 1.0 for other, one in itertools.pairwise(times))
+
+
+def test_four_who_hold_a_pedal_for_a_minute_breathe_four_or_five_times_each() -> None:
+    """53 s on lungs of 12 s, as clarinets of a band hold it."""
+    made = plans(*[[(0, 107 * Q, 62)]] * 4, lung_s=12.0)
+    assert all(4 <= len(within(plan)) <= 5 for plan in made)
+    times = sorted(time for plan in made for time in within(plan))
+    assert all(after - before >= 1.9 for before, after in itertools.pairwise(times))
+    assert len({event.id for event in made[0].breaths}) == len(made[0].breaths)
+
+
+def test_a_later_breath_in_a_held_note_is_removed_and_set_by_its_number() -> None:
+    rows = [(0, 107 * Q, 62)]
+    plain = plans(rows, rows, lung_s=12.0)[0]
+    second = sorted((one for one in plain.breaths if is_within(one)), key=lambda one: one.start_s)[1]
+    assert second.id == "within.2:1:1"
+    without = plans(rows, rows, corrections=(RemoveEvent(second.id, "1:1"),), lung_s=12.0)[0]
+    assert set(within(without)) == set(within(plain)) - {second.start_s}
+    moved = SetBreath("1:1", 20 * Q, 21 * Q, kind="within", number=2)
+    placed = plans(rows, rows, corrections=(moved,), lung_s=12.0)[0]
+    assert set(within(placed)) == set(within(plain)) - {second.start_s} | {10.0}
+
+
+def held(tempo: float) -> list[PlayerPlan]:
+    """Three bars of quarters, a note that all hold for a bar at another tempo, and again quarters."""
+    clock = PlainClock(((0, 120.0), (12 * Q, tempo), (16 * Q, 120.0)))
+    rows = [*running(0, 12), (12 * Q, 4 * Q, 60), *running(16, 12)]
+    lines = tuple(
+        MonophonicPart(f"p{part}", line_of(*[(at, long, pitch + 3 * part) for at, long, pitch in rows]), valves())
+        for part in range(3)
+    )
+    return list(make_plans(piece_of(clock, METRES), lines, time_frame(lines, clock)).values())
+
+
+def test_all_breathe_after_a_fermata_and_no_one_just_before_it() -> None:
+    for plan in held(40.0):
+        ends = {round(event.end_tick / Q, 2) for event in plan.breaths if event.kind == "breath"}
+        assert 16.0 in ends
+        assert 12.0 not in ends
+        assert [event.reason.id for event in plan.breaths if event.end_tick == 16 * Q] == ["breath.after_hold"]
+    for plan in held(120.0):
+        assert all(event.reason.id != "breath.after_hold" for event in plan.breaths)

@@ -13,7 +13,7 @@ from PySide6.QtWidgets import QMenu, QWidget
 from app.editor.selection import EventKey, Selection
 from app.editor.session import Session
 from app.errors import Message
-from app.plan.corrections import RemoveEvent
+from app.plan.corrections import RemoveEvent, kind_of
 from app.plan.model import PlayerPlan
 from app.project.document import Change
 from app.project.edit.events import set_amounts
@@ -221,7 +221,7 @@ class RegionLane(Lane):
         onsets: dict[str, int] = {}
         result = []
         for item in project.corrections.get(plan.player_id, ()):
-            kind = item.event_id.split(":")[0] if isinstance(item, RemoveEvent) else ""
+            kind = kind_of(item.event_id) if isinstance(item, RemoveEvent) else ""
             if not isinstance(item, RemoveEvent) or kind not in among:
                 continue
             if not onsets:
