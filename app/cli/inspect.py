@@ -58,10 +58,16 @@ def add_arguments(command: argparse.ArgumentParser) -> None:
     add_title_option(command)
     add_rate_option(command)
     command.add_argument("--json", action="store_true", help="print one JSON object instead of tables")
-    command.add_argument(
+    contacts = command.add_mutually_exclusive_group()
+    contacts.add_argument(
         "--no-contacts",
         action="store_true",
         help="do not check what fingers, hands and lips reach, which takes longest",
+    )
+    contacts.add_argument(
+        "--all-contacts",
+        action="store_true",
+        help="check them for every player at the full rate, however large the piece is and however long that takes",
     )
     command.set_defaults(run=inspect)
 
@@ -80,7 +86,7 @@ def _inspect(arguments: argparse.Namespace) -> int:
     performance = Performance(open_project(arguments))
     if not arguments.no_contacts:
         find_holds(performance, performance.project.players)
-    found = inspection(performance, contacts=not arguments.no_contacts)
+    found = inspection(performance, contacts=not arguments.no_contacts, without_limit=arguments.all_contacts)
     if arguments.json:
         say_json(found)
     else:
@@ -88,13 +94,15 @@ def _inspect(arguments: argparse.Namespace) -> int:
     return report_left_out((one["player"], one["reason"]) for one in found["left_out"])
 
 
-def inspection(performance: Performance, *, contacts: bool = True) -> Table:
+def inspection(performance: Performance, *, contacts: bool = True, without_limit: bool = False) -> Table:
     """Everything ``inspect --json`` prints: seconds are the performance's, beats are quarters from tick 0.
 
     Parameters
     ----------
     contacts : bool
         Whether all motion is generated to check what the bodies reach.
+    without_limit : bool
+        Whether it is of every player at the usual rate, however long that takes.
     """
     project = performance.project
     score, place = project.score, project.conducting
@@ -102,7 +110,7 @@ def inspection(performance: Performance, *, contacts: bool = True) -> Table:
     playable = attempt(project.players, performance.instrument)
     absent = {one.player.id for one in playable.left_out}
     if contacts:
-        problems, notice = all_problems(performance, project.players)
+        problems, notice = all_problems(performance, project.players, without_limit)
     else:
         problems, notice = {player.id: performance.problems(player.id) for player in project.players}, None
     return {

@@ -116,32 +116,32 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
     "judged.sparsely": (
         (
             "contacts were checked at {rate:g} frames/s only: {players} {players:player|players} for {minutes:g} "
-            "{minutes:minute|minutes} are much motion; export some bars to check them at the full rate"
+            "{minutes:minute|minutes} are much motion; --all-contacts checks them at the full rate"
         ),
         (
             "奏者 {players} 人、{minutes:g} 分のモーションは多いため、接触は {rate:g} フレーム/秒だけで調べました。"
-            "一部の小節を書き出すと、すべてのフレームを調べられます"
+            "--all-contacts を付けると、通常のレートで調べます"
         ),
     ),
     "judged.some": (
         (
             "contacts were checked only of the first {judged} of {players} players, up to {last}, at {rate:g} "
             "frames/s: {players} {players:player|players} for {minutes:g} {minutes:minute|minutes} are much motion; "
-            "export some bars to check them all"
+            "--all-contacts checks them all"
         ),
         (
             "奏者 {players} 人、{minutes:g} 分のモーションは多いため、接触は最初の {judged} 人（{last} まで）だけを "
-            "{rate:g} フレーム/秒で調べました。一部の小節を書き出すと、全員を調べられます"
+            "{rate:g} フレーム/秒で調べました。--all-contacts を付けると、全員を調べます"
         ),
     ),
     "judged.not": (
         (
             "contacts were not checked: {players} {players:player|players} for {minutes:g} "
-            "{minutes:minute|minutes} are too much motion to generate here; export some bars to check them"
+            "{minutes:minute|minutes} are much motion; --all-contacts checks them all the same"
         ),
         (
-            "接触は調べませんでした: 奏者 {players} 人、{minutes:g} 分のモーションは多すぎます。"
-            "一部の小節を書き出して調べてください"
+            "接触は調べませんでした: 奏者 {players} 人、{minutes:g} 分のモーションは多いためです。"
+            "--all-contacts を付けると調べます"
         ),
     ),
     "piece.too_long": (

@@ -189,8 +189,10 @@ class _Made(NamedTuple):
     def size_bytes(self) -> int:
         """Memory of its frames."""
         clip, motion = self.dance.clip, self.motion
-        arrays = (clip.rotations, clip.hips_m, motion.rotations, motion.hips_m, motion.instrument_position_m)
-        return sum(one.nbytes for one in (*arrays, motion.instrument_rotation, *motion.morphs.values()))
+        held = (clip.rotations, clip.hips_m, motion.rotations, motion.hips_m)
+        instrument = (motion.instrument_position_m, motion.instrument_rotation)
+        morphs = sum(one.nbytes for one in motion.morphs.values())
+        return sum(one.nbytes for one in held) + sum(one.nbytes for one in instrument) + morphs
 
 
 def manner_of(dancer: Dancer, sources: int) -> Manner:

@@ -54,8 +54,14 @@ class Judged(NamedTuple):
     notice: Message | None
 
 
-def all_problems(performance: Performance, players: Iterable[Player]) -> Judged:
-    """`judged_problems` of players; of those who cannot be seen, what is known without a motion."""
+def all_problems(performance: Performance, players: Iterable[Player], without_limit: bool = False) -> Judged:
+    """`judged_problems` of players; of those who cannot be seen, what is known without a motion.
+
+    Parameters
+    ----------
+    without_limit : bool
+        Look at everyone at the usual rate, however long it takes.
+    """
     found = {player.id: performance.problems(player.id) for player in players}
     performers = performers_of(performance, (performance.project.player(player_id) for player_id in found)).made
     by_musician: dict[str, list[Performer]] = {}
@@ -63,7 +69,8 @@ def all_problems(performance: Performance, players: Iterable[Player]) -> Judged:
         by_musician.setdefault(performance.project.musician(one.player).id, []).append(one)
     groups = list(by_musician.values())
     notes = [sum(len(performance.project.part(one.player).notes) for one in together) for together in groups]
-    looked, judged = _looked(performance, [len(together) for together in groups], notes)
+    most = math.inf if without_limit else MOST_WORK
+    looked, judged = _looked(performance, [len(together) for together in groups], notes, most)
     for together in groups[:judged]:
         if looked is not None:
             found |= _judged(performance, together, looked)
@@ -87,19 +94,23 @@ def _judged(
     }
 
 
-def _looked(performance: Performance, players: Sequence[int], notes: Sequence[int]) -> tuple[_Looked | None, int]:
+def _looked(
+    performance: Performance, players: Sequence[int], notes: Sequence[int], most: float
+) -> tuple[_Looked | None, int]:
     """Which frames are looked at, None for none, and of how many musicians, the first ones.
 
     Parameters
     ----------
     players, notes : sequence of int
         How many each musician has.
+    most : float
+        `MOST_WORK`, or infinity.
     """
     fps = performance.project.fps
     frames = whole_span(performance.time_frame, fps).count
     usual = max(1, round(float(fps) / JUDGED_PER_S))
-    count, most = frames * sum(players), MOST_WORK
-    if count / float(fps) > SPARSE_S * sum(notes):
+    count = frames * sum(players)
+    if most <= MOST_WORK and count / float(fps) > SPARSE_S * sum(notes):
         most = min(most, SPARSE_FRAMES + SPARSE_PER_NOTE * sum(notes))
     left = most - NOTE_WORK * sum(notes)
     works = [PLAYER_WORK * some + CURVE_WORK * many for some, many in zip(players, notes, strict=True)]

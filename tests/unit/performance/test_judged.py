@@ -110,7 +110,7 @@ def test_hours_with_few_notes_are_looked_at_sparsely(
 @example(players=[1], notes=40_000, seconds=3000.0, fps=Fraction(60))
 def test_the_work_on_a_piece_is_bounded(players: list[int], notes: int, seconds: float, fps: Fraction) -> None:
     performance, each = of_length(seconds, fps), [notes // len(players)] * len(players)
-    looked, count = judged._looked(performance, players, each)
+    looked, count = judged._looked(performance, players, each, judged.MOST_WORK)
     assert (looked is None) == (count == 0)
 
     def work(rate: float, some: int) -> float:
@@ -122,9 +122,10 @@ def test_the_work_on_a_piece_is_bounded(players: list[int], notes: int, seconds:
         assert rate >= judged.LEAST_PER_S
         assert work(rate, count) <= judged.MOST_WORK + sum(players)
     if count < len(players):
-        # One musician more could not be looked at even as sparsely as anyone is.
+        # One musician more could not be looked at even as sparsely as anyone is, at every so many-th usual frame.
         few = judged.SPARSE_FRAMES + judged.SPARSE_PER_NOTE * sum(each)
-        assert work(judged.LEAST_PER_S, count + 1) > min(judged.MOST_WORK, few)
+        usual = float(fps) / max(1, round(float(fps) / judged.JUDGED_PER_S))
+        assert work(usual / (usual // judged.LEAST_PER_S), count + 1) > min(judged.MOST_WORK, few)
 
 
 @pytest.mark.parametrize(
@@ -133,7 +134,8 @@ def test_the_work_on_a_piece_is_bounded(players: list[int], notes: int, seconds:
     ids=["quartet", "Brandenburg concerto", "concert band", "overture"],
 )
 def test_everyone_is_looked_at_in_known_pieces(players: int, notes: int, seconds: float, rate: float) -> None:
-    looked, count = judged._looked(of_length(seconds, Fraction(60)), [1] * players, [notes // players] * players)
+    each = [notes // players] * players
+    looked, count = judged._looked(of_length(seconds, Fraction(60)), [1] * players, each, judged.MOST_WORK)
     assert count == players
     assert looked is not None
     assert float(looked.fps) / looked.every >= rate
@@ -159,6 +161,17 @@ def test_the_first_players_are_looked_at_where_all_are_too_many(
     assert notice.id == "judged.some"
     assert (notice.arguments["judged"], notice.arguments["last"]) == (2, project.players[1].name)
     assert problems.keys() == {player.id for player in project.players}
+
+
+@pytest.mark.parametrize("limited", [True, False])
+def test_everyone_is_looked_at_on_request(
+    rates: list[tuple[Fraction, int]], monkeypatch: pytest.MonkeyPatch, limited: bool
+) -> None:
+    monkeypatch.setattr(judged, "MOST_WORK", 1.0)
+    performance = Performance(piece(40, 4))
+    _, notice = all_problems(performance, performance.project.players, without_limit=not limited)
+    assert (notice is None) == (not limited)
+    assert len(rates) == (0 if limited else 4)
 
 
 def test_hours_of_many_players_are_not_looked_at(rates: list[tuple[Fraction, int]]) -> None:
