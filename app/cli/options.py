@@ -21,7 +21,7 @@ from app.project.casting import ConductorPlace, conductor_place
 from app.project.edit.piece import PieceSettings, piece_settings, set_piece_settings, set_preroll
 from app.project.frame_rate import exact_number
 from app.project.frame_rate import frame_rate as typed_rate
-from app.project.importing import ImportRow, import_project, score_of_rows, usual_rows
+from app.project.importing import ImportRow, cleaning, import_project, score_of_rows, usual_rows
 from app.project.model import Project, map_choices, preroll_of_new, with_settings
 from app.project.names import unique_names
 from app.project.parameters import parameter_names, parse_settings, select_players
@@ -179,6 +179,22 @@ def add_file_options(command: argparse.ArgumentParser) -> None:
         metavar="PLAYER",
         help="a MIDI file has this player's pitches as they sound, whatever their range; repeatable",
     )
+    takes = command.add_mutually_exclusive_group()
+    takes.add_argument(
+        "--clean-takes",
+        dest="clean_takes",
+        action="store_const",
+        const=True,
+        help="take every track of a MIDI file for a take of a wind controller: leave out slips, notes struck twice in "
+        "one breath and notes without breath (default: of tracks that look like takes)",
+    )
+    takes.add_argument(
+        "--keep-takes",
+        dest="clean_takes",
+        action="store_const",
+        const=False,
+        help="keep every note of a MIDI file, also of tracks that look like takes",
+    )
 
 
 def add_source_options(command: argparse.ArgumentParser) -> None:
@@ -256,8 +272,8 @@ def open_project(arguments: argparse.Namespace, if_empty: str = "") -> Project:
     ------
     AppError
         Those of reading, and `UsageError` of what makes no sense, ``project.encoding`` (file),
-        ``project.written`` (file) and ``project.assign`` (file) among them; `FileError` ``assign.parts`` (file, parts,
-        command) and ``if_empty``.
+        ``project.written``, ``project.takes`` and ``project.assign`` (file) among them; `FileError` ``assign.parts``
+        (file, parts, command) and ``if_empty``.
     """
     known = library()
     maps = known.maps
@@ -308,6 +324,8 @@ def _saved_project(arguments: argparse.Namespace) -> Project:
         raise UsageError("project.encoding", file=str(arguments.file))
     if arguments.written or arguments.sounding:
         raise UsageError("project.written", file=str(arguments.file))
+    if arguments.clean_takes is not None:
+        raise UsageError("project.takes", file=str(arguments.file))
     if arguments.assign:
         raise UsageError("project.assign", file=str(arguments.file))
     return load(arguments.file)
@@ -319,6 +337,8 @@ def _opened(arguments: argparse.Namespace, maps: Mapping[str, InstrumentMap]) ->
         return _saved_project(arguments), None
     contents, choices = read_contents(arguments.file, encoding=arguments.encoding), map_choices(maps.values())
     rows = _assigned(contents.streams, usual_rows(contents, maps), arguments.assign, list(maps))
+    if arguments.clean_takes is not None:
+        rows = cleaning(rows, arguments.clean_takes)
     unassigned = unassigned_parts(contents.streams, rows, choices)
     for names, written in ((arguments.written, True), (arguments.sounding, False)):
         if names:

@@ -55,6 +55,16 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         ("{file} is also open in another window; saving in both overwrites each other's changes; close one of them"),
         "{file} は別のウィンドウでも開かれています。両方で保存すると互いに上書きされます。一方を閉じてください",
     ),
+    "project.takes": (
+        (
+            "--clean-takes and --keep-takes set how the tracks of a MIDI file are read, but {file} is a project; clean "
+            "its takes in the editor"
+        ),
+        (
+            "--clean-takes と --keep-takes は MIDI ファイルの読み方の指定ですが、{file} はプロジェクトです。"
+            "テイクのクリーンアップはエディターで行ってください"
+        ),
+    ),
     "project.written": (
         (
             "--written and --sounding set how the pitches of a MIDI file are read, but {file} is a project; transpose "

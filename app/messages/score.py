@@ -303,6 +303,18 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
             "記譜音と見なすとすべて収まるため、「記譜音」として読み込みます"
         ),
     ),
+    "score.take_cleaned": (
+        (
+            "{part}: cleaned as a take of a wind controller: {count} {count:note|notes} left out ({slips} slipped, "
+            "{doubles} struck twice in one breath, {silent} without breath), at {places}; "
+            "turn off Clean Take at import (--keep-takes) to keep {count:it|them}"
+        ),
+        (
+            "{part}: ウインドコントローラーのテイクとしてクリーンアップし、{count} 音を除きました（運指のずれ {slips}、"
+            "1 つの息での二度打ち {doubles}、息のない音 {silent}）。位置: {places}。残すには、"
+            "読み込みで「テイクをクリーンアップ」をオフ（--keep-takes）にしてください"
+        ),
+    ),
     "score.solos": (
         "{part}: {count} {count:note is|notes are} marked for one player, the first at {place} ({pitch}); others rest",
         "{part}: {count} 音は奏者 1 人の指定があるため（最初は {place} の {pitch}）、ほかの奏者は休みます",

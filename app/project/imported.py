@@ -69,6 +69,8 @@ class RowDecision(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
         None: chosen automatically.
     solos : bool
         As in `PartAssignment`; imports of earlier versions did not follow such words, and do not when read again.
+    clean : bool
+        As in `PartAssignment`; imports of earlier versions cleaned nothing, and do not when read again.
     """
 
     tracks: tuple[TrackMark, ...]
@@ -79,6 +81,7 @@ class RowDecision(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     written: bool = False
     character_id: str | None = None
     solos: bool = False
+    clean: bool = False
 
 
 class ImportDecisions(msgspec.Struct, frozen=True, forbid_unknown_fields=True):

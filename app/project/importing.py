@@ -14,6 +14,7 @@ from app.project.model import Project, map_choices, project_from_score
 from app.score.model import Score, UnplayedPart
 from app.score.parts import PERCUSSION, PartAssignment, suggestions
 from app.score.read import MidiContents, assigned_score
+from app.score.take_tracks import take_reason
 from instrument_maps.model import InstrumentMap
 
 
@@ -56,7 +57,19 @@ class ImportRequest(msgspec.Struct, frozen=True):
 def usual_rows(contents: MidiContents, maps: Mapping[str, InstrumentMap]) -> tuple[ImportRow, ...]:
     """A row for every track, or for the regions of one, as it is imported by default."""
     found = suggestions(contents.streams, map_choices(maps.values()))
-    return tuple(ImportRow(one.assignment, one.playable) for one in found)
+    rows = []
+    for one in found:
+        own = (contents.streams[stream] for stream in one.assignment.streams)
+        takes = all(take_reason(stream, contents.tempo_map) for stream in own)
+        rows.append(ImportRow(msgspec.structs.replace(one.assignment, clean=takes), one.playable))
+    return tuple(rows)
+
+
+def cleaning(rows: Sequence[ImportRow], clean: bool) -> tuple[ImportRow, ...]:
+    """The rows with all tracks cleaned as takes, or none."""
+    return tuple(
+        msgspec.structs.replace(row, assignment=msgspec.structs.replace(row.assignment, clean=clean)) for row in rows
+    )
 
 
 def merged(rows: Sequence[ImportRow], places: Sequence[int]) -> tuple[ImportRow, ...]:
@@ -257,4 +270,5 @@ def decision_of(row: ImportRow, marks: Iterable[TrackMark]) -> RowDecision:
         chosen.written,
         row.character_id,
         chosen.solos,
+        chosen.clean,
     )

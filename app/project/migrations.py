@@ -79,11 +79,11 @@ def _with_parameters(raw: Raw, version: int) -> Raw:
 
 def _with_stopped(raw: Raw) -> Raw:
     """14 to 15: where the hand stops the bell is kept; a piece that was read before has it when it is read again.
-    Rows of earlier imports do not follow words about who of several players plays."""
+    Rows of earlier imports do not follow words about who of several players plays, and clean no takes."""
     parts = [{**part, "stopped": []} for part in raw["score"]["parts"]]
     imported = raw["imported"]
     if imported is not None:
-        imported = {**imported, "rows": [{**row, "solos": False} for row in imported["rows"]]}
+        imported = {**imported, "rows": [{**row, "solos": False, "clean": False} for row in imported["rows"]]}
     return {**raw, "score": {**raw["score"], "parts": parts}, "imported": imported}
 
 

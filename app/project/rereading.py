@@ -229,7 +229,9 @@ def _row(
     name = decision.name
     if not name and own[0].name != called[places[0]].name:
         name = called[places[0]].name
-    assignment = PartAssignment(tuple(places), map_id, name, decision.split, decision.written, decision.solos)
+    assignment = PartAssignment(
+        tuple(places), map_id, name, decision.split, decision.written, decision.solos, decision.clean
+    )
     return ImportRow(assignment, decision.requested, decision.character_id)
 
 

@@ -98,6 +98,8 @@ class TrackChannel(msgspec.Struct, frozen=True):
         Spans of ticks in which the track is played with a mute.
     stopped : tuple of (start, end)
         Those of them in which the hand stops the bell.
+    recorded : bool
+        The file says that it is a take of ``suisou record``.
     solos : tuple of (tick, player)
         Who of several players has the notes alone from there on, from 1; 0: all play (`app.score.solos`).
     use : {"melodic", "rhythm", "effect"}
@@ -128,6 +130,7 @@ class TrackChannel(msgspec.Struct, frozen=True):
     muted: tuple[tuple[int, int], ...] = ()
     stopped: tuple[tuple[int, int], ...] = ()
     solos: tuple[tuple[int, int], ...] = ()
+    recorded: bool = False
     use: Use = "melodic"
     certain: bool = False
     struck: list[int] = []

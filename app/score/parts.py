@@ -66,6 +66,8 @@ score.voices : part, voices, count, place, pitch
     "{part}: {voices} players share it, for {count} notes sound together with others, the first at ..."
 score.unisons : part, count, place, pitch
     "{part}: {count} notes are struck twice in unison, the first at ...; one player has each of them once"
+score.take_cleaned : part, count, slips, doubles, silent, places
+    "{part}: this track looks like a take of a wind controller; {count} notes were left out (...), at ..."
 score.solos : part, count, place, pitch
     "{part}: {count} notes are marked for one of its players, the first at ...; the others rest"
 score.doubling : part, instrument, count, place, pitch
@@ -79,7 +81,7 @@ score.slurred : part, count, place, pitch
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Final, Literal, TypeAlias
 
 import msgspec
@@ -99,17 +101,22 @@ from app.score.choose import (
     require_map,
     use_of,
 )
+from app.score.clean import Fault
 from app.score.limits import MOST_PARTS, most_parts
 from app.score.model import MOST_VOICES, Note, Part, Score, UnplayedPart, sounding_spans
 from app.score.regions import are_one_line, groups, is_spread, joined
 from app.score.solos import solo_notes, with_solos
 from app.score.switches import without_key_switches
+from app.score.take_tracks import without_faults
 from app.score.tempo import TempoMap
 from app.score.voices import Shared, file_id, split_voices
 from instrument_maps.vocabulary import Instrument, vocabulary
 
 PERCUSSION: Final = "percussion"
 """What is assigned to a part in place of an instrument where dancers are to hear its notes as percussion."""
+
+_MOST_PLACES: Final = 5
+"""Places that a message lists."""
 
 
 def parts_of(
@@ -146,6 +153,8 @@ class PartAssignment(msgspec.Struct, frozen=True):
         Another player for notes that go on sounding together; for every note that does; or one player has them all.
     written : bool
         The file has the pitches that stand in the part of a transposing instrument, not those that sound.
+    clean : bool
+        The tracks are takes: notes that were not meant are left out (`app.score.take_tracks`).
     solos : bool
         The track's words about who plays ("1. Solo", "a2") are followed.
     """
@@ -156,6 +165,7 @@ class PartAssignment(msgspec.Struct, frozen=True):
     split: Split = "sustained"
     written: bool = False
     solos: bool = True
+    clean: bool = False
 
 
 class Suggestion(msgspec.Struct, frozen=True):
@@ -248,6 +258,7 @@ def assigned_parts(
     ends = [max(stream.end_ticks) for stream in streams if stream.end_ticks]
     hours = piece.tempo_map.seconds(float(max(ends, default=0))) / 3600.0
     most = most_parts(hours)
+    streams = list(streams)
     for assignment in assignments:
         raise_if_stopped(stop_requested)
         if assignment.map_id == PERCUSSION:
@@ -257,6 +268,11 @@ def assigned_parts(
         if not room:
             crowded.update(assignment.streams)
             continue
+        faults: dict[Fault, list[Note]] = {}
+        if assignment.clean:
+            for index in assignment.streams:
+                streams[index], own = without_faults(streams[index], piece.tempo_map)
+                faults |= {fault: faults.get(fault, []) + notes for fault, notes in own.items()}
         found = _found([streams[index] for index in assignment.streams], assignment.map_id, maps)
         if found.unknown:
             continue
@@ -281,6 +297,8 @@ def assigned_parts(
         if are_one_line(chosen):
             id_ = "score.spread" if is_spread(chosen) else "score.regions"
             warnings.append(Message(id_, {"part": mine[0].name, "count": len(chosen)}))
+        if faults:
+            warnings.append(_cleaned(mine[0].name, faults, piece))
         if shared.unisons:
             warnings.append(_about("score.unisons", mine[0].name, shared.unisons, piece))
         if shared.solos:
@@ -369,6 +387,16 @@ def _about(id_: str, part: str, notes: Sequence[Note], piece: Score, **more: Arg
     first = notes[0]
     where: dict[str, Argument] = {"place": piece.metre_map.label(first.onset_tick), "pitch": first.pitch}
     return Message(id_, {"part": part, "count": len(notes), **where, **more})
+
+
+def _cleaned(part: str, faults: Mapping[Fault, list[Note]], piece: Score) -> Message:
+    """What was left out of a take: how many notes, why, and where the first ones are."""
+    notes = sorted((note for own in faults.values() for note in own), key=lambda note: note.onset_tick)
+    places = list(dict.fromkeys(piece.metre_map.label(note.onset_tick) for note in notes))
+    said = ", ".join(places[:_MOST_PLACES]) + (", ..." if len(places) > _MOST_PLACES else "")
+    slips, doubles = (len(faults.get(fault, ())) for fault in ("slip", "double"))
+    counts: dict[str, Argument] = {"slips": slips, "doubles": doubles, "silent": len(notes) - slips - doubles}
+    return Message("score.take_cleaned", {"part": part, "count": len(notes), **counts, "places": said})
 
 
 def _switches(streams: Sequence[TrackChannel], own: Sequence[int], places: Sequence[Sequence[int]]) -> list[Note]:

@@ -90,6 +90,7 @@ from app.score.solos import words_of_players
 from app.score.sound_module import FIRST_PORT, Port, Use, channel_sounds
 from app.score.spread import spread_lines
 from app.score.stuck import cut_stuck_notes
+from app.score.take_tracks import RECORDED
 from app.score.tempo import TempoChange, TempoMap
 from app.score.texts import Texts
 from app.score.tracks import LEAST_TEMPO, TrackEvents, gather, no_notes
@@ -462,6 +463,7 @@ def _streams(
         if alone:
             name = name if len(groups) == 1 and len(tracks) == 1 else ""
         said = [(tick, texts.read(text)) for tick, text in (*events.texts, *events.markers)]
+        recorded = any(text == RECORDED.encode() for _, text in events.texts)
         for channels in groups:
             notes = events.notes(channels)
             first = leading(events, channels)
@@ -498,6 +500,7 @@ def _streams(
                         played_on=instrument,
                         change=change,
                         solos=solos,
+                        recorded=recorded,
                         muted=muted,
                         stopped=stopped,
                         line=-1 if spread is None else spread.first,

@@ -11,6 +11,7 @@ import mido
 
 from app.formats.atomic import atomic_write
 from app.score.sounding import Sounding, begins, is_note, note_off
+from app.score.take_tracks import RECORDED
 
 TICKS_PER_QUARTER: Final = 960
 _PLAYED_EARLY_S: Final = 0.25
@@ -57,6 +58,7 @@ def write_take(
     conductor.append(mido.MetaMessage("set_tempo", tempo=round(60e6 / beats_per_minute)))
     conductor.append(mido.MetaMessage("time_signature", numerator=4, denominator=4))
     track.append(mido.MetaMessage("track_name", name=name))
+    track.append(mido.MetaMessage("text", text=RECORDED))
     before = 0
     for time_us, message in played:
         tick = round(time_us * ticks_per_us)

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable, Mapping
 from threading import Event
-from typing import NamedTuple
+from typing import Final, NamedTuple
 
 import msgspec
 from PySide6.QtCore import QPoint, QSize, Qt, QTimer
@@ -45,6 +45,7 @@ from app.score.choose import use_of
 from app.score.model import UnplayedPart
 from app.score.parts import PERCUSSION, PartAssignment, stream_name
 from app.score.read import MidiContents
+from app.score.take_tracks import TakeReason, take_reason
 from instrument_maps.model import InstrumentMap
 from instrument_maps.score_order import in_score_order
 from widgets.common.controls import Button, Caption, Check, OkCancel, Retranslated, named
@@ -55,8 +56,14 @@ from widgets.common.text import message_text, sentence
 from widgets.dialogs.encoding_choice import EncodingChoice
 from widgets.dialogs.notes_preview import ROW_PX, NotesPreview
 
-_USE, _NAME, _PREVIEW, _NOTES, _SPLIT, _INSTRUMENT, _PITCHES, _CHARACTER = range(8)
+_USE, _NAME, _PREVIEW, _NOTES, _SPLIT, _INSTRUMENT, _PITCHES, _CHARACTER, _CLEAN = range(9)
 _SIZE = QSize(1280, 580)
+_TAKES: Final[Mapping[TakeReason, str]] = {
+    "recorded": "import_dialog.take_recorded",
+    "name": "import_dialog.take_name",
+    "breath": "import_dialog.take_breath",
+}
+"""Why a track looks like a take, and what cleaning it does."""
 _TITLE_PX = 600
 _INSTRUMENT_LETTERS = 31
 """Width of the column of instruments: the longest names would leave the notes no room."""
@@ -118,7 +125,7 @@ class ImportDialog(Retranslated, QDialog):
         self._end_tick = max((max(stream.end_ticks) for stream in contents.streams), default=1)
 
         self._heading = named(Label(), "heading")
-        self._table = named(QTableWidget(0, 8), "import_tracks")
+        self._table = named(QTableWidget(0, 9), "import_tracks")
         self._table.verticalHeader().hide()
         self._table.verticalHeader().setDefaultSectionSize(ROW_PX)
         self._table.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
@@ -212,6 +219,7 @@ class ImportDialog(Retranslated, QDialog):
                 self.tr("import_dialog.instrument"),
                 self.tr("import_dialog.pitches"),
                 self.tr("import_dialog.character"),
+                self.tr("import_dialog.clean_take"),
             ]
         )
         self._dancer.setToolTip(self.tr("import_dialog.dancer_who_moves_to_percussion"))
@@ -271,6 +279,8 @@ class ImportDialog(Retranslated, QDialog):
         self._table.setRowCount(0)
         self._table.setRowCount(len(self._rows))
         self._filled = 0
+        # Only where a track looks like a take is there something to clean.
+        self._table.setColumnHidden(_CLEAN, not any(map(self._take_reason, self._rows)))
         self._instruments = [(instrument_name(table), table.id) for table in in_score_order(self._maps.values())]
         self._characters = [(character_name(id_), id_) for id_ in characters()]
         self._fill_more(_ROWS_AT_ONCE)
@@ -371,8 +381,21 @@ class ImportDialog(Retranslated, QDialog):
         figures = ((usual, None), *self._characters)
         character = self._choice(place, _CHARACTER, "character", figures, row.character_id)
         character.currentIndexChanged.connect(lambda: self._set(place, character_id=character.currentData()))
+        reason = self._take_reason(row)
+        if reason:
+            clean = named(_Tick(), f"clean_{place}")
+            clean.setChecked(assignment.clean)
+            clean.setToolTip(self.tr(_TAKES[reason]))
+            clean.toggled.connect(lambda clean: self._assignment(place, clean=clean))
+            self._table.setCellWidget(place, _CLEAN, _centred(clean))
         self._enable(place)
         self._show_instruments(place)
+
+    def _take_reason(self, row: ImportRow) -> TakeReason:
+        """Why a row's tracks are taken for takes; empty where one of them is none."""
+        own = (self._contents.streams[stream] for stream in row.assignment.streams)
+        reasons = [take_reason(stream, self._contents.tempo_map) for stream in own]
+        return reasons[0] if all(reasons) else ""
 
     def _choice(
         self, place: int, column: int, name: str, options: Iterable[tuple[str, object]], chosen: object
@@ -472,7 +495,7 @@ class ImportDialog(Retranslated, QDialog):
 
     def _enable(self, place: int) -> None:
         row = self._rows[place]
-        for column in (_NAME, _PREVIEW, _NOTES, _SPLIT, _INSTRUMENT, _CHARACTER):
+        for column in (_NAME, _PREVIEW, _NOTES, _SPLIT, _INSTRUMENT, _CHARACTER, _CLEAN):
             widget = self._table.cellWidget(place, column)
             if widget is not None:
                 # Where nothing says what the instrument is, it is asked for.

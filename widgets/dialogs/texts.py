@@ -353,6 +353,7 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
     "import_dialog.choose_instrument": ("Select an instrument", "楽器を選択"),
     "import_dialog.choose_instrument_for": ("Select an instrument for {name}", "{name} の楽器を選んでください"),
     "import_dialog.cyrillic": ("Cyrillic ({name})", "キリル文字（{name}）"),
+    "import_dialog.clean_take": ("Clean Take", "テイクをクリーンアップ"),
     "import_dialog.dancer_who_moves_to_percussion": (
         "Adds a dancer who dances to the percussion, in front of the players",
         "打楽器に合わせて踊るダンサーを、奏者の前に追加",
@@ -427,6 +428,23 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
         "{title} · {minutes}:{seconds:02d} · ♩= {tempo:g} · {metre}",
     ),
     "import_dialog.what_reader_noticed": ("Import warnings", "読み込み時の警告"),
+    "import_dialog.take_breath": (
+        "Played on a wind controller: breath was sent while the notes sounded, and they lie off the beat.\n"
+        "On: slips, notes struck twice in one breath and notes without breath are left out.",
+        "ウインドコントローラーの演奏: 息のデータが途切れず、発音が拍からずれています。\n"
+        "オン: 運指のずれ、1 つの息での二度打ち、息のない音を除きます。",
+    ),
+    "import_dialog.take_name": (
+        "Played on a wind controller: the name of the track says so, and breath was sent.\n"
+        "On: slips, notes struck twice in one breath and notes without breath are left out.",
+        "ウインドコントローラーの演奏: トラック名と息のデータから判断しました。\n"
+        "オン: 運指のずれ、1 つの息での二度打ち、息のない音を除きます。",
+    ),
+    "import_dialog.take_recorded": (
+        "Recorded with suisou record.\n"
+        "On: slips, notes struck twice in one breath and notes without breath are left out.",
+        "suisou record で録音されたテイクです。\nオン: 運指のずれ、1 つの息での二度打ち、息のない音を除きます。",
+    ),
     "import_dialog.which_pitches_file_has_of": (
         "Transposing part: sounding or written pitch?",
         "移調楽器のパート: 実音か記譜音か",

@@ -30,6 +30,7 @@ from app.project.model import Project, map_choices, project_from_score
 from app.project.reimport import reimported
 from app.score.read import read_contents, read_midi
 from instrument_maps.load import bundled_maps
+from tests.support.take_files import take_file
 from tests.support.tasks import ImmediateTasks
 from widgets.dialogs.import_midi import ImportDialog
 from widgets.dialogs.notes_preview import NotesPreview
@@ -203,7 +204,7 @@ def test_what_comes_of_the_choices_is_worked_out_beside_the_window(qt_app: QAppl
     assert (len(dialog.rows), agree.isEnabled(), summary.text()) == (4, True, "Players: 3")
     # There is room for what came after the dialog was shown.
     QApplication.processEvents()
-    columns = range(dialog._table.columnCount())
+    columns = [place for place in range(dialog._table.columnCount()) if not dialog._table.isColumnHidden(place)]
     header = dialog._table.horizontalHeader()
     assert header.length() == header.viewport().width()
     for column in columns:
@@ -505,3 +506,26 @@ def names(dialog: ImportDialog) -> list[str]:
     """The names of all rows, from above."""
     fields = [dialog._table.cellWidget(place, 1) for place in range(len(dialog.rows))]
     return [field.text() for field in fields if isinstance(field, QLineEdit)]
+
+
+def test_a_take_is_cleaned_by_a_switch_that_says_why(qt_app: QApplication, qtbot: QtBot, tmp_path: Path) -> None:
+    contents = read_contents(take_file(tmp_path / "take.mid", name="Alto Sax EWI"))
+    dialog = ImportDialog(contents, MAPS, DARK, ImmediateTasks())
+    qtbot.addWidget(dialog)
+    dialog.show()
+    assert not dialog._table.isColumnHidden(8)
+    box = dialog.findChild(QCheckBox, "clean_0")
+    reported = dialog.findChild(QListWidget, "import_warnings")
+    assert box is not None
+    assert reported is not None
+    assert box.isChecked()
+    assert "wind controller" in box.toolTip()
+    assert "1 note left out" in reported.item(0).text()
+    cleaned = imported(dialog).score.parts[0].notes
+    QTest.mouseClick(box, Qt.MouseButton.LeftButton)
+    assert len(imported(dialog).score.parts[0].notes) == len(cleaned) + 1
+    assert not any("left out" in reported.item(row).text() for row in range(reported.count()))
+
+
+def test_where_no_track_is_a_take_there_is_no_such_switch(dialog: ImportDialog) -> None:
+    assert dialog._table.isColumnHidden(8)

@@ -1,0 +1,139 @@
+"""Tracks of a MIDI file that were played on a wind controller, and their notes without unintended ones.
+
+A file of ``suisou record`` says that it is one. Any other track has to be a single line with a breath that was sent
+while it was played, and either a name that wind controllers have or notes that lie off the beat and a breath that falls
+in its rests, as nobody draws it.
+"""
+
+from __future__ import annotations
+
+from typing import Final, Literal, TypeAlias
+
+import msgspec
+import numpy as np
+
+from app.score.choose import TrackChannel
+from app.score.clean import Fault, clean_notes
+from app.score.model import ControllerCurve, CurveKind, Note
+from app.score.take import Cleaning, Controlled, Floats, Ints, Played
+from app.score.tempo import TempoMap
+from instrument_maps.vocabulary import vocabulary
+
+RECORDED: Final = "Suisou: recorded take"
+"""Text of a track that ``suisou record`` wrote."""
+
+TakeReason: TypeAlias = Literal["", "recorded", "name", "breath"]
+"""Why a track is taken for a take: its file says so, its name, the breath and the timing; empty: it is none."""
+
+_FAMILY: Final = "wind_controllers"
+_BREATHS: Final[tuple[CurveKind, ...]] = ("breath", "expression", "aftertouch", "volume")
+"""What may carry the breath, the likeliest first."""
+_SENT_PER_S: Final = 5.0
+"""A breath that is blown changes so often while notes sound."""
+_AUDIBLE, _SILENT = 0.15, 0.06
+_TOGETHER_S, _TOGETHER_SHARE = 0.15, 0.03
+"""Of one line only so many notes last so far into the next."""
+_GRID: Final = 12
+"""Steps of a quarter that notes are written on: sixteenths and triplets."""
+_ON_GRID: Final = 0.5
+"""Of what is played not so many notes begin on a step."""
+_REST_S, _FALLS = 0.15, 0.8
+"""In so many of the rests of this length the breath falls below what can be heard."""
+_LEAST_NOTES: Final = 4
+
+
+def take_reason(stream: TrackChannel, tempo_map: TempoMap) -> TakeReason:
+    """Why a track is taken for a take that was recorded from a wind controller."""
+    if stream.recorded:
+        return "recorded"
+    if stream.use != "melodic" or len(stream.pitches) < _LEAST_NOTES:
+        return ""
+    notes = played(stream, tempo_map)
+    breath = notes.curves.get("breath")
+    if breath is None or not _is_one_line(notes) or not _is_blown(notes, breath):
+        return ""
+    if _is_named(" ".join((stream.name, stream.instrument_name))):
+        return "name"
+    return "breath" if _falls_in_rests(notes, breath) and not _is_on_grid(stream, tempo_map) else ""
+
+
+def _is_named(name: str) -> bool:
+    """Whether one of a track's words is what wind controllers are called, beside any instrument they sound like."""
+    known = vocabulary()
+    found = [*known.all_by_name(name), *map(known.by_name, name.split())]
+    return any(instrument is not None and instrument.family == _FAMILY for instrument in found)
+
+
+def without_faults(stream: TrackChannel, tempo_map: TempoMap) -> tuple[TrackChannel, dict[Fault, list[Note]]]:
+    """A stream with its notes cleaned as a take's, and the notes that are left out by why, as they were played."""
+    clean = clean_notes(played(stream, tempo_map), Cleaning())
+    before = stream.notes()
+    found: dict[Fault, list[Note]] = {}
+    for fault, note in zip(clean.faults, before, strict=True):
+        if fault:
+            found.setdefault(fault, []).append(note)
+    kept = clean.kept
+    if not found or not kept:
+        return stream, {}
+    onsets = np.round(tempo_map.ticks(clean.onsets_s[kept])).astype(np.int64)
+    ends = np.maximum(np.round(tempo_map.ticks(clean.ends_s[kept])).astype(np.int64), onsets + 1)
+    columns = {name: [getattr(stream, name)[index] for index in kept] for name in ("pitches", "velocities", "numbers")}
+    return msgspec.structs.replace(stream, onset_ticks=onsets.tolist(), end_ticks=ends.tolist(), **columns), found
+
+
+def played(stream: TrackChannel, tempo_map: TempoMap) -> Played:
+    """A stream as a take has its notes, with the curve that carries its breath."""
+
+    def seconds(ticks: list[int]) -> Floats:
+        return tempo_map.seconds(np.array(ticks, np.float64))
+
+    onsets_s, ends_s = seconds(stream.onset_ticks), seconds(stream.end_ticks)
+    sounding_s = float(np.sum(ends_s - onsets_s))
+    curves = {curve.kind: curve for curve in stream.curves}
+    breaths = [curves[kind] for kind in _BREATHS if kind in curves and _carries_breath(curves[kind], sounding_s)]
+    breath: dict[CurveKind, Controlled] = {}
+    if breaths:
+        breath["breath"] = Controlled(seconds(list(breaths[0].ticks)), np.array(breaths[0].values))
+    pitches, velocities = (np.array(column, np.int64) for column in (stream.pitches, stream.velocities))
+    return Played(onsets_s, ends_s, pitches, velocities, breath)
+
+
+def _carries_breath(curve: ControllerCurve, sounding_s: float) -> bool:
+    return max(curve.values, default=0.0) >= _AUDIBLE and len(curve.ticks) >= _SENT_PER_S * sounding_s
+
+
+def _is_one_line(notes: Played) -> bool:
+    over_s = notes.ends_s[:-1] - notes.onsets_s[1:]
+    return bool(np.count_nonzero(over_s > _TOGETHER_S) <= _TOGETHER_SHARE * len(notes))
+
+
+def _is_blown(notes: Played, breath: Controlled) -> bool:
+    """Whether the breath changes all the time while notes sound, and stops at all: of one that never does, as is drawn
+    for the dynamics, it is not known where the tongue stopped it."""
+    if breath.values.min() > _SILENT:
+        return False
+    inside = _among(notes, breath.times_s)
+    lasts_s = float(np.sum(notes.ends_s - notes.onsets_s))
+    return bool(np.count_nonzero(inside) >= _SENT_PER_S * lasts_s)
+
+
+def _among(notes: Played, times_s: Floats) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
+    """Whether a note sounds at each of some moments."""
+    ends_s = np.maximum.accumulate(notes.ends_s)
+    index: Ints = np.searchsorted(notes.onsets_s, times_s, side="right") - 1
+    return np.asarray((index >= 0) & (times_s < ends_s[np.maximum(index, 0)]))
+
+
+def _falls_in_rests(notes: Played, breath: Controlled) -> bool:
+    """Whether the breath stops in the rests; where there is none, before the first note."""
+    starts_s = np.concatenate(([-1.0 + notes.onsets_s[0]], np.maximum.accumulate(notes.ends_s)[:-1]))
+    rests = notes.onsets_s - starts_s >= _REST_S
+    middles_s = (0.5 * (starts_s + notes.onsets_s))[rests]
+    return bool(np.count_nonzero(breath.at(middles_s) < _AUDIBLE) >= _FALLS * len(middles_s))
+
+
+def _is_on_grid(stream: TrackChannel, tempo_map: TempoMap) -> bool:
+    step = tempo_map.ticks_per_quarter / _GRID
+    onsets = np.array(stream.onset_ticks, np.float64)
+    off = np.abs(onsets - step * np.round(onsets / step))
+    return bool(np.count_nonzero(off <= max(0.05 * step, 1.0)) > _ON_GRID * len(onsets))
