@@ -175,13 +175,13 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
     ),
     # The plan: breaths
     "breath.first": (
-        "first breath, in the {beats:g} beats before the entry",
+        "first breath, in the {beats:g} {beats:beat|beats} before the entry",
         "最初のブレス。入りの前の {beats:g} 拍で吸います",
     ),
     "breath.rest_whole": (
         (
-            "rest of {rest_beats:g} beats ({rest_s:g} s), breathed in because {why}; shorter than {last_beat_beats:g} "
-            "beats: the breath takes the whole rest"
+            "rest of {rest_beats:g} {rest_beats:beat|beats} ({rest_s:g} s), breathed in because {why}; shorter than "
+            "{last_beat_beats:g} {last_beat_beats:beat|beats}: the breath takes the whole rest"
         ),
         (
             "{rest_beats:g} 拍（{rest_s:g} 秒）の休符。{why}ためブレスします。{last_beat_beats:g} 拍未満なので"
@@ -202,8 +202,9 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
     ),
     "breath.last_beat": (
         (
-            "rest of {rest_beats:g} beats ({rest_s:g} s), breathed in because {why}; from {last_beat_beats:g} to less "
-            "than {prepare_beats:g} beats: the breath takes the last beat"
+            "rest of {rest_beats:g} {rest_beats:beat|beats} ({rest_s:g} s), breathed in because {why}; from "
+            "{last_beat_beats:g} to less than {prepare_beats:g} {prepare_beats:beat|beats}: the breath takes the last "
+            "beat"
         ),
         (
             "{rest_beats:g} 拍（{rest_s:g} 秒）の休符。{why}ためブレスします。{last_beat_beats:g} 拍以上 "
@@ -212,8 +213,8 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
     ),
     "breath.prepared": (
         (
-            "rest of {rest_beats:g} beats ({rest_s:g} s), breathed in because {why}; at least {prepare_beats:g} beats: "
-            "preparation, then breath on the last beat"
+            "rest of {rest_beats:g} {rest_beats:beat|beats} ({rest_s:g} s), breathed in because {why}; at least "
+            "{prepare_beats:g} {prepare_beats:beat|beats}: preparation, then breath on the last beat"
         ),
         (
             "{rest_beats:g} 拍（{rest_s:g} 秒）の休符。{why}ためブレスします。{prepare_beats:g} 拍以上なので"
@@ -226,8 +227,8 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
     ),
     "breath.why_every": ("every rest is used", "すべての休符で吸う設定の"),
     "breath.why_played": (
-        "{played_s:g} s were played since the last breath (at least {enough_s:g} s)",
-        "前のブレスから {played_s:g} 秒吹いている（{enough_s:g} 秒以上）",
+        "{played_s:g} s were played since the last breath in a rest (at least {enough_s:g} s)",
+        "前に休符で吸ってから {played_s:g} 秒吹いている（{enough_s:g} 秒以上）",
     ),
     "breath.why_air": (
         "{spent:g} % of the air is used (at least {share:g} %)",
@@ -242,7 +243,7 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         "この音のブレスは録音されていない",
     ),
     "breath.preparation": (
-        "rest of {rest_beats:g} beats (at least {prepare_beats:g}): breath preparation",
+        "rest of {rest_beats:g} {rest_beats:beat|beats} (at least {prepare_beats:g}): breath preparation",
         "{rest_beats:g} 拍の休符（{prepare_beats:g} 以上）: ブレスの準備動作",
     ),
     "breath.catch": (

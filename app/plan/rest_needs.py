@@ -1,4 +1,4 @@
-"""Which rests are breathed in: by how long they last, how long was played since the last breath, and the air used.
+"""Which rests are breathed in: by length, by what was played since the last breath in a rest, and by the air used.
 
 In a long rest a player breathes whatever was played before; the shorter a rest is, the more must have been played, or
 the less air be left. `app.plan.rest_breaths` decides how a rest is used that is breathed in.
@@ -71,7 +71,7 @@ class Decided(NamedTuple):
     ----------
     breathed : bool
     played_s : float64
-        Seconds that sounded since the last breath.
+        Seconds that sounded since the last breath in a rest.
     spent : float64
         Part of the lungs that is used up, 0..1.
     """

@@ -238,6 +238,28 @@ def test_every_reason_is_true_and_readable() -> None:
                     assert arguments["spent"] >= arguments["share"]
 
 
+def test_playing_is_reported_since_the_last_breath_in_a_rest() -> None:
+    """Catch breaths lie between, but the rest was chosen before they were: its reason must not deny them."""
+    plan = planned(line(*[(2, 0)] * 15, (1, 1), (2, 0)), 60.0)
+    *_, catch, rest = [event for event in plan.breaths if event.kind == "breath"]
+    assert (catch.reason.id, rest.reason.id) == ("breath.catch", "breath.last_beat")
+    assert rest.reason.arguments["played_s"] == 31.0
+    english, japanese = (text(rest.reason, language) for language in ("en", "ja"))
+    assert "31 s were played since the last breath in a rest (at least 1 s)" in english
+    assert "休符で吸ってから 31 秒" in japanese
+
+
+def test_one_beat_is_no_beats() -> None:
+    """In every figure of a reason: of the rest itself and of the thresholds."""
+    plan = planned(line((2, 1), (2, 0.5), (2, 2), (2, 0)), 60.0)
+    english = [text(event.reason, "en") for event in plan.breaths]
+    assert any("rest of 1 beat (1 s)" in one for one in english)
+    assert any("rest of 0.5 beats (0.5 s)" in one for one in english)
+    assert any("shorter than 1 beat:" in one for one in english)
+    assert any("rest of 2 beats (2 s)" in one for one in english)
+    assert not any(" 1 beats" in one for one in english)
+
+
 def test_small_lungs_make_no_one_gasp_after_every_note() -> None:
     """A tuba at fortissimo, a quarter of the lungs a second."""
     tuba = bundled_maps()["tuba_BBb"]
