@@ -19,7 +19,9 @@ import numpy.typing as npt
 from app.errors import Message
 from app.plan.dynamics import ACCENT, louder_by
 from app.plan.line import DETACHED_GATES, TOUCHING_GATE, IntArray, LineTimes, Piece, Seeds, staccato
+from app.plan.lungs import EPSILON
 from app.plan.model import Articulation, FingeringEvent, Stroke, TongueEvent
+from app.plan.rests import rest_ticks
 from app.score.metre_map import Metre
 from app.score.model import Note
 from instrument_maps.model import InstrumentMap
@@ -49,6 +51,8 @@ BACK: Final = 0.5
 """Size of a stroke of the back of the tongue: jaw and lips hardly move."""
 SMEAR: Final = 0.6
 """Size of the soft stroke that hides a slide's way."""
+BEFORE_REST_S: Final = 0.5
+"""Sounding time from which on a note before a rest is not staccato: its written length is as short."""
 MARCATO_GATE: Final = 0.8
 """An accented note that ends before this share of the time to the next one is marcato."""
 
@@ -137,6 +141,9 @@ def _articulations(notes: tuple[Note, ...], times: LineTimes, slurred: BoolArray
     joined = between <= 2 * quarter
     usual = float(np.median(gates[joined])) if joined.any() else 1.0
     short = staccato(onset, end, quarter)
+    # An eighth before an eighth's rest sounds for half of its step, as a staccato quarter does.
+    rests = np.append(rest_ticks(times, piece.beat_ticks_at(onset))[1:] > 0, False)
+    short &= ~(rests & (times.duration_s >= BEFORE_REST_S - EPSILON))
     accented = louder_by(times.loudness) >= ACCENT
     follows = np.append(~slurred[1:], False)
     # Held to the next stroke, in a line that detaches its notes.

@@ -92,6 +92,15 @@ def test_articulation_is_read_from_length_and_loudness() -> None:
     assert set(found[:4] + found[8:]) == {"tongued"}
 
 
+@pytest.mark.parametrize(("bpm", "kind"), [(46.0, "tongued"), (100.0, "staccato")])
+def test_a_slow_eighth_before_an_eighths_rest_is_not_staccato(bpm: float, kind: str) -> None:
+    """A phrase of Mozart's K. 315 ends so: 0.65 s are no short note; at 100 it may be a quarter with a dot."""
+    notes = line_of(
+        (0, Q, 67, 80), (Q, Q, 65, 80), (2 * Q, Q // 2, 64, 80), (3 * Q, 3 * Q // 2, 67, 80), (5 * Q, Q, 65, 80)
+    )
+    assert plan(notes, bpm).tongues[2].articulation == kind
+
+
 def test_strokes_differ_in_size() -> None:
     def size(found: PlayerPlan, kind: str) -> float:
         return next(event.strength for event in found.tongues if kind in (event.articulation, event.stroke))
