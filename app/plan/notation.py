@@ -20,7 +20,7 @@ DIVISIONS = ((1,), (2,), (3, 4), (6, 8), (12,))
 """Divisions of a quarter, the simplest first."""
 NEAREST = 1.0 / 24.0
 """Quarters within which there is always a place of the finest division."""
-EARLY_OR_LATE_S = 0.025
+EARLY_OR_LATE_S = 0.045
 """How far from its place a note begins."""
 EARLY_RELEASE_S = 0.08
 """How much sooner than written a note ends ..."""
@@ -37,6 +37,8 @@ RELEASE_NOTE_SHARE = 0.5
 """... but no more than this part of what sounds of it, ..."""
 LATE_RELEASE = 0.05
 """... and how much later, in quarters."""
+SLURRED_SHARE = 0.1
+"""Where fewer notes of a line with played onsets meet the next one, they do by chance."""
 STEADY_QUARTERS = 24
 """The tempo of the score is the median of so many quarters before and after: a shorter ritardando is none."""
 PLACES = 48
@@ -97,7 +99,7 @@ def notated(times: LineTimes, piece: Piece) -> LineTimes:
     shortest = np.minimum(np.append(steps, quarter), np.insert(steps, 0, quarter))
     near = np.rint(clock.ticks(times.onset_s + EARLY_OR_LATE_S)).astype(np.int64) - times.onset_tick
     bars = piece.bars(int(times.onset_tick[0]), int(end_tick[-1]) + 1)
-    onset = written_onsets(times.onset_tick, quarter, bars, np.minimum(near, np.minimum(shortest, quarter) // 4))
+    onset = written_onsets(times.onset_tick, quarter, bars, np.minimum(near, np.minimum(shortest, quarter) // 3))
     following, end = onset[1:], end_tick[:-1]
     if ends_are_written:
         written = np.minimum(end, following)
@@ -147,6 +149,8 @@ def _meant_slurs(times: LineTimes, onset_s: FloatArray) -> npt.NDArray[np.bool_]
     meet = slurred[:-1]
     if meet.any() and np.median(shares[meet]) < TOUCHING_GATE:
         meet &= shares >= TOUCHING_GATE
+    if np.count_nonzero(meet) < SLURRED_SHARE * len(meet) and not np.array_equal(onset_s, times.onset_s):
+        meet[:] = False
     return slurred
 
 

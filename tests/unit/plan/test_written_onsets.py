@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from random import Random
+
 import numpy as np
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -49,6 +52,26 @@ def test_a_played_note_stands_at_the_simplest_place_near() -> None:
     assert score.onset_tick.tolist() == [QUARTER * (place + 1) for place in range(len(onsets))]
     # They end 20 to 60 ms early, which is no rest.
     assert score.silence_tick[1:].tolist() == [0] * (len(onsets) - 1)
+
+
+@given(st.lists(st.sampled_from([240, 480, 720, 960]), min_size=40, max_size=40), st.integers(0, 1000))
+def test_a_played_line_is_written_as_it_was_meant(steps: list[int], seed: int) -> None:
+    """At 120 quarters a minute, up to 40 ms early or late."""
+    clock, random = PlainClock(), Random(seed)
+    written = np.concatenate(([0], np.cumsum(steps)))[:-1] + QUARTER
+    played = [tick + random.randint(-38, 38) for tick in written.tolist()]
+    lasts = [round(random.uniform(0.7, 0.9) * step) for step in steps]
+    rows = [(onset, ticks, 65 + index % 3) for index, (onset, ticks) in enumerate(zip(played, lasts, strict=True))]
+    score = notated(line_times(MonophonicPart("p", line_of(*rows), valves()), clock), piece_of(clock))
+    assert score.onset_tick.tolist() == written.tolist()
+
+
+@pytest.mark.parametrize("slurred", [2, 20])
+def test_two_played_notes_that_meet_are_no_slurs(slurred: int) -> None:
+    clock = PlainClock()
+    rows = [(480 * index + 480 + 7 * (index % 5), 500 if index % 20 < slurred // 2 else 400, 65) for index in range(40)]
+    score = notated(line_times(MonophonicPart("p", line_of(*rows), valves()), clock), piece_of(clock))
+    assert bool(score.slurs_next[:-1].any()) == (slurred > 2)
 
 
 @given(st.lists(st.tuples(st.integers(0, 4000), st.integers(0, 240), st.integers(0, 240)), min_size=1, max_size=12))
