@@ -39,7 +39,7 @@ def rest_breaths(
     silence, written = rests.sounding_tick.astype(np.float64), rests.written_tick.astype(np.float64)
     silence[0] = written[0] = _before_first(times, piece, frame)
     beats = piece.beat_ticks_at(times.onset_tick)
-    enough = (written / beats >= parameters.breath_min_beats) | (rests.lasts_s >= LONG_S - EPSILON)
+    enough = (np.maximum(silence, written) / beats >= parameters.breath_min_beats) | (rests.lasts_s >= LONG_S - EPSILON)
     serving = np.flatnonzero(enough & (silence > 0))
     reported = _Report(
         lambda index, rest, long, prepared: _rest_reason(index, rest, rests.lasts_s, long, prepared, parameters),

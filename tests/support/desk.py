@@ -154,8 +154,14 @@ def recorded(take_id: str, span: tuple[int, int] | None = None, alone: bool = Fa
         clock, player = desk.project.score.tempo_map, desk.player
         made = []
         for higher in (2, 4):
+            # Each note is tongued: the breath falls before the next.
             notes = [
-                (clock.seconds(float(note.onset_tick)), clock.seconds(float(note.end_tick)), note.pitch + higher, 0.6)
+                (
+                    clock.seconds(float(note.onset_tick)),
+                    clock.seconds(note.onset_tick + 0.8 * note.duration_tick),
+                    note.pitch + higher,
+                    0.6,
+                )
                 for note in desk.notes()
             ]
             made.append(take_of(notes, tempo_map=clock))

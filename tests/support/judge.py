@@ -41,6 +41,7 @@ FIRST = {
     },
 }
 HELD_S = 0.35
+RELEASED = 0.22
 SLOW_S = 0.4
 """Neighbouring onsets further apart than this force no one to an alternate."""
 TUBE_M = 2.76
@@ -398,6 +399,12 @@ def _breaths(
         breath = served.get(index)
         # Detached notes have no rests between them: of those nothing is expected.
         if rest < 1.0 and detached[index]:
+            reach = max(reach, onset + note["duration_tick"])
+            continue
+        # Who plays releases a note early, the more where it began early: a fifth of the time to the next is no rest.
+        step_s = seconds(onset) - seconds(onset_ticks[index - 1])
+        early = seconds(onset) - seconds(reach) <= RELEASED * step_s + 0.05
+        if is_played and breath is None and rest < 1.0 and early:
             reach = max(reach, onset + note["duration_tick"])
             continue
         # In a line that was played a rest may be the one a score would write, after a note held a little too long.

@@ -19,6 +19,7 @@ FIELDS: Final = {
     "depth": "event_section.depth",
     "strength": "event_section.strength",
     "beats": "event_section.preparatory_beat",
+    "number": "field_name.number",
     "tension": "note_section.tension",
     "effort": "note_section.effort",
     "air": "note_section.air",

@@ -86,6 +86,7 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
     "field_name.value": ("Value", "値"),
     "field_name.video": ("Reference video", "参照ビデオ"),
     "field_name.weight": ("Weight", "ウェイト"),
+    "field_name.number": ("Number within the note", "音符内の番号"),
     "fingering_name.cm": ("{cm} cm", "{cm} cm"),
     "fingering_name.hand": ("hand", "手"),
     "fingering_name.index": ("index", "人差し指"),

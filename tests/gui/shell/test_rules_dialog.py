@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+import dataclasses
 from pathlib import Path
 from typing import TypeVar
 
+import msgspec
 import pytest
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QAbstractSpinBox, QCheckBox, QDoubleSpinBox, QLabel, QListWidget, QPushButton, QWidget
 from pytestqt.qtbot import QtBot
 
+from app.errors import Message
 from app.shell.app import Program
 from metadata.library import FOLDERS, RULES
 from metadata.rule_draft import OWN
@@ -30,6 +33,14 @@ def folders(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 @pytest.fixture
 def dialog(folders: Path, program: Program) -> RulesDialog:
+    # As loud as they can, so that faces are strained.
+    session = program.session
+    parts = tuple(
+        msgspec.structs.replace(part, notes=tuple(msgspec.structs.replace(note, velocity=120) for note in part.notes))
+        for part in session.project.score.parts
+    )
+    score = msgspec.structs.replace(session.project.score, parts=parts)
+    session.apply(Message("edit.piece_settings"), dataclasses.replace(session.project, score=score))
     return opened(program)
 
 
