@@ -107,7 +107,7 @@ def notated(times: LineTimes, piece: Piece) -> LineTimes:
         early = np.rint(clock.ticks(times.played_end_s[:-1] + EARLY_RELEASE_S)).astype(np.int64) - end
         sounding = RELEASE_NOTE_SHARE * (end - times.onset_tick[:-1])
         # A note that began early ended early, too.
-        moved = np.maximum(onset[:-1] - times.onset_tick[:-1], 0)
+        moved = 0 if onset is times.onset_tick else near[:-1]
         latest = end + np.minimum(np.maximum(early, _release_share(times) * np.diff(onset) + moved), sounding)
         # An audible silence after a long note is a rest.
         audible = np.ceil(clock.ticks(times.played_end_s[:-1] + AUDIBLE_S)) - 1.0
