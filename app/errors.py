@@ -7,7 +7,7 @@ shows it words it (English templates in `app.messages`, which the editor transla
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TypeAlias
+from typing import Final, TypeAlias
 
 import msgspec
 
@@ -58,9 +58,13 @@ class AppError(Exception):
         super().__init__(f"{id} ({detail})" if detail else id)
 
 
+TOO_DEEP: Final = "lists or objects nested too deeply"
+"""A fault that a library reports in words about Python's stack."""
+
+
 def shortened(detail: object, most: int = 200) -> str:
     """What a library says about a fault, for a message: it may quote any amount of the file."""
-    text = str(detail)
+    text = TOO_DEEP if isinstance(detail, RecursionError) else str(detail)
     return text if len(text) <= most else f"{text[: most - 1]}…"
 
 

@@ -158,7 +158,7 @@ _JAPANESE: Final = tuple(
         (r"not ASCII", "ASCII の文字ではありません"),
         (r"Input data was truncated", "途中で終わっています"),
         (r"JSON is malformed: (.*) \(byte (\d+)\)", r"JSON の書式が正しくありません（\2 バイト目）"),
-        (r"maximum recursion depth exceeded.*", "入れ子が深すぎます"),
+        (r"lists or objects nested too deeply", "入れ子が深すぎます"),
         (r"'utf-8' codec can't decode .*", "UTF-8 の文字ではありません"),
         (r"(Expected .*|Object .*|Invalid .*) - at `(.*)`", r"\2: \1"),
     )

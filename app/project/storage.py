@@ -484,7 +484,7 @@ def _converted(raw: Any, type_: Any, prefix: str, file: str) -> Any:
         where = shortened(f"{prefix}{place}" if prefix else place)
         raise FileError("project.invalid", file=file, place=where or "$", detail=shortened(detail)) from error
     except RecursionError as error:
-        raise FileError("project.damaged", file=file, detail=str(error)) from error
+        raise FileError("project.damaged", file=file, detail=shortened(error)) from error
 
 
 def _unknown(raw: Any, known: Any, place: str) -> Iterator[str]:
