@@ -233,7 +233,7 @@ def _player(performance: Performance, player: Player, instrument: InstrumentMap)
 
 
 def _tongued(event: TongueEvent | None, reason: _Reasons) -> Table:
-    """How a note begins: slurred, or with which stroke of the tongue and why."""
+    """Text for the beginning of a note: slurred, or the stroke of the tongue and its reason."""
     if event is None:
         return {"articulation": "slurred", "tongue": "", "tongue_reason": ""}
     return {"articulation": event.articulation, "tongue": event.stroke, "tongue_reason": reason(event.reason)}

@@ -35,7 +35,7 @@ _KEPT_LINES: Final = 200
 _LOOK_S: Final = 0.1
 """Between two looks whether to stop."""
 _MOST_LEFT_OUT: Final = 0.25
-"""Of the sound: overlaps are short, or the time stamps are wrong."""
+"""Most of the sound, 0..1, that may be left out for overlaps; more shows wrong time stamps."""
 _JUMP_S: Final = 0.02
 """Time stamps that are off by less are rounded ones."""
 

@@ -116,7 +116,7 @@ class Performance:
 
     @cached_property
     def velocity_reading(self) -> VelocityReading:
-        """How the velocities of all parts together are read."""
+        """The reading of the velocities of all parts together."""
         with self._lock:
             parts = (
                 self._memo.step(f"velocities:{player.id}", velocities_of, self.project.part(player))
@@ -184,7 +184,7 @@ class Performance:
 
     @property
     def places(self) -> dict[str, StagePlace]:
-        """Where every player is on the stage, and the conductor who stands there."""
+        """Places of the players on the stage, and of the conductor who stands there."""
         found = {}
         for player in self.project.players:
             stage, eyes_m = player.stage, EYES_M[player.parameters.posture]

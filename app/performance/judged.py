@@ -29,9 +29,9 @@ MOST_WORK: Final = 74_000
 """Work on a piece at most, in frames of one player that are looked at: 44 us each. In longer pieces fewer are in each
 second, and then fewer players are looked at."""
 NOTE_WORK: Final = 3.0
-"""What a note takes beside them, in the same measure: it is read, planned and printed."""
+"""Work for each note, in the same measure: it is read, planned and printed."""
 PLAYER_WORK, CURVE_WORK = 1300, 1.0
-"""What a player who is looked at and each of their notes take: they are posed, and curves are made of them."""
+"""Work for each player who is looked at, who is posed, and for each of their notes, of which curves are made."""
 SPARSE_S: Final = 4.0
 """Seconds of a player for each note from which a piece counts as one with few notes: slower than any chorale ..."""
 SPARSE_FRAMES, SPARSE_PER_NOTE = 50_000, 4

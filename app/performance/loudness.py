@@ -44,7 +44,7 @@ def velocities_of(part: Part) -> Velocities:
 
 
 def piece_reading(*parts: Velocities) -> VelocityReading:
-    """How the velocities of all parts of a piece are read."""
+    """Return the reading of the velocities of all parts of a piece."""
     return read_velocities((np.frombuffer(velocities, np.uint8), program) for velocities, program in parts)
 
 

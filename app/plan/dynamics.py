@@ -120,7 +120,7 @@ def louder_by(loudness: FloatArray) -> FloatArray:
 
 
 def _accents(loudness: FloatArray) -> FloatArray:
-    """How much louder each accented note is than those around it; of several in a row the first counts."""
+    """Return how much louder each accented note is than its neighbours; of several in a row the first counts."""
     more = louder_by(loudness)
     louder = np.append(-np.inf, loudness[:-1]) + ACCENT / 2.0 <= loudness
     return np.where((more >= ACCENT) & louder, more, 0.0)

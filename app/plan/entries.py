@@ -234,7 +234,7 @@ def _tempo_after(fermata: Fermata, piece: Piece) -> float:
 
 
 def _new_tempo(lasts_s: FloatArray, place: int) -> bool:
-    """Whether a tempo begins at a beat that is given, by how long a tick lasts in each beat."""
+    """Decide whether a tempo begins at a given beat, by how long a tick lasts in each beat."""
     following = lasts_s[place : place + STEADY_BEATS]
     if len(following) < 2 or following.max() > STEADY_TEMPO * following.min():
         return False

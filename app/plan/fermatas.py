@@ -1,4 +1,4 @@
-"""Where all hold a sound or a silence longer than its written length: by the tempo alone, as notation programs and
+"""Fermatas: all hold a sound or a silence longer than its written length: by the tempo alone, as notation programs and
 sequencers write a fermata.
 
 A fermata is a stretch in which no one begins anything and that is much slower than what comes before it and after it.
@@ -16,7 +16,7 @@ from app.plan.line import IntArray, Piece, Rhythm
 from app.plan.model import FloatArray
 
 HELD_TEMPO: Final = 1.5
-"""What is held is slower by this factor than what is before it and after it ..."""
+"""Least factor by which the held beat is slower than the beats before and after it ..."""
 LIVE_HELD_TEMPO: Final = 2.0
 """... or by this one, where the tempo was played, and so never steady."""
 LIVE_SPREAD: Final = 1.1
@@ -142,14 +142,14 @@ def _fermata(place: int, gaps: _Gaps, piece: Piece) -> Fermata | None:
 
 
 def _moves(place: int, gaps: _Gaps) -> bool:
-    """Whether a gap is the larger part of what is held, after one voice moved."""
+    """Decide whether a gap is the larger part of the hold, after one voice moved."""
     own, before = (float(gaps.ends[at] - gaps.starts[at]) for at in (place, place - 1))
     ratio = float(gaps.slowness[place - 1] / gaps.slowness[place])
     return own >= before and 1.0 / ONE_TEMPO <= ratio <= ONE_TEMPO
 
 
 def _is_live(beats: FloatArray) -> bool:
-    """Whether beats were played, or are changing."""
+    """Decide whether beats were played, or are changing."""
     quick, slow = np.quantile(beats, (0.25, 0.75))
     return bool(slow > LIVE_SPREAD * quick * (1.0 + ROUNDING))
 
@@ -163,7 +163,7 @@ def _beats(tick: int, count: int, piece: Piece) -> FloatArray:
 
 
 def _released(sounding: list[Rhythm], start: int, entry: int) -> int:
-    """Where the last sound ends of those that begin at a fermata's start or before."""
+    """End of the last sound of those that begin at a fermata's start or before."""
     ends = []
     for times in sounding:
         index = int(np.searchsorted(times.onset_tick, entry)) - 1

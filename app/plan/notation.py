@@ -38,7 +38,7 @@ RELEASE_NOTE_SHARE = 0.5
 LATE_RELEASE = 0.05
 """... and how much later, in quarters."""
 SLURRED_SHARE = 0.1
-"""Where fewer notes of a line with played onsets meet the next one, they do by chance."""
+"""Least share of notes that meet the next one in a line with played onsets; fewer do by chance."""
 STEADY_QUARTERS = 24
 """The tempo of the score is the median of so many quarters before and after: a shorter ritardando is none."""
 PLACES = 48

@@ -163,7 +163,7 @@ class VelocityReading(msgspec.Struct, frozen=True):
 
 
 def read_velocities(parts: Iterable[tuple[Sequence[int] | IntArray, int | None]]) -> VelocityReading:
-    """How the velocities of all parts of a piece together are read.
+    """Return the reading of the velocities of all parts of a piece together.
 
     Parameters
     ----------
