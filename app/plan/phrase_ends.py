@@ -14,7 +14,7 @@ from app.plan.model import FloatArray
 from app.plan.notation import PLACES, written_onsets
 
 # How good a place for a catch breath is (added up; the cost of a place is PLACE_COST minus this).
-PLACE_COST = 7.0
+PLACE_COST = 10.0
 LEAST_COST = 0.2
 REST = 4.0
 """In a rest of the score."""
@@ -34,8 +34,8 @@ AFTER_UPBEAT = -2.5
 """Between an upbeat and the place it leads to: never, unless the upbeat is a long note or before a rest."""
 AFTER_ENTRY = -80.0
 """The same where the upbeat itself comes in after a rest: rather two notes are left out elsewhere."""
-BEFORE_TAIL = -7.0
-"""Before a lone short note that leads to a beat, the tail of a dotted note; half a beat before a bar line is none."""
+BEFORE_TAIL = -10.0
+"""Before a lone short note off the beat, the tail of a dotted note, unless the line comes in there after rests."""
 LIKE_ENTRIES = 1.5
 """Where in the bar (in half a bar, where there is one) the line comes in after rests."""
 AGAIN = 2.0
@@ -93,10 +93,14 @@ def place_costs(
     falls = strength[at - 1] - strongest
     steps = np.diff(onsets, append=onsets[-1] + max(beat.max(), 1))
     leads_to = strength[np.minimum(at + 1, len(onsets) - 1)]
-    tail = ~rest & (2 * steps[at] <= beat - (leads_to == 3)) & (leads_to > 0) & (steps[at - 1] > 2 * steps[at])
-    good += BEFORE_TAIL * tail
     like = _like_entries(rests, onsets, at, bars)
     good += LIKE_ENTRIES * like
+    # Slurs that are known say where a short note before a bar line is an upbeat; else only one of the same pitch is.
+    slurs_known = bool(times.slurs_next[:-1].any()) and _legato(times, rests) == 0.0
+    upbeat = (leads_to == 3) & (slurs_known | (times.pitch[at] == times.pitch[at - 1]))
+    tail = ~rest & (2 * steps[at] <= beat - upbeat) & _are_dotted(steps[at - 1], steps[at])
+    tail &= leads_to > 0 if slurs_known else strength[at] == 0
+    good += BEFORE_TAIL * tail * (1.0 - like)
     good += AGAIN * _begins_again(steps, times.pitch, rests)[at]
     runs = steps[at - 1] <= RUNNING * beat
     # A long note or a rest ends what led to the next one; unless notes run, nothing leads to where the line comes in.
@@ -116,6 +120,12 @@ def place_costs(
     good += JITTER * seeds.chances_at("catch", onset, (2 * PLACES * onset + quarter) // (2 * quarter))
     good -= TAKEN_COST * taken[at]
     return np.asarray(np.maximum(PLACE_COST - good, LEAST_COST), dtype=np.float64)
+
+
+def _are_dotted(long: IntArray, short: IntArray) -> npt.NDArray[np.bool_]:
+    """(K,): whether notes and the ones after them are dotted, or double-dotted, and short."""
+    doubly: npt.NDArray[np.bool_] = np.abs(long - 7 * short) < short // 2
+    return (long > 2 * short) & (long < 4 * short) | doubly
 
 
 def slur_costs(times: LineTimes, rests: IntArray, at: IntArray) -> FloatArray:
