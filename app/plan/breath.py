@@ -504,7 +504,7 @@ def _made(
             "lung_s": round(full_s, 2),
         }
         after = notes[index - 1].id
-        if index in after_hold:
+        if index in after_hold and not dropped:
             reason = Message("breath.after_hold", {"after_note": after})
         elif dropped > 1:
             first_note = notes[index - dropped].id

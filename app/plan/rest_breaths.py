@@ -23,7 +23,7 @@ from app.plan.rests import Rests
 from app.score.model import Note
 
 AIR_SHORT: Final[Mapping[str, Argument]] = {"why": "breath.why_short"}
-"""Why a rest is breathed in that is not needed as such, for `because`: nothing better comes in time."""
+"""Reason for a breath in a rest that is not needed as such, for `because`: nothing better comes in time."""
 NOT_RECORDED: Final[Mapping[str, Argument]] = {"why": "breath.why_not_recorded"}
 
 

@@ -47,7 +47,7 @@ SHORT_LEAST_PLAYED_S: Final = 1.5
 
 
 class RestNeeds(NamedTuple):
-    """What a rest before each note needs to be breathed in: (N,) float64 each.
+    """Conditions for a breath in the rest before each note: (N,) float64 each.
 
     Attributes
     ----------
@@ -82,7 +82,7 @@ class Decided(NamedTuple):
 
 
 def rest_needs(rest_s: FloatArray, need: float, lung_s: float) -> RestNeeds:
-    """What rests of some lengths need.
+    """Return the conditions for breaths in rests of some lengths.
 
     Parameters
     ----------

@@ -132,7 +132,7 @@ def _slurred(
 
 
 def _articulations(notes: tuple[Note, ...], times: LineTimes, slurred: BoolArray, piece: Piece) -> list[Articulation]:
-    """How each note is articulated, by how long it sounds and how loud it is among its neighbours."""
+    """Return the articulation of each note, by how long it sounds and how loud it is among its neighbours."""
     onset = times.onset_tick
     end = onset + np.array([note.duration_tick for note in notes], np.int64)
     quarter = piece.clock.ticks_per_quarter
@@ -193,7 +193,7 @@ def _strokes(
 
 
 def _in_threes(metre: Metre, step: float, quarter: int) -> bool:
-    """Whether steps are triplets: three or six in a beat, or the three of a dotted beat."""
+    """Decide whether steps are triplets: three or six in a beat, or the three of a dotted beat."""
     unit = 4.0 * quarter / metre.denominator
     if metre.numerator % 3 == 0 and metre.denominator >= 8:
         return abs(unit - step) <= EVEN * step

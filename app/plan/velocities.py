@@ -131,7 +131,7 @@ _BY_NAME: Final = {ladder.name: ladder for ladder in _FIXED}
 _SHARES: Final = {
     "ppp": 0.01, "pp": 0.07, "p": 0.22, "mp": 0.13, "mf": 0.2, "f": 0.22, "ff": 0.11, "fff": 0.02, "sf": 0.02, "": 0.2
 }  # fmt: skip
-"""How often marks occur, about."""
+"""Frequencies of the marks, about."""
 
 
 def _ladder_of(name: str, program: int | None) -> Ladder:
@@ -139,7 +139,7 @@ def _ladder_of(name: str, program: int | None) -> Ladder:
 
 
 class VelocityReading(msgspec.Struct, frozen=True):
-    """How the velocities of a piece are read.
+    """A reading of the velocities of a piece.
 
     Attributes
     ----------
@@ -187,7 +187,7 @@ def read_velocities(parts: Iterable[tuple[Sequence[int] | IntArray, int | None]]
 
 
 def _engraved(velocity: IntArray) -> bool:
-    """Whether a part's velocities are levels that notes share, not strokes of a hand."""
+    """Decide whether a part's velocities are levels that notes share, not strokes of a hand."""
     edges = np.flatnonzero(np.append(True, velocity[1:] != velocity[:-1]))
     lengths = np.diff(np.append(edges, len(velocity)))
     if lengths[lengths >= RUN].sum() >= SHARED * len(velocity):
@@ -225,7 +225,7 @@ def _recognised(levels: Sequence[tuple[dict[int, int], int | None]]) -> str:
 
 
 def _gain(name: str, program: int | None, levels: dict[int, int]) -> float:
-    """How much likelier the levels of a part are on a ladder than anywhere, as a logarithm."""
+    """Return how much likelier the levels of a part are on a ladder than anywhere, as a logarithm."""
     gains = _gains(name, program)
     return sum(gains[value] * math.log1p(count) for value, count in levels.items())
 
@@ -255,7 +255,7 @@ def _gains(name: str, program: int | None) -> tuple[float, ...]:
 
 
 def _articulated(ladder: Ladder, velocity: int) -> list[tuple[int, float]]:
-    """What articulations add to a velocity of a ladder, and how often."""
+    """Return what articulations add to a velocity of a ladder, and how often."""
     more = [*ladder.added]
     if ladder.accent_share != 1.0:
         more.append(int(velocity * (ladder.accent_share - 1.0)))
@@ -263,7 +263,7 @@ def _articulated(ladder: Ladder, velocity: int) -> list[tuple[int, float]]:
 
 
 def _unmarked(name: str, written: Sequence[tuple[IntArray, int | None]]) -> bool:
-    """Whether all parts stay at what a program writes without dynamic marks, but for articulations and slips."""
+    """Decide whether all parts stay at what a program writes without dynamic marks, but for articulations and slips."""
     default: int | None = None
     for velocities, program in written:
         values, counts = np.unique(velocities, return_counts=True)
@@ -384,11 +384,11 @@ def nearest_marks(loudness: FloatArray) -> IntArray:
 _STRESS: Final = 12
 """An articulation that adds so much is an accent; less is staccato's."""
 _ACCENT: Final = 0.16
-"""How much louder an accented note is: about a mark."""
+"""Loudness that an accent adds, 0..1: about a mark."""
 _CHANGE_COST, _FURTHER_COST = 0.8, 0.15
-"""What a change of level costs, and each mark more that it goes."""
+"""Cost of a change of level, and of each mark more that it goes."""
 _NEAR_COST, _OFF_COST, _STEP_COST, _MOST_COST = 0.6, 1.2, 0.6, 3.0
-"""What a note costs whose velocity is beside the step, or off it (more for every mark away, at most so much)."""
+"""Cost of a note whose velocity is beside the step, or off it (more for every mark away, at most so much)."""
 _ARTICULATION_COST, _ADDED_COST = 0.25, 0.03
 """What a note costs that an articulation makes louder, and each velocity that this adds."""
 

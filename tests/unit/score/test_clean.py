@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from itertools import pairwise
 
 import numpy as np
@@ -17,7 +18,7 @@ Rows = list[tuple[float, float, int, int]]
 BLOWN, SAMPLED_S = 0.63, 0.01
 
 
-def played(rows: Rows, dips: list[float] = [], breath: bool = True, noise: float = 0.02) -> Played:  # noqa: B006
+def played(rows: Rows, dips: Sequence[float] = (), breath: bool = True, noise: float = 0.02) -> Played:
     """The notes with a breath that lasts from the first note of each legato to its last; it falls at the ``dips``."""
     rows = sorted(rows)
     curves = {}
