@@ -107,7 +107,8 @@ def _left_out_s(times: LineTimes, notes: int) -> tuple[FloatArray, FloatArray]:
     """(N - notes - 1,): how long a breath that so many notes are left out for usually is, and may be at most."""
     span_s = times.onset_s[notes + 1 :] - times.onset_s[1:-notes] + gaps_s(times)[1:-notes]
     before_s = times.duration_s[: -notes - 1]
-    return span_s + CATCH_NOTE_SHARE * before_s, span_s + np.maximum(before_s - LEAST_PLAYED_S, 0.0)
+    share_s = CATCH_NOTE_SHARE * before_s
+    return span_s + share_s, span_s + np.maximum(share_s, np.minimum(CATCH_MIN_S, before_s - LEAST_PLAYED_S))
 
 
 def gaps_s(times: LineTimes) -> FloatArray:

@@ -196,9 +196,9 @@ def move_breath(work: Work) -> None:
     place = middle(lane, breath.id)
     drag(lane, place, dx=-60)
     work.planned()
-    moved = next(event for event in work.plan.breaths if event.id == breath.id)
-    assert moved.corrected
-    assert moved.start_s < breath.start_s - 0.1
+    # A breath dragged across a note serves that note, and has its id.
+    (moved,) = (event for event in work.plan.breaths if event.corrected)
+    assert breath.start_s - 4.0 < moved.start_s < breath.start_s - 0.1
 
 
 def lower_amplitude(work: Work) -> None:

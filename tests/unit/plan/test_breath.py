@@ -270,6 +270,17 @@ def test_in_endless_quick_notes_weak_notes_are_left_out(bpm: float, left_out: in
     assert played.end_s > played.start_s
 
 
+@pytest.mark.parametrize("last_tick", [60, 90, 110, 119])
+def test_a_note_cut_for_a_breath_that_leaves_out_the_next_keeps_half(last_tick: int) -> None:
+    # An overlapping long note, a tiny one under its end, and then the entry: written, the long one has more room.
+    ticks = [*((tick, 1) for tick in range(9)), (9, 120), (9 + last_tick, 1), (10 + last_tick, 960)]
+    notes = tuple(PlainNote(f"1:{index + 1}", tick, lasts, 65, 64) for index, (tick, lasts) in enumerate(ticks))
+    made = plan(notes, PlainClock(((0, 30.0),)), lung_s=3.0)
+    (caught,) = (event for event in made.breaths if event.reason.id == "breath.catch_dropped")
+    onset_s, end_s = (tick / 240.0 for tick in (9, 9 + last_tick))
+    assert end_s - max(caught.start_s, onset_s) <= max(0.5 * (end_s - onset_s), CATCH_MIN_S) + 1e-6
+
+
 def test_no_note_is_left_out_of_a_slur() -> None:
     # Four slurred sixteenths, four tongued ones, and so on: breaths come among the tongued.
     notes = line_of(
