@@ -62,6 +62,8 @@ class BreathPlan(msgspec.Struct, frozen=True):
         Notes (by index) whose lips leave early for a catch breath, and when.
     catches : tuple of int
         Notes (by index) before which a catch breath is taken; players of the same part avoid them.
+    left_out : tuple of int
+        Notes (by index) that are left out for catch breaths; players of the same rhythm leave out others.
     """
 
     events: tuple[BreathEvent, ...]
@@ -69,6 +71,7 @@ class BreathPlan(msgspec.Struct, frozen=True):
     generated_ids: frozenset[str]
     early_end_s: dict[int, float]
     catches: tuple[int, ...]
+    left_out: tuple[int, ...] = ()
 
 
 def plan_breaths(
@@ -118,6 +121,7 @@ def plan_breaths(
         generated_ids=frozenset(event.id for event in (*given.generated, *caught)),
         early_end_s=early_end_s,
         catches=tuple(catches),
+        left_out=stock.room.left_out(catches),
     )
 
 
@@ -396,6 +400,8 @@ def _catches(line: _Breather, score: _Score, stock: _Stock, may: BoolArray, shar
     tempo takes more air."""
     taken = np.zeros(len(line.notes), dtype=bool)
     taken[list(shared.caught)] = True
+    missing = np.zeros(len(line.notes), dtype=bool)
+    missing[list(shared.left_out)] = True
 
     def between(times: LineTimes, used: FloatArray, filled: FloatArray) -> list[int]:
         full = levels(used, score.lung_s, filled)
@@ -408,6 +414,7 @@ def _catches(line: _Breather, score: _Score, stock: _Stock, may: BoolArray, shar
             full,
             may,
             taken,
+            missing,
             seeds,
             score.rests.sounding_tick,
             stock.room,

@@ -6,6 +6,7 @@ for it, and the one before them is shortened: as players do in running notes tha
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -49,6 +50,11 @@ class Room:
     def lasts_s(self) -> FloatArray:
         """(N,): how long it is, of the one kind or the other."""
         return np.where(self.length_s > 0.0, self.length_s, self.drop_s)
+
+    def left_out(self, catches: Sequence[int]) -> tuple[int, ...]:
+        """The notes (by index) that are left out for catch breaths before some notes."""
+        dropping = [index for index in catches if self.length_s[index] == 0.0]
+        return tuple(note for index in dropping for note in range(index - int(self.dropped[index]), index))
 
 
 def catch_lengths_s(score: LineTimes, times: LineTimes, rests: IntArray) -> FloatArray:

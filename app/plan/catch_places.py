@@ -7,7 +7,7 @@ from functools import lru_cache
 import numpy as np
 import numpy.typing as npt
 
-from app.plan.catch_lengths import Room
+from app.plan.catch_lengths import MOST_DROPPED, Room
 from app.plan.line import IntArray, LineTimes, Piece, Seeds
 from app.plan.lungs import EPSILON, FULL_BREATH_S, HASTY_SHARE
 from app.plan.model import FloatArray
@@ -20,6 +20,10 @@ HASTY_COST = 10.0
 TOO_LONG_COST = 1000.0
 DROPPED_COST = 30.0
 """Leaving out a note, where none is long enough to take a gasp from."""
+MISSING_COST = 20.0
+"""Leaving it out where another player of the same rhythm leaves out one that is so near: a hole."""
+NEAR = MOST_DROPPED
+"""So many notes apart they are near."""
 
 
 def catch_places(
@@ -31,6 +35,7 @@ def catch_places(
     level: FloatArray,
     may: npt.NDArray[np.bool_],
     taken: npt.NDArray[np.bool_],
+    missing: npt.NDArray[np.bool_],
     seeds: Seeds,
     rests: IntArray,
     room: Room,
@@ -55,6 +60,8 @@ def catch_places(
         Before which notes the rules may place a breath.
     taken : (N,) bool
         Before which notes another player of the same line breathes.
+    missing : (N,) bool
+        Notes that another player of the same rhythm leaves out.
     rests : (N,) int64
         Ticks of rest before each note, as `app.plan.rests.rest_ticks` finds them.
     room : Room
@@ -93,6 +100,9 @@ def catch_places(
             dropped = room.dropped[also]
             cost[also] = place_costs(times, piece, rests, also - dropped, taken, seeds, dropped)
             cost[also] += DROPPED_COST * dropped + slur_costs(times, rests, also)
+            before = np.concatenate(([0], np.cumsum(missing)))
+            others = before[np.minimum(also + NEAR, len(missing))] - before[np.maximum(also - dropped - NEAR, 0)]
+            cost[also] += MISSING_COST * (others > 0)
             found, _ = chain(start, end, open_ | dropping)
         result += found
     return result

@@ -459,7 +459,7 @@ def _plan_line(memo: Memo, given: _Given) -> tuple[PlayerPlan, Breathed]:
         styles=styles,
         mutes=mutes,
     )
-    return plan, breathed_of(given.shared_line, notes, breaths.catches, events)
+    return plan, breathed_of(given.shared_line, notes, breaths.catches, breaths.left_out, events)
 
 
 def _looking(gestures: tuple[GestureEvent, ...]) -> tuple[GestureEvent, ...]:

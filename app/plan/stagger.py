@@ -1,5 +1,8 @@
 """Players in unison or in octaves breathe one after another: not before the same notes, and within held notes too.
 
+In running notes that leave no other way to breathe, players of one rhythm leave out different notes, in thirds and
+chords too: what all left out together would be a hole.
+
 After what all of them hold, a fermata, they breathe together.
 
 Messages: ``breath.staggered``.
@@ -58,6 +61,10 @@ class SharedLine(NamedTuple):
         Of its notes.
     known : frozenset of Place
         The same without order.
+    onsets : tuple of int
+        The places without their pitches, and ...
+    rhythm : frozenset of int
+        ... the same without order.
     ordered : tuple of int
         Its notes in the order of their places.
     held_s : tuple of (int, float)
@@ -66,6 +73,8 @@ class SharedLine(NamedTuple):
 
     places: tuple[Place, ...]
     known: frozenset[Place]
+    onsets: tuple[int, ...]
+    rhythm: frozenset[int]
     ordered: tuple[int, ...]
     held_s: tuple[tuple[int, float], ...]
 
@@ -86,10 +95,12 @@ class SharedLine(NamedTuple):
 
 
 class Breathed(NamedTuple):
-    """Where a player of a line breathes: catch breaths by the place of the note after, others within held notes."""
+    """Where a player of a line breathes: catch breaths by the place of the note after, the notes that are left out for
+    them by their onsets, other breaths within held notes."""
 
     line: SharedLine
     caught: frozenset[Place]
+    left_out: frozenset[int]
     within: tuple[tuple[Place, float], ...]
 
 
@@ -100,6 +111,8 @@ class Shared(NamedTuple):
     ----------
     caught : frozenset of int
         Notes before which others of the unison take catch breaths.
+    left_out : frozenset of int
+        Notes that others of the same rhythm leave out in order to breathe.
     held : tuple of (int, tuple of float)
         Held notes that others hold too, with the times (seconds) at which those breathe in them.
     after_hold : frozenset of int
@@ -107,6 +120,7 @@ class Shared(NamedTuple):
     """
 
     caught: frozenset[int] = frozenset()
+    left_out: frozenset[int] = frozenset()
     held: tuple[tuple[int, tuple[float, ...]], ...] = ()
     after_hold: frozenset[int] = frozenset()
 
@@ -117,15 +131,16 @@ ALONE = Shared()
 def shared_line(times: LineTimes, piece: Piece) -> SharedLine:
     """The places of a line's notes, as a score would have them."""
     if not len(times.onset_tick):
-        return SharedLine((), frozenset(), (), ())
+        return SharedLine((), frozenset(), (), frozenset(), (), ())
     quarter = piece.clock.ticks_per_quarter
     onsets = np.rint(notated(times, piece).onset_tick * PLACES / quarter).astype(np.int64)
     places = tuple((onsets * 12 + times.pitch % 12).tolist())
+    rhythm = tuple(onsets.tolist())
     held_s = tuple(
         (index, float(times.duration_s[index])) for index in np.flatnonzero(times.duration_s >= HELD_S).tolist()
     )
     ordered = tuple(sorted(range(len(places)), key=places.__getitem__))
-    return SharedLine(places, frozenset(places), ordered, held_s)
+    return SharedLine(places, frozenset(places), rhythm, frozenset(rhythm), ordered, held_s)
 
 
 def after_holds(held: tuple[Fermata, ...], times: LineTimes) -> frozenset[int]:
@@ -158,8 +173,11 @@ def shared_with(
         `after_holds` of the player.
     """
     caught: set[int] = set()
+    left_out: set[int] = set()
     for first in range(0, len(breathed), COMPARED):
-        caught |= memo.nested(f"unison:{first}", _caught_by_some, line, breathed[first : first + COMPARED], first)
+        some = breathed[first : first + COMPARED]
+        caught |= memo.nested(f"unison:{first}", _caught_by_some, line, some, first)
+        left_out |= memo.nested(f"rhythm:{first}", _left_out_by_some, line, some, first)
     held = []
     taken: dict[Place, list[float]] = {}
     for place, at_s in (pair for other in breathed for pair in other.within if line.held_s):
@@ -168,7 +186,7 @@ def shared_with(
         place = line.places[index]
         if any(other.holds(place, length_s) for other in others):
             held.append((index, tuple(sorted(taken.get(place, ())))))
-    return Shared(frozenset(caught), tuple(held), after_hold)
+    return Shared(frozenset(caught), frozenset(left_out), tuple(held), after_hold)
 
 
 def _caught_by_some(memo: Memo, line: SharedLine, some: tuple[Breathed, ...], first: int) -> frozenset[int]:
@@ -191,11 +209,41 @@ def caught_in_unison(line: SharedLine, other: SharedLine, caught: frozenset[Plac
     return frozenset(index for place in met for index in line.notes_at(place) if _in_unison(line, other, index))
 
 
+def _left_out_by_some(memo: Memo, line: SharedLine, some: tuple[Breathed, ...], first: int) -> frozenset[int]:
+    left_out: set[int] = set()
+    for number, other in enumerate(some, first):
+        if not other.left_out.isdisjoint(line.rhythm):
+            left_out |= memo.step(f"rhythm with {number}", left_out_in_rhythm, line, other.line, other.left_out)
+    return frozenset(left_out)
+
+
+def left_out_in_rhythm(line: SharedLine, other: SharedLine, left_out: frozenset[int]) -> frozenset[int]:
+    """Notes of a line that sound when another player leaves one out, where both play the same rhythm.
+
+    Parameters
+    ----------
+    left_out : frozenset of int
+        Onsets of the notes that the other player leaves out.
+    """
+    least = min(UNISON_NOTES, len(line.onsets), len(other.onsets))
+    return frozenset(
+        index
+        for index, onset in enumerate(line.onsets)
+        if onset in left_out and _together(line.onsets, other.rhythm, index, least)
+    )
+
+
 def _in_unison(line: SharedLine, other: SharedLine, index: int) -> bool:
-    least, count = min(UNISON_NOTES, len(line.places), len(other.places)), 1
+    least = min(UNISON_NOTES, len(line.places), len(other.places))
+    return _together(line.places, other.known, index, least)
+
+
+def _together(places: Sequence[int], known: frozenset[int], index: int, least: int) -> bool:
+    """Return whether at least so many places in a row, the one at an index among them, are known."""
+    count = 1
     for step in (-1, 1):
         place = index + step
-        while count < least and 0 <= place < len(line.places) and line.places[place] in other.known:
+        while count < least and 0 <= place < len(places) and places[place] in known:
             count, place = count + 1, place + step
     return count >= least
 
@@ -250,7 +298,11 @@ def _handed_on(
 
 
 def breathed_of(
-    line: SharedLine, notes: Sequence[Note], caught: Sequence[int], events: Sequence[BreathEvent]
+    line: SharedLine,
+    notes: Sequence[Note],
+    caught: Sequence[int],
+    left_out: Sequence[int],
+    events: Sequence[BreathEvent],
 ) -> Breathed:
     """Where a player breathes, for those who play the same.
 
@@ -258,6 +310,8 @@ def breathed_of(
     ----------
     caught : sequence of int
         Notes (by index) before which a catch breath is taken.
+    left_out : sequence of int
+        Notes (by index) that are left out for one.
     events : sequence of BreathEvent
         All breaths of the player.
     """
@@ -266,5 +320,6 @@ def breathed_of(
     return Breathed(
         line,
         frozenset(line.places[index] for index in caught),
+        frozenset(line.onsets[index] for index in left_out),
         tuple((line.places[index_of[note_id]], start_s) for note_id, start_s in within),
     )

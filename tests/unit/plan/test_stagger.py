@@ -129,6 +129,60 @@ def test_what_others_keep_clear_of_is_found_again_only_for_who_breathes_elsewher
     assert last.plans == make_plans(piece, tuple(lines), frame)
 
 
+SCALE = (60, 62, 64, 65, 67, 69, 71, 72, 74, 76, 77, 79, 81, 83, 84)
+
+
+def sixteenths(above: int = 0, seed: int = 3) -> list[Row]:
+    """Forty seconds without a rest at 120, so many steps of the scale above the tune."""
+    by_chance, step, rows = random.Random(seed), 3, []
+    for place in range(320):
+        step = min(max(step + by_chance.choice((-2, -1, -1, 1, 1, 2)), 0), 7)
+        rows.append((place * Q // 4, Q // 4, SCALE[step + above]))
+    return rows
+
+
+def left_out(plan: PlayerPlan) -> set[int]:
+    """Sixteenths that a player leaves out."""
+    counts = {"breath.catch_dropped": 1, "breath.catch_dropped_two": 2}
+    ends = [(event.end_tick * 4 // Q, counts.get(event.reason.id, 0)) for event in plan.breaths]
+    return {end - back for end, count in ends for back in range(1, count + 1)}
+
+
+@pytest.mark.parametrize("above", [(0, 0), (0,) * 3, (0,) * 6, (0, 7), (0, 2), (0, 2, 0, 2), (0, 2, 4)])
+def test_players_in_one_fast_line_leave_out_different_notes(above: tuple[int, ...]) -> None:
+    made = plans(*map(sixteenths, above))
+    alone = [plans(sixteenths(steps))[0] for steps in above]
+    assert made[0].breaths == alone[0].breaths
+    missing = [left_out(plan) for plan in made]
+    assert all(len(each) >= 8 for each in missing)
+    near = [{note + off for note in each for off in (-1, 0, 1)} for each in missing]
+    assert not any(one & other for one, other in itertools.combinations(near, 2))
+    # No one breathes much more often than alone, and each after the note on a beat.
+    assert all(len(plan.breaths) <= len(own.breaths) + 1 for plan, own in zip(made, alone, strict=True))
+    assert all(note % 4 for each in missing for note in each)
+
+
+def test_players_of_other_rhythms_leave_out_what_they_would_alone() -> None:
+    triplets = [(place * Q // 6, Q // 6, 60 + place % 5) for place in range(480)]
+    assert left_out(plans(sixteenths(), triplets)[1]) == left_out(plans(triplets)[0])
+
+
+def test_players_in_thirds_breathe_together_where_no_note_is_left_out() -> None:
+    tune = running(0, 64)
+    beside = plans([(onset, length, pitch + 4) for onset, length, pitch in tune], tune)[1]
+    assert caught(beside) == caught(plans(tune)[0])
+
+
+def test_who_is_corrected_is_kept_clear_of() -> None:
+    """The first player's breath is removed, so that it comes elsewhere; the other breathes around it."""
+    rows = sixteenths()
+    plain = plans(rows, rows)
+    place = min(left_out(plain[0])) + 2
+    moved = plans(rows, rows, corrections=(RemoveEvent(f"breath:1:{place + 1}", f"1:{place + 1}"),))
+    assert left_out(moved[0]) != left_out(plain[0])
+    assert not left_out(moved[0]) & left_out(moved[1])
+
+
 def test_notes_that_meet_by_chance_are_no_unison() -> None:
     line = running(0, 64)
     alone = plans(line)[0]
