@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 from functools import lru_cache
 from typing import Final, TypeAlias
 
@@ -18,15 +17,22 @@ import msgspec
 import numpy as np
 import numpy.typing as npt
 
+from app.plan.velocity_ladders import (
+    DYNAMICS,
+    LADDERS,
+    LILYPOND,
+    LILYPOND_RANGES,
+    SHARES,
+    UNMARKED_STEP,
+    articulated,
+    ladder_of,
+)
+
 FloatArray: TypeAlias = npt.NDArray[np.float64]
 IntArray: TypeAlias = npt.NDArray[np.int64]
 
 MEZZOFORTE: Final = 0.63
 """Loudness 0..1 of mezzoforte: MIDI velocity 80 of 127."""
-DYNAMICS: Final = (
-    ("ppp", 16), ("pp", 33), ("p", 49), ("mp", 64), ("mf", 80), ("f", 96), ("ff", 112), ("fff", 126)
-)  # fmt: skip
-"""Dynamic marks and the velocities that stand for them here; they are MuseScore's."""
 LEVELS: Final[FloatArray] = np.array([MEZZOFORTE if mark == "mf" else at / 127.0 for mark, at in DYNAMICS])
 """(8,): loudness of each mark, the softest first."""
 _BETWEEN: Final[FloatArray] = (LEVELS[1:] + LEVELS[:-1]) / 2.0
@@ -57,85 +63,11 @@ USUAL_RANGE: Final = (49.0, 96.0)
 """*Piano* to *forte*: the middle of a piece lies there, however hard its keys were struck."""
 
 
-@dataclass(frozen=True)
-class Ladder:
-    """The velocities with which one program writes dynamic marks.
-
-    Attributes
-    ----------
-    steps : tuple of (mark, velocity)
-        Ascending by velocity; a mark may occur several times (``"sf"``: a stress after which the level returns; empty:
-        no mark).
-    default : int or None
-        Velocity without any dynamic mark; None: one of `DEFAULTS`.
-    added : tuple of int
-        What articulations add to a velocity.
-    accent_share : float
-        What an accent multiplies it by; 1: nothing.
-    usual : float
-        How common the program is: the logarithm of a share.
-    """
-
-    name: str
-    steps: tuple[tuple[str, int], ...]
-    default: int | None = None
-    added: tuple[int, ...] = ()
-    accent_share: float = 1.0
-    usual: float = 0.0
-
-
-_LILYPOND: Final = "LilyPond"
 _OWN_RANGE: Final = 6.0
-"""By so much (a logarithm of likelihood) another instrument's range must explain a part better than its own."""
-_UNMARKED: Final = ""
-"""The step of notes without a mark: the mark before them goes on."""
-_LILYPOND_VOLUMES: Final = (
-    ("ppp", 0.25), ("ppp", 0.34), ("ppp", 0.42), ("pp", 0.49), ("p", 0.55), ("mp", 0.61), ("mf", 0.68),
-    (_UNMARKED, 90 / 127), ("f", 0.75), ("ff", 0.80), ("fff", 0.85), ("fff", 0.92), ("sf", 1.0),
-)  # fmt: skip
-"""LilyPond's ``scm/midi.scm``: ppppp to ffff and sf; 90 of 127 is its volume without a mark."""
-_LILYPOND_RANGES: Final = {
-    73: (0.0, 0.7), 68: (0.0, 0.7), 71: (0.0, 0.7), 70: (0.0, 0.6), 60: (0.1, 0.7), 56: (0.1, 0.8),
-}  # fmt: skip
-"""LilyPond's ``instrument-equalizer-alist`` by General MIDI program (from 0): flute, oboe, clarinet, bassoon, French
-horn and trumpet; all others have the whole range."""
-_LILYPOND_ADDED: Final = (4, 6, 20, 24, 26, 40)
-"""``ly/script-init.ly``: staccato, staccatissimo, accent, accent with either, marcato."""
-
-
-def _lilypond(program: int | None) -> Ladder:
-    low, high = _LILYPOND_RANGES.get(-1 if program is None else program, (0.0, 1.0))
-    # Floored, rounding errors and all, as LilyPond does it: a flute without a mark has 62.
-    steps = tuple((mark, int(127 * (low + (high - low) * volume))) for mark, volume in _LILYPOND_VOLUMES)
-    return Ladder(_LILYPOND, steps, steps[7][1], _LILYPOND_ADDED)
-
-
-def _ladder(name: str, velocities: str, **more: object) -> Ladder:
-    """A ladder of eight steps from *ppp* to *fff*."""
-    values = [int(value) for value in velocities.split()]
-    marks = [mark for mark, _ in DYNAMICS]
-    return Ladder(name, tuple(zip(marks, values, strict=True)), **more)  # type: ignore[arg-type]
-
-
-_FIXED: Final = (
-    _ladder("MuseScore", "16 33 49 64 80 96 112 126", accent_share=1.2),
-    _ladder("Finale", "23 36 49 62 75 88 101 114", default=64, usual=-0.5),
-    _ladder("Sibelius", "20 39 61 71 84 98 113 127", usual=-0.5),
-    _ladder("NoteWorthy", "10 30 45 60 75 92 108 127", usual=-1.5),
-    # Strong, weaker and weak beats: what is added is negative.
-    _ladder("abc2midi", "30 45 60 75 90 105 120 127", default=105, added=(-10, -25), usual=-1.5),
-    _ladder("music21", "19 32 44 57 70 89 108 114", usual=-1.5),
-)
-_NAMES: Final = (_LILYPOND, *(ladder.name for ladder in _FIXED))
-_BY_NAME: Final = {ladder.name: ladder for ladder in _FIXED}
-_SHARES: Final = {
-    "ppp": 0.01, "pp": 0.07, "p": 0.22, "mp": 0.13, "mf": 0.2, "f": 0.22, "ff": 0.11, "fff": 0.02, "sf": 0.02, "": 0.2
-}  # fmt: skip
-"""Frequencies of the marks, about."""
-
-
-def _ladder_of(name: str, program: int | None) -> Ladder:
-    return _lilypond(program) if name == _LILYPOND else _BY_NAME[name]
+"""By so much (a logarithm of likelihood) another instrument's range must explain a part better than its own; that of no
+instrument a whole piece."""
+_PASSED: Final = 0.1
+"""Share of the notes that stand at the end of a hairpin which leads to no mark."""
 
 
 class VelocityReading(msgspec.Struct, frozen=True):
@@ -153,6 +85,8 @@ class VelocityReading(msgspec.Struct, frozen=True):
         How far, 0..1, its levels are dynamics.
     shift : float
         Velocities to add before its levels are compared with `DYNAMICS`.
+    whole_range : bool
+        LilyPond wrote all parts in the range of no instrument: their programs were given to them afterwards.
     """
 
     ladder: str = ""
@@ -160,6 +94,7 @@ class VelocityReading(msgspec.Struct, frozen=True):
     usual: float = 80.0
     meant: float = 0.0
     shift: float = 0.0
+    whole_range: bool = False
 
 
 def read_velocities(parts: Iterable[tuple[Sequence[int] | IntArray, int | None]]) -> VelocityReading:
@@ -178,12 +113,12 @@ def read_velocities(parts: Iterable[tuple[Sequence[int] | IntArray, int | None]]
     alone = {int(velocity) for values, _ in given for velocity in np.unique(values)}
     if len(alone) == 1 and alone <= DEFAULTS:
         return VelocityReading("", marked=False)
-    ladder = _recognised(levels)
-    if ladder and len(written) == len(given) and _unmarked(ladder, written):
+    ladder, whole_range = _recognised(levels)
+    if ladder and len(written) == len(given) and _unmarked(ladder, written, whole_range):
         return VelocityReading(ladder, marked=False)
     unread = given if not ladder else [one for one in given if not any(one[0] is other for other, _ in written)]
     usual, meant, shift = _distribution([velocities for velocities, _ in unread], constant=len(alone) == 1)
-    return VelocityReading(ladder, True, usual, meant, shift)
+    return VelocityReading(ladder, True, usual, meant, shift, whole_range)
 
 
 def _engraved(velocity: IntArray) -> bool:
@@ -211,17 +146,22 @@ def _levels(velocity: IntArray) -> dict[int, int]:
     return {}
 
 
-def _recognised(levels: Sequence[tuple[dict[int, int], int | None]]) -> str:
-    """Name of the ladder that explains the levels best; empty where any velocity would do as well."""
-    best, name = 0.0, ""
-    for one in _NAMES:
-        total = _ladder_of(one, None).usual
+def _recognised(levels: Sequence[tuple[dict[int, int], int | None]]) -> tuple[str, bool]:
+    """Name of the ladder that explains the levels best, and whether it does so in the whole range; empty where any
+    velocity would do as well."""
+    best, name, whole = 0.0, "", False
+    for one in LADDERS:
+        total = ladder_of(one, None).usual
         for found, program in levels:
             wrote = _written_as(one, found, program)
             total += _gain(one, wrote, found) - (_OWN_RANGE if wrote != program else 0.0)
         if total > best:
-            best, name = total, one
-    return name
+            best, name, whole = total, one, False
+    if any(program in LILYPOND_RANGES for _, program in levels):
+        total = sum(_gain(LILYPOND, None, found) for found, _ in levels) - _OWN_RANGE
+        if total > best:
+            return LILYPOND, True
+    return name, whole
 
 
 def _gain(name: str, program: int | None, levels: dict[int, int]) -> float:
@@ -230,52 +170,47 @@ def _gain(name: str, program: int | None, levels: dict[int, int]) -> float:
     return sum(gains[value] * math.log1p(count) for value, count in levels.items())
 
 
-def _written_as(name: str, levels: dict[int, int], program: int | None) -> int | None:
+def _written_as(name: str, levels: dict[int, int], program: int | None, whole_range: bool = False) -> int | None:
     """The program in whose range LilyPond wrote a part: its own, or that of an instrument it was written for before."""
-    if name != _LILYPOND:
+    if name != LILYPOND:
         return program
+    if whole_range:
+        return None
     own = _gain(name, program, levels) + _OWN_RANGE
-    other = max((None, *_LILYPOND_RANGES), key=lambda one: _gain(name, one, levels))
+    other = max((None, *LILYPOND_RANGES), key=lambda one: _gain(name, one, levels))
     return other if _gain(name, other, levels) > own else program
 
 
 @lru_cache(maxsize=128)
 def _gains(name: str, program: int | None) -> tuple[float, ...]:
     """(128,): logarithm of how much likelier each velocity is on a ladder than anywhere."""
-    ladder = _ladder_of(name, program)
+    ladder = ladder_of(name, program)
     likely = np.full(128, 0.05 / 60.0)
     for mark, velocity in ladder.steps:
-        for more, share in _articulated(ladder, velocity):
+        for more, share in articulated(ladder, velocity):
             for off, near in ((0, 0.9), (-1, 0.05), (1, 0.05)):
                 place = min(max(velocity + more + off, 0), 127)
-                likely[place] += _SHARES[mark] * share * near
+                likely[place] += SHARES[mark] * share * near
+    likely[list(ladder.passed)] += _PASSED / max(len(ladder.passed), 1)
     if ladder.default is not None:
         likely[ladder.default] += 0.1
     return tuple(np.log(likely * 60.0).tolist())
 
 
-def _articulated(ladder: Ladder, velocity: int) -> list[tuple[int, float]]:
-    """Return what articulations add to a velocity of a ladder, and how often."""
-    more = [*ladder.added]
-    if ladder.accent_share != 1.0:
-        more.append(int(velocity * (ladder.accent_share - 1.0)))
-    return [(0, 0.85), *((one, 0.15 / len(more)) for one in more)]
-
-
-def _unmarked(name: str, written: Sequence[tuple[IntArray, int | None]]) -> bool:
+def _unmarked(name: str, written: Sequence[tuple[IntArray, int | None]], whole_range: bool) -> bool:
     """Decide whether all parts stay at what a program writes without dynamic marks, but for articulations and slips."""
     default: int | None = None
     for velocities, program in written:
         values, counts = np.unique(velocities, return_counts=True)
         usual = int(values[counts.argmax()])
-        ladder = _ladder_of(name, _written_as(name, _levels(velocities), program))
+        ladder = ladder_of(name, _written_as(name, _levels(velocities), program, whole_range))
         if usual != ladder.default and (ladder.default is not None or usual not in DEFAULTS):
             return False
         if ladder.default is None and default not in (None, usual):
             return False
         default = usual
-        articulated = {usual + more for more, _ in _articulated(ladder, usual)}
-        if counts[[int(value) in articulated for value in values]].sum() < UNMARKED * len(velocities):
+        as_usual = {usual + more for more, _ in articulated(ladder, usual)}
+        if counts[[int(value) in as_usual for value in values]].sum() < UNMARKED * len(velocities):
             return False
     return True
 
@@ -353,7 +288,8 @@ def _known(velocities: bytes, program: int | None, reading: VelocityReading | No
             accents[np.abs(accents) < _STRESS] = 0.0
         return np.clip(MEZZOFORTE + accents / 127.0, 0.0, 1.0), np.full(len(velocity), _MF)
     if reading.ladder and _engraved(velocity):
-        return _on_ladder(velocity, reading.ladder, _written_as(reading.ladder, _levels(velocity), program))
+        written = _written_as(reading.ladder, _levels(velocity), program, reading.whole_range)
+        return _on_ladder(velocity, reading.ladder, written)
     return _by_distribution(velocity, reading)
 
 
@@ -391,22 +327,28 @@ _NEAR_COST, _OFF_COST, _STEP_COST, _MOST_COST = 0.6, 1.2, 0.6, 3.0
 """Cost of a note whose velocity is beside the step, or off it (more for every mark away, at most so much)."""
 _ARTICULATION_COST, _ADDED_COST = 0.25, 0.03
 """What a note costs that an articulation makes louder, and each velocity that this adds."""
+_MARK_COST = _CHANGE_COST
+"""Cost of a note with the velocity of a mark that is read as an articulation of one without a mark, at least."""
 
 
 @lru_cache(maxsize=64)
 def _costs(name: str, program: int | None) -> tuple[FloatArray, FloatArray, FloatArray]:
     """(128, S) each: cost and accent of every velocity on every step of a ladder; (S, S): cost of a change."""
-    ladder = _ladder_of(name, program)
+    ladder = ladder_of(name, program)
     values = np.array([velocity for _, velocity in ladder.steps])
     loud = np.array([LEVELS[_MARKS.get("fff" if mark == "sf" else mark, _MF)] for mark, _ in ladder.steps])
-    between = np.interp(np.arange(128), values, loud)
+    has = np.array([mark != UNMARKED_STEP for mark, _ in ladder.steps])
+    between = np.interp(np.arange(128), values[has], loud[has])
     cost = np.minimum(_OFF_COST + _STEP_COST * np.abs(between[:, None] - loud) / 0.126, _MOST_COST)
     accent = np.clip(between[:, None] - loud, -_ACCENT, _ACCENT)
     for step, (mark, velocity) in enumerate(ladder.steps):
-        more = [added for added, _ in _articulated(ladder, velocity)]
+        more = [added for added, _ in articulated(ladder, velocity)]
         rows = [(added, _ARTICULATION_COST + _ADDED_COST * abs(added)) for added in more[1:]]
         # A hairpin passes by the level without a mark.
-        near = () if mark == _UNMARKED else ((-1, _NEAR_COST), (1, _NEAR_COST))
+        if mark == UNMARKED_STEP:
+            # What a mark has exactly is rather that mark than an articulation of what has none.
+            rows = [(added, max(paid, _MARK_COST) if velocity + added in values[has] else paid) for added, paid in rows]
+        near = () if mark == UNMARKED_STEP else ((-1, _NEAR_COST), (1, _NEAR_COST))
         for added, paid in (*near, *rows, (0, 0.0)):
             place = min(max(velocity + added, 0), 127)
             if paid <= cost[place, step]:
@@ -437,8 +379,8 @@ def _on_ladder(velocity: IntArray, name: str, program: int | None) -> tuple[Floa
         steps[run - 1] = back[run, steps[run]]
     along = np.repeat(steps, lengths)
     more = accent[velocity, along]
-    marks = np.array([_MARKS.get(mark, -1) for mark, _ in _ladder_of(name, program).steps], np.int64)[along]
-    stressed = np.array([mark == "sf" for mark, _ in _ladder_of(name, program).steps])[along]
+    marks = np.array([_MARKS.get(mark, -1) for mark, _ in ladder_of(name, program).steps], np.int64)[along]
+    stressed = np.array([mark == "sf" for mark, _ in ladder_of(name, program).steps])[along]
     if (marks < 0).any():
         marks, more = _carried(marks, stressed, more)
     return np.clip(LEVELS[marks] + more, 0.0, 1.0), marks

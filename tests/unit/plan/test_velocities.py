@@ -140,6 +140,29 @@ def test_lilyponds_range_of_another_instrument_is_known() -> None:
     assert velocity_marks(velocities, 73) == ("p",) * 12 + ("f",) * 12 + ("ff",) * 12 + ("p",) * 8
 
 
+def test_what_lilypond_wrote_for_no_instruments_keeps_its_marks_under_any_programs() -> None:
+    """Four voices whose staves were given winds afterwards; *p* 69, and hairpins that lead to no mark end at 41, 98."""
+    lines = [[69] * 40 + [55] * 8 + [41] * 30, [69] * 40 + [41] * 25 + [61, 60, 65], [69] * 30 + [98] * 6 + [69] * 12]
+    parts = [(np.array(line), program) for line, program in zip(lines, (73, 71, 70), strict=True)]
+    reading = read_velocities(parts)
+    assert reading.ladder == "LilyPond"
+    for velocities, program in parts:
+        marks = np.array(velocity_marks(velocities, program, reading))
+        assert set(marks[velocities == 69]) == {"p"}
+
+
+def test_a_mark_is_no_articulation_of_notes_without_one() -> None:
+    """A flute's *f* is 66, a staccato of a voice without a mark too."""
+    velocities = np.array([48] * 12 + [66, 66, 62, 62, 66, 62, 66, 66] + [48] * 6)
+    assert velocity_marks(velocities, 73) == ("p",) * 12 + ("f",) * 8 + ("p",) * 6
+
+
+def test_a_voice_that_lilypond_made_in_no_instruments_range_keeps_the_mark() -> None:
+    """A bassoon's *fff* is 70; a second voice of its staff may have 90, as where there is no instrument."""
+    velocities = np.array([41] * 12 + [90, 90, 94, 90] + [60] * 12)
+    assert velocity_marks(velocities, 70) == ("p",) * 16 + ("ff",) * 12
+
+
 @given(st.integers(40, 100), st.integers(2, 6), st.integers(0, 1000))
 @settings(max_examples=30, deadline=None)
 def test_strokes_of_one_level_are_mezzoforte(level: int, spread: int, seed: int) -> None:

@@ -1,0 +1,114 @@
+"""The velocities with which notation programs write dynamic marks."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Final
+
+DYNAMICS: Final = (
+    ("ppp", 16), ("pp", 33), ("p", 49), ("mp", 64), ("mf", 80), ("f", 96), ("ff", 112), ("fff", 126)
+)  # fmt: skip
+"""Dynamic marks and the velocities that stand for them here; they are MuseScore's."""
+
+
+@dataclass(frozen=True)
+class Ladder:
+    """The velocities with which one program writes dynamic marks.
+
+    Attributes
+    ----------
+    steps : tuple of (mark, velocity)
+        A mark may occur several times (``"sf"``: a stress after which the level returns; empty: no mark).
+    default : int or None
+        Velocity without any dynamic mark; None: one of `DEFAULTS`.
+    added : tuple of int
+        What articulations add to a velocity.
+    accent_share : float
+        What an accent multiplies it by; 1: nothing.
+    usual : float
+        How common the program is: the logarithm of a share.
+    passed : tuple of int
+        Velocities at which hairpins end that lead to no mark.
+    """
+
+    name: str
+    steps: tuple[tuple[str, int], ...]
+    default: int | None = None
+    added: tuple[int, ...] = ()
+    accent_share: float = 1.0
+    usual: float = 0.0
+    passed: tuple[int, ...] = ()
+
+
+LILYPOND: Final = "LilyPond"
+UNMARKED_STEP: Final = ""
+"""The step of notes without a mark: the mark before them goes on."""
+_LILYPOND_VOLUMES: Final = (
+    ("ppp", 0.25), ("ppp", 0.34), ("ppp", 0.42), ("pp", 0.49), ("p", 0.55), ("mp", 0.61), ("mf", 0.68),
+    (UNMARKED_STEP, 90 / 127), ("f", 0.75), ("ff", 0.80), ("fff", 0.85), ("fff", 0.92), ("sf", 1.0),
+)  # fmt: skip
+"""LilyPond's ``scm/midi.scm``: ppppp to ffff and sf; 90 of 127 is its volume without a mark."""
+LILYPOND_RANGES: Final = {
+    73: (0.0, 0.7), 68: (0.0, 0.7), 71: (0.0, 0.7), 70: (0.0, 0.6), 60: (0.1, 0.7), 56: (0.1, 0.8),
+}  # fmt: skip
+"""LilyPond's ``instrument-equalizer-alist`` by General MIDI program (from 0): flute, oboe, clarinet, bassoon, French
+horn and trumpet; all others have the whole range."""
+_DEFAULT_VOLUME: Final = 90
+"""Velocity of a voice that LilyPond makes out of no instrument's staff and that has no mark."""
+_UNTIL: Final = 0.225
+"""A hairpin to no mark goes so far: 0.25 of the range above a tenth of it (``lily/dynamic-performer.cc``)."""
+_LILYPOND_ADDED: Final = (4, 6, 20, 24, 26, 40)
+"""``ly/script-init.ly``: staccato, staccatissimo, accent, accent with either, marcato."""
+
+
+def _lilypond(program: int | None) -> Ladder:
+    low, high = LILYPOND_RANGES.get(-1 if program is None else program, (0.0, 1.0))
+    # Floored, rounding errors and all, as LilyPond does it: a flute without a mark has 62.
+    steps = [(mark, int(127 * (low + (high - low) * volume))) for mark, volume in _LILYPOND_VOLUMES]
+    default = dict(steps)[UNMARKED_STEP]
+    if default != _DEFAULT_VOLUME:
+        steps.append((UNMARKED_STEP, _DEFAULT_VOLUME))
+    passed = {
+        int(127 * (low + (high - low) * (volume + off)))
+        for mark, volume in _LILYPOND_VOLUMES
+        for off in (-_UNTIL, _UNTIL)
+        if mark in ("pp", "p", "mp", "mf", "f", "ff") and volume + off <= 1.0
+    }
+    return Ladder(LILYPOND, tuple(steps), default, _LILYPOND_ADDED, passed=tuple(sorted(passed)))
+
+
+def _ladder(name: str, velocities: str, **more: object) -> Ladder:
+    """A ladder of eight steps from *ppp* to *fff*."""
+    values = [int(value) for value in velocities.split()]
+    marks = [mark for mark, _ in DYNAMICS]
+    return Ladder(name, tuple(zip(marks, values, strict=True)), **more)  # type: ignore[arg-type]
+
+
+_FIXED: Final = (
+    _ladder("MuseScore", "16 33 49 64 80 96 112 126", accent_share=1.2),
+    _ladder("Finale", "23 36 49 62 75 88 101 114", default=64, usual=-0.5),
+    _ladder("Sibelius", "20 39 61 71 84 98 113 127", usual=-0.5),
+    _ladder("NoteWorthy", "10 30 45 60 75 92 108 127", usual=-1.5),
+    # Strong, weaker and weak beats: what is added is negative.
+    _ladder("abc2midi", "30 45 60 75 90 105 120 127", default=105, added=(-10, -25), usual=-1.5),
+    _ladder("music21", "19 32 44 57 70 89 108 114", usual=-1.5),
+)
+LADDERS: Final = (LILYPOND, *(ladder.name for ladder in _FIXED))
+_BY_NAME: Final = {ladder.name: ladder for ladder in _FIXED}
+SHARES: Final = {
+    "ppp": 0.01, "pp": 0.07, "p": 0.22, "mp": 0.13, "mf": 0.2, "f": 0.22, "ff": 0.11, "fff": 0.02, "sf": 0.02, "": 0.2
+}  # fmt: skip
+"""Frequencies of the marks, about."""
+
+
+def ladder_of(name: str, program: int | None) -> Ladder:
+    """The ladder of a program, for the instrument of a General MIDI program (from 0)."""
+    return _lilypond(program) if name == LILYPOND else _BY_NAME[name]
+
+
+def articulated(ladder: Ladder, velocity: int) -> list[tuple[int, float]]:
+    """Return what articulations add to a velocity of a ladder, and how often."""
+    more = [*ladder.added]
+    if ladder.accent_share != 1.0:
+        more.append(int(velocity * (ladder.accent_share - 1.0)))
+    return [(0, 0.85), *((one, 0.15 / len(more)) for one in more)]
