@@ -11,7 +11,6 @@ from app.identity_cache import IdentityCache
 from app.plan.breath_envelope import STOPS_AT, step_means
 from app.plan.line import MEZZOFORTE, ControllerInput, Steps
 from app.plan.velocities import (
-    DYNAMICS,
     VelocityReading,
     nearest_marks,
     phrase_levels,
@@ -19,6 +18,7 @@ from app.plan.velocities import (
     velocity_loudness,
     velocity_marks,
 )
+from app.plan.velocity_ladders import DYNAMICS
 from app.score.model import ControllerCurve, Part
 
 Floats: TypeAlias = npt.NDArray[np.float64]
