@@ -39,11 +39,11 @@ from app.plan.lungs import (
     with_circular_breathing,
 )
 from app.plan.model import BreathEvent, FloatArray, Problem, TimeFrame
-from app.plan.notation import at_score_tempo, notated
+from app.plan.notation import at_score_tempo, heard_rests_s, notated
 from app.plan.parameters import PlayerParameters
 from app.plan.rest_breaths import AIR_SHORT, because, blown_breaths, blown_catch, rest_breaths, within_note
 from app.plan.rest_needs import ALWAYS_S, Decided, RestNeeds, breathed_in, rest_needs, why
-from app.plan.rests import Rests, rest_ticks
+from app.plan.rests import Rests, are_audible, rest_ticks
 from app.plan.stagger import ALONE, Shared, within_held
 from app.score.model import Note
 from instrument_maps.model import Air
@@ -146,6 +146,8 @@ class _Score(NamedTuple):
     ----------
     written, steady : LineTimes
         As a score would have it, and that without short changes of tempo, by which is decided what is needed.
+    sounded_s : (N,) float64
+        How long each note sounds, at the tempo of the score.
     gaps : Silences or None
         Where the breath that was blown shows breaths.
     used, steady_used : (N + 1,) float
@@ -159,6 +161,7 @@ class _Score(NamedTuple):
     written: LineTimes
     steady: LineTimes
     rests: Rests
+    sounded_s: FloatArray
     gaps: Silences | None
     used: FloatArray
     steady_used: FloatArray
@@ -229,23 +232,35 @@ def _read(line: _Breather, air: Air | None, envelope: BreathEnvelope | None) -> 
         assert envelope is not None
         used = air_used_s(times, air, envelope)
         within = tuple(within_note(line.notes[index], piece, *gap_s) for index, *gap_s in gaps_within(envelope, times))
-        return _Score(times, times, _rests(times, times, piece), gaps, used, used, lung_s, within)
+        rests = _rests(times, times, times, piece)
+        return _Score(times, times, rests, times.duration_s, gaps, used, used, lung_s, within)
     written = notated(times, piece)
     steady = at_score_tempo(written, piece)
     used = air_used_s(written, air)
     steady_used = used if steady is written else air_used_s(steady, air)
-    return _Score(written, steady, _rests(steady, times, piece), None, used, steady_used, lung_s, ())
+    played = steady if written is times else at_score_tempo(times, piece)
+    sounded_s = np.maximum(steady.duration_s, played.duration_s)
+    return _Score(written, steady, _rests(steady, played, times, piece), sounded_s, None, used, steady_used, lung_s, ())
 
 
-def _rests(steady: LineTimes, times: LineTimes, piece: Piece) -> Rests:
-    """The rests of the score, which decides what is one.
+def _rests(steady: LineTimes, played: LineTimes, times: LineTimes, piece: Piece) -> Rests:
+    """The rests of the score, which decides what is one and how long it is.
 
+    What is a rest by its seconds lasts at least as long as it is heard, wherever a score would have it.
     What is so long that it is always breathed in is so at any tempo.
+
+    Parameters
+    ----------
+    steady, played : LineTimes
+        As a score would have the line, and as it is played, both at the tempo of the score.
     """
     written = rest_ticks(steady, piece.beat_ticks_at(times.onset_tick))
+    audible = are_audible(played) & (times.silence_tick > 0)
+    written = np.where(audible, np.maximum(written, times.silence_tick), written)
     is_rest = (written > 0) & (times.silence_tick > 0)
     written_s, sounding_s = gaps_s(steady), gaps_s(times)
-    lasts_s = np.where(sounding_s >= ALWAYS_S - EPSILON, np.maximum(written_s, sounding_s), written_s)
+    lasts_s = np.where(audible, np.maximum(written_s, heard_rests_s(played)), written_s)
+    lasts_s = np.where(sounding_s >= ALWAYS_S - EPSILON, np.maximum(lasts_s, sounding_s), lasts_s)
     return Rests(*(np.where(is_rest, column, 0) for column in (times.silence_tick, written, lasts_s)))
 
 
@@ -368,7 +383,7 @@ def _rests_used(line: _Breather, score: _Score, given: _Given) -> _RestsUsed:
     certain += [index for index in map(line.number_of, filter(is_within, given.kept)) if not score.rests.lasts_s[index]]
     for column in needs:
         column[[0, *certain]] = 0.0
-    played_s = np.concatenate(([0.0], np.cumsum(score.steady.duration_s)))
+    played_s = np.concatenate(([0.0], np.cumsum(score.sounded_s)))
     decided = breathed_in(steady_used, played_s, score.lung_s, refill, needs)
     if score.gaps is not None:
         return _RestsUsed(needs, decided, {})

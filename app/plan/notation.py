@@ -7,10 +7,11 @@ import dataclasses
 import numpy as np
 import numpy.typing as npt
 
+from app.plan.catch_lengths import gaps_s
 from app.plan.line import TOUCHING_GATE, IntArray, LineTimes, Piece
 from app.plan.lungs import EPSILON
 from app.plan.model import FloatArray
-from app.plan.rests import AUDIBLE_S, LONG_NOTE_S
+from app.plan.rests import AUDIBLE_S, LONG_NOTE_S, SILENT_S, are_audible
 
 WRITTEN_SHARE = 0.9
 """Where so many notes lie on fractions of a quarter, they were not played into the file ..."""
@@ -156,11 +157,26 @@ def _meant_slurs(times: LineTimes, onset_s: FloatArray) -> npt.NDArray[np.bool_]
 
 def _release_share(times: LineTimes) -> float:
     """The part of the time to the next onset by which notes without a rest after them end early at most."""
+    share = _early_share(times)
+    return RELEASE_SHARES[0] if share is None else float(np.clip(share, *RELEASE_SHARES))
+
+
+def _early_share(times: LineTimes) -> float | None:
+    """The part of the time to the next onset by which notes without a rest after them end early; None if unknown."""
     gates = 1.0 - times.silence_tick[1:] / np.maximum(np.diff(times.onset_tick), 1)
-    gates = gates[(gates >= RELEASE_GATES[0]) & (gates <= RELEASE_GATES[1])]
-    if len(gates) < LEAST_RELEASED:
-        return RELEASE_SHARES[0]
-    return float(np.clip(1.0 - np.percentile(gates, EARLIEST_PERCENT), *RELEASE_SHARES))
+    gates = gates[(gates >= RELEASE_GATES[0]) & (gates <= RELEASE_GATES[1]) & ~are_audible(times)[1:]]
+    return None if len(gates) < LEAST_RELEASED else max(1.0 - float(np.percentile(gates, EARLIEST_PERCENT)), 0.0)
+
+
+def heard_rests_s(times: LineTimes) -> FloatArray:
+    """(N,): how long a rest before each note is heard to last, less what its note may have been released early.
+
+    Where no note of the line shows how early they are released, and where no release is as long as the silence, the
+    whole silence counts.
+    """
+    gap_s = gaps_s(times)
+    early_s = (_early_share(times) or 0.0) * np.insert(np.diff(times.onset_s), 0, 0.0)
+    return np.where(gap_s >= SILENT_S - EPSILON, gap_s, np.maximum(gap_s - early_s, 0.0))
 
 
 def at_score_tempo(times: LineTimes, piece: Piece) -> LineTimes:

@@ -77,10 +77,16 @@ def rest_ticks(times: LineTimes, beat_ticks: IntArray) -> IntArray:
     if len(rests) > 1:
         gap = rests[1:]
         silence_s = times.onset_s[1:] - times.played_end_s[:-1]
-        audible = (times.duration_s[:-1] >= LONG_NOTE_S - EPSILON) & (silence_s >= AUDIBLE_S - EPSILON)
-        audible |= (silence_s >= SILENT_S - EPSILON) | (gap >= beat_ticks[1:])
-        gap[(_detached(times, silence_s) & ~audible) | (gap < LEAST_BEATS * beat_ticks[1:])] = 0
+        is_rest = are_audible(times)[1:] | (gap >= beat_ticks[1:])
+        gap[(_detached(times, silence_s) & ~is_rest) | (gap < LEAST_BEATS * beat_ticks[1:])] = 0
     return rests
+
+
+def are_audible(times: LineTimes) -> BoolArray:
+    """(N,): whether the silence before each note is a rest by its seconds alone, whatever the notes around do."""
+    silence_s = times.onset_s[1:] - times.played_end_s[:-1]
+    audible = (times.duration_s[:-1] >= LONG_NOTE_S - EPSILON) & (silence_s >= AUDIBLE_S - EPSILON)
+    return np.insert(audible | (silence_s >= SILENT_S - EPSILON), 0, False)
 
 
 def _detached(times: LineTimes, silence_s: FloatArray) -> BoolArray:
