@@ -202,7 +202,8 @@ class LayerSamples:
 
     ``dip`` and ``lift`` are of the nods, ``giving`` is 1 half way between two places of the weight, ``held`` what the
     animator holds differently, ``gestured`` the keyed gestures, ``feet`` as of `Feet.sample`, ``concert`` what is done
-    beside playing (None: nothing), ``reached`` the hands that leave the instrument.
+    beside playing (None: nothing), ``reached`` the hands that leave the instrument, ``further`` how much fuller the
+    lungs look to the trunk where a breath would not show (`app.motion.drawn_breaths`).
     """
 
     full: FloatArray
@@ -223,6 +224,7 @@ class LayerSamples:
     concert: ConcertSamples | None = None
     reached: Reaches | None = None
     quiet: FloatArray | float = 0.0
+    further: FloatArray | float = 0.0
 
 
 @dataclass(frozen=True)
@@ -397,9 +399,11 @@ def body_motion(
     total.left(NECK_SHARES, deg(sizes.wander("head_side", sway.head_deg, times_s, wandering)))
     total.turn(NECK_SHARES, deg(sizes.wander("head_turn", sway.head_deg, times_s, wandering)))
 
-    inhaled = acting.breath * at_amplitude(body.breath.shown, parameters.amplitude) * inhaled
+    breath_size = acting.breath * at_amplitude(body.breath.shown, parameters.amplitude)
+    inhaled = breath_size * inhaled
     with_trunk, with_shoulders = sizes.breathing
-    breathing = deg(with_trunk * body.breath.torso_back_deg) * inhaled - deg(body.breath.preparation_forward_deg) * lean
+    trunk_back = deg(with_trunk * body.breath.torso_back_deg) * (inhaled + breath_size * levels.further)
+    breathing = trunk_back - deg(body.breath.preparation_forward_deg) * lean
     total.forward(TRUNK_SHARES, -breathing)
     total.forward(NECK_SHARES, -deg(body.breath.head_back_deg) * inhaled + 0.4 * breathing)
 

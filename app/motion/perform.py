@@ -7,6 +7,7 @@ import sys
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, replace
 from fractions import Fraction
+from functools import cached_property
 from typing import cast
 
 import numpy as np
@@ -19,6 +20,7 @@ from app.motion.contact import Carried
 from app.motion.controls import control_curves
 from app.motion.curve import EVERYWHERE, Curve, Envelopes, FloatArray, frame_times, moves
 from app.motion.danced import BodyLayer, giving_way, inhaling, with_dance
+from app.motion.drawn_breaths import leaning_further
 from app.motion.exertion import Lungs
 from app.motion.face import Asked, Drivers, Face
 from app.motion.face_morphs import FaceSizes, face_morphs, face_sizes, usual_morphs
@@ -26,7 +28,7 @@ from app.motion.feet import feet_moved
 from app.motion.gaze import Gaze, Look, Watching, looks_alike, plan_gaze
 from app.motion.holding import with_holds
 from app.motion.model import Motion
-from app.motion.posture import SIDES, Side, footing, hips_path, stance, trunk
+from app.motion.posture import SIDES, Side, footing, hips_path, stance, torso_forward, trunk
 from app.motion.ribs import widened
 from app.motion.settled import settled, shown_by
 from app.motion.solve import Curves, Player, padding, solve
@@ -170,9 +172,10 @@ class PerformanceCurves:
 
     def frames(self, times_s: FloatArray) -> Frames:
         """What the player does at ascending times."""
+        levels = replace(self.layers.sample(times_s), further=self._further.sample(times_s))
         return Frames(
             times_s=times_s,
-            levels=self.layers.sample(times_s),
+            levels=levels,
             look=self.gaze.sample(times_s),
             face=self.face.sample(times_s),
             controls={name: curve.sample(times_s) for name, curve in self.controls.items()},
@@ -190,23 +193,10 @@ class PerformanceCurves:
 
     def curves(self, frames: Frames) -> Curves:
         """What the contacts are solved from, of frames wherever they come from."""
-        levels, added, styles = self._breathing(frames), frames.added, self.plan.styles
+        levels, added = self._breathing(frames.levels, frames.times_s), frames.added
         if added:
             levels = replace(levels, held=with_held(levels.held, added))
-        moved = body_motion(
-            levels,
-            self.player_id,
-            self.parameters,
-            self.acting,
-            self.body,
-            self.posture,
-            frames.look,
-            frames.times_s,
-            steps=_steps(self.player),
-            beside=share_at(styles, "gestures", frames.times_s),
-            swaying=share_at(styles, "sway", frames.times_s),
-            shifting=share_at(styles, "weight_shift", frames.times_s),
-        )
+        moved = self._moved(levels, frames.look, frames.times_s)
         if frames.danced is not None:
             amount, free = self.parameters.dance_amount, _stands_free(self.player)
             moved = with_dance(moved, frames.danced, amount, self.body, legs=free)
@@ -217,6 +207,7 @@ class PerformanceCurves:
             # A hand that has put its instrument aside has left it already.
             there = 1.0 - frames.stowed
             moved = replace(moved, hands={name: (there * values.T).T for name, values in moved.hands.items()})
+        styles = self.plan.styles
         morphs = face_morphs(
             frames.face,
             self.body.embouchure[self.instrument_map.embouchure.kind],
@@ -235,13 +226,46 @@ class PerformanceCurves:
             moved, frames.controls, morphs, frames.face.mouth_open, frames.placed, frames.raised, frames.stowed
         )
 
-    def _breathing(self, frames: Frames) -> LayerSamples:
+    def _moved(self, levels: LayerSamples, look: Look, times_s: FloatArray) -> BodyMotion:
+        """The body without dance and the animator's curves, with the instrument in the hands."""
+        styles = self.plan.styles
+        return body_motion(
+            levels,
+            self.player_id,
+            self.parameters,
+            self.acting,
+            self.body,
+            self.posture,
+            look,
+            times_s,
+            steps=_steps(self.player),
+            beside=share_at(styles, "gestures", times_s),
+            swaying=share_at(styles, "sway", times_s),
+            shifting=share_at(styles, "weight_shift", times_s),
+        )
+
+    @cached_property
+    def _further(self) -> Envelopes:
+        return leaning_further(self.plan.breaths, self.layers.full, self._torso_rad)
+
+    def _torso_rad(self, times_s: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Lean of the torso forward at ascending times, without what breaths do and with it; both without dance, which
+        gives way to breaths, and without what the animator holds differently."""
+        levels = self._breathing(replace(self.layers.sample(times_s), held={}), times_s)
+        look, skeleton, place = self.gaze.sample(times_s), self.player.skeleton, self.player.place
+
+        def lean_rad(levels: LayerSamples) -> FloatArray:
+            moved = self._moved(levels, look, times_s)
+            return torso_forward(skeleton, *hips_path(place, skeleton, moved), moved)
+
+        return lean_rad(replace(levels, full=np.zeros(len(times_s)))), lean_rad(levels)
+
+    def _breathing(self, levels: LayerSamples, times_s: FloatArray) -> LayerSamples:
         """The layers with as much of the breath as regions of a style show."""
-        share = share_at(self.plan.styles, "breath", frames.times_s)
-        levels = frames.levels
+        share = share_at(self.plan.styles, "breath", times_s)
         if isinstance(share, float):
             return levels
-        return replace(levels, full=share * levels.full, air=share * levels.air)
+        return replace(levels, full=share * levels.full, air=share * levels.air, further=share * levels.further)
 
     def placed(self, times_s: FloatArray) -> dict[str, Placed]:
         """Where the fingers are, and the hands that give way for some of them, at ascending times."""
@@ -267,6 +291,7 @@ class PerformanceCurves:
         spans += [curve.changed_s(other.stations[name]) for name, curve in self.stations.items()]
         spans.append(self.raised.changed_s(other.raised))
         spans.append(self.inhaling.changed_s(other.inhaling))
+        spans.append(self._further.changed_s(other._further))
         spans.append(self.additive.changed_s(other.additive))
         spans.append(differing_s(self.plan.styles, other.plan.styles))
         if self.stowed is not None and other.stowed is not None:

@@ -280,3 +280,14 @@ def trunk(skeleton: Skeleton, hips_m: FloatArray, hips_rotation: FloatArray, mot
         if joint == chest_joint:
             chest, chest_m = rotation, position
     return Trunk(local, chest, chest_m, rotation, position)
+
+
+def torso_forward(skeleton: Skeleton, hips_m: FloatArray, hips_rotation: FloatArray, motion: BodyMotion) -> FloatArray:
+    """Lean forward (F,), radians, of the line from the hips to the top of the chest."""
+    upper = trunk(skeleton, hips_m, hips_rotation, motion)
+    head = skeleton.index("head")
+    neck = skeleton.parents[head]
+    top = head if neck == skeleton.parents[skeleton.index("leftShoulder")] else neck
+    upright_m = upper.chest_m + quaternion.rotate(upper.chest, skeleton.offsets_m[top]) - hips_m
+    forward_rad: FloatArray = np.arctan2(upright_m[:, 2], upright_m[:, 1])
+    return forward_rad

@@ -13,12 +13,14 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
+import msgspec
 import numpy as np
 import pytest
 import soundfile
 
 from app.cli import main
 from app.export.playback import Playback
+from app.export.report import PlayerReport, failures
 from app.formats import usd
 from app.formats.bvh import read_bvh
 from app.formats.fbx.read import read_scene
@@ -59,6 +61,18 @@ def test_the_files_are_those_the_report_names(folder: Path, report: dict[str, An
         "Trumpet 1.fbx", "Trumpet 1_trumpet_Bb.fbx", "Trumpet 1.bvh",
         "Trombone 2.fbx", "Trombone 2_trombone_tenor_F_attachment.fbx", "Trombone 2.bvh",
     }  # fmt: skip
+
+
+def test_the_bundled_quartet_keeps_every_bound_and_shows_every_breath(tmp_path: Path) -> None:
+    """The first thing that a new user sees: `./run` exports it where there is no display."""
+    players = tuple(
+        msgspec.convert(player, PlayerReport) for player in export(tmp_path / "all", "--fps", "30")["players"]
+    )
+    assert len(players) == 4
+    for player in players:
+        assert player.measures is not None
+        assert player.measures.breaths.shown == player.measures.breaths.planned > 10
+        assert failures(player) == ()
 
 
 def test_the_report_says_when_and_where(report: dict[str, Any]) -> None:
