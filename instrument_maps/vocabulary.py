@@ -74,6 +74,9 @@ class Instrument(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
         for the one may be played by the other where nothing fits better.
     by_name_only : bool
         No one is given this instrument because of the range of the notes alone.
+    key_by_part : bool
+        Players choose its key by the part, as tuba players do: a sort of it that reaches all notes goes before a map of
+        its own that does not.
     any_pitch : bool
         A wind section without a range of its own ("brass"): the range of its notes decides who plays, among
         ``families`` where they are named.
@@ -99,6 +102,7 @@ class Instrument(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     sort_of: str = ""
     by_name_only: bool = False
     families: tuple[str, ...] = ()
+    key_by_part: bool = False
     any_pitch: bool = False
     vague: bool = False
     vague_names: tuple[str, ...] = ()

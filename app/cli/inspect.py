@@ -36,9 +36,9 @@ from app.plan.model import (
     StyleEvent,
     TongueEvent,
 )
-from app.plan.problem_lines import problem_lines
+from app.plan.problem_lines import problem_lines, with_notes_named
 from app.project.performers import Dancer, Player
-from app.score.model import Note
+from app.score.model import Note, Score
 from app.score.mutes import is_muted
 from app.score.tempo import TempoMap
 from instrument_maps.model import InstrumentMap
@@ -167,9 +167,10 @@ def _dancer(dancer: Dancer) -> Table:
 
 
 class _Reasons:
-    """Reasons as sentences; many events have an equal one."""
+    """Reasons as sentences that name notes by pitch, bar and beat; many events have an equal one."""
 
-    def __init__(self) -> None:
+    def __init__(self, score: Score, part_id: str) -> None:
+        self._score, self._part_id = score, part_id
         self._known: dict[int, tuple[Message, str]] = {}
         self._equal: dict[tuple[str, str], str] = {}
 
@@ -183,15 +184,15 @@ class _Reasons:
         key = message.id, repr(message.arguments)
         sentence = self._equal.get(key)
         if sentence is None:
-            sentence = self._equal[key] = text(message)
+            sentence = self._equal[key] = text(with_notes_named(message, self._score, text, self._part_id))
         return sentence
 
 
 def _player(performance: Performance, player: Player, instrument: InstrumentMap) -> Table:
-    reason = _Reasons()
     plan = performance.plan(player)
     clock = performance.piece.clock
     part = performance.project.part(player)
+    reason = _Reasons(performance.project.score, part.id)
     fingerings = {event.note_id: event for event in plan.fingerings}
     played = [note for note in part.notes if note.id in fingerings]
     loudness = {event.note_id: event.air for event in plan.embouchures}

@@ -56,11 +56,7 @@ def note_of(score: Score, note_id: str, part_id: str | None = None) -> Note | No
     return None
 
 
-_indexed: dict[str, tuple[tuple[Note, ...], dict[str, Note]]] = {}
-"""Notes by id of each part that was searched, by part; made anew where the part has other notes."""
-
-
-def _with_notes_named(message: Message, score: Score, wording: Wording, part_id: str | None) -> Message:
+def with_notes_named(message: Message, score: Score, wording: Wording, part_id: str | None) -> Message:
     """The message with notes by pitch, bar and beat instead of by id; what is no note of the score stays as it is."""
     named: dict[str, Argument] = {}
     for name in NOTES & message.arguments.keys():
@@ -70,10 +66,14 @@ def _with_notes_named(message: Message, score: Score, wording: Wording, part_id:
     return Message(message.id, {**message.arguments, **named}) if named else message
 
 
+_indexed: dict[str, tuple[tuple[Note, ...], dict[str, Note]]] = {}
+"""Notes by id of each part that was searched, by part; made anew where the part has other notes."""
+
+
 def _line(found: list[Problem], score: Score, wording: Wording, part_id: str | None) -> str:
     """The first of some problems of a kind, and the places of the others."""
     message, first = found[0].message, _place(found[0], score, part_id)
-    line = wording(_with_notes_named(message, score, wording, part_id))
+    line = wording(with_notes_named(message, score, wording, part_id))
     if not NOTES & message.arguments.keys() and first:
         line = wording(Message("problem.at", {"problem": line, "place": first}))
     others: list[str] = []

@@ -215,7 +215,8 @@ class Candidates(msgspec.Struct, frozen=True):
 
     def best(self, pitches: Sequence[int], written: bool = False) -> MapChoice:
         """The map that plays just this instrument where it has the notes; else the one that reaches most of them, among
-        equals (a few notes aside) the one in the middle of whose range they lie.
+        equals (a few notes aside) the one in the middle of whose range they lie. Where players choose the key by the
+        part, no note is set aside for which another key has a fingering.
 
         Parameters
         ----------
@@ -224,6 +225,8 @@ class Candidates(msgspec.Struct, frozen=True):
         """
 
         lowest, highest = min(pitches), max(pitches)
+        by_part = self.instrument is not None and self.instrument.key_by_part
+        reached = by_part and any(not choice.outside(pitches, written, usual=True) for choice in self.maps)
 
         def rank(choice: MapChoice) -> tuple[bool, float, int, int]:
             # Who is asked for by name plays pedal tones too; nobody is chosen for them.
@@ -231,9 +234,9 @@ class Candidates(msgspec.Struct, frozen=True):
             shift = choice.transposition_semitones if written else 0
             low, high = choice.usual_range
             below, above = lowest - shift - low, high - highest + shift
-            few = (1.0 - share) * len(pitches) < _FEW + 0.5 and share >= _FEW_SHARE
+            few = (1.0 - share) * len(pitches) < _FEW + 0.5 and share >= _FEW_SHARE and not reached
             return (
-                choice.map_id in self.exact and (few or share >= _OWN_SHARE),
+                choice.map_id in self.exact and (few or share >= (1.0 if reached else _OWN_SHARE)),
                 1.0 if few else share,
                 -abs(below - above),
                 min(below, above),

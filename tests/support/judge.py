@@ -336,9 +336,21 @@ CATCH_BREATH_S, SHORTEST_NOTE_S = 0.2, 1.0 / 24.0
 
 def leaves_out(breath: Mapping[str, Any], note: Mapping[str, Any], following: Mapping[str, Any]) -> bool:
     """Whether a breath says that it takes the place of a note, of which nothing would be left but for a gasp."""
-    named = re.search(r"(?:instead|in place) of notes? (\S+?)(?: and (\S+?))?,", breath["reason"])
+    named = re.search(r"(?:instead|in place) of notes? (\S+) \(\S+\)(?: and (\S+) \(\S+\))?,", breath["reason"])
     step_s = following["onset_s"] - note["onset_s"]
-    return named is not None and note["id"] in named.groups() and step_s < CATCH_BREATH_S + SHORTEST_NOTE_S
+    pitches = [_named_pitch(name) for name in named.groups() if name] if named else []
+    return note["pitch"] in pitches and step_s < CATCH_BREATH_S + SHORTEST_NOTE_S
+
+
+def _named_pitch(name: str) -> int:
+    """The MIDI number of a pitch as it is named where middle C is C4."""
+    letter, accidental, octave = re.fullmatch(r"([A-G])([♯♭]?)(-?\d+)", name).groups()  # type: ignore[union-attr]
+    return (
+        12 * (int(octave) + 1)
+        + {"C": 0, "D": 2, "E": 4, "F": 5, "G": 7, "A": 9, "B": 11}[letter]
+        + "♭ ♯".find(accidental or " ")
+        - 1
+    )
 
 
 def _given_up_s(length_s: float) -> float:

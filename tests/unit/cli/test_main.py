@@ -214,6 +214,21 @@ def test_inspect_lists_articulation_bends_and_dynamics(run: Run, tmp_path: Path)
     assert [note["dynamic"] for note in notes] == ["f", "f", "f", "f", "pp"]
 
 
+def test_reasons_name_notes_by_bar_and_beat(run: Run, tmp_path: Path) -> None:
+    track = mido.MidiTrack([mido.MetaMessage("track_name", name="Trumpet")])
+    for place in range(64):
+        track.append(mido.Message("note_on", note=67 + place % 3, velocity=90))
+        track.append(mido.Message("note_off", note=67 + place % 3, time=480))
+    path = tmp_path / "piece.mid"
+    mido.MidiFile(tracks=[track]).save(path)
+    (player,) = json.loads(run("inspect", path, "--json", "--no-contacts")[1])["players"]
+    catches = [breath for breath in player["breaths"] if breath["reason"].startswith("catch breath")]
+    assert catches
+    for breath in catches:
+        bar, beat = divmod(round(breath["end_beat"]) - 1, 4)
+        assert f"({bar + 1}.{beat + 1}.000)" in breath["reason"]
+
+
 def test_seconds_follow_the_tempo_that_mido_reads(run: Run) -> None:
     found = json.loads(run("inspect", LUTKIN, "--json", "--no-contacts")[1])
     assert found["ticks_per_beat"] == mido.MidiFile(LUTKIN).ticks_per_beat

@@ -128,6 +128,8 @@ def test_a_name_with_its_key_goes_to_that_map(map_id: str, name: str) -> None:
     [
         ("Tuba", (30, 45), "tuba_BBb"),
         ("Tuba", (41, 60), "tuba_F"),  # Too high for the BBb tuba: the one that has it most comfortably.
+        ("Tuba", (31,) * 60 + (46,) * 38 + (60, 62), "tuba_Eb"),  # Two notes above the BBb tuba's top.
+        ("Tuba", (24,) * 60 + (46,) * 38 + (60, 62), "tuba_BBb"),  # No other key has them all.
         ("Trumpet", (60,) * 99 + (84,), "trumpet_Bb"),  # No one takes another trumpet for one note of a hundred.
         ("Recorder", (65, 84), "recorder_alto_F"),
         ("Recorder", (74, 96), "recorder_soprano_C"),
