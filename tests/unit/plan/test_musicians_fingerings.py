@@ -96,3 +96,14 @@ def test_a_trill_is_fingered_alike_to_its_end_whatever_comes_after_a_rest(
 )
 def test_the_highest_notes_of_the_charts_are_there(instrument: str, pitch: int, label: str) -> None:
     assert labels(instrument, [(0.0, 2.0, pitch)]) == [label]
+
+
+@pytest.mark.parametrize("step", [0.5, 0.35, 0.4])
+@pytest.mark.parametrize("around", [[83, 74, 83, 79, 83, 74, 83], [81, 83, 74, 83, 74], [76, 83, 74, 76]])
+def test_an_oboist_rolls_to_the_half_hole_unless_notes_are_fast(step: float, around: list[int]) -> None:
+    found = labels("oboe", even(around, step))
+    assert {label for label, pitch in zip(found, around, strict=True) if pitch == 74} == {"L1h L2 L3 R1 R2 R3"}
+
+
+def test_an_oboist_lifts_the_finger_off_the_half_hole_in_a_fast_figure() -> None:
+    assert labels("oboe", even([83, 74, 83, 74, 83, 79], 0.2))[1] == "L2 L3 R1 R2 R3"
