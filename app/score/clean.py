@@ -7,6 +7,7 @@ notes overlap. Excluded notes are reported, so that they can be shown.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from functools import lru_cache
 from itertools import pairwise
@@ -35,11 +36,26 @@ _OCTAVE_SLIP_S: Final = 0.13
 """A slip of the octave keys is no longer ..."""
 _BESIDE_SLIP: Final = 1.8
 """... and the notes beside it are longer by this factor: notes of about one length are a figure."""
+_PULSE_NOTES: Final = 8
+"""The usual time from note to note is that of so many before and after; fewer than three have none."""
+_PULSES: Final = (0.25, 0.5, 1.0, 2.0, 3.0, 4.0)
+"""Parts and multiples of it that notes are apart."""
+_ON_TIME: Final = 0.1
+"""An ornament comes before its note where that is on time and the ornament is not: by this factor, as a logarithm."""
 _RESTRUCK_S: Final = 0.06
 """A note that begins again within this time of its end was not struck again, where the breath goes on: a tongue would
 have stopped it."""
 _GOES_ON: Final = 0.7
 """The breath goes on where it stays above this share of what it is just before and after."""
+_STROKE_VELOCITY, _LIKE_BREATH = 10, 0.15
+"""A note sent so much louder or softer than the one before was struck again, unless the breath differs too, by more
+than this share: many controllers send the breath as the velocity."""
+_STROKES, _STEADY = 3, 0.15
+"""So many strokes of one pitch in equal steps, within this share, were struck."""
+_DETACHED: Final = 0.5
+"""Where so many of the changes of pitch within a breath have a gap, the player detaches notes without it, ..."""
+_LEAST_CHANGES: Final = 4
+"""... if there are so many of them."""
 _AROUND_S: Final = (0.15, 0.02)
 """From so long before a moment until so long before it is just before; after it in the same way."""
 _TRILL_S, _TRILL_SEMITONES, _TRILL_NOTES = 0.16, 4, 5
@@ -91,17 +107,20 @@ def clean_notes(notes: Played, cleaning: Cleaning) -> Cleaned:
             faults[index] = "ghost"
         else:
             audible.append(index)
+    struck = _struck_again(audible, notes)
     held = -1
     for place, index in enumerate(audible):
         following = audible[place + 1] if place + 1 < len(audible) else -1
-        if held >= 0 and _is_double(held, index, onsets, ends, notes, cleaning):
+        if held >= 0 and not struck[index] and _is_double(held, index, onsets, ends, notes, cleaning):
             faults[index] = "double"
             ends[held] = max(ends[held], ends[index])
         elif held < 0 or following < 0 or not cleaning.ghost_s or trills[index]:
             held = index
-        elif _is_octave_slip(held, index, following, onsets, ends, notes):
+        elif _is_octave_slip(held, index, following, onsets, ends, notes) and (
+            notes.pitches[following] == notes.pitches[held] or not _is_before_its_note(held, place, audible, onsets)
+        ):
             faults[index] = "slip"
-            if notes.pitches[following] != notes.pitches[held] and _octave(notes, index, following):
+            if notes.pitches[following] != notes.pitches[held]:
                 # The fingers were there: the note that was meant began with the slip.
                 onsets[following] = onsets[index]
                 ends[held] = max(ends[held], onsets[index])
@@ -216,15 +235,67 @@ def _is_octave_slip(
     ends: npt.NDArray[np.float64],
     notes: Played,
 ) -> bool:
-    """Whether a note is an octave, or two, off the note before it or after it, and short in a legato of long ones."""
+    """Whether a note is an octave, or two, off the note after it, and short in a legato of long ones."""
     lasts_s = ends[index] - onsets[index]
     beside_s = min(ends[held] - onsets[held], ends[following] - onsets[following])
     if lasts_s > _OCTAVE_SLIP_S or beside_s < _BESIDE_SLIP * lasts_s:
         return False
-    if not (_octave(notes, index, following) or _octave(notes, index, held)):
+    if not _octave(notes, index, following):
         return False
     breathes = "breath" not in notes.curves or _goes_on(notes, onsets[index], ends[index])
     return breathes and _touches(held, index, following, onsets, ends)
+
+
+def _is_before_its_note(held: int, place: int, audible: list[int], onsets: npt.NDArray[np.float64]) -> bool:
+    """Whether a short note is an ornament that comes before its note: that one is on time then, as the notes around
+    show. A slip of the octave keys begins when its note should have."""
+    index, following = audible[place], audible[place + 1]
+    around = onsets[audible[max(place - _PULSE_NOTES, 0) : place]], onsets[audible[place + 1 :][: _PULSE_NOTES + 1]]
+    apart_s = np.concatenate([np.diff(some) for some in around])
+    apart_s = apart_s[apart_s > _OCTAVE_SLIP_S]
+    if len(apart_s) < 3:
+        return False
+    pulse_s = float(np.median(apart_s))
+    after = [float(onsets[audible[place + 2]])] if place + 2 < len(audible) else []
+
+    def off(onset_s: float) -> float:
+        steps_s = [onset_s - float(onsets[held]), *(next_s - onset_s for next_s in after)]
+        return sum(min(abs(math.log(max(step_s, 1e-3) / (pulse_s * one))) for one in _PULSES) for step_s in steps_s)
+
+    return off(float(onsets[following])) + _ON_TIME < off(float(onsets[index]))
+
+
+def _struck_again(audible: list[int], notes: Played) -> npt.NDArray[np.bool_]:
+    """(N,): whether each note was struck, though the breath goes on from the one before of its pitch: by another
+    velocity, in a row of equal strokes, or by a player who detaches all notes without the breath."""
+    struck = np.zeros(len(notes), bool)
+    breath = notes.curves.get("breath")
+    if breath is None or len(audible) < 2:
+        return struck
+    pairs = list(pairwise(audible))
+    gaps_s = np.array([notes.onsets_s[after] - notes.ends_s[before] for before, after in pairs])
+    same = np.array([notes.pitches[before] == notes.pitches[after] for before, after in pairs])
+    near = np.flatnonzero(gaps_s <= _RESTRUCK_S)
+    goes_on = np.zeros(len(pairs), bool)
+    goes_on[near] = [_goes_on(notes, notes.ends_s[pairs[at][0]], notes.onsets_s[pairs[at][1]]) for at in near]
+    changes = goes_on & ~same
+    detached = np.count_nonzero(changes & (gaps_s > _TOUCHING_S))
+    if np.count_nonzero(changes) >= _LEAST_CHANGES and detached >= _DETACHED * np.count_nonzero(changes):
+        struck[audible] = True
+        return struck
+    again = goes_on & same & (gaps_s > 0.0)
+    steps_s = np.array([notes.onsets_s[after] - notes.onsets_s[before] for before, after in pairs])
+    # When each note sounds at its level.
+    begun = breath.at(notes.onsets_s + 2 * _AROUND_S[1])
+    edges = np.flatnonzero(np.diff(np.concatenate(([False], again, [False])).astype(np.int8)))
+    for first, last in edges.reshape(-1, 2).tolist():
+        row, steps = pairs[first:last], steps_s[first:last]
+        steady = len(row) >= _STROKES - 1 and float(steps.max()) <= (1.0 + _STEADY) * float(steps.min())
+        for before, after in row:
+            other = abs(int(notes.velocities[after]) - int(notes.velocities[before])) >= _STROKE_VELOCITY
+            alike = abs(begun[after] - begun[before]) <= _LIKE_BREATH * begun[before]
+            struck[after] = steady or (other and alike)
+    return struck
 
 
 def _octave(notes: Played, index: int, other: int) -> bool:

@@ -121,6 +121,21 @@ MUSIC: dict[str, Rows] = {
 }
 
 
+def slurred_grace(off: int, grace_s: float, step_s: float) -> Rows:
+    """Legato notes of one length, and before the fourth an ornament of it or of the third, out of the third's time."""
+    pitches = (60, 62, 64, 65, 67, 69, 67, 65)
+    rows = melody(list(pitches), step_s)
+    at = rows[3][0]
+    rows[2] = (rows[2][0], at - grace_s + 0.004, rows[2][2], 90)
+    return [*rows[:3], (at - grace_s, at + 0.004, pitches[3] + off, 90), *rows[3:]]
+
+
+for _off in (12, -12, 11, 7):
+    for _grace_s in (0.06, 0.09, 0.125):
+        for _step_s in (0.3, 0.5, 0.75):
+            MUSIC[f"a slurred grace {_off} off, {_grace_s} s, {_step_s}"] = slurred_grace(_off, _grace_s, _step_s)
+
+
 @pytest.mark.parametrize("name", MUSIC)
 @pytest.mark.parametrize("breath", [True, False])
 def test_what_is_music_stays(name: str, breath: bool) -> None:
@@ -150,3 +165,52 @@ def test_a_swelling_note_is_joined_and_a_tongue_is_not_needed_for_another_pitch(
     swelling = {"breath": Controlled(times, 0.2 + 0.4 * np.clip(times, 0, 1.5))}
     found = Played(notes.onsets_s, notes.ends_s, notes.pitches, notes.velocities, swelling)
     assert cleaned_rows(found) == [(0.0, 60), (1.0, 62)]
+
+
+def strokes(velocities: Sequence[int], gap_s: float, steps_s: Sequence[float]) -> Rows:
+    """Notes of one pitch between others, struck again without the breath: the gaps are as long as a retrigger's."""
+    rows: Rows = [(0.0, 0.404, 62, 90)]
+    at = 0.4
+    for velocity, step_s in zip(velocities, steps_s, strict=True):
+        rows.append((at, at + step_s - gap_s, 65, velocity))
+        at += step_s
+    return [*rows, (at, at + 0.404, 67, 90), (at + 0.4, at + 0.8, 65, 90)]
+
+
+@pytest.mark.parametrize("gap_s", [0.022, 0.04, 0.055])
+@pytest.mark.parametrize(
+    ("velocities", "steps_s", "struck"),
+    [
+        ((90, 90), (0.25, 0.25), False),
+        ((90, 92), (0.25, 0.25), False),
+        ((90, 90, 90), (0.1, 0.4, 0.2), False),
+        ((90, 72), (0.25, 0.25), True),
+        ((90, 104), (0.25, 0.25), True),
+        ((90, 90, 90), (0.25, 0.25, 0.25), True),
+        ((90, 88, 91, 90), (0.2, 0.21, 0.19, 0.2), True),
+    ],
+)
+def test_a_note_struck_again_under_one_breath_stays_where_something_says_so(
+    gap_s: float, velocities: Sequence[int], steps_s: Sequence[float], struck: bool
+) -> None:
+    rows = strokes(velocities, gap_s, steps_s)
+    kept = [row for row in rows if row[2] != 65] + [row for row in rows if row[2] == 65][: None if struck else 1]
+    kept += [] if struck else [rows[-1]]
+    assert cleaned_rows(played(rows)) == expected(sorted(kept))
+
+
+def test_a_player_who_detaches_all_notes_without_the_breath_strikes_repeated_ones_too() -> None:
+    rows: Rows = [
+        (0.3 * n, 0.3 * n + 0.26, pitch, 90) for n, pitch in enumerate((60, 62, 64, 64, 65, 67, 65, 64, 64, 62))
+    ]
+    assert cleaned_rows(played(rows)) == expected(rows)
+
+
+def test_a_breath_that_was_sent_as_the_velocity_is_no_stroke() -> None:
+    """A note that began before the breath was there, and sprang back when it was: softer first, as the breath."""
+    rows: Rows = [(0.0, 0.25, 65, 60), (0.28, 0.8, 65, 90), (0.8, 1.2, 67, 90)]
+    times = np.arange(-0.2, 1.5, SAMPLED_S)
+    notes = played(rows, breath=False)
+    breath = {"breath": Controlled(times, np.interp(times, (0.0, 0.2, 1.2, 1.25), (0.3, 0.65, 0.65, 0.0)))}
+    found = Played(notes.onsets_s, notes.ends_s, notes.pitches, notes.velocities, breath)
+    assert [pitch for _, pitch in cleaned_rows(found)] == [65, 67]
