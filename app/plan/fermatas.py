@@ -2,7 +2,8 @@
 sequencers write a fermata.
 
 A fermata is a stretch in which no one begins anything and that is much slower than what comes before it and after it.
-A tempo that stays is none; notes that move in a slow bar are none.
+A tempo that stays is none; notes that move in a slow bar are none. Several chords may each have a fermata: then the
+tempo is slow over all of them, and they are long or have rests between.
 """
 
 from __future__ import annotations
@@ -27,6 +28,10 @@ ONE_TEMPO: Final = 1.05
 """One voice may move in it: beats within this factor are held by one tempo."""
 STANDS_OUT: Final = 1.25
 """It is slower by this factor than the beat before: the last beat of a ritardando is not held."""
+MOST_IN_A_ROW: Final = 4
+"""More long notes in a slow tempo are a slow passage."""
+LONG_BEATS: Final = 2
+"""Of several in a row each is at least so long, in felt beats, or before a rest."""
 BEFORE_BEATS: Final = 8
 AFTER_BEATS: Final = 4
 """The tempo before, and after, is the median of so many beats."""
@@ -73,16 +78,18 @@ def fermatas(all_times: tuple[Rhythm, ...], piece: Piece) -> tuple[Fermata, ...]
     gaps = _Gaps.of(sounding, piece)
     if not len(gaps.starts):
         return ()
+    in_a_row = {place: one for row in _rows(gaps, sounding, piece) for place, one in row}
     found: list[tuple[float, Fermata]] = []
     # What is held is followed by something faster.
     followed = np.append(gaps.slowness[:-1] >= gaps.slowness[1:] * (1.0 + ROUNDING), True)
+    followed[list(in_a_row)] = True
     for place in np.flatnonzero(followed).tolist():
-        fermata = _fermata(place, gaps, piece)
+        fermata = in_a_row.get(place) or _fermata(place, gaps, piece)
         if fermata is None:
             continue
         slowness = float(gaps.slowness[place])
         # What slows down just before a longer hold belongs to it.
-        if found and found[-1][1].entry_tick >= fermata.start_tick:
+        if found and found[-1][1].entry_tick >= fermata.start_tick and place not in in_a_row:
             if found[-1][0] > slowness:
                 continue
             found.pop()
@@ -117,6 +124,53 @@ class _Gaps(msgspec.Struct, frozen=True):
         seconds = piece.clock.seconds
         lasts_s = seconds(ends.astype(np.float64)) - seconds(starts.astype(np.float64))
         return cls(starts, ends, lasts_s / np.maximum(ends - starts, 1))
+
+
+def _rows(gaps: _Gaps, sounding: list[Rhythm], piece: Piece) -> list[list[tuple[int, Fermata]]]:
+    """The fermatas of chords that each have one, with their places: two to `MOST_IN_A_ROW` gaps, much slower than what
+    comes before and after all of them."""
+    rows: list[list[tuple[int, Fermata]]] = []
+    first = 0
+    while first < len(gaps.starts):
+        last = first
+        while (
+            last + 1 < len(gaps.starts) and gaps.slowness[last + 1] * HELD_TEMPO > gaps.slowness[first : last + 2].max()
+        ):
+            last += 1
+            if last - first >= MOST_IN_A_ROW:
+                break
+        if 1 <= last - first < MOST_IN_A_ROW and last + 1 < len(gaps.starts):
+            row = _row(first, last, gaps, sounding, piece)
+            if row:
+                rows.append(row)
+                first = last
+        first += 1
+    return rows
+
+
+def _row(first: int, last: int, gaps: _Gaps, sounding: list[Rhythm], piece: Piece) -> list[tuple[int, Fermata]]:
+    """The fermatas of some gaps in a row, if each is one."""
+    slowest = float(gaps.slowness[first : last + 1].min())
+    after = _beats(int(gaps.ends[last]), AFTER_BEATS, piece)
+    before = _beats(int(gaps.starts[first]), -BEFORE_BEATS, piece) if first else after
+    usual, then = float(np.median(before)), float(np.median(after))
+    factor = LIVE_HELD_TEMPO if _is_live(before) or _is_live(after) else HELD_TEMPO
+    if slowest < factor * max(usual, then) * (1.0 - ROUNDING):
+        return []
+    if first and slowest < STANDS_OUT * float(_beats(int(gaps.starts[first]), -1, piece)[0]):
+        return []
+    row = []
+    for place in range(first, last + 1):
+        start, entry = int(gaps.starts[place]), int(gaps.ends[place])
+        beat = int(piece.beat_ticks_at(np.array([start]))[0])
+        rests = entry - _released(sounding, start, entry) > TOGETHER_BEATS * beat
+        more_s = (float(gaps.slowness[place]) - max(usual, then)) * (entry - start)
+        if more_s < MORE_S - ROUNDING or not (rests or entry - start >= LONG_BEATS * beat):
+            return []
+        # Each but the last is followed by another one.
+        returns = place < last or max(usual / then, then / usual) < OTHER_TEMPO
+        row.append((place, Fermata(start, entry, entry, returns)))
+    return row
 
 
 def _fermata(place: int, gaps: _Gaps, piece: Piece) -> Fermata | None:

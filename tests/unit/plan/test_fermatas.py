@@ -87,6 +87,34 @@ def test_the_end_of_the_sound_is_its_release() -> None:
     assert not fermata.returns
 
 
+CHORDS = {
+    "three half notes": (
+        [(0, 120), (12, 40), (18, 120)],
+        [*steps(0, 12), *steps(12, 18, 2), *steps(18, 40)],
+        [12, 14, 16],
+    ),
+    "the tempo comes back for each rest": (
+        [(0, 120), (12, 40), (14, 120), (16, 40), (18, 120), (20, 40), (22, 120)],
+        [*steps(0, 12), (12, 2), (16, 2), (20, 2), *steps(24, 40)],
+        [12, 16, 20],
+    ),
+    "short chords with rests": (
+        [(0, 120), (12, 30), (15, 120)],
+        [*steps(0, 12), *steps(12, 15, 1.0, 0.5), *steps(15, 40)],
+        [12, 13, 14],
+    ),
+    "the piece begins with them": ([(0, 40), (6, 120)], [*steps(0, 6, 2), *steps(6, 40)], [0, 2, 4]),
+    "two whole bars": ([(0, 100), (16, 50), (24, 100)], [*steps(0, 16), *steps(16, 24, 4), *steps(24, 48)], [16, 20]),
+}
+
+
+@pytest.mark.parametrize("name", CHORDS)
+def test_chords_may_each_have_one(name: str) -> None:
+    tempi, line, starts = CHORDS[name]
+    below = [(at, length) for at, length in line if at in starts] + [(at, 0.9) for at, _ in line if at not in starts]
+    assert [start for start, _ in places(tempi, line, sorted(below))] == starts
+
+
 NONE = {
     "one tempo": ([(0, 120)], HELD),
     "a tempo that stays": ([(0, 120), (12, 40)], HELD),
@@ -98,6 +126,11 @@ NONE = {
         [(0, 120), (11, 108), (12, 98), (13, 88), (14, 78), (15, 68), (16, 120)],
         steps(0, 32),
     ),
+    "a slow passage of long notes": (
+        [(0, 120), (12, 40), (24, 120)],
+        [*steps(0, 12), *steps(12, 24, 2), *steps(24, 40)],
+    ),
+    "long notes in a tempo that stays": ([(0, 120), (12, 40)], [*steps(0, 12), *steps(12, 18, 2), *steps(18, 30)]),
     "a quick tempo after a slow one": ([(0, 50), (24, 140)], steps(0, 48)),
     "a tempo that was played": ([(at, (120, 104, 88, 112)[at % 4]) for at in range(32)], steps(0, 32)),
 }
