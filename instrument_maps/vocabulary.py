@@ -14,7 +14,7 @@ from collections.abc import Mapping, Set
 from functools import cache, lru_cache
 from pathlib import Path
 from types import MappingProxyType
-from typing import Literal
+from typing import Literal, NamedTuple
 
 import msgspec
 
@@ -133,8 +133,17 @@ class Ensemble(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     unusual: float = 0.0
 
 
+class Compass(NamedTuple):
+    """Concert pitches, MIDI numbers, both ends included: all that occur in parts, and what most parts move within."""
+
+    low: int
+    easy_low: int
+    easy_high: int
+    high: int
+
+
 class _Table(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    ranges: dict[str, tuple[int, int]]
+    ranges: dict[str, Compass]
     ensembles: tuple[Ensemble, ...]
     seating: tuple[tuple[str, ...], ...]
     score_order: tuple[str, ...]
@@ -162,8 +171,8 @@ class Vocabulary:
         The same families, from the top of a score to its foot.
     ensembles : tuple of Ensemble
         Those that are known by their parts.
-    ranges : mapping of str to (int, int)
-        Concert pitches, both included, that the parts of ensembles stay in, by instrument.
+    ranges : mapping of str to Compass
+        Concert pitches of the parts of ensembles, by instrument.
     prefixes : tuple of str
         Words that may be joined to a name and do not change its meaning ("Soloflöte", "ソロホルン").
     words_known : mapping of str to tuple of str
@@ -187,7 +196,7 @@ class Vocabulary:
         score_order: tuple[str, ...] = (),
         words_known: Mapping[str, tuple[str, ...]] = MappingProxyType({}),
         ensembles: tuple[Ensemble, ...] = (),
-        ranges: Mapping[str, tuple[int, int]] = MappingProxyType({}),
+        ranges: Mapping[str, Compass] = MappingProxyType({}),
     ) -> None:
         self.ensembles, self.ranges = ensembles, ranges
         self.seating, self.score_order = seating, score_order

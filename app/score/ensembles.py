@@ -1,8 +1,10 @@
 """Ensembles that are known by their staves: a woodwind quintet whose tracks say nothing of themselves.
 
 Three to eight lines of which some are silent about their instrument get those of the ensemble of the vocabulary that
-they fit best: in the order of its staves, within the ranges of its instruments, each near the pitch its part usually
-has. The title may name the ensemble. A track that says what it is must be what the ensemble has there.
+they fit best: in the order of its staves, within the ranges of its instruments, each with the lowest, middle and
+highest notes that its part usually has, or with the compass of its instrument. The title may name the ensemble. A track
+that says what it is must be what the ensemble has there. Ensembles of one compass (four saxophones, or two trumpets,
+horn and trombone, in a chorale) cannot be distinguished by their notes: the more usual one is chosen.
 """
 
 from __future__ import annotations
@@ -10,7 +12,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from itertools import pairwise
 from statistics import median_low
-from typing import Final
+from typing import Final, NamedTuple
 
 import msgspec
 
@@ -24,6 +26,12 @@ _MOST_AWAY: Final = 8.0
 """Semitones between a part's median and the usual one, on average, beyond which the lines are something else..."""
 _MOST_AWAY_NAMED: Final = 14.0
 """... and where the title names the ensemble."""
+_FEW_SHARE: Final = 0.02
+"""So many of the lowest and the highest notes say nothing about a compass."""
+_AROUND: Final = 11
+"""A part moves so many semitones up and down about its usual median, within what is easy for the instrument."""
+_END: Final = 0.5
+"""A semitone at an end of the compass counts as so many of the median, and again beyond what is easy."""
 _LEGATO_SHARE: Final = 0.5
 """Share of a note that may sound into the next one of a line."""
 _LINE_SHARE: Final = 0.95
@@ -46,12 +54,12 @@ def named_by_ensemble(streams: Sequence[TrackChannel], title: str) -> list[Track
         return list(streams)
     words = words_of(title)
     ranked = [
-        (not named, away + ensemble.unusual, place)
+        (not named, away.unlike + ensemble.unusual, place)
         for place, ensemble in enumerate(vocabulary().ensembles)
         if len(ensemble.parts) == len(streams)
         and _agrees(ensemble, said, sections)
         and (away := _away(ensemble, streams, silent)) is not None
-        and away <= (_MOST_AWAY_NAMED if (named := _is_named(ensemble, words)) else _MOST_AWAY)
+        and away.median <= (_MOST_AWAY_NAMED if (named := _is_named(ensemble, words)) else _MOST_AWAY)
     ]
     if not ranked:
         return list(streams)
@@ -75,17 +83,41 @@ def _agrees(ensemble: Ensemble, said: Sequence[Instrument | None], sections: Seq
     )
 
 
-def _away(ensemble: Ensemble, streams: Sequence[TrackChannel], silent: Sequence[bool]) -> float | None:
-    """The average distance of the silent parts from where an ensemble has them; None where one does not fit."""
-    away = []
+class _Away(NamedTuple):
+    """How far, in semitones, the silent parts are on average from where an ensemble has them: by their medians, and all
+    in all."""
+
+    median: float
+    unlike: float
+
+
+def _away(ensemble: Ensemble, streams: Sequence[TrackChannel], silent: Sequence[bool]) -> _Away | None:
+    """The distance of the silent parts from those of an ensemble, each in its usual place among the others or all in
+    the middle of their instruments' compass, whichever is nearer; None where one does not fit."""
+    in_place, in_middle, beyond = [], [], []
     for stream, quiet, part, usual in zip(streams, silent, ensemble.parts, ensemble.pitches, strict=True):
-        low, high = vocabulary().ranges[part]
-        inside = sum(low <= pitch <= high for pitch in stream.pitches)
-        if quiet and inside < _LEAST_SHARE * len(stream.pitches):
+        if not quiet:
+            continue
+        compass = vocabulary().ranges[part]
+        pitches = sorted(stream.pitches)
+        if sum(compass.low <= pitch <= compass.high for pitch in pitches) < _LEAST_SHARE * len(pitches):
             return None
-        if quiet:
-            away.append(abs(median_low(stream.pitches) - usual))
-    return sum(away) / len(away)
+        few = int(_FEW_SHARE * len(pitches))
+        found = pitches[few], median_low(pitches), pitches[-1 - few]
+        low, high = compass.easy_low, compass.easy_high
+        in_place.append(_apart(found, (max(low, usual - _AROUND), usual, min(high, usual + _AROUND))))
+        in_middle.append(_apart(found, (low, (low + high) / 2.0, high)))
+        beyond.append(max(low - found[0], 0) + max(found[2] - high, 0))
+    unlike, median = min(
+        (sum(away.unlike for away in ways), sum(away.median for away in ways)) for ways in (in_place, in_middle)
+    )
+    return _Away(median / len(beyond), (unlike + _END * sum(beyond)) / len(beyond))
+
+
+def _apart(found: tuple[float, float, float], usual: tuple[float, float, float]) -> _Away:
+    """The distance of a part's lowest, middle and highest notes from the usual ones."""
+    low, middle, high = (abs(one - other) for one, other in zip(found, usual, strict=True))
+    return _Away(middle, middle + _END * (low + high))
 
 
 def _is_named(ensemble: Ensemble, title: tuple[str, ...]) -> bool:

@@ -128,3 +128,12 @@ def unmarked(name: str) -> str:
 def test_every_instrument_with_a_map_has_names_in_many_languages() -> None:
     played = {id_ for instrument in all_maps().values() for id_ in instrument.plays}
     assert played - NAMES.keys() == {"euphonium_baritone_Bb_treble"}
+
+
+def test_what_is_easy_on_an_instrument_is_what_its_map_says() -> None:
+    """At concert pitch."""
+    for instrument, compass in vocabulary().ranges.items():
+        assert compass.low <= compass.easy_low < compass.easy_high <= compass.high
+        for one in all_maps().values():
+            if one.plays[0] == instrument:
+                assert (compass.easy_low, compass.easy_high) == (one.range.easy_low, one.range.easy_high), instrument
