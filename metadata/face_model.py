@@ -22,8 +22,11 @@ class Embouchure(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
         Low notes, fully relaxed, and high notes, drawn tight.
     air, effort : dict of str to float
         Full air and full effort.
-    tongue_stroke : dict of str to float
-        The tongue before an attack.
+    tongue_stroke, tongue_back : dict of str to float
+        A plain stroke of the tongue's tip before an attack, and one of its back in double and triple tonguing (shown at
+        half its size there).
+    push : dict of str to float
+        A marcato attack, pushed by the breath.
     inhale : dict of str to float
         The mouth in a full breath.
     opening_m : float
@@ -50,6 +53,8 @@ class Embouchure(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     effort: Weights
     tongue_stroke: Weights
     inhale: Weights
+    tongue_back: Weights = {}
+    push: Weights = {}
     opening_m: NotNegative = 0.0
     soft: Weights = {}
     onset: Weights = {}
@@ -138,7 +143,7 @@ class FaceMotion(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 EMBOUCHURE_WEIGHTS = (
     *("relaxed", "tight", "air", "effort", "tongue_stroke", "inhale"),
-    *("soft", "onset", "corners", "chin", "tired", "vibrato"),
+    *("tongue_back", "push", "soft", "onset", "corners", "chin", "tired", "vibrato"),
 )
 """The tables of weights of an `Embouchure`."""
 FACE_WEIGHTS = (

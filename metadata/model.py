@@ -260,7 +260,8 @@ class BreathMotion(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """An inhalation of depth 1; a shallower one scales it. Players become more upright and the arms neutral
     (Frontiers in Psychology 2024, 1394035). What the mouth does is the embouchure's `Embouchure.inhale`.
     ``shown`` is how much of it is seen, by amplitude; ``chest_share`` and ``belly_share`` are weights of the shapes
-    `BREATH_MORPHS`, where a character has them."""
+    `BREATH_MORPHS`, where a character has them. ``push_forward_deg`` and ``push_share`` are how far the chest goes
+    forward and the belly in when the breath pushes a marcato attack."""
 
     shown: AmplitudeScale
     torso_back_deg: NotNegative
@@ -270,6 +271,8 @@ class BreathMotion(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     preparation_forward_deg: NotNegative
     chest_share: Fraction01
     belly_share: Fraction01
+    push_forward_deg: NotNegative = 0.0
+    push_share: Fraction01 = 0.0
 
 
 TRUNK_JOINTS = ("spine", "chest", "upperChest")

@@ -203,7 +203,8 @@ class LayerSamples:
     ``dip`` and ``lift`` are of the nods, ``giving`` is 1 half way between two places of the weight, ``held`` what the
     animator holds differently, ``gestured`` the keyed gestures, ``feet`` as of `Feet.sample`, ``concert`` what is done
     beside playing (None: nothing), ``reached`` the hands that leave the instrument, ``further`` how much fuller the
-    lungs look to the trunk where a breath would not show (`app.motion.drawn_breaths`).
+    lungs look to the trunk where a breath would not show (`app.motion.drawn_breaths`), ``push`` how hard the breath
+    pushes an attack (`app.motion.strokes`).
     """
 
     full: FloatArray
@@ -225,6 +226,7 @@ class LayerSamples:
     reached: Reaches | None = None
     quiet: FloatArray | float = 0.0
     further: FloatArray | float = 0.0
+    push: FloatArray | float = 0.0
 
 
 @dataclass(frozen=True)
@@ -403,7 +405,8 @@ def body_motion(
     inhaled = breath_size * inhaled
     with_trunk, with_shoulders = sizes.breathing
     trunk_back = deg(with_trunk * body.breath.torso_back_deg) * (inhaled + breath_size * levels.further)
-    breathing = trunk_back - deg(body.breath.preparation_forward_deg) * lean
+    pushed = deg(body.breath.push_forward_deg) * breath_size * levels.push
+    breathing = trunk_back - deg(body.breath.preparation_forward_deg) * lean - pushed
     total.forward(TRUNK_SHARES, -breathing)
     total.forward(NECK_SHARES, -deg(body.breath.head_back_deg) * inhaled + 0.4 * breathing)
 

@@ -14,6 +14,7 @@ from app.motion.curve import Curve, Envelopes, FloatArray, Trace, moves, moves_t
 from app.motion.exertion import Exertion, Lungs, exertion_of
 from app.motion.held_notes import easing, firmness, vibrato_size
 from app.motion.spline import Spline
+from app.motion.strokes import attack_pushes, back_strokes, tip_strokes
 from app.plan.model import PlayerPlan, same_events
 from metadata.face_model import FaceMotion
 
@@ -24,10 +25,6 @@ SHIFT_S = 0.09
 SHIFT_SHARE = 0.45
 HOLD_S = 0.8
 """In rests shorter than this the lips stay formed (but for a breath)."""
-TONGUE_HOLD_SHARE = 0.3
-TONGUE_RELEASE_S = 0.05
-PULSE_S = 0.14
-"""The breath of an accented attack is back at its level after this."""
 SWELL_S = 0.35
 """Effort and air swell and fade slowly, over several notes."""
 
@@ -96,25 +93,6 @@ def breath_opening(plan: PlayerPlan) -> Envelopes:
     return Envelopes.of(rows)
 
 
-def _tongue(plan: PlayerPlan) -> Envelopes:
-    rows = []
-    for event in plan.tongues:
-        full_s = event.end_s - TONGUE_HOLD_SHARE * (event.end_s - event.start_s)
-        rows.append((event.start_s, full_s, event.end_s, event.end_s + TONGUE_RELEASE_S, min(event.strength, 1.0)))
-    return Envelopes.of(rows)
-
-
-def attack_pulses(plan: PlayerPlan) -> Envelopes:
-    """A push of breath with every accented attack, by how much stronger than a plain one it is."""
-    strong = [event for event in plan.tongues if event.strength > 1.0]
-    return Envelopes.of(
-        [
-            (event.start_s - PULSE_S / 2.0, event.end_s, event.end_s, event.end_s + PULSE_S, event.strength - 1.0)
-            for event in strong
-        ]
-    )
-
-
 def _shown(plan: PlayerPlan) -> dict[str, Envelopes]:
     rows: dict[str, list[tuple[float, float, float, float, float]]] = {}
     for event in plan.expressions:
@@ -133,7 +111,8 @@ class Drivers:
     effort: FloatArray
     air: FloatArray
     tongue: FloatArray
-    pulse: FloatArray
+    tongue_back: FloatArray
+    push: FloatArray
     mouth_open: FloatArray
     firm: FloatArray
     eased: FloatArray
@@ -183,6 +162,8 @@ class Face:
     ----------
     at_lips : Curve
         1 while the lips are formed.
+    tongue, tongue_back, push : Envelopes
+        The tongue's strokes, and the breath behind them (`app.motion.strokes`).
     firm, eased, vibrato : Curve
         What the lips do within notes and between them (`app.motion.held_notes`).
     exertion : Spline
@@ -196,7 +177,8 @@ class Face:
     effort: Curve | Trace
     air: Curve | Trace
     tongue: Envelopes
-    pulse: Envelopes
+    tongue_back: Envelopes
+    push: Envelopes
     mouth_open: Envelopes
     firm: Curve
     eased: Curve
@@ -225,8 +207,9 @@ class Face:
             tension=face.tension if face and tension else _tension(asked),
             effort=face.effort if face and effort else _strain(asked, EFFORT),
             air=face.air if face and air else _strain(asked, AIR),
-            tongue=face.tongue if face and tongues else _tongue(plan),
-            pulse=face.pulse if face and tongues else attack_pulses(plan),
+            tongue=face.tongue if face and tongues else tip_strokes(plan),
+            tongue_back=face.tongue_back if face and tongues else back_strokes(plan),
+            push=face.push if face and tongues else attack_pushes(plan),
             mouth_open=face.mouth_open if face and breaths else breath_opening(plan),
             firm=face.firm if face and air and tongues else firmness(plan),
             eased=face.eased if face and times else easing(plan),

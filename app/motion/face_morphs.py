@@ -120,7 +120,8 @@ def face_morphs(
     resting = np.maximum(around - at_lips, 0.0) * (1.0 - 0.9 * inhaling)
     wandering = sizes.own.wandering(times_s)
     drivers = _lips(face, embouchure, formed, resting, sizes, wandering, times_s)
-    drivers += [(face.tongue, embouchure.tongue_stroke), (inhaling, embouchure.inhale)]
+    drivers += [(face.tongue, embouchure.tongue_stroke), (face.tongue_back, embouchure.tongue_back)]
+    drivers.append((inhaling, embouchure.inhale))
     down_rad = look.pitch_rad
     drivers += upper_face(face.exertion, inhaling, wandering, down_rad, sizes.motion, sizes.upper)
     for name, shown in face.expressions.items():
@@ -152,7 +153,8 @@ def _lips(
     drivers: list[Driver] = [
         (formed * (1.0 - tension) + resting, embouchure.relaxed),
         (formed * tension, embouchure.tight),
-        (formed * np.minimum(face.air + face.pulse, 1.0), embouchure.air),
+        (formed * face.air, embouchure.air),
+        (formed * face.push, embouchure.push),
         (formed * (1.0 - face.air), embouchure.soft),
         (formed * face.effort, embouchure.effort),
         (alive * face.firm, embouchure.onset),

@@ -193,7 +193,8 @@ class PerformanceCurves:
 
     def curves(self, frames: Frames) -> Curves:
         """What the contacts are solved from, of frames wherever they come from."""
-        levels, added = self._breathing(frames.levels, frames.times_s), frames.added
+        levels = self._breathing(replace(frames.levels, push=frames.face.push), frames.times_s)
+        added = frames.added
         if added:
             levels = replace(levels, held=with_held(levels.held, added))
         moved = self._moved(levels, frames.look, frames.times_s)
@@ -219,7 +220,7 @@ class PerformanceCurves:
             frames.times_s,
         )
         air = levels.air + QUIET_AIR * levels.quiet
-        morphs |= widened(air, self.body.breath, self.acting.breath)
+        morphs |= widened(air, levels.push, self.body.breath, self.acting.breath)
         if added:
             morphs = with_added_morphs(morphs, added, frames.face.at_lips)
         return Curves(
@@ -265,7 +266,8 @@ class PerformanceCurves:
         share = share_at(self.plan.styles, "breath", times_s)
         if isinstance(share, float):
             return levels
-        return replace(levels, full=share * levels.full, air=share * levels.air, further=share * levels.further)
+        shown = {name: share * getattr(levels, name) for name in ("full", "air", "further", "push")}
+        return replace(levels, **shown)
 
     def placed(self, times_s: FloatArray) -> dict[str, Placed]:
         """Where the fingers are, and the hands that give way for some of them, at ascending times."""

@@ -46,11 +46,11 @@ def air(breaths: Sequence[BreathEvent]) -> Curve:
     return moves(rows, FLAT if rows else 0.0)
 
 
-def widened(level: FloatArray, breath: BreathMotion, amount: float) -> dict[str, FloatArray]:
-    """Weights of the shapes of a trunk with so much air in it."""
+def widened(level: FloatArray, push: FloatArray | float, breath: BreathMotion, amount: float) -> dict[str, FloatArray]:
+    """Weights of the shapes of a trunk with so much air in it, while the belly pushes so hard, 0..1."""
     chest, belly = BREATH_MORPHS
     full = np.clip(amount * level, 0.0, 1.0)
     return {
         chest: breath.chest_share * full,
-        belly: breath.belly_share * np.power(full, BELLY_LEADS),
+        belly: breath.belly_share * np.power(full, BELLY_LEADS) * (1.0 - breath.push_share * push),
     }
