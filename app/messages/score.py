@@ -158,6 +158,10 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         ),
         "トラック {track} に不正な拍子が {count} 個あるため（最初はティック {tick}）、無視しました",
     ),
+    "midi.metre_assumed": (
+        "no time signature in the file: {numerator}/{denominator} assumed from the notes",
+        "ファイルに拍子がないため、音符から {numerator}/{denominator} と推定しました",
+    ),
     "midi.impossible_tempo": (
         (
             "track {track} has {count} invalid {count:tempo|tempos}, the first at tick {tick}; {count:it was|they "

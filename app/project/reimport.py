@@ -49,7 +49,7 @@ from app.project.orphans import Orphan, orphaned
 from app.project.recording import with_places
 from app.project.rereading import Reading, characters_of, read_as_decided
 from app.score.model import Part, Score, UnplayedPart
-from app.score.read import read_contents
+from app.score.read import Assumed, read_contents
 from instrument_maps.model import InstrumentMap
 
 ReplacedKind: TypeAlias = Literal["tempo", "metres", "controllers"]
@@ -95,7 +95,10 @@ def reimported(project: Project, path: Path, maps: Mapping[str, InstrumentMap]) 
     decisions = project.imported
     apart = {(part.track, part.channel) for part in project.score.parts}
     apart.update((mark.track, mark.channel) for row in (decisions.rows if decisions else ()) for mark in row.tracks)
-    contents = read_contents(path, encoding=None if decisions is None else decisions.encoding, apart=apart)
+    timing = project.read_timing or timing_of(project.score)
+    assumed = Assumed(timing.metres, timing.pickup_ticks, timing.tempo_map.ticks_per_quarter)
+    encoding = None if decisions is None else decisions.encoding
+    contents = read_contents(path, encoding=encoding, apart=apart, assumed=assumed)
     choices = map_choices(maps.values())
     if decisions is None:
         decisions = derived_decisions(project, contents, choices)

@@ -51,6 +51,8 @@ midi.zero_length_notes : track, count
     "{count} notes of track {track} have no length; they last one tick"
 midi.impossible_metre : track, tick, count
     "Track {track} has {count} impossible time signatures, the first at tick {tick}; they were left out"
+midi.metre_assumed : numerator, denominator
+    "No time signature in the file: {numerator}/{denominator} assumed from the notes" (`app.score.metre_guess`)
 midi.impossible_tempo : track, tick, count
     "Track {track} has {count} impossible tempos, the first at tick {tick}; they were left out"
 midi.no_notes : tracks
@@ -80,6 +82,7 @@ from app.score.chunks import Container, Track, read_container
 from app.score.doublings import doubled_instruments
 from app.score.ensembles import named_by_ensemble
 from app.score.limits import MOST_NAME, MOST_STREAMS, too_long
+from app.score.metre_guess import Line, guessed_metres
 from app.score.metre_map import Metre
 from app.score.model import MOST_VOICES, Marker, Part, PercussionHit, Score, UnplayedPart
 from app.score.mutes import mutes_of
@@ -104,10 +107,28 @@ _LILYPOND_NAME = re.compile(r"^([^:]*):([^:]*)$")
 
 _SMPTE_RATES = {24: Fraction(24), 25: Fraction(25), 29: Fraction(30000, 1001), 30: Fraction(30)}
 _LARGEST_DENOMINATOR = 64
+_PERCUSSION_CHANNEL = 9
+UNSTATED: Final = (Metre(0, 4, 4),)
+"""The metre of a file without a time signature, as the standard has it."""
 UNENDED_QUARTERS: Final = 4
 """The longest a note lasts that nothing ends."""
 _LONGEST_MARKER = 1000
 """Characters; whatever is longer is no name of a place, and is cut."""
+
+
+class Assumed(msgspec.Struct, frozen=True):
+    """Metres for a file that states none: those that a project has from an earlier version of it."""
+
+    metres: tuple[Metre, ...]
+    pickup_ticks: int
+    ticks_per_quarter: int
+
+    def in_ticks_of(self, ticks_per_quarter: int) -> tuple[tuple[Metre, ...], int]:
+        """The metres, and the length of the pickup, in a file's own ticks."""
+        scale = Fraction(ticks_per_quarter, self.ticks_per_quarter)
+        metres = {round(metre.tick * scale): metre for metre in self.metres}
+        placed = tuple(msgspec.structs.replace(metre, tick=tick) for tick, metre in sorted(metres.items()))
+        return placed, round(self.pickup_ticks * scale)
 
 
 class MidiContents(msgspec.Struct, frozen=True):
@@ -217,11 +238,19 @@ def _percussion(streams: Sequence[TrackChannel]) -> tuple[PercussionHit, ...]:
     return tuple(PercussionHit(tick, pitch, velocity) for tick, pitch, velocity in sorted(hits))
 
 
-def read_contents(path: Path, *, encoding: str | None = None, apart: Collection[tuple[int, int]] = ()) -> MidiContents:
+def read_contents(
+    path: Path,
+    *,
+    encoding: str | None = None,
+    apart: Collection[tuple[int, int]] = (),
+    assumed: Assumed | None = None,
+) -> MidiContents:
     """Read a MIDI file's notes, tempo, metres and markers. Raises as `read_midi`.
 
     Parameters
     ----------
+    assumed : Assumed, optional
+        The metres of a file without time signatures; by default what its notes say.
     apart : collection of (int, int)
         Track and channel of those that are players of their own, whatever the channels of a track have in common: those
         of a project that was made from the file.
@@ -263,7 +292,11 @@ def read_contents(path: Path, *, encoding: str | None = None, apart: Collection[
     if container.format == 2 and not alone:
         warnings.append(Message("midi.patterns", {"patterns": len(container.tracks)}))
     tempo_map, tempo_warnings = _tempo_map(container, tracks)
-    metres, pickup_ticks, metre_warnings = _metres(tracks, ticks_per_quarter)
+    if container.division > 0 and not any(events.metres for events in tracks):
+        metres, pickup_ticks = _assumed_metres(tracks, ticks_per_quarter, assumed)
+        metre_warnings = _assumed_warnings(metres)
+    else:
+        metres, pickup_ticks, metre_warnings = _metres(tracks, ticks_per_quarter)
     empty = Score("", ticks_per_quarter, tempo_map, metres, pickup_ticks)
     stuck = cut_stuck_notes(tracks, tempo_map, empty.metre_map, unended)
     _require_length(empty, tracks, str(path))
@@ -410,6 +443,25 @@ def _metres(tracks: Sequence[TrackEvents], ticks_per_quarter: int) -> tuple[tupl
         if first_length < full and first_length <= one_bar:
             pickup_ticks = first_length
     return tuple(kept), pickup_ticks, warnings
+
+
+def _assumed_metres(
+    tracks: Sequence[TrackEvents], ticks_per_quarter: int, assumed: Assumed | None
+) -> tuple[tuple[Metre, ...], int]:
+    """The metres of a file that states none, and the length of the pickup."""
+    if assumed is not None:
+        return assumed.in_ticks_of(ticks_per_quarter)
+    melodic = (
+        notes for events in tracks for channel, notes in events.channels.items() if channel != _PERCUSSION_CHANNEL
+    )
+    lines = [Line(notes.onset_ticks, notes.end_ticks, notes.pitches) for notes in melodic]
+    return guessed_metres(lines, ticks_per_quarter) or (UNSTATED, 0)
+
+
+def _assumed_warnings(metres: Sequence[Metre]) -> list[Message]:
+    if metres == UNSTATED:
+        return []
+    return [Message("midi.metre_assumed", {"numerator": metres[-1].numerator, "denominator": metres[-1].denominator})]
 
 
 def _texts(tracks: Sequence[TrackEvents], encoding: str | None) -> Texts:

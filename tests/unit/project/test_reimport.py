@@ -6,6 +6,7 @@ import time
 from dataclasses import replace
 from pathlib import Path
 
+import mido
 import msgspec
 import pytest
 
@@ -24,6 +25,7 @@ from app.plan.corrections import (
 from app.project.casting import StagePosition
 from app.project.dance_corrections import ForbidState, PinState, UseSegment
 from app.project.edit.corrections import put
+from app.project.edit.length import with_score
 from app.project.edit.notes import add_note
 from app.project.edit.players import add_player, remove_players, set_parameters
 from app.project.edit.tempo import scale_tempo, set_metre, set_tempo
@@ -32,8 +34,9 @@ from app.project.midi_out import export_midi
 from app.project.model import Project, map_choices, project_from_score
 from app.project.orphans import orphaned, reattached
 from app.project.performers import Dancer
-from app.project.reimport import reimport
+from app.project.reimport import reimport, reimported
 from app.project.storage import load, save
+from app.score.metre_map import Metre
 from app.score.model import Marker, Note, Part, PercussionHit, Score
 from app.score.parts import usual_assignments
 from app.score.read import assigned_score, read_contents, read_midi
@@ -487,6 +490,30 @@ def test_markers_are_those_of_the_file_and_edits_of_tempo_and_metre_leave_them(t
     assert read(tmp_path / "piece.mid").score.markers == came.score.markers
     changed = reimport(edited, from_file(came.score, markers=(Marker(BAR, "C"),)), MAPS).project
     assert changed.score.markers == (Marker(BAR, "C"),)
+
+
+def test_metres_that_a_file_does_not_state_stay_as_they_were_read_and_edited(tmp_path: Path) -> None:
+    """A minuet without a time signature, of a project from before metres were assumed and of one with an edited one."""
+    path = tmp_path / "minuet.mid"
+    file = mido.MidiFile(MIDI / "ensemble" / "trumpet_duet_bach_minuet.mid")
+    for track in file.tracks:
+        track[:] = [message for message in track if message.type != "time_signature"]
+    file.save(path)
+    project = read(path)
+    assert [(metre.numerator, metre.denominator) for metre in project.score.metres] == [(3, 4)]
+    again = reimported(project, path, MAPS).project
+    assert again.score.metres == project.score.metres
+    edited = set_metre(project, 0, 3, 8)
+    kept = reimported(edited, path, MAPS)
+    assert (kept.project.score.metres, kept.replaced) == (edited.score.metres, ())
+    save(kept.project, tmp_path / "minuet.suisou")
+    assert reimported(load(tmp_path / "minuet.suisou"), path, MAPS).project.score.metres == edited.score.metres
+    common = (Metre(0, 4, 4),)
+    old = replace(
+        with_score(project, msgspec.structs.replace(project.score, metres=common)),
+        read_timing=msgspec.structs.replace(timing_of(project.score), metres=common),
+    )
+    assert reimported(old, path, MAPS).project.score.metres == common
 
 
 def test_dancers_stay_and_their_corrections_move_with_the_music() -> None:

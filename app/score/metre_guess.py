@@ -1,0 +1,292 @@
+"""The metre of a piece whose file has no time signature, from its notes: only triple and compound ones.
+
+Without a time signature a MIDI file is in 4/4, and a piece in two or four beats finds most of its bar lines there. One
+in three finds none. So a metre is assumed only where the notes leave little doubt that bars are in three; which of the
+metres it is, and where the bar line stands, is then the likeliest that any bar line agrees with.
+
+Each candidate, a metre and a place of the bar line, is scored by how notes that are long, low, entries, or a change of
+harmony stand at its bar lines and beats, and by what repeats after a bar (after Temperley's and Steedman's accounts of
+metre); `app.score.metre_weights` says how much each counts.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Final, NamedTuple, TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+
+from app.score import metre_weights
+from app.score.metre_map import Metre
+
+Floats: TypeAlias = npt.NDArray[np.float64]
+IntArray: TypeAlias = npt.NDArray[np.int64]
+
+STEPS: Final = 4
+"""Cells in a quarter: signals are looked at sixteenth by sixteenth."""
+MOST_CELLS: Final = 4096
+"""The first 256 bars of a piece tell enough."""
+MOST_LINES: Final = 32
+LEAST_NOTES: Final = 24
+LEAST_ON_GRID: Final = 0.5
+"""Mean resultant length 0..1 of onsets around the sixteenths below which quarters say nothing about the notes."""
+TRIPLE_LEAST: Final = 0.85
+"""Probability that bars are in three from which on a metre is assumed ..."""
+BAR_LINES_LEAST: Final = 0.5
+"""... and that its bar lines are bar lines."""
+LAGS: Final = (6, 8, 12, 16, 18, 24, 32, 36, 48)
+"""Cells after which a bar may repeat, ..."""
+USUAL_LAGS: Final = (6, 8, 10, 12, 14, 16, 18, 20, 22, 24)
+"""... and those that show how much repeats anyway."""
+
+
+class _Kind(NamedTuple):
+    """A metre that is considered: its bar and its beat in cells."""
+
+    numerator: int
+    denominator: int
+    bar: int
+    beat: int
+
+    @property
+    def is_compound(self) -> bool:
+        return self.denominator == 8
+
+    @property
+    def is_triple(self) -> bool:
+        return self.bar % 3 == 0
+
+
+_KINDS: Final = (
+    _Kind(2, 4, 8, 4),
+    _Kind(3, 4, 12, 4),
+    _Kind(4, 4, 16, 4),
+    _Kind(3, 8, 6, 2),
+    _Kind(6, 8, 12, 6),
+    _Kind(9, 8, 18, 6),
+    _Kind(12, 8, 24, 6),
+    _Kind(3, 2, 24, 8),
+)
+
+
+class Line(NamedTuple):
+    """The notes of a channel, parallel: onsets and ends in ticks, and pitches."""
+
+    onset_ticks: Sequence[int]
+    end_ticks: Sequence[int]
+    pitches: Sequence[int]
+
+
+class _Signals(NamedTuple):
+    """The piece cell by cell.
+
+    Attributes
+    ----------
+    values : (S, T) float64
+        Each around 0, in units of its spread.
+    kinds : (L, T) float64
+        By line what note begins in a cell, 0 where none does.
+    first, last : int
+        Cells of the first and the last onset.
+    end : int
+        Cell at which the last note ends.
+    """
+
+    values: Floats
+    kinds: Floats
+    first: int
+    last: int
+    end: int
+
+
+def guessed_metres(lines: Sequence[Line], ticks_per_quarter: int) -> tuple[tuple[Metre, ...], int] | None:
+    """Return the metres that the notes leave little doubt about, and the length of the pickup in ticks.
+
+    Parameters
+    ----------
+    lines : sequence of Line
+        Melodic channels with notes, of a file that counts in quarters.
+
+    Returns
+    -------
+    tuple of Metre, int, or None
+        As of `app.score.model.Score`; None where the notes do not say, or say two or four beats.
+    """
+    largest = sorted(lines, key=lambda line: len(line.onset_ticks), reverse=True)[:MOST_LINES]
+    last_tick = MOST_CELLS * ticks_per_quarter // STEPS
+    columns = [_columns(line, last_tick) for line in largest]
+    columns = [column for column in columns if column.shape[1]]
+    if sum(column.shape[1] for column in columns) < LEAST_NOTES or not _is_on_grid(columns, ticks_per_quarter):
+        return None
+    found = _likeliest(_candidates(_signals(columns, ticks_per_quarter)))
+    if found is None:
+        return None
+    kind, place = found
+    pickup = round(place * ticks_per_quarter / STEPS)
+    metres = tuple(Metre(tick, kind.numerator, kind.denominator) for tick in ((0, pickup) if pickup else (0,)))
+    return metres, pickup
+
+
+def _columns(line: Line, last_tick: int) -> IntArray:
+    """(3, N): onsets, ends and pitches by onset, of the notes before a tick."""
+    columns = np.array([line.onset_ticks, line.end_ticks, line.pitches], np.int64)
+    columns = columns[:, columns[0] < last_tick]
+    return np.asarray(columns[:, np.argsort(columns[0], kind="stable")])
+
+
+def _is_on_grid(columns: Sequence[IntArray], ticks_per_quarter: int) -> bool:
+    onsets = np.concatenate([column[0] for column in columns])
+    return bool(abs(np.exp(2j * np.pi * STEPS * onsets / ticks_per_quarter).mean()) >= LEAST_ON_GRID)
+
+
+def _signals(columns: Sequence[IntArray], ticks_per_quarter: int) -> _Signals:
+    cells = [np.rint(column[:2] * (STEPS / ticks_per_quarter)).astype(np.int64) for column in columns]
+    end = min(max(int(cell[1].max()) for cell in cells), MOST_CELLS)
+    last = max(int(cell[0].max()) for cell in cells)
+    count = max(end, last) + 1
+    sums, kinds, sounding = np.zeros((9, count)), np.zeros((len(columns), count)), np.zeros((12, count + 1))
+    for row, (column, (onsets, ends)) in enumerate(zip(columns, cells, strict=True)):
+        ends = np.clip(ends, onsets + 1, count)
+        np.add.at(sounding, (column[2] % 12, onsets), 1.0)
+        np.add.at(sounding, (column[2] % 12, ends), -1.0)
+        _add_line(sums, kinds[row], onsets, ends, column[2])
+    sums /= len(columns)
+    lowest = int(np.argmin([np.median(column[2]) for column in columns]))
+    sums[8] = kinds[lowest] != 0.0
+    classes = np.cumsum(sounding, axis=1)[:, :-1]
+    values = np.vstack([sums, *(_harmony_changes(classes, reach) for reach in (STEPS, 2 * STEPS))])[:, : last + 1]
+    usual = values[:, ::2]
+    values = np.clip((values - usual.mean(1, keepdims=True)) / (usual.std(1, keepdims=True) + 1e-6), -3.0, 4.0)
+    first = min(int(cell[0].min()) for cell in cells)
+    return _Signals(values, kinds[:, : last + 1], first, last, end)
+
+
+def _add_line(sums: Floats, kinds: Floats, onsets: IntArray, ends: IntArray, pitches: IntArray) -> None:
+    """Add what a line says: an onset; a long note; one longer than the one before; an entry; a leap; a turning point; a
+    note held over; one of the longest."""
+    at, first = np.unique(onsets, return_index=True)
+    top, until = np.maximum.reduceat(pitches, first), np.maximum.reduceat(ends, first)
+    steps = np.diff(at, append=max(int(ends.max()), int(at[-1]) + 1))
+    usual = float(np.median(steps))
+    longer = np.clip(np.log2(steps / usual), -2.0, 2.0)
+    before = np.insert(longer[:-1], 0, 0.0)
+    moves = np.diff(top, prepend=top[0])
+    turns = np.zeros(len(at))
+    turns[1:-1] = (moves[1:-1] > 0) & (moves[2:] <= 0)
+    held = np.zeros(sums.shape[1] + 1)
+    np.add.at(held, onsets + 1, 1.0)
+    np.add.at(held, ends, -1.0)
+    held = np.cumsum(held)[:-1] > 0.5
+    held[at] = False
+    sums[0, at] += 1.0
+    sums[1, at] += longer
+    sums[2, at] += np.clip(longer - before, -2.0, 2.0)
+    sums[3, at] += np.insert(at[1:] > until[:-1], 0, True)
+    sums[4, at] += np.minimum(np.abs(moves), 12) / 12.0
+    sums[5, at] += turns
+    sums[6] += held
+    sums[7, at] += np.clip(longer, 0.0, 2.0) * (steps >= np.quantile(steps, 0.85))
+    kinds[at] = 1.0 + 0.15 * np.clip(np.rint(2.0 * longer), -4, 4) + 0.25 * np.sign(moves)
+
+
+def _harmony_changes(classes: Floats, reach: int) -> Floats:
+    """(T,): how different the pitch classes of so many cells up to each and after it are, 0..1."""
+    count = classes.shape[1]
+    total = np.cumsum(np.pad(classes, ((0, 0), (reach, reach))), axis=1)[:, : count + 2 * reach]
+    before, after = (total[:, k + reach : k + reach + count] - total[:, k : k + count] for k in (0, reach))
+    both = (before.sum(0) > 0.0) & (after.sum(0) > 0.0)
+    size = np.sqrt((before**2).sum(0) * (after**2).sum(0)) + 1e-9
+    changes = np.where(both, 1.0 - (before * after).sum(0) / size, np.nan)
+    return np.where(both, changes, np.nanmean(changes) if both.any() else 0.0)
+
+
+def _alike(kinds: Floats, lag: int) -> float:
+    """Return how much of the notes is as it was so many cells before, 0..1."""
+    now, before = kinds[:, lag:], kinds[:, :-lag]
+    if now.shape[1] < 16:
+        return 0.0
+    there = (now != 0.0) | (before != 0.0)
+    return float((there * (1.0 - np.minimum(np.abs(now - before), 1.0))).sum() / max(int(there.sum()), 1))
+
+
+def _candidates(signals: _Signals) -> list[tuple[_Kind, int, float]]:
+    """Return every metre, place of the first bar line in cells, and how probable they are."""
+    usual = float(np.mean([_alike(signals.kinds, lag) for lag in USUAL_LAGS]))
+    again = {lag: _alike(signals.kinds, lag) - usual for lag in LAGS}
+    bars = (signals.last + 1) / (4 * STEPS)
+    scale = float(np.clip(np.log2(max(bars, 1.0)) / 5.0, 0.3, 1.2))
+    found, scores = [], []
+    for number, kind in enumerate(_KINDS):
+        cells = np.arange(signals.values.shape[1]) % kind.bar
+        counts = np.maximum(np.bincount(cells, minlength=kind.bar), 1)
+        folded = np.stack([np.bincount(cells, row, minlength=kind.bar) for row in signals.values]) / counts
+        for place in range(kind.bar):
+            found.append((kind, place))
+            scores.append(_score(np.roll(folded, -place, axis=1), number, place, signals, again, scale))
+    odds = np.exp(np.array(scores) - max(scores))
+    return [(*one, share) for one, share in zip(found, (odds / odds.sum()).tolist(), strict=True)]
+
+
+def _score(bar: Floats, number: int, place: int, signals: _Signals, again: dict[int, float], scale: float) -> float:
+    """Score a candidate.
+
+    Parameters
+    ----------
+    bar : (S, B) float64
+        Mean of the signals by cell of the bar.
+    number : int
+        Of the metre.
+    again : dict of int to float
+        What repeats after some cells, compared with what repeats anyway.
+    scale : float
+        Larger for longer pieces, which say more.
+    """
+    kind = _KINDS[number]
+    down, beats = bar[:, 0], bar[:, kind.beat :: kind.beat].mean(1)
+    between = [cell for cell in range(0, kind.bar, 2) if cell % kind.beat]
+    others = bar[:, between].mean(1) if between else np.zeros(len(bar))
+    half = bar[:, kind.bar // 2] if kind.numerator in (4, 12) else beats
+    contrasts = np.stack((down - beats, beats - others, half - beats, down - bar[:, -2]))
+    weights = np.array(metre_weights.CONTRASTS)
+    if kind.is_compound:
+        weights = weights + np.array(metre_weights.COMPOUND_CONTRASTS)
+    if kind.bar <= 2 * STEPS:
+        weights = weights + np.array(metre_weights.SHORT_CONTRASTS)
+    first, last, end = signals.first - place, signals.last - place, signals.end - place
+    after_bar, after_two = again[kind.bar], again[2 * kind.bar]
+    places = (
+        after_bar,
+        after_two,
+        again.get(kind.bar // 2, 0.0),
+        again.get(2 * kind.beat, 0.0),
+        place == 0,
+        place % kind.beat == 0,
+        place % 2 == 1,
+        first % kind.bar == 0,
+        last % kind.bar == 0,
+        last % kind.beat == 0,
+        float(bar[0, 1::2].mean() - others[0]),
+        signals.end % kind.bar == 0,
+        end % kind.bar == 0,
+        signals.end % kind.beat == 0,
+    )
+    own, with_bar, with_two, at_start = (row[number] for row in metre_weights.METRES)
+    evidence = float((weights * contrasts).sum() + np.dot(metre_weights.PLACES[0], np.array(places, np.float64)))
+    return scale * (evidence + with_bar * after_bar + with_two * after_two) + own + at_start * (place == 0)
+
+
+def _likeliest(candidates: Sequence[tuple[_Kind, int, float]]) -> tuple[_Kind, int] | None:
+    """Return the longest bar whose bar lines are probable, and where it begins; None if there is none in three."""
+    if sum(share for kind, _, share in candidates if kind.is_triple) < TRIPLE_LEAST:
+        return None
+    likely = []
+    for kind, place, share in candidates:
+        if kind.is_triple:
+            agreeing = sum(other for one, at, other in candidates if one.bar % kind.bar == 0 and at % kind.bar == place)
+            if agreeing >= BAR_LINES_LEAST:
+                likely.append((kind.bar, share, kind, place))
+    if not likely:
+        return None
+    _, _, kind, place = max(likely, key=lambda one: one[:2])
+    return kind, place
