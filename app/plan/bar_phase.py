@@ -78,24 +78,21 @@ def with_felt_bars(piece: Piece, lines: tuple[Rhythm, ...], low: tuple[bool, ...
 
 
 def _late_ticks(lines: Sequence[Rhythm], onsets: Sequence[IntArray], unit_ticks: int) -> int:
-    """How long after the given beats the felt ones come: quarters of a beat, 0 unless the long notes show another.
+    """How long after the given beats the felt ones come: less than a beat, 0 unless the long notes show another.
 
     Parameters
     ----------
     onsets : sequence of (N,) int64
         As of `_weights`.
     """
-    if unit_ticks % 4:
-        return 0
     units = np.concatenate([(times.played_end_tick - times.onset_tick) / unit_ticks for times in lines])
     since = np.concatenate(onsets) % unit_ticks
     long = units >= LONG_UNITS
     if np.count_nonzero(long) < LONG_NOTES:
         return 0
-    weights = np.log2(1.0 + units[long])
-    shares = [float(weights[since[long] == part * unit_ticks // 4].sum()) for part in range(4)]
-    best = int(np.argmax(shares))
-    return best * unit_ticks // 4 if shares[best] >= OFF_BEAT_SHARE * float(weights.sum()) else 0
+    weights = np.bincount(since[long], np.log2(1.0 + units[long]))
+    best = int(np.argmax(weights))
+    return best if weights[best] >= OFF_BEAT_SHARE * weights.sum() else 0
 
 
 def _weights(

@@ -47,6 +47,14 @@ def test_bars_begin_after_the_pickup(pickup: int, late_ticks: int) -> None:
     assert len(bars) == 19
 
 
+def test_bars_may_be_late_by_grace_notes_that_come_before_the_first() -> None:
+    """A notation program puts three small notes before the first bar, and all that follows comes a sixth too late."""
+    late = TICKS // 6
+    notes = [(0, late, 64), *((late + beat * TICKS, TICKS, 60 + beat % 4) for beat in range(48))]
+    felt = with_felt_bars(piece_in(2, 4), (times_of(*notes),))
+    assert set(felt.bars(0, 48 * TICKS) % TICKS) == {late}
+
+
 @pytest.mark.parametrize("parts", [1, 2, 3])
 def test_a_pickup_may_be_shorter_than_a_beat(parts: int) -> None:
     """Some sixteenths, then bars of a quarter, running notes and a quarter."""
