@@ -256,6 +256,10 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
             "{lung_s:g} 秒分しかありません。その音を {from_note_ms:g} ms 短くします"
         ),
     ),
+    "breath.phrase_end": (
+        "short breath at the end of a phrase, after note {after_note}, which is shortened by {from_note_ms:g} ms",
+        "フレーズの終わりの短いブレス。前の音符 {after_note} を {from_note_ms:g} ms 短くします",
+    ),
     "breath.after_hold": (
         "catch breath in the release after note {after_note}, which all hold; they start again together",
         "全員が延ばす音符 {after_note} の後、次の入りの前の息継ぎ",

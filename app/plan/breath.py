@@ -3,14 +3,14 @@
 Which rests are breathed in says `app.plan.rest_needs`: by seconds, playing and air. How, says the length of the rest in
 felt beats (T6 of the 2018 thesis; the thresholds are the player's): below last_beat the breath takes the whole rest; in
 [last_beat, prepare) the last beat; from prepare on a preparatory motion comes in the beat before that. Every breath
-ends at the onset it serves. Where no rest serves within the
-lungs' budget, a catch breath is taken before a note that follows a phrase's end: in the short silence there, or out
-of the tail of the note before, whose lips then leave early while its sound stays. In runs whose notes are too short
-for that the player leaves out a note: its lips leave at once.
+ends at the onset it serves. Where no rest serves within the lungs' budget, and at clear ends of phrases once some of
+the air is used, a catch breath is taken: in the short silence there, or out of the tail of the note before, whose lips
+then leave early while its sound stays. In runs whose notes are too short for that the player leaves out a note: its
+lips leave at once.
 
 Messages: ``breath.first``, ``breath.rest_whole``, ``breath.last_beat``, ``breath.prepared``, ``breath.preparation``,
-``breath.catch``, ``breath.catch_dropped``, ``breath.catch_dropped_two``, ``breath.after_hold``, ``breath.blown``,
-``breath.blown_preparation``, ``breath.blown_short``.
+``breath.catch``, ``breath.catch_dropped``, ``breath.catch_dropped_two``, ``breath.phrase_end``, ``breath.after_hold``,
+``breath.blown``, ``breath.blown_preparation``, ``breath.blown_short``.
 """
 
 from __future__ import annotations
@@ -418,7 +418,7 @@ def _catches(line: _Breather, score: _Score, stock: _Stock, may: BoolArray, shar
     missing = np.zeros(len(line.notes), dtype=bool)
     missing[list(shared.left_out)] = True
 
-    def between(times: LineTimes, used: FloatArray, filled: FloatArray) -> list[int]:
+    def between(times: LineTimes, used: FloatArray, filled: FloatArray, free_s: float) -> list[int]:
         full = levels(used, score.lung_s, filled)
         return catch_places(
             times,
@@ -433,6 +433,7 @@ def _catches(line: _Breather, score: _Score, stock: _Stock, may: BoolArray, shar
             seeds,
             score.rests.sounding_tick,
             stock.room,
+            free_s,
         )
 
     # All breathe after what they held together, and no one just before it.
@@ -443,14 +444,16 @@ def _catches(line: _Breather, score: _Score, stock: _Stock, may: BoolArray, shar
     given[first] = np.minimum(stock.room.lasts_s[first] / FULL_BREATH_S, 1.0)
     may = may.copy()
     may[[index - 1 for index in after_hold]] = False
-    catches = between(score.steady, stock.steady_used, given)
+    # Who breathes in every rest, as the thesis has it, or only when empty, needs no breath for a phrase's end.
+    free_s = (line.parameters.breath_need or 1.0) * score.lung_s
+    catches = between(score.steady, stock.steady_used, given, free_s)
     if score.steady is score.written:
         return sorted((*first, *catches))
     filled = given.copy()
     filled[catches] = np.minimum(stock.room.lasts_s[catches] / FULL_BREATH_S, 1.0)
     again = where_short(stock.used, score.lung_s, given, filled)
     filled[again] = given[again]
-    return sorted({*first, *catches} - {*again.tolist()} | {*between(score.written, stock.used, filled)})
+    return sorted({*first, *catches} - {*again.tolist()} | {*between(score.written, stock.used, filled, np.inf)})
 
 
 def _caught(
@@ -494,6 +497,24 @@ def _needed_s(stock: _Stock, lung_s: float, first: IntArray, last: IntArray) -> 
     return np.where(is_short, played_s, steady_s), np.where(is_short, stock.air_s[first], full_s)
 
 
+def _not_for_air(stock: _Stock, lung_s: float, catches: list[int]) -> set[int]:
+    """The notes among these before which the air would last until the next breath."""
+    share = stock.refill.copy()
+    share[catches] = np.minimum(stock.room.lasts_s[catches] / FULL_BREATH_S, 1.0)
+    breaths = np.flatnonzero(share > 0.0)
+    used_s = np.append(stock.steady_used[breaths], stock.steady_used[-1])
+    found: set[int] = set()
+    made, air_s, before_s = set(catches), (0.0 if share[0] else 0.5 * lung_s), 0.0
+    rows = zip(breaths.tolist(), share[breaths].tolist(), used_s[:-1].tolist(), used_s[1:].tolist(), strict=True)
+    for index, more, here_s, next_s in rows:
+        if index in made and air_s >= next_s - before_s - EPSILON:
+            found.add(index)
+        else:
+            air_s = min(max(air_s - (here_s - before_s), 0.0) + more * lung_s, lung_s)
+            before_s = here_s
+    return found
+
+
 def _made(
     line: _Breather, stock: _Stock, lung_s: float, catches: list[int], after_hold: Collection[int]
 ) -> dict[int, BreathEvent]:
@@ -501,6 +522,7 @@ def _made(
     if not catches:
         return {}
     notes, times, room = line.notes, line.times, stock.room
+    phrase_ends = _not_for_air(stock, lung_s, catches)
     at = np.array(catches)
     onset_s, start_s = times.onset_s[at], times.onset_s[at] - room.lasts_s[at]
     breaths = np.flatnonzero(stock.refill > 0.0)
@@ -533,6 +555,8 @@ def _made(
             reason = Message("breath.catch_dropped_two", {"first_note": first_note, "after_note": after, **why})
         elif dropped:
             reason = Message("breath.catch_dropped", {"after_note": after, **why})
+        elif index in phrase_ends:
+            reason = Message("breath.phrase_end", {"after_note": after, "from_note_ms": round(from_note_s * 1000.0)})
         else:
             reason = Message("breath.catch", {"after_note": after, **why, "from_note_ms": round(from_note_s * 1000.0)})
         found[index] = BreathEvent(

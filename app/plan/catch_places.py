@@ -1,4 +1,4 @@
-"""Where catch breaths are best taken when no rest comes in time."""
+"""Where catch breaths are best taken: when no rest comes in time, and at clear ends of phrases."""
 
 from __future__ import annotations
 
@@ -13,6 +13,10 @@ from app.plan.lungs import EPSILON, FULL_BREATH_S, HASTY_SHARE
 from app.plan.model import FloatArray
 from app.plan.phrase_ends import place_costs, slur_costs
 
+LEAST_COST = 0.2
+"""A breath costs so much at least before the air is used up that asks for one at a phrase's end."""
+ONE_MORE = 1.5
+"""Times that air a stretch takes at least in which a breath is taken for a phrase's end: some of it comes after."""
 EARLY_COST = 1.0
 """Breathing in with lungs still full; with half a lungful a quarter of it."""
 HASTY_COST = 10.0
@@ -39,12 +43,13 @@ def catch_places(
     seeds: Seeds,
     rests: IntArray,
     room: Room,
+    free_s: float,
 ) -> list[int]:
-    """Indices of the notes before which a catch breath is needed.
+    """Indices of the notes before which a catch breath is taken.
 
     Between two breaths that the rests give, the cheapest chain of places such that no stretch takes more air than
-    there is (a shortest path; the cost of a place falls with how good a phrase end it is). Where nothing helps, the
-    stretch stays.
+    there is (a shortest path; the cost of a place falls with how good a phrase end it is, and below 0 at a clear one).
+    Where nothing helps, the stretch stays.
 
     Parameters
     ----------
@@ -66,6 +71,8 @@ def catch_places(
         Ticks of rest before each note, as `app.plan.rests.rest_ticks` finds them.
     room : Room
         What is left out of a line is left out only where nothing else gives the air.
+    free_s : float
+        Air that is used before a breath is taken for a phrase's end alone.
     """
     may = may & (refill == 0.0)
     open_ = may & (room.length_s > 0.0)
@@ -73,13 +80,15 @@ def catch_places(
     breaths = np.flatnonzero(refill > 0.0)
     starts = np.unique(np.concatenate(([0], breaths)))
     ends = np.append(starts[1:], len(refill))
-    short = used[ends] - used[starts] > level[starts] * lung_s + EPSILON
-    stretches = list(zip(starts[short].tolist(), ends[short].tolist(), strict=True))
+    taken_s = used[ends] - used[starts]
+    short = taken_s > level[starts] * lung_s + EPSILON
+    some = short | (taken_s >= ONE_MORE * free_s)
+    stretches = list(zip(starts[some].tolist(), ends[some].tolist(), short[some].tolist(), strict=True))
     if not stretches:
         return []
     dropping = may & ~open_ & (room.drop_s > 0.0)
     cost = np.full(len(refill), np.inf)
-    at = np.concatenate([start + 1 + np.flatnonzero(open_[start + 1 : end]) for start, end in stretches])
+    at = np.concatenate([start + 1 + np.flatnonzero(open_[start + 1 : end]) for start, end, _ in stretches])
     cost[at] = place_costs(times, piece, rests, at, taken, seeds)
     air_s = np.minimum(room.lasts_s / FULL_BREATH_S, 1.0) * lung_s
 
@@ -87,12 +96,18 @@ def catch_places(
         places = start + 1 + np.flatnonzero(allowed[start + 1 : end])
         nodes = np.concatenate(([start], places, [end]))
         found, is_enough = _cheapest_chain(
-            used[nodes].tobytes(), cost[places].tobytes(), air_s[places].tobytes(), float(level[start]), lung_s
+            used[nodes].tobytes(), cost[places].tobytes(), air_s[places].tobytes(), float(level[start]), lung_s, free_s
         )
         return places[list(found)].tolist(), is_enough
 
+    # Where the air lasts only a phrase's end is worth a breath, and in no rest: `app.plan.rest_needs` says in which.
+    ends_phrase = open_ & (cost < 0.0) & (rests == 0)
     result: list[int] = []
-    for start, end in stretches:
+    for start, end, is_short in stretches:
+        if not is_short:
+            if ends_phrase[start + 1 : end].any():
+                result += chain(start, end, ends_phrase)[0]
+            continue
         found, is_enough = chain(start, end, open_)
         also = start + 1 + np.flatnonzero(dropping[start + 1 : end])
         if len(also) and not (is_enough and (cost[found] < DROPPED_COST).all()):
@@ -110,7 +125,7 @@ def catch_places(
 
 @lru_cache(maxsize=4096)
 def _cheapest_chain(
-    used_bytes: bytes, cost_bytes: bytes, drawn_bytes: bytes, level: float, lung_s: float
+    used_bytes: bytes, cost_bytes: bytes, drawn_bytes: bytes, level: float, lung_s: float, free_s: float
 ) -> tuple[tuple[int, ...], bool]:
     """The places, and whether the air lasts with them.
 
@@ -124,6 +139,8 @@ def _cheapest_chain(
         Air used until the stretch begins, until each place, and until it ends.
     cost_bytes, drawn_bytes : bytes of (K,) float64
         What each place costs, and the air that a catch breath brings there.
+    free_s : float
+        Air used without which no place costs less than `LEAST_COST`.
     """
     used, cost, drawn_s = (np.frombuffer(data) for data in (used_bytes, cost_bytes, drawn_bytes))
     last = len(used) - 1
@@ -147,7 +164,8 @@ def _cheapest_chain(
             ways += np.where(left_s < -EPSILON, TOO_LONG_COST * (1.0 - left_s), 0.0)
             np.maximum(left_s, 0.0, out=left_s)
         if node < last:
-            ways += cost[node - 1] + (EARLY_COST / lung_s**2) * left_s * left_s
+            ways += np.maximum(cost[node - 1], np.where(needed < free_s, LEAST_COST, -np.inf))
+            ways += (EARLY_COST / lung_s**2) * left_s * left_s
         best = int(ways.argmin())
         origin[node], total[node] = back + best, ways[best]
         if node < last:

@@ -15,10 +15,10 @@ from tests.support.plan import PlainClock, PlainNote, line_of, piece_of, valves
 Q = 480
 
 
-def catches(notes: tuple[PlainNote, ...], lung_s: float, bpm: float = 120.0) -> list[float]:
+def catches(notes: tuple[PlainNote, ...], lung_s: float, bpm: float = 120.0, need: float = 0.35) -> list[float]:
     """Quarters from the start at which breaths after the first one end."""
     clock = PlainClock(((0, bpm),))
-    line = MonophonicPart("p", notes, valves(), PlayerParameters(lung_s=lung_s))
+    line = MonophonicPart("p", notes, valves(), PlayerParameters(lung_s=lung_s, breath_need=need))
     plan = make_plans(piece_of(clock, (Metre(0, 4, 4),)), (line,), time_frame((line,), clock))["p"]
     return [event.end_tick / Q for event in plan.breaths if event.kind == "breath"][1:]
 
@@ -38,7 +38,7 @@ def test_a_note_is_long_by_those_before_it(after: int) -> None:
     for length in (*[1] * 14, 2, *[after] * (16 // after)):
         notes.append((at * Q, length * Q, 65 + at % 2))
         at += length
-    assert catches(line_of(*notes), lung_s=10.0) == [16.0]
+    assert catches(line_of(*notes), lung_s=10.0)[0] == 16.0
 
 
 def test_even_notes_are_breathed_between_in_phrases_of_four_bars() -> None:
@@ -148,6 +148,61 @@ def test_a_song_for_horn_is_breathed_in_near_its_engraved_marks() -> None:
     found = catches(notes, lung_s=11.0, bpm=60.0)
     assert len(found) == 3
     assert all(abs(place - mark) <= 1.0 for place, mark in zip(found, (15, 23, 30.5), strict=True))
+
+
+SONG = ((5, 1), (4, 1), (3, 1), (4, 1), (5, 1), (5, 1), (5, 2), (4, 1), (4, 1), (4, 2), (5, 1), (7, 1), (7, 2),
+        (5, 1), (4, 1), (3, 1), (4, 1), *[(5, 1)] * 4, (4, 1), (4, 1), (5, 1), (4, 1), (3, 4))  # fmt: skip
+"""Mary had a little lamb: four bars, and four bars that begin likewise, each in quarters."""
+
+
+def sung(times: int) -> tuple[PlainNote, ...]:
+    rows, at = [], 0
+    for step, quarters in SONG * times:
+        rows.append((at * Q, quarters * Q, 60 + (0, 2, 4, 5, 7, 9, 11)[step - 3]))
+        at += quarters
+    return line_of(*rows)
+
+
+def test_a_phrase_end_is_breathed_at_while_there_is_air() -> None:
+    """The song takes 16 s, the lungs last 20."""
+    assert catches(sung(1), lung_s=20.0) == [16.0]
+    assert catches(sung(1), lung_s=20.0, need=1.0) == []
+    assert catches(sung(1), lung_s=20.0, need=0.0) == []
+
+
+def test_what_is_nearly_over_is_not_breathed_in_for_a_phrase_end() -> None:
+    assert catches(sung(1), lung_s=60.0) == []
+
+
+@pytest.mark.parametrize("lung_s", [6.0, 9.0, 14.0])
+def test_a_song_is_breathed_in_at_its_phrase_ends(lung_s: float) -> None:
+    """Lines of the text are four bars long, its halves two."""
+    found = catches(sung(4), lung_s)
+    assert len(found) >= 7
+    assert all(place % 8 == 0 for place in found)
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_no_breath_is_taken_among_staccato_notes(seed: int) -> None:
+    """Rows of 4 to 12 staccato notes of one length or two, between notes that are held on."""
+    by_chance = random.Random(seed)
+    rows: list[tuple[int, int, int]] = []
+    within: set[float] = set()
+    at = 0.0
+    while at < 160:
+        for length in by_chance.choice(([1, 1, 2], [2, 2], [1.5, 0.5, 2], [1, 1, 1, 1])):
+            rows.append((round(at * Q), round(length * Q), 65 + by_chance.randrange(8)))
+            at += length
+        figure = by_chance.choice(([0.5], [1], [0.5, 0.25, 0.25], [0.5, 0.5, 1]))
+        first = at
+        for place in range(by_chance.randrange(4, 13)):
+            length = figure[place % len(figure)]
+            rows.append((round(at * Q), round(length * Q * 0.5), 65 + by_chance.randrange(8)))
+            within |= {at} - {first}
+            at += length
+    found = catches(line_of(*rows), lung_s=9.0, bpm=110.0)
+    assert len(found) >= 8
+    assert not within & set(found)
 
 
 def breathed_before(notes: tuple[PlainNote, ...]) -> list[int]:

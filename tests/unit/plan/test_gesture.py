@@ -58,15 +58,15 @@ def test_silence_between_notes_costs_nothing_however_long_it_is() -> None:
     counts = []
     for hours in (1, 11):
         later = tuple(replace(note, id=f"{note.id}x", onset_tick=note.onset_tick + hours * 7200 * Q) for note in notes)
-        gestures = plans(MonophonicPart("p", notes + later, valves()))["p"].gestures
-        counts.append(len(gestures))
-        near = [event for event in gestures if event.kind == "sway" and event.end_s < 8.0 + STIR_S]
+        sways = of_kind(plans(MonophonicPart("p", notes + later, valves()))["p"], "sway")
+        counts.append(len(sways))
+        near = [event for event in sways if event.end_s < 8.0 + STIR_S]
         alone = [
             event for event in of_kind(plans(MonophonicPart("p", notes, valves()))["p"], "sway") if event.end_s < 8.0
         ]
         # Near the music nothing is different, and some time after it everybody is still.
         assert near[: len(alone)] == alone
-        assert not any(60.0 < event.start_s < 3600.0 * hours - 60.0 for event in gestures if event.kind == "sway")
+        assert not any(60.0 < event.start_s < 3600.0 * hours - 60.0 for event in sways)
     assert counts[0] == pytest.approx(counts[1], abs=6)
 
 
