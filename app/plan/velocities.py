@@ -340,7 +340,7 @@ def _costs(name: str, program: int | None) -> tuple[FloatArray, FloatArray, Floa
     has = np.array([mark != UNMARKED_STEP for mark, _ in ladder.steps])
     between = np.interp(np.arange(128), values[has], loud[has])
     cost = np.minimum(_OFF_COST + _STEP_COST * np.abs(between[:, None] - loud) / 0.126, _MOST_COST)
-    accent = np.clip(between[:, None] - loud, -_ACCENT, _ACCENT)
+    accent = np.clip(between[:, None] - np.where(has, loud, between[values]), -_ACCENT, _ACCENT)
     for step, (mark, velocity) in enumerate(ladder.steps):
         more = [added for added, _ in articulated(ladder, velocity)]
         rows = [(added, _ARTICULATION_COST + _ADDED_COST * abs(added)) for added in more[1:]]

@@ -163,6 +163,16 @@ def test_a_voice_that_lilypond_made_in_no_instruments_range_keeps_the_mark() -> 
     assert velocity_marks(velocities, 70) == ("p",) * 16 + ("ff",) * 12
 
 
+@pytest.mark.parametrize(("program", "default"), [(73, 62), (60, 66), (60, 90), (57, 90)])
+def test_notes_without_a_mark_are_as_loud_as_the_mark_before_them(program: int, default: int) -> None:
+    """Whatever LilyPond's default is in the range of the instrument, or of none."""
+    piano = {73: 48, 60: 54, 57: 69}[program]
+    velocities = np.array([piano] * 12 + [default] * 12 + [piano] * 12)
+    assert velocity_loudness(velocities, program) == pytest.approx(
+        np.full(36, velocity_loudness(velocities, program)[0])
+    )
+
+
 @given(st.integers(40, 100), st.integers(2, 6), st.integers(0, 1000))
 @settings(max_examples=30, deadline=None)
 def test_strokes_of_one_level_are_mezzoforte(level: int, spread: int, seed: int) -> None:
