@@ -12,6 +12,7 @@ from app.plan.line import IntArray, LineTimes, Piece, Seeds
 from app.plan.lungs import EPSILON, FULL_BREATH_S, HASTY_SHARE
 from app.plan.model import FloatArray
 from app.plan.phrase_ends import place_costs, slur_costs
+from app.plan.rest_needs import LEAST_PLAYED_S
 
 LEAST_COST = 0.2
 """A breath costs so much at least before the air is used up that asks for one at a phrase's end."""
@@ -21,6 +22,8 @@ EARLY_COST = 1.0
 """Breathing in with lungs still full; with half a lungful a quarter of it."""
 HASTY_COST = 10.0
 """Breathing in again before `HASTY_SHARE` of the lungs is used up."""
+GASP_COST = 100.0
+"""Breathing in again after less than `LEAST_PLAYED_S` of playing: only for want of air."""
 TOO_LONG_COST = 1000.0
 DROPPED_COST = 30.0
 """Leaving out a note, where none is long enough to take a gasp from."""
@@ -91,12 +94,19 @@ def catch_places(
     at = np.concatenate([start + 1 + np.flatnonzero(open_[start + 1 : end]) for start, end, _ in stretches])
     cost[at] = place_costs(times, piece, rests, at, taken, seeds)
     air_s = np.minimum(room.lasts_s / FULL_BREATH_S, 1.0) * lung_s
+    played_s = np.concatenate(([0.0], np.cumsum(times.duration_s)))
 
     def chain(start: int, end: int, allowed: npt.NDArray[np.bool_]) -> tuple[list[int], bool]:
         places = start + 1 + np.flatnonzero(allowed[start + 1 : end])
         nodes = np.concatenate(([start], places, [end]))
         found, is_enough = _cheapest_chain(
-            used[nodes].tobytes(), cost[places].tobytes(), air_s[places].tobytes(), float(level[start]), lung_s, free_s
+            used[nodes].tobytes(),
+            played_s[nodes].tobytes(),
+            cost[places].tobytes(),
+            air_s[places].tobytes(),
+            float(level[start]),
+            lung_s,
+            free_s,
         )
         return places[list(found)].tolist(), is_enough
 
@@ -125,7 +135,13 @@ def catch_places(
 
 @lru_cache(maxsize=4096)
 def _cheapest_chain(
-    used_bytes: bytes, cost_bytes: bytes, drawn_bytes: bytes, level: float, lung_s: float, free_s: float
+    used_bytes: bytes,
+    played_bytes: bytes,
+    cost_bytes: bytes,
+    drawn_bytes: bytes,
+    level: float,
+    lung_s: float,
+    free_s: float,
 ) -> tuple[tuple[int, ...], bool]:
     """The places, and whether the air lasts with them.
 
@@ -135,14 +151,15 @@ def _cheapest_chain(
 
     Parameters
     ----------
-    used_bytes : bytes of (K + 2,) float64
-        Air used until the stretch begins, until each place, and until it ends.
+    used_bytes, played_bytes : bytes of (K + 2,) float64
+        Air used, and seconds played, until the stretch begins, until each place, and until it ends.
     cost_bytes, drawn_bytes : bytes of (K,) float64
         What each place costs, and the air that a catch breath brings there.
     free_s : float
         Air used without which no place costs less than `LEAST_COST`.
     """
-    used, cost, drawn_s = (np.frombuffer(data) for data in (used_bytes, cost_bytes, drawn_bytes))
+    used, played_s = np.frombuffer(used_bytes), np.frombuffer(played_bytes)
+    costs, drawn_s = np.frombuffer(cost_bytes).tolist(), np.frombuffer(drawn_bytes).tolist()
     last = len(used) - 1
     air_s = np.zeros(last + 1)
     air_s[0] = level * lung_s
@@ -154,17 +171,22 @@ def _cheapest_chain(
     # From here on so little is used up since that the breath is hasty.
     hasty_s = HASTY_SHARE * lung_s
     hasty = np.searchsorted(used, used - hasty_s, side="right").tolist()
+    gasps = np.searchsorted(played_s, played_s - LEAST_PLAYED_S + EPSILON, side="right").tolist()
     for node, back in enumerate(reach.tolist()[1:], 1):
         needed = used[node] - used[back:node]
         left_s = air_s[back:node] - needed
         ways = total[back:node].copy()
-        late = max(hasty[node], back)
-        ways[late - back :] += HASTY_COST * np.maximum(1.0 - needed[late - back :] / hasty_s, 0.0)
+        late = max(hasty[node] - back, 0)
+        if late < len(ways):
+            ways[late:] += HASTY_COST * np.maximum(1.0 - needed[late:] / hasty_s, 0.0)
+        if gasps[node] < node:
+            ways[max(gasps[node] - back, 0) :] += GASP_COST
         if left_s.min() < 0.0:
             ways += np.where(left_s < -EPSILON, TOO_LONG_COST * (1.0 - left_s), 0.0)
             np.maximum(left_s, 0.0, out=left_s)
         if node < last:
-            ways += np.maximum(cost[node - 1], np.where(needed < free_s, LEAST_COST, -np.inf))
+            here = costs[node - 1]
+            ways += here if here >= LEAST_COST else np.where(needed < free_s, LEAST_COST, here)
             ways += (EARLY_COST / lung_s**2) * left_s * left_s
         best = int(ways.argmin())
         origin[node], total[node] = back + best, ways[best]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import random
 
 import pytest
@@ -203,6 +204,25 @@ def test_no_breath_is_taken_among_staccato_notes(seed: int) -> None:
     found = catches(line_of(*rows), lung_s=9.0, bpm=110.0)
     assert len(found) >= 8
     assert not within & set(found)
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_no_breath_follows_another_within_a_second_of_playing(seed: int) -> None:
+    """Loud runs and long notes on small lungs, with silences too short for a breath."""
+    by_chance = random.Random(seed)
+    rows: list[tuple[int, int, int, int]] = []
+    at = 0.0
+    while at < 240:
+        length = by_chance.choice((0.25, 0.25, 0.5, 0.5, 1, 1.5, 3))
+        rows.append((round(at * Q), round(length * Q), 65 + by_chance.randrange(9), by_chance.choice((60, 90, 115))))
+        at += length + by_chance.choice((0, 0, 0, 0, 0, 0.12, 0.25))
+    sounded_s, before_s = {}, 0.0
+    for onset, length_ticks, *_ in rows:
+        sounded_s[onset / Q] = before_s
+        before_s += length_ticks / Q * 0.5
+    found = catches(line_of(*rows), lung_s=5.0)
+    assert len(found) >= 20
+    assert all(sounded_s[after] - sounded_s[first] >= 1.0 for first, after in itertools.pairwise([0.0, *found]))
 
 
 def breathed_before(notes: tuple[PlainNote, ...]) -> list[int]:
