@@ -415,8 +415,7 @@ def _catches(line: _Breather, score: _Score, stock: _Stock, may: BoolArray, shar
     tempo takes more air."""
     taken = np.zeros(len(line.notes), dtype=bool)
     taken[list(shared.caught)] = True
-    missing = np.zeros(len(line.notes), dtype=bool)
-    missing[list(shared.left_out)] = True
+    missing = np.bincount(np.array(shared.left_out, np.int64), minlength=len(line.notes))
 
     def between(times: LineTimes, used: FloatArray, filled: FloatArray, free_s: float) -> list[int]:
         full = levels(used, score.lung_s, filled)

@@ -27,8 +27,8 @@ GASP_COST = 100.0
 TOO_LONG_COST = 1000.0
 DROPPED_COST = 30.0
 """Leaving out a note, where none is long enough to take a gasp from."""
-MISSING_COST = 20.0
-"""Leaving it out where another player of the same rhythm leaves out one that is so near: a hole."""
+MISSING_COST = 10.0
+"""Leaving it out, for each note near it that another player of the same rhythm leaves out: a hole."""
 NEAR = MOST_DROPPED
 """So many notes apart they are near."""
 
@@ -42,7 +42,7 @@ def catch_places(
     level: FloatArray,
     may: npt.NDArray[np.bool_],
     taken: npt.NDArray[np.bool_],
-    missing: npt.NDArray[np.bool_],
+    missing: IntArray,
     seeds: Seeds,
     rests: IntArray,
     room: Room,
@@ -68,8 +68,8 @@ def catch_places(
         Before which notes the rules may place a breath.
     taken : (N,) bool
         Before which notes another player of the same line breathes.
-    missing : (N,) bool
-        Notes that another player of the same rhythm leaves out.
+    missing : (N,) int64
+        How many other players of the same rhythm leave out each note.
     rests : (N,) int64
         Ticks of rest before each note, as `app.plan.rests.rest_ticks` finds them.
     room : Room
@@ -127,7 +127,7 @@ def catch_places(
             cost[also] += DROPPED_COST * dropped + slur_costs(times, rests, also)
             before = np.concatenate(([0], np.cumsum(missing)))
             others = before[np.minimum(also + NEAR, len(missing))] - before[np.maximum(also - dropped - NEAR, 0)]
-            cost[also] += MISSING_COST * (others > 0)
+            cost[also] += MISSING_COST * others
             found, _ = chain(start, end, open_ | dropping)
         result += found
     return result

@@ -111,8 +111,8 @@ class Shared(NamedTuple):
     ----------
     caught : frozenset of int
         Notes before which others of the unison take catch breaths.
-    left_out : frozenset of int
-        Notes that others of the same rhythm leave out in order to breathe.
+    left_out : tuple of int
+        Notes that others of the same rhythm leave out in order to breathe, each as often as there are such others.
     held : tuple of (int, tuple of float)
         Held notes that others hold too, with the times (seconds) at which those breathe in them.
     after_hold : frozenset of int
@@ -120,7 +120,7 @@ class Shared(NamedTuple):
     """
 
     caught: frozenset[int] = frozenset()
-    left_out: frozenset[int] = frozenset()
+    left_out: tuple[int, ...] = ()
     held: tuple[tuple[int, tuple[float, ...]], ...] = ()
     after_hold: frozenset[int] = frozenset()
 
@@ -173,11 +173,11 @@ def shared_with(
         `after_holds` of the player.
     """
     caught: set[int] = set()
-    left_out: set[int] = set()
+    left_out: list[int] = []
     for first in range(0, len(breathed), COMPARED):
         some = breathed[first : first + COMPARED]
         caught |= memo.nested(f"unison:{first}", _caught_by_some, line, some, first)
-        left_out |= memo.nested(f"rhythm:{first}", _left_out_by_some, line, some, first)
+        left_out += memo.nested(f"rhythm:{first}", _left_out_by_some, line, some, first)
     held = []
     taken: dict[Place, list[float]] = {}
     for place, at_s in (pair for other in breathed for pair in other.within if line.held_s):
@@ -186,7 +186,7 @@ def shared_with(
         place = line.places[index]
         if any(other.holds(place, length_s) for other in others):
             held.append((index, tuple(sorted(taken.get(place, ())))))
-    return Shared(frozenset(caught), frozenset(left_out), tuple(held), after_hold)
+    return Shared(frozenset(caught), tuple(sorted(left_out)), tuple(held), after_hold)
 
 
 def _caught_by_some(memo: Memo, line: SharedLine, some: tuple[Breathed, ...], first: int) -> frozenset[int]:
@@ -209,15 +209,15 @@ def caught_in_unison(line: SharedLine, other: SharedLine, caught: frozenset[Plac
     return frozenset(index for place in met for index in line.notes_at(place) if _in_unison(line, other, index))
 
 
-def _left_out_by_some(memo: Memo, line: SharedLine, some: tuple[Breathed, ...], first: int) -> frozenset[int]:
-    left_out: set[int] = set()
+def _left_out_by_some(memo: Memo, line: SharedLine, some: tuple[Breathed, ...], first: int) -> tuple[int, ...]:
+    left_out: list[int] = []
     for number, other in enumerate(some, first):
         if not other.left_out.isdisjoint(line.rhythm):
-            left_out |= memo.step(f"rhythm with {number}", left_out_in_rhythm, line, other.line, other.left_out)
-    return frozenset(left_out)
+            left_out += memo.step(f"rhythm with {number}", left_out_in_rhythm, line, other.line, other.left_out)
+    return tuple(left_out)
 
 
-def left_out_in_rhythm(line: SharedLine, other: SharedLine, left_out: frozenset[int]) -> frozenset[int]:
+def left_out_in_rhythm(line: SharedLine, other: SharedLine, left_out: frozenset[int]) -> tuple[int, ...]:
     """Notes of a line that sound when another player leaves one out, where both play the same rhythm.
 
     Parameters
@@ -226,7 +226,7 @@ def left_out_in_rhythm(line: SharedLine, other: SharedLine, left_out: frozenset[
         Onsets of the notes that the other player leaves out.
     """
     least = min(UNISON_NOTES, len(line.onsets), len(other.onsets))
-    return frozenset(
+    return tuple(
         index
         for index, onset in enumerate(line.onsets)
         if onset in left_out and _together(line.onsets, other.rhythm, index, least)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 import random
+from collections import Counter
 
 import msgspec
 import pytest
@@ -160,6 +161,13 @@ def test_players_in_one_fast_line_leave_out_different_notes(above: tuple[int, ..
     # No one breathes much more often than alone, and each after the note on a beat.
     assert all(len(plan.breaths) <= len(own.breaths) + 1 for plan, own in zip(made, alone, strict=True))
     assert all(note % 4 for each in missing for note in each)
+
+
+def test_where_there_are_more_players_than_places_few_leave_out_one_note() -> None:
+    """Sixteen in unison, who leave out two notes each about every eight seconds."""
+    missing = [left_out(plan) for plan in plans(*[sixteenths()] * 16)]
+    together = Counter(note for each in missing for note in each)
+    assert max(together.values()) <= 3
 
 
 def test_players_of_other_rhythms_leave_out_what_they_would_alone() -> None:
