@@ -237,7 +237,15 @@ def _distribution(unread: Sequence[IntArray], constant: bool) -> tuple[float, fl
     return usual, meant, shift
 
 
-def _smoothed(velocity: IntArray) -> FloatArray:
+def is_level(velocity: FloatArray) -> bool:
+    """Return whether notes (N,), enough to judge by, spread no more than the strokes of a hand that plays one level."""
+    if len(velocity) < 4 * STROKES:
+        return False
+    low, high = np.percentile(_smoothed(velocity), [10, 90])
+    return bool(high - low < UNMEANT_SPREAD)
+
+
+def _smoothed(velocity: IntArray | FloatArray) -> FloatArray:
     """(M,): medians of several notes, or the velocities of a short line."""
     if len(velocity) < 4 * STROKES:
         return velocity.astype(np.float64)
@@ -353,7 +361,9 @@ def _costs(name: str, program: int | None) -> tuple[FloatArray, FloatArray, Floa
             place = min(max(velocity + added, 0), 127)
             if paid <= cost[place, step]:
                 cost[place, step] = paid
-                accent[place, step] = _ACCENT if added >= _STRESS else 0.0 if added < -1 else accent[place, step]
+                # What a program writes without a mark is as loud as the mark in force, whatever its number is near.
+                plain = added < -1 or (added == 0 and mark == UNMARKED_STEP)
+                accent[place, step] = _ACCENT if added >= _STRESS else 0.0 if plain else accent[place, step]
     if ladder.default is not None and ladder.default not in values:
         cost[ladder.default, _MF], accent[ladder.default, _MF] = 0.0, 0.0
     marks = np.array([_MARKS.get(mark, _MF) for mark, _ in ladder.steps])

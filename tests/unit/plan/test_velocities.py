@@ -134,6 +134,15 @@ def test_notes_without_a_mark_keep_the_mark_before_them() -> None:
     assert velocity_marks(velocities, 73) == ("p",) * 18 + ("f",) * 16
 
 
+def test_notes_without_a_mark_are_as_loud_as_their_mark() -> None:
+    """LilyPond writes 90 for them, which is near its forte."""
+    marked = np.array([62, 69, 77, 86, 95, 101, 62, 69, 77, 86, 95, 101] * 4).repeat(6)
+    unmarked = np.full(60, 90)
+    reading = read_velocities([(marked, None), (unmarked, None)])
+    assert velocity_marks(unmarked, None, reading) == ("mf",) * 60
+    assert velocity_loudness(unmarked, None, reading) == pytest.approx(MEZZOFORTE)
+
+
 def test_lilyponds_range_of_another_instrument_is_known() -> None:
     """A flute's part that was written for a voice: 69 is *piano*, 95 *forte*."""
     velocities = np.array([69] * 12 + [95] * 12 + [101] * 12 + [69] * 8)
