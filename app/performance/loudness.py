@@ -12,6 +12,7 @@ from app.plan.breath_envelope import STOPS_AT, step_means
 from app.plan.line import MEZZOFORTE, ControllerInput, Steps
 from app.plan.velocities import (
     VelocityReading,
+    is_level,
     nearest_marks,
     phrase_levels,
     read_velocities,
@@ -134,7 +135,11 @@ def _loudness(part: Part, curve: ControllerCurve, reading: VelocityReading | Non
         # Who draws the dynamics as a curve leaves the velocity as it is.
         by_velocity = np.full(len(part.notes), MEZZOFORTE)
     blown = np.minimum(means * by_velocity / MEZZOFORTE, 1.0) if curve.kind in _SCALING else means
-    return np.where(means <= STOPS_AT, by_velocity, blown)
+    played = means > STOPS_AT
+    if played.any() and is_level(127.0 * means[played]):
+        # It shapes the notes and has no dynamics: how loud they are the velocities say.
+        blown = np.clip(by_velocity + means - float(np.median(means[played])), 0.0, 1.0)
+    return np.where(played, blown, by_velocity)
 
 
 def _velocity(part: Part) -> npt.NDArray[np.int64]:

@@ -39,7 +39,7 @@ from app.plan.lungs import (
     with_circular_breathing,
 )
 from app.plan.model import BreathEvent, FloatArray, Problem, TimeFrame
-from app.plan.notation import at_score_tempo, heard_rests_s, notated
+from app.plan.notation import at_score_tempo, heard_rests_s, notated, usual_release
 from app.plan.parameters import PlayerParameters
 from app.plan.rest_breaths import AIR_SHORT, because, blown_breaths, blown_catch, rest_breaths, within_note
 from app.plan.rest_needs import ALWAYS_S, Decided, RestNeeds, breathed_in, rest_needs, why
@@ -255,7 +255,7 @@ def _rests(steady: LineTimes, played: LineTimes, times: LineTimes, piece: Piece)
         As a score would have the line, and as it is played, both at the tempo of the score.
     """
     written = rest_ticks(steady, piece.beat_ticks_at(times.onset_tick))
-    audible = are_audible(played) & (times.silence_tick > 0)
+    audible = are_audible(played, usual_release(played)) & (times.silence_tick > 0)
     written = np.where(audible, np.maximum(written, times.silence_tick), written)
     is_rest = (written > 0) & (times.silence_tick > 0)
     written_s, sounding_s = gaps_s(steady), gaps_s(times)

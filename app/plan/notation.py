@@ -11,7 +11,7 @@ from app.plan.catch_lengths import gaps_s
 from app.plan.line import TOUCHING_GATE, IntArray, LineTimes, Piece
 from app.plan.lungs import EPSILON
 from app.plan.model import FloatArray
-from app.plan.rests import AUDIBLE_S, LONG_NOTE_S, SILENT_S, are_audible
+from app.plan.rests import AUDIBLE_S, SILENT_S, are_audible
 
 WRITTEN_SHARE = 0.9
 """Where so many notes lie on fractions of a quarter, they were not played into the file ..."""
@@ -34,6 +34,8 @@ EARLIEST_PERCENT = 10.0
 """Percentile of these parts that stands for an early release."""
 LEAST_RELEASED = 8
 """Number of such notes below which the line's releases are unknown."""
+RELEASE_MARGIN = 1.2
+"""A note may be released earlier than nine of ten by this factor."""
 RELEASE_NOTE_SHARE = 0.5
 """... but no more than this part of what sounds of it, ..."""
 LATE_RELEASE = 0.05
@@ -109,10 +111,12 @@ def notated(times: LineTimes, piece: Piece) -> LineTimes:
         sounding = RELEASE_NOTE_SHARE * (end - times.onset_tick[:-1])
         # A note that began early ended early, too.
         moved = 0 if onset is times.onset_tick else near[:-1]
-        latest = end + np.minimum(np.maximum(early, _release_share(times) * np.diff(onset) + moved), sounding)
+        latest = end + np.minimum(
+            np.maximum(early, max(usual_release(times), RELEASE_SHARES[0]) * np.diff(onset) + moved), sounding
+        )
         # An audible silence after a long note is a rest.
         audible = np.ceil(clock.ticks(times.played_end_s[:-1] + AUDIBLE_S)) - 1.0
-        latest = np.where(times.duration_s[:-1] >= LONG_NOTE_S, np.minimum(latest, audible), latest)
+        latest = np.where(are_audible(times, usual_release(times))[1:], np.minimum(latest, audible), latest)
         begins = bar_starts(end, bars)
         since = end - begins
         rest_from = begins + simplest_places(since - LATE_RELEASE * quarter, latest - begins, since, quarter)
@@ -155,10 +159,9 @@ def _meant_slurs(times: LineTimes, onset_s: FloatArray) -> npt.NDArray[np.bool_]
     return slurred
 
 
-def _release_share(times: LineTimes) -> float:
-    """The part of the time to the next onset by which notes without a rest after them end early at most."""
-    share = _early_share(times)
-    return RELEASE_SHARES[0] if share is None else float(np.clip(share, *RELEASE_SHARES))
+def usual_release(times: LineTimes) -> float:
+    """The part of the time to the next onset by which notes of the line are released early; 0 where none shows it."""
+    return min(RELEASE_MARGIN * (_early_share(times) or 0.0), RELEASE_SHARES[1])
 
 
 def _early_share(times: LineTimes) -> float | None:

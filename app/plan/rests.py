@@ -82,10 +82,18 @@ def rest_ticks(times: LineTimes, beat_ticks: IntArray) -> IntArray:
     return rests
 
 
-def are_audible(times: LineTimes) -> BoolArray:
-    """(N,): whether the silence before each note is a rest by its seconds alone, whatever the notes around do."""
+def are_audible(times: LineTimes, released: float = 0.0) -> BoolArray:
+    """(N,): whether the silence before each note is a rest by its seconds alone, whatever the notes around do.
+
+    Parameters
+    ----------
+    released : 0..1
+        Part of the time to the next onset by which notes of the line are released early: less than that is no rest
+        after a long note either.
+    """
     silence_s = times.onset_s[1:] - times.played_end_s[:-1]
     audible = (times.duration_s[:-1] >= LONG_NOTE_S - EPSILON) & (silence_s >= AUDIBLE_S - EPSILON)
+    audible &= silence_s >= released * np.diff(times.onset_s)
     return np.insert(audible | (silence_s >= SILENT_S - EPSILON), 0, False)
 
 

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from app.performance.loudness import note_loudness, note_marks, sounding_curve
-from app.score.model import ControllerCurve, Note, Part
+from app.score.model import ControllerCurve, CurveKind, Note, Part
 
 
 def part(notes: list[tuple[int, int]], *curves: ControllerCurve) -> Part:
@@ -41,6 +41,18 @@ def test_a_velocity_that_never_changes_leaves_the_dynamics_to_a_drawn_curve() ->
     made = Part("1.1.1", "x", 0, 0, 0, None, None, "m", notes, (swelling,))
     assert note_loudness(made) == pytest.approx((0.4,) * 5 + (0.8,) * 5)
     assert note_marks(made) == ("p",) * 5 + ("f",) * 5
+
+
+@pytest.mark.parametrize("kind", ["breath", "expression"])
+@pytest.mark.parametrize("level", [0.5, 0.8])
+def test_a_curve_that_only_shapes_notes_leaves_the_level_to_the_velocities(kind: CurveKind, level: float) -> None:
+    """Every note swells and every other one is a little louder: that is no forte, however high the curve lies."""
+    curve = ControllerCurve(
+        kind, tuple(range(0, 400, 5)), (level - 0.05, level + 0.05, level - 0.07, level + 0.03) * 20
+    )
+    made = part([(10 * n, 10) for n in range(40)], curve)
+    assert note_marks(made) == ("mf",) * 40
+    assert np.ptp(note_loudness(made)) == pytest.approx(0.02)
 
 
 def test_breath_speaks_before_volume() -> None:

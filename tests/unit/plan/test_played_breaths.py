@@ -140,6 +140,21 @@ def test_rests_of_a_line_with_short_gates_are_those_of_its_score(seed: int) -> N
     assert breaths(plan(line_of(*written), clock)) == breaths(plan(line_of(*as_played_), clock))
 
 
+@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("bpm", [50.0, 72.0])
+def test_long_notes_released_as_early_as_all_others_have_no_rests_after_them(seed: int, bpm: float) -> None:
+    """A chorale: a tenth to a fifth of three seconds is silence that can be heard, and no rest of the score."""
+    chance = random.Random(seed)
+    lengths, rests = (1, 1, 1, 1, 2, 1, 0.5, 0.5, 1, 3) * 6, (0, 0, 0, 0, 0, 0, 0, 0, 0, 1) * 6
+    written, as_played_, at = [], [], 0.0
+    for index, (length, rest) in enumerate(zip(lengths, rests, strict=True)):
+        written.append((round(at * Q), round(length * Q), PITCHES[index % len(PITCHES)]))
+        as_played_.append((written[-1][0], round(length * chance.uniform(0.8, 0.95) * Q), written[-1][2]))
+        at += length + rest
+    clock = PlainClock(((0, bpm),))
+    assert breaths(plan(line_of(*written), clock)) == breaths(plan(line_of(*as_played_), clock))
+
+
 def test_half_a_second_after_a_long_note_is_a_rest_in_a_played_line_too() -> None:
     """Notes of three seconds and 0.55 s of silence lie on no grid."""
     notes = [(round(index * 3.55 * Q), 3 * Q, 65) for index in range(6)]
