@@ -28,7 +28,7 @@ STALE_S = 12.0
 CIRCULAR_SHARE = 0.4
 """Part of the air that stays in the lungs of a player who breathes in through the nose."""
 
-HASTY_SHARE = 0.3
+HASTY_SHARE = 0.4
 """Part of the lungs that is used up at least before the next breath, if it can be."""
 EPSILON = 1e-6
 """Rounding of air summed over an hour of notes, seconds."""
