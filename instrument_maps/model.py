@@ -545,11 +545,15 @@ class Stopped(_Table, frozen=True):
         The hand in the bell.
     without : tuple of str
         Controls of pitch that are at rest meanwhile.
+    turned_deg : vector
+        Rotation vector, in the root frame, by which the palm turns about its knuckles to close the bell; the fingers
+        stay where they lie.
     """
 
     fingered_semitones: int
     hand: Hand
     without: tuple[str, ...] = ()
+    turned_deg: Vector = (0.0, 0.0, 0.0)
 
 
 class Air(_Table, frozen=True):

@@ -388,6 +388,8 @@ def _stopped(instrument: InstrumentMap) -> Iterator[Problem]:
     if stopped is None:
         return
     yield from _within("stopped.fingered_semitones", stopped.fingered_semitones, -12, 12)
+    for axis in range(3):
+        yield from _within(f"stopped.turned_deg[{axis}]", stopped.turned_deg[axis], -90, 90)
     known = {control.name for control in instrument.controls if control.role == "pitch"}
     for index, name in enumerate(stopped.without):
         if name not in known:

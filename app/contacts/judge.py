@@ -23,8 +23,10 @@ from app.contacts.breaks import JUDGED_PER_S, Break, runs
 from app.contacts.controls import NoteFrames
 from app.contacts.hold import missed_mm
 from app.contacts.touches import LIPS, TouchJudge, Traces, distance_m, hand_gaps_m, world_from_nodes
+from app.motion.contact import Carried
 from app.motion.model import Motion
 from app.motion.perform import PerformanceCurves
+from app.motion.stopping import shifted
 from app.rig.hold import hand_targets
 from app.rig.instrument import node_transforms
 from app.rig.lips import meeting
@@ -106,9 +108,14 @@ class ContactJudge:
             off_lips = (lips_m * 1000.0 > LIPS_MM) & ~notes.within(self._breaths_s)
             yield from runs(("lips", "", ""), times_s, lips_m, off_lips)
         placed = self._playing.placed(times_s)
+        stopped, stopping = instrument.stopped, self._playing.stopping.sample(times_s)
         off: dict[str, BoolArray] = {}
         for hand in self._playing.player.hold.hands:
-            gaps_m = hand_gaps_m(hand, joints.of(self._wrists[hand.side])[0], place_m, turn, controls, placed)
+            wrist_m = joints.of(self._wrists[hand.side])[0]
+            gaps_m = hand_gaps_m(hand, wrist_m, place_m, turn, controls, placed)
+            if stopped is not None and hand.side == stopped.hand and stopping.any():
+                shift = shifted(self._character.skeleton, stopped, stopping, Carried(place_m, turn))
+                gaps_m = distance_m(wrist_m, shift.target(*hand_targets(hand, place_m, turn, controls, placed))[0])
             bounds_mm = [bound_mm(contact) for contact in instrument.contacts if contact.part.startswith(hand.side)]
             off[hand.side] = gaps_m * 1000.0 > MOVED_MM
             broken = gaps_m * 1000.0 > min(bounds_mm, default=GRIP_MM)
@@ -119,7 +126,7 @@ class ContactJudge:
                 asked_m, _ = hand_targets(hand, place_m, turn, asked, placed)
                 gaps_m = hand_gaps_m(hand, asked_m, place_m, turn, controls, placed)
                 yield from runs(("short", hand.side, control), times_s, gaps_m, gaps_m > SLIDE_M)
-        judge = TouchJudge(instrument, traces, controls, notes)
+        judge = TouchJudge(instrument, traces, controls, notes, stopping > 0.0)
         for index, contact in enumerate(instrument.contacts):
             if contact.grip == "guide":
                 continue

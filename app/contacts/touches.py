@@ -13,6 +13,7 @@ import numpy as np
 
 from app.contacts.bounds import CLEAR_MM, TOUCH_MM, BoolArray, FloatArray, IntArray
 from app.contacts.controls import NoteFrames
+from app.motion.stopping import FINGERS_KEPT
 from app.rig import quaternion
 from app.rig.hold import HandHold, Placed, hand_targets
 from app.rig.stations import aside_m, only_at, stations, stations_of_notes, worked_by
@@ -130,12 +131,20 @@ class TouchJudge:
     values : dict of str to (F,)
         Of the controls: those that were measured, or those that were made.
     notes : NoteFrames
+    closing : (F,) bool
+        Where a hand closes the bell or is on its way: what goes with its palm is not where it is held.
     """
 
     def __init__(
-        self, instrument: InstrumentMap, traces: Traces, values: Mapping[str, FloatArray], notes: NoteFrames
+        self,
+        instrument: InstrumentMap,
+        traces: Traces,
+        values: Mapping[str, FloatArray],
+        notes: NoteFrames,
+        closing: BoolArray,
     ) -> None:
         self._instrument, self._traces, self._values, self._notes = instrument, traces, values, notes
+        self._closing = closing
         self._only_at = only_at(instrument)
 
     @cached_property
@@ -170,6 +179,10 @@ class TouchJudge:
                 # Of a hole without a moving part the finger itself is the measure: it closes it where it should.
                 if control.motion is not None:
                     frames = frames & notes.working(control, self._values[control.name])[0]
+        stopped = instrument.stopped
+        if stopped is not None and contact.part.startswith(stopped.hand):
+            # The fingers stay on the wall of the bell, thumb and palm do not.
+            frames = frames if contact.part.split(".")[1] in FINGERS_KEPT else frames & ~self._closing
         return frames
 
     def hovering_m(self) -> dict[str, FloatArray]:

@@ -36,6 +36,7 @@ from app.export.target import TargetSkeleton, normalised_target
 from app.export.threads import in_threads
 from app.export.walk import SOLES, Walk, bone_deviation_m
 from app.formats.scene import Scene
+from app.motion.stopping import stopping
 from app.plan.footwork import Foot, foot_of, lifted_s
 from app.plan.model import BreathEvent, PlayerPlan
 from app.rig import quaternion
@@ -164,7 +165,8 @@ def measure_player(
     ((limits, acceleration),) = of_joints
     traces = found.traces
     values = _control_values(instrument, held) | hole_values(instrument, traces)
-    judge = TouchJudge(instrument, traces, values, notes)
+    closing = notes.within(map(tuple, stopping(plan.mutes, instrument.stopped).spans_s.tolist()))
+    judge = TouchJudge(instrument, traces, values, notes, closing)
     touches = [
         (contact, Spread.of(judge.gap_m(index)[judge.asked(index)], bound_mm(contact)))
         for index, contact in enumerate(instrument.contacts)

@@ -22,7 +22,7 @@ from app.export.formats import FILE_FORMATS, FileContent, FileFormat, Format, Wr
 from app.export.instrument import instrument_scene
 from app.export.keyed import KeyCount, key_count, keyed_character, keyed_instrument
 from app.export.measure import Measured, measure_player
-from app.export.report import DoubleReport, PlayerReport, SkeletonReport, stage_place
+from app.export.report import DoubleReport, MutedSpan, PlayerReport, SkeletonReport, stage_place
 from app.export.request import ExportCast, Request
 from app.export.target import TargetSkeleton, Trajectory, instrument_path
 from app.export.targets import CheckedTarget
@@ -232,6 +232,11 @@ def _reported(
         "notes": sum(span.shows_onset(note.start_s) for note in request.performance.plan(player).fingerings),
         "measures": None if measured is None else measured.measures,
         "keys": keys,
+        "mutes": tuple(
+            MutedSpan(event.kind, round(event.start_s, 6), round(event.end_s, 6))
+            for event in request.performance.plan(player).mutes
+            if event.end_s > span.first_frame_s and event.start_s < span.end_s
+        ),
     }
 
 

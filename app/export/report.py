@@ -14,6 +14,7 @@ from app.export.measure import PlayerMeasures
 from app.export.rig_options import DEFAULT_RIG, RigOptions
 from app.export.target import SkeletonChoice
 from app.formats.keys import KeyChoice
+from app.plan.model import MuteKind
 from app.project.casting import StagePosition
 
 SWAY_CORRELATION = 0.9
@@ -81,6 +82,15 @@ class SkeletonReport(msgspec.Struct, frozen=True):
     """Options besides the bones; those that a character's own skeleton does not take are among the warnings."""
 
 
+class MutedSpan(msgspec.Struct, frozen=True):
+    """A passage with a mute in the bell, which nothing in the files shows, or ``stopped`` by the hand, which does, in
+    seconds of the piece."""
+
+    kind: MuteKind
+    start_s: float
+    end_s: float
+
+
 class DoubleReport(msgspec.Struct, frozen=True):
     """What a player plays on another instrument. It is measured with the player's character; while the other is played
     it lies beside the player."""
@@ -97,6 +107,7 @@ class DoubleReport(msgspec.Struct, frozen=True):
     """Keys of the instrument's files."""
     socket: str | None = None
     """Socket, as the player's."""
+    mutes: tuple[MutedSpan, ...] = ()
 
 
 class PlayerReport(msgspec.Struct, frozen=True):
@@ -127,6 +138,8 @@ class PlayerReport(msgspec.Struct, frozen=True):
     """Keys of the character's and the instrument's files, FBX and GLB."""
     socket: str | None = None
     """The character's bone that the instrument's root bone hangs on; None: its file has its motion in the world."""
+    mutes: tuple[MutedSpan, ...] = ()
+    """Muted passages that the frames show, in order."""
 
 
 class DancerReport(msgspec.Struct, frozen=True):

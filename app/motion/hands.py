@@ -13,11 +13,12 @@ from app.motion.curve import FloatArray
 from app.motion.posture import SIDES, Side, Trunk
 from app.motion.reach import clavicle_of
 from app.motion.reaching import PLACES, SHAPES
+from app.motion.stopping import STOPPING, shifted
 from app.rig import quaternion
 from app.rig.hand_shapes import shaped, tip_m
 from app.rig.ik import arm
 from app.rig.model import Skeleton
-from instrument_maps.model import Water
+from instrument_maps.model import Stopped, Water
 
 USUAL_ARM_M: Final = 0.5
 """Upper and lower arm of an adult: places are farther from longer arms."""
@@ -34,7 +35,12 @@ KEY_ELBOW: Final = 0.4
 
 
 def away(
-    skeleton: Skeleton, base: Trunk, hands: Mapping[str, FloatArray], carried: Carried, water: Water | None
+    skeleton: Skeleton,
+    base: Trunk,
+    hands: Mapping[str, FloatArray],
+    carried: Carried,
+    water: Water | None,
+    stopped: Stopped | None,
 ) -> Away | None:
     """Where hands are that leave the instrument; None where all stay.
 
@@ -43,9 +49,11 @@ def away(
     base : Trunk
         Before any motion, one frame.
     hands : mapping of str to array
-        As of `app.motion.reaching.reached`.
+        As of `app.motion.reaching.reached`, and how far a hand closes the bell (`STOPPING`).
     """
     found = Away({}, {}, {})
+    if stopped is not None and STOPPING in hands:
+        found.shifts[stopped.hand] = shifted(skeleton, stopped, hands[STOPPING], carried)
     for side in SIDES:
         if f"{side}.m" not in hands:
             continue
@@ -66,7 +74,7 @@ def away(
                 low = low + KEY_ELBOW * share
             found.places[side].append((share, *wrist))
         found.elbows[side] = (np.minimum(low, 1.0), _sided(ELBOW_LOW, side))
-    return found if found.offsets_m else None
+    return found if found.offsets_m or found.shifts else None
 
 
 def page_m(skeleton: Skeleton, base: Trunk) -> FloatArray:

@@ -34,6 +34,7 @@ from app.motion.settled import settled, shown_by
 from app.motion.solve import Curves, Player, padding, solve
 from app.motion.splice import changed_stretch, spliced
 from app.motion.stations import raised_curve, sampled, station_curves
+from app.motion.stopping import STOPPING, stopping
 from app.motion.tipping import with_bell_room
 from app.motion.wrists import wrists_of
 from app.plan.acting import Acting, acting_of
@@ -81,6 +82,8 @@ class Frames:
         How far the instrument is put aside.
     added : dict of str to Added
         What the animator's curves add, by channel.
+    stopping : (F,) float64 or None
+        How far a hand closes the bell; None: no note of the player is stopped.
     """
 
     times_s: FloatArray
@@ -93,6 +96,7 @@ class Frames:
     danced: FloatArray | None = None
     stowed: FloatArray | None = None
     added: Mapping[str, Added] = field(default_factory=dict)
+    stopping: FloatArray | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -128,6 +132,8 @@ class PerformanceCurves:
         How far the instrument is put aside for another one (`app.motion.doubling`).
     additive : Additive
         The animator's curves.
+    stopping : Envelopes
+        How far a hand closes the bell.
     """
 
     plan: PlayerPlan
@@ -151,6 +157,7 @@ class PerformanceCurves:
     inhaling: Envelopes = NOT_SHOWN
     stowed: Curve | None = None
     additive: Additive = NOTHING
+    stopping: Envelopes = NOT_SHOWN
 
     @property
     def player_id(self) -> str:
@@ -184,6 +191,7 @@ class PerformanceCurves:
             danced=self._danced(times_s),
             stowed=None if self.stowed is None else self.stowed.sample(times_s),
             added=self.additive.sample(times_s),
+            stopping=self.stopping.sample(times_s) if len(self.stopping.height) else None,
         )
 
     def _danced(self, times_s: FloatArray) -> FloatArray | None:
@@ -203,6 +211,8 @@ class PerformanceCurves:
             moved = with_dance(moved, frames.danced, amount, self.body, legs=free)
         if added:
             moved = with_added(moved, added, self.body, self.player.place.knee_rad)
+        if frames.stopping is not None:
+            moved = replace(moved, hands=moved.hands | {STOPPING: frames.stopping})
         if frames.stowed is not None and self.player.put_aside is not None:
             moved = self.player.put_aside.watched(moved, frames.stowed)
             # A hand that has put its instrument aside has left it already.
@@ -293,6 +303,7 @@ class PerformanceCurves:
         spans += [curve.changed_s(other.stations[name]) for name, curve in self.stations.items()]
         spans.append(self.raised.changed_s(other.raised))
         spans.append(self.inhaling.changed_s(other.inhaling))
+        spans.append(self.stopping.changed_s(other.stopping))
         spans.append(self._further.changed_s(other._further))
         spans.append(self.additive.changed_s(other.additive))
         spans.append(differing_s(self.plan.styles, other.plan.styles))
@@ -411,6 +422,7 @@ def prepare(
         dance=dance,
         inhaling=NOT_SHOWN if dance is None else inhaling(plan.breaths),
         additive=_additive(plan, before),
+        stopping=stopping(plan.mutes, instrument_map.stopped),
     )
 
 
@@ -465,6 +477,7 @@ def _made(posture_name: str, instrument_map: InstrumentMap, skeleton: Skeleton, 
         base=trunk(skeleton, *hips_path(place, skeleton, still), still),
         grip_of_lips_m=_grip_of_lips(hold.lips, body.embouchure[instrument_map.embouchure.kind]),
         water=instrument_map.water,
+        stopped=instrument_map.stopped,
         wrists=wrists_of(body, load_skeleton()),
     )
     return with_bell_room(made.standing_on(instrument_map.endpin))

@@ -24,13 +24,14 @@ from app.motion.posture import Side, Stance, Trunk, hips_path, solve_legs, trunk
 from app.motion.reach import TURN_RAD, Help, needed_help, shoulder_distance_m
 from app.motion.soft import softly_capped
 from app.motion.stop import stopped
+from app.motion.stopping import STOPPING, with_fingers_kept
 from app.motion.upper_body import UpperBody, joined
 from app.motion.wrists import Wrist
 from app.rig import quaternion
 from app.rig.finger_poses import finger_rotations
 from app.rig.hold import GripPose, Placed, hand_targets
 from app.rig.model import Skeleton
-from instrument_maps.model import Carriage, Endpin, Lowered, Water
+from instrument_maps.model import Carriage, Endpin, Lowered, Stopped, Water
 
 CHUNK = 4096
 """Frames solved at once: few enough to stay in the processor's cache."""
@@ -47,7 +48,7 @@ class Player:
     ``still`` is the posture before any motion and ``base`` its trunk, one frame; ``grip_of_lips_m`` (3,) is how far
     playing lips bring the mouthpiece from where one lip alone would carry it, in the head's frame. ``stand`` is there
     where the instrument stands on the floor, ``aside`` where the musician plays others too. ``water`` says where it is
-    let out.
+    let out, ``stopped`` how a hand closes the bell.
     """
 
     skeleton: Skeleton
@@ -63,10 +64,13 @@ class Player:
     aside: Aside | None = None
     bell_room: BellRoom = ANYWHERE
     water: Water | None = None
+    stopped: Stopped | None = None
 
     def away(self, motion: BodyMotion, carried: Carried) -> Away | None:
         """Where hands are that leave the instrument; None where all stay."""
-        return away(self.skeleton, self.base, motion.hands, carried, self.water) if motion.hands else None
+        if not motion.hands:
+            return None
+        return away(self.skeleton, self.base, motion.hands, carried, self.water, self.stopped)
 
     def standing_on(self, endpin: Endpin | None) -> Player:
         """The player with the instrument on its endpin, where it usually is low enough for that."""
@@ -195,6 +199,8 @@ def poses(
         posed = finger_rotations(player.hold, chunk.controls, len(chunk), chunk.placed, chunk.raised)
         if chunk.body.hands:
             posed = with_shapes(player.skeleton, chunk.body.hands, list(player.hold.finger_joints), posed)
+        if player.stopped is not None and STOPPING in chunk.body.hands:
+            posed = with_fingers_kept(player.skeleton, player.hold, player.stopped, chunk.body.hands[STOPPING], posed)
         # Joint by joint: all at once takes three times as long.
         for column, joint in enumerate(player.hold.finger_joints):
             rotations[part, joint] = posed[:, column]
