@@ -19,6 +19,10 @@ PLAYED_LEAST = 4
 """... nor where fewer than this lie elsewhere."""
 DIVISIONS = ((1,), (2,), (3, 4), (6, 8), (12,))
 """Divisions of a quarter, the simplest first."""
+RARE = 4
+"""Thirds or fourths of a quarter are rare in a line that has this many times as many of the others: ..."""
+FARTHER = 4.0
+"""... then they count as so much farther away."""
 NEAREST = 1.0 / 24.0
 """Quarters within which there is always a place of the finest division."""
 EARLY_OR_LATE_S = 0.045
@@ -71,7 +75,18 @@ def written_onsets(
     reach = np.maximum(least, 0.0 if reach_ticks is None else reach_ticks)
     begins = bar_starts(onsets, bars)
     since = onsets - begins
-    return begins + simplest_places(since - reach, since + reach, since, quarter_ticks)
+    rarer = _rarer_division(since / quarter_ticks)
+    return begins + simplest_places(since - reach, since + reach, since, quarter_ticks, rarer)
+
+
+def _rarer_division(quarters: FloatArray) -> int:
+    """3 or 4, where hardly any notes lie on such parts of a quarter but many on the others; 0 if neither is rare."""
+    parts = np.array([0.0, 1.0 / 4.0, 1.0 / 3.0, 1.0 / 2.0, 2.0 / 3.0, 3.0 / 4.0, 1.0])
+    counts = np.bincount(np.searchsorted((parts[1:] + parts[:-1]) / 2.0, quarters % 1.0), minlength=len(parts))
+    thirds, fourths = int(counts[[2, 4]].sum()), int(counts[[1, 5]].sum())
+    if max(thirds, fourths) < PLAYED_LEAST or RARE * min(thirds, fourths) > max(thirds, fourths):
+        return 0
+    return 3 if thirds < fourths else 4
 
 
 def bar_starts(ticks: IntArray, bars: IntArray) -> IntArray:
@@ -205,6 +220,7 @@ def simplest_places(
     last: npt.NDArray[np.floating] | IntArray,
     near: npt.NDArray[np.floating] | IntArray,
     quarter_ticks: int,
+    rarer: int = 0,
 ) -> IntArray:
     """(N,): of the places between ``first`` and ``last`` those of the simplest division, and of these the nearest.
 
@@ -212,6 +228,8 @@ def simplest_places(
     ----------
     first, last, near : (N,)
         Ticks; where no division has a place between, the nearest one of the finest is taken.
+    rarer : int
+        A division whose places, and those of its half, count as `FARTHER` away than the others of their level.
     """
     at: FloatArray = np.asarray(near, np.float64) / quarter_ticks
     low, high = first / quarter_ticks - 1e-9, last / quarter_ticks + 1e-9
@@ -222,7 +240,8 @@ def simplest_places(
         best, distance = result, np.full(len(at), np.inf)
         for division in level:
             place = np.clip(np.rint(at * division), np.ceil(low * division), np.floor(high * division)) / division
-            off = np.where((place >= low) & (place <= high), np.abs(place - at), np.inf)
+            far = FARTHER if rarer and division in (rarer, 2 * rarer) else 1.0
+            off = np.where((place >= low) & (place <= high), far * np.abs(place - at), np.inf)
             best, distance = np.where(off < distance, place, best), np.minimum(off, distance)
         here = ~found & np.isfinite(distance)
         result = np.where(here, best, result)

@@ -88,3 +88,16 @@ def test_simplest_places_are_the_first_of_a_slow_search(rows: list[tuple[int, in
                 break
         else:
             assert abs(place - at) <= QUARTER / 24
+
+
+@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize(("parts", "bar"), [((0.25, 0.25, 0.5), 720), ((1 / 3, 1 / 3, 1 / 3), 1920)])
+def test_what_a_line_divides_a_quarter_by_is_what_its_early_notes_are(
+    parts: tuple[float, ...], bar: int, seed: int
+) -> None:
+    """Of 48 quarters of sixteenths, in bars that begin between quarters, none is a triplet, nor the other way round."""
+    chance = Random(seed)
+    written = np.concatenate(([0.0], np.cumsum(parts * 48)))
+    played = np.rint((written + [chance.uniform(-0.05, 0.05) for _ in written]) * 480).astype(np.int64)
+    found = written_onsets(played, 480, np.arange(0, 48 * 480, bar), np.full(len(played), 45))
+    assert np.abs(found - written * 480).max() <= 1
