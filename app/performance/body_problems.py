@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Final, NamedTuple
 
 from app.contacts.hold import missed_message
 from app.contacts.reach import Holding, Reached, reached
 from app.errors import AppError, Message
 from app.performance.bodies import body_of, character_of, hold_of, is_held, suited_to
-from app.plan.memo import Memo
 from app.plan.model import FingeringEvent, Problem
 from app.plan.parameters import PlayerParameters
 from app.project.casting import StagePosition
 from app.project.performers import Player
 from app.rig.character_library import bundled_characters, character_revision
+from app.steps import Results, StepTable
 from instrument_maps.load import bundled_maps
 from instrument_maps.model import InstrumentMap
 
@@ -29,15 +29,22 @@ class BodyProblems(NamedTuple):
         Note by note.
     unseen : Message or None
         Why the player cannot be seen.
+    reach : Results or None
+        Of `REACH`, for the next time.
     """
 
     lacking: tuple[Message, ...]
     unreached: tuple[Problem, ...] = ()
     unseen: Message | None = None
+    reach: Results | None = None
 
 
 def body_problems(
-    player: Player, instrument: InstrumentMap, fingerings: tuple[FingeringEvent, ...], memo: Memo, waiting: bool
+    player: Player,
+    instrument: InstrumentMap,
+    fingerings: tuple[FingeringEvent, ...],
+    waiting: bool,
+    before: Results | None = None,
 ) -> BodyProblems:
     """What is wrong with a player's body.
 
@@ -45,10 +52,10 @@ def body_problems(
     ----------
     instrument : InstrumentMap
         Of the library.
-    memo : Memo
-        Of the performance.
     waiting : bool
         Whether another task is computing how the instrument is held.
+    before : Results or None
+        What was found before an edit.
     """
     try:
         held, lacking = suited_to(player, instrument)
@@ -58,8 +65,10 @@ def body_problems(
         ours = player.character_id in bundled_characters() and bundled_maps().get(instrument.id) is instrument
         missed = None if ours or not is_held(player, instrument) else missed_message(hold_of(player, held))
         revision = character_revision(player.character_id)
-        found = memo.revised(f"reach:{player.id}", _reached, _posed(player), held, revision, fingerings)
-        return BodyProblems(lacking if missed is None else (*lacking, missed), found.problems)
+        reach = REACH.begin(before, player=_posed(player), instrument=held, revision=revision, fingerings=fingerings)
+        unreached = reach.of(_reached).problems
+        reach.close()
+        return BodyProblems(lacking if missed is None else (*lacking, missed), unreached, reach=reach)
     except AppError as error:
         # A model or character that cannot be read is this player's problem; the others play on.
         return BodyProblems((error.message,), unseen=error.message)
@@ -72,10 +81,17 @@ def _posed(player: Player) -> Player:
 
 
 def _reached(
-    before: Reached | None, player: Player, held: InstrumentMap, revision: int, fingerings: tuple[FingeringEvent, ...]
+    player: Player,
+    instrument: InstrumentMap,
+    revision: int,
+    fingerings: tuple[FingeringEvent, ...],
+    before: Reached | None,
 ) -> Reached:
     def holding() -> Holding:
         posture = player.parameters.posture
-        return Holding(player.id, character_of(player), hold_of(player, held), body_of(player), posture)
+        return Holding(player.id, character_of(player), hold_of(player, instrument), body_of(player), posture)
 
-    return reached(before, (player, revision), held, fingerings, holding)
+    return reached(before, (player, revision), instrument, fingerings, holding)
+
+
+REACH: Final = StepTable(reached=_reached)

@@ -24,20 +24,21 @@ from app.performance.bodies import hold_now, is_held, suited_to
 from app.performance.body_problems import body_problems
 from app.performance.loudness import controller_input, note_loudness, note_marks, piece_reading, velocities_of
 from app.plan.acting import Acting, acting_of, with_style
-from app.plan.corrections import PlayStyle, RemoveEvent, SetBreath, SetCue, Vary
+from app.plan.corrections import Correction, PlayStyle, RemoveEvent, SetBreath, SetCue, Vary
 from app.plan.doubling import Change, changes, first_played, held_plan
 from app.plan.generate import EnsemblePlan, MonophonicPart, Piece, frame_around, plan_ensemble
 from app.plan.glances import StagePlace
-from app.plan.memo import Memo
-from app.plan.model import CONDUCTOR, PlayerPlan, Problem, TimeFrame
+from app.plan.model import CONDUCTOR, PlayerPlan, Problem, TimeFrame, no_events
 from app.plan.parameters import PlayerParameters, deciding
 from app.plan.velocities import VelocityReading
 from app.project.model import Project
 from app.project.performers import Player
 from app.rig.character_library import character_library
 from app.score.limits import too_long
+from app.steps import Results, StepTable, reading
 from instrument_maps.library import library
 from instrument_maps.model import InstrumentMap, Posture
+from metadata.acting import Habit, Style
 from metadata.library import MetadataLibrary, metadata_library
 from metadata.model import Expression
 
@@ -90,16 +91,42 @@ class Performance:
         """By player id, once there are plans: why players cannot be seen, streamed or exported."""
         # One that was never played knows nothing, but may know of one that was.
         self._before: Performance | None = before if before is None or before.planned else before._before
-        self._memo: Memo = Memo(None if self._before is None else self._before._memo)
-        self._acted = dict[str, PlayerParameters]()
         self._lock = RLock()
+        known = dict[str, Results]() if self._before is None else self._before._players
+        self._players: dict[str, Results] = {
+            player.id: self._begun(player, known.get(player.id)) for player in project.players
+        }
+        self._whole: Results = WHOLE.begin(
+            None if self._before is None else self._before._whole,
+            clock=project.score.tempo_map,
+            metre_map=project.metre_map,
+            accompaniment=project.score.accompaniment,
+            velocities=tuple(results.of(velocities_of) for results in self._players.values()),
+            installed=self.metadata.expressions_by_name,
+            own=project.expressions,
+        )
+        self._lines = dict[str, Results]()
+        self._held = dict[str, Results]()
+        self._reach = dict[str, Results]()
+
+    def _begun(self, player: Player, before: Results | None) -> Results:
+        return PLAYED.begin(
+            before,
+            part=self.project.part(player),
+            own_parameters=player.parameters,
+            name=player.name,
+            musician_id=self.project.musician(player).id,
+            corrections=self.project.corrections.get(player.id, ()),
+            section_intensity=self.project.section_intensity,
+            styles=self.metadata.styles.items,
+            habits=self.metadata.habits.items,
+        )
 
     @cached_property
     def piece(self) -> Piece:
         """What all players share."""
         with self._lock:
-            score = self.project.score
-            return self._memo.step("piece", Piece, score.tempo_map, self.project.metre_map, score.accompaniment)
+            return self._whole.of(Piece)
 
     @cached_property
     def lines(self) -> tuple[MonophonicPart, ...]:
@@ -118,11 +145,7 @@ class Performance:
     def velocity_reading(self) -> VelocityReading:
         """The reading of the velocities of all parts together."""
         with self._lock:
-            parts = (
-                self._memo.step(f"velocities:{player.id}", velocities_of, self.project.part(player))
-                for player in self.project.players
-            )
-            return self._memo.step("velocities", piece_reading, *parts)
+            return self._whole.of(piece_reading)
 
     def marks(self, player: Player) -> dict[str, str]:
         """The dynamic mark in force at each of a player's notes, by note id."""
@@ -130,42 +153,23 @@ class Performance:
         return {note.id: mark for note, mark in zip(part.notes, note_marks(part, self.velocity_reading), strict=True)}
 
     def _line(self, player: Player, instrument: InstrumentMap) -> MonophonicPart:
-        part = self.project.part(player)
-        corrections = self.project.corrections.get(player.id, ())
-        loudness = self._memo.step(f"loudness:{player.id}", note_loudness, part, self.velocity_reading)
-        blown = self._memo.step(f"controller:{player.id}", controller_input, part)
-        named = tuple(sorted({item.style for item in corrections if isinstance(item, PlayStyle)}))
-        # Only regions name styles: without them a new name or style leaves the line as it was.
-        shown = (self._actings(player, named), player.name, ", ".join(sorted(self.metadata.styles.items)))
-        said = (
-            *(self.parameters(player), corrections, loudness, blown, player.doubles),
-            *(shown if named else ((), "", "")),
-            part.muted,
-            part.stopped,
+        played = self._players[player.id]
+        self._lines[player.id] = LINE.begin(
+            None if self._before is None else self._before._lines.get(player.id),
+            player_id=player.id,
+            instrument=instrument,
+            part=self.project.part(player),
+            velocity_reading=self.velocity_reading,
+            musician=player.doubles,
+            **{name: played[name] for name in PLAYED.functions.keys() | {"corrections", "name"}},
         )
-        return self._memo.step(f"line:{player.id}", MonophonicPart, player.id, part.notes, instrument, *said)
-
-    def _actings(self, player: Player, names: tuple[str, ...]) -> tuple[tuple[str, Acting], ...]:
-        """What a player shows in other styles, by style; those that are not there are left out."""
-        styles, habits = self.metadata.styles.items, self.metadata.habits.items
-        musician, found = self.project.musician(player).id, []
-        for name in names:
-            if name in styles:
-                other = msgspec.structs.replace(player.parameters, style=name)
-                said = (other, musician, self.project.section_intensity, styles, habits)
-                found.append((name, acting_of(self._memo.step(f"acting:{player.id}:{name}", with_style, *said))))
-        return tuple(found)
+        return self._lines[player.id].of(MonophonicPart)
 
     def parameters(self, player: Player) -> PlayerParameters:
         """What a player's plan and motion are made with: the player's parameters, with what style and habits make of
         them."""
-        musician = self.project.musician(player).id
-        styles, habits = self.metadata.styles.items, self.metadata.habits.items
-        said = (player.parameters, musician, self.project.section_intensity, styles, habits)
         with self._lock:
-            if player.id not in self._acted:
-                self._acted[player.id] = self._memo.step(f"acting:{player.id}", with_style, *said)
-            return self._acted[player.id]
+            return self._players[player.id].of(with_style)
 
     @cached_property
     def time_frame(self) -> TimeFrame:
@@ -212,19 +216,19 @@ class Performance:
         with self._lock:
             if self.planned:
                 return
-            before = None if self._before is None else self._before._ensemble
+            known = self._before
             made = plan_ensemble(
                 self.piece,
                 self.lines,
                 self.time_frame,
                 self.project.seed,
-                self.expressions,
-                before,
-                stop_requested,
-                progress,
-                self.places,
-                self.metadata.all_rules,
-                self.metadata.gestures.items,
+                expressions=self.expressions,
+                rules=self.metadata.all_rules,
+                gestures=self.metadata.gestures.items,
+                places=self.places,
+                before=None if known is None else known._ensemble,
+                stop_requested=stop_requested,
+                progress=progress,
             )
             self.unseen = dict[str, Message]()
             turns = dict[str, tuple[str, tuple[Change, ...]]]()
@@ -237,7 +241,8 @@ class Performance:
             self._problems = problems
             _CHECKED.update(player.parameters.choreography for player in self.project.players)
             self.__dict__["_ensemble"] = made
-            self._memo.close()
+            for results in (self._whole, *self._players.values(), *self._lines.values(), *self._held.values()):
+                results.close()
             self._before = None
 
     def prepare_within(self, cpu_s: float) -> bool:
@@ -265,7 +270,7 @@ class Performance:
         is put aside. ``turns`` keeps the changes of each musician's instruments."""
         plan = made.plans.get(player.id)
         if plan is None:
-            return self._memo.step(f"unplayed:{player.id}", no_events, player.id, self.time_frame)
+            return no_events(player.id, self.time_frame)
         played = [one for one in self.project.played_by(player) if one.id in made.plans]
         if len(played) == 1:
             return plan
@@ -273,14 +278,15 @@ class Performance:
         if musician not in turns:
             plans = {one.id: made.plans[one.id] for one in played}
             turns[musician] = first_played(plans), changes(plans)
-        found = held_plan(plan, *turns[musician], {one.id: one.name for one in played})
-        # What is as it was is the very same, field by field: motions are compared so.
-        parts = {
-            name: self._memo.step(f"held:{player.id}:{name}", _same, value)
-            for name in ("cues", "gestures", "expressions", "problems", "glances")
-            for value in [getattr(found, name)]
-        }
-        return self._memo.step(f"held:{player.id}", _with_parts, plan, tuple(parts), *parts.values())
+        first, found = turns[musician]
+        self._held[player.id] = HELD.begin(
+            None if self._before is None else self._before._held.get(player.id),
+            plan=plan,
+            first=first,
+            found=found,
+            names={one.id: one.name for one in played},
+        )
+        return self._held[player.id].of(_with_parts)
 
     def _problems_of(self, player: Player, plan: PlayerPlan) -> tuple[Problem, ...]:
         """What is wrong with a player's plan, and what the player lacks for it."""
@@ -288,16 +294,18 @@ class Performance:
         if lacking:
             self.unseen[player.id] = lacking[0]
         else:
-            found = body_problems(
-                player, self.instrument(player), plan.fingerings, self._memo, player.id in self.waiting
-            )
+            known = None if self._before is None else self._before._reach.get(player.id)
+            instrument, waiting = self.instrument(player), player.id in self.waiting
+            found = body_problems(player, instrument, plan.fingerings, waiting, known)
             lacking, unreached = found.lacking + _not_danced(player, self.time_frame), found.unreached
             if found.unseen is not None:
                 self.unseen[player.id] = found.unseen
+            if found.reach is not None:
+                self._reach[player.id] = found.reach
         lacking += unknown_acting(player, self.metadata)
         frame = self.time_frame
         reported = tuple(Problem(message, None, frame.first_frame_s, frame.end_s) for message in lacking) + unreached
-        return self._memo.step(f"problems:{player.id}", _together, reported, plan.problems)
+        return by_time(reported + plan.problems) if reported else plan.problems
 
     @cached_property
     def plans(self) -> dict[str, PlayerPlan]:
@@ -315,8 +323,7 @@ class Performance:
     def expressions(self) -> dict[str, Expression]:
         """Every expression by name; the project's own win over the user's, and those over the bundled ones."""
         with self._lock:
-            there = self.metadata.expressions_by_name
-            return self._memo.step("expressions", _all_expressions, there, self.project.expressions)
+            return self._whole.of(_all_expressions)
 
     @property
     def unplanned_notes(self) -> int:
@@ -444,23 +451,91 @@ def _work(line: MonophonicPart, before: MonophonicPart | None) -> int:
     return len(line.notes) // LIGHT
 
 
-def _all_expressions(there: dict[str, Expression], own: tuple[Expression, ...]) -> dict[str, Expression]:
-    return there | {expression.name: expression for expression in own}
+def _all_expressions(installed: dict[str, Expression], own: tuple[Expression, ...]) -> dict[str, Expression]:
+    return installed | {expression.name: expression for expression in own}
 
 
-def _same(value: tuple[object, ...]) -> tuple[object, ...]:
+def _actings(
+    corrections: tuple[Correction, ...],
+    own_parameters: PlayerParameters,
+    musician_id: str,
+    section_intensity: float,
+    styles: Mapping[str, Style],
+    habits: Mapping[str, Habit],
+) -> tuple[tuple[str, Acting], ...]:
+    """Return what a player shows in other styles, by style; those that are not there are left out."""
+    named = sorted({item.style for item in corrections if isinstance(item, PlayStyle) and item.style in styles})
+    shown = (msgspec.structs.replace(own_parameters, style=style) for style in named)
+    acted = (with_style(other, musician_id, section_intensity, styles, habits) for other in shown)
+    return tuple(zip(named, map(acting_of, acted), strict=True))
+
+
+def _styled(corrections: tuple[Correction, ...]) -> bool:
+    return any(isinstance(item, PlayStyle) for item in corrections)
+
+
+def _named(name: str, styled: bool) -> str:
+    """Return the player's name where regions of styles are reported by it: else another name changes no line."""
+    return name if styled else ""
+
+
+def _styles_known(styles: Mapping[str, Style], styled: bool) -> str:
+    return ", ".join(sorted(styles)) if styled else ""
+
+
+def _kept(value: tuple[object, ...]) -> tuple[object, ...]:
     return value
 
 
-def _with_parts(plan: PlayerPlan, names: tuple[str, ...], *values: tuple[object, ...]) -> PlayerPlan:
-    """The plan with other events in some of its fields."""
-    return msgspec.structs.replace(plan, **dict(zip(names, values, strict=True)))
+def _with_parts(plan: PlayerPlan, parts: tuple[tuple[object, ...], ...]) -> PlayerPlan:
+    """Return the plan with other events where the instrument is put aside."""
+    return msgspec.structs.replace(plan, **dict(zip(ASIDE, parts, strict=True)))
 
 
-def no_events(player_id: str, frame: TimeFrame) -> PlayerPlan:
-    """The plan of a player for whom nothing is planned."""
-    return PlayerPlan(player_id, frame, (), (), (), (), (), (), (), ())
-
-
-def _together(reported: tuple[Problem, ...], planned: tuple[Problem, ...]) -> tuple[Problem, ...]:
-    return by_time(reported + planned) if reported else planned
+WHOLE: Final = StepTable(
+    piece=reading(Piece, accompaniment="accompaniment"),
+    velocity_reading=reading(piece_reading, parts="velocities"),
+    expressions=_all_expressions,
+)
+"""What all players share."""
+PLAYED: Final = StepTable(
+    velocities=velocities_of,
+    controller=controller_input,
+    parameters=reading(with_style, parameters="own_parameters", player_id="musician_id"),
+    actings=_actings,
+    styled=_styled,
+    shown_name=_named,
+    styles_known=_styles_known,
+)
+"""What each player plays, and how, whatever the instrument is."""
+LINE: Final = StepTable(
+    notes="part.notes",
+    loudness=reading(note_loudness, reading="velocity_reading"),
+    muted="part.muted",
+    stopped="part.stopped",
+    line=reading(
+        MonophonicPart,
+        instrument_map="instrument",
+        parameters="parameters",
+        corrections="corrections",
+        loudness="loudness",
+        controller="controller",
+        musician="musician",
+        actings="actings",
+        name="shown_name",
+        styles_known="styles_known",
+        muted="muted",
+        stopped="stopped",
+    ),
+)
+"""The line of a player who has an instrument."""
+ASIDE: Final = ("cues", "gestures", "expressions", "problems", "glances")
+"""Fields of a plan that are others while the instrument is put aside; what is as it was is the same object, field by
+field: motions are compared so."""
+HELD: Final = StepTable(
+    held=held_plan,
+    **{f"held_{name}": f"held.{name}" for name in ASIDE},
+    **{f"kept_{name}": reading(_kept, value=f"held_{name}") for name in ASIDE},
+    shown=reading(_with_parts, parts=tuple(f"kept_{name}" for name in ASIDE)),
+)
+"""What remains of a plan where its player has several instruments."""

@@ -11,7 +11,7 @@ from app.motion.generated_channel import generated
 from app.performance.cast import performer_of
 from app.performance.ensemble import Performance
 from app.performance.motion import playing_of
-from app.plan.model import PlayerPlan, same_events
+from app.plan.model import PlayerPlan
 
 RATE_HZ: Final = 25.0
 MOST_SAMPLES: Final = 200_000
@@ -35,4 +35,4 @@ def generated_anew(before: PlayerPlan, after: PlayerPlan) -> bool:
     if before is after:
         return False
     same = before.player_id == after.player_id and before.time_frame == after.time_frame
-    return not (same and same_events(before, after, *_ASKED))
+    return not (same and all(getattr(before, kind) is getattr(after, kind) for kind in _ASKED))

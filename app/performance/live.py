@@ -25,9 +25,9 @@ from app.motion.model import Motion
 from app.motion.perform import PerformanceCurves
 from app.performance.cast import Performer, performers_of
 from app.performance.chunks import Chunk, Grid, Pose, poses_of
-from app.performance.ensemble import Performance, no_events
+from app.performance.ensemble import Performance
 from app.performance.motion import playing_of
-from app.plan.model import PlayerPlan, Problem
+from app.plan.model import PlayerPlan, Problem, no_events
 from app.project.performers import Dancer, Player
 
 if TYPE_CHECKING:

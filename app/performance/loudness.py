@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Final, TypeAlias
 
 import numpy as np
@@ -44,7 +45,7 @@ def velocities_of(part: Part) -> Velocities:
     return bytes(note.velocity for note in part.notes), part.program
 
 
-def piece_reading(*parts: Velocities) -> VelocityReading:
+def piece_reading(parts: Sequence[Velocities]) -> VelocityReading:
     """Return the reading of the velocities of all parts of a piece."""
     return read_velocities((np.frombuffer(velocities, np.uint8), program) for velocities, program in parts)
 

@@ -15,7 +15,7 @@ from app.errors import Argument, Message
 from app.plan.additive_curve import BODY_CHANNELS, CHANNELS, FACE, AdditiveCurve, CurveKey
 from app.plan.corrections import Correction
 from app.plan.curve_shape import looked_at_s, rows, sampled_rows
-from app.plan.model import AdditiveEvent, CurveSegment, PoseTarget, Problem
+from app.plan.model import AdditiveEvent, CurveSegment, Planned, PoseTarget, Problem
 from app.plan.parameters import PlayerParameters
 from app.plan.pose import GENTLE_RAD_S2, LEAST_FADE_S, MINIMUM_JERK_PEAK, pose_limits
 from app.score.tempo import TempoMap
@@ -66,7 +66,7 @@ REPORTED: Final[dict[str, float]] = {"deg": 1.0, "m": 0.005, "weight": 0.02}
 
 def plan_additive(
     corrections: tuple[Correction, ...], instrument: InstrumentMap, parameters: PlayerParameters, clock: TempoMap
-) -> tuple[tuple[AdditiveEvent, ...], tuple[Problem, ...]]:
+) -> Planned[AdditiveEvent]:
     """The curves that are enabled as events, ordered by start, and a problem for each that a body cannot follow."""
     events: list[AdditiveEvent] = []
     problems: list[Problem] = []
@@ -96,7 +96,7 @@ def plan_additive(
                 high=high,
             )
         )
-    return tuple(sorted(events, key=lambda event: (event.start_s, event.id))), tuple(problems)
+    return Planned(tuple(sorted(events, key=lambda event: (event.start_s, event.id))), tuple(problems))
 
 
 def channel_limits(channel: str, instrument: InstrumentMap, parameters: PlayerParameters, body: Body) -> Limits:

@@ -44,11 +44,9 @@ from app.plan.parameters import PlayerParameters
 from app.plan.rest_breaths import AIR_SHORT, because, blown_breaths, blown_catch, rest_breaths, within_note
 from app.plan.rest_needs import ALWAYS_S, Decided, RestNeeds, breathed_in, rest_needs, why
 from app.plan.rests import Rests, are_audible, rest_ticks
-from app.plan.stagger import ALONE, Shared, within_held
+from app.plan.stagger import Shared, within_held
 from app.score.model import Note
 from instrument_maps.model import Air
-
-NO_SEEDS = Seeds()
 
 
 class BreathPlan(msgspec.Struct, frozen=True):
@@ -75,16 +73,17 @@ class BreathPlan(msgspec.Struct, frozen=True):
 
 
 def plan_breaths(
+    *,
     notes: tuple[Note, ...],
     times: LineTimes,
     piece: Piece,
     parameters: PlayerParameters,
     frame: TimeFrame,
-    corrections: tuple[Correction, ...] = (),
-    shared: Shared = ALONE,
-    seeds: Seeds = NO_SEEDS,
-    air: Air | None = None,
-    envelope: BreathEnvelope | None = None,
+    corrections: tuple[Correction, ...],
+    shared: Shared,
+    seeds: Seeds,
+    air: Air | None,
+    envelope: BreathEnvelope | None,
 ) -> BreathPlan:
     """Place every breath of a line.
 

@@ -41,6 +41,7 @@ PAGE_S: Final = 0.7
 
 
 def looks_up(
+    *,
     player_id: str,
     times: LineTimes,
     piece: Piece,

@@ -9,7 +9,7 @@ Messages: ``correction.orphaned``, ``correction.no_such_fingering``, ``breath.in
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from itertools import pairwise
 from typing import Final, Literal, TypeAlias, TypeVar
 
@@ -25,6 +25,7 @@ from app.plan.model import (
     ExpressionEvent,
     GestureEvent,
     GestureKind,
+    Planned,
     PoseTarget,
     Problem,
 )
@@ -242,14 +243,14 @@ def breath_id(item: SetBreath) -> str:
 
 
 def sound_corrections(
-    corrections: tuple[Correction, ...], expressions: tuple[str, ...], at_s: float
-) -> tuple[tuple[Correction, ...], tuple[Problem, ...]]:
-    """The corrections that can be done, and a problem for each that cannot: a span that ends before it begins, an
+    corrections: tuple[Correction, ...], expressions: Collection[str], at_s: float
+) -> Planned[Correction]:
+    """Keep the corrections that can be done, and report each that cannot: a span that ends before it begins, an
     expression that does not exist.
 
     Parameters
     ----------
-    expressions : tuple of str
+    expressions : collection of str
         Names of the expressions there are.
     at_s : float
         Where the problems are shown.
@@ -267,7 +268,7 @@ def sound_corrections(
             sound.append(item)
             continue
         problems.append(Problem(message, None, at_s, at_s))
-    return tuple(sound), tuple(problems)
+    return Planned(tuple(sound), tuple(problems))
 
 
 def _is_empty(item: Correction) -> bool:
@@ -332,6 +333,11 @@ def correct_embouchures(
         else event
         for event in events
     )
+
+
+def of_kinds(corrections: tuple[Correction, ...], kinds: tuple[type[Correction], ...]) -> tuple[Correction, ...]:
+    """Return the corrections of some kinds."""
+    return tuple(item for item in corrections if isinstance(item, kinds))
 
 
 def correct_gestures(

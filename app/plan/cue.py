@@ -16,6 +16,8 @@ Messages: ``cue.start``, ``cue.after_rest``, ``cue.after_pause``, ``cue.after_fe
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 
 from app.errors import Argument, Message
@@ -90,6 +92,13 @@ def _section(line: MonophonicPart) -> str:
     return vocabulary().family(line.instrument_map.plays) or line.instrument_map.id
 
 
+class CuePlan(NamedTuple):
+    """The cues of all players, and the ids of all that the rules made."""
+
+    events: tuple[CueEvent, ...]
+    ids: frozenset[str]
+
+
 def plan_cues(
     found: tuple[Entry, ...],
     lines: tuple[MonophonicPart, ...],
@@ -97,7 +106,7 @@ def plan_cues(
     piece: Piece,
     frame: TimeFrame,
     conducted: bool = False,
-) -> tuple[tuple[CueEvent, ...], frozenset[str]]:
+) -> CuePlan:
     """Every cue of the ensemble, corrections applied, and the ids of all that the rules made; ``found`` are
     `entries`. Where the ensemble is ``conducted`` the conductor gives what no player is chosen to give.
 
@@ -117,7 +126,7 @@ def plan_cues(
         note = own.id if own is not None and own.onset_tick == entry.tick else f"@{entry.tick}"
         amount = _size(entry, all_times)
         takers = _takers(leader, entry.players, lines)
-        cue = _cue(lines[leader].player_id, note, entry, why, piece, frame, amount, takers)
+        cue = _cue(lines[leader].player_id, note, entry, why, piece, frame, amount=amount, takers=takers)
         # No one nods twice at once.
         if cue.start_s >= busy_until_s.get(leader, -np.inf):
             busy_until_s[leader] = cue.end_s
@@ -141,7 +150,7 @@ def plan_cues(
                 event = _cue_by_hand(line.player_id, item.note_id, tick, item.beats, piece, frame, takers)
                 events[event.id + event.player_id] = event
     ordered = sorted(events.values(), key=lambda event: (event.start_s, event.player_id))
-    return tuple(ordered), frozenset(event.id for event in generated)
+    return CuePlan(tuple(ordered), frozenset(event.id for event in generated))
 
 
 def _size(entry: Entry, all_times: tuple[LineTimes, ...]) -> float:
@@ -154,7 +163,9 @@ def _conducted(
 ) -> CueEvent:
     """An entry that the conductor gives, to all who come in."""
     takers = tuple(lines[line].player_id for line, _ in entry.players)
-    return _cue(CONDUCTOR, f"@{entry.tick}", entry, "conductor", piece, frame, _size(entry, all_times), takers)
+    return _cue(
+        CONDUCTOR, f"@{entry.tick}", entry, "conductor", piece, frame, amount=_size(entry, all_times), takers=takers
+    )
 
 
 def _takers(leader: int, players: tuple[tuple[int, int], ...], lines: tuple[MonophonicPart, ...]) -> tuple[str, ...]:
@@ -184,6 +195,7 @@ def _cue(
     why: str,
     piece: Piece,
     frame: TimeFrame,
+    *,
     amount: float,
     takers: tuple[str, ...],
 ) -> CueEvent:

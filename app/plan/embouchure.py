@@ -13,7 +13,6 @@ import numpy as np
 from app.errors import Message
 from app.plan.line import MEZZOFORTE, LineTimes
 from app.plan.model import EmbouchureEvent, FloatArray
-from app.plan.parameters import PlayerParameters
 from app.score.model import Note
 from instrument_maps.model import InstrumentMap
 
@@ -50,9 +49,9 @@ def plan_embouchures(
     notes: tuple[Note, ...],
     times: LineTimes,
     instrument: InstrumentMap,
-    parameters: PlayerParameters,
+    embouchure_tension: float,
     early_end_s: dict[int, float],
-    from_breath: bool = False,
+    from_breath: bool,
 ) -> tuple[EmbouchureEvent, ...]:
     """An embouchure for every note.
 
@@ -71,7 +70,7 @@ def plan_embouchures(
         return ()
     register = tension_of(times.pitch.astype(np.float64), instrument)
     tension, effort = strain_of(register, times.loudness, times.duration_s)
-    tension = np.clip(tension * parameters.embouchure_tension, 0.0, 1.0)
+    tension = np.clip(tension * embouchure_tension, 0.0, 1.0)
     low, top = instrument.range.low, instrument.range.high
     reported = "embouchure.controller" if from_breath else "embouchure.register"
     known: dict[float, float] = {}

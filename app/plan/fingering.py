@@ -17,7 +17,7 @@ import numpy as np
 
 from app.errors import Message
 from app.plan.line import IntArray, LineTimes
-from app.plan.model import FingeringEvent, Problem, Vent
+from app.plan.model import FingeringEvent, Planned, Problem, Vent
 from app.plan.muting import stopped_notes
 from app.plan.search import TOLERANCE, FingeringProblem, best_path, even_trills, fingering_problem, never_worse
 from app.score.model import Note
@@ -33,7 +33,7 @@ def plan_fingerings(
     instrument: InstrumentMap,
     pins: dict[str, str],
     stopped: tuple[tuple[int, int], ...] = (),
-) -> tuple[tuple[FingeringEvent, ...], tuple[Problem, ...]]:
+) -> Planned[FingeringEvent]:
     """Choose a fingering for every note.
 
     Parameters
@@ -44,7 +44,7 @@ def plan_fingerings(
         Where the hand stops the bell: notes are fingered as the map says of it.
     """
     if not notes:
-        return (), ()
+        return Planned((), ())
     by_hand = stopped_notes(notes, stopped, instrument)
     problem = fingering_problem(notes, times, instrument, pins, by_hand)
     path = never_worse(problem, even_trills(problem, best_path(problem)))
@@ -108,7 +108,7 @@ def plan_fingerings(
         events.append(_vented(event, ranked, attacks) if "attack" in fingering.tags and not pinned else event)
     problems += _out_of_range(notes, times, instrument)
     problems += _early_starts(notes, problem, path)
-    return tuple(events), tuple(problems)
+    return Planned(tuple(events), tuple(problems))
 
 
 def _vented(event: FingeringEvent, ranked: Sequence[Fingering], attacks: Mapping[str, float]) -> FingeringEvent:

@@ -66,6 +66,7 @@ def lifted_s(gestures: Iterable[GestureEvent], foot: Foot, step_s: float) -> lis
 
 
 def footwork(
+    *,
     times: Rhythm,
     found: tuple[Phrase, ...],
     pulse: Pulse,
@@ -74,7 +75,7 @@ def footwork(
     seeds: Seeds,
     tap: float,
     alone: bool,
-    styles: tuple[StyleEvent, ...] = (),
+    styles: tuple[StyleEvent, ...],
 ) -> list[GestureEvent]:
     """Steps, taps and heels of a player, ordered by start.
 

@@ -3,66 +3,31 @@
 from __future__ import annotations
 
 import math
+from collections import Counter
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Final, NamedTuple
 
 import msgspec
 
 from app.errors import raise_if_stopped
-from app.plan.acting import acting_of
-from app.plan.additive import plan_additive
-from app.plan.additive_curve import AdditiveCurve
 from app.plan.bar_phase import lowest, with_felt_bars
-from app.plan.breath import plan_breaths
-from app.plan.breath_envelope import blown
-from app.plan.conducted import looks_up
-from app.plan.corrections import (
-    AddExpression,
-    AddGesture,
-    ChangeExpression,
-    ChangeGesture,
-    Correction,
-    PinFingering,
-    PlayStyle,
-    PoseCorrection,
-    RemoveEvent,
-    SetBreath,
-    SetCue,
-    SetEmbouchure,
-    Vary,
-    correct_embouchures,
-    correct_expressions,
-    correct_gestures,
-    orphans,
-    sound_corrections,
-)
+from app.plan.corrections import Correction, RemoveEvent, SetBreath, SetCue, of_kinds, sound_corrections
 from app.plan.cue import plan_cues
-from app.plan.dynamics import dynamics_of
-from app.plan.embouchure import plan_embouchures
-from app.plan.ending import Ending, ending_of
+from app.plan.ending import ending_of
 from app.plan.entries import entries
-from app.plan.expression import SMILE_ID, all_shown, neutral_face
 from app.plan.fermatas import fermatas
-from app.plan.fingering import plan_fingerings
-from app.plan.gesture import Pulse, plan_gestures, pulse
-from app.plan.glances import StagePlace, glances_of
-from app.plan.line import LineTimes, MonophonicPart, Piece, Seeds, note_times, without_sound
-from app.plan.memo import Memo
-from app.plan.model import CONDUCTOR, CueEvent, ExpressionEvent, GestureEvent, PlayerPlan, Problem, TimeFrame
-from app.plan.moments import Around, plan_moments
-from app.plan.muting import plan_mutes
-from app.plan.named_gestures import undisturbed, with_definitions
-from app.plan.parameters import restricted
-from app.plan.pose import plan_poses
-from app.plan.rules import lowered_spans_s, plan_by_rules, with_ruled, without_overruled
-from app.plan.stagger import Breathed, Shared, SharedLine, after_holds, breathed_of, shared_line, shared_with
-from app.plan.styles import plan_styles
+from app.plan.glances import StagePlace
+from app.plan.line import LineTimes, MonophonicPart, Piece, Rhythm, note_times
+from app.plan.model import CONDUCTOR, PlayerPlan, Problem, TimeFrame
+from app.plan.parameters import PlayerParameters, restricted
+from app.plan.player import AMONG_OTHERS, PLAYER
+from app.plan.stagger import breathed_of, shared_line
+from app.plan.swing import pulse
 from app.plan.together import one_at_a_time
-from app.plan.tonguing import plan_tongues
-from app.plan.traces import plan_traces
 from app.score.model import Note
 from app.score.tempo import TempoMap
+from app.steps import Results, StepTable, reading
+from instrument_maps.model import InstrumentMap
 from metadata.gestures import Gesture
 from metadata.library import bundled_gestures, bundled_rules
 from metadata.load import load_expressions
@@ -119,23 +84,25 @@ def usual_preroll(beat_s: float) -> float:
     return max(PREROLL_BEATS, float(min(math.ceil(COME_UP_S / beat_s - 1e-6), MOST_PREROLL_BEATS)))
 
 
-@dataclass(frozen=True, eq=False)
-class EnsemblePlan:
-    """The plans of an ensemble, and how they were made.
+class EnsemblePlan(NamedTuple):
+    """The plans of an ensemble, and the steps that made them.
 
     Attributes
     ----------
     plans : dict of str to PlayerPlan
         By player id.
-    shared : Memo
-        Steps that concern all players.
-    own : dict of str to Memo
-        Steps of single players.
+    shared : Results
+        Of `ENSEMBLE`.
+    lines, shared_lines, among, players : dict of str to Results
+        Of `LINE`, `SHARED_LINE`, `AMONG_OTHERS` and `PLAYER` by player id.
     """
 
     plans: dict[str, PlayerPlan]
-    shared: Memo
-    own: dict[str, Memo]
+    shared: Results
+    lines: dict[str, Results]
+    shared_lines: dict[str, Results]
+    among: dict[str, Results]
+    players: dict[str, Results]
 
 
 def make_plans(
@@ -146,7 +113,7 @@ def make_plans(
     expressions: Mapping[str, Expression] | None = None,
 ) -> dict[str, PlayerPlan]:
     """Plan every line of the ensemble, in order; see `plan_ensemble`."""
-    return plan_ensemble(piece, lines, frame, seed, expressions).plans
+    return plan_ensemble(piece, lines, frame, seed, expressions=expressions).plans
 
 
 def plan_ensemble(
@@ -154,13 +121,14 @@ def plan_ensemble(
     lines: tuple[MonophonicPart, ...],
     frame: TimeFrame,
     seed: int = 0,
+    *,
     expressions: Mapping[str, Expression] | None = None,
+    rules: tuple[Rule, ...] | None = None,
+    gestures: Mapping[str, Gesture] | None = None,
+    places: Mapping[str, StagePlace] | None = None,
     before: EnsemblePlan | None = None,
     stop_requested: Callable[[], bool] = lambda: False,
     progress: Callable[[float], None] = lambda share: None,
-    places: Mapping[str, StagePlace] | None = None,
-    rules: tuple[Rule, ...] | None = None,
-    gestures: Mapping[str, Gesture] | None = None,
 ) -> EnsemblePlan:
     """Plan every line of the ensemble, in order.
 
@@ -170,316 +138,161 @@ def plan_ensemble(
         From `time_frame` (or a longer one).
     seed : int
         Of the whole performance; players and score positions are added to it.
-    expressions : mapping of str to Expression, optional
-        What may be named; at least the bundled ones, which are the default.
+    expressions, gestures : mapping, optional
+        What rules and the animator may name: at least the bundled ones, which are the default.
+    rules : tuple of Rule, optional
+        What players show and do by rules; the bundled ones by default.
+    places : mapping of str to StagePlace, optional
+        Where each player stands, and under `CONDUCTOR` who gives the entries; who has no place looks at no one.
     before : EnsemblePlan, optional
         Of the same ensemble before an edit: what has not changed is taken from there, to the object.
     stop_requested, progress : callable
         Asked, and called with the share that is done, between two players.
-    places : mapping of str to StagePlace, optional
-        Where each player stands, and under `CONDUCTOR` who gives the entries; who has no place looks at no one.
-    rules : tuple of Rule, optional
-        What players show and do by rules; the bundled ones by default.
-    gestures : mapping of str to Gesture, optional
-        What rules and the animator may name; the bundled ones by default.
 
     Raises
     ------
     Cancelled
         ``stop_requested`` said so.
     """
-    faces = load_expressions() if expressions is None else expressions
-    ruling = bundled_rules() if rules is None else rules
-    named = bundled_gestures() if gestures is None else gestures
-    shared = Memo(None if before is None else before.shared)
-    own = {line.player_id: Memo(None if before is None else before.own.get(line.player_id)) for line in lines}
-    playable: list[tuple[MonophonicPart, LineTimes, tuple[Problem, ...]]] = []
+    everyone: dict[str, object] = {
+        "frame": frame,
+        "seed": seed,
+        "faces": load_expressions() if expressions is None else expressions,
+        "rules": bundled_rules() if rules is None else rules,
+        "known_gestures": bundled_gestures() if gestures is None else gestures,
+    }
+    playable: dict[str, Results] = {}
     for line in lines:
         raise_if_stopped(stop_requested)
-        playable.append(_playable(line, piece.clock, tuple(faces), frame.first_frame_s, own[line.player_id]))
-    lines, all_times = tuple(line for line, _, _ in playable), tuple(times for _, times, _ in playable)
-    rhythms = tuple(times.rhythm for times in all_times)
-    piece = shared.step("felt bars", with_felt_bars, piece, rhythms, lowest(all_times))
-    musicians = tuple(line.musician or line.player_id for line in lines)
-    found = shared.step("entries", entries, rhythms, piece, musicians)
-    leading = tuple(_leading(line) for line in lines)
-    conducted = places is not None and CONDUCTOR in places
-    held = shared.step("fermatas", fermatas, rhythms, piece)
-    cues, cue_ids = shared.step("cues", plan_cues, found, leading, all_times, piece, frame, conducted)
-    first_s = min((float(times.onset_s[0]) for times in all_times if len(times.onset_s)), default=0.0)
-    beat = shared.step("pulse", pulse, piece, frame, first_s)
-    ending = shared.step("ending", ending_of, all_times, piece)
-    last_s = max((float(times.played_end_s.max()) for times in all_times if len(times.onset_s)), default=0.0)
-    together = [own[line.player_id].step("shared line", shared_line, times, piece) for line, times, _ in playable]
-    breathed: list[Breathed] = []
-    plans = {}
-    for done, (line, times, problems) in enumerate(playable):
+        known = None if before is None else before.lines.get(line.player_id)
+        playable[line.player_id] = LINE.begin(known, piece=piece, **everyone, **_fields(line))
+    all_times = tuple(results.of(note_times) for results in playable.values())
+    shared = ENSEMBLE.begin(
+        None if before is None else before.shared,
+        piece=piece,
+        frame=frame,
+        all_times=all_times,
+        leading=tuple(results.of(_leading) for results in playable.values()),
+        musicians=tuple(line.musician or line.player_id for line in lines),
+        conducted=places is not None and CONDUCTOR in places,
+    )
+    everyone |= {name: shared[name] for name in ("piece_felt", "fermatas", "cue_events", "cue_ids", "pulse", "last_s")}
+    everyone |= {"piece": everyone.pop("piece_felt"), "piece_ending": shared.of(ending_of)}
+    shared_lines: dict[str, Results] = {}
+    for player_id, results in playable.items():
+        known = None if before is None else before.shared_lines.get(player_id)
+        shared_lines[player_id] = SHARED_LINE.begin(known, piece=everyone["piece"], times=results.of(note_times))
+    together = [results.of(shared_line) for results in shared_lines.values()]
+    musicians = Counter(line.musician or line.player_id for line in lines)
+    amongst: dict[str, Results] = {}
+    players: dict[str, Results] = {}
+    for done, line in enumerate(lines):
         raise_if_stopped(stop_requested)
-        this = together[done]
-        others = (*together[:done], *together[done + 1 :])
-        memo = own[line.player_id]
-        shared_breaths = memo.nested("shared", shared_with, this, others, tuple(breathed), after_holds(held, times))
-        own_cues = memo.step("cues", _cues_of, cues, line.player_id)
-        answered = memo.step("answered", _answered, cues, line.player_id)
-        seen = memo.step("seen", _seen, line.player_id, own_cues, answered, {} if places is None else places)
-        given = _Given(
-            piece, line, times, frame, own_cues, cue_ids, this, shared_breaths, seed, beat, ending, problems, faces,
-            answered, last_s, seen, ruling, named, alone=musicians.count(musicians[done]) == 1,
-        )  # fmt: skip
-        plan, breaths = memo.nested("plan", _plan_line, given)
-        plans[line.player_id] = plan
-        breathed.append(breaths)
-        progress((done + 1) / len(playable))
-    for steps in (shared, *own.values()):
-        steps.close()
-    return EnsemblePlan(plans, shared, own)
+        results = playable[line.player_id]
+        among = AMONG_OTHERS.begin(
+            None if before is None else before.among.get(line.player_id),
+            **everyone,
+            player_id=line.player_id,
+            times=all_times[done],
+            shared_line=together[done],
+            others=(*together[:done], *together[done + 1 :]),
+            breathed=tuple(one.of(breathed_of) for one in players.values()),
+            stage={} if places is None else places,
+        )
+        amongst[line.player_id] = among
+        players[line.player_id] = PLAYER.begin(
+            None if before is None else before.players.get(line.player_id),
+            **everyone,
+            **_fields(line) | {"notes": results["played_notes"], "corrections": results["sound_corrections"]},
+            **{name: among[name] for name in AMONG_OTHERS.functions},
+            times=all_times[done],
+            reported=results["reported"],
+            shared_line=together[done],
+            alone=musicians[line.musician or line.player_id] == 1,
+        )
+        players[line.player_id].of(PlayerPlan)
+        progress((done + 1) / len(lines))
+    for made in (shared, *playable.values(), *shared_lines.values(), *amongst.values(), *players.values()):
+        made.close()
+    plans = {player_id: results.of(PlayerPlan) for player_id, results in players.items()}
+    return EnsemblePlan(plans, shared, playable, shared_lines, amongst, players)
 
 
-def _cues_of(cues: tuple[CueEvent, ...], player_id: str) -> tuple[CueEvent, ...]:
-    return tuple(cue for cue in cues if cue.player_id == player_id)
+def _fields(line: MonophonicPart) -> dict[str, object]:
+    """Return the fields of a line by name, its map as the instrument."""
+    given = msgspec.structs.asdict(line)
+    return {**given, "instrument": given.pop("instrument_map")}
 
 
-def _answered(cues: tuple[CueEvent, ...], player_id: str) -> tuple[CueEvent, ...]:
-    """The cues that a player comes in with."""
-    return tuple(cue for cue in cues if player_id in cue.takers)
-
-
-def _seen(
-    player_id: str, own: tuple[CueEvent, ...], answered: tuple[CueEvent, ...], places: Mapping[str, StagePlace]
-) -> dict[str, StagePlace]:
-    """The places of the player, of the conductor and of those whom the player looks at."""
-    others = {cue.player_id for cue in answered} | {taker for cue in own for taker in cue.takers} | {CONDUCTOR}
-    return {one: place for one, place in places.items() if one == player_id or one in others}
-
-
-def _playable(
-    line: MonophonicPart, clock: TempoMap, faces: tuple[str, ...], at_s: float, memo: Memo
-) -> tuple[MonophonicPart, LineTimes, tuple[Problem, ...]]:
-    """A line as it can be played, with its times, and what to report about the rest."""
-    sound, unsound = memo.step("sound", sound_corrections, line.corrections, faces, at_s)
-    bare = MonophonicPart(line.player_id, line.notes, line.instrument_map, loudness=line.loudness)
-    single, reported = memo.step("single", one_at_a_time, bare, clock)
-    times = memo.step("times", note_times, single.notes, single.loudness, clock)
-    line = memo.step("playable", _with_notes, line, single.notes, single.loudness, sound)
-    return line, times, unsound + reported
-
-
-def _with_notes(
-    line: MonophonicPart, notes: tuple[Note, ...], loudness: tuple[float, ...], corrections: tuple[Correction, ...]
+def _bare(
+    player_id: str, notes: tuple[Note, ...], instrument: InstrumentMap, loudness: tuple[float, ...]
 ) -> MonophonicPart:
-    return msgspec.structs.replace(line, notes=notes, loudness=loudness, corrections=corrections)
+    return MonophonicPart(player_id, notes, instrument, loudness=loudness)
 
 
-def _leading(line: MonophonicPart) -> MonophonicPart:
-    """The line as far as cues depend on it."""
-    corrections = _of(line.corrections, SetCue, RemoveEvent, SetBreath)
-    parameters = restricted(line.parameters, "cues")
+def _leading(
+    player_id: str,
+    played_notes: tuple[Note, ...],
+    instrument: InstrumentMap,
+    parameters: PlayerParameters,
+    sound_corrections: tuple[Correction, ...],
+    musician: str,
+) -> MonophonicPart:
+    """Return the line as far as cues depend on it."""
+    corrections = of_kinds(sound_corrections, (SetCue, RemoveEvent, SetBreath))
     return MonophonicPart(
-        line.player_id, line.notes, line.instrument_map, parameters, corrections, musician=line.musician
+        player_id, played_notes, instrument, restricted(parameters, "cues"), corrections, musician=musician
     )
 
 
-def _of(corrections: tuple[Correction, ...], *kinds: type[Correction]) -> tuple[Correction, ...]:
-    """The corrections of some kinds."""
-    return tuple(item for item in corrections if isinstance(item, kinds))
+def _reported(unsound: tuple[Problem, ...], apart: tuple[Problem, ...]) -> tuple[Problem, ...]:
+    return unsound + apart
 
 
-class _Given(NamedTuple):
-    """What one player's plan is made from."""
-
-    piece: Piece
-    line: MonophonicPart
-    times: LineTimes
-    frame: TimeFrame
-    cues: tuple[CueEvent, ...]
-    cue_ids: frozenset[str]
-    shared_line: SharedLine
-    shared: Shared
-    seed: int
-    pulse: Pulse
-    ending: Ending
-    reported: tuple[Problem, ...]
-    faces: Mapping[str, Expression]
-    answered: tuple[CueEvent, ...]
-    last_s: float
-    seen: Mapping[str, StagePlace]
-    rules: tuple[Rule, ...]
-    named: Mapping[str, Gesture]
-    alone: bool
+def _rhythms(all_times: tuple[LineTimes, ...]) -> tuple[Rhythm, ...]:
+    return tuple(times.rhythm for times in all_times)
 
 
-def _plan_line(memo: Memo, given: _Given) -> tuple[PlayerPlan, Breathed]:
-    """One player's plan, and where the player breathes."""
-    piece, line, times, frame = given.piece, given.line, given.times, given.frame
-    notes, instrument, parameters = line.notes, line.instrument_map, line.parameters
-    corrections, clock = line.corrections, piece.clock
-    varied = tuple((item.start_tick, item.end_tick, item.seed) for item in corrections if isinstance(item, Vary))
-    seeds = Seeds((given.seed, parameters.seed, line.player_id), varied)
-    pins = {item.note_id: item.label for item in corrections if isinstance(item, PinFingering)}
-    fingerings, fingering_problems = memo.step(
-        "fingerings", plan_fingerings, notes, times, instrument, pins, line.stopped
-    )
-    mutes = memo.step("mutes", plan_mutes, notes, line.muted, line.stopped, instrument, clock)
-    steps = None if line.controller is None else line.controller.breath
-    envelope = None if steps is None else memo.step("blown", blown, steps, clock)
-    breaths = memo.step(
-        "breaths",
-        plan_breaths,
-        memo.step("without sound", without_sound, notes),
-        times.contour,
-        piece,
-        restricted(parameters, "breaths"),
-        frame,
-        _of(corrections, SetBreath, RemoveEvent, SetCue),
-        given.shared,
-        seeds,
-        instrument.air,
-        envelope,
-    )
-    events = breaths.events
-    lips, by_hand = restricted(parameters, "lips"), _of(corrections, SetEmbouchure)
-    made_lips = memo.step(
-        "made embouchures", plan_embouchures, notes, times, instrument, lips, breaths.early_end_s, steps is not None
-    )
-    embouchures = memo.step("embouchures", correct_embouchures, made_lips, by_hand)
-    traces = memo.step("traces", plan_traces, notes, times, clock, instrument, lips, line.controller, envelope, by_hand)
-    dynamics = memo.step("dynamics", dynamics_of, times, envelope)
-    usual, styled = acting_of(parameters), _of(corrections, PlayStyle)
-    styles, style_problems = memo.step(
-        "styles", plan_styles, styled, line.actings, usual, line.styles_known, line.name, clock
-    )
-    made_gestures = plan_gestures(
-        notes,
-        times,
-        piece,
-        frame,
-        events,
-        given.cues,
-        seeds,
-        given.pulse,
-        dynamics,
-        memo,
-        usual,
-        styles,
-        given.alone,
-        answered=given.answered,
-        last_s=given.last_s,
-    )
-    lowered = memo.step("lowered spans", lowered_spans_s, made_gestures)
-    ruled = memo.step(
-        "rules",
-        plan_by_rules,
-        notes,
-        times,
-        piece,
-        frame,
-        instrument,
-        restricted(parameters, "rules"),
-        styles,
-        dynamics,
-        lowered,
-        seeds,
-        given.rules,
-        given.faces,
-        given.named,
-        embouchures,
-    )
-    made_gestures = memo.step("gestures and rules", with_ruled, made_gestures, ruled.gestures)
-    moved = _of(corrections, ChangeGesture, AddGesture, RemoveEvent, SetBreath, SetCue)
-    corrected = memo.step("corrected gestures", correct_gestures, made_gestures, moved, clock)
-    corrected = memo.step("gestures by hand", without_overruled, corrected)
-    held = restricted(parameters, "poses")
-    defined = memo.step("named gestures", with_definitions, corrected, given.named, instrument, held, times, lowered)
-    gestures = memo.step("undisturbed", undisturbed, defined.gestures)
-    looked = memo.step("looked at", _looking, gestures)
-    gaze = acting_of(parameters).gaze
-    up = memo.step("looks up", looks_up, line.player_id, times, piece, frame, given.last_s, given.seen, gaze, seeds)
-    cued = given.cues + given.answered
-    glances = memo.step("glances", glances_of, line.player_id, cued, looked, given.seen, seeds, up)
-    # Who corrected the smile after the last note keeps it, whatever the ending is.
-    named = any(item.event_id == SMILE_ID for item in corrections if isinstance(item, ChangeExpression | RemoveEvent))
-    ending = msgspec.structs.replace(given.ending, bright=True) if named else given.ending
-    at_moments = memo.step(
-        "moments",
-        plan_moments,
-        notes,
-        times,
-        piece,
-        frame,
-        instrument,
-        restricted(parameters, "rules"),
-        dynamics,
-        seeds,
-        given.rules,
-        given.faces,
-        embouchures,
-        Around(events, given.cues, gestures, ending, styles),
-    )
-    neutral = memo.step("neutral", neutral_face, clock, frame, given.faces["neutral"])
-    made_expressions = memo.step("expressions", all_shown, neutral, at_moments, ruled.expressions)
-    faced = _of(corrections, ChangeExpression, AddExpression, RemoveEvent, SetBreath, SetCue)
-    expressions = memo.step("corrected expressions", correct_expressions, made_expressions, faced, clock)
-    expressions = memo.step("expressions by hand", without_overruled, expressions)
-    tongues = memo.step("tongues", plan_tongues, notes, times, instrument, fingerings, piece, seeds)
-    posed = _of(corrections, PoseCorrection)
-    poses, pose_problems = memo.step("poses", plan_poses, posed, instrument, restricted(parameters, "poses"), clock)
-    keyed = _of(corrections, AdditiveCurve)
-    additive, key_problems = memo.step(
-        "additive", plan_additive, keyed, instrument, restricted(parameters, "poses"), clock
-    )
-    lost = memo.step(
-        "lost",
-        _lost,
-        corrections,
-        notes,
-        breaths.generated_ids | given.cue_ids,
-        made_gestures,
-        made_expressions,
-        frame.first_frame_s,
-    )
-    problems = (
-        *(*fingering_problems, *breaths.problems, *pose_problems, *key_problems, *given.reported, *lost),
-        *(*ruled.problems, *defined.problems, *style_problems),
-    )
-    plan = PlayerPlan(
-        player_id=line.player_id,
-        time_frame=frame,
-        fingerings=fingerings,
-        breaths=events,
-        tongues=tongues,
-        embouchures=embouchures,
-        cues=given.cues,
-        gestures=gestures,
-        expressions=expressions,
-        problems=tuple(sorted(problems, key=lambda problem: problem.start_s)),
-        poses=poses,
-        additive=additive,
-        traces=traces,
-        glances=glances,
-        styles=styles,
-        mutes=mutes,
-    )
-    return plan, breathed_of(given.shared_line, notes, breaths.catches, breaths.left_out, events)
+def _first_s(all_times: tuple[LineTimes, ...]) -> float:
+    """Return the onset of the first note of all players."""
+    return min((float(times.onset_s[0]) for times in all_times if len(times.onset_s)), default=0.0)
 
 
-def _looking(gestures: tuple[GestureEvent, ...]) -> tuple[GestureEvent, ...]:
-    """The gestures that eyes depend on."""
-    kinds = ("lower_instrument", "look_about", "look_up")
-    return tuple(
-        event
-        for event in gestures
-        if event.kind in kinds or (event.gesture is not None and event.gesture.gaze is not None)
-    )
+def _last_s(all_times: tuple[LineTimes, ...]) -> float:
+    """Return the end of the last note of all players."""
+    return max((float(times.played_end_s.max()) for times in all_times if len(times.onset_s)), default=0.0)
 
 
-def _lost(
-    corrections: tuple[Correction, ...],
-    notes: tuple[Note, ...],
-    ids: frozenset[str],
-    gestures: tuple[GestureEvent, ...],
-    expressions: tuple[ExpressionEvent, ...],
-    at_s: float,
-) -> tuple[Problem, ...]:
-    """A problem for every correction of what is not there; ``ids`` are those of breaths and cues."""
-    made = ids | {event.id for event in gestures} | {event.id for event in expressions}
-    return orphans(corrections, frozenset(note.id for note in notes), made, at_s)
+LINE: Final = StepTable(
+    clock="piece.clock",
+    first_frame_s="frame.first_frame_s",
+    sounding=reading(sound_corrections, expressions="faces", at_s="first_frame_s"),
+    sound_corrections="sounding.events",
+    unsound="sounding.problems",
+    bare=_bare,
+    single=reading(one_at_a_time, line="bare"),
+    played_notes="single.line.notes",
+    played_loudness="single.line.loudness",
+    apart="single.problems",
+    times=reading(note_times, notes="played_notes", loudness="played_loudness"),
+    reported=_reported,
+    leading=_leading,
+)
+"""The steps from a line to what can be played of it, its times, and what to report about the rest."""
+SHARED_LINE: Final = StepTable(shared_line=shared_line)
+"""A line as others of a unison know it, with the felt beats of the piece."""
+ENSEMBLE: Final = StepTable(
+    rhythms=_rhythms,
+    low=reading(lowest, lines="all_times"),
+    piece_felt=reading(with_felt_bars, lines="rhythms"),
+    entries=reading(entries, all_times="rhythms", piece="piece_felt", musicians="musicians"),
+    fermatas=reading(fermatas, all_times="rhythms", piece="piece_felt"),
+    cues=reading(plan_cues, found="entries", lines="leading", piece="piece_felt", conducted="conducted"),
+    cue_events="cues.events",
+    cue_ids="cues.ids",
+    first_s=_first_s,
+    pulse=reading(pulse, piece="piece_felt", swing_at_s="first_s"),
+    ending=reading(ending_of, piece="piece_felt"),
+    last_s=_last_s,
+)
+"""The steps that concern all players; given are the piece, every line's times, and what of it cues depend on."""

@@ -28,19 +28,10 @@ import numpy as np
 import numpy.typing as npt
 
 from app.errors import Message
-from app.plan.acting import Acting
-from app.plan.answers import answering_nods
-from app.plan.concert import after_the_end, holding_at_end, in_long_rests
 from app.plan.dynamics import Dynamics, grown
-from app.plan.footwork import footwork
 from app.plan.line import LineTimes, Piece, Rhythm, Seeds
-from app.plan.lowered import lowered_spans
-from app.plan.memo import Memo
-from app.plan.model import BreathEvent, CueEvent, FloatArray, GestureEvent, StyleEvent, TimeFrame
-from app.plan.phrase import accents, leans, phrases
-from app.plan.swing import STIR_S, stirring, sways, swings_of
-from app.plan.swing import Pulse as Pulse
-from app.plan.swing import pulse as pulse
+from app.plan.model import FloatArray, GestureEvent, TimeFrame
+from app.plan.swing import STIR_S, Pulse, stirring
 from app.score.model import Note
 from app.score.tempo import TempoMap
 
@@ -61,72 +52,9 @@ ACCENT_LIFT, MOST_ACCENT_LIFT = 1.5, 0.4
 """The bell rises with an accent by so much for its loudness, and no more."""
 
 
-def plan_gestures(
-    notes: tuple[Note, ...],
-    times: LineTimes,
-    piece: Piece,
-    frame: TimeFrame,
-    breaths: tuple[BreathEvent, ...],
-    cues: tuple[CueEvent, ...],
-    seeds: Seeds,
-    pulse: Pulse,
-    dynamics: Dynamics,
-    memo: Memo,
-    acting: Acting,
-    styles: tuple[StyleEvent, ...],
-    alone: bool,
-    *,
-    answered: tuple[CueEvent, ...] = (),
-    last_s: float | None = None,
-) -> tuple[GestureEvent, ...]:
-    """All gestures of one player, ordered by start.
-
-    Parameters
-    ----------
-    seeds : Seeds
-        The player's.
-    pulse : Pulse
-        The same for all players.
-    dynamics : Dynamics
-        Of the line.
-    memo : Memo
-        Each kind is a step of its own: a pitch that changes moves the bell, and no swing.
-    acting : Acting
-        How much the player keeps still, and taps.
-    styles : tuple of StyleEvent
-        Where it is another.
-    alone : bool
-        The body plays this line only: its feet may leave their place.
-    answered : tuple of CueEvent
-        Cues of others that the player comes in with.
-    last_s : float, optional
-        End of the last note of all players; None: there is no end to look up and bow at.
-    """
-    rhythm, clock = times.rhythm, piece.clock
-    lowered = memo.step("lowered", lowered_spans, notes, rhythm, piece, frame, breaths, cues + answered, seeds)
-    swings = memo.step("swings", swings_of, rhythm, pulse, frame, seeds, dynamics, acting.stillness, styles)
-    found = memo.step("phrases", phrases, rhythm, breaths)
-    shifts = memo.step("weight shifts", weight_shifts, rhythm, pulse, frame, seeds, clock, dynamics)
-    feet = memo.step("feet", footwork, rhythm, found, pulse, clock, shifts, seeds, acting.tap, alone, styles)
-    return memo.step(
-        "gestures",
-        _in_order,
-        memo.step("sways", sways, swings, pulse),
-        shifts,
-        memo.step("leans", leans, found, times, clock, seeds, dynamics),
-        memo.step("accents", accents, times, pulse, piece, cues, breaths, swings, seeds, dynamics),
-        memo.step("bell heights", bell_heights, notes, times, piece, dynamics),
-        lowered,
-        memo.step("answering nods", answering_nods, notes, rhythm, answered, piece, seeds),
-        memo.step("in long rests", in_long_rests, notes, rhythm, lowered, piece, frame, seeds),
-        memo.step("holding", holding_at_end, rhythm, lowered, piece, frame),
-        memo.step("after the end", after_the_end, last_s, piece, frame, seeds) if notes and last_s is not None else (),
-        feet,
-    )
-
-
-def _in_order(*kinds: Sequence[GestureEvent]) -> tuple[GestureEvent, ...]:
-    """By start, then by id. Nearly all begin at times of their own, and numbers are compared much faster than pairs."""
+def in_order(kinds: tuple[Sequence[GestureEvent], ...]) -> tuple[GestureEvent, ...]:
+    """Order gestures of several kinds by start, then by id. Nearly all begin at times of their own, and numbers are
+    compared much faster than pairs."""
     events = sorted(itertools.chain(*kinds), key=attrgetter("start_s"))
     starts_s = [event.start_s for event in events]
     for first in [place for place, pair in enumerate(itertools.pairwise(starts_s)) if pair[0] == pair[1]]:

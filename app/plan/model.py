@@ -7,7 +7,8 @@ float64 seconds of the performance, which may be negative before the first tick.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Final, Literal, TypeAlias, get_args
+from functools import lru_cache
+from typing import Final, Generic, Literal, NamedTuple, TypeAlias, TypeVar, get_args
 
 import msgspec
 import numpy as np
@@ -17,6 +18,8 @@ from app.errors import Message
 from app.identity_cache import IdentityCache
 from app.plan.acting import Acting
 from metadata.gestures import Gesture
+
+E = TypeVar("E")
 
 FloatArray: TypeAlias = npt.NDArray[np.float64]
 
@@ -362,6 +365,13 @@ class Problem(msgspec.Struct, frozen=True, gc=False):
     end_s: float
 
 
+class Planned(NamedTuple, Generic[E]):
+    """Events that were planned, and what is wrong with them."""
+
+    events: tuple[E, ...]
+    problems: tuple[Problem, ...]
+
+
 class TimeFrame(msgspec.Struct, frozen=True):
     """The span of a performance, shared by all its players. Frame 0 is at ``first_frame_s``."""
 
@@ -465,6 +475,13 @@ def _grips(event: FingeringEvent) -> tuple[FingeringEvent, ...]:
     return msgspec.structs.replace(event, end_tick=vent.end_tick, end_s=vent.end_s, vent=None), held
 
 
-def same_events(plan: PlayerPlan, other: PlayerPlan, *kinds: str) -> bool:
-    """Whether the events of these kinds (names of the fields) are the very same objects in both plans."""
-    return all(getattr(plan, kind) is getattr(other, kind) for kind in kinds)
+def only(plan: PlayerPlan, fields: tuple[str, ...]) -> PlayerPlan:
+    """Return a plan with the events of these fields alone: what is made of it depends on no others."""
+    none = no_events(plan.player_id, plan.time_frame)
+    return msgspec.structs.replace(none, **{name: getattr(plan, name) for name in fields})
+
+
+@lru_cache(maxsize=256)
+def no_events(player_id: str, frame: TimeFrame) -> PlayerPlan:
+    """Return the plan of a player for whom nothing is planned."""
+    return PlayerPlan(player_id, frame, (), (), (), (), (), (), (), ())

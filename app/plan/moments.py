@@ -11,36 +11,22 @@ from typing import NamedTuple
 import numpy as np
 
 from app.errors import Message
-from app.plan.dynamics import Dynamics
 from app.plan.ending import Ending
-from app.plan.line import LineTimes, Piece, Seeds
+from app.plan.line import LineTimes, Seeds
 from app.plan.model import (
     BreathEvent,
     CueEvent,
-    EmbouchureEvent,
     ExpressionEvent,
     GestureEvent,
     StyleEvent,
     TimeFrame,
 )
-from app.plan.parameters import PlayerParameters
-from app.plan.rules import by_chance, concerns, facts_of, in_order, matches, shown_by
+from app.plan.rules import Facts, by_chance, concerns, in_order, matches, shown_by
 from app.plan.styles import styles_at
 from app.score.model import Note
-from instrument_maps.model import InstrumentMap
-from metadata.acting import names_in
+from app.score.tempo import TempoMap
 from metadata.model import Expression
 from metadata.rules import Moment, Rule, When
-
-
-class Around(NamedTuple):
-    """What a player does beside the notes, and what all end with."""
-
-    breaths: tuple[BreathEvent, ...]
-    cues: tuple[CueEvent, ...]
-    gestures: tuple[GestureEvent, ...]
-    ending: Ending
-    styles: tuple[StyleEvent, ...]
 
 
 class _Found(NamedTuple):
@@ -53,36 +39,40 @@ class _Found(NamedTuple):
 
 
 def plan_moments(
+    *,
     notes: tuple[Note, ...],
     times: LineTimes,
-    piece: Piece,
+    clock: TempoMap,
     frame: TimeFrame,
-    instrument: InstrumentMap,
-    parameters: PlayerParameters,
-    dynamics: Dynamics,
+    habits: tuple[str, ...],
+    usual_style: str,
+    styles: tuple[StyleEvent, ...],
+    facts: Facts,
     seeds: Seeds,
     rules: tuple[Rule, ...],
     faces: Mapping[str, Expression],
-    embouchures: tuple[EmbouchureEvent, ...],
-    around: Around,
+    breaths: tuple[BreathEvent, ...],
+    cues: tuple[CueEvent, ...],
+    gestures: tuple[GestureEvent, ...],
+    ending: Ending,
 ) -> tuple[ExpressionEvent, ...]:
     """All expressions that rules of moments ask for, ordered by start; rules whose expression is not there are reported
     by `app.plan.rules.plan_by_rules`."""
-    habits, events = names_in(parameters.habits), list[ExpressionEvent]()
+    events: list[ExpressionEvent] = []
     found = {
-        "gives_entry": _given(notes, times, around.cues),
-        "takes_entry": _taken(notes, times, around.breaths, around.cues),
-        "ending": _ended(around.gestures, around.ending, frame),
+        "gives_entry": _given(notes, times, cues),
+        "takes_entry": _taken(notes, times, breaths, cues),
+        "ending": _ended(gestures, ending, frame),
     }
     for rule in rules:
         moment = rule.when.moment
         if moment is None or not rule.enabled or rule.do.expression not in faces:
             continue
-        chosen = _matching(rule, moment, found[moment], notes, times, piece, instrument, dynamics, embouchures)
+        chosen = _matching(rule, moment, found[moment], facts)
         free_s = -np.inf
         for one in chosen:
-            (style,) = styles_at(around.styles, parameters.style, np.array([one.span_s[0]]))
-            tick = np.array([round(piece.clock.ticks(one.span_s[0]))])
+            (style,) = styles_at(styles, usual_style, np.array([one.span_s[0]]))
+            tick = np.array([round(clock.ticks(one.span_s[0]))])
             if not concerns(rule.when, (style,), habits) or not by_chance(rule, tick, seeds)[0]:
                 continue
             anchors = {"onset": one.span_s[0], "end": one.span_s[1]}
@@ -94,28 +84,16 @@ def plan_moments(
                 continue
             free_s = end_s + rule.apart_s
             face = faces[rule.do.expression]
-            events.append(shown_by(rule, face, one.of, (start_s, end_s), rule.do.strength, piece.clock, one.why))
+            events.append(shown_by(rule, face, one.of, (start_s, end_s), rule.do.strength, clock, one.why))
     return tuple(sorted(events, key=in_order))
 
 
-def _matching(
-    rule: Rule,
-    moment: Moment,
-    found: Sequence[_Found],
-    notes: tuple[Note, ...],
-    times: LineTimes,
-    piece: Piece,
-    instrument: InstrumentMap,
-    dynamics: Dynamics,
-    embouchures: tuple[EmbouchureEvent, ...],
-) -> list[_Found]:
-    """The moments of which everything holds but style, habits and chance."""
+def _matching(rule: Rule, moment: Moment, found: Sequence[_Found], facts: Facts) -> list[_Found]:
+    """Return the moments of which everything holds but style, habits and chance."""
     when = rule.when
     if when == When(moment=moment, styles=when.styles, habits=when.habits, chance=when.chance) or not found:
         return list(found)
-    if not notes:
-        return []
-    holds = matches(when, facts_of(times, piece, instrument, dynamics, embouchures))
+    holds = matches(when, facts)
     return [one for one in found if one.note is not None and holds[one.note]]
 
 

@@ -325,9 +325,9 @@ _DECIDING: Final = {
 }
 
 
-def restricted(parameters: PlayerParameters, *kinds: Decided) -> PlayerParameters:
-    """Those parameters that decide any of this; the others have their defaults."""
-    return PlayerParameters(**{name: getattr(parameters, name) for kind in kinds for name in _DECIDING[kind]})
+def restricted(parameters: PlayerParameters, kind: Decided) -> PlayerParameters:
+    """Return those parameters that decide this; the others have their defaults."""
+    return PlayerParameters(**{name: getattr(parameters, name) for name in _DECIDING[kind]})
 
 
 def deciding(parameters: PlayerParameters, *kinds: Decided) -> tuple[Value, ...]:

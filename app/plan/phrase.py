@@ -138,6 +138,7 @@ def _leant(length_s: float) -> Message:
 
 
 def accents(
+    *,
     times: LineTimes,
     pulse: Pulse,
     piece: Piece,

@@ -12,7 +12,7 @@ import numpy as np
 
 from app.errors import Argument, Message
 from app.plan.corrections import BY_HAND, Correction, PoseCorrection
-from app.plan.model import PoseEvent, PoseTarget, Problem
+from app.plan.model import Planned, PoseEvent, PoseTarget, Problem
 from app.plan.parameters import PlayerParameters
 from app.score.tempo import TempoMap
 from instrument_maps.model import InstrumentMap
@@ -51,7 +51,7 @@ MINIMUM_JERK_PEAK = 10.0 / math.sqrt(3.0)
 
 def plan_poses(
     corrections: tuple[Correction, ...], instrument: InstrumentMap, parameters: PlayerParameters, clock: TempoMap
-) -> tuple[tuple[PoseEvent, ...], tuple[Problem, ...]]:
+) -> Planned[PoseEvent]:
     """Pose corrections as events, ordered by start, and a problem for each that asks for more than a body does."""
     events: list[PoseEvent] = []
     problems: list[Problem] = []
@@ -91,7 +91,7 @@ def plan_poses(
                 reason=BY_HAND,
             )
         )
-    return tuple(sorted(events, key=lambda event: (event.start_s, event.id))), tuple(problems)
+    return Planned(tuple(sorted(events, key=lambda event: (event.start_s, event.id))), tuple(problems))
 
 
 def pose_limits(

@@ -8,7 +8,8 @@ from __future__ import annotations
 
 from bisect import bisect_right
 from collections.abc import Collection, Mapping, Sequence
-from itertools import accumulate, islice
+from dataclasses import dataclass
+from itertools import accumulate, islice, pairwise
 from typing import Final, NamedTuple, TypeVar
 
 import numpy as np
@@ -18,14 +19,12 @@ from app.plan.dynamics import BoolArray, Dynamics
 from app.plan.embouchure import efforts_of
 from app.plan.line import IntArray, LineTimes, Piece, Seeds
 from app.plan.model import EmbouchureEvent, ExpressionEvent, FloatArray, GestureEvent, Problem, StyleEvent, TimeFrame
-from app.plan.parameters import PlayerParameters
 from app.plan.possible import Lowered, belongs, comes_up, may_start
 from app.plan.spans import Spans
 from app.plan.styles import styles_at
 from app.score.model import Note
 from app.score.tempo import TempoMap
 from instrument_maps.model import InstrumentMap
-from metadata.acting import names_in
 from metadata.gestures import Gesture
 from metadata.model import Expression
 from metadata.rules import Growth, Rule, When
@@ -52,7 +51,8 @@ class Ruled(NamedTuple):
     problems: tuple[Problem, ...]
 
 
-class Facts(NamedTuple):
+@dataclass(frozen=True, eq=False)
+class Facts:
     """What rules ask of the notes of a line: arrays (N,)."""
 
     loudness: FloatArray
@@ -69,21 +69,33 @@ class Facts(NamedTuple):
     places: Mapping[str, BoolArray]
 
 
+class _Line(NamedTuple):
+    """The notes that rules look at."""
+
+    notes: tuple[Note, ...]
+    times: LineTimes
+    clock: TempoMap
+    instrument: InstrumentMap
+    facts: Facts
+    seeds: Seeds
+
+
 def plan_by_rules(
+    *,
     notes: tuple[Note, ...],
     times: LineTimes,
-    piece: Piece,
+    clock: TempoMap,
     frame: TimeFrame,
     instrument: InstrumentMap,
-    parameters: PlayerParameters,
+    habits: tuple[str, ...],
+    usual_style: str,
     styles: tuple[StyleEvent, ...],
-    dynamics: Dynamics,
-    lowered: tuple[tuple[float, float], ...],
+    facts: Facts,
+    lowered_s: tuple[tuple[float, float], ...],
     seeds: Seeds,
     rules: tuple[Rule, ...],
     faces: Mapping[str, Expression],
-    gestures: Mapping[str, Gesture],
-    embouchures: tuple[EmbouchureEvent, ...] = (),
+    known_gestures: Mapping[str, Gesture],
 ) -> Ruled:
     """All events that the rules ask for at notes, ordered by start; those of moments are of `app.plan.moments`.
 
@@ -91,31 +103,26 @@ def plan_by_rules(
     ----------
     styles : tuple of StyleEvent
         Where the player plays in another style.
-    lowered : tuple of (start, end)
-        Seconds in which the instrument is off the lips.
+    lowered_s : tuple of (start, end)
+        Where the instrument is off the lips.
     rules : tuple of Rule
         In the order in which they are asked.
-    embouchures : tuple of EmbouchureEvent
-        Of the notes: how hard they are to play.
     """
-    habits = names_in(parameters.habits)
-    facts: Facts | None = None
-    played_in = styles_at(styles, parameters.style, times.onset_s)
-    in_styles = frozenset((parameters.style, *played_in))
+    played_in = styles_at(styles, usual_style, times.onset_s)
+    in_styles = frozenset((usual_style, *played_in))
     shown: list[ExpressionEvent] = []
     made: list[GestureEvent] = []
     problems: list[Problem] = []
-    down = Lowered(lowered)
+    line, down = _Line(notes, times, clock, instrument, facts, seeds), Lowered(lowered_s)
     for rule in rules:
         if not notes or not rule.enabled or not concerns(rule.when, in_styles, habits):
             continue
-        unknown = unknown_in(rule, faces, gestures)
+        unknown = unknown_in(rule, faces, known_gestures)
         if unknown is not None:
             problems.append(Problem(unknown, None, frame.first_frame_s, frame.first_frame_s))
             continue
         if rule.when.moment is not None:
             continue
-        facts = facts_of(times, piece, instrument, dynamics, embouchures) if facts is None else facts
         here = matches(rule.when, facts)
         here[here] = by_chance(rule, times.onset_tick[here], seeds)
         if styles and rule.when.styles:
@@ -129,12 +136,12 @@ def plan_by_rules(
         if not len(found):
             continue
         if rule.do.expression:
-            shown += _faces(rule, faces[rule.do.expression], notes, times, facts, found, sizes, piece.clock, instrument)
+            shown += _faces(line, rule, faces[rule.do.expression], found, sizes)
         else:
-            gesture = gestures[rule.do.gesture]
+            gesture = known_gestures[rule.do.gesture]
             if not belongs(gesture, instrument):
                 continue
-            made += _gestures(rule, gesture, notes, times, found, sizes, piece.clock, down, seeds, made)
+            made += _gestures(line, rule, gesture, found, sizes, down, made)
     return Ruled(
         tuple(sorted(shown, key=in_order)),
         tuple(sorted(made, key=lambda event: (event.start_s, event.id))),
@@ -154,16 +161,17 @@ def facts_of(
     dynamics: Dynamics,
     embouchures: tuple[EmbouchureEvent, ...] = (),
 ) -> Facts:
-    """What rules ask of notes. The silence before the first and after the last has no end."""
+    """Return what rules ask of notes. The silence before the first and after the last has no end."""
     rests_s = np.maximum(times.onset_s[1:] - times.played_end_s[:-1], 0.0)
     pitch = times.pitch.astype(np.float64)
     apart = times.silence_tick >= piece.beat_ticks_at(times.onset_tick)
     starts = np.flatnonzero(apart | (np.arange(len(pitch)) == 0))
     ends = np.zeros(len(pitch), bool)
-    ends[np.append(starts[1:] - 1, len(pitch) - 1)] = True
+    ends[starts[1:] - 1] = True
+    ends[-1:] = True
     climax = np.zeros(len(pitch), bool)
     weight = pitch / 12.0 + 2.0 * times.loudness
-    for first, end in zip(starts.tolist(), np.append(starts[1:], len(pitch)).tolist(), strict=True):
+    for first, end in pairwise([*starts.tolist(), len(pitch)]):
         if end - first > 2:
             climax[first + int(np.argmax(weight[first:end]))] = True
     number = np.arange(len(pitch))
@@ -289,19 +297,9 @@ def _spans_s(rule: Rule, times: LineTimes, found: IntArray, length_s: float | No
     return start_s, anchors[rule.do.end] + (rule.do.end_s or 0.0)
 
 
-def _faces(
-    rule: Rule,
-    face: Expression,
-    notes: tuple[Note, ...],
-    times: LineTimes,
-    facts: Facts,
-    found: IntArray,
-    sizes: FloatArray,
-    clock: TempoMap,
-    instrument: InstrumentMap,
-) -> list[ExpressionEvent]:
-    """One expression for every run of notes with no more than `Rule.apart_s` between them."""
-    starts_s, ends_s = _spans_s(rule, times, found, None)
+def _faces(line: _Line, rule: Rule, face: Expression, found: IntArray, sizes: FloatArray) -> list[ExpressionEvent]:
+    """Make one expression for every run of notes with no more than `Rule.apart_s` between them."""
+    starts_s, ends_s = _spans_s(rule, line.times, found, None)
     apart = starts_s[1:] - np.maximum.accumulate(ends_s)[:-1] > rule.apart_s
     events = []
     runs = np.split(np.arange(len(found)), np.flatnonzero(apart) + 1)
@@ -313,8 +311,9 @@ def _faces(
         if rule.do.stays_s:
             end_s = max(end_s, min(end_s + rule.do.stays_s, until_s))
         peak = int(found[run[np.argmax(sizes[found[run]])]])
-        note, size = notes[found[run[0]]].id, round(float(sizes[peak]), 4)
-        events.append(shown_by(rule, face, note, (start_s, end_s), size, clock, _why(rule, facts, peak, instrument)))
+        note, size = line.notes[found[run[0]]].id, round(float(sizes[peak]), 4)
+        reason = _why(rule, line.facts, peak, line.instrument)
+        events.append(shown_by(rule, face, note, (start_s, end_s), size, line.clock, reason))
     return events
 
 
@@ -357,19 +356,17 @@ def _why(rule: Rule, facts: Facts, note: int, instrument: InstrumentMap) -> Mess
 
 
 def _gestures(
+    line: _Line,
     rule: Rule,
     gesture: Gesture,
-    notes: tuple[Note, ...],
-    times: LineTimes,
     found: IntArray,
     sizes: FloatArray,
-    clock: TempoMap,
     lowered: Lowered,
-    seeds: Seeds,
     others: Sequence[GestureEvent],
 ) -> list[GestureEvent]:
-    """One gesture for every note, where it may start and the one before is `Rule.apart_s` away; ``others`` are there
-    already."""
+    """Make one gesture for every note, where it may start and the one before is `Rule.apart_s` away; ``others`` are
+    there already."""
+    notes, times, clock, seeds = line.notes, line.times, line.clock, line.seeds
     starts_s, ends_s = _spans_s(rule, times, found, gesture.length_s)
     if rule.do.spread_s:
         later_s = rule.do.spread_s * seeds.chances_at(f"rule {rule.name} later", times.onset_tick[found])

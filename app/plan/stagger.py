@@ -13,8 +13,9 @@ from __future__ import annotations
 import math
 from bisect import bisect_left, bisect_right
 from collections.abc import Sequence
+from itertools import chain
 from operator import itemgetter
-from typing import NamedTuple, TypeAlias
+from typing import Final, NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -23,7 +24,6 @@ from app.plan.corrections import WITHIN, kind_of, within_id
 from app.plan.fermatas import Fermata
 from app.plan.line import LineTimes, Piece
 from app.plan.lungs import EPSILON, FULL_BREATH_S
-from app.plan.memo import Memo
 from app.plan.model import BreathEvent, FloatArray
 from app.plan.notation import PLACES, notated
 from app.plan.rest_breaths import breath_at
@@ -152,49 +152,56 @@ def after_holds(held: tuple[Fermata, ...], times: LineTimes) -> frozenset[int]:
     return frozenset(notes[(notes > 0) & (notes < len(times.onset_tick))].tolist())
 
 
-def shared_with(
-    memo: Memo,
-    line: SharedLine,
-    others: tuple[SharedLine, ...],
-    breathed: tuple[Breathed, ...],
-    after_hold: frozenset[int],
-) -> Shared:
-    """What a player must keep clear of.
+class Met(NamedTuple):
+    """Where a line meets others who have breathed: by player the notes before which these take catch breaths, and the
+    notes that these leave out."""
+
+    line: SharedLine
+    breathed: tuple[Breathed, ...]
+    caught: tuple[frozenset[int], ...]
+    left_out: tuple[tuple[int, ...], ...]
+
+
+NO_NOTES: Final = frozenset[int]()
+
+
+def met(line: SharedLine, breathed: tuple[Breathed, ...], before: Met | None) -> Met:
+    """Compare a line with those of players whose breaths are placed already; only those compare anew who changed."""
+    known = () if before is None or before.line != line else before.breathed
+    caught, left_out = [], []
+    for number, other in enumerate(breathed):
+        if before is not None and number < len(known) and known[number] == other:
+            caught.append(before.caught[number])
+            left_out.append(before.left_out[number])
+            continue
+        meets, sounds = not other.caught.isdisjoint(line.known), not other.left_out.isdisjoint(line.rhythm)
+        caught.append(caught_in_unison(line, other.line, other.caught) if meets else NO_NOTES)
+        left_out.append(left_out_in_rhythm(line, other.line, other.left_out) if sounds else ())
+    return Met(line, breathed, tuple(caught), tuple(left_out))
+
+
+def shared_with(line: SharedLine, others: tuple[SharedLine, ...], met: Met, after_hold: frozenset[int]) -> Shared:
+    """Return what a player must keep clear of.
 
     Parameters
     ----------
-    memo : Memo
-        Of the player.
     others : tuple of SharedLine
         Of all other players.
-    breathed : tuple of Breathed
-        Of those whose breaths are placed already.
+    met : Met
+        The line and those whose breaths are placed already.
     after_hold : frozenset of int
         `after_holds` of the player.
     """
-    caught: set[int] = set()
-    left_out: list[int] = []
-    for first in range(0, len(breathed), COMPARED):
-        some = breathed[first : first + COMPARED]
-        caught |= memo.nested(f"unison:{first}", _caught_by_some, line, some, first)
-        left_out += memo.nested(f"rhythm:{first}", _left_out_by_some, line, some, first)
     held = []
     taken: dict[Place, list[float]] = {}
-    for place, at_s in (pair for other in breathed for pair in other.within if line.held_s):
+    for place, at_s in (pair for other in met.breathed for pair in other.within if line.held_s):
         taken.setdefault(place, []).append(at_s)
     for index, length_s in line.held_s:
         place = line.places[index]
         if any(other.holds(place, length_s) for other in others):
             held.append((index, tuple(sorted(taken.get(place, ())))))
-    return Shared(frozenset(caught), tuple(sorted(left_out)), tuple(held), after_hold)
-
-
-def _caught_by_some(memo: Memo, line: SharedLine, some: tuple[Breathed, ...], first: int) -> frozenset[int]:
-    caught: set[int] = set()
-    for number, other in enumerate(some, first):
-        if not other.caught.isdisjoint(line.known):
-            caught |= memo.step(f"unison with {number}", caught_in_unison, line, other.line, other.caught)
-    return frozenset(caught)
+    left_out = tuple(sorted(chain.from_iterable(met.left_out)))
+    return Shared(NO_NOTES.union(*met.caught), left_out, tuple(held), after_hold)
 
 
 def caught_in_unison(line: SharedLine, other: SharedLine, caught: frozenset[Place]) -> frozenset[int]:
@@ -207,14 +214,6 @@ def caught_in_unison(line: SharedLine, other: SharedLine, caught: frozenset[Plac
     """
     met = caught & line.known
     return frozenset(index for place in met for index in line.notes_at(place) if _in_unison(line, other, index))
-
-
-def _left_out_by_some(memo: Memo, line: SharedLine, some: tuple[Breathed, ...], first: int) -> tuple[int, ...]:
-    left_out: list[int] = []
-    for number, other in enumerate(some, first):
-        if not other.left_out.isdisjoint(line.rhythm):
-            left_out += memo.step(f"rhythm with {number}", left_out_in_rhythm, line, other.line, other.left_out)
-    return tuple(left_out)
 
 
 def left_out_in_rhythm(line: SharedLine, other: SharedLine, left_out: frozenset[int]) -> tuple[int, ...]:

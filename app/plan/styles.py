@@ -17,7 +17,7 @@ from app.errors import Message
 from app.identity_cache import IdentityCache
 from app.plan.acting import Acting
 from app.plan.corrections import BY_HAND, Correction, PlayStyle
-from app.plan.model import CueEvent, FloatArray, GestureEvent, PlayerPlan, Problem, StyleEvent
+from app.plan.model import CueEvent, FloatArray, GestureEvent, Planned, PlayerPlan, Problem, StyleEvent
 from app.score.tempo import TempoMap
 
 LAYER_OF: Final[Mapping[str, str]] = {
@@ -41,7 +41,7 @@ def plan_styles(
     known: str,
     player: str,
     clock: TempoMap,
-) -> tuple[tuple[StyleEvent, ...], tuple[Problem, ...]]:
+) -> Planned[StyleEvent]:
     """The regions of a player, ordered by start, and a problem for each whose style is not there.
 
     Parameters
@@ -78,7 +78,7 @@ def plan_styles(
                 reason=BY_HAND,
             )
         )
-    return tuple(sorted(events, key=lambda event: (event.start_s, event.id))), tuple(problems)
+    return Planned(tuple(sorted(events, key=lambda event: (event.start_s, event.id))), tuple(problems))
 
 
 @overload

@@ -5,6 +5,8 @@ Messages: ``note.struck_together``, ``note.overlaps``.
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import msgspec
 
 from app.errors import Message
@@ -17,15 +19,17 @@ LEGATO_OVERLAP_S = 0.030
 """Players of keyboards and wind controllers hold a note this long into the next: that is legato, no mistake."""
 
 
-def one_at_a_time(line: MonophonicPart, clock: TempoMap) -> tuple[MonophonicPart, tuple[Problem, ...]]:
+class Single(NamedTuple):
+    """A line of which one note sounds at a time, and a problem for every note left out or running into the next."""
+
+    line: MonophonicPart
+    problems: tuple[Problem, ...]
+
+
+def one_at_a_time(line: MonophonicPart, clock: TempoMap) -> Single:
     """The line without notes that cannot sound beside others: of those struck at one tick the highest is played.
 
-    Returns
-    -------
-    MonophonicPart
-        The very same where nothing had to go.
-    tuple of Problem
-        For every note left out, and for every note that runs into the next for longer than legato.
+    The line stays the same object where nothing had to go.
     """
     notes = line.notes
     left_out: set[int] = set()
@@ -43,11 +47,11 @@ def one_at_a_time(line: MonophonicPart, clock: TempoMap) -> tuple[MonophonicPart
             _note_overlap(other, note, clock, problems)
         held = index
     if not left_out:
-        return line, tuple(problems)
+        return Single(line, tuple(problems))
     kept = [index for index in range(len(notes)) if index not in left_out]
     loudness = tuple(line.loudness[index] for index in kept) if line.loudness else ()
     playable = msgspec.structs.replace(line, notes=tuple(notes[index] for index in kept), loudness=loudness)
-    return playable, tuple(problems)
+    return Single(playable, tuple(problems))
 
 
 def _together(lower: Note, higher: Note, clock: TempoMap) -> Problem:

@@ -6,8 +6,6 @@ A note whose embouchure was set by hand keeps what was set, from its beginning t
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-
 import numpy as np
 import numpy.typing as npt
 
@@ -16,7 +14,6 @@ from app.plan.corrections import Correction, SetEmbouchure
 from app.plan.embouchure import strain_of, tension_of
 from app.plan.line import ControllerInput, LineTimes, Steps
 from app.plan.model import FloatArray, SampledCurves
-from app.plan.parameters import PlayerParameters
 from app.score.model import Note
 from app.score.tempo import TempoMap
 from instrument_maps.model import InstrumentMap
@@ -34,20 +31,21 @@ BEND_TENSION, MOST_BEND_TENSION = 1.4, 0.3
 
 
 def plan_traces(
+    *,
     notes: tuple[Note, ...],
     times: LineTimes,
     clock: TempoMap,
     instrument: InstrumentMap,
-    parameters: PlayerParameters,
+    embouchure_tension: float,
     controller: ControllerInput | None,
-    blown: BreathEnvelope | None,
-    corrections: Iterable[Correction] = (),
+    envelope: BreathEnvelope | None,
+    corrections: tuple[Correction, ...],
 ) -> SampledCurves | None:
     """The traces of a line; None where there are no notes or no controller input.
 
     Parameters
     ----------
-    blown : BreathEnvelope or None
+    envelope : BreathEnvelope or None
         ``controller.breath`` in time.
     """
     if not notes or controller is None:
@@ -63,10 +61,10 @@ def plan_traces(
     air = effort = None
     loudness = times.loudness[here]
     register = tension_of(times.pitch.astype(np.float64), instrument)
-    if blown is not None:
-        curve = _clipped(blown.mean(at_s - STEP_S / 2.0, at_s + STEP_S / 2.0))
-        loudness = np.where(sounds & ~blown.plays(times)[here], loudness, curve)
-        air = np.where(sounds | blown.has_breath_gaps(times), loudness, 0.0)
+    if envelope is not None:
+        curve = _clipped(envelope.mean(at_s - STEP_S / 2.0, at_s + STEP_S / 2.0))
+        loudness = np.where(sounds & ~envelope.plays(times)[here], loudness, curve)
+        air = np.where(sounds | envelope.has_breath_gaps(times), loudness, 0.0)
         effort = np.where(sounds, strain_of(register[here], loudness, times.duration_s[here])[1], 0.0)
         for item, span in set_spans:
             air[span] = air[span] if item.air is None else item.air
@@ -75,7 +73,7 @@ def plan_traces(
 
     coming = np.maximum(np.searchsorted(times.onset_s, at_s + SHIFT_S / 2.0, side="right") - 1, 0)
     tension, _ = strain_of(register[coming], loudness, times.duration_s[coming])
-    tension = _clipped(tension * parameters.embouchure_tension)
+    tension = _clipped(tension * embouchure_tension)
     lips = np.where(sounds, _pressed(controller, clock, at_s, sounds), 0.0)
     for item, span in set_spans:
         if item.tension is not None:

@@ -18,7 +18,6 @@ from app.cli import main
 from app.cli.status import STOPPED
 from app.performance import bodies, ensemble
 from app.performance.body_problems import body_problems
-from app.plan.memo import Memo
 from app.plan.parameters import PlayerParameters
 from app.project.casting import StagePosition
 from app.project.performers import Player
@@ -124,7 +123,7 @@ def test_what_our_own_body_misses_on_a_users_own_instrument_is_reported() -> Non
 
     def lacking(instrument: InstrumentMap) -> list[str]:
         bodies.hold_now(player, instrument)
-        return [message.id for message in body_problems(player, instrument, (), Memo(), waiting=False).lacking]
+        return [message.id for message in body_problems(player, instrument, (), waiting=False).lacking]
 
     assert lacking(own) == ["character.touches_missed"]
     # Holds of ours on ours are known to meet all.

@@ -1,0 +1,327 @@
+"""One player's plan, step by step: what is fingered, blown, shown and moved, each done again only where it changes."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import partial
+from itertools import chain
+from typing import Final
+
+import msgspec
+
+from app.plan.acting import acting_of
+from app.plan.additive import plan_additive
+from app.plan.additive_curve import AdditiveCurve
+from app.plan.answers import answering_nods
+from app.plan.breath import BreathPlan, plan_breaths
+from app.plan.breath_envelope import BreathEnvelope, blown
+from app.plan.concert import after_the_end, holding_at_end, in_long_rests
+from app.plan.conducted import looks_up
+from app.plan.corrections import (
+    AddExpression,
+    AddGesture,
+    ChangeExpression,
+    ChangeGesture,
+    Correction,
+    PinFingering,
+    PlayStyle,
+    PoseCorrection,
+    RemoveEvent,
+    SetBreath,
+    SetCue,
+    SetEmbouchure,
+    Vary,
+    correct_embouchures,
+    correct_expressions,
+    correct_gestures,
+    of_kinds,
+    orphans,
+)
+from app.plan.dynamics import dynamics_of
+from app.plan.embouchure import plan_embouchures
+from app.plan.ending import Ending
+from app.plan.expression import SMILE_ID, all_shown, neutral_face
+from app.plan.fingering import plan_fingerings
+from app.plan.footwork import footwork
+from app.plan.gesture import bell_heights, in_order, weight_shifts
+from app.plan.glances import StagePlace, glances_of
+from app.plan.line import ControllerInput, Piece, Seeds, without_sound
+from app.plan.lowered import lowered_spans
+from app.plan.model import (
+    CONDUCTOR,
+    CueEvent,
+    ExpressionEvent,
+    GestureEvent,
+    PlayerPlan,
+    Problem,
+    TimeFrame,
+)
+from app.plan.moments import plan_moments
+from app.plan.muting import plan_mutes
+from app.plan.named_gestures import undisturbed, with_definitions
+from app.plan.parameters import restricted
+from app.plan.phrase import accents, leans, phrases
+from app.plan.pose import plan_poses
+from app.plan.rules import facts_of, lowered_spans_s, plan_by_rules, with_ruled, without_overruled
+from app.plan.stagger import after_holds, breathed_of, met, shared_with
+from app.plan.styles import plan_styles
+from app.plan.swing import sways, swings_of
+from app.plan.tonguing import plan_tongues
+from app.plan.traces import plan_traces
+from app.score.model import Note
+from app.score.tempo import TempoMap
+from app.steps import StepTable, reading
+from metadata.acting import names_in
+from metadata.model import Expression
+
+EYES_FOLLOW: Final = ("lower_instrument", "look_about", "look_up")
+"""Kinds of gestures that eyes depend on."""
+
+
+def _seeds(seed: int, own_seed: int, player_id: str, corrections: tuple[Correction, ...]) -> Seeds:
+    varied = tuple((item.start_tick, item.end_tick, item.seed) for item in corrections if isinstance(item, Vary))
+    return Seeds((seed, own_seed, player_id), varied)
+
+
+def _pins(corrections: tuple[Correction, ...]) -> dict[str, str]:
+    return {item.note_id: item.label for item in corrections if isinstance(item, PinFingering)}
+
+
+def _envelope(controller: ControllerInput | None, clock: TempoMap) -> BreathEnvelope | None:
+    """Return the breath that was blown, if it was recorded."""
+    return None if controller is None or controller.breath is None else blown(controller.breath, clock)
+
+
+def _from_breath(envelope: BreathEnvelope | None) -> bool:
+    return envelope is not None
+
+
+def _cues_of(cue_events: tuple[CueEvent, ...], player_id: str) -> tuple[CueEvent, ...]:
+    return tuple(cue for cue in cue_events if cue.player_id == player_id)
+
+
+def _answered(cue_events: tuple[CueEvent, ...], player_id: str) -> tuple[CueEvent, ...]:
+    """Return the cues that a player comes in with."""
+    return tuple(cue for cue in cue_events if player_id in cue.takers)
+
+
+def _seen(
+    player_id: str, cues: tuple[CueEvent, ...], answered: tuple[CueEvent, ...], stage: Mapping[str, StagePlace]
+) -> dict[str, StagePlace]:
+    """Return the places of the player, of the conductor and of those whom the player looks at."""
+    others = {cue.player_id for cue in answered} | {taker for cue in cues for taker in cue.takers} | {CONDUCTOR}
+    return {one: place for one, place in stage.items() if one == player_id or one in others}
+
+
+def _joined(cues: tuple[CueEvent, ...], answered: tuple[CueEvent, ...]) -> tuple[CueEvent, ...]:
+    return cues + answered
+
+
+def _after_the_end(
+    notes: tuple[Note, ...], last_s: float, piece: Piece, frame: TimeFrame, seeds: Seeds
+) -> list[GestureEvent]:
+    return after_the_end(last_s, piece, frame, seeds) if notes else []
+
+
+def _looking(gestures: tuple[GestureEvent, ...]) -> tuple[GestureEvent, ...]:
+    """Return the gestures that eyes depend on."""
+    return tuple(
+        event
+        for event in gestures
+        if event.kind in EYES_FOLLOW or (event.gesture is not None and event.gesture.gaze is not None)
+    )
+
+
+def _ending(piece_ending: Ending, corrections: tuple[Correction, ...]) -> Ending:
+    """Return how it ends for this player: who corrected the smile after the last note keeps it."""
+    named = any(item.event_id == SMILE_ID for item in corrections if isinstance(item, ChangeExpression | RemoveEvent))
+    return msgspec.structs.replace(piece_ending, bright=True) if named else piece_ending
+
+
+def _neutral(clock: TempoMap, frame: TimeFrame, faces: Mapping[str, Expression]) -> ExpressionEvent:
+    return neutral_face(clock, frame, faces["neutral"])
+
+
+def _lost(
+    corrections: tuple[Correction, ...],
+    notes: tuple[Note, ...],
+    planned_breaths: BreathPlan,
+    cue_ids: frozenset[str],
+    made_gestures: tuple[GestureEvent, ...],
+    made_expressions: tuple[ExpressionEvent, ...],
+    frame: TimeFrame,
+) -> tuple[Problem, ...]:
+    """Return a problem for every correction of what is not there."""
+    made = planned_breaths.generated_ids | cue_ids
+    made |= {event.id for event in made_gestures} | {event.id for event in made_expressions}
+    return orphans(corrections, frozenset(note.id for note in notes), made, frame.first_frame_s)
+
+
+def _by_start(problems: tuple[tuple[Problem, ...], ...]) -> tuple[Problem, ...]:
+    return tuple(sorted(chain(*problems), key=lambda problem: problem.start_s))
+
+
+AMONG_OTHERS: Final = StepTable(
+    cues=_cues_of,
+    answered=_answered,
+    places=_seen,
+    after_hold=reading(after_holds, held="fermatas"),
+    met=reading(met, line="shared_line"),
+    shared=reading(shared_with, line="shared_line"),
+)
+"""What one player's plan depends on of the others'."""
+PLAYER: Final = StepTable(
+    clock="piece.clock",
+    rhythm="times.rhythm",
+    contour="times.contour",
+    own_seed="parameters.seed",
+    seeds=_seeds,
+    # What is fingered.
+    pins=_pins,
+    planned_fingerings=reading(plan_fingerings, stopped="stopped"),
+    fingerings="planned_fingerings.events",
+    fingering_problems="planned_fingerings.problems",
+    mutes=plan_mutes,
+    # What is blown and tongued.
+    envelope=_envelope,
+    air="instrument.air",
+    breath_parameters=partial(restricted, kind="breaths"),
+    breath_corrections=partial(of_kinds, kinds=(SetBreath, RemoveEvent, SetCue)),
+    bare_notes=without_sound,
+    planned_breaths=reading(
+        plan_breaths,
+        notes="bare_notes",
+        times="contour",
+        parameters="breath_parameters",
+        corrections="breath_corrections",
+    ),
+    breaths="planned_breaths.events",
+    breath_problems="planned_breaths.problems",
+    early_end_s="planned_breaths.early_end_s",
+    catches="planned_breaths.catches",
+    left_out="planned_breaths.left_out",
+    tongues=plan_tongues,
+    embouchure_tension="parameters.embouchure_tension",
+    embouchure_corrections=partial(of_kinds, kinds=(SetEmbouchure,)),
+    from_breath=_from_breath,
+    made_embouchures=plan_embouchures,
+    embouchures=reading(correct_embouchures, events="made_embouchures", corrections="embouchure_corrections"),
+    traces=reading(plan_traces, corrections="embouchure_corrections"),
+    own_breathed=reading(breathed_of, line="shared_line", caught="catches", events="breaths"),
+    # How much the player shows.
+    acting=acting_of,
+    stillness="acting.stillness",
+    tap="acting.tap",
+    gaze="acting.gaze",
+    style_regions=partial(of_kinds, kinds=(PlayStyle,)),
+    planned_styles=reading(
+        plan_styles, corrections="style_regions", usual="acting", known="styles_known", player="name"
+    ),
+    styles="planned_styles.events",
+    style_problems="planned_styles.problems",
+    dynamics=dynamics_of,
+    # What the body does.
+    all_cues=_joined,
+    lowered=reading(lowered_spans, times="rhythm", cues="all_cues"),
+    swings=reading(swings_of, times="rhythm", styles="styles"),
+    phrases=reading(phrases, times="rhythm"),
+    weight_shifts=reading(weight_shifts, times="rhythm"),
+    sways=sways,
+    leans=reading(leans, found="phrases"),
+    accents=accents,
+    bell_heights=bell_heights,
+    answering_nods=reading(answering_nods, times="rhythm"),
+    in_long_rests=reading(in_long_rests, times="rhythm"),
+    holding_at_end=reading(holding_at_end, times="rhythm"),
+    after_the_end=_after_the_end,
+    footwork=reading(footwork, times="rhythm", found="phrases", shifts="weight_shifts"),
+    gestures_by_music=reading(
+        in_order,
+        kinds=(
+            "sways",
+            "weight_shifts",
+            "leans",
+            "accents",
+            "bell_heights",
+            "lowered",
+            "answering_nods",
+            "in_long_rests",
+            "holding_at_end",
+            "after_the_end",
+            "footwork",
+        ),
+    ),
+    # What rules make of it.
+    own_habits="parameters.habits",
+    habits=reading(names_in, text="own_habits"),
+    usual_style="parameters.style",
+    lowered_s=reading(lowered_spans_s, gestures="gestures_by_music"),
+    facts=reading(facts_of, embouchures="embouchures"),
+    ruled=plan_by_rules,
+    ruled_gestures="ruled.gestures",
+    ruled_expressions="ruled.expressions",
+    rule_problems="ruled.problems",
+    # What the animator makes of it.
+    made_gestures=reading(with_ruled, made="gestures_by_music", ruled="ruled_gestures"),
+    gesture_corrections=partial(of_kinds, kinds=(ChangeGesture, AddGesture, RemoveEvent, SetBreath, SetCue)),
+    corrected_gestures=reading(correct_gestures, events="made_gestures", corrections="gesture_corrections"),
+    allowed_gestures=reading(without_overruled, events="corrected_gestures"),
+    posing=partial(restricted, kind="poses"),
+    defined=reading(
+        with_definitions,
+        events="allowed_gestures",
+        definitions="known_gestures",
+        parameters="posing",
+        lowered="lowered_s",
+    ),
+    defined_gestures="defined.gestures",
+    definition_problems="defined.problems",
+    gestures=reading(undisturbed, events="defined_gestures"),
+    # What eyes and face show.
+    looking=_looking,
+    looks_up=reading(looks_up, amount="gaze"),
+    glances=reading(glances_of, cues="all_cues", gestures="looking", up="looks_up"),
+    ending=_ending,
+    at_moments=plan_moments,
+    neutral=_neutral,
+    made_expressions=reading(all_shown, at_notes="ruled_expressions"),
+    expression_corrections=partial(of_kinds, kinds=(ChangeExpression, AddExpression, RemoveEvent, SetBreath, SetCue)),
+    corrected_expressions=reading(correct_expressions, events="made_expressions", corrections="expression_corrections"),
+    expressions=reading(without_overruled, events="corrected_expressions"),
+    # What is posed by hand.
+    pose_corrections=partial(of_kinds, kinds=(PoseCorrection,)),
+    planned_poses=reading(plan_poses, corrections="pose_corrections", parameters="posing"),
+    poses="planned_poses.events",
+    pose_problems="planned_poses.problems",
+    curve_corrections=partial(of_kinds, kinds=(AdditiveCurve,)),
+    planned_additive=reading(plan_additive, corrections="curve_corrections", parameters="posing"),
+    additive="planned_additive.events",
+    additive_problems="planned_additive.problems",
+    # All of it.
+    lost=_lost,
+    problems=reading(
+        _by_start,
+        problems=(
+            "fingering_problems",
+            "breath_problems",
+            "pose_problems",
+            "additive_problems",
+            "reported",
+            "lost",
+            "rule_problems",
+            "definition_problems",
+            "style_problems",
+        ),
+    ),
+    plan=reading(
+        PlayerPlan,
+        time_frame="frame",
+        poses="poses",
+        additive="additive",
+        traces="traces",
+        glances="glances",
+        styles="styles",
+        mutes="mutes",
+    ),
+)
+"""The steps of a player's plan; given are the line's fields, its times, `AMONG_OTHERS`, and what all players share."""

@@ -1,0 +1,180 @@
+"""Pure functions that make values out of one another, each done again only where what it reads has changed.
+
+A step names what it reads: its parameters are results of other steps, or values that are given. Parameters that have
+defaults keep them unless `reading` names them. A parameter called ``before`` is the step's own result in the run
+before, or None: to save work, since the result must be the one it makes from None.
+"""
+
+from __future__ import annotations
+
+import inspect
+from collections import Counter
+from collections.abc import Callable, Mapping
+from graphlib import TopologicalSorter
+from operator import attrgetter
+from typing import Any, Final, NamedTuple, TypeVar
+
+T = TypeVar("T")
+BEFORE: Final = "before"
+
+
+class Reading(NamedTuple):
+    """A step some of whose parameters are called otherwise than what they read: names by parameter."""
+
+    function: Callable[..., object]
+    names: Mapping[str, str | tuple[str, ...]]
+
+
+def reading(function: Callable[..., object], **names: str | tuple[str, ...]) -> Reading:
+    """Make a step of a function whose parameters of these names read what is named here; several names: a tuple.
+
+    Raises
+    ------
+    TypeError
+        The function has no such parameter.
+    """
+    unknown = names.keys() - inspect.signature(function).parameters.keys()
+    if unknown:
+        raise TypeError(f"{_name(function)} has no {sorted(unknown)}")
+    return Reading(function, names)
+
+
+class StepTable:
+    """Steps by the names of their results, wired by the names of their parameters; a string is the path of an attribute
+    of another result (``clock="piece.clock"``).
+
+    Attributes
+    ----------
+    functions : dict of str to callable
+    paths : dict of str to str
+        Of the attributes.
+    parameters, reads : dict of str to tuple
+        By step its parameters but `BEFORE`, and the name, or names, of what each reads.
+    revised : frozenset of str
+        Steps that see their result of the run before.
+    given : frozenset of str
+        What no step makes.
+
+    Raises
+    ------
+    TypeError
+        A function closes over something or has parameters without names: what it reads would not be known.
+    graphlib.CycleError
+        Steps read one another in a circle.
+    """
+
+    def __init__(self, **steps: Callable[..., object] | Reading | str) -> None:
+        self.paths: Final = {name: path for name, path in steps.items() if isinstance(path, str)}
+        read = {
+            name: step if isinstance(step, Reading) else Reading(step, {})
+            for name, step in steps.items()
+            if not isinstance(step, str)
+        }
+        self.functions: Final = {name: step.function for name, step in read.items()}
+        parameters = {name: _parameters(step) for name, step in read.items()}
+        self.revised: Final = frozenset(name for name, names in parameters.items() if BEFORE in names)
+        self.parameters: Final = {
+            name: tuple(one for one in ones if one != BEFORE) for name, ones in parameters.items()
+        }
+        self.reads: Final = {
+            name: tuple(read[name].names.get(one, one) for one in ones) for name, ones in self.parameters.items()
+        }
+        count = Counter(self.functions.values())
+        self.names: Final = {function: name for name, function in self.functions.items() if count[function] == 1}
+        names = {name: [one for named in reads for one in _each(named)] for name, reads in self.reads.items()}
+        names |= {name: [path.split(".", 1)[0]] for name, path in self.paths.items()}
+        TopologicalSorter(names).prepare()
+        self.given: Final = frozenset(one for reads in names.values() for one in reads if one not in steps)
+
+    def begin(self, before: Results | None = None, /, **given: object) -> Results:
+        """Make a run of these steps, each to be done when its result is asked for.
+
+        Parameters
+        ----------
+        before : Results, optional
+            The run before, of these steps.
+        given : object
+            Every value of `given`; there may be more.
+
+        Raises
+        ------
+        TypeError
+            A value is missing.
+        """
+        if not given.keys() >= self.given:
+            raise TypeError(f"not given: {sorted(self.given - given.keys())}")
+        return Results(self, {name: given[name] for name in self.given}, before)
+
+
+class _Done(NamedTuple):
+    inputs: tuple[object, ...]
+    result: Any
+
+
+class Results:
+    """The results of one run: the same objects as in the run before where they are equal to these.
+
+    A run is good for one thread at a time.
+    """
+
+    def __init__(self, steps: StepTable, given: Mapping[str, object], before: Results | None) -> None:
+        self._steps = steps
+        self._given = given
+        self._done: dict[str, _Done] = {}
+        self._before: dict[str, _Done] = {} if before is None else before._done
+        if before is not None and before._given == given:
+            # Nothing has changed: no step has to be looked at.
+            self._given, self._done = before._given, dict(before._done)
+
+    def of(self, function: Callable[..., T]) -> T:
+        """Return the result of the one step of a function."""
+        result: T = self[self._steps.names[function]]
+        return result
+
+    def __getitem__(self, name: str) -> Any:
+        """Return a result or a given value."""
+        done = self._done.get(name)
+        if done is not None:
+            return done.result
+        if name in self._given:
+            return self._given[name]
+        if name in self._steps.paths:
+            base, attributes = self._steps.paths[name].split(".", 1)
+            return attrgetter(attributes)(self[base])
+        reads, known = self._steps.reads[name], self._before.get(name)
+        inputs = tuple(self[one] if isinstance(one, str) else tuple(map(self.__getitem__, one)) for one in reads)
+        # Of tuples, items that are the same objects are not compared.
+        if known is None or known.inputs != inputs:
+            known = self._do(name, inputs, known)
+        self._done[name] = known
+        return known.result
+
+    def _do(self, name: str, inputs: tuple[object, ...], known: _Done | None) -> _Done:
+        former = None if known is None else known.result
+        called = dict(zip(self._steps.parameters[name], inputs, strict=True))
+        if name in self._steps.revised:
+            called[BEFORE] = former
+        result = self._steps.functions[name](**called)
+        return _Done(inputs, former if known is not None and former == result else result)
+
+    def close(self) -> None:
+        """Forget the run before, so that runs do not hold one another for ever."""
+        self._before = {}
+
+
+def _each(named: str | tuple[str, ...]) -> tuple[str, ...]:
+    return (named,) if isinstance(named, str) else named
+
+
+def _parameters(step: Reading) -> tuple[str, ...]:
+    """Return the parameters that read something."""
+    if getattr(step.function, "__closure__", None):
+        raise TypeError(f"{_name(step.function)} reads more than its parameters")
+    parameters = inspect.signature(step.function).parameters.values()
+    if any(one.kind not in (one.POSITIONAL_OR_KEYWORD, one.KEYWORD_ONLY) for one in parameters):
+        raise TypeError(f"{_name(step.function)} has parameters without names")
+    return tuple(one.name for one in parameters if one.default is one.empty or one.name in step.names)
+
+
+def _name(function: Callable[..., object]) -> str:
+    return getattr(function, "__qualname__", str(function))
