@@ -16,7 +16,7 @@ BEFORE, AFTER = 0.25, 0.14
 """How far the body goes up for it before and after, as shares of the dip."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Accents:
     """Dips of trunk and head, each deepest, and its acceleration greatest, on its note.
 

@@ -9,9 +9,10 @@ afterwards and are never broken by them. Sizes come from `metadata` at the playe
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, fields
+from functools import partial
 from itertools import zip_longest
-from typing import Any
+from typing import Any, Final, NamedTuple
 
 import numpy as np
 
@@ -34,16 +35,18 @@ from app.motion.reaching import Reaches, Reaching, reached
 from app.motion.ribs import air
 from app.plan.acting import Acting
 from app.plan.footwork import FOOT_KINDS
-from app.plan.model import BreathEvent, GestureEvent, PlayerPlan, PoseTarget, same_events
+from app.plan.model import BreathEvent, GestureEvent, GestureKind, PoseTarget
 from app.plan.parameters import PlayerParameters
 from app.plan.pose import BELL_LEFT, BELL_UP, NECK_SHARES, TRUNK_SHARES
-from app.score.metre_map import FeltBeats
+from app.steps import StepTable, reading
 from metadata.model import Body, Posture, at_amplitude
 
 EYES_BACK = 0.6
 """Share of the head's turn to the instrument that the eyes turn back, to the music and to the others."""
 EXHALE_S = 3.0
 FULLEST = 1.4
+BELL_S: Final = 0.5
+"""The bell goes to another height within this time."""
 QUIET, QUIET_AIR = 0.45, 0.3
 """How full a quiet breath makes the lungs look, and how much air it is, beside a full one."""
 LEAST_DRAWN = 0.4
@@ -164,7 +167,14 @@ class BodyMotion:
         return cls(**(rest | {"forward_rad": held, "left_rad": left, "turn_rad": turned} | empty))
 
 
-def lungs(breaths: Sequence[BreathEvent]) -> tuple[Curve, Curve]:
+class LungCurves(NamedTuple):
+    """How full the lungs look, and how far a preparation leans, 0..1."""
+
+    full: Curve
+    leaning: Curve
+
+
+def lungs(breaths: Sequence[BreathEvent]) -> LungCurves:
     """How full the lungs are (up over each breath, down over the phrase), and the preparation's lean 0..1."""
     full: list[tuple[float, float, float]] = []
     lean: list[tuple[float, float, float]] = []
@@ -189,11 +199,7 @@ def lungs(breaths: Sequence[BreathEvent]) -> tuple[Curve, Curve]:
             start_s = max(breath.start_s, free_s)
             free_s = breath.end_s + 0.6 * (breath.end_s - start_s)
             lean += [(start_s, breath.end_s, 1.0), (breath.end_s, free_s, 0.0)]
-    return moves(full), moves(lean)
-
-
-_KINDS = ("sway", "weight_shift", "bell_height", "lower_instrument", "lean", "accent", "feet", "nod", "concert")
-"""Gestures that layers are made of; those of the feet are one layer, and those beside playing."""
+    return LungCurves(moves(full), moves(lean))
 
 
 @dataclass(frozen=True)
@@ -266,57 +272,6 @@ class Layers:
     still: Envelopes
     leads: Leads
 
-    @classmethod
-    def of(
-        cls, plan: PlayerPlan, body: Body, felt_beats: FeltBeats, before: tuple[Layers, PlayerPlan] | None = None
-    ) -> Layers:
-        """From a whole plan, or from what is the same as in the plan ``before``."""
-        if before is not None:
-            layers, other = before
-            if same_events(plan, other, "gestures"):
-                if not same_events(plan, other, "breaths"):
-                    full, leaning = lungs(plan.breaths)
-                    layers = replace(layers, full=full, leaning=leaning, air=air(plan.breaths))
-                if not same_events(plan, other, "cues"):
-                    answers = [event for event in plan.gestures if event.kind == "nod"]
-                    layers = replace(layers, nods=Nods.of(plan.cues, answers))
-                return layers if same_events(plan, other, "poses") else replace(layers, poses=Poses.of(plan.poses))
-        full, leaning = lungs(plan.breaths)
-        gestures = _by_layer(plan.gestures)
-        same: dict[str, Layers | None] = dict.fromkeys(_KINDS)
-        if before is not None:
-            # Other heights of the bell, and the same swings: most gestures outlive an edit.
-            layers, other = before
-            others = _by_layer(other.gestures)
-            for kind in _KINDS:
-                if gestures[kind] == others[kind]:
-                    same[kind] = layers
-        swing, shift, bell, low, leant, accented, stepped, _, others_too = (same[kind] for kind in _KINDS)
-        return cls(
-            full=full,
-            leaning=leaning,
-            air=air(plan.breaths),
-            nods=Nods.of(plan.cues, gestures["nod"]),
-            sway=swing.sway if swing else path(gestures["sway"], "sway"),
-            lean=leant.lean if leant else path(gestures["lean"], "lean"),
-            accents=accented.accents if accented else Accents.of(gestures["accent"]),
-            weight=shift.weight
-            if shift
-            else follow(gestures["weight_shift"], "weight_shift", body.weight_shift.transition_s),
-            height=bell.height if bell else follow(gestures["bell_height"], "bell_height", 0.5),
-            lowered=low.lowered
-            if low
-            else lowering(gestures["lower_instrument"], body.bell.lower_s, body.bell.raise_s),
-            quiet=low.quiet if low else quiet_breaths(gestures["lower_instrument"]),
-            feet=stepped.feet if stepped else Feet.of(gestures["feet"], body.footwork.step_s),
-            poses=Poses.of(plan.poses),
-            gestured=Gestured.of(plan.gestures),
-            reaching=Reaching.of(plan.gestures),
-            concert=others_too.concert if others_too else Concert.of(gestures["concert"], felt_beats),
-            still=others_too.still if others_too else holds_of(gestures["concert"]),
-            leads=Leads.of(body.overlap),
-        )
-
     def sample(self, times_s: FloatArray) -> LayerSamples:
         """The layers at ascending times."""
         return held_still(self._moving(times_s), self.still, times_s, self._moving)
@@ -352,14 +307,51 @@ class Layers:
         return [self.leads.widened(getattr(self, name).changed_s(getattr(other, name))) for name in names]
 
 
-def _by_layer(gestures: Sequence[GestureEvent]) -> dict[str, list[GestureEvent]]:
-    """Gestures by the layer they are of, each in order."""
-    found: dict[str, list[GestureEvent]] = {kind: [] for kind in _KINDS}
-    for event in gestures:
-        kind = "feet" if event.kind in FOOT_KINDS else "concert" if event.kind in CONCERT_KINDS else event.kind
-        if kind in found:
-            found[kind].append(event)
-    return found
+def _of_kinds(gestures: tuple[GestureEvent, ...], kinds: tuple[GestureKind, ...]) -> tuple[GestureEvent, ...]:
+    return tuple(event for event in gestures if event.kind in kinds)
+
+
+LAYERS: Final = StepTable(
+    breaths="plan.breaths",
+    gestures="plan.gestures",
+    lung_curves=lungs,
+    full="lung_curves.full",
+    leaning="lung_curves.leaning",
+    air=air,
+    cues="plan.cues",
+    nodding=partial(_of_kinds, kinds=("nod",)),
+    nods=reading(Nods.of, answers="nodding"),
+    swaying=partial(_of_kinds, kinds=("sway",)),
+    sway=reading(partial(path, kind="sway"), events="swaying"),
+    leant=partial(_of_kinds, kinds=("lean",)),
+    lean=reading(partial(path, kind="lean"), events="leant"),
+    accented=partial(_of_kinds, kinds=("accent",)),
+    accents=reading(Accents.of, events="accented"),
+    shifting=partial(_of_kinds, kinds=("weight_shift",)),
+    shift_s="body.weight_shift.transition_s",
+    weight=reading(partial(follow, kind="weight_shift"), events="shifting", transition_s="shift_s"),
+    carrying=partial(_of_kinds, kinds=("bell_height",)),
+    height=reading(partial(follow, kind="bell_height", transition_s=BELL_S), events="carrying"),
+    putting_down=partial(_of_kinds, kinds=("lower_instrument",)),
+    lower_s="body.bell.lower_s",
+    raise_s="body.bell.raise_s",
+    lowered=reading(lowering, gestures="putting_down"),
+    quiet=reading(quiet_breaths, gestures="putting_down"),
+    stepping=partial(_of_kinds, kinds=FOOT_KINDS),
+    step_s="body.footwork.step_s",
+    feet=reading(Feet.of, events="stepping"),
+    posed="plan.poses",
+    poses=reading(Poses.of, events="posed"),
+    gestured=reading(Gestured.of, events="gestures"),
+    reaching=reading(Reaching.of, events="gestures"),
+    beside=partial(_of_kinds, kinds=CONCERT_KINDS),
+    concert=reading(Concert.of, gestures="beside"),
+    still=reading(holds_of, gestures="beside"),
+    overlap="body.overlap",
+    leads=reading(Leads.of, overlap="overlap"),
+    layers=Layers,
+)
+"""The steps of a body's layers; given are the plan, the body and the felt beats."""
 
 
 def body_motion(

@@ -71,7 +71,7 @@ def beside_playing(
     )
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Counting:
     """Head nods with the beats that are counted, 0..1, lowest on each beat.
 
@@ -120,7 +120,7 @@ class Counting:
         return rows_changed_s(mine, others, *spans)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Concert:
     """A player's gestures beside playing, as curves."""
 

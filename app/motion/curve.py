@@ -56,7 +56,7 @@ def rows_changed_s(mine: FloatArray, others: FloatArray, mine_s: FloatArray, oth
     return np.concatenate((mine_s[here][alone], others_s[there][missing]))
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Curve:
     """A value that rests and moves: minimum-jerk segments, held between them.
 
@@ -217,7 +217,7 @@ def through(times_s: FloatArray, values: FloatArray) -> Curve:
     return Curve(times_s[:-1], times_s[1:], values[:-1], values[1:], float(values[0]))
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Envelopes:
     """Raised spans that may overlap: up from ``start_s`` to ``full_s``, level, down from ``fall_s`` to ``end_s``.
 

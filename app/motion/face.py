@@ -6,17 +6,18 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
+from functools import partial
+from typing import Final
 
 import numpy as np
 
 from app.motion.curve import Curve, Envelopes, FloatArray, Trace, moves, moves_to
-from app.motion.exertion import Exertion, Lungs, exertion_of
+from app.motion.exertion import Exertion, exertion_of
 from app.motion.held_notes import easing, firmness, vibrato_size
 from app.motion.spline import Spline
 from app.motion.strokes import attack_pushes, back_strokes, tip_strokes
-from app.plan.model import PlayerPlan, same_events
-from metadata.face_model import FaceMotion
+from app.plan.model import EmbouchureEvent, PlayerPlan, SampledCurves, only
+from app.steps import StepTable, reading
 
 FORM_S = 0.26
 """The lips form in this time before the first note of a phrase, and let go as slowly after its last."""
@@ -28,26 +29,23 @@ HOLD_S = 0.8
 SWELL_S = 0.35
 """Effort and air swell and fade slowly, over several notes."""
 
-START, END, TENSION, EFFORT, AIR = range(5)
-"""Columns of `Asked.notes`."""
-
 SHALLOWEST = 0.5
 """However shallow a breath, the mouth opens by this share of a full one's."""
 
 
-def _tracked(notes: FloatArray, targets: FloatArray, shift_s: float, rest_value: float | None) -> Curve:
-    """A value (N,) that is reached at each onset, held, and (``rest_value``) left in rests longer than `HOLD_S`; notes
-    as of `Asked.notes`."""
+def _tracked(spans_s: FloatArray, targets: FloatArray, shift_s: float, rest_value: float | None) -> Curve:
+    """A value (N,) that is reached at each onset, held, and (``rest_value``) left in rests longer than `HOLD_S`;
+    the notes are (N, 2) starts and ends."""
     initial = rest_value or 0.0
-    if not len(notes):
+    if not len(spans_s):
         return moves((), initial)
-    onsets_s = notes[:, START]
-    lasts_s = np.minimum(notes[:, END], np.append(onsets_s[1:], np.inf))
+    onsets_s = spans_s[:, 0]
+    lasts_s = np.minimum(spans_s[:, 1], np.append(onsets_s[1:], np.inf))
     before = np.append(initial, targets[:-1])
     free_s = np.append(-np.inf, np.maximum(onsets_s, lasts_s - SHIFT_SHARE * (lasts_s - onsets_s))[:-1])
     left_s = np.append(-np.inf, lasts_s[:-1])
     # Two rows for every note: back to rest where there is one before it, and to its own value.
-    rows = np.empty((len(notes), 2, 3))
+    rows = np.empty((len(spans_s), 2, 3))
     if rest_value is not None:
         gap_s = onsets_s - left_s
         rests = np.isfinite(left_s) & (gap_s > HOLD_S)
@@ -63,20 +61,49 @@ def _tracked(notes: FloatArray, targets: FloatArray, shift_s: float, rest_value:
     return moves_to(table[:, 0], table[:, 1], table[:, 2], initial)
 
 
-def _tension(asked: Asked) -> Curve | Trace:
+@dataclass(frozen=True, eq=False)
+class Column:
+    """A value of every embouchure, (N,) or (N, 2): compared by its numbers, which costs less than making curves."""
+
+    values: FloatArray
+
+    def __eq__(self, other: object) -> bool:
+        """Return whether the numbers are the same."""
+        return isinstance(other, Column) and np.array_equal(self.values, other.values)
+
+    def __hash__(self) -> int:
+        return hash(self.values.tobytes())
+
+
+def _spans(lips: tuple[EmbouchureEvent, ...]) -> Column:
+    return Column(np.array([(event.start_s, event.end_s) for event in lips]).reshape(-1, 2))
+
+
+def _column(lips: tuple[EmbouchureEvent, ...], name: str) -> Column:
+    return Column(np.array([getattr(event, name) for event in lips], np.float64))
+
+
+def _at_lips(spans: Column) -> Curve:
+    return _tracked(spans.values, np.ones(len(spans.values)), FORM_S, 0.0)
+
+
+def _tension(spans: Column, tensions: Column, traces: SampledCurves | None, embouchure_tension: float) -> Curve | Trace:
     """As it was recorded where it was, else from note to note; so are effort and air."""
-    traces, scale = asked.plan.traces, asked.embouchure_tension
     if traces is None:
-        return _tracked(asked.notes, np.minimum(scale * asked.notes[:, TENSION], 1.0), SHIFT_S, None)
-    return Trace(traces.start_s, traces.step_s, np.minimum(scale * traces.tension, 1.0))
+        return _tracked(spans.values, np.minimum(embouchure_tension * tensions.values, 1.0), SHIFT_S, None)
+    return Trace(traces.start_s, traces.step_s, np.minimum(embouchure_tension * traces.tension, 1.0))
 
 
-def _strain(asked: Asked, column: int) -> Curve | Trace:
-    """Effort or air."""
-    traces = asked.plan.traces
+def _effort(spans: Column, efforts: Column, traces: SampledCurves | None) -> Curve | Trace:
     if traces is None or traces.air is None or traces.effort is None:
-        return _tracked(asked.notes, asked.notes[:, column], SWELL_S, 0.0)
-    return Trace(traces.start_s, traces.step_s, traces.effort if column == EFFORT else traces.air)
+        return _tracked(spans.values, efforts.values, SWELL_S, 0.0)
+    return Trace(traces.start_s, traces.step_s, traces.effort)
+
+
+def _air(spans: Column, airs: Column, traces: SampledCurves | None) -> Curve | Trace:
+    if traces is None or traces.air is None or traces.effort is None:
+        return _tracked(spans.values, airs.values, SWELL_S, 0.0)
+    return Trace(traces.start_s, traces.step_s, traces.air)
 
 
 def breath_opening(plan: PlayerPlan) -> Envelopes:
@@ -122,39 +149,6 @@ class Drivers:
 
 
 @dataclass(frozen=True)
-class Asked:
-    """What the curves of a face are made from.
-
-    Attributes
-    ----------
-    embouchure_tension : float
-        Scales the tension; 1 is as planned.
-    motion : FaceMotion
-        Of the body.
-    lungs : Lungs
-        Of the player, with the instrument.
-    """
-
-    plan: PlayerPlan
-    embouchure_tension: float
-    motion: FaceMotion
-    lungs: Lungs
-
-    @cached_property
-    def notes(self) -> FloatArray:
-        """(N, 5): start and end (seconds), tension, effort and air of every embouchure."""
-        events = self.plan.embouchures
-        rows = [(event.start_s, event.end_s, event.tension, event.effort, event.air) for event in events]
-        return np.array(rows, np.float64).reshape(-1, 5)
-
-    def same(self, other: Asked, *kinds: str) -> bool:
-        """Whether what is made of these events of the plan is the same."""
-        mine, others = (one.plan.time_frame for one in (self, other))
-        alike = (self.embouchure_tension, self.lungs, mine) == (other.embouchure_tension, other.lungs, others)
-        return alike and self.motion is other.motion and same_events(self.plan, other.plan, *kinds)
-
-
-@dataclass(frozen=True)
 class Face:
     """What one player's plan asks of the face, as curves of time.
 
@@ -186,38 +180,6 @@ class Face:
     exertion: Spline
     expressions: dict[str, Envelopes]
 
-    @classmethod
-    def of(cls, asked: Asked, before: tuple[Face, Asked] | None = None) -> Face:
-        """From a whole plan, or from what is the same as in the plan ``before``."""
-        plan, face = asked.plan, None
-        lips = tongues = breaths = shown = times = tension = effort = air = False
-        if before is not None and asked.same(before[1], "traces"):
-            face, other = before
-            lips, tongues, breaths, shown = (
-                same_events(plan, other.plan, kind) for kind in ("embouchures", "tongues", "breaths", "expressions")
-            )
-            # Most of what an edit of a note leaves as it was is found out by comparing: that costs less than making it.
-            times = lips or np.array_equal(asked.notes[:, :TENSION], other.notes[:, :TENSION])
-            tension, effort, air = (
-                times and (lips or np.array_equal(asked.notes[:, column], other.notes[:, column]))
-                for column in (TENSION, EFFORT, AIR)
-            )
-        return cls(
-            at_lips=face.at_lips if face and times else _tracked(asked.notes, np.ones(len(asked.notes)), FORM_S, 0.0),
-            tension=face.tension if face and tension else _tension(asked),
-            effort=face.effort if face and effort else _strain(asked, EFFORT),
-            air=face.air if face and air else _strain(asked, AIR),
-            tongue=face.tongue if face and tongues else tip_strokes(plan),
-            tongue_back=face.tongue_back if face and tongues else back_strokes(plan),
-            push=face.push if face and tongues else attack_pushes(plan),
-            mouth_open=face.mouth_open if face and breaths else breath_opening(plan),
-            firm=face.firm if face and air and tongues else firmness(plan),
-            eased=face.eased if face and times else easing(plan),
-            vibrato=face.vibrato if face and air else vibrato_size(plan),
-            exertion=face.exertion if face and lips and breaths else exertion_of(plan, asked.motion, asked.lungs),
-            expressions=face.expressions if face and shown else _shown(plan),
-        )
-
     def sample(self, times_s: FloatArray) -> Drivers:
         """What moves the face at ascending times."""
         alone = {name: curve for name, curve in vars(self).items() if name not in ("expressions", "exertion")}
@@ -226,3 +188,35 @@ class Face:
             exertion=Exertion(*self.exertion.sample(times_s)),
             expressions={name: envelopes.sample(times_s) for name, envelopes in self.expressions.items()},
         )
+
+
+FACE: Final = StepTable(
+    lips="plan.embouchures",
+    traces="plan.traces",
+    spans=_spans,
+    tensions=partial(_column, name="tension"),
+    efforts=partial(_column, name="effort"),
+    airs=partial(_column, name="air"),
+    plan_of_lips=partial(only, fields=("embouchures", "traces")),
+    plan_of_tongue=partial(only, fields=("tongues",)),
+    plan_of_breaths=partial(only, fields=("breaths",)),
+    plan_of_expressions=partial(only, fields=("expressions",)),
+    plan_of_attacks=partial(only, fields=("embouchures", "tongues")),
+    plan_of_effort=partial(only, fields=("embouchures", "traces", "breaths")),
+    at_lips=_at_lips,
+    tension=_tension,
+    effort=_effort,
+    air=_air,
+    tongue=reading(tip_strokes, plan="plan_of_tongue"),
+    tongue_back=reading(back_strokes, plan="plan_of_tongue"),
+    push=reading(attack_pushes, plan="plan_of_tongue"),
+    mouth_open=reading(breath_opening, plan="plan_of_breaths"),
+    firm=reading(firmness, plan="plan_of_attacks"),
+    eased=reading(easing, plan="plan_of_lips"),
+    vibrato=reading(vibrato_size, plan="plan_of_lips"),
+    exertion=reading(exertion_of, plan="plan_of_effort", face="face_motion"),
+    expressions=reading(_shown, plan="plan_of_expressions"),
+    face=Face,
+)
+"""The steps of a face; given are the plan, the player's ``embouchure_tension`` (1 is as planned) and lungs, and the
+``face_motion`` of the body."""

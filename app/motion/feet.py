@@ -22,7 +22,7 @@ STRIKE_SHARE = 0.35
 """Of a tap the toes come down in the last part of this size."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Feet:
     """All that a player's feet do, a row for each gesture.
 

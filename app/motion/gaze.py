@@ -9,6 +9,7 @@ time, so that an edit changes only what is near it.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Final, NamedTuple
 
 import numpy as np
@@ -16,10 +17,11 @@ import numpy as np
 from app.motion.blinks import BLINK_DOWN_S, BLINK_SHUT_S, BLINK_UP_S, ENTRY_GUARD_S, blinks_of
 from app.motion.curve import Curve, Envelopes, FloatArray, moves_to
 from app.motion.seed import generator
-from app.motion.silences import Silences, holds, overlaps, same_silences
+from app.motion.silences import Silences, holds, overlaps
 from app.motion.spline import Spline
-from app.plan.model import PlayerPlan
+from app.plan.model import PlayerPlan, only
 from app.plan.styles import share_at
+from app.steps import StepTable, reading
 
 __all__ = ["BLINK_DOWN_S", "BLINK_SHUT_S", "BLINK_UP_S", "ENTRY_GUARD_S", "Gaze", "Look", "Watching", "plan_gaze"]
 
@@ -136,9 +138,8 @@ class Watching(NamedTuple):
     blink: float = 1.0
 
 
-def plan_gaze(plan: PlayerPlan, watching: Watching) -> Gaze:
-    """Fixations and blinks of a whole performance, seeded by the player."""
-    silences = Silences.of(plan)
+def plan_gaze(plan: PlayerPlan, watching: Watching, silences: Silences) -> Gaze:
+    """Plan the fixations and blinks of a whole performance, seeded by the player."""
     at_s, yaw, pitch, share = _fixations(plan, silences, watching)
     far = np.hypot(np.diff(yaw, prepend=yaw[:1]), np.diff(pitch, prepend=pitch[:1]))
     until_s = np.minimum(
@@ -152,12 +153,6 @@ def plan_gaze(plan: PlayerPlan, watching: Watching) -> Gaze:
         left_lid=left_lid,
         right_lid=right_lid,
     )
-
-
-def looks_alike(plan: PlayerPlan, other: PlayerPlan) -> bool:
-    """Whether the gaze of two plans of a player is the same: of the notes only when they are counts."""
-    same = plan.cues == other.cues and plan.glances == other.glances
-    return same and same_silences(plan, other)
 
 
 class _Looks(NamedTuple):
@@ -273,3 +268,12 @@ def _head(plan: PlayerPlan, at_s: FloatArray, yaw: FloatArray, pitch: FloatArray
             whole = (total[steps + 1 :] - total[: -steps - 1]) // (steps + 1)
         rows.append(whole)
     return Spline(first, HEAD_STEP_S, np.stack(rows).astype(np.int32), 1e6)
+
+
+GAZE: Final = StepTable(
+    silences=Silences.of,
+    plan_of_looks=partial(only, fields=("breaths", "cues", "glances", "styles")),
+    gaze=reading(plan_gaze, plan="plan_of_looks"),
+)
+"""The steps of a gaze, which depends on the times of notes but not on what they are; given are the plan and
+`Watching`."""

@@ -67,7 +67,7 @@ def _between(at: FloatArray, values: FloatArray, slopes: FloatArray, phase: Floa
     return inside
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Gestured:
     """All keyed gestures of a player.
 

@@ -28,7 +28,7 @@ LIFT_LAG = 0.6547
 adds to the dip's peak without moving it."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Nods:
     """Lifts and dips of all nods: the dip's acceleration peaks on the beat that is marked, their widths are the tempo.
 

@@ -10,7 +10,7 @@ import numpy as np
 from app.motion.curve import ROUNDING_S, FloatArray, rows_changed_s
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Path:
     """A smooth curve through knots: at rest where it turns round or stays, else moving, nowhere with a jerk.
 

@@ -8,24 +8,24 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, replace
 from fractions import Fraction
 from functools import cached_property
-from typing import cast
+from typing import Final, NamedTuple, cast
 
 import numpy as np
 
 from app.identity_cache import IdentityCache
 from app.motion.additive import NOTHING, Added, Additive, with_added, with_added_morphs, with_held
 from app.motion.aside import Aside
-from app.motion.body import QUIET_AIR, BodyMotion, Layers, LayerSamples, body_motion
+from app.motion.body import LAYERS, QUIET_AIR, BodyMotion, Layers, LayerSamples, body_motion
 from app.motion.contact import Carried
 from app.motion.controls import control_curves
 from app.motion.curve import EVERYWHERE, Curve, Envelopes, FloatArray, frame_times, moves
 from app.motion.danced import BodyLayer, giving_way, inhaling, with_dance
 from app.motion.drawn_breaths import leaning_further
 from app.motion.exertion import Lungs
-from app.motion.face import Asked, Drivers, Face
+from app.motion.face import FACE, Drivers, Face
 from app.motion.face_morphs import FaceSizes, face_morphs, face_sizes, usual_morphs
 from app.motion.feet import feet_moved
-from app.motion.gaze import Gaze, Look, Watching, looks_alike, plan_gaze
+from app.motion.gaze import GAZE, Gaze, Look, Watching, plan_gaze
 from app.motion.holding import with_holds
 from app.motion.model import Motion
 from app.motion.posture import SIDES, Side, footing, hips_path, stance, torso_forward, trunk
@@ -38,7 +38,7 @@ from app.motion.stopping import STOPPING, stopping
 from app.motion.tipping import with_bell_room
 from app.motion.wrists import wrists_of
 from app.plan.acting import Acting, acting_of
-from app.plan.model import PlayerPlan, TimeFrame, same_events
+from app.plan.model import FingeringEvent, PlayerPlan, TimeFrame
 from app.plan.parameters import PlayerParameters, deciding
 from app.plan.styles import differing_s, most_shown, share_at, shown_in_style
 from app.rig.carriage import carrying
@@ -46,6 +46,7 @@ from app.rig.finger_lift import with_curved_fingers
 from app.rig.hold import GripPose, Lips, Placed, giving_for
 from app.rig.model import Character, Skeleton
 from app.score.metre_map import FeltBeats
+from app.steps import Results, StepTable, reading
 from instrument_maps.model import InstrumentMap
 from instrument_maps.model import Posture as PostureName
 from metadata.load import load_expressions, load_skeleton
@@ -99,6 +100,15 @@ class Frames:
     stopping: FloatArray | None = None
 
 
+class CurveSteps(NamedTuple):
+    """Results of `FACE`, `LAYERS`, `GAZE` and `FINGERS`."""
+
+    face: Results
+    layers: Results
+    gaze: Results
+    fingers: Results
+
+
 @dataclass(frozen=True, eq=False)
 class PerformanceCurves:
     """One player's plan as curves over the whole performance: what any of its frames are made from.
@@ -116,8 +126,6 @@ class PerformanceCurves:
         Those the plan names.
     player : Player
         What does not change with time.
-    asked, watching : Asked, Watching
-        What face and gaze are made from.
     controls : dict of str to Curve
         By the instrument's control.
     stations : dict of str to Curve
@@ -134,6 +142,8 @@ class PerformanceCurves:
         The animator's curves.
     stopping : Envelopes
         How far a hand closes the bell.
+    steps : tuple of Results
+        That made the curves: those of events that an edit leaves alone are taken over.
     """
 
     plan: PlayerPlan
@@ -146,13 +156,12 @@ class PerformanceCurves:
     expressions: dict[str, Expression]
     player: Player
     layers: Layers
-    asked: Asked
     face: Face
-    watching: Watching
     gaze: Gaze
     controls: dict[str, Curve]
     stations: dict[str, Curve]
     raised: Curve
+    steps: CurveSteps
     dance: BodyLayer | None = None
     inhaling: Envelopes = NOT_SHOWN
     stowed: Curve | None = None
@@ -369,12 +378,9 @@ def prepare(
     instrument, ``body`` has sizes, limits and postures; a rest as long as a felt beat brings controls back to rest;
     the expressions are the bundled ones where none are given.
 
-    Curves of events that are the very same tuples in ``before`` (the player as it was prior to an edit) are taken from
-    there. ``dance`` is added to the body by the parameters' amount, and takes the place of as much of the generated
-    sway and shift of weight.
+    Curves of what is as it was in ``before`` (the player prior to an edit) are taken from there. ``dance`` is added to
+    the body by the parameters' amount, and takes the place of as much of the generated sway and shift of weight.
     """
-    if before is not None and not _comparable(before, plan, parameters, instrument_map, body, felt_beats):
-        before = None
     known = load_expressions() if expressions is None else expressions
     carriage = instrument_map.hold.carriage(parameters.posture)
     if parameters.dance_amount == 0.0:
@@ -383,25 +389,29 @@ def prepare(
     acting = shown_by(parameters, carriage, most, dancing=dance is not None)
     parameters = settled(parameters, carriage)
     posture = carrying(body, instrument_map.hold.possible(parameters.posture), carriage)
-    asked = Asked(plan, parameters.embouchure_tension, body.face, Lungs.of(parameters, instrument_map.air))
-    watching = Watching(parameters.seed, acting.gaze, acting.blink)
     player = _player(parameters, instrument_map, character, hold, body)
-    if before is None:
-        face, layers = Face.of(asked), Layers.of(shown_in_style(plan), body, felt_beats)
-        gaze = plan_gaze(plan, watching)
-        fingers = _fingers(plan, instrument_map, felt_beats, player)
-    else:
-        old = before.plan
-        face = Face.of(asked, (before.face, before.asked))
-        layers = Layers.of(shown_in_style(plan), body, felt_beats, (before.layers, shown_in_style(old)))
-        looks_same = watching == before.watching and looks_alike(plan, old) and plan.styles == old.styles
-        gaze = before.gaze if looks_same else plan_gaze(plan, watching)
-        fingers = (before.controls, before.stations, before.raised)
-        if before.player.farthest != player.farthest:
-            fingers = _fingers(plan, instrument_map, felt_beats, player)
-        elif not same_events(plan, old, "fingerings"):
-            fingers = _fingers(plan, instrument_map, felt_beats, player, before)
-    return PerformanceCurves(
+    former = None if before is None else before.steps
+    lungs = Lungs.of(parameters, instrument_map.air)
+    steps = CurveSteps(
+        FACE.begin(
+            former and former.face,
+            plan=plan,
+            embouchure_tension=parameters.embouchure_tension,
+            face_motion=body.face,
+            lungs=lungs,
+        ),
+        LAYERS.begin(former and former.layers, plan=shown_in_style(plan), body=body, felt_beats=felt_beats),
+        GAZE.begin(former and former.gaze, plan=plan, watching=Watching(parameters.seed, acting.gaze, acting.blink)),
+        FINGERS.begin(
+            former and former.fingers,
+            plan=plan,
+            instrument=instrument_map,
+            felt_beats=felt_beats,
+            farthest=player.farthest,
+        ),
+    )
+    face, fingers = steps.face.of(Face), steps.fingers.of(fingers_of)
+    made = PerformanceCurves(
         plan=plan,
         instrument_map=instrument_map,
         felt_beats=felt_beats,
@@ -411,26 +421,21 @@ def prepare(
         body=body,
         expressions={name: known[name] for name in face.expressions},
         player=player,
-        layers=layers,
-        asked=asked,
+        layers=steps.layers.of(Layers),
         face=face,
-        watching=watching,
-        gaze=gaze,
-        controls=fingers[0],
-        stations=fingers[1],
-        raised=fingers[2],
+        gaze=steps.gaze.of(plan_gaze),
+        controls=fingers.controls,
+        stations=fingers.stations,
+        raised=fingers.raised,
         dance=dance,
         inhaling=NOT_SHOWN if dance is None else inhaling(plan.breaths),
-        additive=_additive(plan, before),
         stopping=stopping(plan.mutes, instrument_map.stopped),
+        additive=steps.fingers.of(Additive.of),
+        steps=steps,
     )
-
-
-def _additive(plan: PlayerPlan, before: PerformanceCurves | None) -> Additive:
-    """The animator's curves; those of ``before`` where they are the same."""
-    if before is not None and same_events(plan, before.plan, "additive"):
-        return before.additive
-    return Additive.of(plan.additive)
+    for results in steps:
+        results.close()
+    return made
 
 
 def lying(
@@ -483,30 +488,57 @@ def _made(posture_name: str, instrument_map: InstrumentMap, skeleton: Skeleton, 
     return with_bell_room(made.standing_on(instrument_map.endpin))
 
 
-def _fingers(
-    plan: PlayerPlan,
-    instrument_map: InstrumentMap,
+class Fingers(NamedTuple):
+    """What fingers do.
+
+    Attributes
+    ----------
+    grips : tuple of FingeringEvent
+    made_for : tuple
+        What else the curves depend on.
+    controls, stations, raised
+        As of `PerformanceCurves`.
+    """
+
+    grips: tuple[FingeringEvent, ...]
+    made_for: tuple[object, ...]
+    controls: dict[str, Curve]
+    stations: dict[str, Curve]
+    raised: Curve
+
+
+def fingers_of(
+    grips: tuple[FingeringEvent, ...],
+    instrument: InstrumentMap,
     felt_beats: FeltBeats,
-    player: Player,
-    before: PerformanceCurves | None = None,
-) -> tuple[dict[str, Curve], dict[str, Curve], Curve]:
-    """Curves of the controls, of the places of the fingers and of how high they wait."""
-    notes = plan.grips
-    stretch = None if before is None else changed_stretch(before.plan.grips, notes, felt_beats)
-    controls = stations = None
+    farthest: Mapping[str, float],
+    before: Fingers | None,
+) -> Fingers:
+    """Make the curves of the controls, of the places of the fingers and of how high they wait; around an edit only."""
+    made_for = (instrument, felt_beats, farthest)
+    stretch = controls = stations = None
+    if before is not None and before.made_for == made_for:
+        stretch = changed_stretch(before.grips, grips, felt_beats)
     if before is not None and stretch is not None:
-        own = stretch.notes(notes)
-        controls = spliced(
-            before.controls, control_curves(own, instrument_map.controls, felt_beats, player.farthest), stretch
-        )
+        own = stretch.notes(grips)
+        controls = spliced(before.controls, control_curves(own, instrument.controls, felt_beats, farthest), stretch)
         if controls is not None:
-            stations = spliced(before.stations, station_curves(own, instrument_map, controls), stretch)
+            stations = spliced(before.stations, station_curves(own, instrument, controls), stretch)
     if controls is None:
-        controls = control_curves(notes, instrument_map.controls, felt_beats, player.farthest)
+        controls = control_curves(grips, instrument.controls, felt_beats, farthest)
     if stations is None:
-        stations = station_curves(notes, instrument_map, controls)
-    hovers = any(control.hover_m for control in instrument_map.controls)
-    return controls, stations, raised_curve(notes) if hovers else moves(())
+        stations = station_curves(grips, instrument, controls)
+    hovers = any(control.hover_m for control in instrument.controls)
+    return Fingers(grips, made_for, controls, stations, raised_curve(grips) if hovers else moves(()))
+
+
+FINGERS: Final = StepTable(
+    grips="plan.grips",
+    fingers=fingers_of,
+    curves="plan.additive",
+    additive=reading(Additive.of, events="curves"),
+)
+"""The steps of the fingers, and of the animator's own curves."""
 
 
 def _steps(player: Player) -> bool:
@@ -517,19 +549,6 @@ def _steps(player: Player) -> bool:
 def _stands_free(player: Player) -> bool:
     """Whether the hips may leave their place: not on a seat, nor over an instrument that stands on its pin."""
     return not player.place.seated and player.stand is None
-
-
-def _comparable(
-    before: PerformanceCurves,
-    plan: PlayerPlan,
-    parameters: PlayerParameters,
-    instrument_map: InstrumentMap,
-    body: Body,
-    felt_beats: FeltBeats,
-) -> bool:
-    """Whether curves of the same events are the same curves."""
-    same = before.instrument_map is instrument_map and before.body is body and before.felt_beats == felt_beats
-    return same and before.player_id == plan.player_id
 
 
 def _grip_of_lips(lips: Lips, embouchure: Embouchure) -> FloatArray:

@@ -28,7 +28,7 @@ class Offset:
     roll: FloatArray
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Poses:
     """All pose corrections of a player, a row for each.
 

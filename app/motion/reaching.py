@@ -44,7 +44,7 @@ class Reached(NamedTuple):
 Reaches: TypeAlias = dict[AmplitudeScale, Reached]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Reaching:
     """All gestures of a player in which a hand leaves the instrument, or it comes up.
 

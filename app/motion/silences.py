@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 
 from app.motion.curve import FloatArray
-from app.plan.model import PlayerPlan, same_events
+from app.plan.model import PlayerPlan
 
 BoolArray: TypeAlias = npt.NDArray[np.bool_]
 
@@ -65,6 +65,15 @@ class Silences:
             _carried_s(plan),
         )
 
+    def __eq__(self, other: object) -> bool:
+        """Return whether all times are the same: then gazes are."""
+        if not isinstance(other, Silences):
+            return NotImplemented
+        return all(np.array_equal(getattr(self, one.name), getattr(other, one.name)) for one in fields(self))
+
+    def __hash__(self) -> int:
+        return hash((self.starts_s.tobytes(), self.ends_s.tobytes()))
+
     @property
     def entries_s(self) -> FloatArray:
         """First notes after rests."""
@@ -94,17 +103,3 @@ def overlaps(spans_s: FloatArray, from_s: FloatArray, to_s: FloatArray) -> BoolA
     ends_s = np.append(-np.inf, np.maximum.accumulate(spans_s[:, 1]))
     found: BoolArray = ends_s[np.searchsorted(spans_s[:, 0], to_s, side="right")] > from_s
     return found
-
-
-def same_silences(plan: PlayerPlan, other: PlayerPlan) -> bool:
-    """Whether two plans are silent, quick and in breath at the same times."""
-    if plan.time_frame != other.time_frame or len(plan.fingerings) != len(other.fingerings):
-        return False
-    if not same_events(plan, other, "breaths") and plan.breaths != other.breaths:
-        return False
-    if not same_events(plan, other, "gestures") and _lowered_s(plan) != _lowered_s(other):
-        return False
-    if same_events(plan, other, "fingerings"):
-        return True
-    pairs = zip(plan.fingerings, other.fingerings, strict=True)
-    return all(one is two or (one.start_s, one.end_s) == (two.start_s, two.end_s) for one, two in pairs)

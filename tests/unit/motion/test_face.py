@@ -8,9 +8,9 @@ import pytest
 
 from app.errors import Message
 from app.motion.exertion import Lungs
-from app.motion.face import Asked, Face, breath_opening
+from app.motion.face import FACE, Face, breath_opening
 from app.motion.face_morphs import face_morphs, face_sizes
-from app.motion.gaze import Watching, plan_gaze
+from app.motion.gaze import GAZE, Watching, plan_gaze
 from app.plan.acting import Acting
 from app.plan.model import EmbouchureEvent, ExpressionEvent, PlayerPlan
 from app.plan.parameters import PlayerParameters
@@ -32,7 +32,7 @@ def plan(**changes: object) -> PlayerPlan:
 
 
 def curves(made: PlayerPlan, tension: float = 1.0) -> Face:
-    return Face.of(Asked(made, tension, load_body().face, Lungs(9.0)))
+    return FACE.begin(plan=made, embouchure_tension=tension, face_motion=load_body().face, lungs=Lungs(9.0)).of(Face)
 
 
 def face(
@@ -44,7 +44,8 @@ def face(
     if still:
         sizes = replace(sizes, own=replace(sizes.own, left_more=dict.fromkeys(sizes.own.left_more, 0.0)),
                         upper=0.0, lips=0.0, vibrato=0.0)  # fmt: skip
-    shown, look = curves(made, settings.embouchure_tension).sample(times_s), plan_gaze(made, Watching()).sample(times_s)
+    shown = curves(made, settings.embouchure_tension).sample(times_s)
+    look = GAZE.begin(plan=made, watching=Watching()).of(plan_gaze).sample(times_s)
     up = np.zeros(len(times_s))
     return face_morphs(shown, body.embouchure["cup"], LIPS, load_expressions(), look, up, sizes, times_s)
 

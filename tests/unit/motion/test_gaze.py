@@ -9,6 +9,7 @@ import pytest
 from app.motion.blinks import BLINK_S, ENTRY_GUARD_S
 from app.motion.gaze import (
     EYES_RAD,
+    GAZE,
     HEAD_TURNS,
     LINE_RAD,
     MUSIC_PITCH_RAD,
@@ -27,8 +28,12 @@ from tests.unit.motion.test_face import TIMES_S, plan
 SEEDS = range(30)
 
 
+def gaze_of(made: PlayerPlan, watching: Watching) -> Gaze:
+    return GAZE.begin(plan=made, watching=watching).of(plan_gaze)
+
+
 def gazes(made: PlayerPlan, **watching: object) -> list[Gaze]:
-    return [plan_gaze(made, Watching(seed, **watching)) for seed in SEEDS]  # type: ignore[arg-type]
+    return [gaze_of(made, Watching(seed, **watching)) for seed in SEEDS]  # type: ignore[arg-type]
 
 
 def starts_s(made: PlayerPlan) -> np.ndarray:
@@ -93,7 +98,7 @@ def test_fewer_blinks_by_amount() -> None:
 
 def test_the_music_is_read_from_left_to_right_line_by_line() -> None:
     made = plan_of(fingerings([(i, i + 1.0, {}) for i in range(60)]))
-    gaze = plan_gaze(made, Watching(3, gaze=0.0))
+    gaze = gaze_of(made, Watching(3, gaze=0.0))
     times_s = np.arange(1.0, 58.0, 0.1)
     yaw, pitch = gaze.yaw_rad.sample(times_s), gaze.pitch_rad.sample(times_s)
     assert np.abs(yaw).max() < LINE_RAD + 0.02
@@ -105,7 +110,7 @@ def test_the_music_is_read_from_left_to_right_line_by_line() -> None:
 
 
 def test_eyes_rest_on_the_music_and_go_up_at_a_cue() -> None:
-    gaze = plan_gaze(plan(), Watching(3))
+    gaze = gaze_of(plan(), Watching(3))
     pitch = gaze.pitch_rad.sample(TIMES_S)
     playing = (TIMES_S > 1.0) & (TIMES_S < 10.0)
     assert np.median(pitch[playing]) > 0.1
@@ -197,7 +202,7 @@ def test_an_edit_changes_the_gaze_near_it_only() -> None:
     rows[60] = (rows[60][0] + 0.1, rows[60][1], {})
     later = msgspec.structs.replace(made, fingerings=fingerings(rows))
     for seed in SEEDS:
-        one, other = (plan_gaze(each, Watching(seed)) for each in (made, later))
+        one, other = (gaze_of(each, Watching(seed)) for each in (made, later))
         for name in ("yaw_rad", "pitch_rad", "head", "left_lid", "right_lid"):
             spans = getattr(one, name).changed_s(getattr(other, name))
             assert np.all(np.abs(spans - rows[60][0]) < 6.0), name
@@ -206,7 +211,7 @@ def test_an_edit_changes_the_gaze_near_it_only() -> None:
 def test_other_players_blink_and_look_at_other_times() -> None:
     made = phrases()
     other = msgspec.structs.replace(made, player_id="other")
-    one, two = plan_gaze(made, Watching()), plan_gaze(other, Watching())
+    one, two = gaze_of(made, Watching()), gaze_of(other, Watching())
     assert len(np.intersect1d(one.left_lid.start_s, two.left_lid.start_s)) == 0
     assert not np.array_equal(one.yaw_rad.after, two.yaw_rad.after)
 
@@ -223,7 +228,7 @@ def test_silences_are_rests_runs_and_entries() -> None:
 def test_a_plan_without_notes_is_looked_through_too() -> None:
     frame = plan().time_frame
     made = PlayerPlan("player", frame, (), (), (), (), (), (), (), ())
-    assert len(plan_gaze(made, Watching()).sample(TIMES_S).yaw_rad) == len(TIMES_S)
+    assert len(gaze_of(made, Watching()).sample(TIMES_S).yaw_rad) == len(TIMES_S)
 
 
 def test_a_head_with_an_instrument_at_its_mouth_turns_little() -> None:

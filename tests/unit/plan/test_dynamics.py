@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from app.motion.body import Layers
+from app.motion.body import LAYERS, Layers
 from app.plan.dynamics import grown, mean_around, vigour_of
 from app.plan.generate import MonophonicPart, make_plans, time_frame
 from app.plan.gesture import ARCH, RELEASE
@@ -51,8 +51,12 @@ def sizes(plan: PlayerPlan, kind: str, start_s: float, end_s: float) -> float:
 def motion(plan: PlayerPlan, start_s: float, end_s: float) -> dict[str, float]:
     """How far the layers of the body go within a span, before the player's amplitude: range of each."""
     times_s = np.arange(start_s, end_s, 0.02)
-    levels = Layers.of(plan, BODY, FELT).sample(times_s)
+    levels = layers_of(plan).sample(times_s)
     return {name: float(np.ptp(getattr(levels, name))) for name in ("sway", "height", "lean")}
+
+
+def layers_of(plan: PlayerPlan) -> Layers:
+    return LAYERS.begin(plan=plan, body=BODY, felt_beats=FELT).of(Layers)
 
 
 def test_fortissimo_is_larger_than_pianissimo_in_every_layer() -> None:
@@ -97,7 +101,7 @@ def test_an_accent_lifts_the_bell() -> None:
     plain = tune(70, 71)
     accented = tuple(replace(note, velocity=110) if note.onset_tick == 10 * Q else note for note in plain)
     before, after = plan_of(plain), plan_of(accented)
-    heights = [Layers.of(plan, BODY, FELT).sample(np.array([5.4])).height[0] for plan in (before, after)]
+    heights = [layers_of(plan).sample(np.array([5.4])).height[0] for plan in (before, after)]
     assert heights[1] > heights[0] + 0.2
     (event,) = [event for event in after.gestures if event.reason.id == "gesture.bell_accent"]
     assert (event.kind, event.start_tick) == ("bell_height", 10 * Q)
@@ -106,7 +110,7 @@ def test_an_accent_lifts_the_bell() -> None:
 def test_the_bell_sinks_at_the_end_of_a_phrase() -> None:
     notes = line_of(*((beat * Q, Q, 67 + (beat == 6)) for beat in range(12)), (16 * Q, 4 * Q, 67))
     bells = [event for event in plan_of(notes).gestures if event.kind == "bell_height"]
-    layers = Layers.of(plan_of(notes), BODY, FELT).sample(np.array([3.3, 5.9]))
+    layers = layers_of(plan_of(notes)).sample(np.array([3.3, 5.9]))
     assert len(bells) >= 2
     assert layers.height[1] < layers.height[0]
 
