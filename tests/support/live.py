@@ -74,6 +74,11 @@ class Played:
         return self.playing.body
 
     @property
+    def stopping(self) -> object:
+        """As of `PerformanceCurves`."""
+        return self.playing.stopping
+
+    @property
     def controls(self) -> dict[str, object]:
         """As of `PerformanceCurves`: none, for no one knows beforehand where they are asked to be."""
         return {}

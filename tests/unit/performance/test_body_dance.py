@@ -203,8 +203,8 @@ def test_the_exported_file_keeps_fingers_lips_feet_and_bones(tmp_path: Path) -> 
     assert danced.bones.kept
     assert danced.penetration.kept
     assert danced.limits.beyond == danced.acceleration.beyond == 0
-    # The breath is seen in the trunk that dances.
-    assert danced.breaths.shown == danced.breaths.planned == 1
+    # Breaths are seen in the trunk that dances.
+    assert danced.breaths.shown == danced.breaths.planned > 0
 
 
 def test_nothing_long_is_done_at_once_in_the_window(tmp_path: Path) -> None:
