@@ -14,7 +14,7 @@ class Embouchure(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
     The face while playing is ``relaxed * (1 - tension) + tight * tension + air * air + soft * (1 - air) + effort *
     effort``; on top of it the jaw opens as far as lips need that close around something, or leave an opening
-    (`app.motion.face_morphs`). The tables from ``onset`` on are what the lips do within a note.
+    (`app.motion.faces.morph_weights`). The tables from ``onset`` on are what the lips do within a note.
 
     Attributes
     ----------

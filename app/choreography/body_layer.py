@@ -16,9 +16,9 @@ import numpy.typing as npt
 from scipy.ndimage import gaussian_filter1d
 
 from app.choreography.retarget import SIDES
-from app.motion.danced import CHANNELS, BodyLayer
+from app.motion.by_hand.pose_corrections import within
+from app.motion.gestures.dance_layer import CHANNELS, BodyLayer
 from app.motion.model import Motion
-from app.motion.pose import within
 from app.rig import quaternion
 from app.rig.model import Character
 from app.rig.skeleton import forward

@@ -26,9 +26,9 @@ from app.formats.gltf.model import GltfAnimation, GltfModel
 from app.formats.motion_limits import require_frames
 from app.formats.rates import exact_rate
 from app.rig import quaternion
-from app.rig.figure_build import SINGULAR, nearest_rotations, rest_pose
-from app.rig.figure_gltf import bind_pose
-from app.rig.source import read_source
+from app.rig.characters.figure_build import SINGULAR, nearest_rotations, rest_pose
+from app.rig.characters.figure_gltf import bind_pose
+from app.rig.gltf_source import read_source
 
 FloatArray = npt.NDArray[np.float64]
 

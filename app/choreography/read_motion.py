@@ -1,9 +1,9 @@
 """Motion capture of others as a motion of the 16 segments.
 
-Bones are found by `app.rig.humanoid`; the rest pose is turned upright, ahead and into the T-pose by `app.rig.t_pose`.
-Joints between two segments (collars, buttocks, neck, further vertebrae) are folded into the segment beyond them: its
-world rotation is that of the file, its offset the mean over the clip of where its joint is on the segment that
-carries it.
+Bones are found by `app.rig.characters.joint_mapping`; the rest pose is turned upright, ahead and into the T-pose by
+`app.rig.characters.t_pose`. Joints between two segments (collars, buttocks, neck, further vertebrae) are folded into
+the segment beyond them: its world rotation is that of the file, its offset the mean over the clip of where its joint is
+on the segment that carries it.
 
 Messages: ``motion.far``, ``motion.format``, ``motion.incomplete``, ``motion.rate``, ``motion.no_unit``,
 ``motion.lead_in``, ``motion.flips``, ``motion.doubtful``, ``motion.apart``, ``motion.milliseconds`` and those of
@@ -31,9 +31,9 @@ from app.errors import FileError, Message
 from app.formats.bvh import BvhClip, read_bvh
 from app.formats.motion_limits import require_frames, require_rate
 from app.rig import quaternion
+from app.rig.characters.joint_mapping import JointMapping, map_joints
+from app.rig.characters.t_pose import Rest, facing_ahead, rest_of, turned_figure, turns_to_t_pose, upright
 from app.rig.figure import Figure
-from app.rig.humanoid import JointMapping, map_joints
-from app.rig.t_pose import Rest, facing_ahead, rest_of, turned_figure, turns_to_t_pose, upright
 from metadata.model import REQUIRED_JOINTS
 
 FloatArray = npt.NDArray[np.float64]

@@ -18,7 +18,7 @@ from app.formats.files import files_in, open_file
 from app.formats.user_folder import UserFolder
 from app.project.model import Project
 from app.project.storage import is_project_file, load
-from app.rig.character_library import LIBRARY as CHARACTERS
+from app.rig.characters.character_library import LIBRARY as CHARACTERS
 from app.version import program_version
 from instrument_maps.library import LIBRARY as INSTRUMENTS
 from metadata.library import FOLDERS

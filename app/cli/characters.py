@@ -69,7 +69,7 @@ def _add_file(command: argparse.ArgumentParser) -> None:
 
 def list_characters(arguments: argparse.Namespace) -> None:
     """Print every character: id, title and file; then the user's own folder and what is wrong in it."""
-    from app.rig.character_library import character_library, character_problems
+    from app.rig.characters.character_library import character_library, character_problems
 
     known = character_library()
     rows = [
@@ -113,7 +113,7 @@ def check_character(arguments: argparse.Namespace) -> None:
 
 def add_character(arguments: argparse.Namespace) -> None:
     """Add a character and print its id. Raises FileError, UsageError."""
-    from app.rig.character_library import add_character as add
+    from app.rig.characters.character_library import add_character as add
 
     say(add(arguments.file, arguments.name, joints_of(arguments.joint), morphs_of(arguments.morph)))
 
@@ -148,8 +148,8 @@ def morphs_of(texts: list[str]) -> dict[str, dict[str, float]]:
 
 def checked(path: Path, joints: Mapping[str, str], morphs: Mapping[str, Mapping[str, float]]) -> dict[str, Any]:
     """What of a file's figure is what, as JSON has it. Raises FileError where there is no figure in it."""
-    from app.rig.character import read_character
-    from app.rig.figure_character import figure_character
+    from app.rig.characters.figure_to_character import figure_character
+    from app.rig.characters.load_character import read_character
     from metadata.model import REQUIRED_JOINTS
 
     reading = read_character(path, joints, morphs)
@@ -179,7 +179,7 @@ def checked(path: Path, joints: Mapping[str, str], morphs: Mapping[str, Mapping[
 
 def _reported(character: Any) -> tuple[Message, ...]:
     """What an animator should know of the character with an instrument."""
-    from app.rig.fitted_instrument import suited
+    from app.rig.grip.fitting.fitted_instrument import suited
     from app.rig.instrument import load_instrument
     from instrument_maps.library import find_map, model_path
     from metadata.load import load_body

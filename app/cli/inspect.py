@@ -23,7 +23,6 @@ from app.performance.cast import attempt
 from app.performance.ensemble import Performance
 from app.performance.judged import all_problems
 from app.performance.loudness import controller_input
-from app.plan.bends import bends
 from app.plan.model import (
     AdditiveEvent,
     BreathEvent,
@@ -36,6 +35,7 @@ from app.plan.model import (
     StyleEvent,
     TongueEvent,
 )
+from app.plan.music.pitch_bends import bends
 from app.plan.problem_lines import problem_lines, with_notes_named
 from app.project.performers import Dancer, Player
 from app.score.model import Note, Score

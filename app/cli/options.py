@@ -26,7 +26,7 @@ from app.project.model import Project, map_choices, preroll_of_new, with_setting
 from app.project.names import unique_names
 from app.project.parameters import parameter_names, parse_settings, select_players
 from app.project.storage import is_project_file, load
-from app.rig.character_library import characters
+from app.rig.characters.character_library import characters
 from app.score.choose import TrackChannel, require_map
 from app.score.parts import PERCUSSION
 from app.score.read import MidiContents, read_contents

@@ -9,9 +9,9 @@ import msgspec
 import numpy as np
 import numpy.typing as npt
 
-from app.rig.fit_terms import GRIP_M, INSIDE_M, TOUCH_M
-from app.rig.hold import ContactFit
-from app.rig.stations import MOST_HOVER_M
+from app.rig.grip.finger_stations import MOST_HOVER_M
+from app.rig.grip.fitting.fit_terms import GRIP_M, INSIDE_M, TOUCH_M
+from app.rig.grip.grip_pose import ContactFit
 from instrument_maps.model import Contact, Control
 
 FloatArray: TypeAlias = npt.NDArray[np.float64]

@@ -19,7 +19,7 @@ from app.contacts.bounds import BoolArray, FloatArray
 from app.contacts.reach import OUT_OF_REACH
 from app.errors import Message
 from app.plan.model import FingeringEvent, Problem
-from app.plan.spans import Spans
+from app.plan.music.spans import Spans
 
 JUDGED_PER_S = 15
 """So many frames of a second are looked at: no body leaves a contact and is back sooner."""

@@ -14,7 +14,7 @@ from threading import Lock
 import numpy as np
 import numpy.typing as npt
 
-from app.rig.proxy import Bodies, bodies, distances
+from app.rig.grip.instrument_proxy import Bodies, bodies, distances
 from instrument_maps.model import Proxy
 
 FloatArray = npt.NDArray[np.float64]

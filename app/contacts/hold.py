@@ -7,8 +7,8 @@ from __future__ import annotations
 
 from app.contacts.bounds import contact_name
 from app.errors import Message
-from app.rig.fit_terms import GRIP_M, INSIDE_M, TOUCH_M
-from app.rig.hold import ContactFit, GripPose
+from app.rig.grip.fitting.fit_terms import GRIP_M, INSIDE_M, TOUCH_M
+from app.rig.grip.grip_pose import ContactFit, GripPose
 
 
 def missed(hold: GripPose) -> tuple[ContactFit, ...]:

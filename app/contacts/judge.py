@@ -23,13 +23,13 @@ from app.contacts.breaks import JUDGED_PER_S, Break, runs
 from app.contacts.controls import NoteFrames
 from app.contacts.hold import missed_mm
 from app.contacts.touches import LIPS, TouchJudge, Traces, distance_m, hand_gaps_m, world_from_nodes
-from app.motion.contact import Carried
+from app.motion.contacts.carried_instrument import Carried
+from app.motion.contacts.hand_in_bell import shifted
 from app.motion.model import Motion
 from app.motion.perform import PerformanceCurves
-from app.motion.stopping import shifted
-from app.rig.hold import hand_targets
+from app.rig.grip.grip_pose import hand_targets
+from app.rig.grip.lips import meeting
 from app.rig.instrument import node_transforms
-from app.rig.lips import meeting
 from app.rig.model import Character, InstrumentModel
 from app.rig.skeleton import forward
 from app.rig.skinning import landmark_joints, landmark_positions

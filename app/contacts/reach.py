@@ -1,7 +1,7 @@
 """Whether a player's hands reach everything the fingerings ask for.
 
 Messages: ``contact.out_of_reach`` (label, control, gap_mm): "{label} is out of this player's reach: ...", a problem of
-a note. What the hand carries stops where the hand does (`app.motion.stop`).
+a note. What the hand carries stops where the hand does (`app.motion.contacts.controls_within_reach`).
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from app.errors import Message
 from app.motion.perform import prepare
 from app.plan.model import FingeringEvent, PlayerPlan, Problem, TimeFrame, grips_of
 from app.plan.parameters import PlayerParameters
-from app.rig.hold import GripPose
+from app.rig.grip.grip_pose import GripPose
 from app.rig.model import Character
 from app.rig.skeleton import forward
 from instrument_maps.model import InstrumentMap, Posture

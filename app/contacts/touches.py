@@ -13,10 +13,10 @@ import numpy as np
 
 from app.contacts.bounds import CLEAR_MM, TOUCH_MM, BoolArray, FloatArray, IntArray
 from app.contacts.controls import NoteFrames
-from app.motion.stopping import FINGERS_KEPT
+from app.motion.contacts.hand_in_bell import FINGERS_KEPT
 from app.rig import quaternion
-from app.rig.hold import HandHold, Placed, hand_targets
-from app.rig.stations import aside_m, only_at, stations, stations_of_notes, worked_by
+from app.rig.grip.finger_stations import aside_m, only_at, stations, stations_of_notes, worked_by
+from app.rig.grip.grip_pose import HandHold, Placed, hand_targets
 from instrument_maps.model import ROOT, Contact, InstrumentMap
 
 LIPS, UPPER_LIP = "lips.contact", "lips.upper"
@@ -80,7 +80,8 @@ def hand_gaps_m(
     controls: Mapping[str, FloatArray],
     placed: Mapping[str, Placed] | None = None,
 ) -> FloatArray:
-    """How far (F,) a hand is from its place on the instrument; parameters as of `app.rig.hold.hand_targets`."""
+    """How far (F,) a hand is from its place on the instrument; parameters as of
+    `app.rig.grip.grip_pose.hand_targets`."""
     requested_m, _ = hand_targets(hand, world_from_instrument_m, world_from_instrument_rotation, controls, placed)
     return distance_m(wrist_m, requested_m)
 
@@ -96,7 +97,7 @@ def hole_values(instrument: InstrumentMap, traces: Traces) -> dict[str, FloatArr
             continue
         touches = [contact for contact in instrument.contacts if control.name in worked_by(contact, instrument)]
         if not touches:
-            # No one's finger is there: fingers that do not bend (`app.rig.fitted_instrument`).
+            # No one's finger is there: fingers that do not bend (`app.rig.grip.fitting.fitted_instrument`).
             continue
         whole_m = np.min([_gap_m(contact, instrument, traces) for contact in touches], axis=0)
         values = np.where(whole_m > instrument.size * CLEAR_MM / 1000.0, 0.0, np.nan)

@@ -31,7 +31,7 @@ from app.project.model import Project
 from app.project.names import file_stem
 from app.project.recovery import Recoverable, discard, load_work, recoverable, recoverable_of
 from app.project.salvage import salvaged
-from app.rig.character_library import reload_characters
+from app.rig.characters.character_library import reload_characters
 from app.score.read import MidiContents, read_contents
 from instrument_maps.library import all_maps, reload
 

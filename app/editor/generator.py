@@ -24,7 +24,7 @@ from app.performance.ensemble import Performance
 from app.performance.live import LiveMotion, PlayerFault
 from app.project.document import Change
 from app.project.model import Project
-from app.rig.character_library import character_library
+from app.rig.characters.character_library import character_library
 from instrument_maps.library import library
 from metadata.library import metadata_library
 

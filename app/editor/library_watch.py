@@ -12,7 +12,7 @@ from app.editor.session import Session, Severity
 from app.editor.tasks import Progress, StopRequested
 from app.errors import Message
 from app.formats.user_folder import Shelf, UserFolder
-from app.rig.character_library import LIBRARY as CHARACTERS
+from app.rig.characters.character_library import LIBRARY as CHARACTERS
 from instrument_maps.library import LIBRARY as INSTRUMENTS
 from metadata.library import FOLDERS
 

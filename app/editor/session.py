@@ -86,7 +86,7 @@ class Session(QObject):
     instruments_saved()
         A map was written into the user's own folder.
     characters_changed()
-        Some character is another one, or is there no more (`app.rig.character_library`).
+        Some character is another one, or is there no more (`app.rig.characters.character_library`).
     characters_saved()
         A character was written into the user's own folder, or removed from it.
     choreographies_changed()

@@ -29,7 +29,7 @@ from app.errors import AppError, Message
 from app.performance.cast import attempt
 from app.project.casting import StagePosition
 from app.project.performers import Dancer, Player
-from app.rig.character_library import character_named
+from app.rig.characters.character_library import character_named
 from app.rig.model import Character
 from app.stream.faces import FACE_NAMES, FaceNames
 from app.stream.sender import MOST_PORT, TO_MANY, Address, Outcome, Sender, StreamError, find_address, reaches_many

@@ -36,7 +36,7 @@ from app.performance.cast import Performer, performer_of
 from app.performance.chunks import Pose
 from app.performance.ensemble import Performance
 from app.rig import quaternion
-from app.rig.hold import hand_targets
+from app.rig.grip.grip_pose import hand_targets
 from app.rig.model import Character, Skeleton
 from app.rig.skeleton import forward
 

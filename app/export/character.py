@@ -15,10 +15,10 @@ from app.formats.names import numbered
 from app.formats.scene import Bone, Clip, MorphTarget, Scene, SkinnedMesh
 from app.motion.model import Motion
 from app.rig import quaternion
+from app.rig.characters.bone_placements import local_placements, world_placements
 from app.rig.figure import Figure
 from app.rig.mesh import Mesh
 from app.rig.model import Character
-from app.rig.placements import local_placements, world_placements
 
 
 def character_scene(

@@ -16,8 +16,8 @@ from app.export.rig_options import DEFAULT_RIG
 from app.export.target import TargetSkeleton, Twist
 from app.formats.names import numbered
 from app.rig import quaternion
+from app.rig.characters.bone_placements import local_placements, world_placements
 from app.rig.model import Character, Skeleton
-from app.rig.placements import local_placements, world_placements
 from app.rig.skeleton import rest_positions
 
 FloatArray = npt.NDArray[np.float64]

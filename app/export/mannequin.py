@@ -21,11 +21,11 @@ from app.export.own_skeleton import limb_twist
 from app.export.target import HIPS, TargetSkeleton, Twist
 from app.formats.toml import read_toml, shaped
 from app.rig import quaternion
+from app.rig.characters.bone_placements import local_placements
+from app.rig.characters.t_pose import rest_of, turns_to_t_pose, upright
 from app.rig.figure import Figure
 from app.rig.model import Skeleton
-from app.rig.placements import local_placements
 from app.rig.skeleton import rest_positions
-from app.rig.t_pose import rest_of, turns_to_t_pose, upright
 from metadata.model import REQUIRED_JOINTS
 from metadata.tables import ROOT
 

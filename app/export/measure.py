@@ -36,12 +36,12 @@ from app.export.target import TargetSkeleton, normalised_target
 from app.export.threads import in_threads
 from app.export.walk import SOLES, Walk, bone_deviation_m
 from app.formats.scene import Scene
-from app.motion.stopping import stopping
-from app.plan.footwork import Foot, foot_of, lifted_s
+from app.motion.contacts.hand_in_bell import stopping
+from app.plan.gestures.feet import Foot, foot_of, lifted_s
 from app.plan.model import BreathEvent, PlayerPlan
 from app.rig import quaternion
-from app.rig.fitted_instrument import mouth_opens
-from app.rig.lips import meeting
+from app.rig.grip.fitting.fitted_instrument import mouth_opens
+from app.rig.grip.lips import meeting
 from app.rig.model import Character
 from instrument_maps.model import InstrumentMap
 from metadata.model import Body, SkeletonProfile

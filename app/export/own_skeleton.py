@@ -12,9 +12,9 @@ import numpy.typing as npt
 from app.errors import Message
 from app.export.target import HIPS, TargetSkeleton, Twist
 from app.rig import quaternion
+from app.rig.characters.bone_placements import world_placements
 from app.rig.figure import Figure, OwnSkeleton
 from app.rig.model import Character, Skeleton
-from app.rig.placements import world_placements
 
 FloatArray = npt.NDArray[np.float64]
 

@@ -22,7 +22,7 @@ from app.performance.cast import LeftOut, Performer, dancings_of, performers_of,
 from app.performance.ensemble import Performance
 from app.performance.span import FrameSpan
 from app.project.performers import Dancer, Player
-from app.rig.read_figure import read_figure
+from app.rig.characters.read_figure import read_figure
 
 if TYPE_CHECKING:
     from app.performance.dancers import Dancing

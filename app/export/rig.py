@@ -15,7 +15,7 @@ from app.formats.scene import Place
 from app.performance.cast import Performer
 from app.project.casting import StagePosition
 from app.rig import quaternion
-from app.rig.hold import Side
+from app.rig.grip.grip_pose import Side
 
 FloatArray = npt.NDArray[np.float64]
 

@@ -19,10 +19,10 @@ from app.export.target import SkeletonChoice, TargetSkeleton, normalised_target
 from app.performance.cast import LeftOut
 from app.project.performers import Dancer, Player
 from app.rig import quaternion
+from app.rig.characters.bone_placements import local_placements
 from app.rig.figure import Figure
 from app.rig.mesh import Mesh
 from app.rig.model import Character
-from app.rig.placements import local_placements
 
 MOST_LISTED = 5
 """Grave differences that are reported one by one."""

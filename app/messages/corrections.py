@@ -1,4 +1,4 @@
-"""Kinds of corrections by their tags (`app.plan.corrections.kind`), within a sentence."""
+"""Kinds of corrections by their tags (`app.plan.by_hand.corrections.kind`), within a sentence."""
 
 from __future__ import annotations
 

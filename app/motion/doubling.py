@@ -14,11 +14,11 @@ from fractions import Fraction
 import numpy as np
 import numpy.typing as npt
 
-from app.motion.aside import Aside
-from app.motion.curve import EVERYWHERE, Curve, FloatArray, frame_times, moves
+from app.motion.contacts.instrument_put_aside import Aside
+from app.motion.contacts.trunk_and_legs import solve_legs
+from app.motion.curves.curve import EVERYWHERE, Curve, FloatArray, frame_times, moves
 from app.motion.model import Motion, joined
 from app.motion.perform import PerformanceCurves
-from app.motion.posture import solve_legs
 from app.plan.doubling import Change
 from app.rig import quaternion
 

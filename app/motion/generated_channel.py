@@ -7,11 +7,11 @@ from typing import Final
 
 import numpy as np
 
-from app.motion.body import BodyMotion
-from app.motion.curve import FloatArray
+from app.motion.body_motion import BodyMotion
+from app.motion.curves.curve import FloatArray
 from app.motion.perform import PerformanceCurves
-from app.plan.additive_curve import CHANNELS, FACE
-from app.plan.pose import NECK_SHARES, TRUNK_SHARES
+from app.plan.by_hand.additive_curve import CHANNELS, FACE
+from app.plan.by_hand.pose_corrections import NECK_SHARES, TRUNK_SHARES
 
 _JOINTS: Final = {"head": tuple(NECK_SHARES), "torso": tuple(TRUNK_SHARES)}
 

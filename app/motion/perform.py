@@ -13,37 +13,38 @@ from typing import Final, NamedTuple, cast
 import numpy as np
 
 from app.identity_cache import IdentityCache
-from app.motion.additive import NOTHING, Added, Additive, with_added, with_added_morphs, with_held
-from app.motion.aside import Aside
-from app.motion.body import LAYERS, QUIET_AIR, BodyMotion, Layers, LayerSamples, body_motion
-from app.motion.contact import Carried
-from app.motion.controls import control_curves
-from app.motion.curve import EVERYWHERE, Curve, Envelopes, FloatArray, frame_times, moves
-from app.motion.danced import BodyLayer, giving_way, inhaling, with_dance
-from app.motion.drawn_breaths import leaning_further
-from app.motion.exertion import Lungs
-from app.motion.face import FACE, Drivers, Face
-from app.motion.face_morphs import FaceSizes, face_morphs, face_sizes, usual_morphs
-from app.motion.feet import feet_moved
-from app.motion.gaze import GAZE, Gaze, Look, Watching, plan_gaze
-from app.motion.holding import with_holds
+from app.motion.body_motion import BodyMotion
+from app.motion.breath.air_in_trunk import widened
+from app.motion.breath.breaths_that_show import leaning_further
+from app.motion.by_hand.additive_curves import NOTHING, Added, Additive, with_added, with_added_morphs, with_held
+from app.motion.contacts.carried_instrument import Carried
+from app.motion.contacts.hand_in_bell import STOPPING, stopping
+from app.motion.contacts.instrument_put_aside import Aside
+from app.motion.contacts.instrument_tipping import with_bell_room
+from app.motion.contacts.limited_amounts import settled, shown_by
+from app.motion.contacts.solve import Curves, Player, padding, solve
+from app.motion.contacts.trunk_and_legs import SIDES, Side, footing, hips_path, stance, torso_forward, trunk
+from app.motion.contacts.wrists import wrists_of
+from app.motion.curves.curve import EVERYWHERE, Curve, Envelopes, FloatArray, frame_times, moves
+from app.motion.faces.exertion import Lungs
+from app.motion.faces.face_curves import FACE, Drivers, Face
+from app.motion.faces.gaze import GAZE, Gaze, Look, Watching, plan_gaze
+from app.motion.faces.morph_weights import FaceSizes, face_morphs, face_sizes, usual_morphs
+from app.motion.fingering.changed_stretch import changed_stretch, spliced
+from app.motion.fingering.control_curves import control_curves
+from app.motion.fingering.finger_curves import raised_curve, sampled, station_curves
+from app.motion.gestures.body_layers import LAYERS, QUIET_AIR, Layers, LayerSamples, body_motion
+from app.motion.gestures.dance_layer import BodyLayer, giving_way, inhaling, with_dance
+from app.motion.gestures.feet import feet_moved
+from app.motion.gestures.held_still import with_holds
 from app.motion.model import Motion
-from app.motion.posture import SIDES, Side, footing, hips_path, stance, torso_forward, trunk
-from app.motion.ribs import widened
-from app.motion.settled import settled, shown_by
-from app.motion.solve import Curves, Player, padding, solve
-from app.motion.splice import changed_stretch, spliced
-from app.motion.stations import raised_curve, sampled, station_curves
-from app.motion.stopping import STOPPING, stopping
-from app.motion.tipping import with_bell_room
-from app.motion.wrists import wrists_of
 from app.plan.acting import Acting, acting_of
 from app.plan.model import FingeringEvent, PlayerPlan, TimeFrame
 from app.plan.parameters import PlayerParameters, deciding
 from app.plan.styles import differing_s, most_shown, share_at, shown_in_style
-from app.rig.carriage import carrying
-from app.rig.finger_lift import with_curved_fingers
-from app.rig.hold import GripPose, Lips, Placed, giving_for
+from app.rig.grip.carriage import carrying
+from app.rig.grip.grip_pose import GripPose, Lips, Placed, giving_for
+from app.rig.grip.lifted_fingers import with_curved_fingers
 from app.rig.model import Character, Skeleton
 from app.score.metre_map import FeltBeats
 from app.steps import Results, StepTable, reading
@@ -129,7 +130,7 @@ class PerformanceCurves:
     controls : dict of str to Curve
         By the instrument's control.
     stations : dict of str to Curve
-        Which of its places a finger is at, by finger (`app.motion.stations`).
+        Which of its places a finger is at, by finger (`app.motion.fingering.finger_curves`).
     raised : Curve
         How high fingers wait over their keys.
     dance : BodyLayer or None

@@ -17,14 +17,14 @@ from app.errors import FileError, MapError, UsageError, shortened
 from app.identity_cache import IdentityCache
 from app.motion.perform import lying
 from app.project.performers import Player
-from app.rig.character_library import bundled_characters, character_named, character_revision
-from app.rig.fit_terms import Progress, no_progress
-from app.rig.fitted_instrument import FittedInstrument, suited
-from app.rig.hold import GripPose
-from app.rig.hold_file import bundled_path, hold_for
+from app.rig.characters.character_library import bundled_characters, character_named, character_revision
+from app.rig.grip.body_size import leg_size, sized_body, sized_model
+from app.rig.grip.fitting.fit_terms import Progress, no_progress
+from app.rig.grip.fitting.fitted_instrument import FittedInstrument, suited
+from app.rig.grip.fitting.grip_files import bundled_path, hold_for
+from app.rig.grip.grip_pose import GripPose
 from app.rig.instrument import load_instrument
 from app.rig.model import Character, InstrumentModel
-from app.rig.stature import leg_size, sized_body, sized_model
 from instrument_maps.library import library, model_path
 from instrument_maps.load import bundled_maps
 from instrument_maps.model import InstrumentMap

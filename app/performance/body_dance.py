@@ -15,7 +15,7 @@ from app.choreography.body_layer import FPS, body_layer
 from app.choreography.generate import Choreographer
 from app.choreography.rhythm import Rhythm
 from app.identity_cache import IdentityCache
-from app.motion.danced import BodyLayer
+from app.motion.gestures.dance_layer import BodyLayer
 from app.motion.perform import frame_count
 from app.performance.bodies import character_of
 from app.performance.choreographers import choreographer_of, unfit_choreography

@@ -12,7 +12,7 @@ from app.plan.model import FingeringEvent, Problem
 from app.plan.parameters import PlayerParameters
 from app.project.casting import StagePosition
 from app.project.performers import Player
-from app.rig.character_library import bundled_characters, character_revision
+from app.rig.characters.character_library import bundled_characters, character_revision
 from app.steps import Results, StepTable
 from instrument_maps.load import bundled_maps
 from instrument_maps.model import InstrumentMap

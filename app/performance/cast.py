@@ -16,7 +16,7 @@ from app.errors import AppError, Cancelled, FileError, Message, raise_if_stopped
 from app.performance.bodies import body_of, character_of, hold_of, model_of
 from app.performance.ensemble import Performance
 from app.project.performers import Dancer, Player
-from app.rig.hold import GripPose
+from app.rig.grip.grip_pose import GripPose
 from app.rig.model import Character, InstrumentModel
 from instrument_maps.model import InstrumentMap
 from metadata.model import Body

@@ -10,9 +10,9 @@ from fractions import Fraction
 import numpy as np
 import numpy.typing as npt
 
+from app.motion.contacts.solve import padding
 from app.motion.model import Motion
 from app.motion.perform import frame_count
-from app.motion.solve import padding
 from app.plan.model import TimeFrame
 
 Floats = npt.NDArray[np.float32]

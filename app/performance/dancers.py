@@ -34,7 +34,7 @@ from app.choreography.rhythm import Rhythm, delayed
 from app.choreography.sequence import Constraints, Grid, grid_of
 from app.errors import AppError, Message
 from app.identity_cache import IdentityCache
-from app.motion.curve import Envelopes
+from app.motion.curves.curve import Envelopes
 from app.motion.model import Motion
 from app.motion.perform import frame_count
 from app.performance.choreographers import choreographer_of, too_long_to_dance
@@ -45,7 +45,7 @@ from app.project.casting import StagePosition
 from app.project.dance_corrections import DanceCorrection, ForbidState, PinState, UseSegment
 from app.project.performers import Dancer
 from app.project.storage import choreography_missing
-from app.rig.character_library import character_library, character_named
+from app.rig.characters.character_library import character_library, character_named
 from app.rig.model import Character
 from app.score.model import Score
 from app.score.tempo import TempoMap

@@ -24,16 +24,16 @@ from app.performance.bodies import hold_now, is_held, suited_to
 from app.performance.body_problems import body_problems
 from app.performance.loudness import controller_input, note_loudness, note_marks, piece_reading, velocities_of
 from app.plan.acting import Acting, acting_of, with_style
-from app.plan.corrections import Correction, PlayStyle, RemoveEvent, SetBreath, SetCue, Vary
+from app.plan.by_hand.corrections import Correction, PlayStyle, RemoveEvent, SetBreath, SetCue, Vary
 from app.plan.doubling import Change, changes, first_played, held_plan
+from app.plan.faces.glances import StagePlace
 from app.plan.generate import EnsemblePlan, MonophonicPart, Piece, frame_around, plan_ensemble
-from app.plan.glances import StagePlace
 from app.plan.model import CONDUCTOR, PlayerPlan, Problem, TimeFrame, no_events
+from app.plan.music.dynamics_from_velocities import VelocityReading
 from app.plan.parameters import PlayerParameters, deciding
-from app.plan.velocities import VelocityReading
 from app.project.model import Project
 from app.project.performers import Player
-from app.rig.character_library import character_library
+from app.rig.characters.character_library import character_library
 from app.score.limits import too_long
 from app.steps import Results, StepTable, reading
 from instrument_maps.library import library

@@ -9,20 +9,20 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from app.motion.body import EXHALE_S, LayerSamples
-from app.motion.causal import Reach, Spring
-from app.motion.exertion import LIGHT, Exertion
-from app.motion.face import FORM_S, HOLD_S, SHALLOWEST, Drivers
-from app.motion.gaze import BLINK_DOWN_S, BLINK_SHUT_S, BLINK_UP_S, HEAD_TURN_S, MUSIC_PITCH_RAD, SACCADE_S, Look
-from app.motion.overlap import Overlapped
+from app.motion.curves.live_values import Reach, Spring
+from app.motion.curves.seeded_chance import generator
+from app.motion.faces.exertion import LIGHT, Exertion
+from app.motion.faces.face_curves import FORM_S, HOLD_S, SHALLOWEST, Drivers
+from app.motion.faces.gaze import BLINK_DOWN_S, BLINK_SHUT_S, BLINK_UP_S, HEAD_TURN_S, MUSIC_PITCH_RAD, SACCADE_S, Look
+from app.motion.gestures.body_lag import Overlapped
+from app.motion.gestures.body_layers import EXHALE_S, LayerSamples
 from app.motion.perform import PerformanceCurves
-from app.motion.seed import generator
 from app.performance.live_hands import FRAMES
-from app.plan.embouchure import strain_of, tension_of
-from app.plan.line import MEZZOFORTE
-from app.plan.live_faces import faces_now, live_rules
-from app.plan.lungs import FULL_BREATH_S, air_rate, lungful_s
-from app.plan.traces import pressed_by
+from app.plan.breath.lungs import FULL_BREATH_S, air_rate, lungful_s
+from app.plan.faces.live_expressions import faces_now, live_rules
+from app.plan.lips.embouchure import strain_of, tension_of
+from app.plan.lips.recorded_lips import pressed_by
+from app.plan.music.piece import MEZZOFORTE
 from metadata.library import bundled_rules
 from metadata.model import Expression
 from metadata.rules import Rule

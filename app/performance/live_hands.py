@@ -2,7 +2,7 @@
 
 Nothing is known beforehand: a control leaves its place with the onset and is in place as soon as a hand is there. A
 finger goes to its key with it and stays where it is until it is needed elsewhere, or home once it was not for a while
-(`app.motion.stations` says what of this is seen where the notes are known).
+(`app.motion.fingering.finger_curves` says what of this is seen where the notes are known).
 """
 
 from __future__ import annotations
@@ -15,13 +15,13 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from app.motion.causal import Journey, Reach
-from app.motion.controls import RELEASE_S, need_s, release_s
+from app.motion.curves.live_values import Journey, Reach
+from app.motion.fingering.control_curves import RELEASE_S, need_s, release_s
+from app.motion.fingering.finger_curves import FAST_NOTE_S, HOME_S, LEAST_TRAVEL_S, NEIGHBOURS, SLOW_NOTE_S, TRAVEL_S
 from app.motion.perform import PerformanceCurves
-from app.motion.stations import FAST_NOTE_S, HOME_S, LEAST_TRAVEL_S, NEIGHBOURS, SLOW_NOTE_S, TRAVEL_S
-from app.plan.next_fingering import REMEMBERED, Fingered, NextFingering
-from app.rig.hold import Placed, giving_for
-from app.rig.stations import fingers_at_work, station_for, stations
+from app.plan.fingering.live_fingering import REMEMBERED, Fingered, NextFingering
+from app.rig.grip.finger_stations import fingers_at_work, station_for, stations
+from app.rig.grip.grip_pose import Placed, giving_for
 from instrument_maps.model import Control, Fingering
 
 FloatArray = npt.NDArray[np.float64]

@@ -1,7 +1,7 @@
 """How trunk and shoulders help the far hands of a live player.
 
-Where the notes are known a body begins to turn before its hand goes far (`app.motion.solve`). Here it turns as the hand
-goes: it has to be there before the hand needs it, so a hand that a control carries waits for it.
+Where the notes are known a body begins to turn before its hand goes far (`app.motion.contacts.solve`). Here it turns as
+the hand goes: it has to be there before the hand needs it, so a hand that a control carries waits for it.
 """
 
 from __future__ import annotations
@@ -11,9 +11,9 @@ import math
 import numpy as np
 import numpy.typing as npt
 
-from app.motion.causal import Reach
-from app.motion.curve import minimum_jerk
-from app.motion.reach import Help
+from app.motion.contacts.help_for_far_hands import Help
+from app.motion.curves.curve import minimum_jerk
+from app.motion.curves.live_values import Reach
 
 FloatArray = npt.NDArray[np.float64]
 

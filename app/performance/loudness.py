@@ -9,9 +9,8 @@ import numpy as np
 import numpy.typing as npt
 
 from app.identity_cache import IdentityCache
-from app.plan.breath_envelope import STOPS_AT, step_means
-from app.plan.line import MEZZOFORTE, ControllerInput, Steps
-from app.plan.velocities import (
+from app.plan.music.breath_controller import STOPS_AT, step_means
+from app.plan.music.dynamics_from_velocities import (
     VelocityReading,
     is_level,
     nearest_marks,
@@ -20,7 +19,8 @@ from app.plan.velocities import (
     velocity_loudness,
     velocity_marks,
 )
-from app.plan.velocity_ladders import DYNAMICS
+from app.plan.music.piece import MEZZOFORTE, ControllerInput, Steps
+from app.plan.music.velocity_ladders import DYNAMICS
 from app.score.model import ControllerCurve, Part
 
 Floats: TypeAlias = npt.NDArray[np.float64]

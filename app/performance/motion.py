@@ -10,8 +10,8 @@ from functools import lru_cache
 
 from app.errors import raise_if_stopped
 from app.identity_cache import IdentityCache
-from app.motion.danced import BodyLayer
 from app.motion.doubling import Doubling, doubled
+from app.motion.gestures.dance_layer import BodyLayer
 from app.motion.model import Motion, joined
 from app.motion.perform import PerformanceCurves, prepare
 from app.performance.cast import Performer, performers_of
@@ -21,7 +21,7 @@ from app.performance.span import FrameSpan
 from app.plan.doubling import changes, first_played
 from app.plan.model import PlayerPlan
 from app.plan.parameters import PlayerParameters
-from app.rig.hold import GripPose
+from app.rig.grip.grip_pose import GripPose
 from app.rig.model import Character
 from app.score.metre_map import FeltBeats
 from instrument_maps.model import InstrumentMap

@@ -14,12 +14,12 @@ from fractions import Fraction
 
 import numpy as np
 
-from app.motion.additive import Additive
+from app.motion.by_hand.additive_curves import Additive
+from app.motion.by_hand.pose_corrections import Poses
+from app.motion.contacts.help_for_far_hands import Help
+from app.motion.contacts.solve import Curves, helped, needs, poses
 from app.motion.doubling import Doubling
 from app.motion.perform import Frames, PerformanceCurves
-from app.motion.pose import Poses
-from app.motion.reach import Help
-from app.motion.solve import Curves, helped, needs, poses
 from app.performance.chunks import Floats, Pose
 from app.performance.live_breath import LiveBreath, LiveLook
 from app.performance.live_hands import FRAMES, LiveHands

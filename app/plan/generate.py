@@ -10,20 +10,20 @@ from typing import Final, NamedTuple
 import msgspec
 
 from app.errors import raise_if_stopped
-from app.plan.bar_phase import lowest, with_felt_bars
-from app.plan.corrections import Correction, RemoveEvent, SetBreath, SetCue, of_kinds, sound_corrections
-from app.plan.cue import plan_cues
-from app.plan.ending import ending_of
-from app.plan.entries import entries
-from app.plan.fermatas import fermatas
-from app.plan.glances import StagePlace
-from app.plan.line import LineTimes, MonophonicPart, Piece, Rhythm, note_times
+from app.plan.breath.staggered_breaths import breathed_of, shared_line
+from app.plan.by_hand.corrections import Correction, RemoveEvent, SetBreath, SetCue, of_kinds, sound_corrections
+from app.plan.cues.cues import plan_cues
+from app.plan.cues.entries import entries
+from app.plan.faces.glances import StagePlace
+from app.plan.gestures.sways import pulse
 from app.plan.model import CONDUCTOR, PlayerPlan, Problem, TimeFrame
+from app.plan.music.ending import ending_of
+from app.plan.music.felt_bars import lowest, with_felt_bars
+from app.plan.music.fermatas import fermatas
+from app.plan.music.one_note_at_a_time import one_at_a_time
+from app.plan.music.piece import LineTimes, MonophonicPart, Piece, Rhythm, note_times
 from app.plan.parameters import PlayerParameters, restricted
 from app.plan.player import AMONG_OTHERS, PLAYER
-from app.plan.stagger import breathed_of, shared_line
-from app.plan.swing import pulse
-from app.plan.together import one_at_a_time
 from app.score.model import Note
 from app.score.tempo import TempoMap
 from app.steps import Results, StepTable, reading

@@ -277,7 +277,7 @@ PoseTarget: TypeAlias = Literal["bell", "head", "left_elbow", "right_elbow", "to
 
 class PoseEvent(msgspec.Struct, frozen=True, gc=False):
     """A part of the body held differently over a span: whole from ``start_s`` to ``end_s``, with a fade before and one
-    after it. Angles as in `app.plan.corrections.PoseCorrection`."""
+    after it. Angles as in `app.plan.by_hand.corrections.PoseCorrection`."""
 
     id: str
     target: PoseTarget
@@ -328,9 +328,9 @@ class CurveSegment(msgspec.Struct, frozen=True, gc=False):
 
 
 class AdditiveEvent(msgspec.Struct, frozen=True, gc=False):
-    """A curve that is added to a channel (`app.plan.additive_curve`). Ticks are of its first and last key, seconds from
-    when it begins to come in to when it is gone. ``low`` and ``high`` are how far the channel goes; values are in the
-    channel's unit, weighted."""
+    """A curve that is added to a channel (`app.plan.by_hand.additive_curve`). Ticks are of its first and last key,
+    seconds from when it begins to come in to when it is gone. ``low`` and ``high`` are how far the channel goes; values
+    are in the channel's unit, weighted."""
 
     id: str
     channel: str

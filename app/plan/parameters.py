@@ -230,8 +230,8 @@ class PlayerParameters(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
         "parameter.breath_need_tip",
         bounds=_SHARE, section="breath", decides=_BREATHS, since=6, before=0.0,
     )] = 0.35
-    """Scale of the playing and the air that a rest needs to be breathed in (`app.plan.rest_needs`); 0: every rest is
-    breathed in (T6), 1: only when out of air."""
+    """Scale of the playing and the air that a rest needs to be breathed in (`app.plan.breath.which_rests`); 0: every
+    rest is breathed in (T6), 1: only when out of air."""
     circular_breathing: Annotated[bool, Parameter(
         "parameter.circular_breathing",
         "parameter.circular_breathing_tip",

@@ -10,14 +10,11 @@ from typing import Final
 import msgspec
 
 from app.plan.acting import acting_of
-from app.plan.additive import plan_additive
-from app.plan.additive_curve import AdditiveCurve
-from app.plan.answers import answering_nods
-from app.plan.breath import BreathPlan, plan_breaths
-from app.plan.breath_envelope import BreathEnvelope, blown
-from app.plan.concert import after_the_end, holding_at_end, in_long_rests
-from app.plan.conducted import looks_up
-from app.plan.corrections import (
+from app.plan.breath.breaths import BreathPlan, plan_breaths
+from app.plan.breath.staggered_breaths import after_holds, breathed_of, met, shared_with
+from app.plan.by_hand.additive_curve import AdditiveCurve
+from app.plan.by_hand.additive_events import plan_additive
+from app.plan.by_hand.corrections import (
     AddExpression,
     AddGesture,
     ChangeExpression,
@@ -37,16 +34,24 @@ from app.plan.corrections import (
     of_kinds,
     orphans,
 )
-from app.plan.dynamics import dynamics_of
-from app.plan.embouchure import plan_embouchures
-from app.plan.ending import Ending
-from app.plan.expression import SMILE_ID, all_shown, neutral_face
-from app.plan.fingering import plan_fingerings
-from app.plan.footwork import footwork
-from app.plan.gesture import bell_heights, in_order, weight_shifts
-from app.plan.glances import StagePlace, glances_of
-from app.plan.line import ControllerInput, Piece, Seeds, without_sound
-from app.plan.lowered import lowered_spans
+from app.plan.by_hand.pose_corrections import plan_poses
+from app.plan.cues.answering_nods import answering_nods
+from app.plan.faces.expressions import SMILE_ID, all_shown, neutral_face
+from app.plan.faces.expressions_at_moments import plan_moments
+from app.plan.faces.glances import StagePlace, glances_of
+from app.plan.faces.looks_at_conductor import looks_up
+from app.plan.fingering.fingerings import plan_fingerings
+from app.plan.fingering.mutes import plan_mutes
+from app.plan.gestures.beside_playing import after_the_end, holding_at_end, in_long_rests
+from app.plan.gestures.feet import footwork
+from app.plan.gestures.gestures import bell_heights, in_order, weight_shifts
+from app.plan.gestures.leans_and_accents import accents, leans, phrases
+from app.plan.gestures.lowered_instrument import lowered_spans
+from app.plan.gestures.named_gestures import undisturbed, with_definitions
+from app.plan.gestures.sways import sways, swings_of
+from app.plan.lips.embouchure import plan_embouchures
+from app.plan.lips.recorded_lips import plan_traces
+from app.plan.lips.tonguing import plan_tongues
 from app.plan.model import (
     CONDUCTOR,
     CueEvent,
@@ -56,18 +61,13 @@ from app.plan.model import (
     Problem,
     TimeFrame,
 )
-from app.plan.moments import plan_moments
-from app.plan.muting import plan_mutes
-from app.plan.named_gestures import undisturbed, with_definitions
+from app.plan.music.breath_controller import BreathEnvelope, blown
+from app.plan.music.dynamics import dynamics_of
+from app.plan.music.ending import Ending
+from app.plan.music.piece import ControllerInput, Piece, Seeds, without_sound
 from app.plan.parameters import restricted
-from app.plan.phrase import accents, leans, phrases
-from app.plan.pose import plan_poses
 from app.plan.rules import facts_of, lowered_spans_s, plan_by_rules, with_ruled, without_overruled
-from app.plan.stagger import after_holds, breathed_of, met, shared_with
 from app.plan.styles import plan_styles
-from app.plan.swing import sways, swings_of
-from app.plan.tonguing import plan_tongues
-from app.plan.traces import plan_traces
 from app.score.model import Note
 from app.score.tempo import TempoMap
 from app.steps import StepTable, reading

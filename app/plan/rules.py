@@ -15,12 +15,12 @@ from typing import Final, NamedTuple, TypeVar
 import numpy as np
 
 from app.errors import Argument, Message
-from app.plan.dynamics import BoolArray, Dynamics
-from app.plan.embouchure import efforts_of
-from app.plan.line import IntArray, LineTimes, Piece, Seeds
+from app.plan.gestures.when_possible import Lowered, belongs, comes_up, may_start
+from app.plan.lips.embouchure import efforts_of
 from app.plan.model import EmbouchureEvent, ExpressionEvent, FloatArray, GestureEvent, Problem, StyleEvent, TimeFrame
-from app.plan.possible import Lowered, belongs, comes_up, may_start
-from app.plan.spans import Spans
+from app.plan.music.dynamics import BoolArray, Dynamics
+from app.plan.music.piece import IntArray, LineTimes, Piece, Seeds
+from app.plan.music.spans import Spans
 from app.plan.styles import styles_at
 from app.score.model import Note
 from app.score.tempo import TempoMap
@@ -97,7 +97,8 @@ def plan_by_rules(
     faces: Mapping[str, Expression],
     known_gestures: Mapping[str, Gesture],
 ) -> Ruled:
-    """All events that the rules ask for at notes, ordered by start; those of moments are of `app.plan.moments`.
+    """All events that the rules ask for at notes, ordered by start; those of moments are of
+    `app.plan.faces.expressions_at_moments`.
 
     Parameters
     ----------

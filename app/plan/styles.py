@@ -16,7 +16,7 @@ import numpy as np
 from app.errors import Message
 from app.identity_cache import IdentityCache
 from app.plan.acting import Acting
-from app.plan.corrections import BY_HAND, Correction, PlayStyle
+from app.plan.by_hand.corrections import BY_HAND, Correction, PlayStyle
 from app.plan.model import CueEvent, FloatArray, GestureEvent, Planned, PlayerPlan, Problem, StyleEvent
 from app.score.tempo import TempoMap
 

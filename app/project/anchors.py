@@ -14,8 +14,8 @@ from typing import Any, TypeVar
 
 import msgspec
 
-from app.plan.additive_curve import CurveKey, Tangent
-from app.plan.corrections import Correction
+from app.plan.by_hand.additive_curve import CurveKey, Tangent
+from app.plan.by_hand.corrections import Correction
 from app.project.dance_corrections import DanceCorrection
 
 C = TypeVar("C", bound=Correction | DanceCorrection)

@@ -9,8 +9,8 @@ from typing import Any, Final
 
 import msgspec
 
-from app.plan.additive_curve import AdditiveCurve
-from app.plan.corrections import Correction, kind
+from app.plan.by_hand.additive_curve import AdditiveCurve
+from app.plan.by_hand.corrections import Correction, kind
 from app.project import limits
 from app.project.check_curves import curve_faults
 from app.project.fault import Fault, about, between, id_faults, text_faults

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from typing import Final
 
 from app.errors import shortened
-from app.plan.additive_curve import BODY_CHANNELS, CHANNELS, FACE, MOST_KEYS, AdditiveCurve, CurveKey
+from app.plan.by_hand.additive_curve import BODY_CHANNELS, CHANNELS, FACE, MOST_KEYS, AdditiveCurve, CurveKey
 from app.project import limits
 from app.project.fault import Fault, between, text_faults
 

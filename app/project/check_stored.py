@@ -16,7 +16,7 @@ import numpy as np
 
 from app.encoding import is_text, stored
 from app.errors import shortened
-from app.plan.corrections import Correction
+from app.plan.by_hand.corrections import Correction
 from app.project.dance_corrections import DanceCorrection
 from app.project.fault import Fault
 from app.project.model import PlayerTakes, Project

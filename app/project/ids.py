@@ -16,7 +16,7 @@ from collections.abc import Iterable, Iterator
 from itertools import count, islice
 from typing import Final
 
-from app.plan.corrections import Correction
+from app.plan.by_hand.corrections import Correction
 from app.project.model import Project
 
 DRAWN_NOTE: Final = "n:"

@@ -12,7 +12,7 @@ import msgspec
 import numpy as np
 
 from app.errors import UsageError
-from app.plan.corrections import Correction
+from app.plan.by_hand.corrections import Correction
 from app.plan.generate import PREROLL_BEATS, usual_preroll
 from app.plan.parameters import Parameter, PlayerParameters, declared
 from app.project.casting import (
@@ -33,7 +33,7 @@ from app.project.parameters import with_settings as parameters_with
 from app.project.performers import Dancer, Player
 from app.project.recording import AudioTrack
 from app.project.video import VideoTrack
-from app.rig.character_library import bundled_characters, character_named
+from app.rig.characters.character_library import bundled_characters, character_named
 from app.rig.model import Character
 from app.score.choose import MapChoice
 from app.score.felt_beat import felt_beats

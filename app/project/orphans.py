@@ -8,7 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from app.errors import UsageError
-from app.plan.corrections import Correction, kind
+from app.plan.by_hand.corrections import Correction, kind
 from app.project.anchors import moved, note_of
 from app.project.edit.corrections import put, take_back
 from app.project.model import Project

@@ -18,8 +18,8 @@ import msgspec
 from app.errors import MapError, Message
 from app.formats.atomic import atomic_write
 from app.formats.toml import header, read_toml, shaped, toml
-from app.plan.additive_curve import AdditiveCurve
-from app.plan.corrections import Correction, RemoveEvent, kind
+from app.plan.by_hand.additive_curve import AdditiveCurve
+from app.plan.by_hand.corrections import Correction, RemoveEvent, kind
 from app.project import limits
 from app.project.check import expression_faults, require_sound
 from app.project.check_corrections import correction_faults

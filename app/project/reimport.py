@@ -27,7 +27,7 @@ from typing import Any, Literal, TypeAlias
 
 import msgspec
 
-from app.plan.corrections import Correction
+from app.plan.by_hand.corrections import Correction
 from app.project.anchors import moved
 from app.project.derived_decisions import derived_decisions, is_read
 from app.project.doubling import doubled_parts

@@ -26,7 +26,7 @@ from app.formats.atomic import atomic_write
 from app.formats.files import open_file, read_file
 from app.formats.json_data import UNREADABLE, decode_json
 from app.formats.other_computers import host_of, is_file, may_touch
-from app.plan.corrections import Correction
+from app.plan.by_hand.corrections import Correction
 from app.project.casting import ConductorPlace
 from app.project.check import faults
 from app.project.check_stored import plain_number
@@ -40,7 +40,7 @@ from app.project.performers import Dancer, Player
 from app.project.recording import AudioTrack
 from app.project.remarks import sayable
 from app.project.video import VideoTrack
-from app.rig.character_library import characters
+from app.rig.characters.character_library import characters
 from app.score.model import ControllerCurve, Note, Score
 from instrument_maps.library import all_maps
 from metadata.model import Expression

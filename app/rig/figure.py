@@ -1,7 +1,7 @@
 """A figure as its own file has it: bones under their own names, the rest pose they were built in, meshes, morphs.
 
-A `Figure` becomes a `Character` when its bones are known as joints (`app.rig.humanoid`); the character remembers by
-`OwnSkeleton` where its joints came from, so that a motion can be given back to the very bones of the file.
+A `Figure` becomes a `Character` when its bones are known as joints (`app.rig.characters.joint_mapping`); the character
+remembers by `OwnSkeleton` where its joints came from, so that a motion can be given back to the very bones of the file.
 """
 
 from __future__ import annotations

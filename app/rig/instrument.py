@@ -12,9 +12,9 @@ import numpy as np
 import numpy.typing as npt
 
 from app.rig import quaternion
+from app.rig.gltf_source import build_mesh, invalid, moved_mesh, read_source
 from app.rig.mesh import Mesh
 from app.rig.model import InstrumentModel
-from app.rig.source import build_mesh, invalid, moved_mesh, read_source
 from instrument_maps.model import ROOT, InstrumentMap, MovingPart
 from instrument_maps.model import Motion as MotionOfPart
 

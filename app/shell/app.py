@@ -34,7 +34,7 @@ from app.formats.scratch import scratch_folder
 from app.project.autosave import Autosave
 from app.project.edit.piece import new_piece
 from app.project.presence import Presence, recovery_folder
-from app.rig.character_library import begin_characters
+from app.rig.characters.character_library import begin_characters
 from app.shell.actions import ActionTable
 from app.shell.commands import characters, record
 from app.shell.crash_handler import CrashHandler, log_path

@@ -13,8 +13,7 @@ from app.editor.translated import tr
 from app.encoding import shown
 from app.errors import AppError, Message, shortened
 from app.project.edit.players import change
-from app.rig.character import read_character
-from app.rig.character_library import (
+from app.rig.characters.character_library import (
     MOST_TITLE,
     CharacterEntry,
     add_character,
@@ -22,8 +21,9 @@ from app.rig.character_library import (
     remove_character,
     write_entry,
 )
+from app.rig.characters.load_character import read_character
+from app.rig.characters.read_figure import SUFFIXES
 from app.rig.figure import Figure
-from app.rig.read_figure import SUFFIXES
 from app.shell.editor import Editor
 from widgets.common.instrument_name import character_name
 from widgets.dialogs.character import CharacterDialog

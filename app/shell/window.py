@@ -25,7 +25,7 @@ from app.errors import Message
 from app.formats.other_computers import host_of, is_file, may_touch
 from app.project.recovery import Recoverable
 from app.project.storage import SUFFIX
-from app.rig.read_figure import SUFFIXES as CHARACTER_SUFFIXES
+from app.rig.characters.read_figure import SUFFIXES as CHARACTER_SUFFIXES
 from app.shell.actions import CONTEXTS, ActionTable
 from app.shell.banner import Banner
 from app.shell.docks import Dock, TabsStay

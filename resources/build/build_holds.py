@@ -11,11 +11,11 @@ from __future__ import annotations
 import sys
 import time
 
-from app.rig.character_library import bundled_characters, character_named
-from app.rig.fit import fit_hold
-from app.rig.hold_file import bundled_path, digest_of, read_hold, write_hold
+from app.rig.characters.character_library import bundled_characters, character_named
+from app.rig.grip.fitting.fit import fit_hold
+from app.rig.grip.fitting.grip_files import bundled_path, digest_of, read_hold, write_hold
+from app.rig.grip.lips import fit_lips
 from app.rig.instrument import load_instrument
-from app.rig.lips import fit_lips
 from instrument_maps.load import bundled_maps, model_path
 from metadata.load import load_body
 

@@ -11,7 +11,7 @@ import msgspec
 import pytest
 from PySide6.QtGui import QGuiApplication
 
-from app.plan.corrections import AddExpression, PinFingering, PoseCorrection, SetBreath
+from app.plan.by_hand.corrections import AddExpression, PinFingering, PoseCorrection, SetBreath
 from app.project import storage
 from tests.support.real_work import LUTKIN, OFFSET_S
 

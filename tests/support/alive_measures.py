@@ -31,9 +31,9 @@ from app.formats.fbx.read import read_scene
 from app.messages import text
 from app.performance.ensemble import Performance
 from app.performance.span import cut_span
-from app.plan.dynamics import dynamics_of
-from app.plan.line import line_times
 from app.plan.model import PlayerPlan
+from app.plan.music.dynamics import dynamics_of
+from app.plan.music.piece import line_times
 from app.project.edit.players import set_parameters
 from app.project.model import Project, map_choices, project_from_score
 from app.score.read import read_midi

@@ -9,11 +9,11 @@ from pathlib import Path
 import msgspec
 import pytest
 
-import app.rig.character_library as character_library
+import app.rig.characters.character_library as character_library
 import instrument_maps.library as instrument_library
 from app.formats.cache import CACHE_VARIABLE
 from app.project.model import Project
-from app.rig.character_library import bundled_characters
+from app.rig.characters.character_library import bundled_characters
 
 WHISTLE = Path(__file__).parents[2] / "docs" / "tin-whistle"
 

@@ -16,8 +16,8 @@ from unittest.mock import patch
 import numpy as np
 import numpy.typing as npt
 
-from app.rig.character_library import character_named
-from app.rig.landmarks import found_landmarks
+from app.rig.characters.character_library import character_named
+from app.rig.characters.landmarks import found_landmarks
 from app.rig.mesh import Mesh, Morph
 from app.rig.model import Character, Skeleton
 from app.rig.skeleton import rest_positions
@@ -188,7 +188,7 @@ def odd_body(id: str) -> Character:
 @contextmanager
 def playing() -> Iterator[None]:
     """While it lasts, the bodies here can be chosen for players by their ids."""
-    from app.rig import character_library as characters
+    from app.rig.characters import character_library as characters
 
     library, one = characters.character_library(), characters.character_named
     sources = {**library.sources, **{id: characters.Source(Path(f"{id}.glb")) for id in BODIES}}

@@ -17,8 +17,8 @@ import numpy as np
 import numpy.typing as npt
 
 from app.performance.ensemble import Performance
-from app.plan.line import MonophonicPart, line_times
 from app.plan.model import PlayerPlan
+from app.plan.music.piece import MonophonicPart, line_times
 from app.project.model import map_choices, project_from_score
 from app.score.read import read_midi
 from instrument_maps.load import bundled_maps

@@ -22,7 +22,7 @@ from PySide6.QtWidgets import QApplication, QDialogButtonBox, QWidget
 
 from app.editor.settings import Settings
 from app.editor.tasks import ThreadTasks
-from app.rig.character_library import FOLDER_VARIABLE, character_library
+from app.rig.characters.character_library import FOLDER_VARIABLE, character_library
 from app.shell.app import Program, make_application
 from app.shell.characters import bring_character
 from widgets.dialogs.character import CharacterDialog

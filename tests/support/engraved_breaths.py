@@ -11,7 +11,7 @@ from typing import Any
 import msgspec
 
 from app.plan.generate import MonophonicPart, make_plans, time_frame
-from app.plan.line import Piece, line_times
+from app.plan.music.piece import Piece, line_times
 from app.plan.parameters import PlayerParameters
 from app.score.felt_beat import felt_beats
 from app.score.metre_map import Metre, MetreMap

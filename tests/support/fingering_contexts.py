@@ -18,9 +18,9 @@ from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
-from app.plan.fingering import plan_fingerings
+from app.plan.fingering.fingerings import plan_fingerings
 from app.plan.generate import MonophonicPart
-from app.plan.line import line_times
+from app.plan.music.piece import line_times
 from instrument_maps.load import bundled_maps
 from tests.support.plan import PlainClock, line_of
 

@@ -29,7 +29,7 @@ from PySide6.QtWidgets import (
 from shiboken6 import isValid
 
 from app.capture.protocol import Opened, Ports
-from app.plan.corrections import AddExpression
+from app.plan.by_hand.corrections import AddExpression
 from app.project.edit.takes import add_takes, comp_whole
 from app.project.model import Project
 from app.project.presets import Preset, save_preset

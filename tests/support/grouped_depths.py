@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from app.rig.proxy import signed_distance
+from app.rig.grip.instrument_proxy import signed_distance
 from app.rig.skinning import Skin
 from instrument_maps.model import Proxy
 

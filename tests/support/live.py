@@ -18,7 +18,7 @@ from app.performance.live import LiveMotion
 from app.performance.play_along import PlayAlong
 from app.plan.model import PlayerPlan
 from app.project.model import project_from_score
-from app.rig.hold import Placed
+from app.rig.grip.grip_pose import Placed
 from app.score.model import Note, Part, Score
 from app.score.tempo import TempoMap
 from instrument_maps.load import bundled_maps

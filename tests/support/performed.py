@@ -11,7 +11,7 @@ from app.performance import motion
 from app.performance.cast import performer_of
 from app.performance.ensemble import Performance
 from app.performance.span import FrameSpan
-from app.plan.corrections import PinFingering
+from app.plan.by_hand.corrections import PinFingering
 from app.plan.model import PlayerPlan
 from app.project.edit.corrections import put
 from app.project.model import Project

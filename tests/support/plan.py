@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from app.plan.line import Piece
+from app.plan.music.piece import Piece
 from app.score.metre_map import Metre, MetreMap
 from instrument_maps.model import (
     Carriage,

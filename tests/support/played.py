@@ -61,7 +61,7 @@ def played(path: Path, seed: int = 0, manner: Manner | None = None) -> bytes:
     manner = manner or Manner()
     by_chance = random.Random(f"{seed}:{path.stem}")
     contents = read_contents(path)
-    # Fine, and the same player's chances fall at the same places: `app.plan.line.Seeds` counts ticks and tracks.
+    # Fine, and the same player's chances fall at the same places: `app.plan.music.piece.Seeds` counts ticks and tracks.
     scale = math.ceil(192 / contents.tempo_map.ticks_per_quarter)
     file = mido.MidiFile(type=1, ticks_per_beat=scale * contents.tempo_map.ticks_per_quarter)
     end_tick = max(max(stream.end_ticks) for stream in contents.streams)

@@ -18,7 +18,7 @@ from typing import Final, NamedTuple
 import numpy as np
 
 from app.performance.ensemble import Performance
-from app.plan.line import slurs_next
+from app.plan.music.piece import slurs_next
 from app.project.model import map_choices, project_from_score
 from app.score.read import read_midi
 from instrument_maps.load import bundled_maps

@@ -9,8 +9,8 @@ import msgspec
 from hypothesis import strategies as st
 
 from app.errors import Message
-from app.plan.additive_curve import CHANNELS, INTERPOLATIONS, AdditiveCurve, CurveKey, Tangent
-from app.plan.corrections import Correction
+from app.plan.by_hand.additive_curve import CHANNELS, INTERPOLATIONS, AdditiveCurve, CurveKey, Tangent
+from app.plan.by_hand.corrections import Correction
 from app.plan.parameters import PARAMETERS, Bounds, PlayerParameters
 from app.project import limits
 from app.project.casting import StagePosition

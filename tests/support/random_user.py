@@ -35,7 +35,7 @@ from app.editor.questions import Answer
 from app.editor.settings import Settings
 from app.editor.tasks import ThreadTasks
 from app.errors import AppError, Message
-from app.plan.corrections import AddExpression
+from app.plan.by_hand.corrections import AddExpression
 from app.project import storage
 from app.project.autosave import Autosave
 from app.project.document import Change

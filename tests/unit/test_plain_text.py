@@ -30,7 +30,7 @@ MENTIONED = re.compile("|".join(map(re.escape, INSTEAD)))
 ALLOWED = {
     "widgets/common/plain.py": {"QLabel", "QMessageBox", "QComboBox", "setTextFormat"},
     # Its format is set to plain.
-    "widgets/timeline/roll_items.py": {"QStaticText", "setTextFormat"},
+    "widgets/timeline/roll/drawn_notes.py": {"QStaticText", "setTextFormat"},
 }
 
 

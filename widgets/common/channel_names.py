@@ -7,7 +7,7 @@ from itertools import groupby
 from typing import Final
 
 from app.editor.translated import tr
-from app.plan.additive_curve import BODY_CHANNELS, CHANNELS, FACE
+from app.plan.by_hand.additive_curve import BODY_CHANNELS, CHANNELS, FACE
 from metadata.model import ARKIT_MORPHS
 from widgets.common.morph_names import morph_name
 from widgets.common.numbers import number_text

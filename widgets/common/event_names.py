@@ -61,7 +61,7 @@ _TARGETS: Final = {
 
 
 def kind_name(kind: str) -> str:
-    """The name of a kind of event (`app.plan.corrections.kind_of`)."""
+    """The name of a kind of event (`app.plan.by_hand.corrections.kind_of`)."""
     return tr(_KINDS[kind]) if kind in _KINDS else kind
 
 

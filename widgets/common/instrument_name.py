@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from app.editor.translated import tr
-from app.rig.character_library import character_library
+from app.rig.characters.character_library import character_library
 from instrument_maps.model import InstrumentMap
 
 

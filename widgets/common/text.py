@@ -11,7 +11,7 @@ from app.errors import Argument, Message
 from app.messages import DETAILS, PITCHES, WORDINGS, corrections, filled
 from app.messages.details import detail_text
 from app.messages.pitches import pitch_name
-from app.plan.additive_curve import CHANNELS
+from app.plan.by_hand.additive_curve import CHANNELS
 from app.plan.problem_lines import NOTES, note_of, note_place
 from app.project.performers import Player
 from app.score.model import Note

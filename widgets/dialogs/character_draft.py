@@ -9,10 +9,10 @@ from typing import Final, Literal
 from PySide6.QtCore import QCoreApplication
 
 from app.editor.translated import tr
-from app.rig.face_map import FaceMapping, map_morphs
+from app.rig.characters.face_map import FaceMapping, map_morphs
+from app.rig.characters.figure_to_character import figure_character
+from app.rig.characters.joint_mapping import JointMapping, map_joints
 from app.rig.figure import Figure
-from app.rig.figure_character import figure_character
-from app.rig.humanoid import JointMapping, map_joints
 from app.rig.model import Character
 from metadata.model import REQUIRED_JOINTS
 

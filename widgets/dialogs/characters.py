@@ -11,8 +11,8 @@ from PySide6.QtWidgets import QDialog, QListWidget, QListWidgetItem, QWidget
 from app.editor.session import Session
 from app.editor.tasks import Progress, StopRequested
 from app.errors import Message
-from app.rig.character_library import character_library, character_named, character_problems
-from app.rig.read_figure import SUFFIXES
+from app.rig.characters.character_library import character_library, character_named, character_problems
+from app.rig.characters.read_figure import SUFFIXES
 from widgets.common.character_picture import picture, seen
 from widgets.common.controls import Button, Caption, Retranslated, named, selectable
 from widgets.common.instrument_name import character_name

@@ -22,7 +22,7 @@ from app.export.targets import CheckedTarget, checked_targets
 from app.performance.bodies import character_of
 from app.performance.cast import attempt
 from app.project.performers import Player
-from app.rig.read_figure import SUFFIXES, read_figure
+from app.rig.characters.read_figure import SUFFIXES, read_figure
 from widgets.common.controls import Button, Retranslated, named, wrapped
 from widgets.common.layouts import in_column, in_row
 from widgets.common.paths import PathEdit, ask_for_file

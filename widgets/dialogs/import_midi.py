@@ -40,7 +40,7 @@ from app.project.importing import (
     separated,
     usual_rows,
 )
-from app.rig.character_library import characters
+from app.rig.characters.character_library import characters
 from app.score.choose import use_of
 from app.score.model import UnplayedPart
 from app.score.parts import PERCUSSION, PartAssignment, stream_name

@@ -19,7 +19,7 @@ from PySide6.QtWidgets import (
 )
 
 from app.editor.tokens import LEAST_TARGET_PX, Tokens
-from app.plan.corrections import Correction
+from app.plan.by_hand.corrections import Correction
 from app.project.found_parts import Conflict
 from app.project.model import Project
 from app.project.reimport import Reimport

@@ -10,8 +10,8 @@ from PySide6.QtWidgets import QWidget
 from app.editor.selection import EventKey, Selection
 from app.editor.session import Session
 from app.errors import Message
-from app.plan.additive_curve import AdditiveCurve
-from app.plan.corrections import Correction, PinFingering, SetEmbouchure, Vary
+from app.plan.by_hand.additive_curve import AdditiveCurve
+from app.plan.by_hand.corrections import Correction, PinFingering, SetEmbouchure, Vary
 from app.plan.model import Event, PlayerPlan
 from app.project.edit import events as edit
 from app.project.edit.corrections import take_back

@@ -10,8 +10,8 @@ from PySide6.QtWidgets import QGridLayout, QWidget
 
 from app.editor.session import Session
 from app.errors import Message
-from app.plan.corrections import PoseCorrection, SetBreath, SetCue, kind_of
-from app.plan.cue import LEAD_BEATS
+from app.plan.by_hand.corrections import PoseCorrection, SetBreath, SetCue, kind_of
+from app.plan.cues.cues import LEAD_BEATS
 from app.plan.model import SIGNED_KINDS, CueEvent, ExpressionEvent, GestureEvent, PlayerPlan, PoseEvent, StyleEvent
 from app.project.edit import events as edit
 from app.project.edit.corrections import put

@@ -13,7 +13,7 @@ from PySide6.QtWidgets import QWidget
 from app.editor.session import Session
 from app.editor.tasks import Progress, StopRequested
 from app.errors import Message
-from app.rig.character_library import character_named
+from app.rig.characters.character_library import character_named
 from app.rig.model import Character
 from widgets.common.character_picture import Seen, picture, seen
 from widgets.common.plain import Label

@@ -7,7 +7,7 @@ from PySide6.QtWidgets import QGridLayout, QWidget
 
 from app.editor.session import Session
 from app.errors import MapError, Message
-from app.plan.corrections import PinFingering, SetEmbouchure
+from app.plan.by_hand.corrections import PinFingering, SetEmbouchure
 from app.plan.model import EmbouchureEvent, FingeringEvent, PlayerPlan
 from app.project.edit import events as edit_events
 from app.project.edit import notes as edit_notes

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from app.editor.translated import tr
-from app.plan.additive_curve import AdditiveCurve
-from app.plan.corrections import (
+from app.plan.by_hand.additive_curve import AdditiveCurve
+from app.plan.by_hand.corrections import (
     AddExpression,
     AddGesture,
     ChangeExpression,

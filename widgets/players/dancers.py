@@ -22,7 +22,7 @@ from app.project.document import Change
 from app.project.edit import dancers as edit
 from app.project.model import DANCER_PARAMETERS, Project
 from app.project.performers import Dancer
-from app.rig.character_library import characters
+from app.rig.characters.character_library import characters
 from widgets.common.clicks import on_click, on_switch
 from widgets.common.combo import Combo, Option
 from widgets.common.controls import Check, IconButton, Retranslated, named

@@ -18,7 +18,7 @@ from app.project.edit import players as edit
 from app.project.edit.players import parameter_edit
 from app.project.model import Project
 from app.project.performers import Player
-from app.rig.character_library import bundled_characters, characters
+from app.rig.characters.character_library import bundled_characters, characters
 from instrument_maps.library import library
 from metadata.acting import AMOUNTS
 from widgets.common.combo import Combo, Option

@@ -6,7 +6,7 @@ from functools import lru_cache
 
 from PySide6.QtGui import QImage
 
-from app.rig.character_library import character_named
+from app.rig.characters.character_library import character_named
 from app.rig.model import Character
 from widgets.common.character_picture import picture, seen
 

@@ -4,9 +4,9 @@ What is shown, what lies under the mouse and what gestures on it mean are values
 `widgets.timeline.model`, which knows no Qt; the widgets here draw them and pass events on.
 
 Of pyqtgraph nothing is used here. Its plots are scenes of graphics items whose views get changes one after another,
-and each round painted all lanes again (see `widgets.timeline.plot.Plot`). All it did for the timeline was to hand Qt
-thousands of rectangles at once, through a class that it keeps for itself; `widgets.timeline.drawing` does that with
-numpy and the public ``shiboken6.wrapInstance``. pyqtgraph draws the plot in the dialog of cuts
+and each round painted all lanes again (see `widgets.timeline.plot.plot.Plot`). All it did for the timeline was to hand
+Qt thousands of rectangles at once, through a class that it keeps for itself; `widgets.timeline.plot.drawing` does that
+with numpy and the public ``shiboken6.wrapInstance``. pyqtgraph draws the plot in the dialog of cuts
 (`widgets.dialogs.cut_plot`), where its axes and curves are what is needed. vispy is the viewport's, see
 `widgets.viewport`.
 """

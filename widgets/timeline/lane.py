@@ -14,12 +14,12 @@ from app.editor.selection import Selection
 from app.editor.session import Session
 from app.project.document import Change
 from widgets.common.clicks import on_click
-from widgets.timeline.axis import TimeAxis
-from widgets.timeline.hands import mouse_at
 from widgets.timeline.lane_header import GUTTER_PX, LaneHeader
 from widgets.timeline.model.hand import LaneMouse
 from widgets.timeline.model.lines import Lines
-from widgets.timeline.plot import Background, LaneItem, Plot
+from widgets.timeline.plot.mouse import mouse_at
+from widgets.timeline.plot.plot import Background, LaneItem, Plot
+from widgets.timeline.plot.time_axis import TimeAxis
 
 __all__ = ["FOLDED_PX", "GUTTER_PX", "Lane", "LaneItem", "LaneMouse"]
 

@@ -15,7 +15,7 @@ from app.project.document import Change
 from widgets.common.clicks import on_click
 from widgets.common.menus import passing_menu
 from widgets.timeline.lane import Lane
-from widgets.timeline.roll import PianoRoll
+from widgets.timeline.roll.piano_roll import PianoRoll
 from widgets.timeline.stack import LaneStack
 
 

@@ -12,16 +12,16 @@ from app.project.document import Change
 from widgets.common.controls import IconButton, Retranslated, named
 from widgets.common.icons import icon
 from widgets.common.layouts import in_column, in_row
-from widgets.timeline.axis import TimeAxis
 from widgets.timeline.extent import scroll_limits, selected_span
-from widgets.timeline.flags import Flags
 from widgets.timeline.lane import GUTTER_PX, Lane
 from widgets.timeline.lane_layout import LaneLayout, LaneState, lane_state, lane_text
 from widgets.timeline.lanes import LANES
-from widgets.timeline.lanes.takes import TakesLane
-from widgets.timeline.quantise import QuantisePopover
-from widgets.timeline.roll import PianoRoll
-from widgets.timeline.ruler import Ruler
+from widgets.timeline.lanes.takes.takes_lane import TakesLane
+from widgets.timeline.plot.time_axis import TimeAxis
+from widgets.timeline.roll.piano_roll import PianoRoll
+from widgets.timeline.roll.quantise import QuantisePopover
+from widgets.timeline.ruler.flags import Flags
+from widgets.timeline.ruler.time_ruler import Ruler
 from widgets.timeline.stack import LaneStack
 from widgets.timeline.tool_bar import ToolBar
 

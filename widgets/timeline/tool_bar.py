@@ -12,7 +12,7 @@ from app.project.document import Change
 from widgets.common.controls import Retranslated, named
 from widgets.common.icons import icon
 from widgets.common.plain import ComboBox, Label
-from widgets.timeline.roll import PianoRoll
+from widgets.timeline.roll.piano_roll import PianoRoll
 
 ICONS = {Tool.SELECT: "pointer", Tool.DRAW: "pencil", Tool.ERASE: "eraser", Tool.SPLIT: "split"}
 GHOST_ICONS = {Ghosts.GHOSTS: "ghosts", Ghosts.ALL: "players", Ghosts.ALONE: "player"}

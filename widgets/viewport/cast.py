@@ -19,7 +19,7 @@ from app.performance.chunks import Pose
 from app.project.casting import StagePosition
 from app.project.performers import Dancer, Player
 from app.rig import quaternion
-from app.rig.character_library import character_library, character_named
+from app.rig.characters.character_library import character_library, character_named
 from app.rig.model import Character, InstrumentModel, Skeleton
 from app.rig.skeleton import rest_positions
 from instrument_maps.library import find_map

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from app.rig.grip.finger_stations import aside_m, only_at, worked_by
 from app.rig.skinning import landmark_set
-from app.rig.stations import aside_m, only_at, worked_by
 from instrument_maps.model import ROOT, InstrumentMap
 from widgets.viewport.cast import Stage
 

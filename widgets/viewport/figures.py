@@ -10,7 +10,7 @@ from app.performance.bodies import is_held
 from app.performance.cast import LeftOut, attempt
 from app.project.model import Project
 from app.project.performers import Dancer, Player
-from app.rig.character_library import character_revision
+from app.rig.characters.character_library import character_revision
 from instrument_maps.library import library
 from widgets.viewport.cast import Member, RenderAssets, Stage, dancer_kit, dancing_member, kit_of, member_of, stand_of
 from widgets.viewport.geometry import Crowd

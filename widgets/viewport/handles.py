@@ -12,7 +12,7 @@ import msgspec
 import numpy as np
 import numpy.typing as npt
 
-from app.plan.corrections import Correction, PoseCorrection
+from app.plan.by_hand.corrections import Correction, PoseCorrection
 from app.plan.model import PoseTarget
 from app.project.edit import corrections as edit
 from app.project.model import Project
@@ -196,7 +196,7 @@ def fresh_correction(project: Project, player_id: str, target: PoseTarget, span:
 
 
 Limits = Mapping[str, tuple[float, float]]
-"""Lowest and highest degrees of every angle, as of `app.plan.pose.pose_limits`."""
+"""Lowest and highest degrees of every angle, as of `app.plan.by_hand.pose_corrections.pose_limits`."""
 
 
 def turned(correction: PoseCorrection, angles_deg: dict[Angle, float], limits: Limits) -> PoseCorrection:

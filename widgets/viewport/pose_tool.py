@@ -8,9 +8,9 @@ from dataclasses import dataclass
 from app.editor.session import Session
 from app.errors import Message
 from app.performance.bodies import body_of
-from app.plan.corrections import PoseCorrection
+from app.plan.by_hand.corrections import PoseCorrection
+from app.plan.by_hand.pose_corrections import pose_limits
 from app.plan.model import PoseTarget
-from app.plan.pose import pose_limits
 from app.project.model import Project
 from widgets.viewport.camera import Camera
 from widgets.viewport.handles import (

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 import numpy.typing as npt
 
-from app.rig.proxy import Nodes, bodies, inside
+from app.rig.grip.instrument_proxy import Nodes, bodies, inside
 from widgets.viewport.cast import Stage
 
 Floats = npt.NDArray[np.float64]

@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from app.editor.viewport_state import View
-from app.rig.stature import face_size, hand_size
+from app.rig.grip.body_size import face_size, hand_size
 from widgets.viewport.camera import Camera, frame
 from widgets.viewport.cast import Stage
 from widgets.viewport.limbs import model_bounds

@@ -11,7 +11,7 @@ from typing import Final, Literal, TypeAlias
 
 import msgspec
 
-from app.plan.additive_curve import CHANNELS, MOST_KEYS, AdditiveCurve, CurveKey, Interpolation, Tangent
+from app.plan.by_hand.additive_curve import CHANNELS, MOST_KEYS, AdditiveCurve, CurveKey, Interpolation, Tangent
 from app.project import limits
 from app.project.edit.corrections import put, take_back
 from app.project.edit.found_events import OWN

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import replace
 
-from app.plan.corrections import Correction, SetBreath, anchor, kind
+from app.plan.by_hand.corrections import Correction, SetBreath, anchor, kind
 from app.project.model import Project
 
 

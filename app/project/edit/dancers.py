@@ -24,7 +24,7 @@ from app.project.footprint import footprint
 from app.project.ids import fresh_dancer_ids
 from app.project.model import DANCER_PARAMETERS, Project
 from app.project.performers import Dancer
-from app.rig.character_library import bundled_characters
+from app.rig.characters.character_library import bundled_characters
 
 MOST_IN_ROW: Final = 5
 

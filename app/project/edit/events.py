@@ -15,8 +15,8 @@ from typing import Literal, NamedTuple, TypeAlias
 import msgspec
 
 from app.errors import AppError
-from app.plan.additive_curve import AdditiveCurve
-from app.plan.corrections import (
+from app.plan.by_hand.additive_curve import AdditiveCurve
+from app.plan.by_hand.corrections import (
     WITHIN,
     AddExpression,
     AddGesture,
@@ -32,7 +32,7 @@ from app.plan.corrections import (
     SetEmbouchure,
     Vary,
 )
-from app.plan.cue import LEAD_BEATS
+from app.plan.cues.cues import LEAD_BEATS
 from app.plan.model import GESTURE_KINDS as GESTURE_KINDS
 from app.plan.model import OWN_KINDS as OWN_KINDS
 from app.plan.model import BreathEvent, CueEvent, ExpressionEvent, GestureEvent, PlayerPlan, PoseEvent, StyleEvent

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from typing import Final, TypeAlias
 
-from app.plan.additive_curve import AdditiveCurve
-from app.plan.corrections import (
+from app.plan.by_hand.additive_curve import AdditiveCurve
+from app.plan.by_hand.corrections import (
     WITHIN,
     AddExpression,
     AddGesture,

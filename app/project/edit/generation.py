@@ -8,7 +8,7 @@ from dataclasses import replace
 import msgspec
 
 from app.chance import next_seed
-from app.plan.corrections import Correction, Vary
+from app.plan.by_hand.corrections import Correction, Vary
 from app.project.edit.corrections import put, take_back
 from app.project.edit.players import musicians_of
 from app.project.model import Project

@@ -11,8 +11,8 @@ from collections.abc import Collection
 import msgspec
 
 from app.errors import AppError
-from app.plan.corrections import RemoveEvent, SetCue
-from app.plan.cue import LEAD_BEATS
+from app.plan.by_hand.corrections import RemoveEvent, SetCue
+from app.plan.cues.cues import LEAD_BEATS
 from app.plan.model import CueEvent, PlayerPlan
 from app.project.edit.corrections import put, take_back
 from app.project.edit.events import Edited, corrections_of, event_id_of, is_there, move, remove

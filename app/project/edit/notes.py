@@ -19,7 +19,7 @@ import msgspec
 
 from app.errors import AppError, FileError
 from app.formats.json_data import decode_json
-from app.plan.corrections import Correction, anchor
+from app.plan.by_hand.corrections import Correction, anchor
 from app.project.edit.length import with_score
 from app.project.grid import Grid
 from app.project.ids import new_note_ids

@@ -15,7 +15,7 @@ from typing import Any
 import msgspec
 
 from app.errors import UsageError
-from app.plan.corrections import Correction
+from app.plan.by_hand.corrections import Correction
 from app.project import limits
 from app.project.casting import ConductorPlace
 from app.project.check import expression_faults

@@ -10,7 +10,7 @@ import pytest
 
 from app.performance.ensemble import Performance
 from app.performance.live import LiveMotion
-from app.plan.corrections import (
+from app.plan.by_hand.corrections import (
     AddExpression,
     Correction,
     PinFingering,
@@ -21,8 +21,8 @@ from app.plan.corrections import (
 )
 from app.project.edit.corrections import put
 from app.project.model import Project
-from app.rig.character import load_character
-from app.rig.character_library import bundled_characters
+from app.rig.characters.character_library import bundled_characters
+from app.rig.characters.load_character import load_character
 from tests.bench.performance.large import calibration_s, large_project, reported
 
 

@@ -6,9 +6,9 @@ import time
 
 import pytest
 
+from app.plan.fingering.search import best_path, fingering_problem
 from app.plan.generate import MonophonicPart, make_plans, time_frame
-from app.plan.line import line_times
-from app.plan.search import best_path, fingering_problem
+from app.plan.music.piece import line_times
 from app.score.metre_map import Metre
 from instrument_maps.load import bundled_maps
 from tests.support.plan import PlainClock, even, piece_of

@@ -12,7 +12,7 @@ from PySide6.QtWidgets import QApplication
 
 from app.editor.selection import Selection
 from app.errors import Message
-from app.plan.corrections import AddExpression, Correction, PinFingering, SetBreath
+from app.plan.by_hand.corrections import AddExpression, Correction, PinFingering, SetBreath
 from app.project.edit import notes
 from app.project.edit.corrections import put
 from app.project.model import Project

@@ -12,8 +12,8 @@ from typing import Any, Final
 
 import msgspec
 
-from app.plan.additive_curve import AdditiveCurve, CurveKey, Tangent
-from app.plan.corrections import (
+from app.plan.by_hand.additive_curve import AdditiveCurve, CurveKey, Tangent
+from app.plan.by_hand.corrections import (
     AddExpression,
     AddGesture,
     ChangeExpression,

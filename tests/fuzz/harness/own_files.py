@@ -23,7 +23,7 @@ def _joints() -> int:
 
 
 def _skeleton() -> Any:
-    from app.rig.character_library import character_named
+    from app.rig.characters.character_library import character_named
 
     return character_named(base().players[0].character_id).skeleton
 

@@ -291,7 +291,7 @@ def _one_of_folder(read: Callable[[Path], Any], path: Path, folder: Path, good: 
 
 def character_entry(path: Path, folder: Path) -> None:
     """A user's characters: a bad entry is reported and the others stay."""
-    from app.rig.character_library import LIBRARY, bundled_characters
+    from app.rig.characters.character_library import LIBRARY, bundled_characters
 
     own = folder / "own"
     own.mkdir(exist_ok=True)
@@ -322,7 +322,7 @@ def settings(path: Path, folder: Path) -> None:
 
 def gltf(path: Path, folder: Path) -> None:
     """A character's file; what it holds becomes a character or is refused."""
-    from app.rig.character import load_character
+    from app.rig.characters.load_character import load_character
 
     load_character(path)
 
@@ -344,7 +344,7 @@ def fbx(path: Path, folder: Path) -> None:
 
 def foreign_fbx(path: Path, folder: Path) -> None:
     """The reader of other programs' FBX, up to a character."""
-    from app.rig.character import load_character
+    from app.rig.characters.load_character import load_character
 
     load_character(path)
 

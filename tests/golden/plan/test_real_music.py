@@ -12,8 +12,8 @@ import pytest
 
 from app.performance.ensemble import Performance
 from app.plan.generate import MonophonicPart
-from app.plan.line import line_times
 from app.plan.model import PlayerPlan
+from app.plan.music.piece import line_times
 from app.project.model import map_choices, project_from_score
 from app.score.read import read_midi
 from instrument_maps.load import bundled_maps

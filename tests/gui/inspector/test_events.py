@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QComboBox, QTabWidget
 from app.editor.selection import EventKey, Selection
 from app.editor.session import Session
 from app.errors import Message
-from app.plan.corrections import ChangeExpression, ChangeGesture, PinFingering, PoseCorrection, SetBreath
+from app.plan.by_hand.corrections import ChangeExpression, ChangeGesture, PinFingering, PoseCorrection, SetBreath
 from app.plan.model import PlayerPlan
 from app.project.edit import events as edit
 from app.project.edit.corrections import put

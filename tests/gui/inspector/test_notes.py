@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QLabel
 from app.editor.selection import EventKey, Selection
 from app.editor.session import Session
 from app.errors import Message
-from app.plan.corrections import PinFingering, SetEmbouchure
+from app.plan.by_hand.corrections import PinFingering, SetEmbouchure
 from app.project.edit.corrections import put
 from app.project.performers import Player
 from app.score.model import Note

@@ -17,8 +17,8 @@ from pytestqt.qtbot import QtBot
 from app.editor.generator import Generator
 from app.errors import Message
 from app.project.edit.players import change
-from app.rig.character import load_character
-from app.rig.character_library import FOLDER_VARIABLE, character_library, character_named, reload_characters
+from app.rig.characters.character_library import FOLDER_VARIABLE, character_library, character_named, reload_characters
+from app.rig.characters.load_character import load_character
 from app.shell.app import Program
 from app.shell.characters import bring_character
 from tests.gui.shell.conftest import Answers, trigger

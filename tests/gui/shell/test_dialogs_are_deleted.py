@@ -14,7 +14,7 @@ from PySide6.QtWidgets import QApplication, QDialog, QMessageBox
 
 import app.shell
 import widgets.dialogs
-from app.rig.read_figure import read_figure
+from app.rig.characters.read_figure import read_figure
 from app.score.read import read_contents
 from app.shell import characters, questions
 from app.shell.app import Program

@@ -16,7 +16,7 @@ from app.shell.crash_handler import CrashHandler
 from tests.gui.conftest import QUARTET
 from tests.gui.shell.conftest import Start
 from widgets.players.player_list import PlayerList
-from widgets.timeline.lanes.waveform import WaveformLane
+from widgets.timeline.lanes.recording.waveform import WaveformLane
 
 pytestmark = pytest.mark.at_fault
 

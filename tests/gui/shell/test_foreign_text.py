@@ -22,8 +22,8 @@ from app.project.autosave import Autosave
 from app.project.edit.piece import set_title
 from app.project.presence import Presence
 from app.project.recovery import Recoverable
-from app.rig import character_library
-from app.rig.character import read_character
+from app.rig.characters import character_library
+from app.rig.characters.load_character import read_character
 from app.score.read import read_contents
 from app.score.write import write_midi
 from app.shell.app import Program

@@ -10,7 +10,7 @@ from app.editor.generator import Generator
 from app.editor.selection import Selection
 from app.editor.session import Session
 from app.errors import Message
-from app.plan.corrections import SetEmbouchure, Vary
+from app.plan.by_hand.corrections import SetEmbouchure, Vary
 from app.project.edit.corrections import put
 from app.shell.commands import generate
 

@@ -20,16 +20,16 @@ from app.performance import bodies
 from app.performance.chunks import Pose
 from app.performance.ensemble import Performance
 from app.performance.live import LiveMotion
-from app.plan.corrections import AddExpression, AddGesture, SetEmbouchure
+from app.plan.by_hand.corrections import AddExpression, AddGesture, SetEmbouchure
 from app.plan.model import Problem
 from app.project.edit import players
 from app.project.edit.corrections import put
-from app.rig.character_library import character_named
+from app.rig.characters.character_library import character_named
 from app.shell.commands.problems import go_to_problem
 from tests.support.bodies import playing as odd_bodies
 from widgets.common.text import message_text
-from widgets.timeline.axis import TimeAxis
 from widgets.timeline.lanes.problems import ProblemsLane
+from widgets.timeline.plot.time_axis import TimeAxis
 
 pytestmark = pytest.mark.drawn
 

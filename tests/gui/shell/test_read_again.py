@@ -14,7 +14,7 @@ from PySide6.QtWidgets import QDialogButtonBox, QListWidget
 from app.editor.questions import ReadAgain
 from app.editor.tasks import Tasks
 from app.editor.tokens import Tokens
-from app.plan.corrections import Correction, PinFingering, SetBreath, SetCue
+from app.plan.by_hand.corrections import Correction, PinFingering, SetBreath, SetCue
 from app.project.edit.corrections import put
 from app.project.importing import ImportRequest, ImportRow
 from app.project.reimport import reimported

@@ -19,8 +19,8 @@ from app.project.storage import save
 from tests.support.bodies import playing
 from tests.support.live import performance_of
 from tests.support.tasks import ImmediateTasks
-from widgets.timeline.axis import TimeAxis
 from widgets.timeline.lanes.problems import ProblemsLane
+from widgets.timeline.plot.time_axis import TimeAxis
 
 pytestmark = pytest.mark.moved
 

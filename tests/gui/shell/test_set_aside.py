@@ -16,8 +16,8 @@ from app.errors import Message
 from app.project.autosave import Autosave
 from app.project.presence import Presence
 from app.project.presets import expression_folder, preset_folder
-from app.rig import character_library
-from app.rig.character_library import bundled_characters, character_named
+from app.rig.characters import character_library
+from app.rig.characters.character_library import bundled_characters, character_named
 from app.shell.app import Program
 from instrument_maps import library as instrument_library
 from instrument_maps.load import bundled_maps

@@ -20,7 +20,7 @@ from app.editor.streaming import StreamTarget
 from app.errors import Message
 from app.performance.bodies import character_of
 from app.performance.play_along import PlayAlong
-from app.rig.character_library import character_named
+from app.rig.characters.character_library import character_named
 from app.score.take import ControllerMapping
 from app.shell.app import Program
 from app.stream.sender import Sender

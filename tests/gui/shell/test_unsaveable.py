@@ -13,8 +13,8 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QLabel, QPushButton
 
 from app.errors import Message
-from app.plan.additive_curve import AdditiveCurve, CurveKey, Tangent
-from app.plan.corrections import Correction, PoseCorrection, SetBreath, kind
+from app.plan.by_hand.additive_curve import AdditiveCurve, CurveKey, Tangent
+from app.plan.by_hand.corrections import Correction, PoseCorrection, SetBreath, kind
 from app.project.check import faults
 from app.project.model import Project
 from app.shell.app import Program

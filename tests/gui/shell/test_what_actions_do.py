@@ -17,7 +17,7 @@ from PySide6.QtWidgets import QApplication, QDialog, QLineEdit, QWidget
 from app.editor.listening import RecordedTake
 from app.editor.selection import Selection
 from app.errors import Message
-from app.plan.corrections import AddGesture, PinFingering, RemoveEvent, SetBreath, SetCue, Vary
+from app.plan.by_hand.corrections import AddGesture, PinFingering, RemoveEvent, SetBreath, SetCue, Vary
 from app.project.casting import StagePosition
 from app.project.edit.notes import move
 from app.project.edit.players import join, place, set_parameters

@@ -26,7 +26,7 @@ from tests.gui.timeline.hand import Hand, Place
 from tests.support.tasks import ImmediateTasks
 from tests.support.windows import show_in_front
 from widgets.timeline.panel import TimelinePanel
-from widgets.timeline.roll import PianoRoll
+from widgets.timeline.roll.piano_roll import PianoRoll
 
 TPQ = 480
 SCALE = (60, 62, 64, 65, 67, 69, 71, 72)

@@ -14,7 +14,7 @@ from app.project.document import Change
 from tests.support.windows import show
 from widgets.timeline.lane import Lane
 from widgets.timeline.lanes.regions import RegionLane
-from widgets.timeline.model.region import Region
+from widgets.timeline.model.regions.shown_event import Region
 from widgets.timeline.panel import TimelinePanel
 
 LEFT = Qt.MouseButton.LeftButton

@@ -20,7 +20,7 @@ from app.project.edit.tempo import set_tempo
 from app.project.recording import AudioTrack, BeatPin, Doubt
 from app.project.storage import load, save
 from tests.gui.timeline.lane_hands import SHIFT, click, double_click, drag, shown_panel, viewport
-from widgets.timeline.lanes.waveform import WaveformLane
+from widgets.timeline.lanes.recording.waveform import WaveformLane
 from widgets.timeline.panel import TimelinePanel
 
 ALT = Qt.KeyboardModifier.AltModifier

@@ -9,7 +9,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QColor, QImage, QPainter, QPen
 from PySide6.QtWidgets import QApplication
 
-from widgets.timeline.drawing import draw_groups, draw_lines, draw_rects
+from widgets.timeline.plot.drawing import draw_groups, draw_lines, draw_rects
 
 Pixels = npt.NDArray[np.uint32]
 WHITE, BLUE = 0xFFFFFFFF, 0xFF0000FF

@@ -13,13 +13,13 @@ from PySide6.QtWidgets import QMenu
 from app.editor.selection import EventKey
 from app.errors import Message
 from app.performance.ensemble import Performance
-from app.plan.corrections import RemoveEvent, SetCue
+from app.plan.by_hand.corrections import RemoveEvent, SetCue
 from app.plan.model import CueEvent
 from tests.gui.timeline.conftest import TPQ, Stage
 from tests.gui.timeline.hand import ALT, Place
 from tests.gui.timeline.lane_hands import planned
-from widgets.timeline.lanes.acting import ActingLane
-from widgets.timeline.model.entries import EntryArrow
+from widgets.timeline.lanes.acting.acting_lane import ActingLane
+from widgets.timeline.model.roll.entries import EntryArrow
 
 FIRST, SECOND, THIRD = "p1.1.1", "p2.1.1", "p3.1.1"
 START = 4 * TPQ

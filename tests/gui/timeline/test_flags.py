@@ -16,8 +16,8 @@ from app.project.model import Project
 from app.score.model import Marker
 from tests.gui.timeline.conftest import TPQ, Stage
 from tests.gui.timeline.hand import CTRL, Hand, Place
-from widgets.timeline.flags import MOST_FLAG_PX, Flag, Flags
 from widgets.timeline.lane import GUTTER_PX
+from widgets.timeline.ruler.flags import MOST_FLAG_PX, Flag, Flags
 
 LONG = "Fugue <b>subject</b> & answer, " + 20 * "poco a poco "
 

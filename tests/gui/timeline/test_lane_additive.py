@@ -13,7 +13,7 @@ from pytestqt.qtbot import QtBot
 from app.editor.selection import EventKey, Selection
 from app.editor.session import Session
 from app.errors import Message
-from app.plan.additive_curve import AdditiveCurve, CurveKey, Tangent
+from app.plan.by_hand.additive_curve import AdditiveCurve, CurveKey, Tangent
 from app.project.edit import additive as edit
 from app.project.edit.corrections import put
 from app.project.edit.generation import vary_everyone
@@ -30,8 +30,8 @@ from tests.gui.timeline.lane_hands import (
     move_to,
     shown_panel,
 )
-from widgets.timeline.lanes.additive import AdditiveLane
-from widgets.timeline.model.additive import KeyRef
+from widgets.timeline.lanes.additive.additive_lane import AdditiveLane
+from widgets.timeline.model.additive.additive_curves import KeyRef
 from widgets.timeline.panel import TimelinePanel
 
 QUARTER = 480

@@ -15,7 +15,7 @@ from app.editor.selection import EventKey, Selection
 from app.editor.session import Session
 from app.editor.settings import Settings
 from app.errors import Message
-from app.plan.corrections import AddExpression, AddGesture, PinFingering, RemoveEvent, SetBreath, SetCue
+from app.plan.by_hand.corrections import AddExpression, AddGesture, PinFingering, RemoveEvent, SetBreath, SetCue
 from app.plan.model import Problem
 from app.project.edit import events as edit
 from app.score.model import Note

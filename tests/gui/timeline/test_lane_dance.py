@@ -31,7 +31,7 @@ from tests.gui.timeline.lane_hands import LEFT, SHIFT, click, planned
 from tests.support.dances import model
 from tests.support.tasks import ImmediateTasks
 from tests.support.windows import show_in_front
-from widgets.timeline.lanes.dance import DanceLane
+from widgets.timeline.lanes.dance.dance_lane import DanceLane
 from widgets.timeline.panel import TimelinePanel
 
 MARY, NINA = "dancer:1", "dancer:2"

@@ -10,14 +10,14 @@ from pytestqt.qtbot import QtBot
 from app.editor.selection import EventKey, Selection
 from app.editor.session import Session
 from app.errors import Message
-from app.plan.corrections import AddGesture, ChangeGesture, RemoveEvent
+from app.plan.by_hand.corrections import AddGesture, ChangeGesture, RemoveEvent
 from app.plan.model import GestureEvent
 from app.project.edit import events as edit
 from app.project.edit.players import set_parameters
 from app.shell.commands.events import delete
 from metadata.library import GESTURES
 from tests.gui.timeline.lane_hands import click, drag, front_plan, middle, region_of, shown_panel
-from widgets.timeline.lanes.acting import ActingLane
+from widgets.timeline.lanes.acting.acting_lane import ActingLane
 from widgets.timeline.panel import TimelinePanel
 
 NAME = Message("edit.set_event_amount", {"count": 1})

@@ -16,16 +16,16 @@ from app.audio.peaks import Peaks
 from app.editor.selection import Selection
 from app.editor.session import Session
 from app.errors import Message
-from app.plan.corrections import PinFingering, SetEmbouchure
+from app.plan.by_hand.corrections import PinFingering, SetEmbouchure
 from app.plan.model import FingeringEvent
 from app.project.edit import events as edit
 from app.project.recording import AudioTrack
 from tests.gui.timeline.lane_hands import CTRL, SHIFT, click, double_click, drag, front_plan, shown_panel, viewport
 from widgets.common.chip import Chip
 from widgets.timeline.lanes.curves import CurvesLane
-from widgets.timeline.lanes.fingering import FingeringLane, slide_places
+from widgets.timeline.lanes.fingering.fingering_lane import FingeringLane, slide_places
 from widgets.timeline.lanes.problems import ProblemsLane
-from widgets.timeline.lanes.waveform import WaveformLane
+from widgets.timeline.lanes.recording.waveform import WaveformLane
 from widgets.timeline.model.hand import LaneMouse
 from widgets.timeline.panel import TimelinePanel
 

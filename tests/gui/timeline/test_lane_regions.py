@@ -14,7 +14,7 @@ from pytestqt.qtbot import QtBot
 from app.editor.selection import EventKey, Selection
 from app.editor.session import Session
 from app.errors import Message
-from app.plan.corrections import (
+from app.plan.by_hand.corrections import (
     AddExpression,
     AddGesture,
     ChangeExpression,
@@ -40,11 +40,11 @@ from tests.gui.timeline.lane_hands import (
     shown_panel,
     viewport,
 )
-from widgets.timeline.lanes.acting import ActingLane
+from widgets.timeline.lanes.acting.acting_lane import ActingLane
 from widgets.timeline.lanes.breath import BreathLane
-from widgets.timeline.model.regions import LEAST_REGION_PX
+from widgets.timeline.model.regions.shown_regions import LEAST_REGION_PX
 from widgets.timeline.panel import TimelinePanel
-from widgets.timeline.roll import PianoRoll
+from widgets.timeline.roll.piano_roll import PianoRoll
 
 
 @pytest.fixture
@@ -428,7 +428,7 @@ def test_names_of_neighbouring_cues_do_not_overlap(
     def drawn(painter: QPainter, box: QRectF, text: str) -> None:
         rooms.append(box)
 
-    monkeypatch.setattr("widgets.timeline.lanes.acting_drawing.draw_text", drawn)
+    monkeypatch.setattr("widgets.timeline.lanes.acting.acting_drawing.draw_text", drawn)
     cues = sorted((one for one in lane.regions if one.kind == "cue"), key=lambda one: (one.row, one.start_s))
     assert len(cues) > 2
     start_s = panel.axis.start_s

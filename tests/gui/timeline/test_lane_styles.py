@@ -14,13 +14,13 @@ from pytestqt.qtbot import QtBot
 from app.editor.selection import Selection
 from app.editor.session import Session
 from app.editor.settings import Settings
-from app.plan.corrections import PlayStyle
+from app.plan.by_hand.corrections import PlayStyle
 from app.shell.actions import ActionTable
 from app.shell.commands import edit, events
 from tests.gui.timeline.lane_hands import click, drag, middle, region_of, shown_panel
 from tests.support.windows import show_in_front
-from widgets.timeline.lanes.acting import ActingLane
-from widgets.timeline.model.acting import STYLE
+from widgets.timeline.lanes.acting.acting_lane import ActingLane
+from widgets.timeline.model.regions.acting_regions import STYLE
 from widgets.timeline.panel import TimelinePanel
 
 SPAN = (3840, 7680)

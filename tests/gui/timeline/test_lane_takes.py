@@ -26,7 +26,7 @@ from tests.gui.timeline.lane_hands import ALT, click, double_click, drag, move_t
 from tests.support.takes import PlayedNote, take_of
 from tests.support.tasks import ImmediateTasks
 from tests.support.windows import show_in_front
-from widgets.timeline.lanes.takes import TakesLane
+from widgets.timeline.lanes.takes.takes_lane import TakesLane
 from widgets.timeline.panel import TimelinePanel
 
 PLAYER = "p1.1.1"

@@ -17,8 +17,8 @@ from instrument_maps.load import bundled_maps
 from tests.gui.timeline.lane_hands import ALT, drag, shown_panel
 from tests.support.blown import TEMPO, Blow, breath_curve, take, vibrato_curve
 from tests.support.tasks import ImmediateTasks
-from widgets.timeline.axis import TimeAxis
 from widgets.timeline.lanes.curves import CurvesLane
+from widgets.timeline.plot.time_axis import TimeAxis
 
 SWELL = Blow(0.99, 5.0, lambda s: 0.25 + 0.7 * np.minimum(s / 4.0, 1.0))
 

@@ -16,7 +16,7 @@ from app.editor.session import Session
 from app.editor.settings import Settings
 from app.errors import Message
 from app.performance.ensemble import Performance
-from app.plan.corrections import AddExpression, Vary
+from app.plan.by_hand.corrections import AddExpression, Vary
 from app.project.edit.corrections import put
 from app.shell.actions import ActionTable
 from app.shell.commands import edit, events, generate
@@ -24,8 +24,8 @@ from tests.gui.timeline.lane_hands import click, drag, middle, region_of, shown_
 from tests.support.windows import show_in_front
 from widgets.inspector.correction_list import CorrectionList
 from widgets.inspector.generated import Generated
-from widgets.timeline.lanes.acting import ActingLane
-from widgets.timeline.model.acting import VARIED
+from widgets.timeline.lanes.acting.acting_lane import ActingLane
+from widgets.timeline.model.regions.acting_regions import VARIED
 from widgets.timeline.panel import TimelinePanel
 
 SPAN = (3840, 7680)

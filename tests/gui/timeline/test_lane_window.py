@@ -9,7 +9,7 @@ from PySide6.QtWidgets import QWidget
 from pytestqt.qtbot import QtBot
 
 from app.editor.selection import Selection
-from app.plan.corrections import PinFingering, SetBreath
+from app.plan.by_hand.corrections import PinFingering, SetBreath
 from app.plan.model import PlayerPlan
 from app.shell.app import Program
 from tests.gui.shell.conftest import answers, program, settings, start  # noqa: F401  (fixtures)

@@ -10,9 +10,9 @@ from app.editor.timeline_view import Ghosts
 from app.score.model import Note, Part
 from app.score.tempo import TempoMap
 from tests.gui.timeline.conftest import TPQ, Stage
-from widgets.timeline import roll_items
-from widgets.timeline.model.note_table import Behind, NoteTable, Together
-from widgets.timeline.roll_items import picture_behind
+from widgets.timeline.model.roll.note_table import Behind, NoteTable, Together
+from widgets.timeline.roll import drawn_notes
+from widgets.timeline.roll.drawn_notes import picture_behind
 
 
 def table(number: int, *notes: tuple[int, int, int]) -> NoteTable:
@@ -56,7 +56,7 @@ def test_players_behind_are_put_together_again_only_where_they_have_other_notes(
 def test_notes_behind_lie_where_they_belong_as_points_and_as_rectangles(
     stage: Stage, monkeypatch: pytest.MonkeyPatch, most: int
 ) -> None:
-    monkeypatch.setattr(roll_items, "MOST_RECTANGLES", most)
+    monkeypatch.setattr(drawn_notes, "MOST_RECTANGLES", most)
     stage.panel.set_ghosts(Ghosts.ALL)
     stage.panel.axis.fit()
     QApplication.processEvents()

@@ -27,8 +27,8 @@ from tests.gui.timeline.hand import Hand
 from tests.support.tasks import ImmediateTasks
 from tests.support.windows import show
 from widgets.timeline.panel import TimelinePanel
-from widgets.timeline.plot import Background
-from widgets.timeline.ruler import Ruler
+from widgets.timeline.plot.plot import Background
+from widgets.timeline.ruler.time_ruler import Ruler
 
 
 def menu_of(panel: TimelinePanel) -> QMenu:

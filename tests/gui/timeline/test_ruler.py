@@ -16,11 +16,11 @@ from app.score.model import Score
 from app.score.tempo import TempoChange, TempoMap
 from tests.gui.timeline.conftest import TPQ, Stage
 from tests.gui.timeline.hand import ALT, CTRL, Hand, Place
-from widgets.timeline.axis import TimeAxis
 from widgets.timeline.lane import GUTTER_PX
-from widgets.timeline.model.ruler import clock
-from widgets.timeline.ruler import MARKS_PX, Ruler
-from widgets.timeline.ruler_labels import lay_marks
+from widgets.timeline.model.ruler.ruler_marks import clock
+from widgets.timeline.plot.time_axis import TimeAxis
+from widgets.timeline.ruler.ruler_labels import lay_marks
+from widgets.timeline.ruler.time_ruler import MARKS_PX, Ruler
 
 BAR = 4 * TPQ
 

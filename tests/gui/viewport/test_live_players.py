@@ -13,7 +13,7 @@ from app.editor.session import Session
 from app.performance.chunks import Pose
 from app.performance.ensemble import Performance
 from app.performance.play_along import PlayAlong
-from app.plan.corrections import PoseCorrection
+from app.plan.by_hand.corrections import PoseCorrection
 from app.project.edit.corrections import put
 from app.score.take import ControllerMapping
 from tests.support.performed import playing_of

@@ -24,7 +24,7 @@ from app.editor.tokens import LIGHT
 from app.editor.viewport_state import VIEWS
 from app.errors import AppError, Message
 from app.performance.ensemble import Performance
-from app.plan.corrections import PoseCorrection
+from app.plan.by_hand.corrections import PoseCorrection
 from app.project.casting import StagePosition
 from app.project.edit.dancers import add_dancer, place_dancers
 from app.project.edit.piece import new_piece

@@ -11,7 +11,7 @@ import numpy as np
 from hypothesis import strategies as st
 
 from app.performance.ensemble import Performance
-from app.plan.corrections import (
+from app.plan.by_hand.corrections import (
     AddExpression,
     AddGesture,
     ChangeExpression,

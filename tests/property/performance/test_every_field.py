@@ -12,7 +12,7 @@ import pytest
 
 from app.errors import AppError
 from app.performance.ensemble import Performance
-from app.plan.corrections import (
+from app.plan.by_hand.corrections import (
     AddExpression,
     AddGesture,
     ChangeExpression,
@@ -27,7 +27,7 @@ from app.plan.corrections import (
     Vary,
 )
 from app.plan.generate import plan_ensemble, time_frame
-from app.plan.line import MonophonicPart, Piece
+from app.plan.music.piece import MonophonicPart, Piece
 from app.plan.parameters import PlayerParameters
 from app.project.model import Project
 from app.score.metre_map import Metre, MetreMap

@@ -9,10 +9,10 @@ import numpy.typing as npt
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from app.plan.fingering import plan_fingerings
+from app.plan.fingering.fingerings import plan_fingerings
+from app.plan.fingering.search import FingeringProblem, best_path, fingering_problem
 from app.plan.generate import MonophonicPart
-from app.plan.line import line_times
-from app.plan.search import FingeringProblem, best_path, fingering_problem
+from app.plan.music.piece import line_times
 from instrument_maps.load import bundled_maps
 from instrument_maps.model import Fingering, InstrumentMap
 from tests.support.plan import PlainClock, PlainNote, slide, valves

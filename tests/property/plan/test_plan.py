@@ -7,7 +7,7 @@ import dataclasses
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from app.plan.catch_lengths import CATCH_MAX_S, CATCH_MIN_S, CATCH_NOTE_SHARE, LEAST_PLAYED_S
+from app.plan.breath.catch_breath_lengths import CATCH_MAX_S, CATCH_MIN_S, CATCH_NOTE_SHARE, LEAST_PLAYED_S
 from app.plan.generate import MonophonicPart, Piece, make_plans, time_frame
 from app.plan.model import BreathEvent, PlayerPlan
 from app.plan.parameters import PlayerParameters

@@ -9,8 +9,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from app.performance.loudness import controller_input, note_loudness, sounding_curve
-from app.plan.breath_envelope import GASP_S
 from app.plan.generate import MonophonicPart, make_plans, time_frame
+from app.plan.music.breath_controller import GASP_S
 from app.plan.parameters import PlayerParameters
 from app.score.model import ControllerCurve, Note, Part
 from instrument_maps.load import bundled_maps

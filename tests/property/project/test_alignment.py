@@ -13,7 +13,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from app.plan.corrections import PinFingering
+from app.plan.by_hand.corrections import PinFingering
 from app.project.alignment import GAP_COST, SWITCH_COST, AlignmentPart, align, cheapest, pair_costs
 from app.project.edit.corrections import put
 from app.project.model import Project, map_choices, project_from_score

@@ -20,7 +20,7 @@ from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, pr
 from app.errors import AppError, Message
 from app.messages import text
 from app.performance.ensemble import Performance
-from app.plan.corrections import (
+from app.plan.by_hand.corrections import (
     AddExpression,
     AddGesture,
     ChangeExpression,

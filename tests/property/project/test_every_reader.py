@@ -18,7 +18,7 @@ from app.capture.journal import read_journal
 from app.errors import AppError, Message
 from app.formats.toml import toml
 from app.messages import LANGUAGES, text
-from app.plan.additive_curve import AdditiveCurve, CurveKey
+from app.plan.by_hand.additive_curve import AdditiveCurve, CurveKey
 from app.project import presets
 from app.project.document import Document
 from app.project.edit.additive import paste_keys
@@ -36,7 +36,7 @@ from app.score.read import read_contents
 from app.score.take import ControllerMapping
 from instrument_maps.library import all_maps
 from tests.unit.project.pieces import ANGRY, full_project
-from widgets.timeline.model.additive import clip_keys, clip_text
+from widgets.timeline.model.additive.additive_curves import clip_keys, clip_text
 
 PLACE = Path("/music/piece.suisou")
 PROJECT = full_project()

@@ -14,7 +14,7 @@ import msgspec
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from app.plan.corrections import AddGesture, Correction, PinFingering, SetBreath, SetCue
+from app.plan.by_hand.corrections import AddGesture, Correction, PinFingering, SetBreath, SetCue
 from app.project.edit.corrections import put
 from app.project.edit.dynamics import set_dynamics
 from app.project.edit.notes import add_note, erase, set_velocity

@@ -12,8 +12,8 @@ from app.choreography.body import SEGMENTS
 from app.choreography.body_layer import MOST, body_layer
 from app.choreography.clip import MotionClip
 from app.choreography.retarget import retarget
-from app.motion.danced import CHANNELS, BodyLayer
-from app.rig.character_library import character_named
+from app.motion.gestures.dance_layer import CHANNELS, BodyLayer
+from app.rig.characters.character_library import character_named
 from tests.support.dances import still
 
 FPS = 30

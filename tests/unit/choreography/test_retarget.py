@@ -14,7 +14,7 @@ from app.choreography.body import SEGMENTS
 from app.choreography.clip import BodyShape, MotionClip
 from app.choreography.retarget import retarget
 from app.motion.model import Motion
-from app.rig.character_library import bundled_characters, character_named
+from app.rig.characters.character_library import bundled_characters, character_named
 from app.rig.model import Character
 from app.rig.skeleton import rest_positions
 

@@ -8,8 +8,8 @@ import pytest
 from app.cli import main
 from app.cli.characters import joints_of, morphs_of
 from app.errors import UsageError
-from app.rig import character_library
-from app.rig.character_library import FOLDER_VARIABLE, characters
+from app.rig.characters import character_library
+from app.rig.characters.character_library import FOLDER_VARIABLE, characters
 
 DATA = Path(__file__).parents[2] / "data" / "characters"
 

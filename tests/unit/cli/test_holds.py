@@ -21,9 +21,9 @@ from app.performance.body_problems import body_problems
 from app.plan.parameters import PlayerParameters
 from app.project.casting import StagePosition
 from app.project.performers import Player
-from app.rig.character_library import character_named
-from app.rig.hold import GripPose
-from app.rig.hold_file import hold_for
+from app.rig.characters.character_library import character_named
+from app.rig.grip.fitting.grip_files import hold_for
+from app.rig.grip.grip_pose import GripPose
 from app.rig.instrument import load_instrument
 from instrument_maps.library import model_path
 from instrument_maps.load import bundled_maps

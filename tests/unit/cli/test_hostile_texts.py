@@ -17,7 +17,7 @@ from app.cli.progress import Progress
 from app.cli.terminal import say
 from app.encoding import shown
 from app.project.storage import load, save
-from app.rig import character_library
+from app.rig.characters import character_library
 from instrument_maps import library
 from tests.gui.conftest import quartet_project
 from tests.support.odd_names import odd, on_bytes

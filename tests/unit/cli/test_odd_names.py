@@ -12,7 +12,7 @@ import pytest
 
 from app.encoding import restored
 from app.project.storage import load, save
-from app.rig import character_library
+from app.rig.characters import character_library
 from instrument_maps import library
 from tests.support.odd_names import NAME, odd, on_bytes
 from tests.unit.cli.test_main import QUARTET, ROOT, named_piece, run, suisou

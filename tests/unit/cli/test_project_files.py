@@ -13,7 +13,7 @@ import msgspec
 import pytest
 
 from app.cli import main
-from app.plan.corrections import PinFingering
+from app.plan.by_hand.corrections import PinFingering
 from app.project.casting import StagePosition
 from app.project.edit.corrections import put
 from app.project.edit.dancers import add_dancer, place_dancers

@@ -19,7 +19,7 @@ from app.performance.dancers import dancing_of
 from app.performance.ensemble import Performance
 from app.performance.span import whole_span
 from app.project.storage import save
-from app.rig.character_library import character_named
+from app.rig.characters.character_library import character_named
 from tests.support.osc import Receiver
 from tests.unit.export.unreal.conftest import quartet as bundled_quartet
 from tests.unit.export.unreal.conftest import with_dancers

@@ -25,8 +25,8 @@ from app.performance.span import cut_span
 from app.project.edit.players import change
 from app.project.model import map_choices, project_from_score
 from app.rig import quaternion
+from app.rig.grip.instrument_proxy import signed_distance
 from app.rig.instrument import node_transforms
-from app.rig.proxy import signed_distance
 from app.rig.skeleton import JointTransforms, forward
 from app.rig.skinning import Patch, mesh_named, patch
 from app.score.read import read_midi

@@ -19,13 +19,13 @@ from app.performance.bodies import character_of, model_of
 from app.performance.ensemble import Performance
 from app.performance.live import LiveMotion
 from app.performance.span import whole_span
-from app.plan.corrections import AddGesture, Correction, PoseCorrection
+from app.plan.by_hand.corrections import AddGesture, Correction, PoseCorrection
 from app.plan.model import Problem
 from app.project.edit.corrections import put
 from app.project.model import Project, map_choices, project_from_score
 from app.project.performers import Player
 from app.rig import quaternion
-from app.rig.hold import StationTable
+from app.rig.grip.grip_pose import StationTable
 from app.rig.skeleton import forward
 from app.rig.skinning import mesh_named, patch
 from app.score.read import read_midi

@@ -15,11 +15,11 @@ from app.errors import FileError
 from app.performance.bodies import character_of, hold_of
 from app.performance.ensemble import Performance
 from app.performance.span import whole_span
-from app.plan.corrections import PinFingering
+from app.plan.by_hand.corrections import PinFingering
 from app.project.edit.corrections import put
 from app.project.model import Project, map_choices, project_from_score
 from app.project.performers import Player
-from app.rig.hold import GripPose, hand_targets
+from app.rig.grip.grip_pose import GripPose, hand_targets
 from app.rig.skeleton import forward
 from app.score.read import read_midi
 from instrument_maps.load import bundled_maps

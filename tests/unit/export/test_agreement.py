@@ -24,7 +24,7 @@ from app.motion.model import Motion
 from app.performance.bodies import character_of, model_of
 from app.performance.ensemble import Performance
 from app.performance.span import bars_span
-from app.rig.character import load_character
+from app.rig.characters.load_character import load_character
 from tests.gui.conftest import quartet_project
 from tests.support import readers
 from tests.support.performed import player_motion

@@ -19,8 +19,8 @@ from app.export.targets import target_skeleton
 from app.formats.bvh import BvhClip, read_bvh
 from app.formats.scene import Scene
 from app.motion.model import Motion
-from app.rig.character_library import character_named
-from app.rig.humanoid import map_joints
+from app.rig.characters.character_library import character_named
+from app.rig.characters.joint_mapping import map_joints
 from app.rig.model import Character
 from metadata.load import load_bone_names, load_skeleton
 from tests.support.encoded import encode_bvh

@@ -16,7 +16,7 @@ from app.export.own_skeleton import own_target
 from app.export.target import TargetSkeleton
 from app.messages import text
 from app.rig import quaternion
-from app.rig.character_library import character_named
+from app.rig.characters.character_library import character_named
 from app.rig.figure import Figure
 from tests.support.foreign import PREFIX, foreign
 

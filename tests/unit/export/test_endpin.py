@@ -12,7 +12,7 @@ import pytest
 from app.cli import main
 from app.export.playback import Playback, Surface
 from app.formats.fbx.read import read_scene
-from app.rig.character_library import bundled_characters
+from app.rig.characters.character_library import bundled_characters
 from instrument_maps.load import bundled_maps
 
 STANDING = [instrument.id for instrument in bundled_maps().values() if instrument.endpin is not None]

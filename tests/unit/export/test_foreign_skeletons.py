@@ -20,9 +20,9 @@ from app.formats.fbx.read import read_scene
 from app.formats.fbx.write import write_scene
 from app.formats.scene import Scene
 from app.motion.model import Motion
-from app.rig.character import load_character
+from app.rig.characters.load_character import load_character
+from app.rig.characters.read_figure import read_figure
 from app.rig.model import Character
-from app.rig.read_figure import read_figure
 from app.rig.skeleton import forward
 
 FOLDER = Path(__file__).parents[2] / "data" / "characters"

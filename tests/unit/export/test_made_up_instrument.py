@@ -17,8 +17,8 @@ from app.motion.model import Motion
 from app.motion.perform import PerformanceCurves, prepare
 from app.plan.model import PlayerPlan
 from app.plan.parameters import PlayerParameters
-from app.rig.character_library import character_named
-from app.rig.fit import fit_hold
+from app.rig.characters.character_library import character_named
+from app.rig.grip.fitting.fit import fit_hold
 from app.rig.instrument import load_instrument
 from app.rig.model import Character, InstrumentModel
 from instrument_maps.load import load_map

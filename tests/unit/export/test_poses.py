@@ -12,7 +12,7 @@ import pytest
 from app.cli import main
 from app.export.playback import Playback
 from app.formats.fbx.read import read_scene
-from app.plan.corrections import PoseCorrection
+from app.plan.by_hand.corrections import PoseCorrection
 from app.project.edit.corrections import put
 from app.project.storage import save
 from tests.gui.conftest import quartet_project

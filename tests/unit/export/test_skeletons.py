@@ -29,7 +29,7 @@ from app.performance.ensemble import Performance
 from app.performance.span import cut_span
 from app.project.model import map_choices, project_from_score
 from app.rig import quaternion
-from app.rig.character_library import character_named
+from app.rig.characters.character_library import character_named
 from app.rig.model import Character
 from app.score.read import read_midi
 from instrument_maps.load import bundled_maps

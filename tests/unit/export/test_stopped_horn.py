@@ -14,7 +14,7 @@ from app.cli import main
 from app.export.playback import Playback
 from app.export.report import PlayerReport, failures
 from app.formats.fbx.read import read_scene
-from app.motion.stopping import CLOSES_S, READY_S
+from app.motion.contacts.hand_in_bell import CLOSES_S, READY_S
 
 
 @pytest.fixture(scope="module", params=["horn_F_single", "horn_double_F_Bb"])

@@ -22,9 +22,9 @@ from app.export.target import TargetSkeleton, bone_motion
 from app.formats.scene import check_scene
 from app.motion.model import Motion
 from app.rig import quaternion
-from app.rig.character_library import character_named
+from app.rig.characters.bone_placements import world_placements
+from app.rig.characters.character_library import character_named
 from app.rig.model import Character
-from app.rig.placements import world_placements
 from app.rig.skeleton import forward
 from tests.support.foreign import PREFIX, foreign
 

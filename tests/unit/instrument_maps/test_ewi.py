@@ -7,7 +7,7 @@ import itertools
 import numpy as np
 import pytest
 
-from app.rig.stations import stations
+from app.rig.grip.finger_stations import stations
 from instrument_maps.load import bundled_maps
 from instrument_maps.model import Fingering
 from resources.build import instrument_ewi as model

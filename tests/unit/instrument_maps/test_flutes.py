@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from app.plan.fingering import plan_fingerings
+from app.plan.fingering.fingerings import plan_fingerings
 from app.plan.generate import MonophonicPart
-from app.plan.line import line_times
+from app.plan.music.piece import line_times
 from instrument_maps.load import bundled_maps
 from instrument_maps.model import InstrumentMap
 from resources.build.instrument_flute import INSTRUMENTS

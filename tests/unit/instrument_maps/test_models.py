@@ -13,7 +13,7 @@ from scipy.spatial import cKDTree
 
 from app.formats.gltf.model import GltfModel
 from app.formats.gltf.read import read_glb
-from app.rig import proxy
+from app.rig.grip import instrument_proxy
 from instrument_maps.check_model import model_problems, node_triangles
 from instrument_maps.load import bundled_maps, model_path
 from instrument_maps.model import ROOT, InstrumentMap
@@ -199,11 +199,13 @@ def test_trigger_moves_its_pad_forward_by_a_thumbs_stroke() -> None:
     assert stroke @ np.array(contact.normal) < 0  # away from the thumb
 
 
-def bodies_of(instrument: InstrumentMap) -> tuple[proxy.Bodies, proxy.Nodes]:
+def bodies_of(instrument: InstrumentMap) -> tuple[instrument_proxy.Bodies, instrument_proxy.Nodes]:
     """The collision bodies, and their nodes at rest."""
     places = origins(model_of(instrument.id))
     place_m = np.array(list(places.values()))
-    return proxy.bodies(instrument.proxy, list(places)), proxy.Nodes(place_m, np.tile(np.eye(3), (len(place_m), 1, 1)))
+    return instrument_proxy.bodies(instrument.proxy, list(places)), instrument_proxy.Nodes(
+        place_m, np.tile(np.eye(3), (len(place_m), 1, 1))
+    )
 
 
 @pytest.mark.parametrize("instrument", MAPS)
@@ -211,7 +213,9 @@ def test_bodies_hold_the_mesh_near_the_hands(instrument: InstrumentMap) -> None:
     places = origins(model_of(instrument.id))
     centres = everything(instrument).mean(axis=1)
     touches = np.array([np.array(contact.position_m) + places[contact.node] for contact in instrument.contacts])
-    away_m = np.array([proxy.signed_distance(body, touches - places[body.node]) for body in instrument.proxy])
+    away_m = np.array(
+        [instrument_proxy.signed_distance(body, touches - places[body.node]) for body in instrument.proxy]
+    )
     around = cKDTree(centres).query_ball_point(touches, 0.06)
     for contact, rows, bodies_m in zip(instrument.contacts, around, away_m.T, strict=True):
         near = centres[rows]
@@ -220,7 +224,7 @@ def test_bodies_hold_the_mesh_near_the_hands(instrument: InstrumentMap) -> None:
         for row in np.argsort(bodies_m):
             body = instrument.proxy[row]
             if bodies_m[row] < 0.065 and len(near):
-                near = near[proxy.signed_distance(body, near - places[body.node]) >= 0.0022]
+                near = near[instrument_proxy.signed_distance(body, near - places[body.node]) >= 0.0022]
         assert len(near) == 0, contact
         # and the touch point itself is on their surface, so that a finger there does not go into them
         assert abs(bodies_m.min()) < 0.002, contact
@@ -240,8 +244,8 @@ def test_bodies_are_not_fatter_than_the_mesh_near_the_hands(instrument: Instrume
     for contact in instrument.contacts:
         touch = np.array(contact.position_m) + places[contact.node]
         samples = touch + rng.uniform(-0.03, 0.03, (1500, 3))
-        close = proxy.near(bodies, nodes.place_m, touch, 0.055)
-        reached_m, _ = proxy.inside(close, nodes, samples, np.full(len(samples), 0.0015))
+        close = instrument_proxy.near(bodies, nodes.place_m, touch, 0.055)
+        reached_m, _ = instrument_proxy.inside(close, nodes, samples, np.full(len(samples), 0.0015))
         # Outside of every body, and near one.
         samples = samples[(reached_m > 0.0) & (reached_m <= 0.0015)]
         unclear = samples[marks.query(samples, distance_upper_bound=0.0036)[0] > 0.0035]
@@ -267,7 +271,7 @@ def overlapping(low: FloatArray, high: FloatArray, least: FloatArray, most: Floa
 def test_bodies_hold_the_whole_mesh(instrument: InstrumentMap) -> None:
     bodies, nodes = bodies_of(instrument)
     centres = everything(instrument).mean(axis=1)[::7]
-    reached_m, _ = proxy.inside(bodies, nodes, centres, np.full(len(centres), 0.002))
+    reached_m, _ = instrument_proxy.inside(bodies, nodes, centres, np.full(len(centres), 0.002))
     assert np.mean(reached_m > 0.0) > 0.97
     assert len(instrument.proxy) < 260
 

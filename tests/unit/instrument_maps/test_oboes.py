@@ -9,9 +9,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from app.plan.fingering import plan_fingerings
+from app.plan.fingering.fingerings import plan_fingerings
 from app.plan.generate import MonophonicPart
-from app.plan.line import line_times
+from app.plan.music.piece import line_times
 from instrument_maps.load import bundled_maps
 from instrument_maps.model import Fingering, InstrumentMap
 from resources.build.instrument_oboe import INSTRUMENTS

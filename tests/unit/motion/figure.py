@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from app.rig import quaternion
-from app.rig.hold import FingerTable, GripPose, HandHold, Lips, NodeMotion, StationTable
+from app.rig.grip.grip_pose import FingerTable, GripPose, HandHold, Lips, NodeMotion, StationTable
 from app.rig.model import Character, Skeleton
 from instrument_maps import model as maps
 from instrument_maps.model import InstrumentMap

@@ -10,16 +10,16 @@ import msgspec
 import numpy as np
 import pytest
 
+from app.motion.contacts.trunk_and_legs import SIT_BONES_M
 from app.motion.model import Motion
 from app.motion.perform import frame_count
-from app.motion.posture import SIT_BONES_M
-from app.plan.footwork import lifted_s
+from app.plan.gestures.feet import lifted_s
 from app.plan.model import GestureEvent, PlayerPlan, TimeFrame
 from app.plan.parameters import PlayerParameters
 from app.rig import quaternion
-from app.rig.hold import hand_targets
+from app.rig.grip.body_size import leg_size
+from app.rig.grip.grip_pose import hand_targets
 from app.rig.skeleton import forward, rest_positions
-from app.rig.stature import leg_size
 from metadata.load import load_body, load_skeleton
 from tests.support.performed import perform
 from tests.unit.motion import figure

@@ -9,7 +9,7 @@ import pytest
 
 from app.errors import Cancelled
 from app.performance.ensemble import LIGHT, Performance
-from app.plan.corrections import PoseCorrection, SetBreath
+from app.plan.by_hand.corrections import PoseCorrection, SetBreath
 from app.project.edit.corrections import put
 from tests.property.performance.edits import piece
 

@@ -9,12 +9,12 @@ from functools import cache
 import numpy as np
 import pytest
 
-from app.motion.curve import frame_times
+from app.motion.contacts.solve import padding
+from app.motion.curves.curve import frame_times
 from app.motion.model import Motion
 from app.motion.perform import PerformanceCurves, frame_count
-from app.motion.solve import padding
 from app.performance.ensemble import Performance
-from app.plan.corrections import PoseCorrection
+from app.plan.by_hand.corrections import PoseCorrection
 from app.plan.parameters import PARAMETERS, Parameter
 from app.project.edit.corrections import put
 from app.project.edit.players import set_parameters

@@ -9,15 +9,15 @@ import numpy.typing as npt
 import pytest
 
 from app.export.joints import anatomical_angles
-from app.motion.hands import USUAL_ARM_M, page_m
+from app.motion.contacts.hand_destinations import USUAL_ARM_M, page_m
 from app.motion.model import Motion
 from app.motion.perform import PerformanceCurves
 from app.performance.ensemble import Performance
-from app.plan.corrections import AddGesture, RemoveEvent
+from app.plan.by_hand.corrections import AddGesture, RemoveEvent
 from app.project.edit.corrections import put
 from app.rig import quaternion
-from app.rig.hand_shapes import PAD_M, TIP_SHARE, finger_joints
-from app.rig.hold import hand_targets
+from app.rig.grip.empty_hand_shapes import PAD_M, TIP_SHARE, finger_joints
+from app.rig.grip.grip_pose import hand_targets
 from app.rig.ik import arm
 from app.rig.skeleton import forward
 from metadata.library import bundled_gestures

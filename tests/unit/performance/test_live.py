@@ -17,11 +17,11 @@ from app.performance.bodies import character_of
 from app.performance.ensemble import Performance
 from app.performance.live import LiveMotion, PlayerFault
 from app.performance.span import whole_span
-from app.plan.corrections import AddExpression
+from app.plan.by_hand.corrections import AddExpression
 from app.plan.model import PlayerPlan
 from app.project.edit.corrections import put
 from app.project.edit.piece import piece_settings, set_piece_settings
-from app.rig.character_library import character_named
+from app.rig.characters.character_library import character_named
 from tests.property.performance.edits import piece
 from tests.support.live import ready_spans
 from tests.support.performed import player_motion

@@ -10,7 +10,7 @@ import pytest
 from scipy.signal import butter, sosfiltfilt
 from scipy.spatial.transform import Rotation
 
-from app.motion.body_sum import RESIDUE_SHARE, Sizes
+from app.motion.gestures.summed_angles import RESIDUE_SHARE, Sizes
 from app.performance.ensemble import Performance
 from app.plan.parameters import PlayerParameters
 from app.project.edit.players import set_parameters

@@ -13,8 +13,8 @@ from hypothesis import strategies as st
 
 from app.contacts.breaks import Break, joined
 from app.contacts.judge import ContactJudge
-from app.motion.face import Drivers
-from app.motion.gaze import BLINK_SHUT_S
+from app.motion.faces.face_curves import Drivers
+from app.motion.faces.gaze import BLINK_SHUT_S
 from app.motion.model import Motion
 from app.performance.bodies import character_of, model_of
 from app.performance.chunks import Pose

@@ -8,7 +8,7 @@ from itertools import pairwise
 import pytest
 
 from app.performance.ensemble import Performance
-from app.plan.lowered import LOWER_S, RAISE_S
+from app.plan.gestures.lowered_instrument import LOWER_S, RAISE_S
 from app.plan.model import GestureEvent, PlayerPlan
 from app.project.edit.piece import set_seed
 from app.project.edit.players import set_parameters

@@ -10,7 +10,9 @@ from typing import Any, Union, get_args, get_origin, get_type_hints
 
 import pytest
 
-from app.motion import body, face, gaze, perform
+from app.motion import perform
+from app.motion.faces import face_curves, gaze
+from app.motion.gestures import body_layers
 from app.performance import body_problems, ensemble
 from app.plan import generate, player
 from app.steps import StepTable
@@ -26,8 +28,8 @@ TABLES = {
     "line of a player": ensemble.LINE,
     "held": ensemble.HELD,
     "reach": body_problems.REACH,
-    "face": face.FACE,
-    "layers": body.LAYERS,
+    "face": face_curves.FACE,
+    "layers": body_layers.LAYERS,
     "gaze": gaze.GAZE,
     "fingers": perform.FINGERS,
 }

@@ -13,7 +13,7 @@ import pytest
 from app.motion.perform import PerformanceCurves, frame_count
 from app.performance.ensemble import Performance
 from app.plan.acting import LAYERS, acting_of
-from app.plan.corrections import PlayStyle
+from app.plan.by_hand.corrections import PlayStyle
 from app.plan.styles import amount_at, shown_in_style, styles_at
 from app.project.edit.corrections import put
 from app.project.edit.events import add_style, move, remove, resize, set_fades, set_style

@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 from msgspec.structs import replace
 
-from app.plan.corrections import AddExpression, AddGesture, ChangeGesture, RemoveEvent
-from app.plan.dynamics import dynamics_of
+from app.plan.by_hand.corrections import AddExpression, AddGesture, ChangeGesture, RemoveEvent
 from app.plan.generate import MonophonicPart, make_plans, plan_ensemble, time_frame
-from app.plan.line import line_times
+from app.plan.gestures.named_gestures import fitted
 from app.plan.model import PlayerPlan
-from app.plan.named_gestures import fitted
+from app.plan.music.dynamics import dynamics_of
+from app.plan.music.piece import line_times
 from app.plan.parameters import PlayerParameters
 from app.plan.rules import facts_of, matches
 from metadata.gestures import Gesture, Key, Track

@@ -7,8 +7,8 @@ from fractions import Fraction
 from msgspec.structs import replace
 
 from app.errors import Message
-from app.plan.additive_curve import AdditiveCurve, CurveKey, Tangent
-from app.plan.corrections import (
+from app.plan.by_hand.additive_curve import AdditiveCurve, CurveKey, Tangent
+from app.plan.by_hand.corrections import (
     AddExpression,
     AddGesture,
     ChangeExpression,

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from app.errors import FileError
-from app.plan.additive_curve import AdditiveCurve, CurveKey, Tangent
+from app.plan.by_hand.additive_curve import AdditiveCurve, CurveKey, Tangent
 from app.project.anchors import moved
 from app.project.edit import additive as edit
 from app.project.edit.corrections import put

@@ -10,7 +10,7 @@ import msgspec
 import numpy as np
 import pytest
 
-from app.plan.additive_curve import AdditiveCurve, CurveKey
+from app.plan.by_hand.additive_curve import AdditiveCurve, CurveKey
 from app.project.check_stored import _groups, stored_faults
 from app.project.model import Project
 from tests.unit.project.pieces import full_project

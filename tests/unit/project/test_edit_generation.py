@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from app.performance.ensemble import Performance
-from app.plan.corrections import ChangeGesture
+from app.plan.by_hand.corrections import ChangeGesture
 from app.project.edit import generation
 from app.project.edit.corrections import put
 from app.project.model import Project

@@ -12,7 +12,7 @@ import pytest
 
 from app.errors import AppError, UsageError
 from app.performance.ensemble import Performance
-from app.plan.corrections import AddExpression, ChangeExpression
+from app.plan.by_hand.corrections import AddExpression, ChangeExpression
 from app.project import storage
 from app.project.check import faults
 from app.project.edit import notes, tempo

@@ -8,7 +8,7 @@ from statistics import mean, pstdev
 import pytest
 
 from app.errors import AppError
-from app.plan.corrections import PinFingering
+from app.plan.by_hand.corrections import PinFingering
 from app.project.casting import StagePosition, stage_arc
 from app.project.edit import players as edit
 from app.project.edit.corrections import put

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 
 from app.errors import AppError
 from app.performance.ensemble import Performance
-from app.plan.corrections import AddGesture, PoseCorrection, RemoveEvent, SetBreath, SetCue
+from app.plan.by_hand.corrections import AddGesture, PoseCorrection, RemoveEvent, SetBreath, SetCue
 from app.plan.model import (
     BreathEvent,
     CueEvent,

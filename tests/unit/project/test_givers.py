@@ -6,11 +6,11 @@ import pytest
 
 from app.errors import AppError
 from app.performance.ensemble import Performance
-from app.plan.corrections import RemoveEvent, SetCue
+from app.plan.by_hand.corrections import RemoveEvent, SetCue
 from app.project.edit.givers import hand_over, set_giver, set_takers
 from app.project.model import Project
 from tests.unit.project.pieces import small_project
-from widgets.timeline.model.entries import entry_arrows
+from widgets.timeline.model.roll.entries import entry_arrows
 
 TRUMPET, TROMBONE = "1.1.1", "2.1.1"
 

@@ -9,7 +9,7 @@ from app.errors import UsageError
 from app.project.edit.players import cast_parameters
 from app.project.model import Project, map_choices, project_from_score, with_settings
 from app.project.parameters import parse_settings
-from app.rig.character_library import bundled_characters
+from app.rig.characters.character_library import bundled_characters
 from app.score.model import Note, Part, Score
 from app.score.tempo import TempoChange, TempoMap
 from instrument_maps.load import bundled_maps

@@ -11,7 +11,7 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from app.errors import AppError
-from app.plan.corrections import PinFingering, RemoveEvent, SetBreath
+from app.plan.by_hand.corrections import PinFingering, RemoveEvent, SetBreath
 from app.plan.parameters import PlayerParameters
 from app.project.casting import StagePosition
 from app.project.edit import notes as edit

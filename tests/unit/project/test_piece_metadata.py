@@ -9,8 +9,8 @@ import msgspec
 import pytest
 
 from app.errors import FileError, MapError
-from app.plan.additive_curve import AdditiveCurve
-from app.plan.corrections import AddGesture, PinFingering, RemoveEvent, SetBreath
+from app.plan.by_hand.additive_curve import AdditiveCurve
+from app.plan.by_hand.corrections import AddGesture, PinFingering, RemoveEvent, SetBreath
 from app.project.edit.corrections import put
 from app.project.edit.piece import set_section_intensity
 from app.project.edit.players import rename, set_parameters

@@ -11,7 +11,7 @@ import msgspec
 import pytest
 
 from app.errors import UsageError
-from app.plan.corrections import (
+from app.plan.by_hand.corrections import (
     AddGesture,
     ChangeExpression,
     ChangeGesture,

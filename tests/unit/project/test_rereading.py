@@ -10,7 +10,7 @@ import mido
 import msgspec
 import pytest
 
-from app.plan.corrections import AddGesture, Correction, PinFingering, SetBreath, SetCue
+from app.plan.by_hand.corrections import AddGesture, Correction, PinFingering, SetBreath, SetCue
 from app.project.edit.corrections import put
 from app.project.edit.dynamics import set_dynamics
 from app.project.edit.players import remove_players, set_parameters

@@ -10,7 +10,7 @@ import msgspec
 import pytest
 
 from app.messages import LANGUAGES, text
-from app.plan.additive_curve import AdditiveCurve, CurveKey
+from app.plan.by_hand.additive_curve import AdditiveCurve, CurveKey
 from app.project.autosave import Autosave, autosave_path
 from app.project.check import faults
 from app.project.edit.piece import set_title

@@ -16,8 +16,8 @@ import pytest
 from app.encoding import shown
 from app.errors import FileError, Message
 from app.messages import error_text, text
-from app.plan.additive_curve import AdditiveCurve
-from app.plan.corrections import AddGesture, PlayStyle, SetCue
+from app.plan.by_hand.additive_curve import AdditiveCurve
+from app.plan.by_hand.corrections import AddGesture, PlayStyle, SetCue
 from app.plan.parameters import PARAMETERS, PlayerParameters
 from app.project.edit.body_dance import set_body_dance
 from app.project.edit.piece import set_audio

@@ -4,7 +4,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from app.rig import skeleton as fk
-from app.rig.character_library import bundled_characters, character_named
+from app.rig.characters.character_library import bundled_characters, character_named
 from app.rig.model import Skeleton
 
 

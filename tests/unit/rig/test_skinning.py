@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from app.rig import skinning
-from app.rig.character_library import bundled_characters, character_named
+from app.rig.characters.character_library import bundled_characters, character_named
 from app.rig.model import Character
 from app.rig.skeleton import JointTransforms, forward
 from tests.support.deformed import deform

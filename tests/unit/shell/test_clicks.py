@@ -17,7 +17,7 @@ NO_BUTTON = frozenset(
     (
         ("app/shell/palette.py", "self.list.clicked"),
         ("widgets/inspector/rows.py", "self.clicked"),
-        ("widgets/timeline/ruler_unit.py", "group.triggered"),
+        ("widgets/timeline/ruler/ruler_unit.py", "group.triggered"),
         ("widgets/timeline/tool_bar.py", "modes.triggered"),
     )
 )

@@ -25,8 +25,8 @@ from app.performance.ensemble import Performance
 from app.performance.live import LiveMotion
 from app.project.casting import StagePosition
 from app.project.model import map_choices, project_from_score
-from app.rig.character import load_character
-from app.rig.character_library import character_named, characters
+from app.rig.characters.character_library import character_named, characters
+from app.rig.characters.load_character import load_character
 from app.rig.figure import Figure, OwnSkeleton
 from app.rig.model import Character
 from app.rig.skeleton import forward

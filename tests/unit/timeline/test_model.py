@@ -24,9 +24,9 @@ from app.score.model import Note, Part, Score
 from app.score.tempo import TempoMap
 from widgets.timeline.model.gestures import Band, Step, either, moved_edge
 from widgets.timeline.model.hand import Box, LaneMouse, spanned
-from widgets.timeline.model.region import Region
-from widgets.timeline.model.regions import RegionTable, region_box
-from widgets.timeline.model.roll import edge_of, zoomed_pitches
+from widgets.timeline.model.regions.shown_event import Region
+from widgets.timeline.model.regions.shown_regions import RegionTable, region_box
+from widgets.timeline.model.roll.shown_notes import edge_of, zoomed_pitches
 from widgets.timeline.model.view import LEAST_SPAN_S, TimeView
 
 TPQ = 480

@@ -7,7 +7,7 @@ from functools import cache
 import numpy as np
 import pytest
 
-from app.rig.character_library import bundled_characters, character_named
+from app.rig.characters.character_library import bundled_characters, character_named
 from instrument_maps.load import bundled_maps
 from tests.support.models import bundled_instrument
 from widgets.viewport.geometry import (

@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 
 from app.performance.ensemble import Performance
-from app.plan.corrections import PoseCorrection
+from app.plan.by_hand.corrections import PoseCorrection
+from app.plan.by_hand.pose_corrections import pose_limits
 from app.plan.model import PoseTarget
-from app.plan.pose import pose_limits
 from instrument_maps.load import bundled_maps
 from metadata.load import load_body
 from tests.unit.viewport.poses import posed_stage, quartet

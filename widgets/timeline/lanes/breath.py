@@ -13,12 +13,12 @@ from app.plan.model import PlayerPlan
 from app.project.edit.events import toggle_preparation
 from widgets.common.clicks import on_click
 from widgets.common.event_names import kind_name
-from widgets.timeline.axis import TimeAxis
-from widgets.timeline.drawing import draw_mark, draw_text, shade
 from widgets.timeline.lane import LaneMouse
 from widgets.timeline.lanes.problems import ProblemMarks
 from widgets.timeline.lanes.regions import RegionLane
-from widgets.timeline.model.region import Region
+from widgets.timeline.model.regions.shown_event import Region
+from widgets.timeline.plot.drawing import draw_mark, draw_text, shade
+from widgets.timeline.plot.time_axis import TimeAxis
 
 PREPARATION_SHARE = 0.45
 """Height of a preparation, of the lane."""

@@ -21,12 +21,12 @@ from widgets.common.controls import named
 from widgets.common.menus import add_actions
 from widgets.common.plain import ComboBox, verbatim
 from widgets.common.text import message_text
-from widgets.timeline.axis import TimeAxis
-from widgets.timeline.drawing import draw_lines, draw_mark, draw_path, draw_rects, draw_text, shade, small_font
 from widgets.timeline.lane import Lane, LaneItem, LaneMouse
 from widgets.timeline.lanes.number_field import NumberField
 from widgets.timeline.model.curves import LIPS, DragController, DragCurve, Lips, controller_steps, lips, with_values
 from widgets.timeline.model.geometry import Floats, Steps, step_path
+from widgets.timeline.plot.drawing import draw_lines, draw_mark, draw_path, draw_rects, draw_text, shade, small_font
+from widgets.timeline.plot.time_axis import TimeAxis
 
 CONTROLLERS: Final[tuple[CurveKind, ...]] = ("breath", "bite", "expression", "volume", "aftertouch", "pitch_bend")
 MARGIN_PX = 4.0

@@ -13,10 +13,10 @@ from app.plan.model import Problem
 from widgets.common.controls import named
 from widgets.common.plain import Label
 from widgets.common.text import sentence
-from widgets.timeline.axis import TimeAxis
-from widgets.timeline.drawing import shade
 from widgets.timeline.lane import Lane, LaneItem, LaneMouse
 from widgets.timeline.model.geometry import Spans
+from widgets.timeline.plot.drawing import shade
+from widgets.timeline.plot.time_axis import TimeAxis
 
 MARK_PX = 11.0
 REACH_PX = 8.0

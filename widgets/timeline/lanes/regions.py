@@ -13,22 +13,29 @@ from PySide6.QtWidgets import QMenu, QWidget
 from app.editor.selection import EventKey, Selection
 from app.editor.session import Session
 from app.errors import Message
-from app.plan.corrections import RemoveEvent, kind_of
+from app.plan.by_hand.corrections import RemoveEvent, kind_of
 from app.plan.model import PlayerPlan
 from app.project.document import Change
 from app.project.edit.events import set_amounts
 from app.project.model import Project
 from widgets.common.menus import add_actions
 from widgets.common.text import message_text
-from widgets.timeline.axis import TimeAxis
-from widgets.timeline.drawing import MARK_PX, draw_mark, rect, shade, small_font
 from widgets.timeline.lane import Lane, LaneItem, LaneMouse
 from widgets.timeline.lanes.number_field import NumberField
 from widgets.timeline.model.gestures import snapped
 from widgets.timeline.model.hand import Box
-from widgets.timeline.model.region import Region, place_of
-from widgets.timeline.model.region_drag import RegionDrag
-from widgets.timeline.model.regions import GLYPH_PX, RegionTable, fade_handles, most_scrolled, region_box, row_box
+from widgets.timeline.model.regions.region_drag import RegionDrag
+from widgets.timeline.model.regions.shown_event import Region, place_of
+from widgets.timeline.model.regions.shown_regions import (
+    GLYPH_PX,
+    RegionTable,
+    fade_handles,
+    most_scrolled,
+    region_box,
+    row_box,
+)
+from widgets.timeline.plot.drawing import MARK_PX, draw_mark, rect, shade, small_font
+from widgets.timeline.plot.time_axis import TimeAxis
 
 STEP, FINE_STEP = 0.05, 0.01
 """What Up and Down add to an amount."""

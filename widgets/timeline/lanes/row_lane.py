@@ -6,8 +6,8 @@ from PySide6.QtCore import QRectF
 from PySide6.QtWidgets import QWidget
 
 from app.editor.session import Session
-from widgets.timeline.axis import TimeAxis
 from widgets.timeline.lane import Lane, LaneMouse
+from widgets.timeline.plot.time_axis import TimeAxis
 
 
 class RowLane(Lane):

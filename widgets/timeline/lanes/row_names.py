@@ -8,8 +8,8 @@ from PySide6.QtCore import QEvent, QObject, QRectF, Qt
 from PySide6.QtGui import QColor, QFontMetricsF, QPainter, QPaintEvent
 from PySide6.QtWidgets import QWidget
 
-from widgets.timeline.drawing import small_font
 from widgets.timeline.lane import Lane
+from widgets.timeline.plot.drawing import small_font
 
 TITLE_PX = 26.0
 """Height of the title, beside which there is little room."""

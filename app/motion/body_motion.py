@@ -1,0 +1,122 @@
+"""What the layers of a body sum to: the value that contacts are solved on."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, fields
+from typing import Any
+
+import numpy as np
+
+from app.motion.curves.curve import FloatArray
+from app.plan.by_hand.pose_corrections import NECK_SHARES, TRUNK_SHARES
+from metadata.model import Posture
+
+TRUNK = (*TRUNK_SHARES, *NECK_SHARES)
+_NONE_AT_REST = (
+    *("protraction_rad", "elbow_held_rad", "bell_held_rad", "hips_danced", "elbows_late_rad", "feet", "hands"),
+)
+
+
+@dataclass(frozen=True)
+class BodyMotion:
+    """What the layers sum to; every array is (F,) float64.
+
+    Attributes
+    ----------
+    forward_rad, left_rad, turn_rad : dict of str to array
+        Flexion, sideways lean and twist of each joint of trunk and neck.
+    hips_side_m, hips_ahead_m, hips_bob_m : array
+        Of the hips, to the left, ahead and down.
+    hips_roll_rad, hips_turn_rad, hips_forward_rad : array
+        Left, left and forward.
+    knee_rad : array
+        Bend added to both knees.
+    bell_rad, bell_cue_rad : array
+        Bell up, beside what the head does: with the melody, and to give a cue.
+    bell_down_rad, bell_right_rad : array
+        Bell towards a far hand; what the contacts ask for.
+    bell_held_rad : dict of str to array
+        What the animator adds to the instrument's ``pitch`` (bell up), ``yaw`` and ``roll`` (left); empty: nothing.
+    shoulders_rad : array
+        Both shoulders up.
+    elbows_rad : array
+        Both elbows out.
+    eyes_yaw_rad, eyes_pitch_rad : array
+        Of the eyes in the head: left, down.
+    lowered : array
+        0 with the instrument at the lips, 1 with it lowered.
+    steadied : array
+        How far the head stays over its place while the trunk turns for a far hand, 0..1.
+    protraction_rad : dict of str to array
+        Each shoulder forwards, by side; what the contacts ask for.
+    elbow_held_rad : dict of str to array
+        How far the animator turns each elbow out, by side; empty: not at all.
+    hips_danced : dict of str to array
+        What a dance adds to the hips (`app.motion.gestures.dance_layer`): ``ahead_m``, ``forward_rad`` and ``ease_m``,
+        by how much more the hand-over from leg to leg is rounded; empty: no one dances.
+    elbows_late_rad : dict of str to array
+        ``forward``, ``turn`` and ``left``: how far the elbows are from where the chest has them; empty: not at all.
+    feet : dict of str to array
+        What feet do that do not stand (`app.motion.gestures.feet.feet_moved`); empty: they stand.
+    hands : dict of str to array
+        Where hands are that leave the instrument (`app.motion.gestures.hand_gestures.reached`); empty: they stay.
+    """
+
+    forward_rad: dict[str, FloatArray]
+    left_rad: dict[str, FloatArray]
+    turn_rad: dict[str, FloatArray]
+    hips_side_m: FloatArray
+    hips_ahead_m: FloatArray
+    hips_bob_m: FloatArray
+    hips_roll_rad: FloatArray
+    hips_turn_rad: FloatArray
+    hips_forward_rad: FloatArray
+    knee_rad: FloatArray
+    bell_rad: FloatArray
+    bell_cue_rad: FloatArray
+    bell_down_rad: FloatArray
+    bell_right_rad: FloatArray
+    bell_held_rad: dict[str, FloatArray]
+    shoulders_rad: FloatArray
+    elbows_rad: FloatArray
+    eyes_yaw_rad: FloatArray
+    eyes_pitch_rad: FloatArray
+    lowered: FloatArray
+    steadied: FloatArray
+    protraction_rad: dict[str, FloatArray]
+    elbow_held_rad: dict[str, FloatArray]
+    hips_danced: dict[str, FloatArray]
+    elbows_late_rad: dict[str, FloatArray]
+    feet: dict[str, FloatArray]
+    hands: dict[str, FloatArray]
+
+    def __getitem__(self, frames: slice) -> BodyMotion:
+        """The same motion in some of its frames."""
+        return self._each(lambda values: values[frames])
+
+    def for_frames(self, frames: int) -> BodyMotion:
+        """One frame's motion, as many times."""
+        return self._each(lambda values: np.tile(values, frames))
+
+    def _each(self, made: Callable[[FloatArray], FloatArray]) -> BodyMotion:
+        result: dict[str, Any] = {}
+        for member in fields(self):
+            value = getattr(self, member.name)
+            if isinstance(value, dict):
+                result[member.name] = {joint: made(angles) for joint, angles in value.items()}
+            else:
+                result[member.name] = made(value)
+        return BodyMotion(**result)
+
+    @classmethod
+    def still(cls, posture: Posture) -> BodyMotion:
+        """One frame of the posture before any motion."""
+        zero = np.zeros(1)
+        held, left, turned = (
+            {joint: np.array([np.deg2rad(angles.get(joint, 0.0))]) for joint in TRUNK}
+            for angles in (posture.spine_deg, posture.spine_left_deg, posture.spine_turn_deg)
+        )
+        rest: dict[str, Any] = {member.name: zero for member in fields(cls)}
+        empty: dict[str, Any] = {name: {} for name in _NONE_AT_REST}
+        return cls(**(rest | {"forward_rad": held, "left_rad": left, "turn_rad": turned} | empty))

@@ -1,0 +1,69 @@
+"""Breaths that show whatever else the body does: where a nod or a lean takes the trunk forward while a player breathes
+in, the trunk leans back further.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Final
+
+import numpy as np
+
+from app.motion.curves.curve import Curve, Envelopes, FloatArray
+from app.plan.model import BreathEvent
+
+SHOWN: Final = 0.8
+"""Least share of a breath's own lean that the trunk goes back by."""
+LOOKED_AT: Final = (0.5, 0.625, 0.75, 0.875, 0.97)
+"""Shares of a breath at which the trunk may be farthest back: in its second half, as the lungs fill."""
+LEAST_RAD: Final = 1e-4
+"""A smaller lean is none: nothing of it is shown."""
+BACK_S: Final = 0.6
+"""The trunk is back where it would be within this time after the breath, ..."""
+LEAST_BACK_S: Final = 0.15
+"""... or by the next breath, but no sooner than this."""
+
+
+def leaning_further(
+    breaths: Sequence[BreathEvent], full: Curve, torso_rad: Callable[[FloatArray], tuple[FloatArray, FloatArray]]
+) -> Envelopes:
+    """How much fuller the lungs look to the trunk, so that each breath shows; in units of ``full``.
+
+    Parameters
+    ----------
+    breaths : sequence of BreathEvent
+    full : Curve
+        How full the lungs look by themselves.
+    torso_rad : callable
+        Lean of the torso forward (F,), radians, at ascending times (F,): without what breaths do, and with it.
+    """
+    drawn = sorted(
+        (event for event in breaths if event.kind == "breath" and event.end_s > event.start_s),
+        key=lambda event: event.start_s,
+    )
+    if not drawn:
+        return Envelopes.of(())
+    start_s, end_s = (np.array(column) for column in zip(*((one.start_s, one.end_s) for one in drawn), strict=True))
+    moments_s = start_s[:, None] + (end_s - start_s)[:, None] * np.array((0.0, *LOOKED_AT))
+    ascending_s, places = np.unique(moments_s, return_inverse=True)
+    places = places.reshape(moments_s.shape)
+    without, with_breath = torso_rad(ascending_s)
+    own = _rise((without - with_breath)[places])
+    back = _rise(-with_breath[places])
+    farthest = back.argmax(axis=1)
+    missing = SHOWN * own.max(axis=1) - back.max(axis=1)
+    level = _rise(full.sample(ascending_s)[places]).max(axis=1)
+    rows = []
+    for index in np.flatnonzero((missing > 0.0) & (own.max(axis=1) > LEAST_RAD)).tolist():
+        next_s = start_s[index + 1] if index + 1 < len(drawn) else np.inf
+        until_s = max(end_s[index] + LEAST_BACK_S, min(end_s[index] + BACK_S, next_s))
+        height = missing[index] * level[index] / own[index].max()
+        top_s = moments_s[index, 1 + farthest[index]]
+        rows.append((start_s[index], top_s, end_s[index], until_s, height))
+    return Envelopes.of(rows)
+
+
+def _rise(values: FloatArray) -> FloatArray:
+    """Change (N, M) of values (N, 1 + M) since the first of each row."""
+    change: FloatArray = values[:, 1:] - values[:, :1]
+    return change

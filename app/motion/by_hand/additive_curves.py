@@ -1,0 +1,162 @@
+"""The animator's curves, added to all layers of body and face before any contact is solved.
+
+Curves of one channel add up; together they stop softly where the channel ends.
+"""
+
+from __future__ import annotations
+
+import zlib
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Final
+
+import numpy as np
+
+from app.motion.body_motion import BodyMotion
+from app.motion.by_hand.pose_corrections import Offset, within
+from app.motion.curves.curve import FloatArray, rows_changed_s
+from app.plan.by_hand.additive_curve import CHANNELS, FACE
+from app.plan.by_hand.additive_events import POSED
+from app.plan.by_hand.bezier import COLUMNS, rows, sampled_rows
+from app.plan.model import AdditiveEvent, PoseTarget
+from metadata.model import Body
+
+_NUMBERS: Final = {name: float(number) for number, name in enumerate(CHANNELS)}
+OF_LIPS: Final = ("mouth", "jaw", "tongue", "cheekPuff")
+"""How the names of morph targets begin that belong to the embouchure while the instrument is at the lips."""
+
+
+@dataclass(frozen=True)
+class Added:
+    """What is added to a channel: values (F,), and how far they go at most; radians, metres or weights."""
+
+    values: FloatArray
+    low: float
+    high: float
+
+    def beside(self, other: FloatArray | float) -> FloatArray:
+        """The values as far as there is room beside another offset of the channel."""
+        return within(self.values, self.high - other, other - self.low)
+
+
+@dataclass(frozen=True, eq=False)
+class Additive:
+    """All additive curves of a player.
+
+    Attributes
+    ----------
+    events : tuple of AdditiveEvent
+        Ordered by start.
+    tables : tuple of (S, 9) array
+        The segments of each.
+    """
+
+    events: tuple[AdditiveEvent, ...]
+    tables: tuple[FloatArray, ...]
+
+    @classmethod
+    def of(cls, events: Sequence[AdditiveEvent]) -> Additive:
+        """From a plan's events."""
+        return cls(tuple(events), tuple(rows(event.segments) for event in events))
+
+    def sample(self, times_s: FloatArray) -> dict[str, Added]:
+        """What is added at any times, by channel, to those that have a curve anywhere: so the same frame is made in
+        the same way in every span."""
+        sums: dict[str, Added] = {}
+        for event, table in zip(self.events, self.tables, strict=True):
+            size = float(np.deg2rad(1.0)) if CHANNELS[event.channel].unit == "deg" else 1.0
+            values = size * sampled_rows(table, times_s)
+            known = sums.get(event.channel)
+            if known is not None:
+                values = known.values + values
+            sums[event.channel] = Added(values, size * event.low, size * event.high)
+        return sums
+
+    def changed_s(self, other: Additive) -> FloatArray:
+        """Spans (K, 2) outside of which both have the very same values."""
+        mine, others = self._rows, other._rows
+        return rows_changed_s(mine, others, mine[:, :2], others[:, :2])
+
+    @property
+    def _rows(self) -> FloatArray:
+        """Every segment, with whose it is."""
+        found = [np.zeros((0, COLUMNS + 4))]
+        for event, table in zip(self.events, self.tables, strict=True):
+            whose = (_NUMBERS[event.channel], float(zlib.crc32(event.id.encode())), event.low, event.high)
+            found.append(np.concatenate((table, np.tile(whose, (len(table), 1))), axis=1))
+        return np.concatenate(found)
+
+
+NOTHING: Final = Additive.of(())
+
+
+def with_held(held: Mapping[PoseTarget, Offset], added: Mapping[str, Added]) -> dict[PoseTarget, Offset]:
+    """What the animator holds differently, with the curves of the same targets as far as there is room."""
+    result = dict(held)
+    for channel, more in added.items():
+        if channel not in POSED:
+            continue
+        target, angle = POSED[channel]
+        zero = np.zeros(len(more.values))
+        offset = result.get(target, Offset(zero, zero, zero))
+        name = angle.removesuffix("_deg")
+        own: FloatArray = getattr(offset, name)
+        result[target] = replace(offset, **{name: own + more.beside(own)})
+    return result
+
+
+def with_added(motion: BodyMotion, added: Mapping[str, Added], body: Body, knee_rad: float) -> BodyMotion:
+    """The body with the curves of hips, knees, shoulders and eyes; ``knee_rad`` is how far knees are bent at rest."""
+    changes: dict[str, object] = {}
+    for channel, more in added.items():
+        part, _, what = channel.partition(".")
+        match part, what:
+            case "hips", "left":
+                changes["hips_side_m"] = motion.hips_side_m + more.beside(0.0)
+            case "hips", "ahead":
+                changes["hips_ahead_m"] = motion.hips_ahead_m + more.beside(0.0)
+            case "hips", "tilt":
+                changes["hips_forward_rad"] = motion.hips_forward_rad + more.beside(0.0)
+            case "hips", "roll":
+                changes["hips_roll_rad"] = motion.hips_roll_rad + more.beside(0.0)
+            case "hips", "up":
+                # Legs that are nearly straight become no longer: upwards there is only what the body has sunk.
+                sunk = np.clip(motion.hips_bob_m, 0.0, more.high)
+                changes["hips_bob_m"] = motion.hips_bob_m - np.minimum(within(more.values, sunk, -more.low), sunk)
+            case "knees", _:
+                room = motion.knee_rad + knee_rad
+                bent = within(more.values, more.high, np.minimum(room, -more.low))
+                changes["knee_rad"] = motion.knee_rad + bent
+            case "shoulders", _:
+                lifted = motion.shoulders_rad
+                changes["shoulders_rad"] = lifted + more.beside(lifted)
+            case "eyes", "left":
+                changes["eyes_yaw_rad"] = _looked(motion.eyes_yaw_rad, more.beside(0.0), body.limits["eye"].twist_deg)
+            case "eyes", _:
+                changes["eyes_pitch_rad"] = _looked(
+                    motion.eyes_pitch_rad, -more.beside(0.0), body.limits["eye"].flexion_deg
+                )
+    return replace(motion, **changes) if changes else motion  # type: ignore[arg-type]
+
+
+def _looked(angle: FloatArray, offset: FloatArray, limit_deg: tuple[float, float]) -> FloatArray:
+    low, high = np.deg2rad(limit_deg)
+    return angle + within(offset, high - angle, angle - low)
+
+
+def with_added_morphs(
+    morphs: dict[str, FloatArray], added: Mapping[str, Added], at_lips: FloatArray
+) -> dict[str, FloatArray]:
+    """The face with the curves of its morph targets.
+
+    Those of the lips and the jaw hold the mouthpiece while it is played: there a curve of theirs has no say, as far as
+    ``at_lips`` (F,) 0..1 says.
+    """
+    result = dict(morphs)
+    for channel, more in added.items():
+        if not channel.startswith(FACE):
+            continue
+        name = channel.removeprefix(FACE)
+        values = more.values * (1.0 - at_lips) if name.startswith(OF_LIPS) else more.values
+        result[name] = np.clip(result.get(name, np.zeros(len(at_lips))) + values, 0.0, 1.0)
+    return result

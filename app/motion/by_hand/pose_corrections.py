@@ -1,0 +1,112 @@
+"""What the animator holds differently, added to the layers of the body before any contact is solved.
+
+Offsets come in and go smoothly, may lie over one another, and stop softly where a joint's range ends.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from app.motion.curves.curve import Envelopes, FloatArray, rows_changed_s
+from app.plan.by_hand.pose_corrections import BELL_LEFT, BELL_UP, NECK_SHARES, TRUNK_SHARES
+from app.plan.model import PoseEvent, PoseTarget
+from metadata.model import Body
+
+LEAST_ROOM_RAD = 1e-3
+_COLUMNS: tuple[PoseTarget, ...] = ("bell", "head", "left_elbow", "right_elbow", "torso")
+
+
+@dataclass(frozen=True)
+class Offset:
+    """Angles (F,) up, to the left and of roll, radians; see `app.plan.by_hand.corrections.PoseCorrection`."""
+
+    up: FloatArray
+    left: FloatArray
+    roll: FloatArray
+
+
+@dataclass(frozen=True, eq=False)
+class Poses:
+    """All pose corrections of a player, a row for each.
+
+    Attributes
+    ----------
+    targets : (N,) int64
+        Place in the list of targets.
+    times_s : (N, 4) float64
+        When the offset begins to come, is whole, begins to go and is gone.
+    angles_rad : (N, 3) float64
+        Up, left, roll.
+    """
+
+    targets: FloatArray
+    times_s: FloatArray
+    angles_rad: FloatArray
+
+    @classmethod
+    def of(cls, events: Sequence[PoseEvent]) -> Poses:
+        """From a plan's events."""
+        times_s = [
+            (event.start_s - event.fade_in_s, event.start_s, event.end_s, event.end_s + event.fade_out_s)
+            for event in events
+        ]
+        angles_deg = [(event.up_deg, event.left_deg, event.roll_deg) for event in events]
+        return cls(
+            np.array([_COLUMNS.index(event.target) for event in events], dtype=np.float64),
+            np.array(times_s, dtype=np.float64).reshape(-1, 4),
+            np.deg2rad(np.array(angles_deg, dtype=np.float64).reshape(-1, 3)),
+        )
+
+    def sample(self, times_s: FloatArray) -> dict[PoseTarget, Offset]:
+        """Offsets at ascending times, of the targets that have any."""
+        sums: dict[PoseTarget, FloatArray] = {}
+        for target, span_s, angle_rad in zip(self.targets, self.times_s, self.angles_rad, strict=True):
+            total = sums.setdefault(_COLUMNS[int(target)], np.zeros((3, len(times_s))))
+            total += angle_rad[:, None] * Envelopes.of([(*span_s.tolist(), 1.0)]).sample(times_s)
+        return {target: Offset(*total) for target, total in sums.items()}
+
+    def changed_s(self, other: Poses) -> FloatArray:
+        """Spans (K, 2) outside of which both have the very same values."""
+        mine, others = self._rows, other._rows
+        return rows_changed_s(mine, others, mine[:, [1, 4]], others[:, [1, 4]])
+
+    @property
+    def _rows(self) -> FloatArray:
+        return np.concatenate((self.targets[:, None], self.times_s, self.angles_rad), axis=1)
+
+
+def within(offset: FloatArray, room_above: FloatArray | float, room_below: FloatArray | float) -> FloatArray:
+    """An offset that stops softly where its room ends: nearly all of it up to half of the room."""
+    room = np.maximum(np.where(offset >= 0.0, room_above, room_below), LEAST_ROOM_RAD)
+    held: FloatArray = offset / np.power(1.0 + np.power(offset / room, 4), 0.25)
+    return held
+
+
+def hold_body(
+    offsets: dict[PoseTarget, Offset],
+    body: Body,
+    forward_rad: dict[str, FloatArray],
+    left_rad: dict[str, FloatArray],
+    turn_rad: dict[str, FloatArray],
+) -> None:
+    """Add what trunk and neck do of the offsets to the angles of their joints, within the joints' ranges."""
+    torso, head, bell = offsets.get("torso"), offsets.get("head"), offsets.get("bell")
+    for shares, own, part in ((TRUNK_SHARES, torso, "trunk"), (NECK_SHARES, head, "neck")):
+        if own is None and bell is None:
+            continue
+        zero = np.zeros(len(next(iter(forward_rad.values()))))
+        up, left, roll = (zero, zero, zero) if own is None else (own.up, own.left, own.roll)
+        if bell is not None:
+            up, left = up + BELL_UP[part] * bell.up, left + BELL_LEFT[part] * bell.left
+        for joint, share in shares.items():
+            limits = body.limits[joint]
+            for angles, offset, limit in (
+                (forward_rad, -up, limits.flexion_deg),
+                (turn_rad, left, limits.twist_deg),
+                (left_rad, roll, limits.sideways_deg),
+            ):
+                low, high = np.deg2rad(limit)
+                angles[joint] = angles[joint] + within(share * offset, high - angles[joint], angles[joint] - low)

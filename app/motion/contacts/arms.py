@@ -1,0 +1,156 @@
+"""Arms: from the shoulders to hands that are where the hold puts them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from app.motion.body_motion import BodyMotion
+from app.motion.contacts.carried_instrument import Carried
+from app.motion.contacts.hands_away import Away
+from app.motion.contacts.help_for_far_hands import clavicle_of, forwards_axis
+from app.motion.contacts.trunk_and_legs import Side, Trunk, exact_target
+from app.motion.contacts.wrists import Wrist
+from app.motion.curves.curve import FloatArray
+from app.rig import quaternion
+from app.rig.grip.grip_pose import GripPose, HandHold, Placed, hand_targets
+from app.rig.ik import Limb, LimbPose, arm, end_of, solve_limb, swivelled
+from app.rig.model import Skeleton
+
+Z_AXIS = np.array([0.0, 0.0, 1.0])
+
+HANGS_RAD = 1.25
+"""How far an arm that holds nothing is down from the T-pose."""
+ELBOW_OUT = 1.8
+"""The elbow goes out by this multiple of the angle its shoulder comes forwards, so that the wrist stays straighter."""
+
+
+@dataclass(frozen=True)
+class Shoulder:
+    """A shoulder as chest and clavicle carry it.
+
+    Attributes
+    ----------
+    moved : (F, 4) float64
+        The clavicle in the chest's frame ...
+    clavicle : (F, 4) float64
+        ... and in the world.
+    joint_m : (F, 3) float64
+        The shoulder joint, where the arm begins.
+    """
+
+    moved: FloatArray
+    clavicle: FloatArray
+    joint_m: FloatArray
+
+
+def shoulder(skeleton: Skeleton, side: Side, body: Trunk, motion: BodyMotion) -> Shoulder:
+    """Where a shoulder is."""
+    sign = 1.0 if side == "left" else -1.0
+    joint, reaches_m = clavicle_of(skeleton, side)
+    moved = quaternion.multiply(
+        quaternion.from_axis_angle(Z_AXIS, sign * motion.shoulders_rad),
+        quaternion.from_axis_angle(forwards_axis(skeleton, side), motion.protraction_rad[side]),
+    )
+    clavicle = quaternion.multiply(body.chest, moved)
+    begins_m = body.chest_m + quaternion.rotate(body.chest, skeleton.offsets_m[joint])
+    return Shoulder(moved, clavicle, begins_m + quaternion.rotate(clavicle, reaches_m))
+
+
+def solve_arms(
+    skeleton: Skeleton,
+    hold: GripPose,
+    body: Trunk,
+    base: Trunk,
+    motion: BodyMotion,
+    carried: Carried,
+    controls: Mapping[str, FloatArray],
+    placed: Mapping[str, Placed],
+    wrists: Mapping[Side, Wrist],
+    swung: FloatArray | None = None,
+    away: Away | None = None,
+) -> dict[int, FloatArray]:
+    """Rotations of clavicles, arms and hands, by joint; ``swung`` (F, 4) is how far elbows go with arms that swing."""
+    rotations: dict[int, FloatArray] = {}
+    with_chest = quaternion.multiply(body.chest, quaternion.conjugate(base.chest))
+    for hand in hold.hands:
+        targets = hand_targets(hand, carried.position_m, carried.rotation, controls, placed)
+        turned = with_chest if swung is None else quaternion.multiply(swung, with_chest)
+        freely = None
+        if away is not None:
+            targets, freely = away.targets(hand.side, *targets), away.elbows.get(hand.side)
+        rotations |= _solve_arm(skeleton, hand, body, turned, motion, *targets, wrists[hand.side], freely)
+    for side, sign in (("left", -1.0), ("right", 1.0)):
+        if all(hand.side != side for hand in hold.hands):
+            hangs = quaternion.from_axis_angle(np.array([0.0, 0.0, 1.0]), sign * HANGS_RAD)
+            rotations[skeleton.index(f"{side}UpperArm")] = np.tile(hangs, (len(with_chest), 1))
+    return rotations
+
+
+def _solve_arm(
+    skeleton: Skeleton,
+    hand: HandHold,
+    body: Trunk,
+    with_chest: FloatArray,
+    motion: BodyMotion,
+    target_m: FloatArray,
+    target_rotation: FloatArray,
+    wrist: Wrist,
+    freely: tuple[FloatArray, FloatArray] | None = None,
+) -> dict[int, FloatArray]:
+    side = hand.side
+    limb = arm(skeleton, side)
+    sign = 1.0 if side == "left" else -1.0
+    held = shoulder(skeleton, side, body, motion)
+    root_m = held.joint_m
+    out = sign * np.tan(motion.elbows_rad + ELBOW_OUT * motion.protraction_rad[side])
+    aside, up, ahead = hand.elbow_direction
+    pole = quaternion.rotate(with_chest, quaternion.columns(aside + out, up, ahead))
+    line = target_m - root_m
+    line /= np.sqrt(quaternion.dot(line, line))[:, None]
+    if side in motion.elbow_held_rad:
+        pole = quaternion.rotate(quaternion.from_axis_angle(line, sign * motion.elbow_held_rad[side]), pole)
+    if freely is not None:
+        share, elbow = freely
+        pole = pole + share[:, None] * (quaternion.rotate(body.chest, elbow) - pole)
+    if hand.motion is not None:
+        target_m = exact_target(limb, root_m, target_m)
+    pose = solve_limb(limb, root_m, held.clavicle, target_m, target_rotation, pole)
+    aside_rad = wrist.aside_rad(pose.end)
+    beyond_rad = wrist.beyond_rad(aside_rad)
+    bent = np.flatnonzero(beyond_rad)
+    if len(bent):
+        _relieve(wrist, limb, pose, bent, (aside_rad, beyond_rad), line, held.clavicle, target_rotation)
+    joint, _ = clavicle_of(skeleton, side)
+    return {joint: held.moved, limb.upper: pose.upper, limb.lower: pose.lower, limb.end: pose.end}
+
+
+def _relieve(
+    wrist: Wrist,
+    limb: Limb,
+    pose: LimbPose,
+    bent: npt.NDArray[np.intp],
+    angles_rad: tuple[FloatArray, FloatArray],
+    line: FloatArray,
+    clavicle: FloatArray,
+    target_rotation: FloatArray,
+) -> None:
+    """Turn the arms of a pose in which a wrist is ``bent`` too far about the line from shoulder to hand."""
+    bones = pose.bones[0][bent], pose.bones[1][bent]
+    there = LimbPose(pose.upper[bent], pose.lower[bent], pose.end[bent], pose.miss_m[bent], bones)
+    axis, target = line[bent], target_rotation[bent]
+
+    def aside_at(turn_rad: FloatArray) -> FloatArray:
+        turned = quaternion.multiply(quaternion.from_axis_angle(axis, turn_rad), there.bones[1])
+        return wrist.aside_rad(end_of(limb, turned, target))
+
+    aside_rad, beyond_rad = angles_rad
+    turn_rad = wrist.relief_rad(aside_rad[bent], beyond_rad[bent], aside_at)
+    turn = quaternion.from_axis_angle(axis, turn_rad)
+    relieved = swivelled(limb, there, turn, clavicle[bent], target)
+    for own, turned in ((pose.upper, relieved.upper), (pose.lower, relieved.lower), (pose.end, relieved.end)):
+        # Of the two quaternions of a rotation the one near to where it was: no frame flips.
+        own[bent] = np.where(quaternion.dot(own[bent], turned)[:, None] < 0.0, -turned, turned)

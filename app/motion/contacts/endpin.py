@@ -1,0 +1,85 @@
+"""What stands on the floor by its endpin: the tip stays where it is put, and the instrument turns about it.
+
+Lips and tip are the two ends it is held by. A pin keeps its length and lets the player move about it; a body that moves
+as this one does would tear the mouthpiece from its lips by some millimetres, so the pin gives way by these.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+import numpy.typing as npt
+
+from app.motion.body_motion import BodyMotion
+from app.motion.contacts.carried_instrument import Carried, attitude, held_angles
+from app.motion.curves.curve import FloatArray
+from app.rig import quaternion
+from instrument_maps.model import Carriage, Endpin
+
+UPRIGHT = 0.5
+"""A pin that points less down than this (the cosine) is not what an instrument stands on."""
+
+
+@dataclass(frozen=True)
+class Stand:
+    """An instrument on its pin.
+
+    ``lips_m`` (1, 3) is where its mouthpiece is before any motion: what the tip's place on the floor follows from.
+    """
+
+    endpin: Endpin
+    carriage: Carriage
+    lips_m: FloatArray
+
+    @classmethod
+    def of(cls, endpin: Endpin, carriage: Carriage, usual: Carried) -> Stand | None:
+        """An instrument that is usually carried there on its pin; None where that does not reach the floor."""
+        needed_m, down = _needed(endpin, usual.position_m, usual.rotation)
+        stands = down[0] > UPRIGHT and needed_m[0] <= endpin.most_m
+        return cls(endpin, carriage, usual.position_m) if stands else None
+
+    def stood(self, carried: Carried, motion: BodyMotion) -> Carried:
+        """The instrument where it is carried, swung about the mouthpiece until its pin is over the tip's place."""
+        # Where an animator turns the instrument, its tip goes: melody and cues move no one's pin.
+        pitch, yaw, roll = held_angles(self.carriage, replace(motion, bell_rad=np.zeros_like(motion.bell_rad)))
+        still = attitude(pitch, np.asarray(yaw), roll)
+        drawn_m, _ = _needed(self.endpin, self.lips_m, still)
+        place_m = self.lips_m + quaternion.rotate(still, self._tip_m(drawn_m))
+        requested_m = place_m - carried.position_m
+        tip_m, axis = np.asarray(self.endpin.tip_m), np.asarray(self.endpin.axis)
+        # How far the pin has to come out to be as far from the lips as that place: |tip + out * axis| = distance.
+        along = float(tip_m @ axis)
+        out_m = np.sqrt(np.maximum((requested_m**2).sum(axis=1) - float(tip_m @ tip_m) + along**2, 0.0)) - along
+        pointing_m = quaternion.rotate(carried.rotation, self._tip_m(out_m))
+        swung = quaternion.between(_unit(pointing_m), _unit(requested_m))
+        return Carried(carried.position_m, quaternion.multiply(swung, carried.rotation))
+
+    def drawn_out(self, position_m: npt.NDArray[np.floating], rotation: npt.NDArray[np.floating]) -> FloatArray:
+        """How far the pin is drawn out, (F,) of 0..1, so that its tip is on the floor, or as near to it as it can be.
+
+        Parameters
+        ----------
+        position_m, rotation : (F, 3) and (F, 4)
+            ``world_from_instrument``; the floor is at height 0.
+        """
+        return np.clip(_needed(self.endpin, position_m, rotation)[0] / self.endpin.most_m, 0.0, 1.0)
+
+    def _tip_m(self, out_m: FloatArray) -> FloatArray:
+        tip_m: FloatArray = np.asarray(self.endpin.tip_m) + np.multiply.outer(out_m, np.asarray(self.endpin.axis))
+        return tip_m
+
+
+def _unit(vectors: FloatArray) -> FloatArray:
+    result: FloatArray = vectors / np.linalg.norm(vectors, axis=-1, keepdims=True)
+    return result
+
+
+def _needed(
+    endpin: Endpin, position_m: npt.NDArray[np.floating], rotation: npt.NDArray[np.floating]
+) -> tuple[FloatArray, FloatArray]:
+    """How far a pin has to come out to touch the floor, metres (F,), and how much it points down (F,)."""
+    turn = np.asarray(rotation, np.float64)
+    tip_y = np.asarray(position_m, np.float64)[:, 1] + quaternion.rotate(turn, np.asarray(endpin.tip_m))[:, 1]
+    down: FloatArray = -quaternion.rotate(turn, np.asarray(endpin.axis))[:, 1]
+    return tip_y / np.maximum(down, UPRIGHT), down

@@ -1,0 +1,73 @@
+"""The hand that closes the bell for stopped notes: its palm is there before the first of a passage, and back after the
+last.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Final
+
+import numpy as np
+
+from app.motion.contacts.carried_instrument import Carried
+from app.motion.contacts.hands_away import Shift
+from app.motion.curves.curve import Envelopes, FloatArray
+from app.plan.model import MuteEvent
+from app.rig import quaternion
+from app.rig.grip.grip_pose import GripPose
+from app.rig.model import Skeleton
+from instrument_maps.model import Stopped
+
+STOPPING: Final = "stopping"
+"""Its share among what hands do (`app.motion.gestures.body_layers.BodyMotion.hands`)."""
+FINGERS_KEPT: Final = ("index", "middle", "ring", "little")
+"""They lie on the wall of the bell whatever the palm does."""
+CLOSES_S: Final = 0.28
+"""The hand closes and opens the bell in this time."""
+READY_S: Final = 0.03
+"""It is in place so long before the first note of a passage."""
+
+
+def stopping(mutes: Sequence[MuteEvent], stopped: Stopped | None) -> Envelopes:
+    """How far the hand closes the bell, 0..1."""
+    if stopped is None:
+        return Envelopes.of(())
+    return Envelopes.of(
+        [
+            (event.start_s - READY_S - CLOSES_S, event.start_s - READY_S, event.end_s, event.end_s + CLOSES_S, 1.0)
+            for event in mutes
+            if event.kind == "stopped"
+        ]
+    )
+
+
+def shifted(skeleton: Skeleton, stopped: Stopped, share: FloatArray, carried: Carried) -> Shift:
+    """How a wrist leaves its grip for shares (F,) of the whole way: the palm turns about the knuckles."""
+    turned_rad = quaternion.rotate(carried.rotation, np.deg2rad(np.asarray(stopped.turned_deg)))
+    # About the first finger's knuckle, which is held against the wall.
+    knuckle_m = next((skeleton.offsets_m[joint] for joint in _knuckles(skeleton, stopped)), np.zeros(3))
+    return Shift(quaternion.from_rotation_vector(share[:, None] * turned_rad), knuckle_m)
+
+
+def with_fingers_kept(
+    skeleton: Skeleton, hold: GripPose, stopped: Stopped, share: FloatArray, rotations: FloatArray
+) -> FloatArray:
+    """Rotations (F, joints, 4) of `GripPose.finger_joints` with the fingers on the bell's wall as before, whatever the
+    palm does."""
+    (hand,) = (one for one in hold.hands if one.side == stopped.hand)
+    # The palm's turn seen from the hand.
+    turned = quaternion.conjugate(hand.instrument_from_hand_rotation[0])
+    back_rad = quaternion.rotate(turned, -np.deg2rad(np.asarray(stopped.turned_deg)))
+    back = quaternion.from_rotation_vector(share[:, None] * back_rad)
+    joints = list(hold.finger_joints)
+    for joint in _knuckles(skeleton, stopped):
+        if joint in joints:
+            column = joints.index(joint)
+            rotations[:, column] = quaternion.multiply(back, rotations[:, column])
+    return rotations
+
+
+def _knuckles(skeleton: Skeleton, stopped: Stopped) -> list[int]:
+    """Joints at which the fingers, but for the thumb, leave the palm."""
+    names = [f"{stopped.hand}{finger.title()}Proximal" for finger in FINGERS_KEPT]
+    return [skeleton.index(name) for name in names if name in skeleton.names]

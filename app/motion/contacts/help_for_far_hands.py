@@ -1,0 +1,185 @@
+"""How a body helps far hands: shoulders come forwards, the trunk turns, at last head and instrument give way."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+
+from app.motion.contacts.carried_instrument import Carried
+from app.motion.contacts.hands_away import Away
+from app.motion.contacts.trunk_and_legs import Side, Trunk
+from app.motion.curves.curve import FloatArray
+from app.motion.curves.soft_bounds import softly_capped, softly_over
+from app.rig import quaternion
+from app.rig.grip.grip_pose import GripPose, Placed, hand_targets
+from app.rig.ik import arm
+from app.rig.model import Skeleton
+
+Z_AXIS = np.array([0.0, 0.0, 1.0])
+
+AT_EASE = 0.985
+"""Share of its length an arm reaches without help from the shoulder."""
+STRETCHED = 0.985
+"""The same, of an arm that is stretched for the farthest places."""
+NEAREST = 0.33
+"""A hand is kept at least this share of the arm's length away (the elbow bent by 141 degrees)."""
+EASE_M = 0.008
+LEAST_M = 1e-6
+"""The shoulder's help sets in over about this distance."""
+CLAVICLE_RAD = float(np.deg2rad(28.0))
+"""Most the shoulder comes towards a far hand."""
+TURN_RAD = float(np.deg2rad(50.0))
+"""Most hips and trunk turn for a far hand."""
+FOLLOWS_RAD, TURNS_ALONG_RAD = float(np.deg2rad(4.5)), float(np.deg2rad(2.5))
+"""Clavicle and trunk go along with a hand that its control takes out and back, long before its arm is stretched."""
+
+
+@dataclass(frozen=True)
+class Help:
+    """What trunk and shoulders must add so that both hands are reached.
+
+    Attributes
+    ----------
+    turn_rad : (F,) float64
+        Of the trunk, left positive.
+    short_m : (F,) float64
+        How far the hand still is beyond what its arm reaches then.
+    protraction_rad : dict of side to (F,) float64
+        Of each clavicle, forwards.
+    most_turn_rad, most_protraction_rad : dict of side to (F,) float64
+        What leaves each hand at least `NEAREST` of its arm's length away: help that comes early or stays late must
+        not push a shoulder into a near hand.
+    """
+
+    turn_rad: FloatArray
+    short_m: FloatArray
+    protraction_rad: dict[str, FloatArray]
+    most_turn_rad: dict[str, FloatArray]
+    most_protraction_rad: dict[str, FloatArray]
+
+    @property
+    def moves_trunk(self) -> bool:
+        """Whether more than the shoulders helps."""
+        return bool(np.any(self.turn_rad) or np.any(self.short_m))
+
+
+def needed_help(
+    skeleton: Skeleton,
+    hold: GripPose,
+    body: Trunk,
+    carried: Carried,
+    controls: Mapping[str, FloatArray],
+    placed: Mapping[str, Placed],
+    away: Away | None = None,
+) -> Help:
+    """The help a body needs that has none yet; exactly 0 where the arms alone reach, and where hands stay.
+
+    The shoulders help first, then the trunk turns; what is left is reported. Both follow a hand a little that goes out
+    and back.
+    """
+    turn, short_m = np.zeros(len(body.chest_m)), np.zeros(len(body.chest_m))
+    protraction: dict[str, FloatArray] = {}
+    most_turn: dict[str, FloatArray] = {}
+    most_protraction: dict[str, FloatArray] = {}
+    for hand in hold.hands:
+        target_m, rotation = hand_targets(hand, carried.position_m, carried.rotation, controls, placed)
+        if away is not None:
+            target_m, _ = away.targets(hand.side, target_m, rotation)
+        girdle = _girdle(skeleton, hand.side, body, target_m)
+        arm_m = arm(skeleton, hand.side).length_m
+        distance_m = girdle.distance_m(0.0)
+        asked = girdle.turn_for(distance_m - softly_over(distance_m - AT_EASE * arm_m, EASE_M))
+        out = np.zeros(len(turn))
+        if hand.motion is not None and hand.motion.control in controls:
+            out = np.asarray(controls[hand.motion.control], dtype=np.float64)
+        asked = asked + FOLLOWS_RAD * out
+        protraction[hand.side] = softly_capped(asked, CLAVICLE_RAD, 0.15 * CLAVICLE_RAD)
+        most_protraction[hand.side] = girdle.turn_for(np.full(len(turn), NEAREST * arm_m))
+        waist = _waist(skeleton, hand.side, body, target_m)
+        most_turn[hand.side] = waist.turn_for(np.full(len(turn), NEAREST * arm_m))
+        distance_m = waist.distance_m(np.zeros(len(turn)))
+        asked = waist.turn_for(distance_m - softly_over(distance_m - AT_EASE * arm_m, EASE_M))
+        asked = asked + TURNS_ALONG_RAD * out
+        given = softly_capped(asked, TURN_RAD, 0.1 * TURN_RAD)
+        turn += given if hand.side == "right" else -given
+        short_m = np.maximum(short_m, softly_over(waist.distance_m(given) - STRETCHED * arm_m, EASE_M))
+    return Help(turn, short_m, protraction, most_turn, most_protraction)
+
+
+def shoulder_distance_m(skeleton: Skeleton, side: Side, body: Trunk, target_m: FloatArray) -> float:
+    """From a shoulder that is as far forwards as it comes to its hand's target, in the first frame."""
+    return float(_girdle(skeleton, side, body, target_m).distance_m(CLAVICLE_RAD)[0])
+
+
+@dataclass(frozen=True)
+class _Swing:
+    """A shoulder joint that turns about a fixed axis, and a target of its hand.
+
+    The squared distance from the shoulder joint to the target is ``square_m2 - 2 reach_m2 cos(phase_rad - turn)``.
+    """
+
+    square_m2: FloatArray
+    reach_m2: FloatArray
+    phase_rad: FloatArray
+
+    def distance_m(self, turned_rad: FloatArray | float) -> FloatArray:
+        """From the shoulder to the target after so much of the turn."""
+        cosine = np.cos(np.maximum(self.phase_rad - turned_rad, 0.0))
+        distance: FloatArray = np.sqrt(np.maximum(self.square_m2 - 2.0 * self.reach_m2 * cosine, 1e-9))
+        return distance
+
+    def turn_for(self, distance_m: FloatArray) -> FloatArray:
+        """The turn that brings the shoulder to this distance from the target, as near as it can."""
+        cosine = np.clip(
+            (self.square_m2 - distance_m * distance_m) / np.maximum(2.0 * self.reach_m2, LEAST_M**2), -1.0, 1.0
+        )
+        return np.maximum(self.phase_rad - np.arccos(cosine), 0.0)
+
+
+def _girdle(skeleton: Skeleton, side: Side, body: Trunk, target_m: FloatArray) -> _Swing:
+    """The clavicle coming forwards about an axis of the chest."""
+    shoulder, clavicle = clavicle_of(skeleton, side)
+    joint_m = body.chest_m + quaternion.rotate(body.chest, skeleton.offsets_m[shoulder])
+    there = np.ascontiguousarray(quaternion.rotate(quaternion.conjugate(body.chest), target_m - joint_m))
+    ahead = quaternion.cross(forwards_axis(skeleton, side), clavicle)
+    phase = np.arctan2(there @ ahead, there @ clavicle)
+    square_m2 = quaternion.dot(there, there) + clavicle @ clavicle
+    return _Swing(square_m2, np.hypot(there @ ahead, there @ clavicle), phase)
+
+
+def _waist(skeleton: Skeleton, side: Side, body: Trunk, target_m: FloatArray) -> _Swing:
+    """The chest turning about the upright, its shoulder brought forwards as far as it goes."""
+    shoulder, clavicle = clavicle_of(skeleton, side)
+    forwards = quaternion.from_axis_angle(forwards_axis(skeleton, side), CLAVICLE_RAD)
+    root_m = skeleton.offsets_m[shoulder] + quaternion.rotate(forwards, clavicle)
+    root = quaternion.rotate(body.chest, root_m)
+    there = target_m - body.chest_m
+    # Turning to the left takes what is on the right forwards; a left hand's turn is counted the other way.
+    sign = 1.0 if side == "right" else -1.0
+    across = sign * (root[:, 2] * there[:, 0] - root[:, 0] * there[:, 2])
+    along = root[:, 0] * there[:, 0] + root[:, 2] * there[:, 2]
+    rise_m = there[:, 1] - root[:, 1]
+    flat = root[:, 0] ** 2 + root[:, 2] ** 2 + there[:, 0] ** 2 + there[:, 2] ** 2
+    return _Swing(flat + rise_m * rise_m, np.hypot(along, across), np.arctan2(across, along))
+
+
+@lru_cache(maxsize=64)
+def clavicle_of(skeleton: Skeleton, side: Side) -> tuple[int, FloatArray]:
+    """Joint of a clavicle, and where the shoulder joint lies in its frame."""
+    return skeleton.index(f"{side}Shoulder"), skeleton.offsets_m[skeleton.index(f"{side}UpperArm")]
+
+
+@lru_cache(maxsize=64)
+def forwards_axis(skeleton: Skeleton, side: Side) -> FloatArray:
+    """Axis in the chest's frame about which a clavicle comes straight forwards."""
+    _, clavicle = clavicle_of(skeleton, side)
+    axis = np.cross(clavicle, Z_AXIS)
+    length = float(np.linalg.norm(axis))
+    if length < LEAST_M:
+        # A clavicle without a length turns like others, and takes the shoulder nowhere.
+        return np.array([0.0, -1.0 if side == "left" else 1.0, 0.0])
+    unit: FloatArray = axis / length
+    return unit

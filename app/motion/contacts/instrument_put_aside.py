@@ -1,0 +1,148 @@
+"""An instrument that is put aside: where it lies while its player has another in the hands, and how it comes there.
+
+The arm that bears it swings as a whole about its shoulder, out and down, from where the instrument is lowered to: what
+is natural before the body is so beside it, whatever the instrument is. The other hand lets go and hangs.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from app.motion.body_motion import BodyMotion
+from app.motion.contacts.arms import HANGS_RAD
+from app.motion.contacts.carried_instrument import Y_AXIS, Z_AXIS, Carried
+from app.motion.contacts.help_for_far_hands import clavicle_of
+from app.motion.contacts.trunk_and_legs import Side, Trunk
+from app.motion.curves.curve import FloatArray
+from app.rig import quaternion
+from app.rig.grip.grip_pose import GripPose, hand_targets
+from app.rig.ik import arm
+from app.rig.model import Skeleton
+
+SWING_RAD = float(np.deg2rad(52.0))
+"""How far aside of where it is lowered the first instrument lies ..."""
+NEXT_RAD = float(np.deg2rad(44.0))
+"""... and by how much more each further one."""
+FARTHEST = 2
+LEAST_M = 1e-6
+DOWN_RAD = float(np.deg2rad(10.0))
+"""The arm comes down by so much; more would bring the bells of two instruments together below the shoulder."""
+OUT_M, LONGEST = 0.04, 0.93
+"""It goes out by so much, clear of the body, as far as the arm comes with this share of its length."""
+LOOKS_RAD = {"neck": 0.16, "head": 0.2}
+LOOKS_DOWN_RAD = {"neck": 0.06, "head": 0.16}
+TURNS = {"spine": 0.09, "chest": 0.16, "upperChest": 0.12}
+"""Neck and head look where the hand goes, and the trunk turns by these shares of the arm's swing."""
+
+
+@dataclass(frozen=True)
+class Aside:
+    """Where an instrument is put aside: by which hand, and as which one of the musician's, from 0."""
+
+    side: Side
+    number: int
+
+    @property
+    def sign(self) -> float:
+        """1 to the left, -1 to the right."""
+        return 1.0 if self.side == "left" else -1.0
+
+    @property
+    def angle_rad(self) -> float:
+        """How far it swings aside, to the left."""
+        return self.sign * (SWING_RAD + NEXT_RAD * min(self.number, FARTHEST))
+
+
+@dataclass(frozen=True)
+class Place:
+    """An instrument's place aside.
+
+    Attributes
+    ----------
+    pivot_m : (3,) float64
+        What it swings about: the shoulder of a body that keeps still.
+    swing_rad : (3,) float64
+        The whole swing as a rotation vector.
+    rest : Carried
+        Where it lies, one frame.
+    """
+
+    aside: Aside
+    pivot_m: FloatArray
+    swing_rad: FloatArray
+    rest: Carried
+
+    @classmethod
+    def of(cls, aside: Aside, skeleton: Skeleton, hold: GripPose, base: Trunk, low: Carried) -> Place:
+        """From where a body that keeps still has the lowered instrument."""
+        joint, reaches_m = clavicle_of(skeleton, aside.side)
+        begins_m = base.chest_m + quaternion.rotate(base.chest, skeleton.offsets_m[joint])
+        pivot_m = (begins_m + quaternion.rotate(base.chest, reaches_m))[0]
+        turn = quaternion.from_axis_angle(Y_AXIS, aside.angle_rad)
+        hand = next((hand for hand in hold.hands if hand.side == aside.side), None)
+        borne_m = low.position_m if hand is None else hand_targets(hand, low.position_m, low.rotation, {})[0]
+        out_m = quaternion.rotate(turn, borne_m[0] - pivot_m) * np.array([1.0, 0.0, 1.0])
+        axis = np.cross(Y_AXIS, out_m / max(float(np.linalg.norm(out_m)), LEAST_M))
+        whole = quaternion.multiply(quaternion.from_axis_angle(axis, DOWN_RAD), turn)
+        bare = cls(aside, pivot_m, quaternion.to_rotation_vector(whole), low)
+        lies = bare._swung(low, np.ones(1))
+        reach_m = LONGEST * arm(skeleton, aside.side).length_m
+        # What the arm cannot reach with it there lies nearer.
+        towards = out_m / max(float(np.linalg.norm(out_m)), LEAST_M)
+        wrist_m = quaternion.rotate(whole, borne_m[0] - pivot_m)
+        along_m, away2 = float(wrist_m @ towards), float(wrist_m @ wrist_m)
+        room_m = max(reach_m**2 - away2 + along_m**2, 0.0) ** 0.5 - along_m
+        further_m = min(max(room_m, 0.0), OUT_M)
+        return replace(bare, rest=Carried(lies.position_m + further_m * towards, lies.rotation))
+
+    def turned(self, stowed: FloatArray) -> FloatArray:
+        """How far the arm has swung, (F, 4)."""
+        return quaternion.from_rotation_vector(stowed[:, None] * self.swing_rad)
+
+    def put(self, carried: Carried, stowed: FloatArray) -> Carried:
+        """The instrument on its way: 0 where it is carried, 1 where it lies, (F,)."""
+        swung, share = self._swung(carried, stowed), stowed[:, None]
+        position_m = swung.position_m + (self.rest.position_m - swung.position_m) * share
+        rotation = quaternion.slerp(swung.rotation, self.rest.rotation, stowed)
+        lies, stays = share >= 1.0, share <= 0.0
+        return Carried(
+            np.where(lies, self.rest.position_m, np.where(stays, carried.position_m, position_m)),
+            np.where(lies, self.rest.rotation, np.where(stays, carried.rotation, rotation)),
+        )
+
+    def _swung(self, carried: Carried, stowed: FloatArray) -> Carried:
+        turn = self.turned(stowed)
+        return Carried(
+            self.pivot_m + quaternion.rotate(turn, carried.position_m - self.pivot_m),
+            quaternion.multiply(turn, carried.rotation),
+        )
+
+    def let_go(
+        self, skeleton: Skeleton, hold: GripPose, arms: dict[int, FloatArray], stowed: FloatArray
+    ) -> dict[int, FloatArray]:
+        """The arm that does not bear the instrument, on its way to hanging down."""
+        result: dict[int, FloatArray] = {}
+        for hand in hold.hands:
+            if hand.side == self.aside.side:
+                continue
+            limb, sign = arm(skeleton, hand.side), 1.0 if hand.side == "right" else -1.0
+            hangs = quaternion.from_axis_angle(Z_AXIS, sign * HANGS_RAD)
+            joint, _ = clavicle_of(skeleton, hand.side)
+            for bone in (joint, limb.upper, limb.lower, limb.end):
+                there = hangs if bone == limb.upper else quaternion.IDENTITY
+                freed = quaternion.slerp(arms[bone], np.broadcast_to(there, arms[bone].shape), stowed)
+                result[bone] = np.where(stowed[:, None] > 0.0, freed, arms[bone])
+        return result
+
+    def watched(self, motion: BodyMotion, stowed: FloatArray) -> BodyMotion:
+        """The body looking where the hand goes."""
+        turn, forward = dict(motion.turn_rad), dict(motion.forward_rad)
+        for joint, angle_rad in LOOKS_RAD.items():
+            turn[joint] = turn[joint] + self.aside.sign * angle_rad * stowed
+        for joint, share in TURNS.items():
+            turn[joint] = turn[joint] + self.aside.angle_rad * share * stowed
+        for joint, angle_rad in LOOKS_DOWN_RAD.items():
+            forward[joint] = forward[joint] + angle_rad * stowed
+        return replace(motion, turn_rad=turn, forward_rad=forward)

@@ -1,0 +1,65 @@
+"""How far an instrument tips from the chest before a wrist leaves its range, or an elbow is flung up."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from app.motion.contacts.carried_instrument import BellRoom, tips_freely
+from app.motion.contacts.help_for_far_hands import clavicle_of
+from app.motion.contacts.solve import Curves, Player, arms_of, helped, needs, upper_body
+from app.motion.contacts.wrists import LOST_RAD
+from app.motion.curves.curve import FloatArray
+from app.rig import quaternion
+from app.rig.grip.grip_pose import Placed, giving_for
+from app.rig.ik import arm
+
+MOST_DEG, STEP_DEG = 40, 2
+"""An instrument tips no further either way from where it is played; in such steps it is tried."""
+NEARLY_RAD = float(np.deg2rad(0.25))
+"""A wrist may leave its range by so much more when the instrument tips ..."""
+RAISED_RAD = float(np.deg2rad(12.0))
+"""... and an elbow may rise by so much: no player flaps the arms for a nod."""
+
+
+def with_bell_room(player: Player) -> Player:
+    """The player with an instrument that tips no further than both wrists and elbows follow."""
+    if player.stand is not None or not tips_freely(player.carriage):
+        return player
+    tipped = np.deg2rad(np.arange(-MOST_DEG, MOST_DEG + 1, STEP_DEG))
+    leans = [lean for hand in player.hold.hands for lean in hand.leans]
+    # As the hands lie, and as they give way for a finger, a row each.
+    placed: dict[str, Placed] = {}
+    for finger in sorted({finger for lean in leans for finger, _ in lean.places}):
+        stations = [dict(lean.places).get(finger, 0) for lean in leans]
+        there = np.repeat([0.0, *stations], len(tipped))
+        placed[giving_for(finger)] = Placed(np.zeros(len(there)), there, (there > 0.0).astype(np.float64))
+    found = _wrists_and_elbows(player, np.tile(tipped, len(leans) + 1), placed)
+    bent, raised = (values.reshape(-1, len(tipped)) for values in found)
+    usual, usually = (values[:, len(tipped) // 2, None] for values in (bent, raised))
+    fits = np.logical_and.reduce((bent <= usual + NEARLY_RAD) | (usual > LOST_RAD))
+    fits &= np.logical_and.reduce(raised <= usually + RAISED_RAD)
+    room = BellRoom.within(tipped + np.deg2rad(player.carriage.pitch_down_deg[1]), fits)
+    return replace(player, bell_room=room)
+
+
+def _wrists_and_elbows(
+    player: Player, tipped_rad: FloatArray, placed: dict[str, Placed]
+) -> tuple[FloatArray, FloatArray]:
+    """How far the worse wrist of a still body is out of its range, and how high the higher elbow is as seen from its
+    shoulder, (F,) each; the bell is down by so much (F,)."""
+    still = replace(player.still.for_frames(len(tipped_rad)), bell_down_rad=tipped_rad)
+    curves = Curves(still, {}, {}, np.zeros(len(tipped_rad)), placed)
+    body = helped(player, still, needs(player, curves))
+    upper = upper_body(player, replace(curves, body=body))
+    arms = arms_of(player, upper.trunk, body, upper.carried, {}, placed)
+    bent, raised = np.zeros(len(tipped_rad)), np.full(len(tipped_rad), -np.inf)
+    for hand in player.hold.hands:
+        limb = arm(player.skeleton, hand.side)
+        bent = np.maximum(bent, player.wrists[hand.side].outside_rad(arms[limb.end]))
+        clavicle, _ = clavicle_of(player.skeleton, hand.side)
+        along_m = player.skeleton.offsets_m[limb.lower]
+        up_m = quaternion.rotate(quaternion.multiply(arms[clavicle], arms[limb.upper]), along_m)[:, 1]
+        raised = np.maximum(raised, np.arcsin(up_m / np.linalg.norm(along_m)))
+    return bent, raised

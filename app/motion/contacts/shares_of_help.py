@@ -1,0 +1,102 @@
+"""How trunk, shoulders, head and instrument give way to a far hand: the shares each takes, and how slowly."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from app.motion.body_motion import BodyMotion
+from app.motion.contacts.help_for_far_hands import Help
+from app.motion.curves.curve import FloatArray
+from app.motion.curves.running_extremes import greatest_within, least_within
+from app.motion.curves.soft_bounds import softly_capped
+from app.plan.by_hand.pose_corrections import NECK_SHARES, TRUNK_SHARES
+
+HELP_EASE_S = 0.10
+"""Trunk and shoulders come towards a far hand this long before it goes there, and back as long after."""
+SHOULDER_EASE_S = 0.05
+"""The shoulder, which is lighter, this long."""
+ROOM_EASE_S = 0.06
+"""How quickly that help gives way to a hand that comes near."""
+HELP_EASE_RAD = 0.06
+"""Help that would push a shoulder into a near hand is held back within about this angle."""
+HIPS_TURN = 0.16
+TRUNK_TURNS = {"spine": 0.18, "chest": 0.34, "upperChest": 0.32}
+"""Shares of the turn for a far hand."""
+NECK_TURNS_BACK = {"neck": 0.5, "head": 0.5}
+DRAWS_RAD = {"neck": float(np.deg2rad(-8.0)), "head": float(np.deg2rad(14.0))}
+"""For the farthest places the neck draws back and the head bows; the trunk stays upright, since leaning it brings
+shoulder and lips no nearer to each other ..."""
+DRAW_DOWN_RAD, DRAW_RIGHT_RAD = float(np.deg2rad(6.0)), float(np.deg2rad(8.0))
+"""... and the bell sinks and turns towards the far hand's shoulder."""
+
+
+def spread(parts: list[Help], half: int) -> Help:
+    """Help that comes slowly and early enough, and goes slowly, from what is needed in stretches of frames."""
+    quick = max(1, round(ROOM_EASE_S / HELP_EASE_S * half))
+    swift = max(1, round(SHOULDER_EASE_S / HELP_EASE_S * half))
+    sides = parts[0].protraction_rad.keys()
+    return Help(
+        turn_rad=_eased(np.concatenate([part.turn_rad for part in parts]), half),
+        short_m=_eased(np.concatenate([part.short_m for part in parts]), half),
+        protraction_rad={
+            side: _eased(np.concatenate([part.protraction_rad[side] for part in parts]), swift) for side in sides
+        },
+        most_turn_rad={side: _held_back([part.most_turn_rad[side] for part in parts], quick) for side in sides},
+        most_protraction_rad={
+            side: _held_back([part.most_protraction_rad[side] for part in parts], quick) for side in sides
+        },
+    )
+
+
+def turned(motion: BodyMotion, turn: FloatArray, aside_per_turn: float) -> BodyMotion:
+    """Hips and trunk turned to the left, neck and head back; where the head is steadied the trunk leans the other way
+    by ``aside_per_turn``, the head upright."""
+    turns, leans = dict(motion.turn_rad), dict(motion.left_rad)
+    for shares, sign in ((TRUNK_TURNS, 1.0), (NECK_TURNS_BACK, -1.0)):
+        for joint, share in shares.items():
+            turns[joint] = turns[joint] + sign * share * turn
+    lean = -aside_per_turn * motion.steadied * np.sin(turn)
+    for shares, sign in ((TRUNK_SHARES, 1.0), (NECK_SHARES, -1.0)):
+        for joint, share in shares.items():
+            leans[joint] = leans[joint] + sign * share * lean
+    return replace(motion, hips_turn_rad=motion.hips_turn_rad + HIPS_TURN * turn, turn_rad=turns, left_rad=leans)
+
+
+def drawn(motion: BodyMotion, draw: FloatArray, right: FloatArray) -> BodyMotion:
+    """Head and instrument giving way, 0..1, towards a far hand on the right (1) or the left (-1)."""
+    forward = dict(motion.forward_rad)
+    for joint, angle_rad in DRAWS_RAD.items():
+        forward[joint] = forward[joint] + angle_rad * draw
+    return replace(
+        motion,
+        forward_rad=forward,
+        bell_down_rad=motion.bell_down_rad + DRAW_DOWN_RAD * draw,
+        bell_right_rad=motion.bell_right_rad + DRAW_RIGHT_RAD * right * draw,
+    )
+
+
+def with_room(help_rad: FloatArray, most_rad: FloatArray) -> FloatArray:
+    """Help as far as there is room for it. No help stays none however little room there is: so it does not matter
+    which frames are made together."""
+    given = softly_capped(help_rad, most_rad, np.clip(most_rad, 1e-9, HELP_EASE_RAD))
+    return np.where(help_rad == 0.0, 0.0, given)
+
+
+def _held_back(parts: list[FloatArray], half: int) -> FloatArray:
+    """What there is room for, smoothly: the least within ``half`` frames, then a smooth mean as wide."""
+    return np.pi - _eased(np.pi - np.concatenate(parts), half)
+
+
+def _eased(needed: FloatArray, half: int) -> FloatArray:
+    """A slow move that is nowhere less than needed: the largest within ``half`` frames, then a smooth mean as wide.
+
+    The outer ``2 * half`` frames are not valid.
+    """
+    if not np.any(needed):
+        return needed
+    held = greatest_within(np.maximum(needed, 0.0), half) + least_within(np.minimum(needed, 0.0), half)
+    weights = np.hanning(2 * half + 3)
+    eased: FloatArray = np.convolve(held, weights / weights.sum(), mode="same")
+    return eased

@@ -1,0 +1,293 @@
+"""Where feet and hips are, and the upright chain from hips to head: what contacts are solved on."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+import numpy.typing as npt
+
+from app.motion.body_motion import BodyMotion
+from app.motion.curves.curve import FloatArray
+from app.rig import quaternion
+from app.rig.grip.body_size import leg_size
+from app.rig.ik import SOFT_SHARE, Limb, leg, solve_limb
+from app.rig.model import Skeleton
+from app.rig.skeleton import rest_positions
+from metadata.model import Posture
+
+Side = Literal["left", "right"]
+SIDES: tuple[Side, Side] = ("left", "right")
+
+LEGS_BLEND_M = 0.003
+"""The hips hang from the shorter leg; where both are as long the hand-over is rounded by about this much."""
+STRAIGHTEST = 0.9995
+"""Share of its length a leg or an arm is stretched at most."""
+BALL = (-0.9, 1.5)
+"""Without a joint of the toes: how far down and ahead of the ankle the ball of the foot is, by the ankle's height."""
+HEEL = (-1.0, -0.45)
+"""The same of the heel."""
+SIT_BONES_M = 0.09
+"""Who sits leans the pelvis about what is so far below the hips."""
+X_AXIS = np.array([1.0, 0.0, 0.0])
+FOOT_PARTS = ("heel", "toes", "ahead", "up", "push")
+
+
+@dataclass(frozen=True)
+class Stance:
+    """Feet on the ground and hips above them, in the root's frame.
+
+    Attributes
+    ----------
+    hips_m : (3,) float64
+        Hips before any motion.
+    knee_rad : float
+        Bend of the knees before any motion.
+    ankles_m, feet : dict of side to (3,) and (4,) float64
+        Place and rotation of both feet; they stay.
+    seated : bool
+        The hips stay on the seat.
+    balls_m, heels_m : dict of side to (3,) float64
+        From the ankle to the joint of the toes and to the heel, in the foot's frame: what a foot lifts about.
+    toes : dict of side to int
+        Joints of the toes, where there are any.
+    """
+
+    hips_m: FloatArray
+    knee_rad: float
+    ankles_m: dict[Side, FloatArray]
+    feet: dict[Side, FloatArray]
+    legs: dict[Side, Limb]
+    seated: bool
+    balls_m: dict[Side, FloatArray]
+    heels_m: dict[Side, FloatArray]
+    toes: dict[Side, int]
+
+
+def stance(skeleton: Skeleton, posture: Posture) -> Stance:
+    """Place feet and hips for a posture: soles as high as at rest, hips over (or behind) the feet."""
+    legs = {side: leg(skeleton, side) for side in SIDES}
+    rest = rest_positions(skeleton)
+    thigh, shank = (float(np.linalg.norm(v)) for v in (legs["left"].upper_vector_m, legs["left"].lower_vector_m))
+    hip_flexion, knee = np.deg2rad(posture.hip_flexion_deg), float(np.deg2rad(posture.knee_bend_deg))
+    ahead_m = thigh * np.sin(hip_flexion) + shank * np.sin(hip_flexion - knee)
+    above_m = thigh * np.cos(hip_flexion) + shank * np.cos(hip_flexion - knee)
+    hips = skeleton.index("hips")
+    ankles_m: dict[Side, FloatArray] = {}
+    feet: dict[Side, FloatArray] = {}
+    balls_m: dict[Side, FloatArray] = {}
+    heels_m: dict[Side, FloatArray] = {}
+    toes: dict[Side, int] = {}
+    for side, sign in zip(SIDES, (1.0, -1.0), strict=True):
+        hip_joint = rest[legs[side].upper]
+        ankle = rest[legs[side].end].copy()
+        ankle[0] = hip_joint[0] * posture.feet_apart_hip_widths
+        ankle[2] = hip_joint[2] + ahead_m + sign * 0.5 * posture.foot_forward_m
+        ankles_m[side] = ankle
+        feet[side] = quaternion.from_axis_angle(np.array([0.0, 1.0, 0.0]), sign * np.deg2rad(posture.toes_out_deg))
+        high_m = max(float(ankle[1]), 0.0)
+        balls_m[side], heels_m[side] = (high_m * np.array([0.0, *part]) for part in (BALL, HEEL))
+        if f"{side}Toes" in skeleton.names:
+            toes[side] = skeleton.index(f"{side}Toes")
+            balls_m[side] = skeleton.offsets_m[toes[side]]
+    hips_m = rest[hips].copy()
+    hips_m[1] = rest[legs["left"].end][1] + above_m - (rest[legs["left"].upper] - rest[hips])[1]
+    seated = posture.seat_height_shank > 0.0
+    return Stance(hips_m, knee, ankles_m, feet, legs, seated, balls_m, heels_m, toes)
+
+
+@dataclass(frozen=True)
+class Footing:
+    """Where one foot is: ankle (F, 3) and rotation (F, 4), and the rotation of its toes (F, 4), None: as at rest."""
+
+    ankle_m: FloatArray
+    foot: FloatArray
+    toes: FloatArray | None
+
+
+def footing(place: Stance, side: Side, moved: Mapping[str, FloatArray], frames: int) -> Footing:
+    """A foot as it stands, or as it is ``moved`` (`app.motion.gestures.feet.feet_moved`).
+
+    A heel lifts about the toes, which stay; toes lift about the heel; a step takes all of the foot.
+    """
+    parts = _moved_parts(side, moved)
+    ankle_m, foot = (quaternion.repeated(still, frames) for still in (place.ankles_m[side], place.feet[side]))
+    toes = None
+    if "heel" in parts and side in place.toes:
+        toes = quaternion.repeated(quaternion.from_axis_angle(X_AXIS, -0.0), frames)
+    here = _where_moved(parts)
+    if len(here):
+        parts = {name: values[here] for name, values in parts.items()}
+        ankle_m[here], turned = _lifted(place, side, parts)
+        if toes is not None:
+            toes[here] = quaternion.from_axis_angle(X_AXIS, -parts["heel"])
+        if "push" in parts:
+            turned = quaternion.multiply(turned, quaternion.from_axis_angle(X_AXIS, parts["push"]))
+        foot[here] = turned
+    return Footing(ankle_m, foot, toes)
+
+
+def _ankle_m(place: Stance, side: Side, moved: Mapping[str, FloatArray], frames: int) -> FloatArray:
+    """The ankle (F, 3) of that footing alone."""
+    parts = _moved_parts(side, moved)
+    ankle_m, here = quaternion.repeated(place.ankles_m[side], frames), _where_moved(parts)
+    if len(here):
+        ankle_m[here], _ = _lifted(place, side, {name: values[here] for name, values in parts.items()})
+    return ankle_m
+
+
+def _moved_parts(side: Side, moved: Mapping[str, FloatArray]) -> dict[str, FloatArray]:
+    return {name: moved[f"{side}_{name}"] for name in FOOT_PARTS if f"{side}_{name}" in moved}
+
+
+def _where_moved(parts: Mapping[str, FloatArray]) -> npt.NDArray[np.intp]:
+    """The frames in which a foot is moved: most of the time it stands, to the bit."""
+    if not parts:
+        return np.zeros(0, np.intp)
+    return np.flatnonzero(np.logical_or.reduce([values != 0.0 for values in parts.values()]))
+
+
+def _lifted(place: Stance, side: Side, parts: Mapping[str, FloatArray]) -> tuple[FloatArray, FloatArray]:
+    """Ankle and foot, before it pushes off, in frames in which it is moved."""
+    ankle_m, foot = place.ankles_m[side], place.feet[side]
+    heel, toes, ahead_m, up_m, _ = (parts.get(name) for name in FOOT_PARTS)
+    for angle, pivot_m in ((heel, place.balls_m[side]), (None if toes is None else -toes, place.heels_m[side])):
+        if angle is not None:
+            turned = quaternion.multiply(foot, quaternion.from_axis_angle(X_AXIS, angle))
+            # The difference first: a foot that stands is then where it stands to the bit.
+            ankle_m = ankle_m + (quaternion.rotate(foot, pivot_m) - quaternion.rotate(turned, pivot_m))
+            foot = turned
+    if ahead_m is not None:
+        ahead = quaternion.rotate(place.feet[side], np.array([0.0, 0.0, 1.0]))
+        ankle_m = ankle_m + np.multiply.outer(ahead, ahead_m).T
+    if up_m is not None:
+        ankle_m = ankle_m + np.multiply.outer(np.array([0.0, 1.0, 0.0]), up_m).T
+    return ankle_m, foot
+
+
+def hips_path(place: Stance, skeleton: Skeleton, motion: BodyMotion) -> tuple[FloatArray, FloatArray]:
+    """Translation (F, 3) and rotation (F, 4) of the hips in the root's frame.
+
+    Standing, the hips come down as the knees bend and as far as the weight lies aside; neither leg is ever too short.
+    Seated, the pelvis leans on the seat.
+    """
+    if place.seated:
+        turn = quaternion.columns(motion.hips_forward_rad, 0.0, -motion.hips_roll_rad)
+        above_m = np.array([0.0, SIT_BONES_M * leg_size(skeleton), 0.0])
+        rotation = quaternion.from_rotation_vector(turn)
+        return place.hips_m + quaternion.rotate(rotation, above_m) - above_m, rotation
+    danced, forward_rad, ease_m = motion.hips_danced, motion.hips_forward_rad, np.array(LEGS_BLEND_M)
+    side_m, ahead_m = place.hips_m[0] + motion.hips_side_m, place.hips_m[2] + motion.hips_ahead_m
+    if danced:
+        forward_rad, ahead_m = forward_rad + danced["forward_rad"], ahead_m + danced["ahead_m"]
+        ease_m = ease_m + danced["ease_m"]
+    rotation = quaternion.from_rotation_vector(
+        quaternion.columns(forward_rad, motion.hips_turn_rad, -motion.hips_roll_rad)
+    )
+    heights = []
+    for side in SIDES:
+        limb = place.legs[side]
+        a, b = np.linalg.norm(limb.upper_vector_m), np.linalg.norm(limb.lower_vector_m)
+        joint_m = quaternion.rotate(rotation, skeleton.offsets_m[limb.upper])
+        ankle_m = _ankle_m(place, side, motion.feet, len(rotation))
+        across_m, along_m = side_m + joint_m[:, 0] - ankle_m[:, 0], ahead_m + joint_m[:, 2] - ankle_m[:, 2]
+        length2 = a * a + b * b + 2.0 * a * b * np.cos(place.knee_rad + motion.knee_rad)
+        length2 = np.minimum(length2, np.square(STRAIGHTEST * (a + b)))
+        rise_m = np.sqrt(np.maximum(length2 - (across_m * across_m + along_m * along_m), 0.01))
+        heights.append(ankle_m[:, 1] + rise_m - joint_m[:, 1])
+    lower = np.minimum(heights[0], heights[1])
+    apart = np.abs(heights[0] - heights[1])
+    height_m = lower - ease_m * np.log1p(np.exp(-apart / ease_m)) - motion.hips_bob_m
+    return quaternion.columns(side_m, height_m, ahead_m), rotation
+
+
+def exact_target(limb: Limb, root_m: FloatArray, target_m: FloatArray) -> FloatArray:
+    """A target that `solve_limb`, which comes to full extension softly, brings exactly to ``target_m``.
+
+    Up to `STRAIGHTEST` of the limb's length; what is farther away is approached.
+    """
+    line = target_m - root_m
+    distance = np.sqrt(quaternion.dot(line, line))
+    longest = limb.length_m
+    band = SOFT_SHARE * longest
+    left = np.maximum(longest - distance, (1.0 - STRAIGHTEST) * longest)
+    asked = np.where(left < band, longest - band - band * np.log(np.minimum(left / band, 1.0)), distance)
+    exact: FloatArray = root_m + line * (asked / distance)[:, None]
+    return exact
+
+
+def solve_legs(
+    place: Stance,
+    skeleton: Skeleton,
+    hips_m: FloatArray,
+    hips_rotation: FloatArray,
+    feet: Mapping[str, FloatArray],
+) -> dict[int, FloatArray]:
+    """Rotations of both legs and feet, by joint; the feet stay where the stance has them, or are moved."""
+    frames = len(hips_m)
+    rotations: dict[int, FloatArray] = {}
+    for side in SIDES:
+        limb = place.legs[side]
+        root_m = hips_m + quaternion.rotate(hips_rotation, skeleton.offsets_m[limb.upper])
+        there = footing(place, side, feet, frames)
+        pole = quaternion.rotate(place.feet[side], np.array([0.0, 0.0, 1.0]))
+        target_m = exact_target(limb, root_m, there.ankle_m)
+        pose = solve_limb(limb, root_m, hips_rotation, target_m, there.foot, pole)
+        rotations |= {limb.upper: pose.upper, limb.lower: pose.lower, limb.end: pose.end}
+        if there.toes is not None:
+            rotations[place.toes[side]] = there.toes
+    return rotations
+
+
+@dataclass(frozen=True)
+class Trunk:
+    """The chain from hips to head.
+
+    Attributes
+    ----------
+    local : dict of int to (F, 4)
+        ``parent_from_joint`` of every joint of the chain but the hips.
+    chest, chest_m, head, head_m : arrays
+        World rotation (F, 4) and position (F, 3) of the joint the shoulders hang on, and of the head.
+    """
+
+    local: dict[int, FloatArray]
+    chest: FloatArray
+    chest_m: FloatArray
+    head: FloatArray
+    head_m: FloatArray
+
+
+def trunk(skeleton: Skeleton, hips_m: FloatArray, hips_rotation: FloatArray, motion: BodyMotion) -> Trunk:
+    """Chain the trunk's angles from the hips to the head."""
+    chest_joint = skeleton.parents[skeleton.index("leftShoulder")]
+    hips, head = skeleton.index("hips"), skeleton.index("head")
+    chain = [head]
+    while skeleton.parents[chain[-1]] != hips:
+        chain.append(skeleton.parents[chain[-1]])
+    rotation, position = hips_rotation, hips_m
+    chest, chest_m = rotation, position
+    local: dict[int, FloatArray] = {}
+    for joint in reversed(chain):
+        name = skeleton.names[joint]
+        position = position + quaternion.rotate(rotation, skeleton.offsets_m[joint])
+        if name in motion.forward_rad:
+            vector = quaternion.columns(motion.forward_rad[name], motion.turn_rad[name], -motion.left_rad[name])
+            local[joint] = quaternion.from_rotation_vector(vector)
+            rotation = quaternion.multiply(rotation, local[joint])
+        if joint == chest_joint:
+            chest, chest_m = rotation, position
+    return Trunk(local, chest, chest_m, rotation, position)
+
+
+def torso_forward(skeleton: Skeleton, hips_m: FloatArray, hips_rotation: FloatArray, motion: BodyMotion) -> FloatArray:
+    """Lean forward (F,), radians, of the line from the hips to the top of the chest."""
+    upper = trunk(skeleton, hips_m, hips_rotation, motion)
+    head = skeleton.index("head")
+    neck = skeleton.parents[head]
+    top = head if neck == skeleton.parents[skeleton.index("leftShoulder")] else neck
+    upright_m = upper.chest_m + quaternion.rotate(upper.chest, skeleton.offsets_m[top]) - hips_m
+    forward_rad: FloatArray = np.arctan2(upright_m[:, 2], upright_m[:, 1])
+    return forward_rad

@@ -1,0 +1,116 @@
+"""Wrists kept within their range: the elbow leaves its usual place where the hand would bend too far aside.
+
+A hand is where its instrument is, so only the elbow is free: it goes round the line from shoulder to wrist. A player
+who lifts the bell lifts the elbows with it. Frame by frame, from nothing but the frame itself.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from app.motion.contacts.trunk_and_legs import SIDES, Side
+from app.motion.curves.curve import FloatArray
+from app.motion.curves.soft_bounds import softly_capped, softly_over
+from app.rig import quaternion
+from metadata.model import Body, SkeletonProfile
+
+EASE_RAD = float(np.deg2rad(3.0))
+"""The elbow begins to go this much before the end of the range."""
+MOST_RAD = float(np.deg2rad(25.0))
+"""Most an elbow goes round."""
+LOST_RAD = float(np.deg2rad(18.0))
+"""A wrist that is more than this beyond its range, and wholly one that is twice as far, is no matter of the elbow."""
+PROBE_RAD = 0.02
+"""How far it is turned to see what that does to the wrist ..."""
+STIFF = 0.18
+"""... and where that is about so little, it is not turned in vain."""
+ROUNDS = 2
+LEAST_SINE = 1e-9
+
+
+@dataclass(frozen=True, eq=False)
+class Wrist:
+    """How far one hand bends in its wrist.
+
+    Attributes
+    ----------
+    axes : (2, 3) float64
+        Of flexion, and of bending aside.
+    twist : (3,) float64
+        Axis of the forearm's turn.
+    low_rad, high_rad : (2,) float64
+        The ranges.
+    """
+
+    axes: FloatArray
+    twist: FloatArray
+    low_rad: FloatArray
+    high_rad: FloatArray
+
+    def aside_rad(self, hand: FloatArray) -> FloatArray:
+        """Of ``forearm_from_hand`` (F, 4) the angle (F,) aside."""
+        aside: FloatArray = np.ascontiguousarray(self._swing(hand)) @ self.axes[1]
+        return aside
+
+    def outside_rad(self, hand: FloatArray) -> FloatArray:
+        """How far (F,) ``forearm_from_hand`` (F, 4) is bent beyond its ranges, any way."""
+        bent = np.ascontiguousarray(self._swing(hand)) @ self.axes.T
+        outside: FloatArray = np.maximum(0.0, np.maximum(bent - self.high_rad, self.low_rad - bent)).max(axis=1)
+        return outside
+
+    def _swing(self, hand: FloatArray) -> FloatArray:
+        """The shortest turn from the axis of the twist to where that is taken: rotation vectors (F, 3)."""
+        taken = quaternion.rotate(hand, self.twist)
+        across = quaternion.cross(self.twist, taken)
+        sine = np.sqrt(quaternion.dot(across, across))
+        angle = np.arctan2(sine, np.ascontiguousarray(taken) @ self.twist)
+        swing: FloatArray = across * (angle / np.maximum(sine, LEAST_SINE))[:, None]
+        return swing
+
+    def beyond_rad(self, aside_rad: FloatArray) -> FloatArray:
+        """By how much angles (F,) should be less; exactly 0 well within the range, and where no elbow would help."""
+        over = softly_over(aside_rad - self.high_rad[1], EASE_RAD)
+        beyond = over - softly_over(self.low_rad[1] - aside_rad, EASE_RAD)
+        lost = np.clip(np.abs(beyond) / LOST_RAD - 1.0, 0.0, 1.0)
+        helped: FloatArray = beyond * (1.0 - lost * lost * (3.0 - 2.0 * lost))
+        return helped
+
+    def relief_rad(
+        self, aside_rad: FloatArray, beyond_rad: FloatArray, at: Callable[[FloatArray], FloatArray]
+    ) -> FloatArray:
+        """How far (F,) the elbow goes round.
+
+        Parameters
+        ----------
+        aside_rad, beyond_rad : (F,) float64
+            With the elbow in its usual place.
+        at : callable
+            The angles aside with the elbow gone round so far.
+        """
+        slope = (at(np.full(len(aside_rad), PROBE_RAD)) - aside_rad) / PROBE_RAD
+        gain = slope / (slope * slope + STIFF * STIFF)
+        turn, now = np.zeros(len(aside_rad)), aside_rad
+        for number in range(ROUNDS):
+            if number:
+                now = at(turn)
+            turn = _capped(turn + gain * (aside_rad - beyond_rad - now))
+        return turn
+
+
+def _capped(turn_rad: FloatArray) -> FloatArray:
+    capped: FloatArray = np.sign(turn_rad) * softly_capped(np.abs(turn_rad), MOST_RAD, 0.25 * MOST_RAD)
+    return capped
+
+
+def wrists_of(body: Body, profile: SkeletonProfile) -> dict[Side, Wrist]:
+    """Both wrists of a body."""
+    found: dict[Side, Wrist] = {}
+    for side in SIDES:
+        axes, joint = profile.joint_axes(f"{side}Hand"), profile.joint(f"{side}Hand")
+        limits = body.limits[joint.kind]
+        low_rad, high_rad = np.deg2rad([limits.flexion_deg, limits.sideways_deg]).T
+        found[side] = Wrist(np.array([axes.flexion, axes.sideways]), np.array(axes.twist), low_rad, high_rad)
+    return found

@@ -1,0 +1,1 @@
+"""Curves of time that all layers are made of."""

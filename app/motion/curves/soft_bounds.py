@@ -1,0 +1,18 @@
+"""Bounds that are approached softly."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from app.motion.curves.curve import FloatArray
+
+
+def softly_over(x: FloatArray, ease: FloatArray | float) -> FloatArray:
+    """``max(x, 0)`` with a parabola between -ease and ease; exactly 0 below."""
+    result: FloatArray = np.where(x >= ease, x, np.square(np.maximum(x + ease, 0.0)) / (4.0 * ease))
+    return result
+
+
+def softly_capped(x: FloatArray, most: FloatArray | float, ease: FloatArray | float) -> FloatArray:
+    """``min(x, most)``, rounded where it bends."""
+    return most - softly_over(most - x, ease)

@@ -1,0 +1,231 @@
+"""What playing costs and where the music goes, as the face shows it: slow curves from the notes of a plan.
+
+All of it is worked out in whole numbers on a grid of absolute time, so that a note far away changes not even the last
+bit: after an edit only what is near it is another face. What lasts long (where the melody goes, a phrase, the air left,
+tired lips) follows the music as it was planned: lips set by hand for a note change its load alone.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Final, NamedTuple, TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+
+from app.motion.curves.curve import FloatArray
+from app.motion.curves.spline import Spline
+from app.plan.breath.lungs import air_rate, lungful_s
+from app.plan.model import PlayerPlan
+from app.plan.parameters import PlayerParameters
+from instrument_maps.model import Air
+from metadata.face_model import FaceMotion
+
+IntArray: TypeAlias = npt.NDArray[np.int64]
+Whole: TypeAlias = npt.NDArray[np.int32]
+"""Whole numbers on the grid, `ONE` for 1: a product of two has 24 bits, and wider ones take twice as long."""
+
+STEP_S: Final = 0.05
+BITS: Final = 12
+ONE: Final = 1 << BITS
+"""What 1 is in whole numbers."""
+WORKING_S: Final = 0.10
+"""A face works as hard as the notes so far before and after, ..."""
+CONTOUR_S, AROUND_S = 0.25, 1.6
+"""... and goes with the mean of notes so near, compared with those so near."""
+CONTOUR: Final = 3.0
+"""A third of the range of tension or loudness between both is a whole rise."""
+LIGHT: Final = 0.35
+"""A load below this may last for ever."""
+PHRASE_REST_S: Final = 0.6
+"""A phrase ends at a breath, and at a rest this long."""
+PEAK: Final = 0.62
+"""Where in a phrase its tension is highest."""
+WHOLE_PHRASE_S: Final = 4.0
+"""A shorter phrase has less of it."""
+TIRES_S: Final = 16.0
+"""Lips tire by what they did in this time: they do without a rest ..."""
+TIRED_FROM, TIRED_AT = 0.25, 0.65
+"""... from this mean load to this one."""
+TIRED_STEPS: Final = 32
+AFTER_S: Final = 8.0
+"""Behind the last note the face comes to rest within this time."""
+
+
+class Exertion(NamedTuple):
+    """At some times, each (F,) float64 0..1, but for ``contour`` and ``swell`` from -1 to 1; see `FaceMotion`."""
+
+    working: FloatArray
+    strain: FloatArray
+    contour: FloatArray
+    swell: FloatArray
+    emptying: FloatArray
+    phrase: FloatArray
+    tired: FloatArray
+
+
+@dataclass(frozen=True)
+class Lungs:
+    """How long a full breath lasts at mezzoforte, and how the loudness changes that."""
+
+    full_s: float
+    air: Air | None = None
+
+    @classmethod
+    def of(cls, parameters: PlayerParameters, air: Air | None) -> Lungs:
+        """Of a player with an instrument."""
+        return cls(lungful_s(parameters, air), air)
+
+
+def exertion_of(plan: PlayerPlan, face: FaceMotion, lungs: Lungs) -> Spline:
+    """The members of `Exertion` of a whole plan."""
+    frame = plan.time_frame
+    first = int(np.floor(frame.first_frame_s / STEP_S)) - 1
+    count = int(np.ceil((frame.end_s + AFTER_S) / STEP_S)) - first
+    at_s = (first + np.arange(count, dtype=np.float64)) * STEP_S
+    if not plan.embouchures:
+        return Spline(first, STEP_S, np.zeros((len(Exertion._fields), 1), np.int16), float(ONE))
+    starts_s = np.array([event.start_s for event in plan.embouchures])
+    ends_s = np.minimum(np.array([event.end_s for event in plan.embouchures]), np.append(starts_s[1:], np.inf))
+    note = np.searchsorted(starts_s, at_s, side="right") - 1
+    sounds = (note >= 0) & (at_s < ends_s[note])
+    tension, air, effort = _asked(plan, at_s, note, sounds, as_planned=False)
+    load = music = _load(face, tension, air, effort, sounds)
+    if any(event.planned is not None for event in plan.embouchures):
+        tension, air, effort = _asked(plan, at_s, note, sounds, as_planned=True)
+        music = _load(face, tension, air, effort, sounds)
+    playing = sounds.astype(np.int32)
+    arch = _arch(plan, starts_s, ends_s, at_s)
+    rows = (
+        _mean(load, WORKING_S, WORKING_S),
+        _strain(load, face.rise_s, face.decay_s),
+        _apart(_whole(tension), playing),
+        _apart(_whole(air), playing),
+        _emptying(plan, lungs, air * sounds, sounds, at_s),
+        _mean(_whole(arch) * _mean(music, 0.8, 0.8) // (ONE // 2), 0.2, 0.2),
+        _tired(music),
+    )
+    low = np.array([[-ONE if name in ("contour", "swell") else 0] for name in Exertion._fields])
+    return Spline(first, STEP_S, np.clip(np.stack(rows), low, ONE).astype(np.int16), float(ONE))
+
+
+def _load(
+    face: FaceMotion, tension: FloatArray, air: FloatArray, effort: FloatArray, sounds: npt.NDArray[np.bool_]
+) -> Whole:
+    """What the notes cost, on the grid."""
+    share = face.load
+    cost = share.tension * tension + share.air * air + share.effort * effort - share.easy
+    return _whole(np.clip(np.where(sounds, cost, 0.0), 0.0, 1.0))
+
+
+def _asked(
+    plan: PlayerPlan, at_s: FloatArray, note: IntArray, sounds: npt.NDArray[np.bool_], *, as_planned: bool
+) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Tension, air and effort on the grid, 0 in silences: as they were recorded where they were, else by the notes.
+
+    ``as_planned`` leaves out what was set by hand.
+    """
+    events, traces = plan.embouchures, plan.traces
+    rows = [
+        (event.tension, event.effort, event.air) if event.planned is None or not as_planned else event.planned
+        for event in events
+    ]
+    found = [np.where(sounds, column[note], 0.0) for column in np.array(rows).T[[0, 2, 1]]]
+    if traces is not None:
+        place = np.rint((at_s - traces.start_s) / traces.step_s).astype(np.int64)
+        for number, values in enumerate((traces.tension, traces.air, traces.effort)):
+            if values is not None:
+                found[number] = np.where(sounds, values[np.clip(place, 0, len(values) - 1)], 0.0)
+    return found[0], found[1], found[2]
+
+
+def _whole(values: FloatArray) -> Whole:
+    return np.rint(values * ONE).astype(np.int32)
+
+
+def _sum(values: Whole, before_s: float, after_s: float) -> Whole:
+    """Of the values from so long before to so long after each. What is summed up to a place of a very long piece may
+    run over: the difference of two is right all the same."""
+    before, after = (max(round(width_s / STEP_S), 0) for width_s in (before_s, after_s))
+    total = np.zeros(before + 1 + len(values) + after, np.int32)
+    upto = total[before + 1 : before + 1 + len(values)]
+    np.cumsum(values, dtype=np.int32, out=upto)
+    total[before + 1 + len(values) :] = upto[-1]
+    sums: Whole = total[before + after + 1 :] - total[: len(values)]
+    return sums
+
+
+def _mean(values: Whole, before_s: float, after_s: float) -> Whole:
+    """Averaged twice: over a window that falls off to both sides."""
+    for _ in range(2):
+        values = _sum(values, before_s, after_s) // (round(before_s / STEP_S) + round(after_s / STEP_S) + 1)
+    return values
+
+
+def _apart(values: Whole, playing: Whole) -> Whole:
+    """How far what is played here is above what is played around it; nothing in a rest."""
+    sounds = np.flatnonzero(playing)
+    here, around = (
+        _sum(values, width_s, width_s)[sounds] // _sum(playing, width_s, width_s)[sounds]
+        for width_s in (CONTOUR_S, AROUND_S)
+    )
+    apart = np.zeros(len(values), np.int32)
+    apart[sounds] = np.clip(round(CONTOUR) * (here - around), -ONE, ONE)
+    return _mean(apart, CONTOUR_S, CONTOUR_S)
+
+
+def _strain(load: Whole, rise_s: float, decay_s: float) -> Whole:
+    """Grows with the mean of a heavy load, and passes when it is over."""
+    heavy = np.maximum(load - round(LIGHT * ONE), 0)
+    grown = _mean(heavy, rise_s / 2.0, 0.0) * ONE // round((1.0 - LIGHT) * ONE)
+    steps = round(decay_s / STEP_S)
+    strain, passed = grown.copy(), np.empty_like(grown)
+    for step in range(1, steps):
+        left = np.int32(round(ONE * (1.0 - step / steps) ** 2))
+        np.multiply(grown[:-step], left, out=passed[step:])
+        np.right_shift(passed[step:], BITS, out=passed[step:])
+        np.maximum(strain[step:], passed[step:], out=strain[step:])
+    return _mean(strain, 0.1, 0.1)
+
+
+def _emptying(
+    plan: PlayerPlan, lungs: Lungs, loudness: FloatArray, sounds: npt.NDArray[np.bool_], at_s: FloatArray
+) -> Whole:
+    """How much of the last breath's air is used up."""
+    rate = _whole(np.where(sounds, air_rate(loudness, lungs.air), 0.0))
+    used = np.cumsum(rate, dtype=np.int64)
+    breaths = [event for event in plan.breaths if event.kind == "breath"]
+    if not breaths:
+        return np.zeros(len(at_s), np.int32)
+    ends_s = np.maximum.accumulate(np.array([event.end_s for event in breaths]))
+    filled = np.searchsorted(ends_s, at_s, side="right") - 1
+    begins = np.searchsorted(at_s, ends_s, side="left")
+    before = np.append(used[np.minimum(begins, len(at_s) - 1)], 0)[filled]
+    depths = np.append(np.array([max(event.depth, 0.3) for event in breaths]), 1.0)[filled]
+    spent = np.where(filled >= 0, used - before, 0) * STEP_S / (depths * lungs.full_s)
+    # Little is seen of the first half.
+    left = _whole(np.square(np.clip(spent / ONE, 0.0, 1.0)))
+    return _mean(np.where(_sum(sounds.astype(np.int32), 0.5, 0.0) > 0, left, np.int32(0)), 0.15, 0.15)
+
+
+def _arch(plan: PlayerPlan, starts_s: FloatArray, ends_s: FloatArray, at_s: FloatArray) -> FloatArray:
+    """Up to a phrase's peak and down to its end, 0..1."""
+    breaths_s = np.array([event.end_s for event in plan.breaths if event.kind == "breath"])
+    rested = np.append(True, starts_s[1:] - ends_s[:-1] >= PHRASE_REST_S)
+    rested[np.minimum(np.searchsorted(starts_s, breaths_s - 1e-6), len(starts_s) - 1)] = True
+    begins = np.flatnonzero(rested)
+    from_s, to_s = starts_s[begins], ends_s[np.append(begins[1:], len(starts_s)) - 1]
+    phrase = np.maximum(np.searchsorted(from_s, at_s, side="right") - 1, 0)
+    length_s = np.maximum(to_s - from_s, STEP_S)
+    share = np.clip((at_s - from_s[phrase]) / length_s[phrase], 0.0, 1.0)
+    rise = np.where(share < PEAK, share / PEAK, (1.0 - share) / (1.0 - PEAK))
+    arch: FloatArray = rise * rise * (3.0 - 2.0 * rise) * np.minimum(length_s[phrase] / WHOLE_PHRASE_S, 1.0)
+    return arch
+
+
+def _tired(load: Whole) -> Whole:
+    """After a long time without a rest; in steps, so that one other note is often none."""
+    mean = _sum(load, TIRES_S, 0.0) // round(TIRES_S / STEP_S)
+    more = (mean - round(TIRED_FROM * ONE)) * ONE // round((TIRED_AT - TIRED_FROM) * ONE)
+    step = ONE // TIRED_STEPS
+    return np.clip(more // step * step, 0, ONE)

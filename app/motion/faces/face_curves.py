@@ -1,0 +1,222 @@
+"""What a plan asks of a face, as curves of time: embouchure, breath, tongue, effort, expressions, what playing costs.
+
+`app.motion.faces.morph_weights` makes the weights of a character's morphs of them.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import partial
+from typing import Final
+
+import numpy as np
+
+from app.motion.curves.curve import Curve, Envelopes, FloatArray, Trace, moves, moves_to
+from app.motion.curves.spline import Spline
+from app.motion.faces.exertion import Exertion, exertion_of
+from app.motion.faces.lips_within_notes import easing, firmness, vibrato_size
+from app.motion.faces.tongue_strokes import attack_pushes, back_strokes, tip_strokes
+from app.plan.model import EmbouchureEvent, PlayerPlan, SampledCurves, only
+from app.steps import StepTable, reading
+
+FORM_S = 0.26
+"""The lips form in this time before the first note of a phrase, and let go as slowly after its last."""
+SHIFT_S = 0.09
+"""From one note's tension to the next."""
+SHIFT_SHARE = 0.45
+HOLD_S = 0.8
+"""In rests shorter than this the lips stay formed (but for a breath)."""
+SWELL_S = 0.35
+"""Effort and air swell and fade slowly, over several notes."""
+
+SHALLOWEST = 0.5
+"""However shallow a breath, the mouth opens by this share of a full one's."""
+
+
+def _tracked(spans_s: FloatArray, targets: FloatArray, shift_s: float, rest_value: float | None) -> Curve:
+    """A value (N,) that is reached at each onset, held, and (``rest_value``) left in rests longer than `HOLD_S`;
+    the notes are (N, 2) starts and ends."""
+    initial = rest_value or 0.0
+    if not len(spans_s):
+        return moves((), initial)
+    onsets_s = spans_s[:, 0]
+    lasts_s = np.minimum(spans_s[:, 1], np.append(onsets_s[1:], np.inf))
+    before = np.append(initial, targets[:-1])
+    free_s = np.append(-np.inf, np.maximum(onsets_s, lasts_s - SHIFT_SHARE * (lasts_s - onsets_s))[:-1])
+    left_s = np.append(-np.inf, lasts_s[:-1])
+    # Two rows for every note: back to rest where there is one before it, and to its own value.
+    rows = np.empty((len(spans_s), 2, 3))
+    if rest_value is not None:
+        gap_s = onsets_s - left_s
+        rests = np.isfinite(left_s) & (gap_s > HOLD_S)
+        back_s = left_s + np.minimum(2.0 * FORM_S, gap_s / 2.0)
+        free_s = np.where(rests, back_s, free_s)
+        rows[:, 0] = np.stack((left_s, back_s, np.where(rests, rest_value, before)), axis=1)
+    else:
+        rows[:, 0] = np.stack((onsets_s, onsets_s, before), axis=1)
+    rows[:, 1] = np.stack((np.maximum(onsets_s - shift_s, free_s), onsets_s, targets), axis=1)
+    table = rows.reshape(-1, 3)
+    if rest_value is not None:
+        table = np.append(table, [[lasts_s[-1], lasts_s[-1] + 2.0 * FORM_S, rest_value]], axis=0)
+    return moves_to(table[:, 0], table[:, 1], table[:, 2], initial)
+
+
+@dataclass(frozen=True, eq=False)
+class Column:
+    """A value of every embouchure, (N,) or (N, 2): compared by its numbers, which costs less than making curves."""
+
+    values: FloatArray
+
+    def __eq__(self, other: object) -> bool:
+        """Return whether the numbers are the same."""
+        return isinstance(other, Column) and np.array_equal(self.values, other.values)
+
+    def __hash__(self) -> int:
+        return hash(self.values.tobytes())
+
+
+def _spans(lips: tuple[EmbouchureEvent, ...]) -> Column:
+    return Column(np.array([(event.start_s, event.end_s) for event in lips]).reshape(-1, 2))
+
+
+def _column(lips: tuple[EmbouchureEvent, ...], name: str) -> Column:
+    return Column(np.array([getattr(event, name) for event in lips], np.float64))
+
+
+def _at_lips(spans: Column) -> Curve:
+    return _tracked(spans.values, np.ones(len(spans.values)), FORM_S, 0.0)
+
+
+def _tension(spans: Column, tensions: Column, traces: SampledCurves | None, embouchure_tension: float) -> Curve | Trace:
+    """As it was recorded where it was, else from note to note; so are effort and air."""
+    if traces is None:
+        return _tracked(spans.values, np.minimum(embouchure_tension * tensions.values, 1.0), SHIFT_S, None)
+    return Trace(traces.start_s, traces.step_s, np.minimum(embouchure_tension * traces.tension, 1.0))
+
+
+def _effort(spans: Column, efforts: Column, traces: SampledCurves | None) -> Curve | Trace:
+    if traces is None or traces.air is None or traces.effort is None:
+        return _tracked(spans.values, efforts.values, SWELL_S, 0.0)
+    return Trace(traces.start_s, traces.step_s, traces.effort)
+
+
+def _air(spans: Column, airs: Column, traces: SampledCurves | None) -> Curve | Trace:
+    if traces is None or traces.air is None or traces.effort is None:
+        return _tracked(spans.values, airs.values, SWELL_S, 0.0)
+    return Trace(traces.start_s, traces.step_s, traces.air)
+
+
+def breath_opening(plan: PlayerPlan) -> Envelopes:
+    """How far the mouth is open for air: up through a breath's first part, shut again at its end."""
+    rows = []
+    for breath in plan.breaths:
+        if breath.kind != "breath":
+            continue
+        length_s = breath.end_s - breath.start_s
+        shut_s = min(0.35 * length_s, 0.22)
+        open_s = min(0.40 * length_s, 0.45)
+        height = SHALLOWEST + (1.0 - SHALLOWEST) * breath.depth
+        rows.append((breath.start_s, breath.start_s + open_s, breath.end_s - shut_s, breath.end_s, height))
+    return Envelopes.of(rows)
+
+
+def _shown(plan: PlayerPlan) -> dict[str, Envelopes]:
+    rows: dict[str, list[tuple[float, float, float, float, float]]] = {}
+    for event in plan.expressions:
+        full_s, fall_s = event.start_s + event.fade_in_s, event.end_s - event.fade_out_s
+        rows.setdefault(event.expression, []).append((event.start_s, full_s, fall_s, event.end_s, event.strength))
+    # In the order of their names: an expression that is shown earlier does not change how the others add up.
+    return {name: Envelopes.of(rows[name]) for name in sorted(rows)}
+
+
+@dataclass(frozen=True)
+class Drivers:
+    """What moves the face at some frames: members as of `Face`, each (F,) float64."""
+
+    at_lips: FloatArray
+    tension: FloatArray
+    effort: FloatArray
+    air: FloatArray
+    tongue: FloatArray
+    tongue_back: FloatArray
+    push: FloatArray
+    mouth_open: FloatArray
+    firm: FloatArray
+    eased: FloatArray
+    vibrato: FloatArray
+    exertion: Exertion
+    expressions: dict[str, FloatArray]
+
+
+@dataclass(frozen=True)
+class Face:
+    """What one player's plan asks of the face, as curves of time.
+
+    Attributes
+    ----------
+    at_lips : Curve
+        1 while the lips are formed.
+    tongue, tongue_back, push : Envelopes
+        The tongue's strokes, and the breath behind them (`app.motion.faces.tongue_strokes`).
+    firm, eased, vibrato : Curve
+        What the lips do within notes and between them (`app.motion.faces.lips_within_notes`).
+    exertion : Spline
+        Members of `Exertion`.
+    expressions : dict of str to Envelopes
+        By name.
+    """
+
+    at_lips: Curve
+    tension: Curve | Trace
+    effort: Curve | Trace
+    air: Curve | Trace
+    tongue: Envelopes
+    tongue_back: Envelopes
+    push: Envelopes
+    mouth_open: Envelopes
+    firm: Curve
+    eased: Curve
+    vibrato: Curve
+    exertion: Spline
+    expressions: dict[str, Envelopes]
+
+    def sample(self, times_s: FloatArray) -> Drivers:
+        """What moves the face at ascending times."""
+        alone = {name: curve for name, curve in vars(self).items() if name not in ("expressions", "exertion")}
+        return Drivers(
+            **{name: curve.sample(times_s) for name, curve in alone.items()},
+            exertion=Exertion(*self.exertion.sample(times_s)),
+            expressions={name: envelopes.sample(times_s) for name, envelopes in self.expressions.items()},
+        )
+
+
+FACE: Final = StepTable(
+    lips="plan.embouchures",
+    traces="plan.traces",
+    spans=_spans,
+    tensions=partial(_column, name="tension"),
+    efforts=partial(_column, name="effort"),
+    airs=partial(_column, name="air"),
+    plan_of_lips=partial(only, fields=("embouchures", "traces")),
+    plan_of_tongue=partial(only, fields=("tongues",)),
+    plan_of_breaths=partial(only, fields=("breaths",)),
+    plan_of_expressions=partial(only, fields=("expressions",)),
+    plan_of_attacks=partial(only, fields=("embouchures", "tongues")),
+    plan_of_effort=partial(only, fields=("embouchures", "traces", "breaths")),
+    at_lips=_at_lips,
+    tension=_tension,
+    effort=_effort,
+    air=_air,
+    tongue=reading(tip_strokes, plan="plan_of_tongue"),
+    tongue_back=reading(back_strokes, plan="plan_of_tongue"),
+    push=reading(attack_pushes, plan="plan_of_tongue"),
+    mouth_open=reading(breath_opening, plan="plan_of_breaths"),
+    firm=reading(firmness, plan="plan_of_attacks"),
+    eased=reading(easing, plan="plan_of_lips"),
+    vibrato=reading(vibrato_size, plan="plan_of_lips"),
+    exertion=reading(exertion_of, plan="plan_of_effort", face="face_motion"),
+    expressions=reading(_shown, plan="plan_of_expressions"),
+    face=Face,
+)
+"""The steps of a face; given are the plan, the player's ``embouchure_tension`` (1 is as planned) and lungs, and the
+``face_motion`` of the body."""

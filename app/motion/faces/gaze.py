@@ -1,0 +1,279 @@
+"""Where a player looks, and how the head goes along.
+
+The eyes read the music line by line, leave it for the glances of the plan and for a cue, wander in rests and now and
+then while playing, and meet the audience at the end. Saccades last 50 ms and more (Bahill et al.
+1975); the head follows larger ones some 100 ms later, and more slowly. Whatever chance decides belongs to a place in
+time, so that an edit changes only what is near it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import partial
+from typing import Final, NamedTuple
+
+import numpy as np
+
+from app.motion.curves.curve import Curve, Envelopes, FloatArray, moves_to
+from app.motion.curves.seeded_chance import generator
+from app.motion.curves.spline import Spline
+from app.motion.faces.blinks import BLINK_DOWN_S, BLINK_SHUT_S, BLINK_UP_S, ENTRY_GUARD_S, blinks_of
+from app.motion.faces.silences import Silences, holds, overlaps
+from app.plan.model import PlayerPlan, only
+from app.plan.styles import share_at
+from app.steps import StepTable, reading
+
+__all__ = ["BLINK_DOWN_S", "BLINK_SHUT_S", "BLINK_UP_S", "ENTRY_GUARD_S", "Gaze", "Look", "Watching", "plan_gaze"]
+
+SACCADE_S = 0.05
+SACCADE_BASE_S, SACCADE_S_RAD = 0.035, 0.12
+"""A saccade takes the one and so much by its size."""
+HEAD_TURN_S = 0.45
+HEAD_LAG_S: Final = 0.18
+"""What the head follows is so old: with the curve's own rounding it begins some 80 ms after the eyes."""
+HEAD_STEP_S: Final = 0.05
+MOST_YAW_RAD, MOST_UP_RAD, MOST_DOWN_RAD = 0.5, 0.15, 0.4
+MUSIC_PITCH_RAD = 0.20
+"""The music on its stand lies about 12 degrees below the line of sight."""
+LINE_RAD, SYSTEM_RAD, SYSTEMS = 0.075, 0.018, 6
+"""Half of a line's width, and how far the next one is below it, of so many on a page."""
+LINE_S = (5.0, 8.0)
+"""In this time a line is read."""
+FIXATION_S: Final = 0.65
+LOOK_S: Final = 1.9
+"""A look away from the music lasts at most so long."""
+UP_IN_PHRASE, ABOUT_IN_REST = 0.10, 0.5
+"""How likely looks are: up while playing, and about in a rest."""
+BACK_S: Final = 0.8
+"""So long before an entry the eyes are on the music again."""
+CUE_LEAD_S, CUE_BACK_BEATS = 0.3, 0.6
+ASIDE_RAD: Final = 0.22
+AUDIENCE_S: Final = 0.9
+"""So long after the last note the eyes go up to the audience."""
+CLOSE_S: Final = 0.14
+"""Fixations are at least so long."""
+PLAYING_SHARE, RESTING_SHARE, READING_SHARE = 0.35, 0.6, 0.25
+"""How much of it the head follows."""
+HEAD_TURNS = 0.5
+"""The head makes so much of the turn that a look lets it follow (`app.motion.gestures.body_layers`)."""
+EYES_RAD: Final = 0.52
+"""Eyes turn no further in the head: what is further aside comes in sight with the head."""
+PLAYING_TURN_RAD, FREE_TURN_RAD, LOW_ENOUGH = 0.2, 2.0, 0.7
+"""The head is given so much of a turn with the instrument at the lips, and more once it is nearly lowered."""
+
+
+@dataclass(frozen=True)
+class Look:
+    """Eyes and lids at some frames: members as of `Gaze`, each (F,) float64."""
+
+    yaw_rad: FloatArray
+    pitch_rad: FloatArray
+    head_yaw_rad: FloatArray
+    head_pitch_rad: FloatArray
+    left_lid: FloatArray
+    right_lid: FloatArray
+
+
+def with_instrument(look: Look, lowered: FloatArray) -> Look:
+    """The look of a head with an instrument at its mouth: it turns little, since the hands cannot follow it far, and
+    the eyes do the rest as far as they go.
+
+    Parameters
+    ----------
+    lowered : (F,) float64
+        0 with the instrument at the lips, 1 with it lowered.
+    """
+    free = np.clip((lowered - LOW_ENOUGH) / (1.0 - LOW_ENOUGH), 0.0, 1.0)
+    most_rad = PLAYING_TURN_RAD + FREE_TURN_RAD * free * free * (3.0 - 2.0 * free)
+    turned_rad = most_rad * np.tanh(look.head_yaw_rad / most_rad)
+    eyes_rad = np.clip(look.yaw_rad - HEAD_TURNS * turned_rad, -EYES_RAD, EYES_RAD)
+    return replace(look, head_yaw_rad=turned_rad, yaw_rad=eyes_rad + HEAD_TURNS * turned_rad)
+
+
+@dataclass(frozen=True)
+class Gaze:
+    """Direction of the eyes in the world, and the lids.
+
+    Attributes
+    ----------
+    yaw_rad, pitch_rad : Curve
+        Left and down are positive.
+    head : Spline
+        Yaw and pitch of what the head follows of it.
+    left_lid, right_lid : Envelopes
+        Closed at 1.
+    """
+
+    yaw_rad: Curve
+    pitch_rad: Curve
+    head: Spline
+    left_lid: Envelopes
+    right_lid: Envelopes
+
+    def sample(self, times_s: FloatArray) -> Look:
+        """Where the eyes look at ascending times."""
+        head_yaw_rad, head_pitch_rad = self.head.sample(times_s)
+        turned_rad = HEAD_TURNS * head_yaw_rad
+        return Look(
+            yaw_rad=np.clip(self.yaw_rad.sample(times_s), turned_rad - EYES_RAD, turned_rad + EYES_RAD),
+            pitch_rad=self.pitch_rad.sample(times_s),
+            head_yaw_rad=head_yaw_rad,
+            head_pitch_rad=head_pitch_rad,
+            left_lid=self.left_lid.sample(times_s),
+            right_lid=self.right_lid.sample(times_s),
+        )
+
+
+class Watching(NamedTuple):
+    """Beside the plan, what decides a gaze.
+
+    Attributes
+    ----------
+    gaze, blink : float
+        How much the eyes leave the music, and how often the lids close; 1 as usual.
+    """
+
+    seed: int = 0
+    gaze: float = 1.0
+    blink: float = 1.0
+
+
+def plan_gaze(plan: PlayerPlan, watching: Watching, silences: Silences) -> Gaze:
+    """Plan the fixations and blinks of a whole performance, seeded by the player."""
+    at_s, yaw, pitch, share = _fixations(plan, silences, watching)
+    far = np.hypot(np.diff(yaw, prepend=yaw[:1]), np.diff(pitch, prepend=pitch[:1]))
+    until_s = np.minimum(
+        at_s + np.maximum(SACCADE_BASE_S + SACCADE_S_RAD * far, SACCADE_S), np.append(at_s[1:], np.inf)
+    )
+    left_lid, right_lid = blinks_of(plan, silences, watching.seed, watching.blink)
+    return Gaze(
+        yaw_rad=moves_to(at_s, until_s, yaw),
+        pitch_rad=moves_to(at_s, until_s, pitch, MUSIC_PITCH_RAD),
+        head=_head(plan, at_s, share * yaw, 0.25 * share * (pitch - MUSIC_PITCH_RAD)),
+        left_lid=left_lid,
+        right_lid=right_lid,
+    )
+
+
+class _Looks(NamedTuple):
+    """Looks away from the music: spans (K, 2) in order, and where to."""
+
+    spans_s: FloatArray
+    yaw: FloatArray
+    pitch: FloatArray
+    share: FloatArray | float
+
+
+def _fixations(
+    plan: PlayerPlan, silences: Silences, watching: Watching
+) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
+    """Times, yaw, pitch and what share the head follows, (K,) each."""
+    random, frame = _random(plan, watching, "reads"), plan.time_frame
+    line_s, side = float(random.uniform(*LINE_S)), 1.0 if random.random() < 0.5 else -1.0
+    layers = [
+        _about(plan, silences, watching),
+        _audience(plan, silences, watching),
+        _cues(plan, side),
+        _glances(plan),
+    ]
+    reads = int(np.ceil((frame.end_s - frame.first_frame_s) / FIXATION_S))
+    chances = random.random((reads, 3))
+    read_s = frame.first_frame_s + (np.arange(reads) + 0.15 + 0.7 * chances[:, 0]) * FIXATION_S
+    turns_s = np.sort(np.concatenate([layer.spans_s.ravel() for layer in layers]))
+    turns_s = turns_s[(turns_s >= frame.first_frame_s) & (turns_s < frame.end_s)]
+    near = holds(np.stack((turns_s - CLOSE_S, turns_s + CLOSE_S), axis=1), read_s)
+    at_s = np.concatenate((read_s[~near], turns_s))
+    jitter = np.concatenate((chances[~near, 1:], np.full((len(turns_s), 2), 0.5)))
+    order = np.argsort(at_s, kind="stable")
+    at_s, jitter = at_s[order], jitter[order]
+    # Of two that are too close the later one counts: the eyes stay a moment longer where they were.
+    wide = np.append(np.diff(at_s) >= CLOSE_S, np.ones(min(len(at_s), 1), dtype=bool))
+    at_s, jitter = at_s[wide], jitter[wide]
+    line, along = np.divmod((at_s - frame.first_frame_s) / line_s, 1.0)
+    yaw = LINE_RAD * (1.0 - 2.0 * along) + 0.03 * (jitter[:, 0] - 0.5)
+    pitch = MUSIC_PITCH_RAD + SYSTEM_RAD * (line % SYSTEMS - 0.5 * (SYSTEMS - 1)) + 0.012 * (jitter[:, 1] - 0.5)
+    share = np.full(len(at_s), READING_SHARE)
+    for layer in layers:
+        if len(layer.spans_s):
+            number = np.maximum(np.searchsorted(layer.spans_s[:, 0], at_s, side="right") - 1, 0)
+            here = (at_s >= layer.spans_s[number, 0]) & (at_s < layer.spans_s[number, 1])
+            yaw, pitch = np.where(here, layer.yaw[number], yaw), np.where(here, layer.pitch[number], pitch)
+            share = np.where(here, np.broadcast_to(layer.share, len(layer.yaw))[number], share)
+    return at_s, yaw, pitch, share
+
+
+def _random(plan: PlayerPlan, watching: Watching, purpose: str) -> np.random.Generator:
+    # One for each purpose: a longer piece draws more, and the rest stays as it was.
+    return generator(plan.player_id, watching.seed, "gaze", purpose)
+
+
+def _about(plan: PlayerPlan, silences: Silences, watching: Watching) -> _Looks:
+    """About in rests, and now and then up while playing."""
+    frame = plan.time_frame
+    slots = int(np.ceil((frame.end_s - frame.first_frame_s) / LOOK_S))
+    chances = _random(plan, watching, "about").random((slots, 3))
+    wide, up = (_random(plan, watching, "where").normal(0.0, 1.0, (slots, 2)) * (0.25, 0.04) + (0.0, 0.03)).T
+    start_s = frame.first_frame_s + (np.arange(slots) + 0.4 * chances[:, 0]) * LOOK_S
+    resting = holds(silences.rests_s, start_s)
+    end_s = start_s + np.where(resting, LOOK_S * (0.35 + 0.2 * chances[:, 1]), 0.5 + 0.3 * chances[:, 1])
+    ready_s = np.append(silences.entries_s - BACK_S, np.inf)
+    end_s = np.where(resting, np.minimum(end_s, ready_s[np.searchsorted(silences.entries_s, start_s, "right")]), end_s)
+    gaze = watching.gaze * share_at(plan.styles, "gaze", start_s)
+    kept = chances[:, 2] < gaze * np.where(resting, ABOUT_IN_REST, UP_IN_PHRASE)
+    # Hands and eyes are busy while the instrument goes down or comes up.
+    kept &= (end_s - start_s > 2.0 * CLOSE_S) & ~overlaps(silences.carried_s, start_s, end_s + HEAD_TURN_S)
+    yaw = np.clip(np.where(resting, wide, 0.4 * wide), -MOST_YAW_RAD, MOST_YAW_RAD)
+    pitch = np.clip(up, -MOST_UP_RAD, MOST_DOWN_RAD)
+    share = np.where(resting, RESTING_SHARE, PLAYING_SHARE)
+    return _Looks(np.stack((start_s, end_s), axis=1)[kept], yaw[kept], pitch[kept], share[kept])
+
+
+def _audience(plan: PlayerPlan, silences: Silences, watching: Watching) -> _Looks:
+    """Still on the last note, then up to the audience, here and there."""
+    chances = _random(plan, watching, "audience").normal(0.0, 1.0, (4, 2))
+    last_s = float(silences.ends_s[-1]) if len(silences.ends_s) else np.inf
+    at_s = last_s + np.array([-0.3, AUDIENCE_S, AUDIENCE_S + 1.7, AUDIENCE_S + 3.9, np.inf])
+    yaw = np.append([0.0], 0.10 * chances[1:, 0])
+    pitch = np.append([MUSIC_PITCH_RAD - 0.02], -0.02 + 0.015 * chances[1:, 1])
+    return _Looks(np.stack((at_s[:-1], at_s[1:]), axis=1), yaw, pitch, RESTING_SHARE)
+
+
+def _cues(plan: PlayerPlan, side: float) -> _Looks:
+    """Up from the music while giving a cue, and back for the entry; whom to look at the plan says (`_glances`)."""
+    spans_s = [(cue.start_s - CUE_LEAD_S, cue.end_s - CUE_BACK_BEATS * cue.beat_s) for cue in plan.cues]
+    rows = np.array(spans_s).reshape(-1, 2)
+    return _Looks(rows, np.full(len(rows), side * ASIDE_RAD), np.zeros(len(rows)), PLAYING_SHARE)
+
+
+def _glances(plan: PlayerPlan) -> _Looks:
+    rows = np.array(
+        [(one.start_s, one.end_s, one.yaw_rad, one.pitch_rad, one.head_share / HEAD_TURNS) for one in plan.glances]
+    ).reshape(-1, 5)
+    return _Looks(rows[:, :2], rows[:, 2], rows[:, 3], rows[:, 4])
+
+
+def _head(plan: PlayerPlan, at_s: FloatArray, yaw: FloatArray, pitch: FloatArray) -> Spline:
+    """The head goes after the eyes: late, and as slowly as a head turns."""
+    first = int(np.floor(plan.time_frame.first_frame_s / HEAD_STEP_S)) - 1
+    count = int(np.ceil(plan.time_frame.end_s / HEAD_STEP_S)) + 2 - first
+    grid_s = (first + np.arange(count)) * HEAD_STEP_S
+    held = np.searchsorted(at_s, grid_s - HEAD_LAG_S, side="right")
+    steps = round(0.5 * HEAD_TURN_S / HEAD_STEP_S)
+    rows = []
+    for values in (yaw, pitch):
+        # Whole millionths: the mean of them is the same wherever it is taken.
+        whole = np.rint(1e6 * np.append(0.0, values)[held]).astype(np.int64)
+        for _ in range(2):
+            total = np.concatenate(([0], np.cumsum(np.concatenate((np.full(steps, whole[0]), whole)))))
+            whole = (total[steps + 1 :] - total[: -steps - 1]) // (steps + 1)
+        rows.append(whole)
+    return Spline(first, HEAD_STEP_S, np.stack(rows).astype(np.int32), 1e6)
+
+
+GAZE: Final = StepTable(
+    silences=Silences.of,
+    plan_of_looks=partial(only, fields=("breaths", "cues", "glances", "styles")),
+    gaze=reading(plan_gaze, plan="plan_of_looks"),
+)
+"""The steps of a gaze, which depends on the times of notes but not on what they are; given are the plan and
+`Watching`."""

@@ -1,0 +1,127 @@
+"""What is one player's own about a face: which side is stronger, the rate of the vibrato, how it wanders by itself."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Final
+
+import numpy as np
+
+from app.motion.curves.curve import FloatArray, Noise
+from app.motion.curves.seeded_chance import generator
+from app.motion.curves.spline import Spline
+from metadata.face_model import Embouchure, FaceMotion
+from metadata.model import ARKIT_MORPHS
+
+GRID_S: Final = 0.1
+LEFT, RIGHT = "Left", "Right"
+PAIRS: Final = tuple(
+    name.removesuffix(LEFT) for name in ARKIT_MORPHS if name.endswith(LEFT) and not name.startswith("eyeLook")
+)
+"""Morphs that are there for either side, but for those that turn the eyes."""
+STRONGER_SIDE: Final = 0.75
+"""Share of the pairs in which the same side is the stronger one."""
+VARIES: Final = 0.012
+"""How much the difference of left and right goes up and down, as a share of the size."""
+RATE_VARIES_RAD: Final = 0.8
+"""By so much a vibrato comes early or late now and then: some 0.3 Hz."""
+MOST: Final = 2.5
+"""Noise is held within so many times its root mean square."""
+_BANDS: Final = {
+    # Root mean square 1, by the frequencies it is made of.
+    "lips": (0.25, 1.1),
+    "corners": (0.12, 0.7),
+    "chin": (0.12, 0.8),
+    "brows": (0.06, 0.5),
+    "lids": (0.08, 0.6),
+    "nose": (0.1, 0.7),
+    "sides": (0.03, 0.12),
+    "rate": (0.15, 0.5),
+}
+
+
+@dataclass(frozen=True, eq=False)
+class Wandering:
+    """How a face wanders at some frames, each (F,) float64 of about 1; ``sides`` within -1 and 1."""
+
+    lips: FloatArray
+    corners: FloatArray
+    chin: FloatArray
+    brows: FloatArray
+    lids: FloatArray
+    nose: FloatArray
+    sides: FloatArray
+    rate: FloatArray
+
+
+@dataclass(frozen=True, eq=False)
+class OwnFace:
+    """One player's.
+
+    Attributes
+    ----------
+    left_more : dict of str to float
+        By what share of the size the left one of a pair of `PAIRS` is larger than the right one.
+    vibrato_hz, vibrato_rad : float
+        Rate and phase.
+    noises : dict of str to Noise
+        By member of `Wandering`.
+    """
+
+    left_more: dict[str, float]
+    vibrato_hz: float
+    vibrato_rad: float
+    noises: dict[str, Noise]
+
+    def wandering(self, times_s: FloatArray) -> Wandering:
+        """How the face wanders at ascending times."""
+        if len(times_s) == 0:
+            return Wandering(**dict.fromkeys(self.noises, times_s))
+        first = int(np.floor(times_s[0] / GRID_S)) - 1
+        count = int(np.floor(times_s[-1] / GRID_S)) + 3 - first
+        at_s = (first + np.arange(count, dtype=np.float64)) * GRID_S
+        values = np.clip(np.stack([noise.sample(at_s) for noise in self.noises.values()]), -MOST, MOST)
+        sampled = dict(zip(self.noises, Spline(first, GRID_S, values).sample(times_s), strict=True))
+        sampled["sides"] = np.clip(0.7 * sampled["sides"], -1.0, 1.0)
+        return Wandering(**sampled)
+
+    def vibrato(self, times_s: FloatArray, wandering: Wandering) -> FloatArray:
+        """The swing of a full vibrato, -1 to 1."""
+        turns: FloatArray = 2.0 * np.pi * self.vibrato_hz * times_s + self.vibrato_rad
+        swing: FloatArray = np.sin(turns + RATE_VARIES_RAD * wandering.rate)
+        return swing
+
+    def lopsided(self, morphs: dict[str, FloatArray], wandering: Wandering) -> None:
+        """Make left and right differ, in place; weights stay within 0 and 1."""
+        varies = VARIES * wandering.sides
+        for pair in PAIRS:
+            left, right = morphs.get(pair + LEFT), morphs.get(pair + RIGHT)
+            if left is None or right is None or pair == "eyeBlink":
+                continue
+            half = 0.5 * (self.left_more[pair] + varies)
+            morphs[pair + LEFT] = np.clip(left * (1.0 + half), 0.0, 1.0)
+            morphs[pair + RIGHT] = np.clip(right * (1.0 - half), 0.0, 1.0)
+
+
+@lru_cache(maxsize=512)
+def own_face(player_id: str, seed: int, least: float, most: float, vibrato_hz: tuple[float, float]) -> OwnFace:
+    """The face of a player; left and right differ by a share between ``least`` and ``most``."""
+    random = generator(player_id, seed, "own face")
+    side = 1.0 if random.random() < 0.5 else -1.0
+    with_it = np.where(random.random(len(PAIRS)) < STRONGER_SIDE, side, -side)
+    more = with_it * random.uniform(least, most, len(PAIRS))
+    return OwnFace(
+        left_more=dict(zip(PAIRS, more.tolist(), strict=True)),
+        vibrato_hz=float(random.uniform(*vibrato_hz)),
+        vibrato_rad=float(random.uniform(0.0, 2.0 * np.pi)),
+        noises={
+            name: Noise.of(generator(player_id, seed, "own face", name), low_hz, high_hz, 3)
+            for name, (low_hz, high_hz) in _BANDS.items()
+        },
+    )
+
+
+def face_of_player(player_id: str, seed: int, face: FaceMotion, embouchure: Embouchure) -> OwnFace:
+    """The face of a player, with sizes from a body's tables."""
+    return own_face(player_id, seed, *face.left_right, embouchure.vibrato_hz)

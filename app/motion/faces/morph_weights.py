@@ -1,0 +1,202 @@
+"""Weights of the face's morphs (ARKit's 52) from what moves it: embouchure, breath, tongue, effort, expression, lids.
+
+Every morph is a sum of drivers, each a curve of time, with weights from `metadata`, clipped to 0..1. The jaw also
+opens as far as lips need that close around something, or blow through an opening: that is solved from how the
+character's own morphs move its lips, last of all, so that whatever the lips do they close around it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from app.motion.curves.curve import FloatArray
+from app.motion.faces.face_curves import Drivers
+from app.motion.faces.gaze import Look
+from app.motion.faces.individual_face import OwnFace, Wandering, face_of_player
+from app.motion.faces.upper_face import Driver, upper_face
+from app.plan.acting import Acting
+from app.plan.parameters import PlayerParameters
+from app.rig.grip.grip_pose import Lips
+from metadata.face_model import Embouchure, EmbouchureKind, FaceMotion
+from metadata.model import Body, Expression, at_amplitude
+
+AROUND_FROM, AROUND_BY = 0.32, 0.06
+"""Lowered by less than this, the lips begin to part for what goes between them; by less than that they have."""
+EASES: float = 0.5
+"""Between notes the tension lets go by this share."""
+RECORDED_LIPS: float = 0.08
+"""What lips do of themselves where they were recorded, as a share of what they do elsewhere."""
+TIRED_WANDERS: float = 0.8
+"""Tired lips wander so much more."""
+
+
+@dataclass(frozen=True)
+class FaceSizes:
+    """How one player's face moves.
+
+    Attributes
+    ----------
+    upper, lips, vibrato : float or (F,) float64
+        Size of what is above the mouth, of what the lips do within notes, and of a full vibrato.
+    """
+
+    own: OwnFace
+    motion: FaceMotion
+    upper: FloatArray | float
+    lips: FloatArray | float
+    vibrato: FloatArray | float
+
+    def shared(self, upper: FloatArray | float, lips: FloatArray | float) -> FaceSizes:
+        """Shares of them, at some frames where they are not the same throughout."""
+        if isinstance(upper, float) and isinstance(lips, float):
+            return self
+        return replace(self, upper=upper * self.upper, lips=lips * self.lips, vibrato=lips * self.vibrato)
+
+
+def face_sizes(
+    player_id: str,
+    parameters: PlayerParameters,
+    acting: Acting,
+    body: Body,
+    kind: EmbouchureKind,
+    vibrato: float,
+    recorded: bool,
+) -> FaceSizes:
+    """Of a player.
+
+    Parameters
+    ----------
+    kind, vibrato : str, float
+        How the instrument is played, and how much vibrato its held notes usually have.
+    recorded : bool
+        Whether a controller says what the lips do.
+    """
+    motion, amplitude = body.face, parameters.amplitude
+    lips = acting.lips * at_amplitude(motion.lips_size, amplitude)
+    return FaceSizes(
+        own=face_of_player(player_id, parameters.seed, motion, body.embouchure[kind]),
+        motion=motion,
+        upper=acting.face * at_amplitude(motion.size, amplitude),
+        lips=RECORDED_LIPS * lips if recorded else lips,
+        vibrato=acting.lips * vibrato,
+    )
+
+
+def face_morphs(
+    face: Drivers,
+    embouchure: Embouchure,
+    lips: Lips,
+    expressions: Mapping[str, Expression],
+    look: Look,
+    lowered: FloatArray,
+    sizes: FaceSizes,
+    times_s: FloatArray,
+) -> dict[str, FloatArray]:
+    """Weights 0..1 of every morph that moves, each (F,) float64.
+
+    Parameters
+    ----------
+    embouchure : Embouchure
+        Weights of the instrument's kind of embouchure.
+    lips : Lips
+        Of the character, with the instrument.
+    expressions : mapping of str to Expression
+        All that ``face`` names.
+    look : Look
+        Lids, and how far down the eyes look.
+    lowered : (F,) float64
+        0 with the instrument at the lips, 1 with it lowered.
+    """
+    inhaling, at_lips = face.mouth_open, face.at_lips
+    formed = at_lips * (1.0 - 0.9 * inhaling)
+    around = formed
+    if lips.apart_m > 0.0:
+        # What is between the lips stays between them in a rest, as long as it is not lowered.
+        share = np.clip((AROUND_FROM - lowered) / (AROUND_FROM - AROUND_BY), 0.0, 1.0)
+        around = share * share * (3.0 - 2.0 * share)
+    resting = np.maximum(around - at_lips, 0.0) * (1.0 - 0.9 * inhaling)
+    wandering = sizes.own.wandering(times_s)
+    drivers = _lips(face, embouchure, formed, resting, sizes, wandering, times_s)
+    drivers += [(face.tongue, embouchure.tongue_stroke), (face.tongue_back, embouchure.tongue_back)]
+    drivers.append((inhaling, embouchure.inhale))
+    down_rad = look.pitch_rad
+    drivers += upper_face(face.exertion, inhaling, wandering, down_rad, sizes.motion, sizes.upper)
+    for name, shown in face.expressions.items():
+        expression = expressions[name]
+        drivers.append((shown if expression.while_playing else shown * (1.0 - at_lips), expression.weights))
+    drivers += [(look.left_lid, {"eyeBlinkLeft": 1.0}), (look.right_lid, {"eyeBlinkRight": 1.0})]
+    morphs = _mixed(drivers)
+    sizes.own.lopsided(morphs, wandering)
+    if lips.jaw:
+        _part_lips(morphs, lips, around, formed)
+    return morphs
+
+
+def _lips(
+    face: Drivers,
+    embouchure: Embouchure,
+    formed: FloatArray,
+    resting: FloatArray,
+    sizes: FaceSizes,
+    wandering: Wandering,
+    times_s: FloatArray,
+) -> list[Driver]:
+    """The embouchure, and what it does within notes."""
+    # In a breath the upper lip stays where the mouthpiece is.
+    alive = sizes.lips * formed * np.square(1.0 - face.mouth_open)
+    wanders = 1.0 + TIRED_WANDERS * face.exertion.tired
+    given = sizes.lips * embouchure.give * wandering.lips * wanders
+    tension = np.clip(face.tension * (1.0 - EASES * face.eased) + given, 0.0, 1.0)
+    drivers: list[Driver] = [
+        (formed * (1.0 - tension) + resting, embouchure.relaxed),
+        (formed * tension, embouchure.tight),
+        (formed * face.air, embouchure.air),
+        (formed * face.push, embouchure.push),
+        (formed * (1.0 - face.air), embouchure.soft),
+        (formed * face.effort, embouchure.effort),
+        (alive * face.firm, embouchure.onset),
+        (alive * wandering.corners * wanders, embouchure.corners),
+        (alive * wandering.chin * wanders, embouchure.chin),
+        (alive * face.exertion.tired, embouchure.tired),
+    ]
+    if np.any(sizes.vibrato) and embouchure.vibrato and np.any(face.vibrato):
+        swing = sizes.own.vibrato(times_s, wandering)
+        drivers.append((sizes.vibrato * formed * face.vibrato * swing, embouchure.vibrato))
+    return drivers
+
+
+def usual_morphs(embouchure: Embouchure, lips: Lips) -> dict[str, float]:
+    """The face of a middling tension, with the jaw as it closes the lips around what lies between them."""
+    morphs = {name: np.array([weight]) for name, weight in embouchure.usual.items()}
+    one = np.ones(1)
+    if lips.jaw:
+        _part_lips(morphs, lips, one, one)
+    return {name: float(values[0]) for name, values in morphs.items()}
+
+
+def _part_lips(morphs: dict[str, FloatArray], lips: Lips, around: FloatArray, formed: FloatArray) -> None:
+    """Open the jaw until the lips are as far apart as they must be, and by what it opens for a breath beyond that."""
+    needed = lips.jaw_for(lips.apart_m + lips.opening_m * formed, morphs, len(around))
+    beyond = morphs.get(lips.jaw, np.zeros(len(around)))
+    morphs[lips.jaw] = np.clip(around * needed + beyond, 0.0, 1.0)
+
+
+def _mixed(drivers: Sequence[Driver]) -> dict[str, FloatArray]:
+    morphs: dict[str, FloatArray] = {}
+    for driver, weights in drivers:
+        made: dict[float, FloatArray] = {}
+        for name, weight in weights.items():
+            if weight == 0.0:
+                continue
+            if weight not in made:
+                made[weight] = weight * driver
+            if name in morphs:
+                morphs[name] += made[weight]
+            else:
+                morphs[name] = made[weight].copy()
+    for values in morphs.values():
+        np.clip(values, 0.0, 1.0, out=values)
+    return morphs

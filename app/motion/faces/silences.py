@@ -1,0 +1,105 @@
+"""The notes of a plan as times: where there is silence, where it is quick, where phrases begin and end."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+from typing import TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+
+from app.motion.curves.curve import FloatArray
+from app.plan.model import PlayerPlan
+
+BoolArray: TypeAlias = npt.NDArray[np.bool_]
+
+REST_S = 1.0
+QUICK_S = 0.16
+"""From one onset to the next: what is quicker is a run."""
+CARRIED_S = 1.3
+"""An instrument is on its way to or from the lips for about so long."""
+
+
+@dataclass(frozen=True, eq=False)
+class Silences:
+    """Times of one player's notes.
+
+    Attributes
+    ----------
+    starts_s, ends_s : (N,) float64
+        Notes in order.
+    rests_s : (R, 2) float64
+        Silences of at least `REST_S`; the first is the one before the first note, the last the one after the last,
+        however long.
+    quick_s : (Q, 2) float64
+        Where notes follow each other within `QUICK_S`.
+    breaths_s : (B, 2) float64
+    carried_s : (C, 2) float64
+        Where the instrument goes down from the lips, or up to them.
+    """
+
+    starts_s: FloatArray
+    ends_s: FloatArray
+    rests_s: FloatArray
+    quick_s: FloatArray
+    breaths_s: FloatArray
+    carried_s: FloatArray
+
+    @classmethod
+    def of(cls, plan: PlayerPlan) -> Silences:
+        """Of a plan."""
+        events, frame = plan.fingerings, plan.time_frame
+        starts_s = np.array([event.start_s for event in events])
+        ends_s = np.array([event.end_s for event in events])
+        from_s, to_s = np.append(frame.first_frame_s, ends_s), np.append(starts_s, frame.end_s)
+        silent = to_s - from_s >= REST_S
+        silent[-1] = True
+        short = np.diff(starts_s) < QUICK_S
+        breaths_s = np.array([(event.start_s, event.end_s) for event in plan.breaths if event.kind == "breath"])
+        return cls(
+            starts_s,
+            ends_s,
+            np.stack((from_s, to_s), axis=1)[silent],
+            np.stack((starts_s[:-1][short], starts_s[1:][short]), axis=1),
+            breaths_s.reshape(-1, 2),
+            _carried_s(plan),
+        )
+
+    def __eq__(self, other: object) -> bool:
+        """Return whether all times are the same: then gazes are."""
+        if not isinstance(other, Silences):
+            return NotImplemented
+        return all(np.array_equal(getattr(self, one.name), getattr(other, one.name)) for one in fields(self))
+
+    def __hash__(self) -> int:
+        return hash((self.starts_s.tobytes(), self.ends_s.tobytes()))
+
+    @property
+    def entries_s(self) -> FloatArray:
+        """First notes after rests."""
+        return self.rests_s[:-1, 1]
+
+
+def _carried_s(plan: PlayerPlan) -> FloatArray:
+    ways = [
+        way
+        for start_s, end_s in _lowered_s(plan)
+        for way in ((start_s, start_s + CARRIED_S), (end_s - CARRIED_S, end_s))
+    ]
+    return np.array(sorted(ways), dtype=np.float64).reshape(-1, 2)
+
+
+def _lowered_s(plan: PlayerPlan) -> list[tuple[float, float]]:
+    return [(event.start_s, event.end_s) for event in plan.gestures if event.kind == "lower_instrument"]
+
+
+def holds(spans_s: FloatArray, times_s: FloatArray) -> BoolArray:
+    """(F,): whether any of the spans (K, 2), in order of their starts, begins at or before a time and ends after it."""
+    return overlaps(spans_s, times_s, times_s)
+
+
+def overlaps(spans_s: FloatArray, from_s: FloatArray, to_s: FloatArray) -> BoolArray:
+    """(F,): whether any of the spans (K, 2) begins at or before ``to_s`` and ends after ``from_s``."""
+    ends_s = np.append(-np.inf, np.maximum.accumulate(spans_s[:, 1]))
+    found: BoolArray = ends_s[np.searchsorted(spans_s[:, 0], to_s, side="right")] > from_s
+    return found

@@ -1,0 +1,65 @@
+"""What shows of the tongue: it comes up, touches, and leaves at the onset; jaw and lips go along, slower than its tip.
+
+A stroke of the tip (*ta*, soft *da*) and one of the tongue's back (*ka*) are curves of their own, since other parts of
+the mouth go along with each. An attack with stress is pushed by the breath as well.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Final
+
+import numpy as np
+
+from app.motion.curves.curve import Envelopes
+from app.plan.model import Articulation, PlayerPlan, TongueEvent
+
+RISES_S: Final = 0.06
+"""The tongue is on its way to reed or teeth before it touches them, ..."""
+FALLS_S: Final = 0.08
+"""... and on its way back after it has left them; ..."""
+SOFTLY: Final = 1.6
+"""... so much longer in a soft stroke, which has no edge."""
+NEAR_SHARE: Final = 0.42
+"""In quick strokes each takes at most this share of the step to the next one, before its contact and after it."""
+PUSHED: Final[dict[Articulation, float]] = {"staccato": 0.3, "accent": 0.7, "marcato": 1.0}
+"""How hard the breath pushes an attack."""
+PUSH_FROM_S: Final = 0.07
+"""A push begins so long before its attack ..."""
+PUSH_UNTIL_S: Final = 0.20
+"""... and is over so long after it."""
+
+
+def tip_strokes(plan: PlayerPlan) -> Envelopes:
+    """How far the tip of the tongue is up, 1 in a plain stroke."""
+    return _strokes(plan.tongues, lambda event: event.stroke != "ka")
+
+
+def back_strokes(plan: PlayerPlan) -> Envelopes:
+    """How far the back of the tongue is up; smaller than a stroke of the tip, as planned."""
+    return _strokes(plan.tongues, lambda event: event.stroke == "ka")
+
+
+def _strokes(tongues: Sequence[TongueEvent], chosen: Callable[[TongueEvent], bool]) -> Envelopes:
+    ends_s = np.array([event.end_s for event in tongues])
+    steps_s = np.diff(ends_s, prepend=-np.inf, append=np.inf)
+    rows = []
+    for index, event in enumerate(tongues):
+        if chosen(event):
+            before_s, after_s = float(steps_s[index]), float(steps_s[index + 1])
+            rise_s = min(RISES_S, max(NEAR_SHARE * before_s - (event.end_s - event.start_s), 0.0))
+            fall_s = min(FALLS_S * (SOFTLY if event.stroke == "da" else 1.0), NEAR_SHARE * after_s)
+            touches_s = event.start_s + 0.5 * (event.end_s - event.start_s)
+            rows.append((event.start_s - rise_s, touches_s, event.end_s, event.end_s + fall_s, event.strength))
+    return Envelopes.of(rows)
+
+
+def attack_pushes(plan: PlayerPlan) -> Envelopes:
+    """How hard the breath pushes, 0..1, at attacks that are short or stressed."""
+    rows = []
+    for event in plan.tongues:
+        hard = PUSHED.get(event.articulation, 0.0)
+        if hard:
+            at_s = event.end_s
+            rows.append((at_s - PUSH_FROM_S, at_s, at_s + 0.25 * PUSH_UNTIL_S, at_s + PUSH_UNTIL_S, hard))
+    return Envelopes.of(rows)

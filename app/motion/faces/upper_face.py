@@ -1,0 +1,48 @@
+"""Brows, lids, cheeks and nostrils: weights of what the face above the mouth follows."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from app.motion.curves.curve import FloatArray
+from app.motion.faces.exertion import Exertion
+from app.motion.faces.individual_face import Wandering
+from metadata.face_model import FaceMotion
+
+Driver = tuple[FloatArray, Mapping[str, float]]
+
+
+def upper_face(
+    exertion: Exertion,
+    inhaling: FloatArray,
+    wandering: Wandering,
+    looking_down_rad: FloatArray,
+    face: FaceMotion,
+    size: FloatArray | float,
+) -> list[Driver]:
+    """Drivers and their weights, at the size of a player."""
+    up, down = np.maximum(exertion.contour, 0.0), np.maximum(-exertion.contour, 0.0)
+    louder, softer = np.maximum(exertion.swell, 0.0), np.maximum(-exertion.swell, 0.0)
+    followed = (
+        (exertion.working, face.working),
+        (exertion.strain, face.strain),
+        (up, face.rising),
+        (down, face.falling),
+        (louder, face.louder),
+        (softer, face.softer),
+        (exertion.emptying, face.emptying),
+        (exertion.phrase, face.phrase),
+        (inhaling, face.inhale),
+        (wandering.brows, face.brows),
+        (wandering.lids, face.lids),
+        (wandering.nose, face.nose),
+    )
+    drivers: list[Driver] = [(size * driver, weights) for driver, weights in followed if weights]
+    if face.relaxed:
+        drivers.append((np.ones(len(looking_down_rad)), face.relaxed))
+    if face.lid_per_rad:
+        down_rad = np.maximum(looking_down_rad, 0.0)
+        drivers.append((face.lid_per_rad * down_rad, {"eyeBlinkLeft": 1.0, "eyeBlinkRight": 1.0}))
+    return drivers

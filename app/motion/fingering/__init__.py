@@ -1,0 +1,1 @@
+"""Controls and fingers as curves."""

@@ -1,0 +1,106 @@
+"""What an edit changes of curves that follow the notes: made anew around it, and taken from before elsewhere.
+
+In a silence long enough every control is at rest and every finger at home, whatever is played on either side. So the
+notes between two such silences can be made by themselves.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from app.motion.curves.curve import Curve
+from app.plan.model import FingeringEvent
+from app.score.metre_map import FeltBeats, beat_ticks_at
+
+APART_S = 3.0
+"""Notes this far apart, and by a beat, know nothing of one another: ways back, home and out again take less."""
+
+
+@dataclass(frozen=True)
+class Stretch:
+    """The notes ``first`` .. ``last - 1`` of a line, in which an edit lies, and the silences around them.
+
+    Attributes
+    ----------
+    start_s, end_s : float
+        In the middle of the silences; infinite where the line begins or ends.
+    """
+
+    first: int
+    last: int
+    start_s: float
+    end_s: float
+
+    def notes(self, fingerings: Sequence[FingeringEvent]) -> Sequence[FingeringEvent]:
+        """The stretch with a note on either side."""
+        return fingerings[max(self.first - 1, 0) : self.last + 1]
+
+
+def changed_stretch(
+    before: Sequence[FingeringEvent], after: Sequence[FingeringEvent], felt_beats: FeltBeats
+) -> Stretch | None:
+    """The shortest stretch that holds everything in which two lines differ; None where it is the whole line."""
+    most = min(len(before), len(after))
+    head = _alike(before[:most], after[:most])
+    tail = _alike(before[head:][::-1], after[head:][::-1])
+    # Both notes of a silence are to be the same before and after.
+    first = next((index for index in range(head - 1, 0, -1) if _apart(after, index, felt_beats)), 0)
+    count = len(after)
+    last = next((index for index in range(count - tail + 1, count) if _apart(after, index, felt_beats)), count)
+    if first == 0 and last == count:
+        return None
+    return Stretch(
+        first,
+        last,
+        0.5 * (after[first - 1].end_s + after[first].start_s) if first else -np.inf,
+        0.5 * (after[last - 1].end_s + after[last].start_s) if last < count else np.inf,
+    )
+
+
+def _alike(before: Sequence[FingeringEvent], after: Sequence[FingeringEvent]) -> int:
+    """How many notes two lines begin with alike."""
+    pairs = enumerate(zip(before, after, strict=False))
+    differ = (index for index, (one, other) in pairs if one is not other and one != other)
+    return next(differ, min(len(before), len(after)))
+
+
+def _apart(fingerings: Sequence[FingeringEvent], index: int, felt_beats: FeltBeats) -> bool:
+    before, after = fingerings[index - 1], fingerings[index]
+    beat_ticks = int(beat_ticks_at(felt_beats, np.array(after.start_tick)))
+    return after.start_s - before.end_s >= APART_S and after.start_tick - before.end_tick >= beat_ticks
+
+
+def spliced(before: Mapping[str, Curve], within: Mapping[str, Curve], stretch: Stretch) -> dict[str, Curve] | None:
+    """Curves of the line before, with those of a stretch (`Stretch.notes`) put in; None where they do not fit."""
+    if before.keys() != within.keys():
+        return None
+    result = {}
+    for name, curve in within.items():
+        joined = _spliced(before[name], curve, stretch)
+        if joined is None:
+            return None
+        result[name] = joined
+    return result
+
+
+def _spliced(before: Curve, within: Curve, stretch: Stretch) -> Curve | None:
+    ahead, behind = before.end_s <= stretch.start_s, before.start_s >= stretch.end_s
+    own = (within.start_s >= stretch.start_s) & (within.end_s <= stretch.end_s)
+    if _crossed(before, stretch) or _crossed(within, stretch) or before.initial != within.initial:
+        return None
+    pieces = ((before, ahead), (within, own), (before, behind))
+    start_s, end_s, low, high = (
+        np.concatenate([getattr(curve, name)[rows] for curve, rows in pieces])
+        for name in ("start_s", "end_s", "before", "after")
+    )
+    if (low != np.concatenate(([before.initial], high[:-1]))[: len(low)]).any():
+        return None
+    return Curve(start_s, end_s, low, high, before.initial)
+
+
+def _crossed(curve: Curve, stretch: Stretch) -> bool:
+    """Whether something still moves in the middle of a silence."""
+    return any(bool(((curve.start_s < at_s) & (at_s < curve.end_s)).any()) for at_s in (stretch.start_s, stretch.end_s))

@@ -1,0 +1,1 @@
+"""Gestures as layers of the body."""

@@ -1,0 +1,160 @@
+"""What the body does beside playing: counts, looks about, settles the hands on the instrument, looks up and bows."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, fields
+
+import numpy as np
+
+from app.motion.curves.curve import Envelopes, FloatArray, minimum_jerk, rows_changed_s
+from app.plan.model import GestureEvent, GestureKind
+from app.score.metre_map import FeltBeats, beat_ticks_at
+from metadata.model import AmplitudeScale, ConcertMotion, at_amplitude
+
+BOW = (0.36, 0.56)
+"""Shares of a bow at which the trunk is down, and begins to come up."""
+LOOK_UP_S = 0.7
+"""The head goes up so slowly, and comes back so."""
+COUNT_EASE = 1.0
+"""Counting begins and ends within so many beats."""
+CONCERT_KINDS: tuple[GestureKind, ...] = ("count", "settle_grip", "hold_still", "look_up", "bow")
+"""Gestures of the body beside playing."""
+MOST_BOW_RAD = float(np.deg2rad(36.0))
+"""However much of it is asked for, the trunk bends no further."""
+
+
+@dataclass(frozen=True)
+class ConcertSamples:
+    """How much of each is done at some frames, 0..1, each (F,) float64."""
+
+    bow: FloatArray
+    up: FloatArray
+    settle: FloatArray
+    count: FloatArray
+
+
+@dataclass(frozen=True)
+class Beside:
+    """What is added to the body, each (F,) float64: hips, trunk and neck forwards, hips back, shoulders up, elbows out,
+    and how much of the lowered instrument's way it comes up."""
+
+    hips_rad: FloatArray
+    back_m: FloatArray
+    trunk_rad: FloatArray
+    neck_rad: FloatArray
+    shoulders_rad: FloatArray
+    elbows_rad: FloatArray
+    up_share: FloatArray
+
+
+def beside_playing(
+    done: ConcertSamples, sizes: ConcertMotion, amplitude: float, amount: FloatArray | float, seated: bool
+) -> Beside:
+    """What the body adds at some frames; ``amount`` is times as usual."""
+
+    def rad(scale: AmplitudeScale) -> FloatArray | float:
+        return amount * float(np.deg2rad(at_amplitude(scale, amplitude)))
+
+    bow = done.bow * (sizes.bow_seated_share if seated else 1.0)
+    stands = 0.0 if seated else np.minimum(amount, 1.5)
+    return Beside(
+        hips_rad=done.bow * stands * float(np.deg2rad(at_amplitude(sizes.bow_hips_deg, amplitude))),
+        back_m=done.bow * stands * at_amplitude(sizes.bow_back_m, amplitude),
+        trunk_rad=bow * np.minimum(rad(sizes.bow_trunk_deg), MOST_BOW_RAD),
+        neck_rad=bow * np.minimum(rad(sizes.bow_head_deg), 0.5 * MOST_BOW_RAD)
+        + done.count * rad(sizes.count_head_deg)
+        - done.up * (1.0 - done.bow) * rad(sizes.look_up_deg),
+        shoulders_rad=done.settle * rad(sizes.settle_shoulders_deg),
+        elbows_rad=done.settle * rad(sizes.settle_elbows_deg),
+        up_share=done.settle * np.minimum(amount * sizes.settle_share, 0.3),
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class Counting:
+    """Head nods with the beats that are counted, 0..1, lowest on each beat.
+
+    Attributes
+    ----------
+    start_s, length_s, beats, amount : (N,) float64
+        In order and apart.
+    """
+
+    start_s: FloatArray
+    length_s: FloatArray
+    beats: FloatArray
+    amount: FloatArray
+
+    @classmethod
+    def of(cls, events: Sequence[GestureEvent], felt_beats: FeltBeats) -> Counting:
+        """From the counts among a player's gestures; what overlaps the one before is not counted twice."""
+        rows: list[tuple[float, float, int, int, float]] = []
+        for event in events:
+            free_s = rows[-1][0] + rows[-1][1] if rows else -np.inf
+            if event.kind == "count" and event.end_s > event.start_s >= free_s:
+                ticks = event.start_tick, event.end_tick - event.start_tick
+                rows.append((event.start_s, event.end_s - event.start_s, *ticks, max(event.amount, 0.0)))
+        table = np.array(rows, dtype=np.float64).reshape(-1, 5)
+        first_tick = table[:, 2].astype(np.int64)
+        beats = np.maximum(1.0, np.round(table[:, 3] / beat_ticks_at(felt_beats, first_tick))) if rows else table[:, 3]
+        return cls(table[:, 0], table[:, 1], beats, table[:, 4])
+
+    def sample(self, times_s: FloatArray) -> FloatArray:
+        """Values at ascending times, (F,) float64."""
+        result = np.zeros(len(times_s))
+        first = np.searchsorted(times_s, self.start_s)
+        last = np.searchsorted(times_s, self.start_s + self.length_s)
+        for index in np.flatnonzero(last > first):
+            here = slice(first[index], last[index])
+            beat = (times_s[here] - self.start_s[index]) / self.length_s[index] * self.beats[index]
+            eased = minimum_jerk(np.clip(np.minimum(beat, self.beats[index] - beat) / COUNT_EASE, 0.0, 1.0))
+            # Down to each beat and soon up again.
+            result[here] = self.amount[index] * eased * np.square(0.5 + 0.5 * np.cos(2.0 * np.pi * beat))
+        return result
+
+    def changed_s(self, other: Counting) -> FloatArray:
+        """Spans (K, 2) outside of which both have the very same values."""
+        mine, others = (np.stack((one.start_s, one.length_s, one.beats, one.amount), axis=1) for one in (self, other))
+        spans = [np.stack((rows[:, 0], rows[:, 0] + rows[:, 1]), axis=1) for rows in (mine, others)]
+        return rows_changed_s(mine, others, *spans)
+
+
+@dataclass(frozen=True, eq=False)
+class Concert:
+    """A player's gestures beside playing, as curves."""
+
+    bow: Envelopes
+    up: Envelopes
+    settle: Envelopes
+    count: Counting
+
+    @classmethod
+    def of(cls, gestures: Sequence[GestureEvent], felt_beats: FeltBeats) -> Concert:
+        """From a player's gestures."""
+        return cls(
+            bow=Envelopes.of([_at_shares(event, *BOW) for event in gestures if event.kind == "bow"]),
+            up=Envelopes.of([_eased(event, LOOK_UP_S) for event in gestures if event.kind == "look_up"]),
+            settle=Envelopes.of([_at_shares(event, 0.4, 0.5) for event in gestures if event.kind == "settle_grip"]),
+            count=Counting.of(gestures, felt_beats),
+        )
+
+    def sample(self, times_s: FloatArray) -> ConcertSamples:
+        """How much of each is done at ascending times."""
+        return ConcertSamples(**{member.name: getattr(self, member.name).sample(times_s) for member in fields(self)})
+
+    def changed_s(self, other: Concert) -> FloatArray:
+        """Spans (K, 2) outside of which both have the very same values."""
+        return np.concatenate(
+            [getattr(self, member.name).changed_s(getattr(other, member.name)) for member in fields(self)]
+        )
+
+
+def _at_shares(event: GestureEvent, full: float, fall: float) -> tuple[float, float, float, float, float]:
+    length_s = event.end_s - event.start_s
+    return event.start_s, event.start_s + full * length_s, event.start_s + fall * length_s, event.end_s, event.amount
+
+
+def _eased(event: GestureEvent, ease_s: float) -> tuple[float, float, float, float, float]:
+    ease_s = min(ease_s, 0.5 * (event.end_s - event.start_s))
+    return event.start_s, event.start_s + ease_s, event.end_s - ease_s, event.end_s, event.amount

@@ -1,0 +1,147 @@
+"""A learned motion as a layer of a player's body: hips, trunk and head about the place where the player stands or sits.
+
+The layer is a function of time like all others and is added to them before the contacts are solved: the instrument goes
+with the head, hands and fingers stay on it, feet stay where they are. While the instrument is played the head goes with
+the chest, so that head, instrument, shoulders and arms move as one and no wrist is bent further than without a dance;
+while it is lowered the head dances by itself. Angles are bounded where the layer is made
+(`app.choreography.body_layer`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Final
+
+import numpy as np
+
+from app.motion.body_motion import BodyMotion
+from app.motion.by_hand.pose_corrections import within
+from app.motion.curves.curve import Envelopes, FloatArray
+from app.motion.gestures.body_layers import EYES_BACK
+from app.plan.by_hand.pose_corrections import NECK_SHARES, TRUNK_SHARES
+from app.plan.model import BreathEvent
+from metadata.model import Body
+
+CHANNELS: Final = (
+    "side_m",
+    "ahead_m",
+    "up_m",
+    *(f"{part}_{angle}_rad" for part in ("hips", "trunk", "head") for angle in ("forward", "turn", "left")),
+)
+"""Of a layer: where the hips go (to the left, ahead, up), and how far hips, chest and head lean forward, turn to the
+left and lean to the left, all three seen from the floor."""
+SINKS_M: Final = 0.014
+"""Who dances stands with bent knees: the hips are so much lower, and go up and down from there by less."""
+BREATH_ROOM: Final = 0.9
+"""The trunk nods so much less while the player breathes in: the breath has to be seen ..."""
+BREATH_EASE_S: Final = 0.35
+"""... and it comes to that within this time, and goes back in as much."""
+LEGS_EASE_M: Final = 0.008
+"""Hips that roll hang from one leg, then from the other; the hand-over is rounded by about this much."""
+
+
+@dataclass(frozen=True, eq=False)
+class BodyLayer:
+    """What a dance adds to a body.
+
+    Attributes
+    ----------
+    start_s, step_s : float
+        Sample k is at ``start_s + k * step_s``.
+    values : (K, 12) float64
+        In the order of `CHANNELS`; at least two.
+    """
+
+    start_s: float
+    step_s: float
+    values: FloatArray
+
+    def sample(self, times_s: FloatArray) -> FloatArray:
+        """Values (F, 12) at any times, smooth between the samples; the ends hold."""
+        last = len(self.values) - 1
+        place = np.clip((times_s - self.start_s) / self.step_s, 0.0, float(last))
+        at = np.minimum(place.astype(np.int64), last - 1)
+        u = (place - at)[:, None]
+        before, low = self.values[np.maximum(at - 1, 0)], self.values[at]
+        high, after = self.values[at + 1], self.values[np.minimum(at + 2, last)]
+        slope_low, slope_high = 0.5 * (high - before), 0.5 * (after - low)
+        way = high - low
+        cubic = slope_low + slope_high - 2.0 * way
+        result: FloatArray = low + u * (slope_low + u * (way - slope_low - cubic + u * cubic))
+        return result
+
+
+_NOD: Final = CHANNELS.index("trunk_forward_rad")
+
+
+def inhaling(breaths: Sequence[BreathEvent]) -> Envelopes:
+    """When a dance gives way to breaths, and how far, 0..1."""
+    drawn = [breath for breath in breaths if breath.kind == "breath"]
+    return Envelopes.of(
+        [
+            (breath.start_s - BREATH_EASE_S, breath.start_s, breath.end_s, breath.end_s + BREATH_EASE_S, BREATH_ROOM)
+            for breath in drawn
+        ]
+    )
+
+
+def giving_way(dance: FloatArray, to_breath: FloatArray) -> FloatArray:
+    """A dance (F, 12) that gives way to breaths, (F,) of 0..1."""
+    given = dance.copy()
+    given[:, _NOD] *= 1.0 - to_breath
+    return given
+
+
+def with_dance(motion: BodyMotion, dance: FloatArray, amount: float, body: Body, *, legs: bool) -> BodyMotion:
+    """The body with a dance added.
+
+    Parameters
+    ----------
+    motion : BodyMotion
+        (F,) frames of it.
+    dance : (F, 12) float64
+        Of a `BodyLayer`.
+    amount : float
+        1: as the layer has it.
+    body : Body
+        With the ranges of the joints.
+    legs : bool
+        False: the hips stay where they are.
+    """
+    of = dict(zip(CHANNELS, (amount * dance).T, strict=True))
+    angles = {"forward": dict(motion.forward_rad), "turn": dict(motion.turn_rad), "left": dict(motion.left_rad)}
+    looked: dict[str, FloatArray] = {}
+    for angle, joints in angles.items():
+        hips = of[f"hips_{angle}_rad"] if legs else np.zeros(len(dance))
+        trunk = of[f"trunk_{angle}_rad"]
+        apart = motion.lowered * (of[f"head_{angle}_rad"] - trunk)
+        looked[angle] = trunk + apart
+        for shares, offset in ((TRUNK_SHARES, trunk - hips), (NECK_SHARES, apart)):
+            for joint, share in shares.items():
+                limits = body.limits[joint]
+                limit_deg = {"forward": limits.flexion_deg, "turn": limits.twist_deg, "left": limits.sideways_deg}
+                low, high = np.deg2rad(limit_deg[angle])
+                joints[joint] = joints[joint] + within(share * offset, high - joints[joint], joints[joint] - low)
+    moved = replace(
+        motion,
+        forward_rad=angles["forward"],
+        turn_rad=angles["turn"],
+        left_rad=angles["left"],
+        eyes_yaw_rad=motion.eyes_yaw_rad - EYES_BACK * looked["turn"],
+        eyes_pitch_rad=motion.eyes_pitch_rad - EYES_BACK * looked["forward"],
+    )
+    if not legs:
+        return moved
+    return replace(
+        moved,
+        hips_side_m=motion.hips_side_m + of["side_m"],
+        hips_bob_m=motion.hips_bob_m + amount * SINKS_M - of["up_m"],
+        hips_roll_rad=motion.hips_roll_rad + of["hips_left_rad"],
+        hips_turn_rad=motion.hips_turn_rad + of["hips_turn_rad"],
+        hips_danced={
+            "ahead_m": of["ahead_m"],
+            "forward_rad": of["hips_forward_rad"],
+            "ease_m": np.full(len(dance), amount * LEGS_EASE_M),
+        },
+    )

@@ -1,0 +1,148 @@
+"""Steps, taps and heels: feet leave the ground as planned, and stand where they are put until they leave it again."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from app.motion.curves.curve import FloatArray, minimum_jerk, rows_changed_s
+from app.plan.gestures.feet import FOOT_KINDS, foot_of, moves_s
+from app.plan.model import GestureEvent
+from metadata.model import Body, at_amplitude
+
+UNLOADS_S = 0.45
+"""Before a foot leaves the ground and after it is back the weight goes over to the other one and back."""
+PUSH_OFF_RAD = float(np.deg2rad(9.0))
+"""How far the heel is ahead of the toes when a stepping foot leaves the ground."""
+HEEL_S = 0.5
+"""Heels come up and go down in this time, or in half of their gesture."""
+STRIKE_SHARE = 0.35
+"""Of a tap the toes come down in the last part of this size."""
+
+
+@dataclass(frozen=True, eq=False)
+class Feet:
+    """All that a player's feet do, a row for each gesture.
+
+    Attributes
+    ----------
+    kinds, sides : (N,) float64
+        Place in `FOOT_KINDS`; 1 the left foot, -1 the right one.
+    start_s, end_s, size : (N,) float64
+    step_s : float
+        How long a foot is in the air.
+    """
+
+    kinds: FloatArray
+    sides: FloatArray
+    start_s: FloatArray
+    end_s: FloatArray
+    size: FloatArray
+    step_s: float
+
+    @classmethod
+    def of(cls, events: Sequence[GestureEvent], step_s: float) -> Feet:
+        """From the gestures of a player."""
+        rows = [
+            (
+                FOOT_KINDS.index(event.kind),
+                1.0 if foot_of(event) == "left" else -1.0,
+                event.start_s,
+                event.end_s,
+                min(abs(event.amount), 1.0),
+            )
+            for event in events
+            if event.kind in FOOT_KINDS and event.end_s > event.start_s and event.amount != 0.0
+        ]
+        kinds, sides, start_s, end_s, size = np.array(rows, dtype=np.float64).reshape(-1, 5).T
+        return cls(kinds, sides, start_s, end_s, size, step_s)
+
+    def sample(self, times_s: FloatArray) -> dict[str, FloatArray]:
+        """What feet do at ascending times, each (F,) of 0..1; what does nothing then is left out.
+
+        ``left_ahead`` is how far ahead the left foot is put, ``left_up`` how high it is, ``left_push`` how its heel
+        leaves before its toes, ``left_heel`` and ``left_toes`` how far these are lifted, ``left_unloaded`` how far
+        the weight is on the other foot for it.
+        """
+        result: dict[str, FloatArray] = {}
+        if not len(times_s):
+            return result
+        spans_s = self._spans_s
+        for row in np.flatnonzero((spans_s[:, 0] <= times_s[-1]) & (spans_s[:, 1] >= times_s[0])).tolist():
+            side = "left" if self.sides[row] > 0.0 else "right"
+            here = slice(*np.searchsorted(times_s, spans_s[row]).tolist())
+            if here.start == here.stop:
+                continue
+            span_s, size = (float(self.start_s[row]), float(self.end_s[row])), float(self.size[row])
+            kind = FOOT_KINDS[int(self.kinds[row])]
+            shape = (
+                _step(times_s[here], span_s, self.step_s) if kind == "step" else _lifted(times_s[here], span_s, kind)
+            )
+            for name, values in shape.items():
+                total = result.setdefault(f"{side}_{name}", np.zeros(len(times_s)))
+                np.maximum(total[here], size * values, out=total[here])
+        return result
+
+    def changed_s(self, other: Feet) -> FloatArray:
+        """Spans (K, 2) outside of which both have the very same values."""
+        return rows_changed_s(self._rows, other._rows, self._spans_s, other._spans_s)
+
+    @property
+    def _rows(self) -> FloatArray:
+        return np.stack((self.kinds, self.sides, self.start_s, self.end_s, self.size), axis=1)
+
+    @property
+    def _spans_s(self) -> FloatArray:
+        around_s = np.where(self.kinds == FOOT_KINDS.index("step"), UNLOADS_S, 0.0)
+        return np.stack((self.start_s - around_s, self.end_s + around_s), axis=1)
+
+
+def _step(times_s: FloatArray, span_s: tuple[float, float], step_s: float) -> dict[str, FloatArray]:
+    """Out at the begin of a span, and home again at its end."""
+    ahead, up, push, unloaded = (np.zeros(len(times_s)) for _ in range(4))
+    for (begin_s, end_s), way in zip(moves_s(span_s, step_s), (1.0, -1.0), strict=True):
+        phase = np.clip((times_s - begin_s) / (end_s - begin_s), 0.0, 1.0)
+        ahead += way * minimum_jerk(phase)
+        up += 16.0 * np.square(phase * (1.0 - phase))
+        # Up with the foot, and the toes down in time for the sole to land.
+        push += 16.0 * np.square(phase * (1.0 - phase)) * (1.0 - 2.0 * phase)
+        coming = minimum_jerk(np.clip((times_s - begin_s) / UNLOADS_S + 1.0, 0.0, 1.0))
+        going = minimum_jerk(np.clip((end_s - times_s) / UNLOADS_S + 1.0, 0.0, 1.0))
+        unloaded = np.maximum(unloaded, np.minimum(coming, going))
+    return {"ahead": ahead, "up": up, "push": push, "unloaded": unloaded}
+
+
+def _lifted(times_s: FloatArray, span_s: tuple[float, float], kind: str) -> dict[str, FloatArray]:
+    """Toes up and down on the beat with which a tap ends; a heel up, held and down again."""
+    start_s, end_s = span_s
+    length_s = end_s - start_s
+    falls_s = STRIKE_SHARE * length_s if kind == "tap" else min(HEEL_S, 0.5 * length_s)
+    rises_s = length_s - falls_s if kind == "tap" else falls_s
+    up = minimum_jerk(np.clip((times_s - start_s) / rises_s, 0.0, 1.0))
+    down = minimum_jerk(np.clip((end_s - times_s) / falls_s, 0.0, 1.0))
+    return {"toes" if kind == "tap" else "heel": np.minimum(up, down)}
+
+
+def feet_moved(
+    levels: Mapping[str, FloatArray], body: Body, amplitude: float, amount: float, *, steps: bool
+) -> dict[str, FloatArray]:
+    """The feet of a body: levels as of `Feet.sample` in metres and radians; ``steps`` says whether feet may leave their
+    place, or only tap."""
+    footwork = body.footwork
+    ahead_m, up_m, heel, toes = (
+        amount * at_amplitude(scale, amplitude)
+        for scale in (footwork.step_m, footwork.lift_m, footwork.heel_deg, footwork.toes_deg)
+    )
+    push = amount * PUSH_OFF_RAD * min(2.0 * amplitude, 1.0)
+    sizes = {"ahead": ahead_m, "up": up_m, "push": push, "heel": float(np.deg2rad(heel))}
+    if not steps:
+        sizes = {}
+    sizes |= {"toes": float(np.deg2rad(toes))}
+    moved = {}
+    for name, values in levels.items():
+        part = name.split("_")[1]
+        if sizes.get(part, 0.0) > 0.0:
+            moved[name] = sizes[part] * values
+    return moved

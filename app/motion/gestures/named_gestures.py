@@ -1,0 +1,159 @@
+"""Gestures that an animator wrote as keys (`metadata.gestures`), as offsets of bell, head, elbows and trunk.
+
+Between keys an angle goes by a quintic with the keys' slopes and no acceleration at them: with level keys that is a
+minimum-jerk move, as all others of the body.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TypeAlias
+
+import numpy as np
+
+from app.motion.by_hand.pose_corrections import Offset, within
+from app.motion.curves.curve import FloatArray, rows_changed_s
+from app.plan.by_hand.pose_corrections import ELBOW_DEG, HANDS_FOLLOW_DEG
+from app.plan.model import GestureEvent, PoseTarget
+from metadata.gestures import Gesture, Track
+from metadata.model import AmplitudeScale, at_amplitude
+
+Sums: TypeAlias = dict[AmplitudeScale, dict[PoseTarget, FloatArray]]
+"""Angles (3, F) up, left and of roll, radians, of what grows alike with the amplitude."""
+_TURNS = ("up", "left", "roll")
+
+
+def slopes_of(track: Track) -> FloatArray:
+    """The tangent of every key, degrees for the whole length: where none is given, level at a turn and else towards
+    the neighbours, so that nothing overshoots."""
+    slopes = _monotone(np.array([key.at for key in track.keys]), np.array([key.deg for key in track.keys]))
+    given = np.array([np.nan if key.slope is None else key.slope for key in track.keys])
+    return np.where(np.isnan(given), slopes, given)
+
+
+def _monotone(at: FloatArray, values: FloatArray) -> FloatArray:
+    steps = np.diff(values) / np.diff(at)
+    slopes = np.zeros(len(at))
+    before, after = steps[:-1], steps[1:]
+    onwards = before * after > 0.0
+    # The harmonic mean (Fritsch and Butland 1984) keeps the curve between its keys.
+    slopes[1:-1][onwards] = 2.0 * before[onwards] * after[onwards] / (before + after)[onwards]
+    return slopes
+
+
+def angles_deg(track: Track, phase: FloatArray) -> FloatArray:
+    """A track's angle at phases of its gesture, (F,); 0 outside of 0..1."""
+    at = np.array([key.at for key in track.keys])
+    return _between(at, np.array([key.deg for key in track.keys]), slopes_of(track), phase)
+
+
+def keyed(at: FloatArray, values: FloatArray, phase: FloatArray) -> FloatArray:
+    """What goes through values at some phases, without overshooting any; 0 outside of 0..1."""
+    return _between(at, values, _monotone(at, values), phase)
+
+
+def _between(at: FloatArray, values: FloatArray, slopes: FloatArray, phase: FloatArray) -> FloatArray:
+    place = np.clip(np.searchsorted(at, phase, side="right") - 1, 0, len(at) - 2)
+    length = (at[1:] - at[:-1])[place]
+    u = (phase - at[place]) / length
+    cubed = u * u * u
+    moved = cubed * (10.0 + u * (6.0 * u - 15.0))
+    leaving = u + cubed * (-6.0 + u * (8.0 - 3.0 * u))
+    arriving = cubed * (-4.0 + u * (7.0 - 3.0 * u))
+    first, last = values[place], values[place + 1]
+    found = first + (last - first) * moved + length * (slopes[place] * leaving + slopes[place + 1] * arriving)
+    inside: FloatArray = np.where((phase > 0.0) & (phase < 1.0), found, 0.0)
+    return inside
+
+
+@dataclass(frozen=True, eq=False)
+class Gestured:
+    """All keyed gestures of a player.
+
+    Attributes
+    ----------
+    rows : (N, 4) float64
+        When each begins and ends, how large it is, and which it is.
+    gestures : tuple of Gesture
+        What is done, by that number; each once.
+    """
+
+    rows: FloatArray
+    gestures: tuple[Gesture, ...]
+
+    @classmethod
+    def of(cls, events: Sequence[GestureEvent]) -> Gestured:
+        """From a plan's gestures."""
+        chosen = [event for event in events if event.gesture is not None and event.end_s > event.start_s]
+        gestures: list[Gesture] = []
+        rows = []
+        for event in chosen:
+            assert event.gesture is not None
+            if event.gesture not in gestures:
+                gestures.append(event.gesture)
+            rows.append((event.start_s, event.end_s, event.amount, float(gestures.index(event.gesture))))
+        return cls(np.array(rows, dtype=np.float64).reshape(-1, 4), tuple(gestures))
+
+    def sample(self, times_s: FloatArray) -> Sums:
+        """What they sum to at ascending times, before the player's amplitude."""
+        # Of all gestures, wherever they are: the same frames are the same bits in every span.
+        sums: Sums = {}
+        for gesture in self.gestures:
+            alike = sums.setdefault(gesture.amplitude, {})
+            for track in gesture.tracks:
+                alike.setdefault(track.target, np.zeros((3, len(times_s))))
+        first = np.searchsorted(times_s, self.rows[:, 0])
+        last = np.searchsorted(times_s, self.rows[:, 1])
+        for index in np.flatnonzero(last > first).tolist():
+            here = slice(first[index], last[index])
+            start_s, end_s, amount, number = self.rows[index].tolist()
+            gesture = self.gestures[int(number)]
+            phase = (times_s[here] - start_s) / (end_s - start_s)
+            for track in gesture.tracks:
+                total = sums[gesture.amplitude][track.target]
+                total[_TURNS.index(track.turn), here] += np.deg2rad(amount * angles_deg(track, phase))
+        return sums
+
+    def changed_s(self, other: Gestured) -> FloatArray:
+        """Spans (K, 2) outside of which both have the very same values."""
+        if self.gestures != other.gestures:
+            return np.concatenate((self.rows[:, :2], other.rows[:, :2]))
+        return rows_changed_s(self.rows, other.rows, self.rows[:, :2], other.rows[:, :2])
+
+
+def with_gestures(
+    held: dict[PoseTarget, Offset], gestured: Sums | None, amplitude: float, amount: FloatArray | float
+) -> dict[PoseTarget, Offset]:
+    """What the animator holds differently, with the gestures: as large as each is at the player's amplitude, times the
+    player's amount, at most as it is at full amplitude, and no further than hands follow."""
+    if not gestured or not np.any(amount):
+        return held
+    sums: dict[PoseTarget, FloatArray] = {}
+    for scale, targets in sorted(gestured.items()):
+        size = np.minimum(amount * at_amplitude(scale, amplitude), scale[2])
+        for target, angles in targets.items():
+            sums[target] = sums.get(target, 0.0) + size * angles
+    both = dict(held)
+    for target in sorted(sums):
+        there = held.get(target)
+        zero = np.zeros(sums[target].shape[1])
+        own: tuple[FloatArray, ...] = (zero,) * 3 if there is None else (there.up, there.left, there.roll)
+        limits = _limits_rad(target)
+        added = [
+            angle + (turn if limit is None else within(turn, limit[1] - angle, angle - limit[0]))
+            for angle, turn, limit in zip(own, sums[target], limits, strict=True)
+        ]
+        both[target] = Offset(*(np.asarray(angles) for angles in added))
+    return both
+
+
+def _limits_rad(target: PoseTarget) -> tuple[tuple[float, float] | None, ...]:
+    """How far hands follow in each angle; None: what its instrument allows was seen to before."""
+    if target in ("left_elbow", "right_elbow"):
+        low, high = np.deg2rad(ELBOW_DEG).tolist()
+        return (low, high), None, None
+    if target not in HANDS_FOLLOW_DEG:
+        return None, None, None
+    found = [np.deg2rad(HANDS_FOLLOW_DEG[target][f"{turn}_deg"]).tolist() for turn in _TURNS]
+    return tuple((low, high) for low, high in found)

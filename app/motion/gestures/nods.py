@@ -1,0 +1,89 @@
+"""Nods of head and instrument: they go up before a beat and drop onto it.
+
+A leader gives an entry so, the others answer with a smaller one of their own.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from app.motion.curves.curve import FloatArray, bump, rows_changed_s
+from app.plan.model import CueEvent, GestureEvent
+
+DIP_BEATS = 0.5
+"""Half width of the dip around the beat, in beats ..."""
+DIP_S, SLOW_BEATS = 0.15, 0.2
+"""... in slow tempi less: so many seconds and so much of a beat, or the drop would mark no beat."""
+AFTER = 1.9
+"""Head and instrument come up from the dip in so much more time than they dropped in: nothing heavy is back at once."""
+LIFT_BEATS = 0.85
+"""Half width of the lift before it, where there is room."""
+NOD_BEATS = 1.5
+"""A nod begins so many beats before the one it marks."""
+LIFT_LAG = 0.6547
+"""Where the side lobe of a bump's acceleration peaks, in half widths: a lift whose centre lies so far before the beat
+adds to the dip's peak without moving it."""
+
+
+@dataclass(frozen=True, eq=False)
+class Nods:
+    """Lifts and dips of all nods: the dip's acceleration peaks on the beat that is marked, their widths are the tempo.
+
+    Attributes
+    ----------
+    beat_s, half_s, lift_s, amount : (N,) float64
+        The beat that is marked, half widths of dip and lift, size.
+    """
+
+    beat_s: FloatArray
+    half_s: FloatArray
+    lift_s: FloatArray
+    amount: FloatArray
+
+    @classmethod
+    def of(cls, cues: Sequence[CueEvent], answers: Sequence[GestureEvent] = ()) -> Nods:
+        """From a player's cues, and gestures that nod on the beat at their end."""
+        rows = [(cue.downbeat_s, cue.start_s, cue.beat_s, cue.amount) for cue in cues]
+        rows += [(one.end_s, one.start_s, (one.end_s - one.start_s) / NOD_BEATS, one.amount) for one in answers]
+        rows = [row for row in rows if row[0] > row[1]]
+        table = np.array(sorted(rows), dtype=np.float64).reshape(-1, 4)
+        beat_s, room_s, length_s = table[:, 0], table[:, 0] - table[:, 1], table[:, 2]
+        lift_s = np.minimum(LIFT_BEATS * length_s, room_s / (1.0 + LIFT_LAG))
+        dip_s = np.minimum(DIP_BEATS * length_s, DIP_S + SLOW_BEATS * length_s)
+        return cls(beat_s, np.minimum(dip_s, room_s), lift_s, table[:, 3])
+
+    def sample(self, times_s: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Dip and lift, 1 as usual, at ascending times, each (F,) float64."""
+        dip, lift = np.zeros(len(times_s)), np.zeros(len(times_s))
+        spans_s = self._spans_s
+        first, last = (np.searchsorted(times_s, spans_s[:, side]) for side in (0, 1))
+        for index in np.flatnonzero(last > first):
+            here = slice(first[index], last[index])
+            beat_s, lift_s = float(self.beat_s[index]), float(self.lift_s[index])
+            amount = float(self.amount[index])
+            np.maximum(dip[here], amount * _dip(times_s[here], beat_s, float(self.half_s[index])), out=dip[here])
+            np.maximum(lift[here], amount * bump(times_s[here], beat_s - LIFT_LAG * lift_s, lift_s), out=lift[here])
+        return dip, lift
+
+    def changed_s(self, other: Nods) -> FloatArray:
+        """Spans (K, 2) outside of which both have the very same values."""
+        mine, others = (
+            np.stack((nods.beat_s, nods.half_s, nods.lift_s, nods.amount), axis=1) for nods in (self, other)
+        )
+        return rows_changed_s(mine, others, self._spans_s, other._spans_s)
+
+    @property
+    def _spans_s(self) -> FloatArray:
+        first_s = np.minimum(self.beat_s - (1.0 + LIFT_LAG) * self.lift_s, self.beat_s - self.half_s)
+        last_s = self.beat_s + np.maximum(AFTER * self.half_s, (1.0 - LIFT_LAG) * self.lift_s)
+        return np.stack((first_s, last_s), axis=1)
+
+
+def _dip(times_s: FloatArray, beat_s: float, half_s: float) -> FloatArray:
+    """A bump whose way back is stretched; about the beat both halves have the same acceleration."""
+    after = np.maximum(times_s - beat_s, 0.0) / half_s
+    stretched = after / (1.0 + after * (AFTER - 1.0) / AFTER)
+    return bump(np.minimum(times_s, beat_s) + half_s * stretched, beat_s, half_s)

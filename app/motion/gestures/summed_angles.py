@@ -1,0 +1,221 @@
+"""Angles of trunk, neck and pelvis while the layers of a body are added up."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import lru_cache
+from typing import NamedTuple
+
+import numpy as np
+
+from app.motion.body_motion import TRUNK
+from app.motion.curves.curve import FloatArray, Noise
+from app.motion.curves.seeded_chance import generator
+from app.motion.gestures.body_lag import Leads, Overlapped
+from app.plan.by_hand.pose_corrections import NECK_SHARES, TRUNK_SHARES
+from app.plan.parameters import PlayerParameters
+from metadata.model import AmplitudeScale, Body, at_amplitude
+
+RESIDUE_SHARE = 0.6
+"""RMS of the wandering that is always there, as a share of the sizes at amplitude 0."""
+NOISE_SHARE = 0.30
+"""Wandering beside the planned gestures, as a share of their size."""
+EYES_LEVEL = 0.5
+"""Share of the trunk's sideways lean that neck and head take back, so that the eyes stay level."""
+HIPS_SWAY, HIPS_TURN = 0.4, 0.3
+"""Shares of the chest's lean aside and turn that the hips take: enough for the lean to begin there whatever the weight
+does."""
+WEIGHT_IN_CHEST = 0.2
+"""Share of the hips' roll that the chest has."""
+ACCENT_IN_HIPS = 0.35
+"""Pelvis on an accent, as a share of that of a lean."""
+BREATHES_WITH_TRUNK = (0.3, 1.0)
+"""Players breathe together, but not alike: with so much of the trunk's motion each ..."""
+SHOULDERS_INSTEAD = 0.6
+"""... and who has less of it by one lifts the shoulders more by this share."""
+SEATED_ROLL = 0.5
+"""Who sits leans the pelvis aside by this share of what who stands does, and does not turn it."""
+
+
+@dataclass(frozen=True)
+class Sizes:
+    """The body's sizes at one player's amplitude, and the noise of that player."""
+
+    body: Body
+    parameters: PlayerParameters
+    player_id: str
+
+    def of(self, scale: AmplitudeScale) -> float:
+        """A size."""
+        return at_amplitude(scale, self.parameters.amplitude)
+
+    def rad(self, scale: AmplitudeScale) -> float:
+        """An angle."""
+        return float(np.deg2rad(self.of(scale)))
+
+    @property
+    def aslant(self) -> float:
+        """1 for who goes ahead with the weight on the left foot, -1 for who goes back."""
+        return 1.0 if _own(self.player_id, self.parameters.seed, "aslant") < 0.5 else -1.0
+
+    @property
+    def breathing(self) -> tuple[float, float]:
+        """How much this player breathes with the trunk, and how much with the shoulders instead."""
+        low, high = BREATHES_WITH_TRUNK
+        share = low + (high - low) * _own(self.player_id, self.parameters.seed, "breathes")
+        return share, 1.0 + SHOULDERS_INSTEAD * (0.5 * (low + high) - share)
+
+    def wander(self, layer: str, scale: AmplitudeScale, times_s: FloatArray, shown: FloatArray | float) -> FloatArray:
+        """Noise of this player's layer: the residue, and a share of the planned motion, as much of it as is shown."""
+        noise = _noise(self.player_id, self.parameters.seed, layer, self.body.sway.residual_hz)
+        size = NOISE_SHARE * (self.of(scale) - scale[0])
+        wandering: FloatArray = noise.sample(times_s) * (RESIDUE_SHARE * scale[0] + shown * size)
+        return wandering
+
+
+@lru_cache(maxsize=4096)
+def _noise(player_id: str, seed: int, layer: str, low_hz: float) -> Noise:
+    return Noise.of(generator(player_id, seed, layer), 0.4 * low_hz, 2.5 * low_hz)
+
+
+@lru_cache(maxsize=4096)
+def _own(player_id: str, seed: int, what: str) -> float:
+    return float(generator(player_id, seed, what).random())
+
+
+@dataclass
+class Sum:
+    """Angles of trunk and neck: forward, to the left and turned to the left, each by joint."""
+
+    frames: int
+    angles: tuple[dict[str, FloatArray], dict[str, FloatArray], dict[str, FloatArray]] = field(
+        default_factory=lambda: ({}, {}, {})
+    )
+
+    def forward(self, shares: Mapping[str, float], values: FloatArray) -> None:
+        """Flexion."""
+        self._add(0, shares, values)
+
+    def left(self, shares: Mapping[str, float], values: FloatArray) -> None:
+        """Sideways lean."""
+        self._add(1, shares, values)
+
+    def turn(self, shares: Mapping[str, float], values: FloatArray) -> None:
+        """Twist."""
+        self._add(2, shares, values)
+
+    def all(self) -> tuple[dict[str, FloatArray], dict[str, FloatArray], dict[str, FloatArray]]:
+        """Every joint's, in the order of the methods."""
+        nothing = np.zeros(self.frames)
+        forward, left, turn = ({joint: one.get(joint, nothing) for joint in TRUNK} for one in self.angles)
+        return forward, left, turn
+
+    def _add(self, angle: int, shares: Mapping[str, float], values: FloatArray) -> None:
+        joints = self.angles[angle]
+        for joint, share in shares.items():
+            joints[joint] = joints.get(joint, 0.0) + share * values
+
+
+class Part(NamedTuple):
+    """A layer, and how much of it is shown."""
+
+    level: Overlapped
+    amount: float
+
+
+@dataclass(frozen=True)
+class Angles:
+    """What overlaps of one player, as angles of hips, chest, head and elbows in the world.
+
+    Attributes
+    ----------
+    side, twist, bowed : Overlapped
+        To the left, turned to the left, and forward.
+    pelvis : (F,) float64
+        The pelvis forward.
+    roll : Overlapped
+        Hips to the left with the weight.
+    seated : bool
+    """
+
+    side: Overlapped
+    twist: Overlapped
+    bowed: Overlapped
+    pelvis: FloatArray
+    roll: Overlapped
+    seated: bool
+
+    @classmethod
+    def of(
+        cls,
+        sway: Part,
+        lean: Part,
+        accent: Part,
+        weight: Part,
+        sizes: Sizes,
+        seated: bool,
+        leads: Leads,
+        times_s: FloatArray,
+        wandering: FloatArray | float,
+    ) -> Angles:
+        """In the sizes of a player; ``wandering`` is how much is shown of what is not planned."""
+        swings, phrase, rad = sizes.body.sway, sizes.body.phrase, sizes.rad
+        at = leads.at(times_s)
+        share = phrase.seated_share if seated else 1.0
+
+        def waving(layer: str, scale: AmplitudeScale, size: float) -> Overlapped:
+            return Overlapped(
+                *(
+                    size * level + np.deg2rad(sizes.wander(layer, scale, moment, wandering))
+                    for level, moment in zip(sway.level, at, strict=True)
+                )
+            )
+
+        chest = (share * lean.amount * rad(phrase.lean_deg), share * accent.amount * rad(phrase.accent_deg))
+        head = (share * lean.amount * rad(phrase.head_deg), share * accent.amount * rad(phrase.accent_head_deg))
+        pelvis = (phrase.seated_pelvis if seated else 1.0) * rad(phrase.pelvis_deg)
+        bowed = [
+            leant * own[0]
+            + dipped * own[1]
+            + np.deg2rad(sizes.wander("forward", swings.forward_deg, moment, wandering))
+            for leant, dipped, own, moment in zip(
+                lean.level, accent.level, (chest, chest, head, chest), at, strict=True
+            )
+        ]
+        return cls(
+            side=waving("side", swings.side_deg, sway.amount * rad(swings.side_deg)),
+            twist=waving("turn", swings.turn_deg, -sway.amount * rad(swings.turn_deg)),
+            bowed=Overlapped(*bowed),
+            pelvis=pelvis * (lean.amount * lean.level.hips + ACCENT_IN_HIPS * accent.amount * accent.level.hips),
+            roll=Overlapped(*(weight.amount * rad(sizes.body.weight_shift.roll_deg) * part for part in weight.level)),
+            seated=seated,
+        )
+
+    @property
+    def hips_roll_rad(self) -> FloatArray:
+        """Hips to the left."""
+        share = SEATED_ROLL if self.seated else 1.0
+        rolled: FloatArray = share * (self.roll.hips + HIPS_SWAY * self.side.hips)
+        return rolled
+
+    @property
+    def hips_turn_rad(self) -> FloatArray:
+        """Hips turned to the left."""
+        turned: FloatArray = (0.0 if self.seated else HIPS_TURN) * self.twist.hips
+        return turned
+
+    def add_to(self, total: Sum) -> None:
+        """What trunk and neck do for chest and head to be so, whatever is below them."""
+        total.forward(TRUNK_SHARES, self.bowed.chest - self.pelvis)
+        total.forward(NECK_SHARES, self.bowed.head - self.bowed.chest)
+        total.left(TRUNK_SHARES, self.side.chest + WEIGHT_IN_CHEST * self.roll.chest - self.hips_roll_rad)
+        chest, head = (side + WEIGHT_IN_CHEST * roll for side, roll in zip(self.side[1:3], self.roll[1:3], strict=True))
+        total.left(NECK_SHARES, (1.0 - EYES_LEVEL) * head - chest)
+        total.turn(TRUNK_SHARES, self.twist.chest - self.hips_turn_rad)
+        total.turn(NECK_SHARES, self.twist.head - self.twist.chest)
+
+    def elbows_late(self) -> dict[str, FloatArray]:
+        """How far the elbows are from where the chest has them."""
+        angles = {"forward": self.bowed, "turn": self.twist, "left": self.side}
+        return {name: angle.elbows - angle.chest for name, angle in angles.items()}

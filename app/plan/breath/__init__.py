@@ -1,0 +1,1 @@
+"""Breaths: where they are taken, how deep, and how far the air reaches."""

@@ -1,0 +1,66 @@
+"""How deep breaths are, and where their air does not last.
+
+Messages: ``breath.too_long``.
+"""
+
+from __future__ import annotations
+
+from bisect import bisect_right
+
+import msgspec
+import numpy as np
+
+from app.errors import Message
+from app.plan.breath.lungs import drawn, levels
+from app.plan.by_hand.corrections import WITHIN, kind_of
+from app.plan.model import BreathEvent, FloatArray, Problem
+from app.plan.music.piece import EPSILON, IntArray, LineTimes
+from app.score.model import Note
+
+LEAST_DEPTH = 0.3
+
+
+def with_depths(
+    events: tuple[BreathEvent, ...], used: FloatArray, lung_s: float, refill: FloatArray, index_of: dict[str, int]
+) -> tuple[BreathEvent, ...]:
+    """Depths by what the phrase to come needs, within what the time allows. Those set by hand stay."""
+    breaths, used_s = [*np.flatnonzero(refill > 0.0).tolist(), len(refill)], used.tolist()
+    result = []
+    for event in events:
+        if not event.corrected:
+            index = index_of[event.id.split(":", 1)[1]]
+            until = breaths[bisect_right(breaths, index)]
+            # What the rest of a note needs is not known within it: there the time says it.
+            need = 1.0 if is_within(event) else (used_s[until] - used_s[index]) / lung_s
+            most = 1.0 if event.kind == "preparation" else drawn(event.end_s - event.start_s)
+            depth = min(max(LEAST_DEPTH + (1.0 - LEAST_DEPTH) * need, LEAST_DEPTH), max(most, LEAST_DEPTH), 1.0)
+            event = msgspec.structs.replace(event, depth=round(depth, 4))
+        result.append(event)
+    return tuple(result)
+
+
+def too_long(
+    notes: tuple[Note, ...], times: LineTimes, used: FloatArray, lung_s: float, refill: FloatArray
+) -> list[Problem]:
+    """What is to be said of stretches that take more air than there is."""
+    level = levels(used, lung_s, refill)
+    starts: IntArray = np.unique(np.concatenate(([0], np.flatnonzero(refill > 0.0))))
+    ends = np.append(starts[1:], len(notes))
+    problems = []
+    for start, end in zip(starts.tolist(), ends.tolist(), strict=True):
+        air_s = float(used[end] - used[start])
+        if air_s > level[start] * lung_s + EPSILON:
+            start_s, end_s = float(times.onset_s[start]), float(times.played_end_s[end - 1])
+            arguments = {
+                "note": notes[start].id,
+                "phrase_s": round(end_s - start_s, 2),
+                "air_s": round(air_s, 2),
+                "lung_s": round(float(level[start]) * lung_s, 2),
+            }
+            problems.append(Problem(Message("breath.too_long", arguments), notes[start].id, start_s, end_s))
+    return problems
+
+
+def is_within(event: BreathEvent) -> bool:
+    """Whether a breath is taken within a note, not before it."""
+    return kind_of(event.id) == WITHIN

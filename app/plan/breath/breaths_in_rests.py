@@ -1,0 +1,209 @@
+"""The breaths in rests, or in the silences of a recorded breath.
+
+Their messages are those of `app.plan.breath.breaths`; and ``breath.why_short``, ``breath.why_not_recorded``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from functools import lru_cache
+from typing import Final, Literal, NamedTuple
+
+import numpy as np
+
+from app.errors import Argument, Message
+from app.plan.breath.which_rests import LONG_S
+from app.plan.by_hand.corrections import WITHIN
+from app.plan.model import BreathEvent, FloatArray, TimeFrame
+from app.plan.music.breath_controller import BREATH_S, Silences
+from app.plan.music.piece import EPSILON, IntArray, LineTimes, Piece
+from app.plan.music.rests import Rests
+from app.plan.parameters import PlayerParameters
+from app.score.model import Note
+
+AIR_SHORT: Final[Mapping[str, Argument]] = {"why": "breath.why_short"}
+"""Reason for a breath in a rest that is not needed as such, for `because`: nothing better comes in time."""
+NOT_RECORDED: Final[Mapping[str, Argument]] = {"why": "breath.why_not_recorded"}
+
+
+def rest_breaths(
+    notes: tuple[Note, ...],
+    times: LineTimes,
+    piece: Piece,
+    parameters: PlayerParameters,
+    frame: TimeFrame,
+    rests: Rests,
+) -> tuple[BreathEvent, ...]:
+    """The breaths that the rests may give, by the thresholds; `because` says why each is taken."""
+    silence, written = rests.sounding_tick.astype(np.float64), rests.written_tick.astype(np.float64)
+    silence[0] = written[0] = _before_first(times, piece, frame)
+    beats = piece.beat_ticks_at(times.onset_tick)
+    enough = (np.maximum(silence, written) / beats >= parameters.breath_min_beats) | (rests.lasts_s >= LONG_S - EPSILON)
+    serving = np.flatnonzero(enough & (silence > 0))
+    reported = _Report(
+        lambda index, rest, long, prepared: _rest_reason(index, rest, rests.lasts_s, long, prepared, parameters),
+        lambda index, rest: _preparation_reason(rest, parameters),
+    )
+    room = times.silence_tick.astype(np.float64)
+    return _in_silences(notes, serving, silence, room, times.onset_tick, times.onset_s, piece, parameters, reported)
+
+
+def blown_breaths(
+    notes: tuple[Note, ...],
+    times: LineTimes,
+    piece: Piece,
+    parameters: PlayerParameters,
+    frame: TimeFrame,
+    gaps: Silences,
+) -> tuple[BreathEvent, ...]:
+    """The breaths of a recorded breath curve: in the gaps, each shaped by its length as in a rest.
+
+    What the rests of the score say counts only before the first note and before notes that were not blown.
+    """
+    known = np.flatnonzero(gaps.length_s >= BREATH_S - EPSILON)
+    end_tick, end_s = times.onset_tick.copy(), times.onset_s.copy()
+    silence = np.where(gaps.played, 0.0, times.silence_tick)
+    end_tick[known] = np.round(piece.clock.ticks(gaps.end_s[known]))
+    end_s[known] = piece.clock.seconds(end_tick[known].astype(np.float64))
+    silence[known] = np.maximum(end_tick[known] - np.round(piece.clock.ticks(gaps.start_s[known])), 1.0)
+    silence[0] = _before_first(times, piece, frame)
+    enough = (silence > 0) & (silence / piece.beat_ticks_at(times.onset_tick) >= parameters.breath_min_beats)
+    guessed = ~gaps.played & enough
+    guessed[0] = enough[0]
+    recorded = np.zeros(len(notes), dtype=bool)
+    recorded[known] = True
+    recorded[0] = False
+    rest_s = np.insert(np.maximum(times.onset_s[1:] - times.played_end_s[:-1], 0.0), 0, 0.0)
+    serving = np.flatnonzero(guessed | recorded)
+
+    def reason(index: int, rest: float, long: bool, prepared: bool) -> Message:
+        if recorded[index]:
+            return _blown_reason("breath.blown", gaps, index)
+        return because(_rest_reason(index, rest, rest_s, long, prepared, parameters), NOT_RECORDED)
+
+    def preparation(index: int, rest: float) -> Message:
+        if recorded[index]:
+            return _blown_reason("breath.blown_preparation", gaps, index)
+        return _preparation_reason(rest, parameters)
+
+    reported = _Report(reason, preparation)
+    return _in_silences(notes, serving, silence, silence, end_tick, end_s, piece, parameters, reported)
+
+
+class _Report(NamedTuple):
+    """Why a breath, and the preparation for one, are there: by note, length in beats, and which thresholds it has."""
+
+    breath: Callable[[int, float, bool, bool], Message]
+    preparation: Callable[[int, float], Message]
+
+
+def _before_first(times: LineTimes, piece: Piece, frame: TimeFrame) -> float:
+    """Ticks of silence before the first note."""
+    frame_tick = round(piece.clock.ticks(frame.first_frame_s), 3)
+    return max(float(times.onset_tick[0]) - frame_tick, 0.0)
+
+
+def _in_silences(
+    notes: tuple[Note, ...],
+    serving: IntArray,
+    silence: FloatArray,
+    room: FloatArray,
+    end_tick: IntArray,
+    end_s: FloatArray,
+    piece: Piece,
+    parameters: PlayerParameters,
+    reported: _Report,
+) -> tuple[BreathEvent, ...]:
+    """Breaths in silences, by the thresholds.
+
+    Parameters
+    ----------
+    serving : (K,) int64
+        The notes before which a breath is taken.
+    silence : (N,) float64
+        Ticks of silence before each note as written, which decides the kind of breath ...
+    room : (N,) float64
+        ... as it sounds, which the breath has to fit into ...
+    end_tick, end_s : (N,)
+        ... and where it ends.
+    """
+    beats = piece.beat_ticks_at(end_tick)
+    rests, beat = silence / beats, beats[serving]
+    onsets = end_tick[serving].astype(np.float64)
+    long = rests[serving] >= parameters.breath_last_beat_beats
+    # A threshold below one beat lets a rest shorter than a beat count as "last beat": then it is all there is.
+    lasts = np.where(long, np.minimum(silence[serving], beat), room[serving])
+    starts = onsets - np.minimum(lasts, room[serving])
+    prepared = rests[serving] >= parameters.breath_prepare_beats
+    preparations = onsets - np.minimum(np.minimum(silence[serving], 2 * beat), room[serving])
+    start_s, preparation_s = piece.clock.seconds(starts), piece.clock.seconds(preparations)
+    events: list[BreathEvent] = []
+    for place, index in enumerate(serving.tolist()):
+        note_id, rest = notes[index].id, round(float(rests[index]), 3)
+        tick, at_s = round(starts[place]), float(start_s[place])
+        if prepared[place] and preparations[place] < starts[place]:
+            begins = round(preparations[place]), float(preparation_s[place])
+            reason = reported.preparation(index, rest)
+            events.append(_event("preparation", f"preparation:{note_id}", begins, (tick, at_s), reason))
+        ends = int(end_tick[index]), float(end_s[index])
+        reason = reported.breath(index, rest, bool(long[place]), bool(prepared[place]))
+        events.append(_event("breath", f"breath:{note_id}", (tick, at_s), ends, reason))
+    return tuple(events)
+
+
+def _event(
+    kind: Literal["preparation", "breath"], id: str, start: tuple[int, float], end: tuple[int, float], reason: Message
+) -> BreathEvent:
+    """From one tick and second to another."""
+    return BreathEvent(
+        id=id, kind=kind, start_tick=start[0], end_tick=end[0], start_s=start[1], end_s=end[1], depth=1.0, reason=reason
+    )
+
+
+def breath_at(id: str, piece: Piece, start_s: float, end_s: float, reason: Message) -> BreathEvent:
+    """A breath from one second to another."""
+    start, end = ((round(piece.clock.ticks(at_s)), at_s) for at_s in (start_s, end_s))
+    return _event("breath", id, start, end, reason)
+
+
+def _blown_reason(id: str, gaps: Silences, index: int) -> Message:
+    return Message(id, {"gap_s": round(float(gaps.length_s[index]), 2)})
+
+
+def _preparation_reason(rest: float, parameters: PlayerParameters) -> Message:
+    return _preparation(rest, parameters.breath_prepare_beats)
+
+
+def _rest_reason(
+    index: int, rest: float, rest_s: FloatArray, long: bool, prepared: bool, parameters: PlayerParameters
+) -> Message:
+    if index == 0:
+        return Message("breath.first", {"beats": rest})
+    last, prepare = parameters.breath_last_beat_beats, parameters.breath_prepare_beats
+    lasts: dict[str, Argument] = {"rest_beats": rest, "rest_s": round(float(rest_s[index]), 2)}
+    if prepared:
+        return Message("breath.prepared", {**lasts, "prepare_beats": prepare})
+    if long:
+        return Message("breath.last_beat", {**lasts, "last_beat_beats": last, "prepare_beats": prepare})
+    return Message("breath.rest_whole", {**lasts, "last_beat_beats": last})
+
+
+def because(reason: Message, why: Mapping[str, Argument]) -> Message:
+    """The reason of a breath in a rest, with why it is taken: ``why`` is the id of a text, the rest its arguments."""
+    return reason if reason.id == "breath.first" else Message(reason.id, {**reason.arguments, **why})
+
+
+def blown_catch(note: Note, piece: Piece, gaps: Silences, index: int) -> BreathEvent:
+    start_s, end_s = float(gaps.start_s[index]), float(gaps.end_s[index])
+    return breath_at(f"breath:{note.id}", piece, start_s, end_s, _blown_reason("breath.blown_short", gaps, index))
+
+
+def within_note(note: Note, piece: Piece, start_s: float, end_s: float) -> BreathEvent:
+    reason = Message("breath.blown", {"gap_s": round(end_s - start_s, 2)})
+    return breath_at(f"{WITHIN}:{note.id}", piece, start_s, end_s, reason)
+
+
+@lru_cache(maxsize=1024, typed=True)
+def _preparation(rest_beats: float, prepare_beats: float) -> Message:
+    """Equal ones are kept once: there are thousands. Of equal numbers a whole one is said otherwise."""
+    return Message("breath.preparation", {"rest_beats": rest_beats, "prepare_beats": prepare_beats})

@@ -1,0 +1,116 @@
+"""How long a catch breath before each note of a line may be.
+
+It is taken in the silence there, and out of the tail of the note before; where that is too little, notes are left out
+for it, and the one before them is shortened: as players do in running notes that nothing interrupts.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from app.plan.model import FloatArray
+from app.plan.music.piece import EPSILON, IntArray, LineTimes, gaps_s
+
+CATCH_MIN_S = 0.2
+"""A shorter gasp is no breath: a litre at 5 to 8 litres a second, the most that healthy adults breathe in with."""
+CATCH_MAX_S = 0.4
+CATCH_NOTE_SHARE = 0.5
+"""A catch breath takes at most this part of the note before it ..."""
+LEAST_SOUNDING_S = 1.0 / 24.0
+"""... unless that would be no breath: then as much as one needs, but for the shortest staccato."""
+LEAST_PLAYED_S = 0.01
+"""Of a note that was played shorter than it is written so little may be left."""
+MOST_DROPPED = 2
+"""Notes that may be left out for one breath."""
+
+
+@dataclass(frozen=True, eq=False)
+class Room:
+    """What a catch breath before each note may be, each (N,); 0 where there is none.
+
+    Attributes
+    ----------
+    length_s : float64
+        How long it is, with every note begun.
+    drop_s : float64
+        How long it is where notes are left out for it; only where there is no other.
+    dropped : int64
+        How many notes before it are left out.
+    """
+
+    length_s: FloatArray
+    drop_s: FloatArray
+    dropped: IntArray
+
+    @property
+    def lasts_s(self) -> FloatArray:
+        """(N,): how long it is, of the one kind or the other."""
+        return np.where(self.length_s > 0.0, self.length_s, self.drop_s)
+
+    def left_out(self, catches: Sequence[int]) -> tuple[int, ...]:
+        """The notes (by index) that are left out for catch breaths before some notes."""
+        dropping = [index for index in catches if self.length_s[index] == 0.0]
+        return tuple(note for index in dropping for note in range(index - int(self.dropped[index]), index))
+
+
+def catch_lengths_s(score: LineTimes, times: LineTimes, rests: IntArray) -> FloatArray:
+    """(N,): how long a catch breath before each note may be: the rest there, else also a part of the note before.
+
+    Parameters
+    ----------
+    score : LineTimes
+        The line at the tempo of the score, which decides whether there is a breath ...
+    times : LineTimes
+        ... and as it sounds, which may leave less room for it.
+    rests : (N,) int64
+        Ticks of rest before each note; a silence without a rest is the end of a detached note.
+    """
+    length = np.minimum(_length_s(score, rests, LEAST_SOUNDING_S), _length_s(times, rests, LEAST_PLAYED_S))
+    length[0] = 0.0
+    return np.where(length >= CATCH_MIN_S - EPSILON, np.minimum(length, CATCH_MAX_S), 0.0)
+
+
+def _length_s(times: LineTimes, rests: IntArray, least_s: float) -> FloatArray:
+    gap = gaps_s(times)
+    before = np.concatenate(([0.0], times.duration_s[:-1]))
+    tail = np.maximum(CATCH_NOTE_SHARE * before, np.minimum(CATCH_MIN_S - gap, before - least_s))
+    return np.asarray(np.where((gap >= CATCH_MIN_S) & (rests > 0), gap, gap + tail), dtype=np.float64)
+
+
+def drop_lengths_s(score: LineTimes, times: LineTimes) -> tuple[FloatArray, IntArray]:
+    """How long a catch breath before each note may be that takes the place of the notes before, and of how many: as
+    few as will do. The first note of a line is never left out.
+
+    Parameters
+    ----------
+    score, times : LineTimes
+        As of `catch_lengths_s`.
+
+    Returns
+    -------
+    (N,) float64, (N,) int64
+        0 where `MOST_DROPPED` notes give no breath either.
+    """
+    count = len(times.onset_s)
+    length_s, dropped = np.zeros(count), np.zeros(count, np.int64)
+    for notes in range(MOST_DROPPED, 0, -1):
+        if count <= notes + 1:
+            continue
+        written_s, _ = _left_out_s(score, notes)
+        least_s, most_s = _left_out_s(times, notes)
+        lasts_s = np.clip(written_s, least_s, most_s)
+        enough = np.flatnonzero(np.minimum(written_s, lasts_s) >= CATCH_MIN_S - EPSILON)
+        length_s[enough + notes + 1] = np.minimum(lasts_s[enough], CATCH_MAX_S)
+        dropped[enough + notes + 1] = notes
+    return length_s, dropped
+
+
+def _left_out_s(times: LineTimes, notes: int) -> tuple[FloatArray, FloatArray]:
+    """(N - notes - 1,): how long a breath that so many notes are left out for usually is, and may be at most."""
+    span_s = times.onset_s[notes + 1 :] - times.onset_s[1:-notes] + gaps_s(times)[1:-notes]
+    before_s = times.duration_s[: -notes - 1]
+    share_s = CATCH_NOTE_SHARE * before_s
+    return span_s + share_s, span_s + np.maximum(share_s, np.minimum(CATCH_MIN_S, before_s - LEAST_PLAYED_S))

@@ -1,0 +1,201 @@
+"""Where catch breaths are best taken: when no rest comes in time, and at clear ends of phrases."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+import numpy as np
+import numpy.typing as npt
+
+from app.plan.breath.catch_breath_lengths import MOST_DROPPED, Room
+from app.plan.breath.lungs import FULL_BREATH_S, HASTY_SHARE
+from app.plan.breath.phrase_ends import place_costs, slur_costs
+from app.plan.breath.which_rests import LEAST_PLAYED_S
+from app.plan.model import FloatArray
+from app.plan.music.piece import EPSILON, IntArray, LineTimes, Piece, Seeds
+
+LEAST_COST = 0.2
+"""A breath costs so much at least before the air is used up that asks for one at a phrase's end."""
+ONE_MORE = 1.5
+"""Times that air a stretch takes at least in which a breath is taken for a phrase's end: some of it comes after."""
+EARLY_COST = 1.0
+"""Breathing in with lungs still full; with half a lungful a quarter of it."""
+HASTY_COST = 10.0
+"""Breathing in again before `HASTY_SHARE` of the lungs is used up."""
+GASP_COST = 100.0
+"""Breathing in again after less than `LEAST_PLAYED_S` of playing: only for want of air."""
+TOO_LONG_COST = 1000.0
+DROPPED_COST = 30.0
+"""Leaving out a note, where none is long enough to take a gasp from."""
+MISSING_COST = 10.0
+"""Leaving it out, for each note near it that another player of the same rhythm leaves out: a hole."""
+NEAR = MOST_DROPPED
+"""So many notes apart they are near."""
+
+
+def catch_places(
+    times: LineTimes,
+    used: FloatArray,
+    piece: Piece,
+    lung_s: float,
+    refill: FloatArray,
+    level: FloatArray,
+    may: npt.NDArray[np.bool_],
+    taken: npt.NDArray[np.bool_],
+    missing: IntArray,
+    seeds: Seeds,
+    rests: IntArray,
+    room: Room,
+    free_s: float,
+) -> list[int]:
+    """Indices of the notes before which a catch breath is taken.
+
+    Between two breaths that the rests give, the cheapest chain of places such that no stretch takes more air than
+    there is (a shortest path; the cost of a place falls with how good a phrase end it is, and below 0 at a clear one).
+    Where nothing helps, the stretch stays.
+
+    Parameters
+    ----------
+    used : (N + 1,) float
+        `air_used_s`.
+    lung_s : float
+        `lungful_s`.
+    refill : (N,) float
+        Part of the lungs that the breath before each note fills; 0 where there is none.
+    level : (N,) float
+        How full the lungs are at each note.
+    may : (N,) bool
+        Before which notes the rules may place a breath.
+    taken : (N,) bool
+        Before which notes another player of the same line breathes.
+    missing : (N,) int64
+        How many other players of the same rhythm leave out each note.
+    rests : (N,) int64
+        Ticks of rest before each note, as `app.plan.music.rests.rest_ticks` finds them.
+    room : Room
+        What is left out of a line is left out only where nothing else gives the air.
+    free_s : float
+        Air that is used before a breath is taken for a phrase's end alone.
+    """
+    may = may & (refill == 0.0)
+    open_ = may & (room.length_s > 0.0)
+    open_[0] = False
+    breaths = np.flatnonzero(refill > 0.0)
+    starts = np.unique(np.concatenate(([0], breaths)))
+    ends = np.append(starts[1:], len(refill))
+    taken_s = used[ends] - used[starts]
+    short = taken_s > level[starts] * lung_s + EPSILON
+    some = short | (taken_s >= ONE_MORE * free_s)
+    stretches = list(zip(starts[some].tolist(), ends[some].tolist(), short[some].tolist(), strict=True))
+    if not stretches:
+        return []
+    dropping = may & ~open_ & (room.drop_s > 0.0)
+    cost = np.full(len(refill), np.inf)
+    at = np.concatenate([start + 1 + np.flatnonzero(open_[start + 1 : end]) for start, end, _ in stretches])
+    cost[at] = place_costs(times, piece, rests, at, taken, seeds)
+    air_s = np.minimum(room.lasts_s / FULL_BREATH_S, 1.0) * lung_s
+    played_s = np.concatenate(([0.0], np.cumsum(times.duration_s)))
+
+    def chain(start: int, end: int, allowed: npt.NDArray[np.bool_]) -> tuple[list[int], bool]:
+        places = start + 1 + np.flatnonzero(allowed[start + 1 : end])
+        nodes = np.concatenate(([start], places, [end]))
+        found, is_enough = _cheapest_chain(
+            used[nodes].tobytes(),
+            played_s[nodes].tobytes(),
+            cost[places].tobytes(),
+            air_s[places].tobytes(),
+            float(level[start]),
+            lung_s,
+            free_s,
+        )
+        return places[list(found)].tolist(), is_enough
+
+    # Where the air lasts only a phrase's end is worth a breath, and in no rest: `app.plan.breath.which_rests` says in
+    # which.
+    ends_phrase = open_ & (cost < 0.0) & (rests == 0)
+    result: list[int] = []
+    for start, end, is_short in stretches:
+        if not is_short:
+            if ends_phrase[start + 1 : end].any():
+                result += chain(start, end, ends_phrase)[0]
+            continue
+        found, is_enough = chain(start, end, open_)
+        also = start + 1 + np.flatnonzero(dropping[start + 1 : end])
+        if len(also) and not (is_enough and (cost[found] < DROPPED_COST).all()):
+            # As good as a breath before the notes that are left out, but for these.
+            dropped = room.dropped[also]
+            cost[also] = place_costs(times, piece, rests, also - dropped, taken, seeds, dropped)
+            cost[also] += DROPPED_COST * dropped + slur_costs(times, rests, also)
+            before = np.concatenate(([0], np.cumsum(missing)))
+            others = before[np.minimum(also + NEAR, len(missing))] - before[np.maximum(also - dropped - NEAR, 0)]
+            cost[also] += MISSING_COST * others
+            found, _ = chain(start, end, open_ | dropping)
+        result += found
+    return result
+
+
+@lru_cache(maxsize=4096)
+def _cheapest_chain(
+    used_bytes: bytes,
+    played_bytes: bytes,
+    cost_bytes: bytes,
+    drawn_bytes: bytes,
+    level: float,
+    lung_s: float,
+    free_s: float,
+) -> tuple[tuple[int, ...], bool]:
+    """The places, and whether the air lasts with them.
+
+    Label by label: what is left of the best way so far, and what the catch breath adds, is the air of a place.
+
+    Remembered by its numbers: an edit leaves nearly all stretches of a line as they were.
+
+    Parameters
+    ----------
+    used_bytes, played_bytes : bytes of (K + 2,) float64
+        Air used, and seconds played, until the stretch begins, until each place, and until it ends.
+    cost_bytes, drawn_bytes : bytes of (K,) float64
+        What each place costs, and the air that a catch breath brings there.
+    free_s : float
+        Air used without which no place costs less than `LEAST_COST`.
+    """
+    used, played_s = np.frombuffer(used_bytes), np.frombuffer(played_bytes)
+    costs, drawn_s = np.frombuffer(cost_bytes).tolist(), np.frombuffer(drawn_bytes).tolist()
+    last = len(used) - 1
+    air_s = np.zeros(last + 1)
+    air_s[0] = level * lung_s
+    total = np.full(last + 1, np.inf)
+    total[0] = 0.0
+    origin = np.zeros(last + 1, dtype=np.int64)
+    # No lungful reaches further back than this; where it does not even reach the place before, that one has to do.
+    reach = np.minimum(np.searchsorted(used, used - lung_s - EPSILON), np.arange(last + 1) - 1)
+    # From here on so little is used up since that the breath is hasty.
+    hasty_s = HASTY_SHARE * lung_s
+    hasty = np.searchsorted(used, used - hasty_s, side="right").tolist()
+    gasps = np.searchsorted(played_s, played_s - LEAST_PLAYED_S + EPSILON, side="right").tolist()
+    for node, back in enumerate(reach.tolist()[1:], 1):
+        needed = used[node] - used[back:node]
+        left_s = air_s[back:node] - needed
+        ways = total[back:node].copy()
+        late = max(hasty[node] - back, 0)
+        if late < len(ways):
+            ways[late:] += HASTY_COST * np.maximum(1.0 - needed[late:] / hasty_s, 0.0)
+        if gasps[node] < node:
+            ways[max(gasps[node] - back, 0) :] += GASP_COST
+        if left_s.min() < 0.0:
+            ways += np.where(left_s < -EPSILON, TOO_LONG_COST * (1.0 - left_s), 0.0)
+            np.maximum(left_s, 0.0, out=left_s)
+        if node < last:
+            here = costs[node - 1]
+            ways += here if here >= LEAST_COST else np.where(needed < free_s, LEAST_COST, here)
+            ways += (EARLY_COST / lung_s**2) * left_s * left_s
+        best = int(ways.argmin())
+        origin[node], total[node] = back + best, ways[best]
+        if node < last:
+            air_s[node] = min(left_s[best] + drawn_s[node - 1], lung_s)
+    chain = []
+    node = int(origin[-1])
+    while node > 0:
+        chain.append(node - 1)
+        node = int(origin[node])
+    return tuple(chain[::-1]), bool(total[-1] < TOO_LONG_COST)

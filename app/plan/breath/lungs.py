@@ -1,0 +1,127 @@
+"""How far the air of a breath reaches."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from app.plan.model import FloatArray
+from app.plan.music.breath_controller import STOPS_AT, BreathEnvelope, step_means
+from app.plan.music.dynamics import mean_around
+from app.plan.music.piece import EPSILON, MEZZOFORTE, IntArray, LineTimes, marked
+from app.plan.parameters import PlayerParameters
+from instrument_maps.model import Air
+
+FULL_BREATH_S = 0.5
+"""Time a trained player needs to fill the lungs."""
+LOUDNESS_RANGE = (0.6, 1.6)
+"""Air used by the softest and the loudest note, mezzoforte being 1, on an instrument whose map says nothing else."""
+USUAL_LUNG_S = 9.0
+"""The lungs of `PlayerParameters.lung_s` as they are unless set: what a map's `Air` is about."""
+PIANO, FORTE = 0.39, 0.77
+"""Loudness of the dynamics a map's `Air` names: velocities 49 and 98 of 127."""
+
+PHRASE_S = 8.0
+"""The air of a note follows the dynamic mark nearest to the mean loudness so far before and after."""
+STALE_S = 12.0
+"""However little air an instrument takes, usual lungs want fresh air after so long (an oboist breathes out first)."""
+
+CIRCULAR_SHARE = 0.4
+"""Part of the air that stays in the lungs of a player who breathes in through the nose."""
+
+HASTY_SHARE = 0.4
+"""Part of the lungs that is used up at least before the next breath, if it can be."""
+
+
+def air_used_s(times: LineTimes, air: Air | None = None, envelope: BreathEnvelope | None = None) -> FloatArray:
+    """(N + 1,): air taken by all notes before each, and by all, in seconds of playing at mezzoforte.
+
+    Parameters
+    ----------
+    envelope : BreathEnvelope or None
+        The breath, where it shows when air is blown: then all of it counts, also between the notes.
+    """
+    lasts_s = times.duration_s
+    # The dynamic of the phrases takes the air, not how each of their notes turned out.
+    loudness = marked(mean_around(times.onset_s, lasts_s, times.loudness, times.onset_s + lasts_s / 2.0, PHRASE_S))
+    noted_s = lasts_s * air_rate(loudness, air)
+    if envelope is None:
+        return np.concatenate(([0.0], np.cumsum(noted_s)))
+    rate = np.where(envelope.values > STOPS_AT, air_rate(envelope.values, air), 0.0)
+    ends_s = np.append(times.onset_s[1:], times.played_end_s[-1])
+    blown_s = np.maximum(ends_s - times.onset_s, EPSILON)
+    taken = step_means(envelope.at_s, rate, times.onset_s, times.onset_s + blown_s) * blown_s
+    # Notes that were not blown take what their loudness says.
+    taken = np.where(envelope.plays(times), taken, noted_s)
+    return np.concatenate(([0.0], np.cumsum(taken)))
+
+
+def air_rate(loudness: FloatArray, air: Air | None = None) -> FloatArray:
+    """How much more air a loudness takes than mezzoforte does."""
+    if air is None:
+        low, high = LOUDNESS_RANGE
+        return np.interp(loudness, [0.0, MEZZOFORTE, 1.0], [low, 1.0, high])
+    lasting_s = [min(lasts_s, STALE_S) for lasts_s in (air.piano_s, air.mezzoforte_s, air.forte_s)]
+    return np.interp(loudness, [PIANO, MEZZOFORTE, FORTE], [lasting_s[1] / one_s for one_s in lasting_s])
+
+
+def lungful_s(parameters: PlayerParameters, air: Air | None = None) -> float:
+    """How long a player's full breath lasts at mezzoforte: what the map says, on lungs of the player's size."""
+    return parameters.lung_s * (1.0 if air is None else min(air.mezzoforte_s, STALE_S) / USUAL_LUNG_S)
+
+
+def levels(used: FloatArray, lung_s: float, refill: FloatArray) -> FloatArray:
+    """(N,): how full the lungs are (0..1) at each note's onset, after the breath before it."""
+    # No one enters on empty lungs: without any breath before the first note (removed by hand) a normal one is assumed.
+    here, before = (0.5 if refill[0] == 0.0 else 0.0), 0
+    breaths = np.flatnonzero(refill > 0.0)
+    full = [here]
+    for index, air, more in zip(breaths.tolist(), used[breaths].tolist(), refill[breaths].tolist(), strict=True):
+        spent = (air - float(used[before])) / lung_s
+        here, before = min(max(here - spent, 0.0) + more, 1.0), index
+        full.append(here)
+    # Until the next breath it goes down as the air is used.
+    last = np.searchsorted(breaths, np.arange(len(refill)), side="right")
+    since = used[np.insert(breaths, 0, 0)[last]]
+    return np.asarray(np.maximum(np.array(full)[last] - (used[: len(refill)] - since) / lung_s, 0.0))
+
+
+def where_short(used: FloatArray, lung_s: float, refill: FloatArray, filled: FloatArray) -> IntArray:
+    """(K,): before which notes the catch breaths are not where the air lasts.
+
+    From the one before the first stretch that takes more air than there is to the next rest that gives a breath.
+
+    Parameters
+    ----------
+    refill, filled : (N,) float
+        What the breaths in rests bring, and what they and the catch breaths bring.
+    """
+    starts = np.unique(np.concatenate(([0], np.flatnonzero(filled > 0.0))))
+    ends = np.append(starts[1:], len(filled))
+    short = np.flatnonzero(used[ends] - used[starts] > levels(used, lung_s, filled)[starts] * lung_s + EPSILON)
+    rests = np.append(np.flatnonzero(refill > 0.0), len(filled))
+    result = np.zeros(len(filled), dtype=bool)
+    for first, start in zip(starts[np.maximum(short - 1, 0)].tolist(), starts[short].tolist(), strict=True):
+        place = int(np.searchsorted(rests, start, side="right"))
+        result[max(first, int(rests[place - 1]) if place else 0) : rests[place]] = True
+    return np.flatnonzero(result & (filled > 0.0) & (refill == 0.0))
+
+
+def with_circular_breathing(used: FloatArray, lung_s: float, refill: FloatArray) -> FloatArray:
+    """(N + 1,): air used (`air_used_s`), less what is breathed in through the nose while the cheeks blow.
+
+    After each breath of ``refill`` (`levels`) the lungs go down to `CIRCULAR_SHARE` of what is in them, and stay so.
+    """
+    result = used.copy()
+    level = 0.5 if refill[0] == 0.0 else 0.0
+    starts = np.unique(np.concatenate(([0], np.flatnonzero(refill > 0.0))))
+    for start, end in zip(starts.tolist(), [*starts[1:].tolist(), len(refill)], strict=True):
+        level = min(level + float(refill[start]), 1.0)
+        most_s = (1.0 - CIRCULAR_SHARE) * level * lung_s
+        result[start + 1 : end + 1] = result[start] + np.minimum(used[start + 1 : end + 1] - used[start], most_s)
+        level -= float(result[end] - result[start]) / lung_s
+    return result
+
+
+def drawn(length_s: float) -> float:
+    """Part of the lungs that a breath of this length fills."""
+    return min(length_s / FULL_BREATH_S, 1.0)

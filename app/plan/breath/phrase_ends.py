@@ -1,0 +1,301 @@
+"""How good a place every note of a line is for a catch breath before it: where phrases end.
+
+What speaks for a phrase's end is added up as log odds. They were learned by logistic regression on sung lines, which
+say where their phrases end: the Essen Folksong Collection (Schaffrath, 1995; marked phrases of 902 songs) and the
+OpenScore Lieder Corpus (CC0; of 393 songs the places after a comma, full stop or breath mark). Half the log odds of a
+slur over the place are taken off, as engraved wind parts have slurs. The features are those of Temperley (The Cognition
+of Basic Musical Structures, 2001, ch. 3: gaps, equal phrases, parallel metre), as far as a MIDI file shows them.
+"""
+
+from __future__ import annotations
+
+from statistics import median
+from typing import Final, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from app.plan.breath.catch_breath_lengths import CATCH_MIN_S, CATCH_NOTE_SHARE, MOST_DROPPED
+from app.plan.model import FloatArray
+from app.plan.music.notation import PLACES, written_onsets
+from app.plan.music.piece import EPSILON, IntArray, LineTimes, Piece, Seeds, gaps_s, staccato
+
+BoolArray = npt.NDArray[np.bool_]
+
+# Learned: log odds of a phrase's end, each where ...
+LONG_NOTE: Final = 0.8
+"""... the note before is twice as long as the notes around; four times as long counts twice, and no more."""
+SHORTER: Final = 0.55
+"""... the note is half as long as the one before, likewise."""
+LONGER: Final = -0.7
+"""... it is twice as long, likewise."""
+AMONG_RUNNING: Final = -0.35
+"""... the one before is a running note (`RUNNING`)."""
+FALL: Final = -0.35
+"""... the place is weaker than the one of the note before, for every level between them, unless notes run."""
+BAR: Final = 0.25
+"""... a bar begins."""
+LEAP: Final = 1.05
+"""... the line leaps a fourth or more."""
+REPEATED: Final = 1.7
+"""... the note is repeated."""
+RISING: Final = 0.2
+"""... the line rises."""
+LIKE_ENTRIES: Final = 1.75
+"""... in the bar (in half a bar, where there is one) the line comes in after rests; in part where it often does not."""
+AGAIN: Final = 1.75
+"""... what came after a rest comes again; less, the more often it does."""
+TWO_BARS: Final = 1.55
+"""... the line last came in two bars ago, or a multiple of it; ..."""
+FOUR_BARS: Final = 0.7
+"""... four bars: so much more."""
+
+# What songs do not show.
+PLACE_COST: Final = 4.9
+"""A breath without anything that speaks for one: of this -3.9 is the log odds of such a place."""
+REST: Final = 4.0
+"""In a rest of the score."""
+SILENCE: Final = 1.0
+"""A short silence is there already."""
+RUNNING: Final = 0.75
+"""Notes of at most this part of a beat run: only out of those a breath after the first beat of a bar is usual."""
+BEFORE_UPBEAT: Final = 0.8
+"""In running notes, before a weak place after a note on a strong one, for every level between them: after the beat."""
+AFTER_UPBEAT: Final = -2.5
+"""In running notes, before a stronger place, for every level between them, unless the note before is long."""
+AFTER_ENTRY: Final = -80.0
+"""The same where the upbeat itself comes in after a rest: rather two notes are left out elsewhere."""
+BEFORE_TAIL: Final = -40.0
+"""Between a dotted note and its short one off the beat: rather a note is left out elsewhere."""
+IN_STACCATO: Final = -40.0
+"""Within staccato notes, three and more in a row, likewise."""
+AGAIN_NOTES: Final = 4
+SLURRED: Final = -40.0
+"""Within a slur: only without any air left."""
+ALL_SLURRED: Final = (0.75, 0.9)
+"""Where more than this part of the notes run into the next one, this is how they are played and no phrasing: the slurs
+count less, and from the second value on not at all."""
+BEFORE_REST: Final = -8.0
+"""When a rest comes within a felt beat."""
+CLIPPED: Final = -2.0
+"""Out of a note that loses all of it; in proportion where it loses more than the usual part."""
+JITTER: Final = 0.2
+"""Players differ where places are equally good."""
+TAKEN_COST: Final = 6.0
+"""Where another player of the same line breathes: players stagger."""
+
+
+class _Places(NamedTuple):
+    """Notes and where they stand in their bars.
+
+    Attributes
+    ----------
+    onsets, steps, strength : (N,) int64
+        Where the notes would stand in a score, ticks to the next one, and how strong their places are.
+    bars : (B,) int64
+    beat : (K,) int64
+        Ticks of the felt beat at each place.
+    falls : (K,) int64
+        How much weaker each place is than the one of the note before.
+    runs : (K,) bool
+        Whether notes run there.
+    like : (K,) float64
+        `_like_entries`.
+    long : (K,) float64
+        How long the note before is for the notes around, in octaves, 0 to 2.
+    """
+
+    onsets: IntArray
+    steps: IntArray
+    strength: IntArray
+    bars: IntArray
+    beat: IntArray
+    falls: IntArray
+    runs: BoolArray
+    like: FloatArray
+    long: FloatArray
+
+
+def place_costs(
+    times: LineTimes,
+    piece: Piece,
+    rests: IntArray,
+    at: IntArray,
+    taken: BoolArray,
+    seeds: Seeds,
+    dropped: IntArray | int = 0,
+) -> FloatArray:
+    """(K,): what a breath before each of the notes ``at`` (1 and up) costs.
+
+    Below 0 the end of the phrase asks for a breath while there is air.
+
+    Parameters
+    ----------
+    taken : (N,) bool
+        Before which notes another player of the same line breathes.
+    dropped : (K,) int64
+        How many notes from there on are left out for it.
+    """
+    if not len(at):
+        return np.zeros(0)
+    places = _places(times, piece, rests, at, dropped)
+    onset, rest = places.onsets[at], rests[at] > 0
+    good = _phrase_end(times, places, rests, at)
+    good += REST * rest + SILENCE * (times.silence_tick[at] > 0)
+    good += _against(times, places, rests, at, piece.clock.ticks_per_quarter)
+    good -= slur_costs(times, rests, at)
+    good += BEFORE_REST * (~rest & _rest_follows(rests, places.onsets, at, places.beat))
+    taken_share = (CATCH_MIN_S - gaps_s(times)[at]) / np.maximum(times.duration_s[at - 1], EPSILON)
+    good += CLIPPED * np.clip(taken_share / CATCH_NOTE_SHARE - 1.0, 0.0, 1.0)
+    quarter = piece.clock.ticks_per_quarter
+    good += JITTER * seeds.chances_at("catch", onset, (2 * PLACES * onset + quarter) // (2 * quarter))
+    good -= TAKEN_COST * taken[at]
+    return np.asarray(PLACE_COST - good, dtype=np.float64)
+
+
+def _places(times: LineTimes, piece: Piece, rests: IntArray, at: IntArray, dropped: IntArray | int) -> _Places:
+    onsets = times.onset_tick
+    beat = piece.beat_ticks_at(onsets[at])
+    bars = piece.bars(int(onsets[0]), int(onsets[-1]) + 1)
+    onsets = written_onsets(onsets, piece.clock.ticks_per_quarter, bars)
+    steps = np.maximum(np.diff(onsets, append=onsets[-1] + beat.max()), 1)
+    strength = _strength(onsets, bars, piece.beat_ticks_at(onsets))
+    strongest = np.max([strength[at + np.minimum(dropped, more)] for more in range(MOST_DROPPED + 1)], axis=0)
+    runs = steps[at - 1] <= RUNNING * beat
+    like = _like_entries(rests, onsets, at, bars)
+    long = np.clip(np.log2(steps[at - 1] / _lengths_around(steps.astype(np.float64))[at]), 0.0, 2.0)
+    return _Places(onsets, steps, strength, bars, beat, strength[at - 1] - strongest, runs, like, long)
+
+
+def _phrase_end(times: LineTimes, places: _Places, rests: IntArray, at: IntArray) -> FloatArray:
+    """(K,): log odds of a phrase's end before each of the notes ``at``, but for those of any place."""
+    steps, runs, falls = places.steps, places.runs, places.falls
+    shorter = np.clip(np.log2(steps[at - 1] / steps[at]), -2.0, 2.0)
+    moves = np.diff(times.pitch)[at - 1]
+    again = _begins_again(steps, times.pitch, rests)
+    # Out of running notes a breath comes after the note on the beat.
+    square = _squareness(rests, places.onsets, at - runs, places.bars)
+    good: FloatArray = LONG_NOTE * places.long
+    good += SHORTER * np.maximum(shorter, 0.0) + LONGER * np.maximum(-shorter, 0.0)
+    good += AMONG_RUNNING * runs + FALL * ~runs * np.maximum(falls, 0)
+    good += BAR * (places.strength[at - 1] - falls == BAR_STRENGTH)
+    good += LEAP * times.leaps[at - 1] + REPEATED * (moves == 0) + RISING * (moves > 0)
+    good += LIKE_ENTRIES * places.like + AGAIN * again[at] * (1.0 - again.mean())
+    good += TWO_BARS * (square >= 1) + FOUR_BARS * (square >= 2)
+    return good
+
+
+def _against(times: LineTimes, places: _Places, rests: IntArray, at: IntArray, quarter_ticks: int) -> FloatArray:
+    """(K,): what speaks for and, mostly, against breaths among running, dotted and staccato notes."""
+    onsets, steps, strength, runs, falls = places.onsets, places.steps, places.strength, places.runs, places.falls
+    rest = rests[at] > 0
+    # Slurs that are known say where a short note before a bar line is an upbeat.
+    slurs_known = bool(times.slurs_next[:-1].any()) and _legato(times, rests) == 0.0
+    leads_to = strength[np.minimum(at + 1, len(onsets) - 1)]
+    tail = ~rest & (2 * steps[at] <= places.beat - (slurs_known & (leads_to == BAR_STRENGTH)))
+    tail &= _are_dotted(steps[at - 1], steps[at]) & (leads_to > 0 if slurs_known else strength[at] == 0)
+    short = staccato(onsets, onsets + times.played_end_tick - times.onset_tick, quarter_ticks)
+    # A long note or a rest ends what led to the next one.
+    leads = ~rest & (places.long < 1.0)
+    good: FloatArray = BEFORE_TAIL * tail + IN_STACCATO * (~rest & _in_a_row(short)[at])
+    good += runs * (BEFORE_UPBEAT * np.maximum(falls, 0) + AFTER_UPBEAT * np.maximum(-falls, 0) * leads)
+    good += AFTER_ENTRY * (~rest & runs & (falls < 0) & (rests[at - 1] > 0))
+    return good
+
+
+def _in_a_row(short: BoolArray) -> BoolArray:
+    """(N,): whether a note and the one before it stand in a row of at least three that are so."""
+    here = np.append(False, short[:-1] & short[1:])
+    result: BoolArray = here & (np.append(here[1:], False) | np.append(False, here[:-1]))
+    return result
+
+
+def _are_dotted(long: IntArray, short: IntArray) -> BoolArray:
+    """(K,): whether notes and the ones after them are dotted, or double-dotted, and short."""
+    doubly: BoolArray = np.abs(long - 7 * short) < short // 2
+    return (long > 2 * short) & (long < 4 * short) | doubly
+
+
+def slur_costs(times: LineTimes, rests: IntArray, at: IntArray) -> FloatArray:
+    """(K,): what a breath before each of the notes ``at`` costs for the slur that leads to it."""
+    return np.asarray(-SLURRED * (1.0 - _legato(times, rests)) * times.slurs_next[at - 1], dtype=np.float64)
+
+
+def _legato(times: LineTimes, rests: IntArray) -> float:
+    """0..1: how far notes are slurred throughout, so that slurs say nothing about phrases.
+
+    Notes before a rest do not count, nor repeated notes: a key has to be let go before it is pressed again.
+    """
+    could = (rests[1:] == 0) & (np.diff(times.pitch) != 0)
+    share = float(times.slurs_next[:-1][could].mean()) if could.any() else 0.0
+    return float(np.interp(share, ALL_SLURRED, (0.0, 1.0)))
+
+
+BAR_STRENGTH: Final = 3
+
+
+def _strength(ticks: IntArray, bars: IntArray, beat_ticks: IntArray) -> IntArray:
+    """(K,): 3 where a bar begins, 2 in its middle, 1 on another felt beat, 0 elsewhere."""
+    place = np.maximum(np.searchsorted(bars, ticks, side="right") - 1, 0)
+    since = ticks - bars[place]
+    length = np.append(np.diff(bars), 0)
+    length = np.where(length > 0, length, beat_ticks.max())[place]
+    on_beat = since % beat_ticks == 0
+    middle = on_beat & (2 * since == length)
+    return np.where(since == 0, BAR_STRENGTH, np.where(middle, 2, np.where(on_beat, 1, 0)))
+
+
+def _like_entries(rests: IntArray, onsets: IntArray, at: IntArray, bars: IntArray) -> FloatArray:
+    """(K,): of the notes that come in after rests, the part that does so where each place stands in its bar."""
+    place = np.maximum(np.searchsorted(bars, onsets, side="right") - 1, 0)
+    bar = int(np.median(np.diff(bars))) if len(bars) > 1 else 1
+    phase = (onsets - bars[place]) % max(bar // 2 if bar % 2 == 0 else bar, 1)
+    phases, counts = np.unique(phase[rests > 0], return_counts=True)
+    known = np.minimum(np.searchsorted(phases, phase[at]), len(phases) - 1)
+    shares: FloatArray = np.where(phases[known] == phase[at], counts[known] / counts.sum(), 0.0)
+    return shares
+
+
+def _squareness(rests: IntArray, onsets: IntArray, at: IntArray, bars: IntArray) -> FloatArray:
+    """(K,): 2 a multiple of four bars after the entry before each place, 1 an odd multiple of two bars, 0 elsewhere."""
+    entries = np.flatnonzero(rests > 0)
+    entry = onsets[entries[np.maximum(np.searchsorted(entries, at, side="right") - 1, 0)]]
+    bar = int(np.median(np.diff(bars))) if len(bars) > 1 else 1
+    since = onsets[at] - entry
+    return np.asarray((since > 0) * ((since % (2 * bar) == 0) + 1.0 * (since % (4 * bar) == 0)))
+
+
+def _begins_again(steps: IntArray, pitch: IntArray, rests: IntArray) -> BoolArray:
+    """(N,): whether the next notes have the rhythm and the direction of what came after a rest."""
+    count = len(steps)
+    result = np.zeros(count, dtype=bool)
+    if count > AGAIN_NOTES:
+        moves = np.sign(np.diff(pitch))
+        columns = [steps[place : count - AGAIN_NOTES + place] for place in range(AGAIN_NOTES)]
+        columns += [moves[place : count - AGAIN_NOTES + place] for place in range(AGAIN_NOTES)]
+        rows = np.ascontiguousarray(np.stack(columns, axis=1).astype(np.int64))
+        # Compared as bytes: most lines have few entries and many different bars.
+        kinds = rows.view(np.dtype((np.void, rows.shape[1] * rows.itemsize))).ravel().tolist()
+        entries = {kinds[place] for place in np.flatnonzero(rests[: len(kinds)] > 0).tolist()}
+        result[: len(kinds)] = [kind in entries for kind in kinds]
+    return result
+
+
+def _rest_follows(rests: IntArray, onsets: IntArray, at: IntArray, beat_ticks: IntArray) -> BoolArray:
+    """(K,): whether a rest begins within a beat after each place."""
+    following = np.flatnonzero(rests > 0)
+    begins = np.append(onsets[following] - rests[following], np.iinfo(np.int64).max)
+    result: BoolArray = begins[np.searchsorted(following, at, side="right")] - onsets[at] <= beat_ticks
+    return result
+
+
+def _lengths_around(duration_s: FloatArray) -> FloatArray:
+    """(N,): the median length of the eight notes before each, as far as there are any."""
+    count = len(duration_s)
+    around = np.empty(count)
+    if count > 8:
+        eight = np.sort(np.lib.stride_tricks.sliding_window_view(duration_s[:-1], 8), axis=1)
+        around[8:] = (eight[:, 3] + eight[:, 4]) / 2.0
+    for index in range(min(8, count)):
+        around[index] = median(duration_s[: max(index, 1)].tolist())
+    return around

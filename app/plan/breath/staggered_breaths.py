@@ -1,0 +1,324 @@
+"""Players in unison or in octaves breathe one after another: not before the same notes, and within held notes too.
+
+In running notes that leave no other way to breathe, players of one rhythm leave out different notes, in thirds and
+chords too: what all left out together would be a hole.
+
+After what all of them hold, a fermata, they breathe together.
+
+Messages: ``breath.staggered``.
+"""
+
+from __future__ import annotations
+
+import math
+from bisect import bisect_left, bisect_right
+from collections.abc import Sequence
+from itertools import chain
+from operator import itemgetter
+from typing import Final, NamedTuple, TypeAlias
+
+import numpy as np
+
+from app.errors import Message
+from app.plan.breath.breaths_in_rests import breath_at
+from app.plan.breath.lungs import FULL_BREATH_S
+from app.plan.by_hand.corrections import WITHIN, kind_of, within_id
+from app.plan.model import BreathEvent, FloatArray
+from app.plan.music.fermatas import Fermata
+from app.plan.music.notation import PLACES, notated
+from app.plan.music.piece import EPSILON, LineTimes, Piece
+from app.score.model import Note
+
+UNISON_NOTES = 4
+"""So many notes in a row that others have too are a unison; fewer may meet by chance."""
+HELD_S = 5.0
+"""Shorter notes are not breathed in."""
+ABOUT = 0.8
+"""Who holds a note for this part of its length holds it on while another breathes."""
+HELD_SHARE = 0.75
+"""Part of the lungs that a player spends on one note."""
+APART_S = 2.0
+"""Breaths of a section that are this far apart are not noticed."""
+LED_TO_SHARE = 0.4
+"""Part of a lungful that there is at least for a held note that other notes lead to."""
+FROM_EDGES_S = 1.0
+"""No one breathes so soon after a held note begins, or before it ends."""
+TRIED = 17
+"""Times that are compared for the breaths in a note."""
+COMPARED = 8
+"""So many players' catch breaths are one step of the plan: it is done again after an edit of one of them only."""
+
+Place: TypeAlias = int
+"""Where a note stands (`PLACES` a quarter) and its pitch class, as one number."""
+
+
+class SharedLine(NamedTuple):
+    """What others who play the same need to know of a line.
+
+    Attributes
+    ----------
+    places : tuple of Place
+        Of its notes.
+    known : frozenset of Place
+        The same without order.
+    onsets : tuple of int
+        The places without their pitches, and ...
+    rhythm : frozenset of int
+        ... the same without order.
+    ordered : tuple of int
+        Its notes in the order of their places.
+    held_s : tuple of (int, float)
+        Notes that last at least `HELD_S`, and how long.
+    """
+
+    places: tuple[Place, ...]
+    known: frozenset[Place]
+    onsets: tuple[int, ...]
+    rhythm: frozenset[int]
+    ordered: tuple[int, ...]
+    held_s: tuple[tuple[int, float], ...]
+
+    def notes_at(self, place: Place) -> tuple[int, ...]:
+        """The notes at a place."""
+        first = bisect_left(self.ordered, place, key=self.places.__getitem__)
+        return self.ordered[first : bisect_right(self.ordered, place, first, key=self.places.__getitem__)]
+
+    def holds(self, place: Place, length_s: float) -> bool:
+        """Whether a note of this length is held here about as long."""
+        if place not in self.known:
+            return False
+        for index in self.notes_at(place):
+            held = bisect_left(self.held_s, index, key=itemgetter(0))
+            if held < len(self.held_s) and self.held_s[held][0] == index and self.held_s[held][1] >= ABOUT * length_s:
+                return True
+        return False
+
+
+class Breathed(NamedTuple):
+    """Where a player of a line breathes: catch breaths by the place of the note after, the notes that are left out for
+    them by their onsets, other breaths within held notes."""
+
+    line: SharedLine
+    caught: frozenset[Place]
+    left_out: frozenset[int]
+    within: tuple[tuple[Place, float], ...]
+
+
+class Shared(NamedTuple):
+    """What a player's breaths keep clear of.
+
+    Attributes
+    ----------
+    caught : frozenset of int
+        Notes before which others of the unison take catch breaths.
+    left_out : tuple of int
+        Notes that others of the same rhythm leave out in order to breathe, each as often as there are such others.
+    held : tuple of (int, tuple of float)
+        Held notes that others hold too, with the times (seconds) at which those breathe in them.
+    after_hold : frozenset of int
+        Notes with which all go on after what they held together: they breathe before these, not before what is held.
+    """
+
+    caught: frozenset[int] = frozenset()
+    left_out: tuple[int, ...] = ()
+    held: tuple[tuple[int, tuple[float, ...]], ...] = ()
+    after_hold: frozenset[int] = frozenset()
+
+
+ALONE = Shared()
+
+
+def shared_line(times: LineTimes, piece: Piece) -> SharedLine:
+    """The places of a line's notes, as a score would have them."""
+    if not len(times.onset_tick):
+        return SharedLine((), frozenset(), (), frozenset(), (), ())
+    quarter = piece.clock.ticks_per_quarter
+    onsets = np.rint(notated(times, piece).onset_tick * PLACES / quarter).astype(np.int64)
+    places = tuple((onsets * 12 + times.pitch % 12).tolist())
+    rhythm = tuple(onsets.tolist())
+    held_s = tuple(
+        (index, float(times.duration_s[index])) for index in np.flatnonzero(times.duration_s >= HELD_S).tolist()
+    )
+    ordered = tuple(sorted(range(len(places)), key=places.__getitem__))
+    return SharedLine(places, frozenset(places), rhythm, frozenset(rhythm), ordered, held_s)
+
+
+def after_holds(held: tuple[Fermata, ...], times: LineTimes) -> frozenset[int]:
+    """Return the notes with which a line goes on after fermatas: the first that begin when most of the hold is over."""
+    if not held or not len(times.onset_tick):
+        return frozenset()
+    over = [one.start_tick + 3 * (one.release_tick - one.start_tick) // 4 for one in held]
+    notes = np.searchsorted(times.onset_tick, np.array(over))
+    return frozenset(notes[(notes > 0) & (notes < len(times.onset_tick))].tolist())
+
+
+class Met(NamedTuple):
+    """Where a line meets others who have breathed: by player the notes before which these take catch breaths, and the
+    notes that these leave out."""
+
+    line: SharedLine
+    breathed: tuple[Breathed, ...]
+    caught: tuple[frozenset[int], ...]
+    left_out: tuple[tuple[int, ...], ...]
+
+
+NO_NOTES: Final = frozenset[int]()
+
+
+def met(line: SharedLine, breathed: tuple[Breathed, ...], before: Met | None) -> Met:
+    """Compare a line with those of players whose breaths are placed already; only those compare anew who changed."""
+    known = () if before is None or before.line != line else before.breathed
+    caught, left_out = [], []
+    for number, other in enumerate(breathed):
+        if before is not None and number < len(known) and known[number] == other:
+            caught.append(before.caught[number])
+            left_out.append(before.left_out[number])
+            continue
+        meets, sounds = not other.caught.isdisjoint(line.known), not other.left_out.isdisjoint(line.rhythm)
+        caught.append(caught_in_unison(line, other.line, other.caught) if meets else NO_NOTES)
+        left_out.append(left_out_in_rhythm(line, other.line, other.left_out) if sounds else ())
+    return Met(line, breathed, tuple(caught), tuple(left_out))
+
+
+def shared_with(line: SharedLine, others: tuple[SharedLine, ...], met: Met, after_hold: frozenset[int]) -> Shared:
+    """Return what a player must keep clear of.
+
+    Parameters
+    ----------
+    others : tuple of SharedLine
+        Of all other players.
+    met : Met
+        The line and those whose breaths are placed already.
+    after_hold : frozenset of int
+        `after_holds` of the player.
+    """
+    held = []
+    taken: dict[Place, list[float]] = {}
+    for place, at_s in (pair for other in met.breathed for pair in other.within if line.held_s):
+        taken.setdefault(place, []).append(at_s)
+    for index, length_s in line.held_s:
+        place = line.places[index]
+        if any(other.holds(place, length_s) for other in others):
+            held.append((index, tuple(sorted(taken.get(place, ())))))
+    left_out = tuple(sorted(chain.from_iterable(met.left_out)))
+    return Shared(NO_NOTES.union(*met.caught), left_out, tuple(held), after_hold)
+
+
+def caught_in_unison(line: SharedLine, other: SharedLine, caught: frozenset[Place]) -> frozenset[int]:
+    """Notes of a line before which another player takes a catch breath, where both play the same.
+
+    Parameters
+    ----------
+    caught : frozenset of Place
+        Where the other player's catch breaths are.
+    """
+    met = caught & line.known
+    return frozenset(index for place in met for index in line.notes_at(place) if _in_unison(line, other, index))
+
+
+def left_out_in_rhythm(line: SharedLine, other: SharedLine, left_out: frozenset[int]) -> tuple[int, ...]:
+    """Notes of a line that sound when another player leaves one out, where both play the same rhythm.
+
+    Parameters
+    ----------
+    left_out : frozenset of int
+        Onsets of the notes that the other player leaves out.
+    """
+    least = min(UNISON_NOTES, len(line.onsets), len(other.onsets))
+    return tuple(
+        index
+        for index, onset in enumerate(line.onsets)
+        if onset in left_out and _together(line.onsets, other.rhythm, index, least)
+    )
+
+
+def _in_unison(line: SharedLine, other: SharedLine, index: int) -> bool:
+    least = min(UNISON_NOTES, len(line.places), len(other.places))
+    return _together(line.places, other.known, index, least)
+
+
+def _together(places: Sequence[int], known: frozenset[int], index: int, least: int) -> bool:
+    """Return whether at least so many places in a row, the one at an index among them, are known."""
+    count = 1
+    for step in (-1, 1):
+        place = index + step
+        while count < least and 0 <= place < len(places) and places[place] in known:
+            count, place = count + 1, place + step
+    return count >= least
+
+
+def within_held(
+    notes: Sequence[Note], times: LineTimes, piece: Piece, used: FloatArray, lung_s: float, shared: Shared
+) -> tuple[BreathEvent, ...]:
+    """Return the breaths within each note that takes most of a player's air or more, as far as others hold it on.
+
+    Parameters
+    ----------
+    used : (N + 1,) float
+        `app.plan.breath.lungs.air_used_s`.
+    """
+    events = []
+    for index, others_s in shared.held:
+        air_s = float(used[index + 1] - used[index])
+        if air_s <= HELD_SHARE * lung_s:
+            continue
+        first_s, last_s = float(times.onset_s[index]), float(times.played_end_s[index])
+        reason = Message("breath.staggered", {"air_s": round(air_s, 2), "lung_s": round(lung_s, 2)})
+        lungful_s = (last_s - first_s) * lung_s / air_s
+        # What leads to it takes air too.
+        begun_s = lungful_s if index == 0 or times.silence_tick[index] > 0 else LED_TO_SHARE * lungful_s
+        starts_s = _handed_on(first_s, last_s, lungful_s, begun_s, others_s)
+        for number, start_s in enumerate(starts_s, 1):
+            id = within_id(notes[index].id, number)
+            events.append(breath_at(id, piece, start_s, start_s + FULL_BREATH_S, reason))
+    return tuple(events)
+
+
+def _handed_on(
+    first_s: float, last_s: float, lungful_s: float, begun_s: float, others_s: tuple[float, ...]
+) -> list[float]:
+    """Choose when a player breathes within a note: in equal steps, no stretch longer than the air lasts, away from the
+    others' breaths; of such ways the one with the fewest breaths, the nearest to the middle. The first comes at most
+    ``begun_s`` after the note begins."""
+    length_s, taken_s = last_s - first_s, np.array([*others_s, math.inf])
+    least = max(math.ceil(length_s / lungful_s - EPSILON) - 1, 1)
+    found: list[tuple[tuple[float, float, int, float], list[float]]] = []
+    for count in range(least, least + 3):
+        for step_s in (length_s / count, length_s / (count + 1)):
+            ends_s = length_s - (count - 1) * step_s - FULL_BREATH_S
+            for first in np.linspace(FROM_EDGES_S, ends_s - FROM_EDGES_S, TRIED).tolist():
+                starts_s = first_s + first + step_s * np.arange(count)
+                longest_s = max(first, ends_s - first, step_s - FULL_BREATH_S if count > 1 else 0.0)
+                apart_s = float(np.abs(starts_s[:, None] - taken_s).min())
+                over_s = max(0.0, longest_s - lungful_s - EPSILON, first - begun_s)
+                order = (over_s, -min(apart_s, APART_S), count, abs(first - ends_s / 2.0))
+                found.append((order, starts_s.tolist()))
+    return min(found)[1]
+
+
+def breathed_of(
+    line: SharedLine,
+    notes: Sequence[Note],
+    caught: Sequence[int],
+    left_out: Sequence[int],
+    events: Sequence[BreathEvent],
+) -> Breathed:
+    """Where a player breathes, for those who play the same.
+
+    Parameters
+    ----------
+    caught : sequence of int
+        Notes (by index) before which a catch breath is taken.
+    left_out : sequence of int
+        Notes (by index) that are left out for one.
+    events : sequence of BreathEvent
+        All breaths of the player.
+    """
+    within = [(event.id.split(":", 1)[1], event.start_s) for event in events if kind_of(event.id) == WITHIN]
+    index_of = {note.id: index for index, note in enumerate(notes)} if within else {}
+    return Breathed(
+        line,
+        frozenset(line.places[index] for index in caught),
+        frozenset(line.onsets[index] for index in left_out),
+        tuple((line.places[index_of[note_id]], start_s) for note_id, start_s in within),
+    )

@@ -1,0 +1,153 @@
+"""Which rests are breathed in: by length, by what was played since the last breath in a rest, and by the air used.
+
+In a long rest a player breathes whatever was played before; the shorter a rest is, the more must have been played, or
+the less air be left. `app.plan.breath.breaths_in_rests` decides how a rest is used that is breathed in.
+
+Messages: ``breath.why_long``, ``breath.why_every``, ``breath.why_played``, ``breath.why_air``.
+"""
+
+from __future__ import annotations
+
+from typing import Final, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from app.errors import Argument
+from app.plan.model import FloatArray
+from app.plan.music.piece import EPSILON
+from app.plan.parameters import PARAMETERS
+
+BoolArray = npt.NDArray[np.bool_]
+
+USUAL_NEED: Final = float(PARAMETERS["breath_need"].default)
+"""The need that gives the figures below; a smaller one scales them down to 0, a greater one up to whole lungs."""
+
+ALWAYS_S: Final = 1.5
+"""Length of rests that are breathed in at every need."""
+LONG_S: Final = 0.75
+"""Length of rests that are breathed in after `LONG_PLAYED_S`, and that count however few beats they have."""
+MIDDLE_S: Final = 0.5
+"""Length of rests that are breathed in after `MIDDLE_PLAYED_S`, or with `MIDDLE_SHARE` of the lungs used up."""
+SHORT_S: Final = 0.3
+"""Length of rests that are breathed in after `SHORT_PLAYED_S`, or with `SHORT_SHARES` of the lungs used up.
+
+Shorter ones give catch breaths only.
+"""
+LONG_PLAYED_S: Final = 1.0
+MIDDLE_PLAYED_S: Final = 2.5
+MIDDLE_SHARE: Final = 0.2
+SHORT_SHARES: Final = (0.4, 0.35)
+SHORT_PLAYED_S: Final = (5.0, 3.5)
+"""For a rest of `SHORT_S`, and for one of nearly `MIDDLE_S`: who has large lungs breathes by habit then."""
+LEAST_PLAYED_S: Final = 1.0
+"""Playing before any breath in a rest shorter than `ALWAYS_S`, however small the lungs are."""
+SHORT_LEAST_PLAYED_S: Final = 1.5
+"""The same for rests shorter than `MIDDLE_S`."""
+
+
+class RestNeeds(NamedTuple):
+    """Conditions for a breath in the rest before each note: (N,) float64 each.
+
+    Attributes
+    ----------
+    least_s : seconds
+        Playing since the last breath without which it is not breathed in, ...
+    played_s : seconds
+        ... with which it is, ...
+    share : 0..1
+        ... or with so much of the lungs used up.
+    """
+
+    least_s: FloatArray
+    played_s: FloatArray
+    share: FloatArray
+
+
+class Decided(NamedTuple):
+    """Which rests are breathed in, and what was known there: (N,) each.
+
+    Attributes
+    ----------
+    breathed : bool
+    played_s : float64
+        Seconds that sounded since the last breath in a rest.
+    spent : float64
+        Part of the lungs that is used up, 0..1.
+    """
+
+    breathed: BoolArray
+    played_s: FloatArray
+    spent: FloatArray
+
+
+def rest_needs(rest_s: FloatArray, need: float, lung_s: float) -> RestNeeds:
+    """Return the conditions for breaths in rests of some lengths.
+
+    Parameters
+    ----------
+    rest_s : (N,) float64
+        At the tempo of the score.
+    need : float
+        `app.plan.parameters.PlayerParameters.breath_need`.
+    lung_s : float
+        `app.plan.breath.lungs.lungful_s`.
+    """
+
+    def scaled(figure: float, most: float) -> float:
+        return float(np.interp(need, [0.0, USUAL_NEED, 1.0], [0.0, figure, most]))
+
+    lengths = [rest_s >= least - EPSILON for least in (ALWAYS_S, LONG_S, MIDDLE_S, SHORT_S)]
+    short_s = np.interp(rest_s, [SHORT_S, MIDDLE_S], [scaled(played_s, lung_s) for played_s in SHORT_PLAYED_S])
+    shares = np.interp(rest_s, [SHORT_S, MIDDLE_S], [scaled(share, 1.0) for share in SHORT_SHARES])
+    least, short_least = (scaled(figure, figure) for figure in (LEAST_PLAYED_S, SHORT_LEAST_PLAYED_S))
+    middle = scaled(MIDDLE_SHARE, 1.0)
+    return RestNeeds(
+        np.select(lengths, [0.0, least, least, short_least], short_least),
+        np.select(lengths, [0.0, scaled(LONG_PLAYED_S, lung_s), scaled(MIDDLE_PLAYED_S, lung_s), short_s], np.inf),
+        # Who waits in a catch breath's rest until the lungs are empty would better have breathed before.
+        np.select(lengths, [0.0, middle, middle, shares], scaled(1.0, 1.0) if need < USUAL_NEED else np.inf),
+    )
+
+
+def breathed_in(used: FloatArray, played_s: FloatArray, lung_s: float, refill: FloatArray, needs: RestNeeds) -> Decided:
+    """Decide rest by rest, each by what those before it left in the lungs.
+
+    Parameters
+    ----------
+    used : (N + 1,) float64
+        `app.plan.breath.lungs.air_used_s`.
+    played_s : (N + 1,) float64
+        Seconds that sounded before each note, and in all.
+    refill : (N,) float64
+        Part of the lungs that a breath before each note would fill; 0 where there is none.
+    """
+    places = np.flatnonzero(refill > 0.0)
+    level, before_s, air_s = (0.5 if refill[0] == 0.0 else 0.0), 0.0, 0.0
+    rows = zip(*(column[places].tolist() for column in (used, played_s, refill, *needs)), strict=True)
+    found: list[tuple[bool, float, float]] = []
+    for taken_s, sounded_s, more, least_s, enough_s, share in rows:
+        level = max(level - (taken_s - air_s) / lung_s, 0.0)
+        air_s, since_s, spent = taken_s, sounded_s - before_s, 1.0 - level
+        is_enough = since_s >= enough_s - EPSILON or spent >= share - EPSILON
+        is_breathed = is_enough and since_s >= least_s - EPSILON
+        if is_breathed:
+            before_s, level = sounded_s, min(level + more, 1.0)
+        found.append((is_breathed, since_s, spent))
+    columns = np.zeros((3, len(refill)))
+    if found:
+        columns[:, places] = np.array(found, dtype=np.float64).T
+    return Decided(columns[0] > 0.0, columns[1], columns[2])
+
+
+def why(index: int, rest_s: FloatArray, needs: RestNeeds, decided: Decided) -> dict[str, Argument]:
+    """Arguments of a message for why the rest before a note is breathed in; ``why`` is the id of a text."""
+    least_s, enough_s, share = (float(column[index]) for column in needs)
+    since_s, spent = float(decided.played_s[index]), float(decided.spent[index])
+    if rest_s[index] >= ALWAYS_S - EPSILON:
+        return {"why": "breath.why_long", "always_s": ALWAYS_S}
+    if max(least_s, min(enough_s, share)) <= 0.0:
+        return {"why": "breath.why_every"}
+    if since_s >= enough_s - EPSILON:
+        return {"why": "breath.why_played", "played_s": round(since_s, 2), "enough_s": round(max(enough_s, least_s), 2)}
+    return {"why": "breath.why_air", "spent": round(100.0 * spent), "share": round(100.0 * share)}

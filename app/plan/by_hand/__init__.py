@@ -1,0 +1,1 @@
+"""What an animator changes by hand: corrections, poses, additive curves."""

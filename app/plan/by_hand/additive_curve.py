@@ -1,0 +1,131 @@
+"""Curves that an animator lays over what the generator does: keys on one channel of the body or face.
+
+A curve is anchored in the score: its keys are at ticks, and it comes in before the first and goes after the last of
+them. What it says is added to all generated layers before contacts are solved.
+"""
+
+from __future__ import annotations
+
+from typing import Final, Literal, NamedTuple, TypeAlias
+
+import msgspec
+
+from metadata.model import ARKIT_MORPHS
+
+Interpolation: TypeAlias = Literal["bezier", "linear", "constant"]
+INTERPOLATIONS: Final[tuple[Interpolation, ...]] = ("bezier", "linear", "constant")
+Unit: TypeAlias = Literal["deg", "m", "weight"]
+
+MOST_KEYS: Final = 5000
+"""Of one curve."""
+
+
+class Channel(NamedTuple):
+    """Something a curve can move.
+
+    Attributes
+    ----------
+    unit : {"deg", "m", "weight"}
+        Of its values.
+    most : float
+        No key of a file may be further from 0.
+    """
+
+    unit: Unit
+    most: float
+
+
+_ANGLE, _PLACE = Channel("deg", 180.0), Channel("m", 1.0)
+BODY_CHANNELS: Final[dict[str, Channel]] = {
+    "bell.up": _ANGLE,
+    "bell.left": _ANGLE,
+    "bell.roll": _ANGLE,
+    "head.up": _ANGLE,
+    "head.left": _ANGLE,
+    "head.roll": _ANGLE,
+    "torso.up": _ANGLE,
+    "torso.left": _ANGLE,
+    "torso.roll": _ANGLE,
+    "left_elbow.up": _ANGLE,
+    "right_elbow.up": _ANGLE,
+    "shoulders.up": _ANGLE,
+    "hips.left": _PLACE,
+    "hips.ahead": _PLACE,
+    "hips.up": _PLACE,
+    "hips.tilt": _ANGLE,
+    "hips.roll": _ANGLE,
+    "knees.bend": _ANGLE,
+    "eyes.up": _ANGLE,
+    "eyes.left": _ANGLE,
+}
+"""Channels of the body: a part of it, and what the part does. Angles of bell, head, torso and elbows as of
+`app.plan.by_hand.corrections.PoseCorrection`."""
+FACE: Final = "face."
+"""How channels of the face begin; the name of a morph target follows."""
+CHANNELS: Final[dict[str, Channel]] = BODY_CHANNELS | {f"{FACE}{name}": Channel("weight", 1.0) for name in ARKIT_MORPHS}
+
+
+class Tangent(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """Where a handle of a key is, seen from the key: ``ticks`` away (never negative, on the handle's own side) and
+    ``value`` higher."""
+
+    ticks: int
+    value: float
+
+
+class CurveKey(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """A key of a curve.
+
+    Attributes
+    ----------
+    value : float
+        Degrees, metres or the weight of a morph target.
+    interpolation : {"bezier", "linear", "constant"}
+        How the curve goes on to the next key. A constant one holds, and goes to the next value in the least time a
+        body needs.
+    arrive, leave : Tangent or None
+        Handles before and after the key; None: automatic, without going beyond the keys.
+    """
+
+    tick: int
+    value: float
+    interpolation: Interpolation = "bezier"
+    arrive: Tangent | None = None
+    leave: Tangent | None = None
+
+
+class AdditiveCurve(msgspec.Struct, frozen=True, forbid_unknown_fields=True, tag_field="correction", tag="additive"):
+    """A curve over a stretch of the score. ``name`` makes its event id unique.
+
+    Attributes
+    ----------
+    channel : str
+        One of `CHANNELS`.
+    keys : tuple of CurveKey
+        At ascending ticks, at least one.
+    blend_in_ticks, blend_out_ticks : int
+        The curve comes in so long before its first key, and goes so long after its last.
+    weight : float
+        0..1 of its values.
+    title : str
+        What the user calls it; may be empty.
+    """
+
+    name: str
+    channel: str
+    keys: tuple[CurveKey, ...]
+    blend_in_ticks: int = 0
+    blend_out_ticks: int = 0
+    weight: float = 1.0
+    enabled: bool = True
+    title: str = ""
+
+    @property
+    def start_tick(self) -> int:
+        """Of the first key."""
+        return self.keys[0].tick
+
+    @property
+    def end_tick(self) -> int:
+        """Of the last key."""
+        return self.keys[-1].tick

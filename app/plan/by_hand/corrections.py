@@ -1,0 +1,460 @@
+"""What an animator changed by hand, anchored to note ids, event ids and ticks, so that regenerating keeps it.
+
+A correction wins over the generator and its result carries ``corrected=True``. One whose anchor is gone (its note was
+deleted, its event is no longer made) is handed back as a problem, never dropped silently.
+
+Messages: ``correction.orphaned``, ``correction.no_such_fingering``, ``breath.inside_note``, ``correction.by_hand``,
+``correction.empty_span``, ``correction.unknown_expression``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping
+from itertools import pairwise
+from typing import Final, Literal, TypeAlias, TypeVar
+
+import msgspec
+
+from app.errors import Message
+from app.plan.by_hand.additive_curve import AdditiveCurve
+from app.plan.model import (
+    GESTURE_KINDS,
+    BreathEvent,
+    CueEvent,
+    EmbouchureEvent,
+    ExpressionEvent,
+    GestureEvent,
+    GestureKind,
+    Planned,
+    PoseTarget,
+    Problem,
+)
+from app.score.tempo import TempoMap
+
+BY_HAND = Message("correction.by_hand")
+
+
+class _Correction(msgspec.Struct, frozen=True, forbid_unknown_fields=True, tag_field="correction"):
+    pass
+
+
+class PinFingering(_Correction, frozen=True, tag="pin_fingering"):
+    """Play this note with the fingering of this label; the search solves the notes around it anew."""
+
+    note_id: str
+    label: str
+
+
+class RemoveEvent(_Correction, frozen=True, tag="remove"):
+    """Leave out a generated breath, preparation, cue, gesture or expression. ``note_id`` is the note it belongs to,
+    where it has one: while that note lives, the removal is in force even if nothing would be generated."""
+
+    event_id: str
+    note_id: str | None = None
+
+
+class SetBreath(_Correction, frozen=True, tag="set_breath"):
+    """Put a breath (or preparation) before a note, or a breath within it: added, or in place of the generated one.
+    Ticks are relative to the note's onset, so the breath moves with its note.
+
+    ``added`` says that the generator had none here: to delete it is to forget it. ``moved_from`` is the note whose
+    breath it was before the animator dragged it here; that one is then left out. ``number`` counts the breaths within
+    one note.
+    """
+
+    note_id: str
+    start_offset_tick: int
+    end_offset_tick: int = 0
+    depth: float = 1.0
+    kind: Literal["preparation", "breath", "within"] = "breath"
+    added: bool = False
+    moved_from: str | None = None
+    number: int = 1
+
+
+class SetCue(_Correction, frozen=True, tag="set_cue"):
+    """Let this player give a cue to the entry of a note; ``beats`` is how long before it the preparatory beat is.
+
+    ``note_id`` is ``"@"`` and a tick where the player gives an entry without playing in it. ``added`` and
+    ``moved_from`` as in `SetBreath`. ``takers`` are ids of the players it brings in; None: who comes in there.
+    """
+
+    note_id: str
+    beats: float = 1.0
+    added: bool = False
+    moved_from: str | None = None
+    takers: tuple[str, ...] | None = None
+
+    @property
+    def tick(self) -> int | None:
+        """Where a cue without a note gives the entry; None where it belongs to a note."""
+        digits = self.note_id[1:]
+        return int(digits) if self.note_id.startswith("@") and digits.lstrip("-").isdecimal() else None
+
+
+class SetEmbouchure(_Correction, frozen=True, tag="set_embouchure"):
+    """Set values of a note's embouchure; None keeps the generated one."""
+
+    note_id: str
+    tension: float | None = None
+    effort: float | None = None
+    air: float | None = None
+
+
+class ChangeGesture(_Correction, frozen=True, tag="change_gesture"):
+    """Move a generated gesture or change its amount; None keeps what was generated."""
+
+    event_id: str
+    start_tick: int | None = None
+    end_tick: int | None = None
+    amount: float | None = None
+
+
+class AddGesture(_Correction, frozen=True, tag="add_gesture"):
+    """A gesture of the animator's own, at a place of the score. ``name`` makes its event id unique; ``gesture`` is what
+    one of the kind ``"named"`` is called in `metadata.gestures`."""
+
+    name: str
+    kind: GestureKind
+    start_tick: int
+    end_tick: int
+    amount: float
+    gesture: str = ""
+
+
+class ChangeExpression(_Correction, frozen=True, tag="change_expression"):
+    """Move a generated expression, replace it by another, change its strength or fades; None keeps what was
+    generated."""
+
+    event_id: str
+    expression: str | None = None
+    start_tick: int | None = None
+    end_tick: int | None = None
+    strength: float | None = None
+    fade_in_s: float | None = None
+    fade_out_s: float | None = None
+
+
+class AddExpression(_Correction, frozen=True, tag="add_expression"):
+    """An expression of the animator's own, at a place of the score. ``name`` makes its event id unique."""
+
+    name: str
+    expression: str
+    start_tick: int
+    end_tick: int
+    strength: float = 1.0
+    fade_in_s: float = 0.2
+    fade_out_s: float = 0.3
+
+
+class PoseCorrection(_Correction, frozen=True, tag="pose"):
+    """Hold bell, head, an elbow or the trunk differently over a span of the score. ``name`` makes its event id unique.
+
+    The angles are added to what the generator does, before hands, lips and feet are put where they belong. They are
+    whole from ``start_tick`` to ``end_tick``, come in over ``fade_in_ticks`` before it and go over ``fade_out_ticks``
+    after it.
+
+    Attributes
+    ----------
+    target : {"bell", "head", "left_elbow", "right_elbow", "torso"}
+    up_deg : float
+        Bell: raised. Head: the face up. Torso: leaning back. Elbow: outwards and up, about the line from shoulder to
+        wrist.
+    left_deg : float
+        Bell, head and torso: turned to the player's left. An elbow has no such angle.
+    roll_deg : float
+        Bell: the instrument's top leans to the player's left. Head and torso: leaning to the left. An elbow has no
+        such angle.
+    """
+
+    name: str
+    target: PoseTarget
+    start_tick: int
+    end_tick: int
+    up_deg: float = 0.0
+    left_deg: float = 0.0
+    roll_deg: float = 0.0
+    fade_in_ticks: int = 0
+    fade_out_ticks: int = 0
+
+
+class Vary(_Correction, frozen=True, tag="vary"):
+    """Another random variation of the player between two ticks: another performance of these bars. Where the
+    generator leaves nothing to chance nothing changes. ``name`` distinguishes them; of several that overlap the
+    last counts."""
+
+    name: str
+    start_tick: int
+    end_tick: int
+    seed: int
+
+
+class PlayStyle(_Correction, frozen=True, tag="play_style"):
+    """Play these bars in another style. ``name`` distinguishes them; it comes and goes within the region, in so many
+    ticks."""
+
+    name: str
+    style: str
+    start_tick: int
+    end_tick: int
+    fade_in_ticks: int = 0
+    fade_out_ticks: int = 0
+
+
+Correction: TypeAlias = (
+    PinFingering
+    | RemoveEvent
+    | SetBreath
+    | SetCue
+    | SetEmbouchure
+    | ChangeGesture
+    | AddGesture
+    | ChangeExpression
+    | AddExpression
+    | PoseCorrection
+    | AdditiveCurve
+    | Vary
+    | PlayStyle
+)
+
+E = TypeVar("E", BreathEvent, CueEvent, GestureEvent, ExpressionEvent)
+Span = TypeVar("Span", GestureEvent, ExpressionEvent)
+
+
+WITHIN: Final = "within"
+"""The first part of the ids of breaths within a note; from the second of a note on, with a dot and its number."""
+REMOVABLE = ("breath", "preparation", WITHIN, "cue", *GESTURE_KINDS, "expression")
+"""Kinds of event a `RemoveEvent` may leave out: see `kind_of`."""
+
+
+def within_id(note_id: str, number: int) -> str:
+    """Return the id of a breath within a note."""
+    return f"{WITHIN}:{note_id}" if number == 1 else f"{WITHIN}.{number}:{note_id}"
+
+
+def kind_of(event_id: str) -> str:
+    """Return the kind of an event: the first part of its id, less the number of a breath within a note."""
+    return event_id.partition(":")[0].partition(".")[0]
+
+
+def breath_id(item: SetBreath) -> str:
+    """Return the id of the breath that is set."""
+    return within_id(item.note_id, item.number) if item.kind == WITHIN else f"{item.kind}:{item.note_id}"
+
+
+def sound_corrections(
+    corrections: tuple[Correction, ...], expressions: Collection[str], at_s: float
+) -> Planned[Correction]:
+    """Keep the corrections that can be done, and report each that cannot: a span that ends before it begins, an
+    expression that does not exist.
+
+    Parameters
+    ----------
+    expressions : collection of str
+        Names of the expressions there are.
+    at_s : float
+        Where the problems are shown.
+    """
+    sound: list[Correction] = []
+    problems = []
+    for item in corrections:
+        if isinstance(item, ChangeExpression | AddExpression) and item.expression not in (None, *expressions):
+            message = Message(
+                "correction.unknown_expression", {"name": str(item.expression), "known": ", ".join(expressions)}
+            )
+        elif _is_empty(item):
+            message = Message("correction.empty_span", {"kind": kind(item), "anchor": anchor(item)})
+        else:
+            sound.append(item)
+            continue
+        problems.append(Problem(message, None, at_s, at_s))
+    return Planned(tuple(sound), tuple(problems))
+
+
+def _is_empty(item: Correction) -> bool:
+    if isinstance(item, SetBreath):
+        return item.start_offset_tick >= item.end_offset_tick
+    if isinstance(item, SetCue):
+        return item.beats <= 0.0
+    if isinstance(item, AdditiveCurve):
+        return not item.keys or any(key.tick >= following.tick for key, following in pairwise(item.keys))
+    if isinstance(
+        item, AddGesture | AddExpression | ChangeGesture | ChangeExpression | PoseCorrection | Vary | PlayStyle
+    ):
+        return item.start_tick is not None and item.end_tick is not None and item.start_tick >= item.end_tick
+    return False
+
+
+def kind(item: Correction) -> str:
+    """The kind of a correction, as in its file."""
+    return str(item.__struct_config__.tag)
+
+
+def anchor(item: Correction) -> str:
+    """What a correction is tied to: a note, an event, or the name the animator gave."""
+    if isinstance(item, PinFingering | SetBreath | SetCue | SetEmbouchure):
+        return item.note_id
+    if isinstance(item, AddGesture | AddExpression | PoseCorrection | AdditiveCurve | Vary | PlayStyle):
+        return item.name
+    return item.event_id
+
+
+def removed_ids(corrections: tuple[Correction, ...]) -> frozenset[str]:
+    """Ids of the events that must not appear: removed, or moved to another place."""
+    removed = {item.event_id for item in corrections if isinstance(item, RemoveEvent)}
+    for item in corrections:
+        if isinstance(item, SetBreath | SetCue) and item.moved_from is not None:
+            removed.add(f"{'cue' if isinstance(item, SetCue) else item.kind}:{item.moved_from}")
+    return frozenset(removed)
+
+
+def without_removed(events: tuple[E, ...], removed: frozenset[str]) -> tuple[E, ...]:
+    """The events that were not removed by hand."""
+    return tuple(event for event in events if event.id not in removed) if removed else events
+
+
+def correct_embouchures(
+    events: tuple[EmbouchureEvent, ...], corrections: tuple[Correction, ...]
+) -> tuple[EmbouchureEvent, ...]:
+    """Embouchures with the values set by hand."""
+    by_note = {item.note_id: item for item in corrections if isinstance(item, SetEmbouchure)}
+    if not by_note:
+        return events
+    return tuple(
+        msgspec.structs.replace(
+            event,
+            tension=event.tension if item.tension is None else item.tension,
+            effort=event.effort if item.effort is None else item.effort,
+            air=event.air if item.air is None else item.air,
+            reason=BY_HAND,
+            planned=(event.tension, event.effort, event.air),
+        )
+        if (item := by_note.get(event.note_id)) is not None
+        else event
+        for event in events
+    )
+
+
+def of_kinds(corrections: tuple[Correction, ...], kinds: tuple[type[Correction], ...]) -> tuple[Correction, ...]:
+    """Return the corrections of some kinds."""
+    return tuple(item for item in corrections if isinstance(item, kinds))
+
+
+def correct_gestures(
+    events: tuple[GestureEvent, ...], corrections: tuple[Correction, ...], clock: TempoMap
+) -> tuple[GestureEvent, ...]:
+    """Gestures without the removed ones, with the changed and the added ones, ordered by start."""
+    changes = {item.event_id: item for item in corrections if isinstance(item, ChangeGesture)}
+    added = tuple(
+        GestureEvent(
+            id=f"{item.kind}:{item.name}",
+            kind=item.kind,
+            start_tick=item.start_tick,
+            end_tick=item.end_tick,
+            start_s=clock.seconds(float(item.start_tick)),
+            end_s=clock.seconds(float(item.end_tick)),
+            amount=item.amount,
+            reason=BY_HAND,
+            corrected=True,
+            name=item.gesture,
+        )
+        for item in corrections
+        if isinstance(item, AddGesture)
+    )
+    return _corrected_spans(events, corrections, changes, added, ("amount",), clock)
+
+
+def correct_expressions(
+    events: tuple[ExpressionEvent, ...], corrections: tuple[Correction, ...], clock: TempoMap
+) -> tuple[ExpressionEvent, ...]:
+    """Expressions without the removed ones, with the changed and the added ones, ordered by start."""
+    changes = {item.event_id: item for item in corrections if isinstance(item, ChangeExpression)}
+    added = tuple(
+        ExpressionEvent(
+            id=f"expression:{item.name}",
+            expression=item.expression,
+            start_tick=item.start_tick,
+            end_tick=item.end_tick,
+            start_s=clock.seconds(float(item.start_tick)),
+            end_s=clock.seconds(float(item.end_tick)),
+            strength=item.strength,
+            fade_in_s=item.fade_in_s,
+            fade_out_s=item.fade_out_s,
+            reason=BY_HAND,
+            corrected=True,
+        )
+        for item in corrections
+        if isinstance(item, AddExpression)
+    )
+    fields = ("expression", "strength", "fade_in_s", "fade_out_s")
+    return _corrected_spans(events, corrections, changes, added, fields, clock)
+
+
+def _corrected_spans(
+    events: tuple[Span, ...],
+    corrections: tuple[Correction, ...],
+    changes: Mapping[str, ChangeGesture | ChangeExpression],
+    added: tuple[Span, ...],
+    fields: tuple[str, ...],
+    clock: TempoMap,
+) -> tuple[Span, ...]:
+    """``fields`` of a change that are not None take the place of the event's."""
+    removed = removed_ids(corrections)
+    kept: list[Span] = [event for event in events if event.id not in removed]
+    if not changes and not added:
+        return tuple(kept)
+    result = [_changed(event, changes.get(event.id), fields, clock) for event in kept]
+    result.extend(added)
+    result.sort(key=lambda event: event.start_s)
+    return tuple(result)
+
+
+def _changed(
+    event: Span, change: ChangeGesture | ChangeExpression | None, fields: tuple[str, ...], clock: TempoMap
+) -> Span:
+    if change is None:
+        return event
+    start = event.start_tick if change.start_tick is None else change.start_tick
+    end = event.end_tick if change.end_tick is None else change.end_tick
+    if start >= end:
+        # Only one end was set, and the generated other end has since moved past it: a correction wins.
+        start, end = (start, start + 1) if change.end_tick is None else (end - 1, end)
+    return msgspec.structs.replace(
+        event,
+        start_tick=start,
+        end_tick=end,
+        start_s=event.start_s if start == event.start_tick else clock.seconds(float(start)),
+        end_s=event.end_s if end == event.end_tick else clock.seconds(float(end)),
+        reason=BY_HAND,
+        corrected=True,
+        **{name: value for name in fields if (value := getattr(change, name)) is not None},
+    )
+
+
+def orphans(
+    corrections: tuple[Correction, ...], note_ids: frozenset[str], event_ids: frozenset[str], at_s: float
+) -> tuple[Problem, ...]:
+    """A problem for every correction whose note or event is no longer there.
+
+    Parameters
+    ----------
+    note_ids, event_ids : frozenset of str
+        The notes of the line, and every event the generator made before removals.
+    at_s : float
+        Where such a problem is shown: it has no place any more, so the performance's start.
+    """
+    problems = []
+    for item in corrections:
+        if isinstance(item, PinFingering | SetBreath | SetCue | SetEmbouchure):
+            alive = item.note_id in note_ids or (isinstance(item, SetCue) and item.tick is not None)
+        elif isinstance(item, RemoveEvent):
+            known = item.note_id in note_ids if item.note_id is not None else item.event_id in event_ids
+            alive = known and kind_of(item.event_id) in REMOVABLE
+        elif isinstance(item, ChangeGesture | ChangeExpression):
+            alive = item.event_id in event_ids
+        else:
+            continue
+        if not alive:
+            message = Message("correction.orphaned", {"kind": kind(item), "anchor": anchor(item)})
+            problems.append(Problem(message, None, at_s, at_s))
+    return tuple(problems)

@@ -1,0 +1,1 @@
+"""Entries, who gives them, and who answers with a nod."""

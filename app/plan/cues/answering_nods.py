@@ -1,0 +1,63 @@
+"""What players do who come in with another player's cue: a smaller nod, a little later.
+
+Messages: ``gesture.nod``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Final
+
+import numpy as np
+
+from app.errors import Message
+from app.plan.model import CONDUCTOR, CueEvent, GestureEvent
+from app.plan.music.piece import Piece, Rhythm, Seeds
+from app.score.model import Note
+
+SOONEST_S: Final = 0.02
+LATEST_S: Final = 0.06
+"""Followers nod so much later than the leader, each by a time of their own."""
+SMALLEST: Final = 0.3
+LARGEST: Final = 0.55
+"""Size of their nods beside the leader's."""
+UNDER_CONDUCTOR: Final = 0.6
+"""Who follows a baton nods less."""
+
+
+def answering_nods(
+    notes: tuple[Note, ...], times: Rhythm, answered: Sequence[CueEvent], piece: Piece, seeds: Seeds
+) -> list[GestureEvent]:
+    """A nod for every cue that a player comes in with; none where the player's own note comes later than its beat.
+
+    Parameters
+    ----------
+    answered : sequence of CueEvent
+        Those that the player takes.
+    """
+    found: dict[str, GestureEvent] = {}
+    for cue in answered:
+        index = int(np.searchsorted(times.onset_tick, cue.end_tick))
+        if index == len(notes) or float(times.onset_s[index]) > cue.end_s + cue.beat_s:
+            continue
+        after_s = SOONEST_S + (LATEST_S - SOONEST_S) * seeds.chance_at("nod after", cue.end_tick)
+        size = SMALLEST + (LARGEST - SMALLEST) * seeds.chance_at("nod", cue.end_tick)
+        if cue.player_id == CONDUCTOR:
+            size *= UNDER_CONDUCTOR
+        start_s, end_s = cue.start_s + after_s, cue.downbeat_s + after_s
+        event_id = f"nod:{notes[index].id}"
+        # Of two who give the same entry the first is answered.
+        found.setdefault(
+            event_id,
+            GestureEvent(
+                id=event_id,
+                kind="nod",
+                start_tick=round(piece.clock.ticks(start_s)),
+                end_tick=round(piece.clock.ticks(end_s)),
+                start_s=start_s,
+                end_s=end_s,
+                amount=round(min(cue.amount * size, 1.0), 4),
+                reason=Message("gesture.nod", {"after_ms": round(1000.0 * after_s)}),
+            ),
+        )
+    return list(found.values())

@@ -1,0 +1,250 @@
+"""Who gives the entries, and when.
+
+A conductor gives all of them; the players look there and breathe together. Without one the players give the entries
+themselves, by body and instrument, with a preparatory beat: the start, and the new start after a rest or a general
+pause of all; going on after a fermata; a new tempo, in which that beat is given; and a player or a section that comes
+in after a long rest, or as the next voice of a canon, while others play.
+What an accompaniment plays that is not on stage sounds too: an entry with it needs no cue.
+
+Head and instrument rise on the preparatory beat, with the inhalation, and drop onto the next one: there lies the nod's
+acceleration peak, and its duration is the tempo (Bishop and Goebl 2017). Both are beats of the metre: before a pickup
+the second is the beat that the pickup lies in, else it is the entry.
+
+Messages: ``cue.start``, ``cue.after_rest``, ``cue.after_pause``, ``cue.after_fermata``, ``cue.tempo``, ``cue.section``,
+``cue.joins``.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from app.errors import Argument, Message
+from app.plan.by_hand.corrections import BY_HAND, SetCue, removed_ids
+from app.plan.cues.entries import ON_BEAT, Entry, beat_ticks, coming_in, played_together
+from app.plan.model import CONDUCTOR, CueEvent, TimeFrame
+from app.plan.music.dynamics import vigour_of
+from app.plan.music.piece import BEFORE_FIRST_TICK, LineTimes, MonophonicPart, Piece
+from instrument_maps.vocabulary import vocabulary
+
+LEAD_BEATS = 1.5
+"""Head and instrument begin to rise half a beat before the preparatory beat: they are on their way up on it."""
+
+MELODY_BARS = 2
+"""Bars over which the players of the melody are determined."""
+DOUBLED_SHARE = 0.8
+"""Who plays so much of the melody, in any octave, has it too."""
+SMALLEST, LARGEST = 0.4, 1.2
+"""A cue to play softly is small, but seen; one to play loudly is no leap."""
+
+
+def leader_of(
+    entry: Entry, lines: tuple[MonophonicPart, ...], all_times: tuple[LineTimes, ...], piece: Piece
+) -> tuple[int | None, str]:
+    """Index of the line that gives an entry, and why ("chosen" or "melody").
+
+    A player whose ``cue_leader`` is set gives every entry of all; of several, one who comes in here, then the first.
+    Who comes in while others play is brought in by one of themselves. Otherwise it is the first part of the section
+    that has the melody, leaving out who must not lead. None where no one may.
+    """
+    chosen = [index for index, line in enumerate(lines) if line.parameters.cue_leader]
+    entering = {line for line, _ in entry.players}
+    if chosen and (entry.reason != "cue.joins" or entering.intersection(chosen)):
+        return next((index for index in chosen if index in entering), chosen[0]), "chosen"
+    free = sorted(line for line in entering if lines[line].parameters.cue_leader is not False)
+    if len(free) <= 1:
+        return (free[0] if free else None), "melody"
+    end = entry.tick + MELODY_BARS * piece.metre_map.bar_ticks_at(entry.tick)
+    heights, tunes = {}, {}
+    for line in free:
+        times = all_times[line]
+        here = slice(*np.searchsorted(times.onset_tick, (entry.tick, end)).tolist())
+        heights[line] = float(np.average(times.pitch[here], weights=np.maximum(times.duration_s[here], 1e-3)))
+        tunes[line] = set(zip(times.onset_tick[here].tolist(), (times.pitch[here] % 12).tolist(), strict=True))
+    highest = max(free, key=lambda line: (heights[line], -line))
+    tune = tunes[highest]
+    sections = {line: _section(lines[line]) for line in free}
+    having = [line for line in free if len(tunes[line] & tune) >= DOUBLED_SHARE * max(len(tunes[line]), len(tune))]
+    counts = {line: sum(sections[other] == sections[line] for other in having) for line in having}
+    section = sections[max(having, key=lambda line: (counts[line], line == highest, -line))]
+    return next(line for line in free if sections[line] == section), "melody"
+
+
+def _at_hand(leader: int, tick: int, lines: tuple[MonophonicPart, ...], all_times: tuple[LineTimes, ...]) -> int:
+    """Of all lines of the leader's musician the one whose instrument is in the hands: what begins there, or began last
+    before it."""
+    musician = lines[leader].musician or lines[leader].player_id
+    own = [index for index, line in enumerate(lines) if (line.musician or line.player_id) == musician]
+    if len(own) == 1:
+        return leader
+
+    def last(index: int) -> int:
+        onsets = all_times[index].onset_tick
+        before = int(np.searchsorted(onsets, tick, side="right"))
+        return int(onsets[before - 1]) if before else -BEFORE_FIRST_TICK
+
+    return max(own, key=lambda index: (last(index), index == leader))
+
+
+def _section(line: MonophonicPart) -> str:
+    """Who sits together: the family of the instrument, or the instrument."""
+    return vocabulary().family(line.instrument_map.plays) or line.instrument_map.id
+
+
+class CuePlan(NamedTuple):
+    """The cues of all players, and the ids of all that the rules made."""
+
+    events: tuple[CueEvent, ...]
+    ids: frozenset[str]
+
+
+def plan_cues(
+    found: tuple[Entry, ...],
+    lines: tuple[MonophonicPart, ...],
+    all_times: tuple[LineTimes, ...],
+    piece: Piece,
+    frame: TimeFrame,
+    conducted: bool = False,
+) -> CuePlan:
+    """Every cue of the ensemble, corrections applied, and the ids of all that the rules made; ``found`` are
+    `entries`. Where the ensemble is ``conducted`` the conductor gives what no player is chosen to give.
+
+    A cue's id is ``cue:`` and the note it brings in, or ``cue:@`` and the tick for a leader who does not play there.
+    """
+    generated: list[CueEvent] = []
+    busy_until_s: dict[int, float] = {}
+    for entry in found:
+        leader, why = leader_of(entry, lines, all_times, piece)
+        if conducted and why != "chosen":
+            generated.append(_conducted(entry, lines, all_times, piece, frame))
+            continue
+        if leader is None:
+            continue
+        leader = _at_hand(leader, entry.tick, lines, all_times)
+        own = next((lines[line].notes[index] for line, index in entry.players if line == leader), None)
+        note = own.id if own is not None and own.onset_tick == entry.tick else f"@{entry.tick}"
+        amount = _size(entry, all_times)
+        takers = _takers(leader, entry.players, lines)
+        cue = _cue(lines[leader].player_id, note, entry, why, piece, frame, amount=amount, takers=takers)
+        # No one nods twice at once.
+        if cue.start_s >= busy_until_s.get(leader, -np.inf):
+            busy_until_s[leader] = cue.end_s
+            generated.append(cue)
+    events = {event.id + event.player_id: event for event in generated}
+    for place, line in enumerate(lines):
+        removed = removed_ids(line.corrections)
+        for event in generated:
+            if event.player_id == line.player_id and event.id in removed:
+                del events[event.id + event.player_id]
+        if not any(isinstance(item, SetCue) for item in line.corrections):
+            continue
+        onsets = {note.id: note.onset_tick for note in line.notes}
+        for item in line.corrections:
+            if isinstance(item, SetCue):
+                tick = onsets.get(item.note_id, item.tick)
+                if tick is None:
+                    continue
+                entering = _entering(tick, all_times, piece) if item.takers is None else _chosen(item.takers, lines)
+                takers = _takers(place, entering, lines)
+                event = _cue_by_hand(line.player_id, item.note_id, tick, item.beats, piece, frame, takers)
+                events[event.id + event.player_id] = event
+    ordered = sorted(events.values(), key=lambda event: (event.start_s, event.player_id))
+    return CuePlan(tuple(ordered), frozenset(event.id for event in generated))
+
+
+def _size(entry: Entry, all_times: tuple[LineTimes, ...]) -> float:
+    loudness = float(np.mean([all_times[line].loudness[index] for line, index in entry.players]))
+    return round(min(max(float(vigour_of(np.array([loudness]))[0]), SMALLEST), LARGEST), 4)
+
+
+def _conducted(
+    entry: Entry, lines: tuple[MonophonicPart, ...], all_times: tuple[LineTimes, ...], piece: Piece, frame: TimeFrame
+) -> CueEvent:
+    """An entry that the conductor gives, to all who come in."""
+    takers = tuple(lines[line].player_id for line, _ in entry.players)
+    return _cue(
+        CONDUCTOR, f"@{entry.tick}", entry, "conductor", piece, frame, amount=_size(entry, all_times), takers=takers
+    )
+
+
+def _takers(leader: int, players: tuple[tuple[int, int], ...], lines: tuple[MonophonicPart, ...]) -> tuple[str, ...]:
+    """Ids of who comes in with a cue, without the leader and what else the leader's musician plays."""
+    own = lines[leader].musician or lines[leader].player_id
+    entering = [lines[line] for line, _ in players if line != leader]
+    return tuple(line.player_id for line in entering if (line.musician or line.player_id) != own)
+
+
+def _chosen(takers: tuple[str, ...], lines: tuple[MonophonicPart, ...]) -> tuple[tuple[int, int], ...]:
+    """Players who were chosen by hand, as `_takers` has them; who is gone is left out."""
+    return tuple((index, 0) for index, line in enumerate(lines) if line.player_id in takers)
+
+
+def _entering(tick: int, all_times: tuple[LineTimes, ...], piece: Piece) -> tuple[tuple[int, int], ...]:
+    """Players who begin with a cue placed by hand: those who were silent before, or else all."""
+    found = coming_in([(line, times) for line, times in enumerate(all_times)], tick, played_together(piece, tick))
+    least = beat_ticks(piece, tick) / 2
+    rested = tuple((line, index) for line, index in found if all_times[line].silence_tick[index] >= least)
+    return rested or found
+
+
+def _cue(
+    player_id: str,
+    note: str,
+    entry: Entry,
+    why: str,
+    piece: Piece,
+    frame: TimeFrame,
+    *,
+    amount: float,
+    takers: tuple[str, ...],
+) -> CueEvent:
+    """The cue of an entry, in the tempo that begins there."""
+    clock, tick, beat = piece.clock, entry.tick, beat_ticks(piece, entry.tick)
+    end_s = clock.seconds(float(tick))
+    beat_s = clock.seconds(float(tick + beat)) - end_s
+    beats = piece.metre_map.felt_between(tick - 2 * beat, tick + 1)
+    late = (tick - int(beats[np.searchsorted(beats, tick, side="right") - 1])) / beat
+    peak_s = end_s - beat_s * (1.0 + (late if ON_BEAT < late < 1.0 - ON_BEAT else 0.0))
+    start_s = peak_s - (LEAD_BEATS - 1.0) * beat_s
+    arguments: dict[str, Argument] = {"leader_reason": why, "beat_s": round(beat_s, 3)}
+    if entry.number is not None:
+        arguments["bpm" if entry.reason == "cue.tempo" else "rest_s"] = round(entry.number, 2)
+    reason: str = entry.reason
+    if reason == "cue.joins" and len(entry.players) > 1:
+        reason, arguments["count"] = "cue.section", len(entry.players)
+    return CueEvent(
+        id=f"cue:{note}",
+        player_id=player_id,
+        start_tick=round(clock.ticks(start_s)),
+        end_tick=tick,
+        start_s=max(start_s, min(frame.first_frame_s, peak_s)),
+        peak_s=peak_s,
+        end_s=end_s,
+        beat_s=beat_s,
+        reason=Message(reason, arguments),
+        amount=amount,
+        takers=takers,
+    )
+
+
+def _cue_by_hand(
+    player_id: str, note: str, tick: int, beats: float, piece: Piece, frame: TimeFrame, takers: tuple[str, ...]
+) -> CueEvent:
+    """A cue whose preparatory beat lasts as many beats of the score as it was given."""
+    seconds, beat = piece.clock.seconds, beat_ticks(piece, tick) * beats
+    start_tick = tick - LEAD_BEATS * beat
+    end_s, peak_s = seconds(float(tick)), seconds(tick - beat)
+    return CueEvent(
+        id=f"cue:{note}",
+        player_id=player_id,
+        start_tick=round(start_tick),
+        end_tick=tick,
+        start_s=max(seconds(start_tick), min(frame.first_frame_s, peak_s)),
+        peak_s=peak_s,
+        end_s=end_s,
+        beat_s=end_s - peak_s,
+        reason=BY_HAND,
+        corrected=True,
+        takers=takers,
+    )

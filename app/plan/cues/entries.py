@@ -1,0 +1,288 @@
+"""Where players come in together and need a cue for it: by the rhythm of the lines and the tempo alone."""
+
+from __future__ import annotations
+
+from typing import Literal, TypeAlias
+
+import msgspec
+import numpy as np
+
+from app.plan.model import FloatArray
+from app.plan.music.fermatas import OTHER_TEMPO, Fermata, fermatas
+from app.plan.music.piece import IntArray, Piece, Rhythm
+from app.plan.music.spans import Spans
+
+COMMON_REST_S = 1.5
+COMMON_REST_BEATS, COMMON_REST_LEAST_S = 2.0, 0.75
+"""A rest of all players needs a new start if it lasts so many seconds, or so many beats that are not too quick."""
+PAUSE_BARS, PAUSE_MOST_S = (1.0, 2.0), 4.0
+"""A silence of all for a whole bar is a general pause; one that is longer in either way is a rest that is counted."""
+EXACT = 1e-6
+"""Seconds and beats that differ by less are equal."""
+HELD_S, HELD_BEATS = 3.0, 3.0
+"""What all hold so long, in seconds and in beats, and leave together, was held by a fermata."""
+HELD_SILENCE_BEATS = 0.5
+"""From this silence on it was left; one of `COMMON_REST_BEATS` is a rest that is counted."""
+LONG_HELD_S, LONG_HELD_BEATS = 6.0, 6.0
+"""What all hold so long no one counts: they need a cue even where they go on without any silence."""
+STEADY_TEMPO, STEADY_BEATS = 1.1, 4
+"""A new tempo holds for so many beats, within this factor; one that goes on changing is followed, not given."""
+SLOWED_TEMPO = 1.5
+"""After no more than `STEADY_BEATS` beats that were longer by this factor the tempo from before is given again."""
+
+LONG_REST_S, LONG_REST_BARS = 8.0, 4
+"""After a rest of either length a player is brought in ..."""
+LONG_REST_LEAST_S, LONG_REST_LEAST_BARS = 4.0, 2
+"""... which is at least so long in both."""
+ON_BEAT = 0.12
+"""What is nearer to a beat, in beats, is on it: no one plays more exactly."""
+
+Reason: TypeAlias = Literal[
+    "cue.start", "cue.after_rest", "cue.after_pause", "cue.after_fermata", "cue.tempo", "cue.joins"
+]
+
+
+class Entry(msgspec.Struct, frozen=True):
+    """A place where players come in together.
+
+    Attributes
+    ----------
+    reason : str
+        Id of the message, but for a section.
+    number : float or None
+        What the message says: seconds of rest, or beats a minute.
+    players : tuple of (int, int)
+        Who comes in together, with which note: line index, note index.
+    """
+
+    tick: int
+    reason: Reason
+    number: float | None
+    players: tuple[tuple[int, int], ...]
+
+
+def entries(all_times: tuple[Rhythm, ...], piece: Piece, musicians: tuple[str, ...] = ()) -> tuple[Entry, ...]:
+    """Every place that asks for a cue, in order: by the rhythm of the lines and the tempo alone.
+
+    ``musicians`` gives the musician of each line, where one plays several: changing instruments is no rest.
+    """
+    sounding = [(line, times) for line, times in enumerate(all_times) if len(times.onset_tick)]
+    if not sounding:
+        return ()
+    lines = _Spans.of([_stretches(times) for _, times in sounding])
+    held = fermatas(all_times, piece)
+    found = {entry.tick: entry for entry in _tempo_entries(sounding, lines, piece, held)}
+    found |= {entry.tick: entry for entry in _held_entries(sounding, piece)}
+    found |= {entry.tick: entry for entry in _common_entries(sounding, lines, piece)}
+    shared: list[Entry] = []
+    for entry in sorted(found.values(), key=lambda entry: entry.tick):
+        # A tempo that changes while they come in belongs to their entry.
+        if not shared or entry.tick - shared[-1].tick >= beat_ticks(piece, shared[-1].tick):
+            shared.append(entry)
+    return tuple(sorted([*shared, *_joining(sounding, lines, shared, piece, musicians)], key=lambda entry: entry.tick))
+
+
+class _Spans(msgspec.Struct, frozen=True):
+    """Where something sounds: starts in order, and the latest end of those up to each."""
+
+    starts: IntArray
+    ends: IntArray
+
+    @classmethod
+    def of(cls, stretches: list[tuple[IntArray, IntArray]]) -> _Spans:
+        starts, ends = (np.concatenate(edges) for edges in zip(*stretches, strict=True))
+        order = np.argsort(starts, kind="stable")
+        return cls(starts[order], np.maximum.accumulate(ends[order]))
+
+    def sounds_before(self, tick: int, ticks: float) -> bool:
+        """Whether something that begins before a tick sounds on within so many ticks before it."""
+        index = int(np.searchsorted(self.starts, tick)) - 1
+        return index >= 0 and bool(self.ends[index] > tick - ticks)
+
+
+def _stretches(times: Rhythm) -> tuple[IntArray, IntArray]:
+    """Where a line begins to sound and where it stops: a tenth of as many as there are notes."""
+    stops = times.onset_tick[1:] > times.played_end_tick[:-1]
+    return times.onset_tick[np.insert(stops, 0, True)], times.played_end_tick[np.append(stops, True)]
+
+
+def beat_ticks(piece: Piece, tick: int) -> int:
+    return int(piece.beat_ticks_at(np.array([tick]))[0])
+
+
+def played_together(piece: Piece, tick: int) -> int:
+    """How long after a tick others still come in with it, ticks: at once, or within a beat of the bar line after a
+    pickup."""
+    beat, bar = beat_ticks(piece, tick), piece.metre_map.bar_ticks_at(tick)
+    bars = piece.bars(tick, tick + bar + 1)
+    following = int(bars[np.searchsorted(bars, tick, side="right")]) - tick if bars[-1] > tick else bar
+    return following + beat if following <= bar / 2 else max(round(ON_BEAT * beat), 1)
+
+
+def coming_in(sounding: list[tuple[int, Rhythm]], tick: int, ticks: int) -> tuple[tuple[int, int], ...]:
+    """Who begins a note within so many ticks from a tick on, and which."""
+    found = []
+    for line, times in sounding:
+        index = int(np.searchsorted(times.onset_tick, tick))
+        if index < len(times.onset_tick) and times.onset_tick[index] < tick + ticks:
+            found.append((line, index))
+    return tuple(found)
+
+
+def _common_entries(sounding: list[tuple[int, Rhythm]], lines: _Spans, piece: Piece) -> list[Entry]:
+    """The first entry, and those after silences of all, on stage or not."""
+    accompaniment = np.array(piece.accompaniment, np.int64).reshape(-1, 2)
+    all_spans = _Spans.of([(lines.starts, lines.ends), (accompaniment[:, 0], accompaniment[:, 1])])
+    first = int(lines.starts[0])
+    found = []
+    if not all_spans.sounds_before(first, beat_ticks(piece, first)):
+        found.append(Entry(first, "cue.start", None, coming_in(sounding, first, played_together(piece, first))))
+    for gap in np.flatnonzero(all_spans.starts[1:] > all_spans.ends[:-1]).tolist():
+        end, begin = int(all_spans.ends[gap]), int(all_spans.starts[gap + 1])
+        index = int(np.searchsorted(lines.starts, begin))
+        # What comes in later comes in with the accompaniment.
+        if end <= first or index == len(lines.starts) or lines.starts[index] - begin >= beat_ticks(piece, begin):
+            continue
+        tick = int(lines.starts[index])
+        rest_s = piece.clock.seconds(float(tick)) - piece.clock.seconds(float(end))
+        reason = _silence(sounding, end, tick, rest_s, piece)
+        if reason is not None:
+            number = None if reason == "cue.after_fermata" else rest_s
+            found.append(Entry(tick, reason, number, coming_in(sounding, tick, played_together(piece, tick))))
+    return found
+
+
+def _silence(sounding: list[tuple[int, Rhythm]], end: int, tick: int, rest_s: float, piece: Piece) -> Reason | None:
+    """Why all need a cue after a silence of all from ``end`` to ``tick``; None if no one does."""
+    bars, beats = (tick - end) / piece.metre_map.bar_ticks_at(end), (tick - end) / beat_ticks(piece, tick)
+    long = rest_s >= COMMON_REST_S - EXACT
+    if long or (beats >= COMMON_REST_BEATS - EXACT and rest_s >= COMMON_REST_LEAST_S - EXACT):
+        pause = PAUSE_BARS[0] <= bars < PAUSE_BARS[1] and rest_s < PAUSE_MOST_S
+        return "cue.after_pause" if pause else "cue.after_rest"
+    if not HELD_SILENCE_BEATS <= beats < COMMON_REST_BEATS:
+        return None
+    left = []
+    for _, times in sounding:
+        index = int(np.searchsorted(times.onset_tick, end)) - 1
+        if index >= 0 and times.played_end_tick[index] > end - beat_ticks(piece, end):
+            left.append((times, index))
+    for times, index in left:
+        held = int(times.played_end_tick[index] - times.onset_tick[index])
+        if times.duration_s[index] < HELD_S or held < HELD_BEATS * beat_ticks(piece, end):
+            return None
+    return "cue.after_fermata" if left else None
+
+
+def _held_entries(sounding: list[tuple[int, Rhythm]], piece: Piece) -> list[Entry]:
+    """Where all go on at once after notes that all held so long that no one counts them."""
+    held: dict[int, int] = {}
+    for _, times in sounding:
+        ends, beats = times.played_end_tick[:-1], piece.beat_ticks_at(times.onset_tick[:-1])
+        long = (times.duration_s[:-1] >= LONG_HELD_S) & (ends - times.onset_tick[:-1] >= LONG_HELD_BEATS * beats)
+        long &= times.onset_tick[1:] - ends < HELD_SILENCE_BEATS * beats
+        for begin, tick in zip(times.onset_tick[:-1][long].tolist(), times.onset_tick[1:][long].tolist(), strict=True):
+            held[tick] = max(held.get(tick, begin), begin)
+    heard = _Spans.of([tuple(np.array(piece.accompaniment, np.int64).reshape(-1, 2).T)])  # type: ignore[list-item]
+    found = []
+    for tick, begin in held.items():
+        alone = all(_nothing_begins(times, begin, tick) for _, times in sounding)
+        if alone and not heard.sounds_before(tick, tick - begin):
+            players = coming_in(sounding, tick, played_together(piece, tick))
+            found.append(Entry(tick, "cue.after_fermata", None, players))
+    return found
+
+
+def _nothing_begins(times: Rhythm, begin: int, tick: int) -> bool:
+    """Whether a line begins nothing between two ticks, nor sounds on at the second."""
+    index = int(np.searchsorted(times.onset_tick, tick)) - 1
+    return index < 0 or bool(times.onset_tick[index] <= begin and times.played_end_tick[index] <= tick)
+
+
+def _tempo_entries(
+    sounding: list[tuple[int, Rhythm]], lines: _Spans, piece: Piece, held: tuple[Fermata, ...]
+) -> list[Entry]:
+    """Where a new tempo begins and stays, or the old one goes on after a fermata."""
+    beats = piece.metre_map.felt_between(int(lines.starts[0]), int(lines.ends[-1]))
+    seconds = piece.clock.seconds(beats.astype(np.float64))
+    lasts_s: FloatArray = np.diff(seconds) / np.maximum(np.diff(beats), 1)
+    changes = np.abs(np.diff(np.log(np.maximum(lasts_s, 1e-12)))) >= np.log(OTHER_TEMPO)
+    # Into a fermata no one needs a beat; its end is an entry of its own.
+    slow = Spans((one.start_tick - beat_ticks(piece, one.start_tick) + 1, one.entry_tick + 1) for one in held)
+    places = [place for place in (np.flatnonzero(changes) + 1).tolist() if not slow.hold(beats[place], beats[place])]
+    found = [(int(beats[place]), float(lasts_s[place])) for place in places if _new_tempo(lasts_s, place)]
+    found += [(one.entry_tick, 0.0 if one.returns else _tempo_after(one, piece)) for one in held]
+    accompaniment = _Spans.of([tuple(np.array(piece.accompaniment, np.int64).reshape(-1, 2).T)])  # type: ignore[list-item]
+    entries = []
+    for tick, tick_s in found:
+        beat = beat_ticks(piece, tick)
+        players = coming_in(sounding, tick, beat)
+        # A single player with an accompaniment follows it.
+        carried = len(sounding) == 1 and accompaniment.sounds_before(tick, beat)
+        if not players or carried or tick <= lines.starts[0]:
+            continue
+        if tick_s:
+            entries.append(Entry(tick, "cue.tempo", 60.0 / (tick_s * beat), players))
+        else:
+            entries.append(Entry(tick, "cue.after_fermata", None, players))
+    return entries
+
+
+def _tempo_after(fermata: Fermata, piece: Piece) -> float:
+    """Seconds per tick of the tempo that begins after a fermata."""
+    first, beat = fermata.entry_tick, beat_ticks(piece, fermata.entry_tick)
+    return (piece.clock.seconds(float(first + beat)) - piece.clock.seconds(float(first))) / beat
+
+
+def _new_tempo(lasts_s: FloatArray, place: int) -> bool:
+    """Decide whether a tempo begins at a given beat, by how long a tick lasts in each beat."""
+    following = lasts_s[place : place + STEADY_BEATS]
+    if len(following) < 2 or following.max() > STEADY_TEMPO * following.min():
+        return False
+    before = lasts_s[max(place - STEADY_BEATS - 1, 0) : place] / float(np.median(following))
+    other = np.maximum(before, 1.0 / before) >= OTHER_TEMPO
+    if not other[-1]:
+        return False
+    stretch = int(np.argmin(other[::-1])) if not other.all() else len(other)
+    if stretch <= STEADY_BEATS and stretch < len(other):
+        # The tempo was the same shortly before: that was a ritardando, or only a delay.
+        return bool(before[-stretch:].max() >= SLOWED_TEMPO)
+    return True
+
+
+def _joining(
+    sounding: list[tuple[int, Rhythm]], lines: _Spans, shared: list[Entry], piece: Piece, musicians: tuple[str, ...]
+) -> list[Entry]:
+    """Where players come in after long rests of their own while others play; those within a bar are one entry."""
+    first = int(lines.starts[0])
+    rows: list[tuple[int, float, int, int]] = []
+    for line, times in sounding:
+        ends = np.insert(times.played_end_tick[:-1], 0, first)
+        ends_s = np.insert(times.played_end_s[:-1], 0, piece.clock.seconds(float(first)))
+        begins = np.arange(len(ends)) == 0
+        for other, theirs in sounding:
+            if other != line and musicians and musicians[other] == musicians[line]:
+                before = np.searchsorted(theirs.onset_tick, times.onset_tick) - 1
+                later = (before >= 0) & (theirs.played_end_tick[before] >= ends)
+                ends, ends_s = (
+                    np.where(later, found, own)
+                    for found, own in ((theirs.played_end_tick[before], ends), (theirs.played_end_s[before], ends_s))
+                )
+                begins &= before < 0
+        rests_s = times.onset_s - ends_s
+        # A voice that comes in first of all after the others needs no long rest for it.
+        for index in np.flatnonzero((rests_s >= LONG_REST_LEAST_S) | begins).tolist():
+            tick, rest_s = int(times.onset_tick[index]), float(rests_s[index])
+            bars = (tick - int(ends[index])) / piece.metre_map.bar_ticks_at(tick)
+            long = rest_s >= LONG_REST_S or bars >= LONG_REST_BARS
+            if bars >= 1.0 if begins[index] else long and bars >= LONG_REST_LEAST_BARS:
+                rows.append((tick, rest_s, line, index))
+    rows.sort()
+    given = Spans((entry.tick, entry.tick + piece.metre_map.bar_ticks_at(entry.tick)) for entry in shared)
+    found: list[Entry] = []
+    for tick, rest_s, line, index in rows:
+        if found and tick < found[-1].tick + piece.metre_map.bar_ticks_at(found[-1].tick):
+            last = found[-1]
+            found[-1] = msgspec.structs.replace(last, players=(*last.players, (line, index)))
+        elif not given.hold(tick, tick + 1) and lines.sounds_before(tick, beat_ticks(piece, tick)):
+            found.append(Entry(tick, "cue.joins", rest_s, ((line, index),)))
+    return found

@@ -1,0 +1,201 @@
+"""At whom players look, and when: eyes leave the music for who gives an entry, for who takes it, and beside playing.
+
+Who takes an entry looks at its giver from before the lift to the entry; the giver looks at them before it. Directions
+come from the places on the stage. An eye turns `EYES_RAD` at most; what is further aside is a matter of the head, or
+seen from the corner of the eye.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from typing import Final
+
+import msgspec
+
+from app.plan.model import ABOUT, AUDIENCE, CONDUCTOR, CueEvent, GestureEvent, GlanceEvent
+from app.plan.music.piece import Seeds
+from app.plan.music.spans import Spans
+from metadata.gestures import GazeTrack
+
+EYES_RAD: Final = math.radians(35.0)
+PLAYING_HEAD: Final = 0.3
+"""How much of the way the head turns that has an instrument at the lips ..."""
+FREE_HEAD: Final = 0.65
+"""... and one that has not."""
+MOST_RAD: Final = 1.1
+"""No one looks further aside for it."""
+MOST_UP_RAD: Final = 0.35
+LEVEL_RAD: Final = 0.02
+"""Others' faces, below the player's own eyes."""
+TO_GIVER_S: Final = (0.25, 0.6)
+"""So long before the cue begins they look at who gives it ..."""
+STAYS_S: Final = (0.05, 0.35)
+"""... and so long after the entry."""
+TO_TAKERS_S: Final = (1.0, 1.6)
+"""Who gives the cue looks at the others so long before it ..."""
+LOOK_S: Final = (0.6, 0.95)
+"""... for this time."""
+LEAST_S: Final = 0.5
+"""A shorter glance is none."""
+SIDE_RAD: Final = (0.5, 1.0)
+
+
+class StagePlace(msgspec.Struct, frozen=True):
+    """Where a player is: metres, the audience towards +Z, and the turn from +Z towards +X in radians; ``eyes_m`` above
+    the floor."""
+
+    x_m: float
+    z_m: float
+    turn_rad: float
+    eyes_m: float = 0.0
+
+
+def glances_of(
+    player_id: str,
+    cues: Sequence[CueEvent],
+    gestures: Sequence[GestureEvent],
+    places: Mapping[str, StagePlace],
+    seeds: Seeds,
+    up: tuple[GlanceEvent, ...] = (),
+) -> tuple[GlanceEvent, ...]:
+    """All glances of a player, in order, one at a time.
+
+    Parameters
+    ----------
+    cues : sequence of CueEvent
+        Of all players.
+    gestures : sequence of GestureEvent
+        The player's own, corrections applied.
+    places : mapping of str to StagePlace
+        Where every player stands, and the conductor; without a place of the player's own or the other's no one is
+        looked at.
+    up : tuple of GlanceEvent
+        Looks up to the conductor while playing (`app.plan.faces.looks_at_conductor`).
+    """
+    found: list[GlanceEvent] = []
+    for cue in cues:
+        if cue.player_id == player_id:
+            found += _to_takers(cue, places, seeds)
+        elif player_id in cue.takers:
+            found += _to_giver(cue, player_id, places, seeds)
+    for event in gestures:
+        if event.kind == "look_about":
+            found += _about(event, seeds)
+        elif event.kind == "look_up" and player_id in places:
+            yaw_rad = _wrapped(-places[player_id].turn_rad)
+            found.append(_glance(f"glance:{event.id}", AUDIENCE, event.start_s, event.end_s, yaw_rad))
+        elif event.gesture is not None and event.gesture.gaze is not None and event.amount > 0.0:
+            found.append(_at_own_hands(event, event.gesture.gaze))
+    taken = Spans((one.start_s, one.end_s) for one in found)
+    # What is asked for anyway is more than a look up from the music.
+    found += [one for one in up if not taken.meet(one.start_s, one.end_s)]
+    lowered = Spans((event.start_s, event.end_s) for event in gestures if event.kind == "lower_instrument")
+    return tuple(_in_turn([_turned(one, lowered) for one in found]))
+
+
+def _to_giver(cue: CueEvent, player_id: str, places: Mapping[str, StagePlace], seeds: Seeds) -> list[GlanceEvent]:
+    if player_id not in places or cue.player_id not in places:
+        return []
+    before_s = _between(TO_GIVER_S, seeds.chance_at("glance before", cue.end_tick))
+    after_s = _between(STAYS_S, seeds.chance_at("glance after", cue.end_tick))
+    yaw_rad = bearing_rad(places[player_id], places[cue.player_id])
+    glance = _glance(f"glance:{cue.id}", cue.player_id, cue.start_s - before_s, cue.downbeat_s + after_s, yaw_rad)
+    if cue.player_id == CONDUCTOR:
+        glance = msgspec.structs.replace(glance, pitch_rad=pitch_rad(places[player_id], places[CONDUCTOR]))
+    return [glance]
+
+
+def _to_takers(cue: CueEvent, places: Mapping[str, StagePlace], seeds: Seeds) -> list[GlanceEvent]:
+    """The giver looks at one or two of them, the nearest first, and is back at the music for the entry."""
+    if cue.player_id not in places:
+        return []
+    own = places[cue.player_id]
+    others = sorted(
+        (math.hypot(places[one].x_m - own.x_m, places[one].z_m - own.z_m), one) for one in cue.takers if one in places
+    )
+    found = []
+    at_s = cue.start_s - _between(TO_TAKERS_S, seeds.chance_at("glance round", cue.end_tick))
+    for number, (_, other) in enumerate(others[:2]):
+        lasts_s = _between(LOOK_S, seeds.chance_at(f"glance {number}", cue.end_tick))
+        name = f"glance:{cue.id}:{number}"
+        found.append(_glance(name, other, at_s, at_s + lasts_s, bearing_rad(own, places[other])))
+        at_s += lasts_s
+    return found
+
+
+def _about(event: GestureEvent, seeds: Seeds) -> list[GlanceEvent]:
+    """To one side, then less far to the other."""
+    side = 1.0 if seeds.chance_at("look side", event.start_tick) < 0.5 else -1.0
+    turn_s = event.start_s + (0.5 + 0.2 * seeds.chance_at("look turn", event.start_tick)) * (
+        event.end_s - event.start_s
+    )
+    wide = _between(SIDE_RAD, seeds.chance_at("look wide", event.start_tick)) * event.amount
+    back = (0.3 + 0.5 * seeds.chance_at("look back", event.start_tick)) * wide
+    return [
+        _glance(f"glance:{event.id}:0", ABOUT, event.start_s, turn_s, side * wide),
+        _glance(f"glance:{event.id}:1", ABOUT, turn_s, event.end_s, -side * back),
+    ]
+
+
+def _at_own_hands(event: GestureEvent, gaze: GazeTrack) -> GlanceEvent:
+    """Where a gesture says that the eyes go."""
+    length_s = event.end_s - event.start_s
+    return GlanceEvent(
+        f"glance:{event.id}",
+        ABOUT,
+        event.start_s + gaze.start * length_s,
+        event.start_s + gaze.end * length_s,
+        math.radians(gaze.left_deg),
+        -math.radians(gaze.up_deg),
+        FREE_HEAD,
+    )
+
+
+def bearing_rad(own: StagePlace, other: StagePlace) -> float:
+    """Where another stands, from the direction in which a player faces; to the left is positive."""
+    across_m, ahead_m = other.x_m - own.x_m, other.z_m - own.z_m
+    if across_m == 0.0 and ahead_m == 0.0:
+        return 0.0
+    return _wrapped(math.atan2(across_m, ahead_m) - own.turn_rad)
+
+
+def pitch_rad(own: StagePlace, other: StagePlace) -> float:
+    """How far down another's eyes are from a player's own."""
+    away_m = max(math.hypot(other.x_m - own.x_m, other.z_m - own.z_m), 0.5)
+    return round(min(max(math.atan2(own.eyes_m - other.eyes_m, away_m), -MOST_UP_RAD), MOST_UP_RAD), 4)
+
+
+def _wrapped(angle_rad: float) -> float:
+    return math.remainder(angle_rad, 2.0 * math.pi)
+
+
+def _glance(name: str, at: str, start_s: float, end_s: float, yaw_rad: float) -> GlanceEvent:
+    return GlanceEvent(name, at, start_s, end_s, yaw_rad, LEVEL_RAD, PLAYING_HEAD)
+
+
+def _turned(glance: GlanceEvent, lowered: Spans) -> GlanceEvent:
+    """With as much of the head as is free, and as far as eyes and head go."""
+    free = lowered.hold(glance.start_s - 0.5, glance.end_s + 0.5)
+    share = FREE_HEAD if free else PLAYING_HEAD
+    most_rad = min(EYES_RAD / (1.0 - share), MOST_RAD)
+    yaw_rad = min(max(glance.yaw_rad, -most_rad), most_rad)
+    return msgspec.structs.replace(glance, yaw_rad=round(yaw_rad, 4), head_share=share)
+
+
+def _in_turn(glances: list[GlanceEvent]) -> list[GlanceEvent]:
+    """Each ends where the next begins; those that are left with too little time are none."""
+    ordered = sorted(glances, key=lambda one: (one.start_s, one.id))
+    kept: list[GlanceEvent] = []
+    for glance in ordered:
+        while kept and kept[-1].end_s > glance.start_s:
+            last = kept.pop()
+            if glance.start_s - last.start_s >= LEAST_S:
+                kept.append(msgspec.structs.replace(last, end_s=glance.start_s))
+                break
+        kept.append(glance)
+    return [one for one in kept if one.end_s - one.start_s >= LEAST_S]
+
+
+def _between(bounds: tuple[float, float], share: float) -> float:
+    return bounds[0] + (bounds[1] - bounds[0]) * share

@@ -1,0 +1,137 @@
+"""Looks up from the music to the conductor while playing.
+
+Entries are given, and looked at, by cues (`app.plan.faces.glances`). Beside these, players look up where they need the
+beat: while the tempo changes, into the last chord until it is released, as phrases begin, and now and then before a
+bar. The score is read most of the time: in fast runs no one looks up.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Final
+
+import numpy as np
+
+from app.plan.faces.glances import PLAYING_HEAD, StagePlace, bearing_rad, pitch_rad
+from app.plan.model import CONDUCTOR, FloatArray, GlanceEvent, TimeFrame
+from app.plan.music.piece import IntArray, LineTimes, Piece, Rhythm, Seeds
+from app.plan.music.spans import Spans
+
+CHANGING: Final = 0.03
+"""A beat longer or shorter by this share than the one before belongs to a change of tempo."""
+CHANGE_S: Final = (0.45, 0.55)
+"""So long before such a beat, and after it."""
+LAST_S: Final = (0.9, 0.25)
+"""So long before the last note, and after its end."""
+PHRASE_CHANCE: Final = 0.5
+PHRASE_S: Final = (0.55, 0.2)
+PHRASE_REST_S: Final = 0.3
+BAR_EVERY_S: Final = 7.0
+"""About so often a player looks up before a bar line."""
+NEAR_S: Final = 2.0
+"""A bar line further from what is played is none to look up at; in long rests other looks are planned."""
+LONGEST_BAR_S: Final = 8.0
+BAR_S: Final = (0.5, 0.18)
+QUICK_S: Final = 0.2
+"""From onset to onset: who has so much to read does not look up."""
+LEAST_APART_S: Final = 1.4
+LONGEST_S: Final = 3.5
+PAGE_S: Final = 0.7
+"""No one looks up longer, but into the last note: the page is read for so long in between."""
+
+
+def looks_up(
+    *,
+    player_id: str,
+    times: LineTimes,
+    piece: Piece,
+    frame: TimeFrame,
+    last_s: float,
+    places: Mapping[str, StagePlace],
+    amount: float,
+    seeds: Seeds,
+) -> tuple[GlanceEvent, ...]:
+    """The looks of a player at the conductor, in order and apart; none without a conductor.
+
+    Parameters
+    ----------
+    last_s : float
+        End of the last note of all players.
+    amount : float
+        How much the eyes leave the music, 1 as usual.
+    """
+    if CONDUCTOR not in places or player_id not in places or not len(times.onset_s):
+        return ()
+    own, there = places[player_id], places[CONDUCTOR]
+    yaw, pitch = bearing_rad(own, there), pitch_rad(own, there)
+    if amount <= 0.0:
+        return ()
+    spans = _certain(times, piece, last_s)
+    taken = Spans(spans)
+    free_s = -np.inf
+    for start_s, end_s in _by_chance(times.rhythm, piece, amount, seeds):
+        near = taken.meet(start_s - LEAST_APART_S, end_s + LEAST_APART_S)
+        if not near and start_s >= free_s:
+            spans.append((start_s, end_s))
+            free_s = end_s + LEAST_APART_S
+    spans = [(start_s, end_s) for start_s, end_s in spans if frame.first_frame_s <= start_s and end_s <= frame.end_s]
+    return tuple(
+        GlanceEvent(f"glance:conductor:{round(piece.clock.ticks(start_s))}", CONDUCTOR, start_s, end_s, yaw, pitch,
+                    PLAYING_HEAD)
+        for start_s, end_s in sorted(spans)
+    )  # fmt: skip
+
+
+def _certain(times: LineTimes, piece: Piece, last_s: float) -> list[tuple[float, float]]:
+    """Changes of tempo, and the last note. What follows soon is one look, but none lasts long."""
+    asked: list[tuple[float, float]] = []
+    beats = piece.metre_map.felt_between(int(times.onset_tick[0]), int(times.onset_tick[-1]) + 1)
+    if len(beats) > 2:
+        beats_s = piece.clock.seconds(beats.astype(np.float64))
+        lasts = np.diff(beats_s) / np.maximum(np.diff(beats), 1)
+        changes = np.flatnonzero(np.abs(np.diff(np.log(np.maximum(lasts, 1e-12)))) >= CHANGING) + 1
+        asked += [(at_s - CHANGE_S[0], at_s + CHANGE_S[1]) for at_s in beats_s[changes].tolist()]
+    ends_s = float(times.played_end_s[-1])
+    if ends_s > last_s - 1.0:
+        asked.append((float(times.onset_s[-1]) - LAST_S[0], ends_s + LAST_S[1]))
+    found: list[tuple[float, float]] = []
+    for start_s, end_s in asked:
+        if not found or start_s > found[-1][1] + LEAST_APART_S:
+            found.append((start_s, end_s))
+        elif found[-1][1] - found[-1][0] < LONGEST_S:
+            found[-1] = (found[-1][0], max(end_s, found[-1][1]))
+        elif start_s > found[-1][1]:
+            # A glance at the page, and up again.
+            found.append((max(start_s, found[-1][1] + PAGE_S), max(end_s, found[-1][1] + PAGE_S + CHANGE_S[1])))
+    return found
+
+
+def _by_chance(times: Rhythm, piece: Piece, amount: float, seeds: Seeds) -> list[tuple[float, float]]:
+    """As phrases begin, and now and then before a bar."""
+    rests_s = times.onset_s[1:] - times.played_end_s[:-1]
+    starts = np.flatnonzero(np.insert(rests_s >= PHRASE_REST_S, 0, False))
+    starts = starts[seeds.chances_at("up at phrase", times.onset_tick[starts]) < PHRASE_CHANCE * amount]
+    spans = [(at_s - PHRASE_S[0], at_s + PHRASE_S[1]) for at_s in times.onset_s[starts].tolist()]
+    bars, bars_s = _bars(times, piece)
+    if len(bars) > 1:
+        chances = np.minimum(np.append(np.diff(bars_s), 0.0), LONGEST_BAR_S) / BAR_EVERY_S * amount
+        # Read ahead: what comes next is what keeps the eyes on the page.
+        place = np.minimum(np.searchsorted(times.onset_s, bars_s), len(times.onset_s) - 1)
+        around = np.stack([np.clip(place + step, 0, len(times.onset_s) - 1) for step in (-1, 0, 1)])
+        lasts = times.onset_s[np.minimum(around + 1, len(times.onset_s) - 1)] - times.onset_s[around]
+        quick = np.any((lasts < QUICK_S) & (around < len(times.onset_s) - 1), axis=0)
+        chosen = (seeds.chances_at("up at bar", bars) < chances) & ~quick
+        spans += [(at_s - BAR_S[0], at_s + BAR_S[1]) for at_s in bars_s[chosen].tolist()]
+    return sorted(spans)
+
+
+def _bars(times: Rhythm, piece: Piece) -> tuple[IntArray, FloatArray]:
+    """Ticks and seconds of the bars near what is played, one of those that lie close together."""
+    bars = piece.bars(int(times.onset_tick[0]), int(times.onset_tick[-1]) + 1)
+    bars_s: FloatArray = piece.clock.seconds(bars.astype(np.float64))
+    following = np.minimum(np.searchsorted(times.onset_s, bars_s), len(times.onset_s) - 1)
+    before = np.maximum(following - 1, 0)
+    near = (times.onset_s[following] - bars_s <= NEAR_S) & (bars_s - times.played_end_s[before] <= NEAR_S)
+    bars, bars_s = bars[near], bars_s[near]
+    _, first = np.unique(np.floor(bars_s / LEAST_APART_S), return_index=True)
+    return bars[first], bars_s[first]

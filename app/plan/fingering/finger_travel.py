@@ -1,0 +1,164 @@
+"""What each finger does on the way from one fingering to another: lifts, presses, rolls, goes from key to key.
+
+A finger is where the controls are that it holds; those that two pitches' fingerings ask for are compared all at once.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from app.plan.model import FloatArray
+from app.plan.music.piece import IntArray
+from instrument_maps.model import Contact, Control, Fingering
+
+_DOWN = 0.5
+"""A control is held beyond this part of its way; short of it, a hole is half closed."""
+
+_SIDE = re.compile(r"\.(index|middle|ring|little)\.(side|pad_proximal)")
+"""The parts of a finger other than its tip; a thumb lies aside by nature."""
+
+LEVER_COST = 0.5
+"""A thumb that has a lever of its own moves beside the fingers."""
+FINGER_WEIGHT = {"thumb": 1.25, "little": 1.25, "ring": 1.1}
+"""What the slower fingers' moves count in a hurry; those of the others count 1."""
+CONTRARY_COST = 0.5
+"""One finger going up while another goes down is harder than both going one way."""
+KEY_TO_KEY_COST = {"little": 4.0, "ring": 3.0}
+KEY_TO_KEY_USUAL_COST = 1.5
+"""A finger that goes from one key to another without being free between smears the notes; most of all the little
+finger, which is why its keys are there twice."""
+
+
+@dataclass(frozen=True)
+class Ways:
+    """What fingers do between two pitches, for all their fingerings; each (U, K, K) float64.
+
+    Attributes
+    ----------
+    moves : fingers that move at all
+    weighted : the same, levers and contrary motion weighted
+    key_to_key : cost of the fingers that go from one key to another without being free
+    apart : how many fingers do
+    rolls : fingers that roll onto a further key, or off it
+    levers : thumbs' levers that are turned
+    turns : hands in which one finger goes to a key with its side, or leaves one, while others move
+    together : 1 where a thumb's lever is turned while fingers move
+    """
+
+    moves: FloatArray
+    weighted: FloatArray
+    key_to_key: FloatArray
+    apart: FloatArray
+    rolls: FloatArray
+    levers: FloatArray
+    turns: FloatArray
+    together: FloatArray
+
+
+@dataclass(frozen=True)
+class FingerPlaces:
+    """Where every finger is in every fingering of a table, as bits of controls.
+
+    Attributes
+    ----------
+    holds, half : (F, P, K) int64
+        What each finger holds wholly, and half.
+    levers : int
+        Bits of the thumbs' levers.
+    aside : int
+        Bits of what fingers work with their sides: the hand turns for it.
+    hands : tuple of list of int
+        The rows of the fingers of each hand.
+    weight, key_to_key : (F, 1, 1, 1) float64
+        What a finger's move counts in a hurry, and what its way from one key to another costs.
+    """
+
+    holds: IntArray
+    half: IntArray
+    levers: int
+    aside: int
+    hands: tuple[list[int], ...]
+    weight: FloatArray
+    key_to_key: FloatArray
+
+    def between(self, before: IntArray, after: IntArray) -> Ways:
+        """Count what it takes from each fingering of the pitches ``before`` to each of those ``after``, (U,) both."""
+        a, b = self.holds[:, before, :, None], self.holds[:, after, None, :]
+        whole = self.holds | self.half
+        whole_a, whole_b = whole[:, before, :, None], whole[:, after, None, :]
+        # Where what is held half differs, so does what is held wholly, or all of what is held.
+        moved = (a != b) | (whole_a != whole_b)
+        busy = moved & (whole_a != 0) & (whole_b != 0)
+        apart = busy & ((whole_a & whole_b) == 0)
+        up, down = (whole_a & ~whole_b) != 0, (whole_b & ~whole_a) != 0
+        moves, jumps = moved.sum(axis=0, dtype=np.float64), apart.sum(axis=0, dtype=np.float64)
+        weighted = (moved * self.weight).sum(axis=0)
+        levers = np.zeros_like(moves)
+        if self.levers:
+            lever = moved & (((a ^ b) & self.levers) != 0)
+            levers = lever.sum(axis=0, dtype=np.float64)
+            weighted += (lever * (LEVER_COST - self.weight)).sum(axis=0)
+            up, down = up & ~lever, down & ~lever
+        turns = np.zeros_like(moves)
+        if self.aside:
+            turning = moved & (((a ^ b) & self.aside) != 0)
+            for hand in self.hands:
+                turns += turning[hand].any(axis=0) & (moved[hand] & ~turning[hand]).any(axis=0)
+        weighted += CONTRARY_COST * (up.any(axis=0) & down.any(axis=0))
+        return Ways(
+            moves=moves,
+            weighted=weighted,
+            key_to_key=(apart * self.key_to_key).sum(axis=0),
+            apart=jumps,
+            rolls=busy.sum(axis=0, dtype=np.float64) - jumps,
+            levers=levers,
+            turns=turns,
+            together=((levers > 0.0) & (moves > levers)).astype(np.float64),
+        )
+
+
+def finger_places(
+    choices: Sequence[Sequence[Fingering]],
+    shape: tuple[int, int],
+    controls: Sequence[Control],
+    contacts: Sequence[Contact],
+) -> FingerPlaces:
+    """Work out where the fingers are in the fingerings of every pitch, padded to ``shape`` (P, K); slides are no
+    fingers' matter."""
+    names = sorted(
+        {control.finger for control in controls}
+        | {finger for ranked in choices for fingering in ranked for finger in fingering.fingers.values()}
+    )
+    bits = {control.name: 1 << place for place, control in enumerate(controls)}
+    holds = {name: np.zeros(shape, dtype=np.int64) for name in names}
+    half = {name: np.zeros(shape, dtype=np.int64) for name in names}
+    worked = {control.name: control for control in controls if control.kind != "slide"}
+    at_rest = {name: control.rest_value for name, control in worked.items() if control.rest_value > 0.0}
+    for row, ranked in enumerate(choices):
+        for column, fingering in enumerate(ranked):
+            values = {**at_rest, **fingering.controls} if at_rest else fingering.controls
+            for name, value in values.items():
+                if value <= 0.0 or name not in worked:
+                    continue
+                finger = fingering.fingers.get(name, worked[name].finger)
+                chosen = holds if value > _DOWN else half
+                chosen[finger][row, column] |= bits[name]
+    # Under a finger a lever is worked like any valve.
+    levers = sum(bits[item.name] for item in controls if item.kind == "lever" and item.finger.endswith(".thumb"))
+    beside = {contact.control for contact in contacts if _SIDE.search(contact.part)}
+    aside = sum(bits[item.name] for item in controls if item.name in beside)
+    used = [name for name in names if holds[name].any() or half[name].any()]
+    kinds = [name.split(".")[1] for name in used]
+    return FingerPlaces(
+        np.array([holds[name] for name in used], dtype=np.int64).reshape(len(used), *shape),
+        np.array([half[name] for name in used], dtype=np.int64).reshape(len(used), *shape),
+        levers,
+        aside,
+        tuple([row for row, name in enumerate(used) if name.startswith(hand)] for hand in ("left.", "right.")),
+        np.array([FINGER_WEIGHT.get(kind, 1.0) for kind in kinds]).reshape(-1, 1, 1, 1),
+        np.array([KEY_TO_KEY_COST.get(kind, KEY_TO_KEY_USUAL_COST) for kind in kinds]).reshape(-1, 1, 1, 1),
+    )

@@ -1,0 +1,192 @@
+"""Which fingering every note is played with: a search over the whole line, as a player would choose.
+
+The search (Viterbi over the ranked fingerings of every note) keeps the first choice unless speed or a trill makes an
+alternate worth its intonation and its unfamiliarity. Afterwards every run of alternates and every phrase is compared
+with the first choices: one that travels further or needs a faster motion is played with first choices after all.
+
+Messages: ``fingering.first_choice``, ``fingering.trill``, ``fingering.speed``, ``fingering.by_hand``,
+``fingering.stopped``, ``fingering.out_of_range``, ``fingering.starts_early``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import msgspec
+import numpy as np
+
+from app.errors import Message
+from app.plan.fingering.mutes import stopped_notes
+from app.plan.fingering.search import (
+    TOLERANCE,
+    FingeringProblem,
+    best_path,
+    even_trills,
+    fingering_problem,
+    never_worse,
+)
+from app.plan.model import FingeringEvent, Planned, Problem, Vent
+from app.plan.music.piece import IntArray, LineTimes
+from app.score.model import Note
+from instrument_maps.model import Fingering, InstrumentMap
+
+LEAST_HELD_S = 0.1
+"""A note that would end sooner after its vents are let go keeps them."""
+
+
+def plan_fingerings(
+    notes: tuple[Note, ...],
+    times: LineTimes,
+    instrument: InstrumentMap,
+    pins: dict[str, str],
+    stopped: tuple[tuple[int, int], ...] = (),
+) -> Planned[FingeringEvent]:
+    """Choose a fingering for every note.
+
+    Parameters
+    ----------
+    pins : dict of str to str
+        Labels demanded by corrections, by note id.
+    stopped : tuple of (start tick, end tick), optional
+        Where the hand stops the bell: notes are fingered as the map says of it.
+    """
+    if not notes:
+        return Planned((), ())
+    by_hand = stopped_notes(notes, stopped, instrument)
+    problem = fingering_problem(notes, times, instrument, pins, by_hand)
+    path = never_worse(problem, even_trills(problem, best_path(problem)))
+    events = []
+    problems: list[Problem] = []
+    reasons: dict[tuple[str, str, str, int], Message] = {}
+    shortest_s, in_trill = _shortest_steps(problem)
+    corrected: dict[tuple[int, int, tuple[str, ...]], dict[str, float]] = {}
+    held = [
+        (control.name, control.held_min_s or 0.0) for control in instrument.controls if control.role == "intonation"
+    ]
+    attacks = {control.name: control.attack_s for control in instrument.controls if control.attack_s is not None}
+    onset_tick, end_tick = times.onset_tick.tolist(), times.played_end_tick.tolist()
+    onset_s, end_s = times.onset_s.tolist(), times.played_end_s.tolist()
+    rows, columns = problem.pitch_index.tolist(), path.tolist()
+    for index, note in enumerate(notes):
+        ranked = problem.table.choices[rows[index]]
+        fingering = ranked[columns[index]]
+        pinned = bool(pins) and note.id in pins
+        if pinned and pins[note.id] != fingering.label:
+            message = Message("correction.no_such_fingering", {"note": note.id, "label": pins[note.id]})
+            problems.append(Problem(message, note.id, onset_s[index], end_s[index]))
+            pinned = False
+        controls = fingering.controls
+        if fingering.correction:
+            length_s = end_s[index] - onset_s[index]
+            extra = tuple([name for name, minimum in held if length_s >= minimum and name in fingering.correction])
+            place = rows[index], columns[index], extra
+            if place not in corrected:
+                corrected[place] = {**controls, **{name: fingering.correction[name] for name in extra}}
+            controls = corrected[place]
+        if pinned:
+            reason = Message("fingering.by_hand", {"label": fingering.label})
+        elif by_hand[index]:
+            reason = Message("fingering.stopped", {"label": fingering.label})
+        else:
+            rule, first, time_ms = "fingering.first_choice", fingering.label, 0
+            if fingering.rank > 1:
+                rule = "fingering.trill" if in_trill[index] else "fingering.speed"
+                first, time_ms = ranked[0].label, round(shortest_s[index] * 1000.0)
+            kind = rule, fingering.label, first, time_ms
+            if kind not in reasons:
+                more = {"first": first, "time_ms": time_ms} if fingering.rank > 1 else {}
+                reasons[kind] = Message(rule, {"label": fingering.label, **more})
+            reason = reasons[kind]
+        event = FingeringEvent(
+            id=f"fingering:{note.id}",
+            note_id=note.id,
+            start_tick=onset_tick[index],
+            end_tick=end_tick[index],
+            start_s=onset_s[index],
+            end_s=end_s[index],
+            label=fingering.label,
+            rank=fingering.rank,
+            controls=controls,
+            cents=fingering.cents,
+            reason=reason,
+            corrected=pinned,
+            fingers=fingering.fingers,
+        )
+        events.append(_vented(event, ranked, attacks) if "attack" in fingering.tags and not pinned else event)
+    problems += _out_of_range(notes, times, instrument)
+    problems += _early_starts(notes, problem, path)
+    return Planned(tuple(events), tuple(problems))
+
+
+def _vented(event: FingeringEvent, ranked: Sequence[Fingering], attacks: Mapping[str, float]) -> FingeringEvent:
+    """The fingering of an attack, whose vents are let go once the note speaks, if it lasts.
+
+    Parameters
+    ----------
+    ranked : sequence of Fingering
+        All fingerings of the note.
+    attacks : mapping of str to float
+        How long the controls are held that are let go, seconds.
+    """
+    vents = tuple(name for name in event.controls if name in attacks)
+    length_s, open_s = event.end_s - event.start_s, max((attacks[name] for name in vents), default=0.0)
+    if not vents or length_s < open_s + LEAST_HELD_S:
+        return event
+    held = event.controls.keys() - set(vents)
+    label = next((fingering.label for fingering in ranked if fingering.controls.keys() == held), event.label)
+    end_tick = event.start_tick + round((event.end_tick - event.start_tick) * open_s / length_s)
+    return msgspec.structs.replace(event, vent=Vent(vents, end_tick, event.start_s + open_s, label))
+
+
+def _shortest_steps(problem: FingeringProblem) -> tuple[list[float], list[bool]]:
+    """Of every note the shorter of the steps to it and from it, in seconds, and whether one of them is in a trill."""
+    steps = np.diff(problem.times.onset_s)
+    if not len(steps):
+        return [0.0], [False]
+    shortest = np.minimum(np.append(steps, np.inf), np.insert(steps, 0, np.inf))
+    in_trill = np.append(problem.in_trill, False) | np.insert(problem.in_trill, 0, False)
+    return shortest.tolist(), in_trill.tolist()
+
+
+def _out_of_range(notes: tuple[Note, ...], times: LineTimes, instrument: InstrumentMap) -> list[Problem]:
+    low, high = instrument.range.low, instrument.range.high
+    return [
+        Problem(
+            Message(
+                "fingering.out_of_range",
+                {
+                    "note": notes[index].id,
+                    "low": low,
+                    "high": high,
+                    "played_pitch": instrument.nearest_playable(int(times.pitch[index])),
+                },
+            ),
+            notes[index].id,
+            float(times.onset_s[index]),
+            float(times.played_end_s[index]),
+        )
+        for index in np.flatnonzero((times.pitch < low) | (times.pitch > high)).tolist()
+    ]
+
+
+def _early_starts(notes: tuple[Note, ...], problem: FingeringProblem, path: IntArray) -> list[Problem]:
+    if not problem.has_slide:
+        return []
+    steps = np.arange(len(path) - 1)
+    motions, times = problem.motions, problem.times
+    share = motions.share[steps, path[:-1], path[1:]]
+    result = []
+    for step in np.flatnonzero(share > 1.0 + TOLERANCE).tolist():
+        needed_s = float(motions.needed_s[step, path[step], path[step + 1]])
+        chosen = problem.table.choices[problem.pitch_index[step + 1]][path[step + 1]]
+        arguments = {
+            "note": notes[step + 1].id,
+            "label": chosen.label,
+            "needed_ms": round(needed_s * 1000.0),
+            "available_ms": round(needed_s / float(share[step]) * 1000.0),
+        }
+        onset_s = float(times.onset_s[step + 1])
+        result.append(
+            Problem(Message("fingering.starts_early", arguments), notes[step + 1].id, onset_s - needed_s, onset_s)
+        )
+    return result

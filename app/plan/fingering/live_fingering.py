@@ -1,0 +1,82 @@
+"""The fingering of the note that begins now, by the costs of the search, with what went before as it was played."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from app.plan.fingering.search import (
+    FULLY_AUDIBLE_S,
+    FingeringProblem,
+    best_path,
+    never_worse,
+    pitch_controls,
+    table_of,
+)
+from app.plan.fingering.trills_and_runs import TRILL_NOTES
+from app.plan.music.piece import LineTimes
+from instrument_maps.model import Fingering, InstrumentMap
+
+REMEMBERED = TRILL_NOTES
+"""Notes before the one that begins that are looked at: as many as tell a trill."""
+
+
+@dataclass(frozen=True)
+class Fingered:
+    """A note that was played: sounding from ``onset_s`` to ``end_s`` with one of its pitch's fingerings."""
+
+    pitch: int
+    onset_s: float
+    end_s: float
+    loudness: float
+    column: int
+
+
+class NextFingering:
+    """Chooses fingerings one by one."""
+
+    def __init__(self, instrument: InstrumentMap) -> None:
+        self._low = instrument.range.low
+        self._table = table_of(tuple(range(instrument.range.low, instrument.range.high + 1)), instrument)
+        self._controls = pitch_controls(instrument)
+
+    def fingering(self, pitch: int, column: int) -> Fingering:
+        """One of the fingerings of a concert pitch within the range."""
+        return self._table.choices[pitch - self._low][column]
+
+    def column(self, before: Sequence[Fingered], pitch: int, onset_s: float, loudness: float) -> int:
+        """Which of its fingerings a note within the range is played with.
+
+        Parameters
+        ----------
+        before : sequence of Fingered
+            The notes before, in order; the last `REMEMBERED` of them count.
+        """
+        if len(self._table.choices[pitch - self._low]) == 1:
+            return 0
+        notes = [*before[-REMEMBERED:], Fingered(pitch, onset_s, onset_s + FULLY_AUDIBLE_S, loudness, 0)]
+        rows = np.array([note.pitch - self._low for note in notes], dtype=np.int64)
+        allowed = self._table.valid[rows]
+        for index, note in enumerate(notes[:-1]):
+            allowed[index] = False
+            allowed[index, note.column] = True
+        problem = FingeringProblem(_times(notes), self._table, rows, self._controls, allowed)
+        return int(never_worse(problem, best_path(problem))[-1])
+
+
+def _times(notes: Sequence[Fingered]) -> LineTimes:
+    onsets_s = np.array([note.onset_s for note in notes])
+    ends_s = np.maximum(np.minimum([note.end_s for note in notes], np.append(onsets_s[1:], np.inf)), onsets_s)
+    nowhere = np.zeros(len(notes), dtype=np.int64)
+    return LineTimes(
+        onset_tick=nowhere,
+        played_end_tick=nowhere,
+        slurs_next=np.zeros(len(notes), dtype=bool),
+        silence_tick=nowhere,
+        onset_s=onsets_s,
+        played_end_s=ends_s,
+        pitch=np.array([note.pitch for note in notes], dtype=np.int64),
+        loudness=np.array([note.loudness for note in notes]),
+    )

@@ -1,0 +1,96 @@
+"""Figures of a line that players finger in their own way: trills and tremolos, glissandi, chromatic runs, attacks.
+
+Each function looks at the times and pitches of the whole line at once.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+from app.plan.music.piece import IntArray, LineTimes
+
+BoolArray = npt.NDArray[np.bool_]
+
+TRILL_S = 0.15
+"""A trill or tremolo is at least `TRILL_NOTES` notes of at most this length that alternate between two pitches."""
+TRILL_NOTES = 4
+WIDEST_TRILL, WIDEST_TREMOLO = 2, 12
+"""Semitones; ..."""
+TREMOLO_S = 0.09
+"""... what is wider than a trill counts only when it is this quick: else it is a figure of accompaniment."""
+GLISSANDO_STEPS = 3
+"""A glissando is at least so many semitones in one direction, each within `TRILL_S`, without a gap."""
+CHROMATIC_S = 0.3
+"""Longer steps belong to no chromatic run: there is time for the full fingering."""
+TOUCHING_S = 0.01
+"""Notes with a shorter silence between them are slurred."""
+TOLERANCE = 1e-9
+
+
+def _runs(steps: BoolArray, least: int) -> BoolArray:
+    """The marked steps that stand at least ``least`` in a row."""
+    result = np.zeros(len(steps), dtype=bool)
+    if len(steps) < least:
+        return result
+    windows: BoolArray = np.asarray(np.lib.stride_tricks.sliding_window_view(steps, least).all(axis=1))
+    for shift in range(least):
+        result[shift : shift + len(windows)] |= windows
+    return result
+
+
+def trill_steps(times: LineTimes) -> BoolArray:
+    """(N-1,): whether the step to the next note belongs to a trill or tremolo."""
+    count = len(times.pitch)
+    result = np.zeros(max(count - 1, 0), dtype=bool)
+    if count < TRILL_NOTES:
+        return result
+    interval = np.diff(times.pitch)
+    width = np.abs(interval)
+    longest_s = np.where(width <= WIDEST_TRILL, TRILL_S, TREMOLO_S)
+    quick = (np.diff(times.onset_s) <= longest_s + TOLERANCE) & (width > 0) & (width <= WIDEST_TREMOLO)
+    turns = _runs(quick[1:] & quick[:-1] & (interval[1:] == -interval[:-1]), TRILL_NOTES - 2)
+    result[:-1] |= turns
+    result[1:] |= turns
+    return result
+
+
+def glissando_steps(times: LineTimes) -> BoolArray:
+    """(N-1,): whether the step to the next note belongs to a glissando (see `GLISSANDO_STEPS`)."""
+    interval = np.diff(times.pitch)
+    quick = np.diff(times.onset_s) <= TRILL_S + TOLERANCE
+    slurred = times.onset_s[1:] - times.played_end_s[:-1] < TOUCHING_S
+    joined = quick & slurred
+    return _runs(joined & (interval == 1), GLISSANDO_STEPS) | _runs(joined & (interval == -1), GLISSANDO_STEPS)
+
+
+def chromatic_notes(times: LineTimes) -> BoolArray:
+    """(N,): whether a note is reached and left by semitones within `CHROMATIC_S`, as far as it is in such a hurry.
+
+    One of these notes is the semitone below: fingerings for chromatic runs add a key to its fingering.
+    """
+    near = np.diff(times.onset_s) <= CHROMATIC_S + TOLERANCE
+    interval = np.diff(times.pitch)
+    semitone = np.abs(interval) == 1
+    result = np.zeros(len(times.pitch), dtype=bool)
+    result[:-1] |= near & (interval == -1)
+    result[1:] |= near & (interval == 1)
+    result[:-1] &= ~(near & ~semitone)
+    result[1:] &= ~(near & ~semitone)
+    return result
+
+
+def attacked_notes(times: LineTimes, register: IntArray, trill: BoolArray) -> BoolArray:
+    """(N,): whether a note needs help to speak: tongued, or slurred to from a lower register; never within a trill.
+
+    Parameters
+    ----------
+    register : (N,) int64
+        How many breaks lie below each note.
+    trill : (N-1,) bool
+        What `trill_steps` finds.
+    """
+    result = np.ones(len(times.pitch), dtype=bool)
+    tongued = ~times.slurs_next[:-1]
+    result[1:] = (tongued | (register[1:] > register[:-1])) & ~trill
+    return result

@@ -1,0 +1,222 @@
+"""Body motion as gestures: sway, lean and accents (`app.plan.gestures.sways`, `app.plan.gestures.leans_and_accents`),
+weight shifts, the bell's height, the instrument lowered (`app.plan.gestures.lowered_instrument`), what feet do
+(`app.plan.gestures.feet`) and what is done beside playing (`app.plan.cues.answering_nods`,
+`app.plan.gestures.beside_playing`).
+
+How to read the events: sway, lean, weight_shift and bell_height each lie end to end, and an event's ``amount`` is where
+the body goes: at the end of a sway or lean, and for as long as it lasts for the other two.
+Amounts follow the dynamics (`app.plan.music.dynamics`); sizes belong to the motion, which scales by the
+player's amplitude.
+
+In a rest longer than twice `app.plan.gestures.sways.STIR_S` the body moves with the beat at its edges only, and the
+weight is shifted a few times: what is made is in proportion to the notes, however long the silence between them.
+
+Everything random is drawn from player and score position (tick), so the same place repeats in every run, however the
+rest of the piece is edited (Wanderley: players repeat the same bell movement at the same place).
+
+Messages: ``gesture.weight_shift``, ``gesture.bell_height``, ``gesture.bell_accent``.
+"""
+
+from __future__ import annotations
+
+import itertools
+from bisect import bisect_right
+from collections.abc import Sequence
+from functools import lru_cache
+from operator import attrgetter
+
+import numpy as np
+import numpy.typing as npt
+
+from app.errors import Message
+from app.plan.gestures.sways import STIR_S, Pulse, stirring
+from app.plan.model import FloatArray, GestureEvent, TimeFrame
+from app.plan.music.dynamics import Dynamics, grown
+from app.plan.music.piece import LineTimes, Piece, Rhythm, Seeds
+from app.score.model import Note
+from app.score.tempo import TempoMap
+
+SHIFT_MEAN_S = 9.0
+SHIFT_LEAST_S = 3.0
+MOST_IN_SILENCE = 12
+CONTOUR_SEMITONES = 10.0
+"""This far above or below the line's mean the bell is as high or as low as it gets."""
+CONTOUR_STEP = 0.12
+"""Smaller differences of the bell's height are one gesture."""
+VIGOUR_STEP = 1.4
+"""So is what is not louder or softer by this factor of the vigour."""
+ARCH, RELEASE, ARCH_BEATS = 0.15, 0.6, 4
+"""The bell rises so much to the climax of a phrase, and sinks at its end by that share of it; of so many beats."""
+ARCH_LOUDNESS, ARCH_DOWNBEAT = 1.0, 0.1
+"""What makes a climax beside the height of the bell: loudness above the phrase's mean, and the first beat of a bar."""
+ACCENT_LIFT, MOST_ACCENT_LIFT = 1.5, 0.4
+"""The bell rises with an accent by so much for its loudness, and no more."""
+
+
+def in_order(kinds: tuple[Sequence[GestureEvent], ...]) -> tuple[GestureEvent, ...]:
+    """Order gestures of several kinds by start, then by id. Nearly all begin at times of their own, and numbers are
+    compared much faster than pairs."""
+    events = sorted(itertools.chain(*kinds), key=attrgetter("start_s"))
+    starts_s = [event.start_s for event in events]
+    for first in [place for place, pair in enumerate(itertools.pairwise(starts_s)) if pair[0] == pair[1]]:
+        end = bisect_right(starts_s, starts_s[first])
+        events[first:end] = sorted(events[first:end], key=attrgetter("id"))
+    return tuple(events)
+
+
+def weight_shifts(
+    times: Rhythm, pulse: Pulse, frame: TimeFrame, seeds: Seeds, clock: TempoMap, dynamics: Dynamics
+) -> list[GestureEvent]:
+    """Shifts of weight at arbitrary times (T7), about every `SHIFT_MEAN_S`: bar by bar a player shifts or not."""
+    places = stirring(times, frame, pulse.bars_s)
+    ticks, ends = pulse.bar_ticks[places], pulse.bar_ticks[places + 1]
+    chances = np.minimum((pulse.bars_s[places + 1] - pulse.bars_s[places]) / SHIFT_MEAN_S, 0.9)
+    shifts = seeds.chances_at("shift", ticks) < chances
+    ticks, ends = ticks[shifts], ends[shifts]
+    at_ticks = ticks + (seeds.chances_at("shift at", ticks) * (ends - ticks)).astype(np.int64)
+    at_ticks = np.union1d(at_ticks, _in_silence(times, seeds, clock))
+    starts: list[tuple[int, float]] = []
+    for at, at_s in zip(at_ticks.tolist(), clock.seconds(at_ticks.astype(np.float64)).tolist(), strict=True):
+        if at_s >= frame.first_frame_s and (not starts or at_s - starts[-1][1] >= SHIFT_LEAST_S):
+            starts.append((at, at_s))
+    events = []
+    last = (int(pulse.bar_ticks[-1]), frame.end_s)
+    vigours = dynamics.at(np.array([start_s for _, start_s in starts])).tolist()
+    for (tick, start_s), (end_tick, end_s), vigour in zip(starts, [*starts, last][1:], vigours, strict=True):
+        if end_s <= start_s:
+            continue
+        amount = 2.0 * seeds.chance_at("shift to", tick) - 1.0
+        amount = float(np.copysign(0.25 + 0.75 * abs(amount), amount))
+        amount = grown(amount, vigour)
+        reason = _shifted("left" if amount > 0.0 else "right")
+        events.append(
+            GestureEvent(
+                f"weight_shift:@{tick}", "weight_shift", tick, end_tick, start_s, end_s, round(amount, 4), reason
+            )
+        )
+    return events
+
+
+def _in_silence(times: Rhythm, seeds: Seeds, clock: TempoMap) -> npt.NDArray[np.int64]:
+    """Ticks of shifts in the middle of long silences: a few, however long they are."""
+    found = []
+    quiet = times.onset_s[1:] - times.played_end_s[:-1] > 2.0 * STIR_S + SHIFT_LEAST_S
+    for index in np.flatnonzero(quiet).tolist():
+        at_s, last_s = float(times.played_end_s[index]) + STIR_S, float(times.onset_s[index + 1]) - STIR_S
+        place = int(times.onset_tick[index + 1])
+        for number in range(MOST_IN_SILENCE):
+            at_s += SHIFT_MEAN_S * (0.5 + seeds.chance_at(f"shift in silence {number}", place))
+            if at_s > last_s:
+                break
+            found.append(round(clock.ticks(at_s)))
+    return np.array(found, dtype=np.int64)
+
+
+def bell_heights(notes: tuple[Note, ...], times: LineTimes, piece: Piece, dynamics: Dynamics) -> list[GestureEvent]:
+    """The bell follows the melody: per felt beat the mean pitch (by sounding time) against the line's; beats at about
+    the same height are one gesture, and a silence of a beat ends it. It goes further where the line is loud, rises with
+    accents and to the climax of a phrase, and sinks at its end."""
+    if not notes:
+        return []
+    weight = np.maximum(times.duration_s, 1e-3)
+    mean = float(np.average(times.pitch, weights=weight))
+    bars = piece.bars(int(times.onset_tick[0]), int(times.onset_tick[-1]) + 1)
+    bar = np.searchsorted(bars, times.onset_tick, "right") - 1
+    beat_ticks = piece.beat_ticks_at(times.onset_tick)
+    beat = (times.onset_tick - bars[bar]) // beat_ticks
+    starts = np.flatnonzero(np.insert((np.diff(bar) > 0) | (np.diff(beat) > 0), 0, True))
+    sums = np.add.reduceat(times.pitch * weight, starts) / np.add.reduceat(weight, starts)
+    heights = np.clip((sums - mean) / CONTOUR_SEMITONES, -1.0, 1.0)
+    ends = np.append(starts[1:], len(notes))
+    apart = times.silence_tick[starts] >= beat_ticks[starts]
+    vigour = dynamics.at(times.onset_s[starts])
+    accents = np.maximum.reduceat(dynamics.accents, starts)
+    loud = np.add.reduceat(times.loudness * weight, starts) / np.add.reduceat(weight, starts)
+    first_of_bar = np.insert(np.diff(bar[starts]) > 0, 0, True)
+    arches, turns = _arches(times.onset_s[starts], heights, loud, first_of_bar, apart)
+    arches = arches * np.minimum(vigour, 1.5)
+    amounts = grown(heights, vigour) + arches + np.minimum(ACCENT_LIFT * accents, MOST_ACCENT_LIFT)
+    # Plain lists: a loop over single numbers of an array costs several times as much.
+    accented = accents.tolist()
+    breaks = (apart | turns | (accents > 0.0)).tolist()
+    firsts = _bell_starts(heights.tolist(), vigour.tolist(), breaks, accented)
+    first, last = starts[firsts], ends[[*(place - 1 for place in firsts[1:]), len(starts) - 1]] - 1
+    rows = zip(
+        firsts,
+        first.tolist(),
+        times.onset_tick[first].tolist(),
+        times.played_end_tick[last].tolist(),
+        times.onset_s[first].tolist(),
+        times.played_end_s[last].tolist(),
+        np.clip(amounts[firsts], -1.0, 1.0).tolist(),
+        strict=True,
+    )
+    pitches, mean = sums.tolist(), round(mean, 1)
+    return [
+        GestureEvent(
+            f"bell_height:{notes[note].id}",
+            "bell_height",
+            start_tick,
+            end_tick,
+            start_s,
+            end_s,
+            round(amount, 4),
+            _accented(round(accented[place], 2)) if accented[place] else _at_height(round(pitches[place], 1), mean),
+        )
+        for place, note, start_tick, end_tick, start_s, end_s, amount in rows
+    ]
+
+
+# Equal reasons are kept once: there are tens of thousands.
+
+
+@lru_cache(maxsize=2)
+def _shifted(side: str) -> Message:
+    return Message("gesture.weight_shift", {"side": side})
+
+
+@lru_cache(maxsize=256)
+def _accented(more: float) -> Message:
+    return Message("gesture.bell_accent", {"more": more})
+
+
+@lru_cache(maxsize=8192)
+def _at_height(pitch: float, mean_pitch: float) -> Message:
+    return Message("gesture.bell_height", {"pitch": pitch, "mean_pitch": mean_pitch})
+
+
+def _bell_starts(heights: list[float], vigour: list[float], breaks: list[bool], accented: list[float]) -> list[int]:
+    """Beats at which the bell goes elsewhere: at another height, with another vigour, at a break, after an accent."""
+    firsts: list[int] = []
+    for place, height in enumerate(heights):
+        if firsts and not breaks[place] and not accented[firsts[-1]]:
+            change = vigour[place] / vigour[firsts[-1]]
+            near = abs(heights[firsts[-1]] - height) < CONTOUR_STEP
+            if near and 1.0 / VIGOUR_STEP < change < VIGOUR_STEP:
+                continue
+        firsts.append(place)
+    return firsts
+
+
+def _arches(
+    at_s: FloatArray,
+    heights: FloatArray,
+    loudness: FloatArray,
+    first_of_bar: npt.NDArray[np.bool_],
+    apart: npt.NDArray[np.bool_],
+) -> tuple[FloatArray, npt.NDArray[np.bool_]]:
+    """What the phrases add to the bell's height, beat by beat: up to the climax (the highest, loudest beat, sooner the
+    first of a bar) and down at the end; and which beats these are. Rests of a beat (``apart``) divide phrases."""
+    arches, turns = np.zeros(len(at_s)), np.zeros(len(at_s), dtype=bool)
+    edges = np.flatnonzero(apart | (np.arange(len(at_s)) == 0))
+    for first, end in itertools.pairwise([*edges.tolist(), len(at_s)]):
+        if end - first < ARCH_BEATS:
+            continue
+        here = slice(first, end)
+        climb = heights[here] + ARCH_LOUDNESS * loudness[here] + ARCH_DOWNBEAT * first_of_bar[here]
+        climax, last = first + int(np.argmax(climb)), end - 1
+        knots = {first: 0.0, last: -RELEASE, climax: 1.0}
+        places = sorted(knots)
+        turns[[climax, last]] = True
+        arches[here] = ARCH * np.interp(at_s[here], at_s[places], [knots[place] for place in places])
+    return arches, turns

@@ -1,0 +1,233 @@
+"""What trunk and head do by phrase and accent: a lean towards each climax and back, and a dip on strong notes.
+
+A phrase lasts from breath to breath, or from rest to rest. Everything random is drawn from player and tick.
+
+Messages: ``gesture.lean``, ``gesture.lean_back``, ``gesture.accent``, ``gesture.accent_loud``.
+"""
+
+from __future__ import annotations
+
+from bisect import bisect_left
+from collections.abc import Sequence
+from functools import lru_cache
+from itertools import pairwise
+from typing import NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from app.errors import Message
+from app.plan.gestures.sways import Pulse, Swings
+from app.plan.model import ACCENT_AT, BreathEvent, CueEvent, FloatArray, GestureEvent
+from app.plan.music.dynamics import Dynamics, grown
+from app.plan.music.piece import IntArray, LineTimes, Piece, Rhythm, Seeds
+from app.score.tempo import TempoMap
+
+BoolArray = npt.NDArray[np.bool_]
+
+LEAN_BACK, ACCENT, LOUD = Message("gesture.lean_back"), Message("gesture.accent"), Message("gesture.accent_loud")
+REST_S = 0.9
+"""A silence so long divides phrases, breath or none."""
+LONGEST_S = 12.0
+"""What lasts longer is leant into in parts."""
+WHOLE_S = 4.0
+"""A phrase so long is leant into as far as any; a shorter one less in proportion."""
+SHORTEST_S = 1.2
+CLIMAX_FROM, CLIMAX_TO = 0.3, 0.8
+"""Where in a phrase the lean may be greatest."""
+HEIGHT_SEMITONES = 12.0
+"""A note so much higher counts for the climax as one that is as loud as can be beside a silent one."""
+LONG_SHARE = 0.15
+"""A long note counts so much."""
+BACK_CHANCE = 0.2
+"""So many phrases open up: the trunk goes back to the climax instead of forward."""
+
+ACCENT_S = 1.1
+"""An accent lasts so long at a slow tempo, at a quick one 1.6 beats."""
+ACCENT_BEATS = 1.6
+SHORTEST_ACCENT_S = 0.6
+ON_BEAT_S = 0.03
+APART_BEATS = 1.5
+"""Accents are at least so far apart; those of notes played louder than their neighbours, a third of it."""
+LOUDER, DOWNBEAT, LONG, LEAP = 6.0, 0.22, 0.35, 0.22
+"""What makes a note a strong one: loudness above its neighbours, the first beat of a bar, length, a leap up to it."""
+STRONG = 0.66
+"""With chance (0..1, of this weight) added, a note from here on is accented."""
+CHANCE = 0.62
+LEAST_ACCENT = 0.2
+AFTER_BREATH = 0.6
+"""Right after a breath, which the trunk shows too, an accent is short and so much smaller."""
+CUED_S = 0.35
+"""An entry that is cued has its nod."""
+
+
+class Phrase(NamedTuple):
+    """Notes from ``first`` to before ``end``."""
+
+    first: int
+    end: int
+
+
+def phrases(times: Rhythm, breaths: Sequence[BreathEvent]) -> tuple[Phrase, ...]:
+    """The phrases of a line, in order: every note is in one."""
+    count = len(times.onset_s)
+    if not count:
+        return ()
+    after = _after_breaths(times, breaths)
+    rests = np.flatnonzero(times.onset_s[1:] - times.played_end_s[:-1] >= REST_S) + 1
+    edges = np.unique(np.concatenate(([0], after[after < count], rests, [count])))
+    found: list[Phrase] = []
+    for first, end in zip(edges[:-1].tolist(), edges[1:].tolist(), strict=True):
+        lasts_s = float(times.played_end_s[end - 1] - times.onset_s[first])
+        parts = max(1, round(lasts_s / LONGEST_S + 0.3))
+        cuts_s = times.onset_s[first] + lasts_s * np.arange(1, parts) / parts
+        cuts = (first + np.searchsorted(times.onset_s[first:end], cuts_s)).tolist()
+        bounds = sorted({first, end, *(cut for cut in cuts if first < cut < end)})
+        found += [Phrase(*pair) for pair in pairwise(bounds)]
+    return tuple(found)
+
+
+def _after_breaths(times: Rhythm, breaths: Sequence[BreathEvent]) -> IntArray:
+    """The note after each breath; their number for none."""
+    drawn_s = [breath.end_s for breath in breaths if breath.kind == "breath"]
+    return np.asarray(np.searchsorted(times.onset_s, np.array(drawn_s) - ON_BEAT_S))
+
+
+def leans(
+    found: tuple[Phrase, ...], times: LineTimes, clock: TempoMap, seeds: Seeds, dynamics: Dynamics
+) -> list[GestureEvent]:
+    """Into each phrase's climax (its highest, loudest, longest notes) and back to its end."""
+    events: list[GestureEvent] = []
+    if not found:
+        return events
+    climbing = times.pitch / HEIGHT_SEMITONES + times.loudness
+    climbing = climbing + LONG_SHARE * np.minimum(times.duration_s, 2.0)
+    firsts = np.array([phrase.first for phrase in found])
+    lasts = np.array([phrase.end for phrase in found]) - 1
+    ticks, ends = times.onset_tick[firsts], times.played_end_tick[lasts]
+    starts_s, ends_s = times.onset_s[firsts], times.played_end_s[lasts]
+    sizes = 0.5 + 0.5 * seeds.chances_at("lean", ticks)
+    back = seeds.chances_at("lean back", ticks) < BACK_CHANCE
+    vigours = dynamics.at((starts_s + ends_s) / 2.0)
+    sizes = sizes * np.minimum(1.0, (ends_s - starts_s) / WHOLE_S)
+    amounts = grown(np.where(back, -0.5 * sizes, sizes), vigours)
+    rests = seeds.chances_at("lean rest", ticks)
+    for place, (first, last) in enumerate(zip(firsts.tolist(), lasts.tolist(), strict=True)):
+        start_s, end_s = float(starts_s[place]), float(ends_s[place])
+        if end_s - start_s < SHORTEST_S:
+            continue
+        low, high = start_s + CLIMAX_FROM * (end_s - start_s), start_s + CLIMAX_TO * (end_s - start_s)
+        one, other = np.searchsorted(times.onset_s[first : last + 1], (low, high)).tolist()
+        if one < other:
+            top = first + one + int(np.argmax(climbing[first + one : first + other]))
+            top_s, top_tick = float(times.onset_s[top]), int(times.onset_tick[top])
+        else:
+            top_s = low + 0.5 * (high - low)
+            top_tick = round(clock.ticks(top_s))
+        tick, end, amount = int(ticks[place]), int(ends[place]), float(amounts[place])
+        events.append(_event("lean", tick, top_tick, start_s, top_s, amount, _leant(round(end_s - start_s, 1))))
+        home = -0.15 * amount * float(rests[place])
+        events.append(_event("lean", top_tick, end, top_s, end_s, home, LEAN_BACK))
+    return events
+
+
+@lru_cache(maxsize=256)
+def _leant(length_s: float) -> Message:
+    """Equal ones are kept once."""
+    return Message("gesture.lean", {"length_s": length_s})
+
+
+def accents(
+    *,
+    times: LineTimes,
+    pulse: Pulse,
+    piece: Piece,
+    cues: Sequence[CueEvent],
+    breaths: Sequence[BreathEvent],
+    swings: Swings,
+    seeds: Seeds,
+    dynamics: Dynamics,
+) -> list[GestureEvent]:
+    """A dip on strong notes, prepared before and followed through: on some of those on a beat, and on all that are
+    played louder than their neighbours, with bars in between that have none.
+
+    Parameters
+    ----------
+    pulse : Pulse
+        With the beats of the piece.
+    swings : Swings
+        Where the body keeps still.
+    """
+    if not len(times.onset_tick):
+        return []
+    bars, felt, clock = pulse.bar_ticks, pulse.beat_ticks, piece.clock
+    lengths = piece.beat_ticks_at(times.onset_tick)
+    nearest = felt[np.clip(np.searchsorted(felt, times.onset_tick), 0, len(felt) - 1)]
+    before = felt[np.clip(np.searchsorted(felt, times.onset_tick) - 1, 0, len(felt) - 1)]
+    off = np.minimum(np.abs(nearest - times.onset_tick), np.abs(before - times.onset_tick))
+    beat_s = clock.seconds((times.onset_tick + lengths).astype(np.float64)) - times.onset_s
+    on_beat = off * beat_s <= ON_BEAT_S * lengths
+    loud = dynamics.accents > 0.0
+    candidates = np.flatnonzero(on_beat | loud)
+    if not len(candidates):
+        return []
+    ticks = times.onset_tick[candidates]
+    longer = np.minimum(times.duration_s[candidates] / np.maximum(beat_s[candidates], 1e-6), 3.0) / 3.0
+    up = np.diff(times.pitch, prepend=times.pitch[:1])[candidates] >= 5
+    chances, sizes = seeds.chances_at("accent", ticks), seeds.chances_at("accent size", ticks)
+    # Bars may be many and are in order: looked up, not compared as sets.
+    downbeat = bars[np.clip(np.searchsorted(bars, ticks), 0, len(bars) - 1)] == ticks
+    strength = LOUDER * dynamics.accents[candidates] + DOWNBEAT * downbeat + LONG * longer + LEAP * up
+    still = swings.still_at(ticks)
+    at_s = times.onset_s[candidates]
+    # The nearest cues before and after each.
+    cued_s = np.sort([-np.inf, *(cue.end_s for cue in cues), np.inf])
+    following = np.searchsorted(cued_s, at_s).clip(1)
+    nodded = np.minimum(at_s - cued_s[following - 1], cued_s[following] - at_s) < CUED_S
+    scores = strength + CHANCE * chances - 10.0 * ((still & ~loud[candidates]) | nodded)
+    chosen = _apart(at_s, scores, loud[candidates], beat_s[candidates])
+    amounts = grown(np.clip(LEAST_ACCENT + 0.4 * strength + 0.6 * sizes * sizes, 0.0, 1.0), dynamics.at(at_s))
+    inhaled = np.isin(candidates, _after_breaths(times, breaths))
+    amounts = np.where(inhaled, AFTER_BREATH * amounts, amounts)
+    lengths_s = np.clip(ACCENT_BEATS * beat_s[candidates], SHORTEST_ACCENT_S, ACCENT_S)
+    lengths_s = np.where(inhaled, SHORTEST_ACCENT_S, lengths_s)
+    starts_s = (at_s - ACCENT_AT * lengths_s)[chosen]
+    ends_s = starts_s + lengths_s[chosen]
+    rows = zip(
+        ticks[chosen].tolist(),
+        np.rint(clock.ticks(starts_s)).astype(np.int64).tolist(),
+        np.rint(clock.ticks(ends_s)).astype(np.int64).tolist(),
+        starts_s.tolist(),
+        ends_s.tolist(),
+        amounts[chosen].tolist(),
+        loud[candidates[chosen]].tolist(),
+        strict=True,
+    )
+    return [
+        GestureEvent(
+            f"accent:@{tick}", "accent", start, end, start_s, end_s, round(amount, 4), LOUD if is_loud else ACCENT
+        )
+        for tick, start, end, start_s, end_s, amount, is_loud in rows
+    ]
+
+
+def _apart(at_s: FloatArray, scores: FloatArray, loud: BoolArray, beat_s: FloatArray) -> list[int]:
+    """The strongest of some notes, apart from each other."""
+    order = np.argsort(-scores, kind="stable")
+    order = order[scores[order] >= STRONG]
+    needed_s = np.where(loud, APART_BEATS / 3.0, APART_BEATS) * beat_s
+    taken: list[float] = []
+    chosen: list[int] = []
+    for place, time_s, apart_s in zip(order.tolist(), at_s[order].tolist(), needed_s[order].tolist(), strict=True):
+        near = bisect_left(taken, time_s)
+        if any(abs(other - time_s) < apart_s for other in taken[max(near - 1, 0) : near + 1]):
+            continue
+        taken.insert(near, time_s)
+        chosen.append(place)
+    return sorted(chosen)
+
+
+def _event(
+    kind: str, tick: int, end: int, start_s: float, end_s: float, amount: float, reason: Message
+) -> GestureEvent:
+    return GestureEvent(f"{kind}:@{tick}", kind, tick, max(end, tick + 1), start_s, end_s, round(amount, 4), reason)  # type: ignore[arg-type]

@@ -1,0 +1,101 @@
+"""Lips: one embouchure per note (T5 of the thesis: high notes drawn tight, low notes relaxed). The tongue is in
+`app.plan.lips.tonguing`.
+
+Messages: ``embouchure.register``, ``embouchure.controller``.
+"""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+import numpy as np
+
+from app.errors import Message
+from app.plan.model import EmbouchureEvent, FloatArray
+from app.plan.music.piece import MEZZOFORTE, LineTimes
+from app.score.model import Note
+from instrument_maps.model import InstrumentMap
+
+EASY_TENSION = (0.3, 0.6)
+"""Tension at the two ends of the easy range; 0 and 1 at the ends of the range."""
+LOUD_TENSION = 0.15
+"""What going from mezzoforte to the loudest adds to tension."""
+LONG_S = 6.0
+"""A note held this long costs as much effort as it can."""
+
+
+def tension_of(pitch: FloatArray, instrument: InstrumentMap) -> FloatArray:
+    """Tension 0..1 by register alone: piecewise linear over the map's usual range."""
+    limits = instrument.range
+    low, high = limits.usual
+    knots = np.array([low, limits.easy_low, limits.easy_high, high], dtype=np.float64)
+    # Equal knots (a map whose easy range is its range) would make np.interp jump; a semitone's slack keeps the order.
+    knots = np.maximum.accumulate(knots + np.array([-0.03, -0.02, 0.02, 0.03]))
+    return np.interp(pitch, knots, [0.0, EASY_TENSION[0], EASY_TENSION[1], 1.0])
+
+
+def strain_of(register: FloatArray, loudness: FloatArray, length_s: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Tension (not yet the player's) and effort 0..1 of notes, by `tension_of`, loudness 0..1 and how long they are
+    held."""
+    loud = np.clip((loudness - MEZZOFORTE) / (1.0 - MEZZOFORTE), 0.0, 1.0)
+    high = np.clip((register - EASY_TENSION[1]) / (1.0 - EASY_TENSION[1]), 0.0, 1.0)
+    long = np.clip(length_s / LONG_S, 0.0, 1.0)
+    # Independent strains: each takes its part of what the others leave.
+    effort = 1.0 - (1.0 - 0.75 * high) * (1.0 - 0.5 * loud) * (1.0 - 0.35 * long)
+    return register + LOUD_TENSION * loud, np.clip(effort + 0.05 * register, 0.0, 1.0)
+
+
+def plan_embouchures(
+    notes: tuple[Note, ...],
+    times: LineTimes,
+    instrument: InstrumentMap,
+    embouchure_tension: float,
+    early_end_s: dict[int, float],
+    from_breath: bool,
+) -> tuple[EmbouchureEvent, ...]:
+    """An embouchure for every note.
+
+    ``tension`` is register, a little loudness, scaled by the player's ``embouchure_tension``; ``air`` is loudness;
+    ``effort`` is what height above the easy range, loudness above mezzoforte and length cost together.
+
+    Parameters
+    ----------
+    early_end_s : dict of int to float
+        Notes whose lips leave early for a catch breath.
+    from_breath : bool
+        Whether the loudness is the mean of a recorded curve, which the lips follow within the note
+        (`app.plan.lips.recorded_lips`).
+    """
+    if not notes:
+        return ()
+    register = tension_of(times.pitch.astype(np.float64), instrument)
+    tension, effort = strain_of(register, times.loudness, times.duration_s)
+    tension = np.clip(tension * embouchure_tension, 0.0, 1.0)
+    low, top = instrument.range.low, instrument.range.high
+    reported = "embouchure.controller" if from_breath else "embouchure.register"
+    known: dict[float, float] = {}
+    """Equal values are kept once."""
+    once = known.setdefault
+    events = []
+    rows = zip(
+        notes, times.onset_s.tolist(), times.played_end_s.tolist(), times.pitch.tolist(),
+        np.round(times.loudness, 2).tolist(), np.round(tension, 4).tolist(), np.round(effort, 4).tolist(),
+        np.round(times.loudness, 4).tolist(), strict=True,
+    )  # fmt: skip
+    for index, (note, start_s, end_s, midi, loudness, tight, strain, air) in enumerate(rows):
+        reason = _reason(reported, midi, low, top, loudness)
+        end_s = early_end_s.get(index, end_s)
+        tight, strain, air = once(tight, tight), once(strain, strain), once(air, air)
+        events.append(EmbouchureEvent(note.id, start_s, end_s, tight, strain, air, reason))
+    return tuple(events)
+
+
+@lru_cache(maxsize=8192)
+def _reason(reported: str, pitch: int, low: int, high: int, loudness: float) -> Message:
+    """Equal ones are kept once."""
+    return Message(reported, {"pitch": pitch, "low": low, "high": high, "loudness": loudness})
+
+
+def efforts_of(embouchures: tuple[EmbouchureEvent, ...]) -> FloatArray:
+    """How hard each note is to play, 0..1 (N,) float64."""
+    return np.array([event.effort for event in embouchures], np.float64)

@@ -1,0 +1,133 @@
+"""What lips and cheeks do within the notes, where controllers tell: the air follows the breath, the strain with it, and
+the lips give and press with bite and pitch bend, so that a vibrato shows at its own rate.
+
+A note whose embouchure was set by hand keeps what was set, from its beginning to its end.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+from app.plan.by_hand.corrections import Correction, SetEmbouchure
+from app.plan.lips.embouchure import strain_of, tension_of
+from app.plan.model import FloatArray, SampledCurves
+from app.plan.music.breath_controller import BreathEnvelope, step_means
+from app.plan.music.piece import ControllerInput, LineTimes, Steps
+from app.score.model import Note
+from app.score.tempo import TempoMap
+from instrument_maps.model import InstrumentMap
+
+STEP_S = 0.01
+"""A vibrato of 7 Hz has fourteen of these."""
+AROUND_S = 1.0
+"""How far the traces reach beyond the line."""
+AIR_S, EFFORT_S, SHIFT_S, LIPS_S = 0.08, 0.4, 0.12, 0.04
+"""What a value is averaged over: cheeks follow the air, a strain builds up, lips go from note to note, a vibrato."""
+BITE_TENSION = 0.5
+"""Tension from relaxed teeth to a full bite."""
+BEND_TENSION, MOST_BEND_TENSION = 1.4, 0.3
+"""Tension by a small pitch bend, a whole tone (a vibrato of 30 cents is 0.15 of it), and by any."""
+
+
+def plan_traces(
+    *,
+    notes: tuple[Note, ...],
+    times: LineTimes,
+    clock: TempoMap,
+    instrument: InstrumentMap,
+    embouchure_tension: float,
+    controller: ControllerInput | None,
+    envelope: BreathEnvelope | None,
+    corrections: tuple[Correction, ...],
+) -> SampledCurves | None:
+    """The traces of a line; None where there are no notes or no controller input.
+
+    Parameters
+    ----------
+    envelope : BreathEnvelope or None
+        ``controller.breath`` in time.
+    """
+    if not notes or controller is None:
+        return None
+    first = int(np.floor((times.onset_s[0] - AROUND_S) / STEP_S))
+    count = int(np.ceil((times.played_end_s[-1] + AROUND_S) / STEP_S)) - first
+    at_s: FloatArray = (first + np.arange(count, dtype=np.float64)) * STEP_S
+    here = np.maximum(np.searchsorted(times.onset_s, at_s, side="right") - 1, 0)
+    sounds = (at_s >= times.onset_s[here]) & (at_s < times.played_end_s[here])
+    by_hand = [item for item in corrections if isinstance(item, SetEmbouchure)]
+    set_spans = _spans(by_hand, notes, times, at_s)
+
+    air = effort = None
+    loudness = times.loudness[here]
+    register = tension_of(times.pitch.astype(np.float64), instrument)
+    if envelope is not None:
+        curve = _clipped(envelope.mean(at_s - STEP_S / 2.0, at_s + STEP_S / 2.0))
+        loudness = np.where(sounds & ~envelope.plays(times)[here], loudness, curve)
+        air = np.where(sounds | envelope.has_breath_gaps(times), loudness, 0.0)
+        effort = np.where(sounds, strain_of(register[here], loudness, times.duration_s[here])[1], 0.0)
+        for item, span in set_spans:
+            air[span] = air[span] if item.air is None else item.air
+            effort[span] = effort[span] if item.effort is None else item.effort
+        air, effort = _smooth(air, AIR_S), _smooth(effort, EFFORT_S)
+
+    coming = np.maximum(np.searchsorted(times.onset_s, at_s + SHIFT_S / 2.0, side="right") - 1, 0)
+    tension, _ = strain_of(register[coming], loudness, times.duration_s[coming])
+    tension = _clipped(tension * embouchure_tension)
+    lips = np.where(sounds, _pressed(controller, clock, at_s, sounds), 0.0)
+    for item, span in set_spans:
+        if item.tension is not None:
+            tension[span], lips[span] = item.tension, 0.0
+    tension = _clipped(_smooth(tension, SHIFT_S) + _smooth(lips, LIPS_S))
+    return SampledCurves(first * STEP_S, STEP_S, tension, air, effort)
+
+
+def _spans(
+    by_hand: list[SetEmbouchure], notes: tuple[Note, ...], times: LineTimes, at_s: FloatArray
+) -> list[tuple[SetEmbouchure, slice]]:
+    """Where on the grid each correction holds."""
+    if not by_hand:
+        return []
+    index_of = {note.id: index for index, note in enumerate(notes)}
+    spans = []
+    for item in by_hand:
+        index = index_of.get(item.note_id)
+        if index is not None:
+            start, end = np.searchsorted(at_s, (times.onset_s[index], times.played_end_s[index])).tolist()
+            spans.append((item, slice(start, end)))
+    return spans
+
+
+def _pressed(
+    controller: ControllerInput, clock: TempoMap, at_s: FloatArray, sounds: npt.NDArray[np.bool_]
+) -> FloatArray:
+    """What bite and pitch bend add to the tension: the bite by how far it is from the usual one."""
+    bite = bend = np.zeros(len(at_s))
+    if controller.bite is not None:
+        bite = _sampled(controller.bite, clock, at_s)
+        bite = bite - (np.median(bite[sounds]) if sounds.any() else 0.0)
+    if controller.bend is not None:
+        bend = _sampled(controller.bend, clock, at_s)
+    return pressed_by(bite, bend)
+
+
+def pressed_by(bite: FloatArray, bend: FloatArray) -> FloatArray:
+    """Tension added by a bite beyond the usual one (0..1) and a pitch bend in whole tones."""
+    pressed: FloatArray = BITE_TENSION * bite + MOST_BEND_TENSION * np.tanh(BEND_TENSION / MOST_BEND_TENSION * bend)
+    return pressed
+
+
+def _sampled(steps: Steps, clock: TempoMap, at_s: FloatArray) -> FloatArray:
+    return step_means(clock.seconds(steps.ticks), steps.values, at_s - STEP_S / 2.0, at_s + STEP_S / 2.0)
+
+
+def _smooth(values: FloatArray, width_s: float) -> FloatArray:
+    """Averaged over a window that falls off to both sides; the ends hold."""
+    reach = max(round(width_s / STEP_S / 2.0), 1)
+    window = np.hanning(2 * reach + 3)[1:-1]
+    padded = np.pad(values, reach, mode="edge")
+    return np.asarray(np.convolve(padded, window / window.sum(), mode="valid"), dtype=np.float64)
+
+
+def _clipped(values: FloatArray) -> FloatArray:
+    return np.clip(values, 0.0, 1.0)

@@ -1,0 +1,199 @@
+"""The tongue's strokes: which notes are attacked, and how.
+
+Up to a speed the tip of the tongue makes every stroke (*ta*). Beyond it the back of the tongue makes every other one
+(*ka*): double tonguing, *ta-ka-ta-ka*; in triplets the last of three, *ta-ta-ka*. Sixteenths at 132 to 144 quarters per
+minute are where players change over; who plays a reed goes on longer with the tip, since the reed is in the way.
+
+Messages: ``tongue.attack``, ``tongue.staccato``, ``tongue.accent``, ``tongue.marcato``, ``tongue.tenuto``,
+``tongue.slide``, ``tongue.double``, ``tongue.triple``.
+"""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from typing import Final
+
+import numpy as np
+import numpy.typing as npt
+
+from app.errors import Message
+from app.plan.model import Articulation, FingeringEvent, Stroke, TongueEvent
+from app.plan.music.dynamics import ACCENT, louder_by
+from app.plan.music.piece import DETACHED_GATES, EPSILON, TOUCHING_GATE, IntArray, LineTimes, Piece, Seeds, staccato
+from app.plan.music.rests import rest_ticks
+from app.score.metre_map import Metre
+from app.score.model import Note
+from instrument_maps.model import InstrumentMap
+
+BoolArray = npt.NDArray[np.bool_]
+
+TONGUE_S: Final = 0.0345
+"""Contact of the tongue before an attack, independent of tempo (Hofmann 2012)."""
+SMEAR_M: Final = 0.04
+"""A slide that moves further than this under a slur smears, so trombonists tongue it softly: tongued here too."""
+
+SINGLE_BPM: Final = (132.0, 144.0)
+"""Quarters per minute at which the single strokes of sixteenths end: between these, by player."""
+REED_FASTER: Final = 1.08
+"""Single strokes on a reed go on up to so much faster."""
+REEDS: Final = frozenset({"single_reed", "double_reed"})
+LEAST_FAST_STEPS: Final = 2
+"""Two quick strokes in a row (one step) are made with the tip at any speed."""
+EVEN: Final = 0.12
+"""Steps differ by at most this share in an even run."""
+
+STRENGTHS: Final[dict[Articulation, float]] = {
+    "tongued": 1.0, "staccato": 1.0, "accent": 1.25, "marcato": 1.4, "tenuto": 0.6
+}  # fmt: skip
+"""Size of a stroke of the tip by articulation."""
+BACK: Final = 0.5
+"""Size of a stroke of the back of the tongue: jaw and lips hardly move."""
+SMEAR: Final = 0.6
+"""Size of the soft stroke that hides a slide's way."""
+BEFORE_REST_S: Final = 0.5
+"""Sounding time from which on a note before a rest is not staccato: its written length is as short."""
+MARCATO_GATE: Final = 0.8
+"""An accented note that ends before this share of the time to the next one is marcato."""
+
+
+def plan_tongues(
+    notes: tuple[Note, ...],
+    times: LineTimes,
+    instrument: InstrumentMap,
+    fingerings: tuple[FingeringEvent, ...],
+    piece: Piece,
+    seeds: Seeds,
+) -> tuple[TongueEvent, ...]:
+    """The tongue's stroke before every attacked note.
+
+    Attacked is every note but one that is slurred to (`app.plan.music.piece.slurs_next`), at another pitch, and no
+    slide has to move far.
+    """
+    if not notes:
+        return ()
+    slurred, smeared = _slurred(times, instrument, fingerings)
+    attacked = np.flatnonzero(~slurred)
+    kinds = _articulations(notes, times, slurred, piece)
+    limit_s = single_limit_s(instrument, seeds)
+    strokes, why = _strokes(times, attacked, piece, limit_s)
+    smears = smeared.tolist()
+    onset_s = times.onset_s[attacked].tolist()
+    events = []
+    for at, start_s, stroke, (group, rate) in zip(attacked.tolist(), onset_s, strokes, why, strict=True):
+        kind: Articulation = kinds[at]
+        if kind == "tongued" and not group and not smears[at]:
+            events.append(TongueEvent(notes[at].id, start_s - TONGUE_S, start_s))
+            continue
+        strength = STRENGTHS[kind]
+        if stroke == "ka":
+            strength *= BACK
+        elif smears[at]:
+            stroke, strength = "da", SMEAR
+        elif kind == "tenuto":
+            stroke = "da"
+        reason = _reason("slide" if smears[at] else group or kind, rate, round(1.0 / limit_s, 1))
+        events.append(TongueEvent(notes[at].id, start_s - TONGUE_S, start_s, stroke, kind, round(strength, 3), reason))
+    return tuple(events)
+
+
+def single_limit_s(instrument: InstrumentMap, seeds: Seeds) -> float:
+    """Shortest step between strokes that the tip of a player's tongue makes alone, seconds."""
+    slow, fast = SINGLE_BPM
+    bpm = slow + (fast - slow) * seeds.chance("tongue")
+    if instrument.embouchure.kind in REEDS:
+        bpm *= REED_FASTER
+    return 60.0 / bpm / 4.0
+
+
+@lru_cache(maxsize=1024)
+def _reason(kind: str, rate: float, limit: float) -> Message:
+    """Equal ones are kept once."""
+    if kind in ("double", "triple"):
+        return Message(f"tongue.{kind}", {"rate": rate, "limit": limit})
+    return Message("tongue.attack" if kind == "tongued" else f"tongue.{kind}")
+
+
+def _slurred(
+    times: LineTimes, instrument: InstrumentMap, fingerings: tuple[FingeringEvent, ...]
+) -> tuple[BoolArray, BoolArray]:
+    """(N,) each: notes without a stroke, and notes under a slur that a slide's way makes one for."""
+    slides = [(control.name, control.travel_m) for control in instrument.controls
+              if control.role == "pitch" and control.kind == "slide"]  # fmt: skip
+    slurred = np.zeros(len(times.pitch), dtype=bool)
+    slurred[1:] = times.slurs_next[:-1] & (np.diff(times.pitch) != 0)
+    smears = np.zeros(len(times.pitch), dtype=bool)
+    for index in np.flatnonzero(slurred).tolist() if slides else ():
+        before, here = fingerings[index - 1].controls, fingerings[index].controls
+        smears[index] = any(
+            abs(here.get(name, 0.0) - before.get(name, 0.0)) * travel_m > SMEAR_M for name, travel_m in slides
+        )
+    return slurred & ~smears, smears
+
+
+def _articulations(notes: tuple[Note, ...], times: LineTimes, slurred: BoolArray, piece: Piece) -> list[Articulation]:
+    """Return the articulation of each note, by how long it sounds and how loud it is among its neighbours."""
+    onset = times.onset_tick
+    end = onset + np.array([note.duration_tick for note in notes], np.int64)
+    quarter = piece.clock.ticks_per_quarter
+    between = np.append(np.diff(onset), 1 << 40)
+    gates = (end - onset) / np.maximum(between, 1)
+    joined = between <= 2 * quarter
+    usual = float(np.median(gates[joined])) if joined.any() else 1.0
+    short = staccato(onset, end, quarter)
+    # An eighth before an eighth's rest sounds for half of its step, as a staccato quarter does.
+    rests = np.append(rest_ticks(times, piece.beat_ticks_at(onset))[1:] > 0, False)
+    short &= ~(rests & (times.duration_s >= BEFORE_REST_S - EPSILON))
+    accented = louder_by(times.loudness) >= ACCENT
+    follows = np.append(~slurred[1:], False)
+    # Held to the next stroke, in a line that detaches its notes.
+    low, high = DETACHED_GATES
+    held = joined & follows & (gates >= TOUCHING_GATE) & (low <= usual <= high)
+    marcato = accented & joined & (gates <= MARCATO_GATE)
+    kinds: list[Articulation] = ["tongued"] * len(notes)
+    rules: tuple[tuple[Articulation, BoolArray], ...] = (
+        ("tenuto", held), ("staccato", short), ("accent", accented), ("marcato", marcato)
+    )  # fmt: skip
+    for kind, where in rules:
+        for index in np.flatnonzero(where).tolist():
+            kinds[index] = kind
+    return kinds
+
+
+def _strokes(
+    times: LineTimes, attacked: IntArray, piece: Piece, limit_s: float
+) -> tuple[list[Stroke], list[tuple[str, float]]]:
+    """Stroke of each attacked note; and of which pattern it is part (empty: none), with the strokes per second."""
+    strokes: list[Stroke] = ["ta"] * len(attacked)
+    why = [("", 0.0)] * len(attacked)
+    onset_s, ticks = times.onset_s[attacked], times.onset_tick[attacked]
+    fast = np.concatenate(([False], np.diff(onset_s) < limit_s, [False]))
+    edges = np.flatnonzero(fast[1:] != fast[:-1]).tolist()
+    for first, last in zip(edges[::2], edges[1::2], strict=True):
+        if last - first < LEAST_FAST_STEPS:
+            continue
+        steps = np.diff(ticks[first : last + 1])
+        step = float(np.median(steps))
+        even = bool((np.abs(steps - step) <= EVEN * step).all())
+        metre = piece.metre_map.metre_at(int(ticks[first]))
+        triple = even and _in_threes(metre, step, piece.clock.ticks_per_quarter)
+        rate = round(float((last - first) / (onset_s[last] - onset_s[first])), 1)
+        places = np.arange(first, last + 1) - last
+        if even:
+            bars = piece.bars(int(ticks[first]), int(ticks[last]) + 1)
+            starts = bars[np.maximum(np.searchsorted(bars, ticks[first : last + 1], side="right") - 1, 0)]
+            places = np.round((ticks[first : last + 1] - starts) / step).astype(np.int64)
+        back = places % 3 == 2 if triple else places % 2 == 1
+        # The first stroke is the tip's, whatever comes before.
+        back[0] = False
+        for place, is_back in enumerate(back.tolist()):
+            strokes[first + place] = "ka" if is_back else "ta"
+            why[first + place] = ("triple" if triple else "double", rate)
+    return strokes, why
+
+
+def _in_threes(metre: Metre, step: float, quarter: int) -> bool:
+    """Decide whether steps are triplets: three or six in a beat, or the three of a dotted beat."""
+    unit = 4.0 * quarter / metre.denominator
+    if metre.numerator % 3 == 0 and metre.denominator >= 8:
+        return abs(unit - step) <= EVEN * step
+    return any(abs(unit - count * step) <= EVEN * unit for count in (3, 6))

@@ -1,0 +1,163 @@
+"""What a part's controllers say about how it was blown: when there was no breath, how strong it was, what the lips did.
+
+The curve of a wind controller's breath sensor goes to zero when the player stops blowing, and stays there while they
+breathe in. A curve that a sequencer or an engraver drew for the dynamics does not: it shows how loud, not where the
+breaths are. So gaps are believed only of a curve that is at zero in most of the rests.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from app.plan.model import FloatArray
+from app.plan.music.piece import IntArray, LineTimes, Steps
+from app.score.tempo import TempoMap
+
+BoolArray = npt.NDArray[np.bool_]
+
+BLOWS_FROM, STOPS_AT = 6.0 / 127.0, 2.0 / 127.0
+"""Who does not blow begins at the one, who blows stops at the other: a sensor's noise about zero is no breath."""
+GASP_S = 0.12
+"""A shorter gap brings no air: the tongue, or a finger between two keys."""
+BREATH_S = 0.3
+"""A gap this long is a breath. A shorter one may be a detached note's end: breathed in only where air is needed."""
+LATE_S = 0.15
+"""Who plays a note may blow this much after its onset in the score."""
+SILENT_SHARE = 0.5
+"""A curve shows breaths if it is at zero in at least this part of the rests."""
+LEAST_PLAYED_S = 0.03
+"""A note that loses its breath sooner was not blown at all."""
+
+
+@dataclass(frozen=True, eq=False)
+class BreathEnvelope:
+    """A breath curve in time.
+
+    Attributes
+    ----------
+    at_s, values : (K,) float64
+        A step function; the first value holds before.
+    gaps_s : (G, 2) float64
+        Where no one blows, ordered; from minus to plus infinity.
+    """
+
+    at_s: FloatArray
+    values: FloatArray
+    gaps_s: FloatArray
+
+    def mean(self, starts_s: FloatArray, ends_s: FloatArray) -> FloatArray:
+        """Mean over spans."""
+        return step_means(self.at_s, self.values, starts_s, ends_s)
+
+    def plays(self, times: LineTimes) -> BoolArray:
+        """(N,): whether each note was blown. What was drawn beside the recorded bars was not."""
+        lasts = times.played_end_s > times.onset_s
+        ends_s = np.where(lasts, times.played_end_s, times.onset_s + GASP_S)
+        return np.asarray(self.mean(times.onset_s, ends_s) > STOPS_AT)
+
+    def has_breath_gaps(self, times: LineTimes) -> bool:
+        """Whether its gaps are breaths."""
+        gaps_s = self.gaps_s[np.isfinite(self.gaps_s).all(axis=1)]
+        gaps_s = gaps_s[gaps_s[:, 1] - gaps_s[:, 0] >= GASP_S]
+        played = self.plays(times)
+        rests_s = np.stack((times.played_end_s[:-1], times.onset_s[1:]), axis=1)
+        rests_s = rests_s[played[:-1] & played[1:] & (rests_s[:, 1] - rests_s[:, 0] >= BREATH_S)]
+        if len(gaps_s) == 0 or len(rests_s) == 0:
+            return len(gaps_s) > 0
+        # The first gap that ends after the rest begins also begins before the rest ends.
+        first = np.searchsorted(gaps_s[:, 1], rests_s[:, 0], side="right")
+        begins_s = np.append(gaps_s[:, 0], np.inf)[first]
+        return bool(np.mean(begins_s < rests_s[:, 1]) >= SILENT_SHARE)
+
+
+@dataclass(frozen=True, eq=False)
+class Silences:
+    """The gap that serves each note.
+
+    Attributes
+    ----------
+    start_s, end_s : (N,) float64
+        NaN where no gap comes before a note; the end is at most the note's onset.
+    played : (N,) bool
+        Which notes were blown: of the others the breath says nothing.
+    """
+
+    start_s: FloatArray
+    end_s: FloatArray
+    played: BoolArray
+
+    @property
+    def length_s(self) -> FloatArray:
+        """(N,): 0 where there is none."""
+        return np.nan_to_num(self.end_s - self.start_s)
+
+
+def blown(steps: Steps, clock: TempoMap) -> BreathEnvelope:
+    """A breath curve in time, with its gaps."""
+    at_s = clock.seconds(steps.ticks)
+    return BreathEnvelope(at_s, steps.values, find_gaps(at_s, steps.values))
+
+
+def find_gaps(at_s: FloatArray, values: FloatArray) -> FloatArray:
+    """(G, 2): where no one blows, however shortly. Before the first value no one blows."""
+    reported = np.where(values >= BLOWS_FROM, 1, np.where(values <= STOPS_AT, 0, -1))
+    last: IntArray = np.maximum.accumulate(np.where(reported >= 0, np.arange(len(reported)), -1))
+    blows = np.where(last >= 0, reported[last], 0)
+    changes = np.diff(blows, prepend=0)
+    starts_s = np.concatenate(([-np.inf], at_s[changes < 0]))
+    ends_s = at_s[changes > 0]
+    return np.stack((starts_s, np.append(ends_s, np.inf)[: len(starts_s)]), axis=1)
+
+
+def gaps_within(envelope: BreathEnvelope, times: LineTimes) -> list[tuple[int, float, float]]:
+    """Where blowing stops for a breath within a note: the longest gap of each note."""
+    gaps_s = envelope.gaps_s[np.isfinite(envelope.gaps_s).all(axis=1)]
+    gaps_s = gaps_s[gaps_s[:, 1] - gaps_s[:, 0] >= BREATH_S]
+    notes = np.searchsorted(times.onset_s + LEAST_PLAYED_S, gaps_s[:, 0]) - 1
+    # What ends later is a breath for the next note: see `silences`.
+    inside = (notes >= 0) & (gaps_s[:, 1] <= times.played_end_s[notes] - LATE_S)
+    longest: dict[int, tuple[float, float]] = {}
+    for note, (start_s, end_s) in zip(notes[inside].tolist(), gaps_s[inside].tolist(), strict=True):
+        before = longest.get(note, (0.0, 0.0))
+        longest[note] = max(before, (start_s, end_s), key=lambda gap: gap[1] - gap[0])
+    return [(note, *longest[note]) for note in sorted(longest)]
+
+
+def silences(envelope: BreathEnvelope, times: LineTimes) -> Silences:
+    """Which gap comes before which note: the longest of those between the note before and this one.
+
+    A gap in the middle of a note serves none (`gaps_within`); where the note before was not blown either, it begins
+    where that ends.
+    """
+    count = len(times.onset_s)
+    start_s, end_s = np.full(count, np.nan), np.full(count, np.nan)
+    gaps_s = envelope.gaps_s[np.isfinite(envelope.gaps_s).all(axis=1)]
+    serves = np.searchsorted(times.onset_s + LATE_S, gaps_s[:, 1])
+    inner = (serves > 0) & (serves < count)
+    gaps_s, serves = gaps_s[inner], serves[inner]
+    begun_s, ended_s = times.onset_s[serves - 1], times.played_end_s[serves - 1]
+    starts_s = np.where(gaps_s[:, 0] > begun_s + LEAST_PLAYED_S, gaps_s[:, 0], ended_s)
+    ends_s = np.minimum(gaps_s[:, 1], times.onset_s[serves])
+    played = envelope.plays(times)
+    kept = (ends_s - starts_s >= GASP_S) & (ends_s > ended_s - LATE_S) & played[serves]
+    starts_s, ends_s, serves = starts_s[kept], ends_s[kept], serves[kept]
+    # The longest comes last of a note's, and stays.
+    order = np.lexsort((ends_s - starts_s, serves))
+    start_s[serves[order]], end_s[serves[order]] = starts_s[order], ends_s[order]
+    return Silences(start_s, end_s, played)
+
+
+def step_means(at: FloatArray, values: FloatArray, starts: FloatArray, ends: FloatArray) -> FloatArray:
+    """Mean of a step function over spans of some length; before its first step it has its first value."""
+    area = np.concatenate([[0.0], np.cumsum(values[:-1] * np.diff(at))])
+
+    def integral(places: FloatArray) -> FloatArray:
+        step = np.clip(np.searchsorted(at, places, side="right") - 1, 0, None)
+        result: FloatArray = area[step] + values[step] * (places - at[step])
+        return result
+
+    means: FloatArray = (integral(ends) - integral(starts)) / (ends - starts)
+    return means

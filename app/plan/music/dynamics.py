@@ -1,0 +1,126 @@
+"""How strongly a line is played, as far as the body shows it: larger motion when loud, little when soft."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TypeVar
+
+import numpy as np
+import numpy.typing as npt
+
+from app.plan.model import FloatArray
+from app.plan.music.breath_controller import BreathEnvelope
+from app.plan.music.piece import MEZZOFORTE, LineTimes
+
+BoolArray = npt.NDArray[np.bool_]
+
+LOUDNESSES = (0.0, 0.26, 0.39, MEZZOFORTE, 0.76, 0.88, 1.0)
+"""Silence, pianissimo, piano, mezzoforte, forte, fortissimo, and as loud as can be: MIDI velocities 33, 49, 80 ..."""
+VIGOURS = (0.1, 0.25, 0.5, 1.0, 1.4, 1.8, 2.0)
+"""How much of its usual size a motion has at each."""
+AROUND_S = 1.0
+"""A body follows the mean so far before and after."""
+HELD_S = 0.5
+"""A longer note is looked at in parts so long: a crescendo within it shows."""
+ACCENT = 0.1
+"""A note so much louder (0..1) than those around it is accented: 13 of 127 velocities."""
+ACCENT_NOTES = 3
+"""So many notes before and after it are around a note."""
+
+
+@dataclass(frozen=True, eq=False)
+class Dynamics:
+    """The strength of a line.
+
+    Attributes
+    ----------
+    at_s, vigour : (K,) float64
+        Size of a motion as a share of that at mezzoforte, between these times by interpolation.
+    accents : (N,) float64
+        How much louder than the notes around it each accented note is; 0 of the others.
+    """
+
+    at_s: FloatArray
+    vigour: FloatArray
+    accents: FloatArray
+
+    def at(self, times_s: FloatArray) -> FloatArray:
+        """The vigour at some times; 1 where nothing is played at all."""
+        if len(self.at_s) == 0:
+            return np.ones(len(times_s))
+        return np.asarray(np.interp(times_s, self.at_s, self.vigour))
+
+    def __eq__(self, other: object) -> bool:
+        """Whether they are the same to the last bit, as plans are compared."""
+        if not isinstance(other, Dynamics):
+            return NotImplemented
+        pairs = zip((self.at_s, self.vigour, self.accents), (other.at_s, other.vigour, other.accents), strict=True)
+        return all(np.array_equal(mine, others) for mine, others in pairs)
+
+    __hash__ = None  # type: ignore[assignment]
+
+
+def dynamics_of(times: LineTimes, envelope: BreathEnvelope | None) -> Dynamics:
+    """The dynamics of a line, by its curve where one was recorded or drawn, else by its notes."""
+    lasts_s = times.duration_s
+    parts = np.maximum(np.ceil(lasts_s / HELD_S), 1.0).astype(np.int64)
+    within = np.arange(parts.sum()) - np.repeat(np.cumsum(parts) - parts, parts)
+    step_s = np.repeat(lasts_s / parts, parts)
+    starts_s = np.repeat(times.onset_s, parts) + within * step_s
+    loudness = np.repeat(times.loudness, parts)
+    if envelope is not None and len(starts_s):
+        blown = np.repeat(envelope.plays(times), parts) & (step_s > 0.0)
+        loudness = loudness.copy()
+        loudness[blown] = envelope.mean(starts_s[blown], (starts_s + step_s)[blown])
+    at_s = starts_s + step_s / 2.0
+    vigour = vigour_of(mean_around(starts_s, step_s, loudness, at_s, AROUND_S)) if len(at_s) else loudness
+    return Dynamics(at_s, vigour, _accents(times.loudness))
+
+
+def vigour_of(loudness: FloatArray) -> FloatArray:
+    """Size of a motion at a loudness 0..1, as a share of that at mezzoforte."""
+    return np.asarray(np.interp(np.round(loudness, 6), LOUDNESSES, VIGOURS))
+
+
+Size = TypeVar("Size", float, FloatArray)
+
+
+def grown(amount: Size, vigour: Size) -> Size:
+    """An amount -1..1 at a vigour: smaller in proportion below 1; above 1 what is small grows more, and 1 stays 1."""
+    return amount * vigour / (1.0 + abs(amount) * (vigour - 1.0) * (vigour > 1.0))
+
+
+def mean_around(
+    starts_s: FloatArray, lasts_s: FloatArray, loudness: FloatArray, at_s: FloatArray, around_s: float
+) -> FloatArray:
+    """(K,): mean loudness of what sounds from ``around_s`` before each time to as long after it.
+
+    Parameters
+    ----------
+    starts_s, lasts_s, loudness : (N,) float64
+        Notes in order, or parts of them.
+    at_s : (K,) float64
+    """
+    knots_s = np.stack((starts_s, starts_s + lasts_s), axis=1).ravel()
+    sums = []
+    for weights in (lasts_s, lasts_s * loudness):
+        total = np.concatenate(([0.0], np.cumsum(weights)))
+        reached = np.stack((total[:-1], total[1:]), axis=1).ravel()
+        sums.append(np.interp(at_s + around_s, knots_s, reached) - np.interp(at_s - around_s, knots_s, reached))
+    return np.where(sums[0] > 1e-9, sums[1] / np.maximum(sums[0], 1e-9), loudness)
+
+
+def louder_by(loudness: FloatArray) -> FloatArray:
+    """(N,): how much louder each note is than those around it."""
+    if len(loudness) < 2:
+        return np.zeros(len(loudness))
+    padded = np.pad(loudness, ACCENT_NOTES, mode="reflect" if len(loudness) > ACCENT_NOTES else "edge")
+    around = np.median(np.lib.stride_tricks.sliding_window_view(padded, 2 * ACCENT_NOTES + 1), axis=1)
+    return np.asarray(loudness - around)
+
+
+def _accents(loudness: FloatArray) -> FloatArray:
+    """Return how much louder each accented note is than its neighbours; of several in a row the first counts."""
+    more = louder_by(loudness)
+    louder = np.append(-np.inf, loudness[:-1]) + ACCENT / 2.0 <= loudness
+    return np.where((more >= ACCENT) & louder, more, 0.0)

@@ -1,0 +1,119 @@
+"""Where the bars begin that are felt: a MIDI file does not say that a piece begins with a pickup.
+
+Notes on the first beat of a bar are longer than others and the bass plays there (Lerdahl & Jackendoff, A Generative
+Theory of Tonal Music, 1983, ch. 4: metrical preference rules for long notes and a stable bass). Where nearly all long
+notes begin the same part of a beat after the given beats, the pickup is no whole number of beats. Where the bar lines
+then fall on beats that are weaker than most, and one other beat is clearly the strongest, bars begin there.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import msgspec
+import numpy as np
+
+from app.plan.model import FloatArray
+from app.plan.music.notation import written_onsets
+from app.plan.music.piece import IntArray, LineTimes, Piece, Rhythm
+
+LEAST_NOTES = 24
+"""Fewer notes show no metre."""
+BASS_WEIGHT = 2.0
+"""What the lowest line counts, the others counting 1."""
+LAST_WEIGHT = 0.1
+"""What the last note of a line counts beside all the others: pieces end on a strong beat."""
+GIVEN_MOST = 0.9
+"""Bar lines are doubted where their weight is less than this; all beats of a bar have 1 on average."""
+BEST_LEAST = 1.5
+CLEAR = 1.3
+"""The beat that bars begin on instead has at least `BEST_LEAST`, and so many times the weight of any other."""
+LONG_UNITS = 0.75
+"""Notes of so many beats and more begin on a beat, unless they are syncopated."""
+LONG_NOTES = 8
+"""Fewer of them show no beat."""
+OFF_BEAT_SHARE = 0.8
+"""So much of the weight of long notes lies at one place between the given beats only if the beats are there."""
+
+
+def lowest(lines: Sequence[LineTimes]) -> tuple[bool, ...]:
+    """Whether each line is the lowest on average."""
+    heights = [float(times.pitch.mean()) if len(times.pitch) else np.inf for times in lines]
+    return tuple(height == min(heights) for height in heights)
+
+
+def with_felt_bars(piece: Piece, lines: tuple[Rhythm, ...], low: tuple[bool, ...]) -> Piece:
+    """The piece with its bars where they are felt to begin: the very same where nothing speaks clearly against them.
+
+    Pieces that change their metre, or have a pickup already, keep their bars.
+
+    Parameters
+    ----------
+    lines : tuple of Rhythm
+        All that the bars depend on, but for ``low``: another pitch seldom asks for them again.
+    low : tuple of bool
+        `lowest` of the lines.
+    """
+    metre_map, quarter = piece.metre_map, piece.clock.ticks_per_quarter
+    metre = metre_map.metres[0]
+    end = max((int(times.played_end_tick[-1]) for times in lines if len(times.onset_tick)), default=0)
+    bars = metre_map.bars(metre.tick, end)
+    if len(metre_map.metres) > 1 or len(bars) < 2:
+        return piece
+    unit = min(4 * quarter // metre.denominator, quarter)
+    bar = metre_map.bar_ticks_at(metre.tick)
+    if bar % unit or np.any(np.diff(bars) != bar):
+        return piece
+    onsets = [written_onsets(times.onset_tick, quarter, bars) - bars[0] for times in lines]
+    late = _late_ticks(lines, onsets, unit)
+    beats = _weights(lines, low, [since - late for since in onsets], unit, bar // unit)
+    best = int(np.argmax(beats))
+    others = np.delete(beats, best)
+    if beats[0] >= GIVEN_MOST or beats[best] < BEST_LEAST or beats[best] < CLEAR * others.max():
+        best = 0
+    if late + best == 0:
+        return piece
+    felt = msgspec.structs.replace(metre, tick=metre.tick - bar + best * unit + late)
+    return msgspec.structs.replace(piece, metre_map=msgspec.structs.replace(metre_map, metres=(felt,)))
+
+
+def _late_ticks(lines: Sequence[Rhythm], onsets: Sequence[IntArray], unit_ticks: int) -> int:
+    """How long after the given beats the felt ones come: less than a beat, 0 unless the long notes show another.
+
+    Parameters
+    ----------
+    onsets : sequence of (N,) int64
+        As of `_weights`.
+    """
+    units = np.concatenate([(times.played_end_tick - times.onset_tick) / unit_ticks for times in lines])
+    since = np.concatenate(onsets) % unit_ticks
+    long = units >= LONG_UNITS
+    if np.count_nonzero(long) < LONG_NOTES:
+        return 0
+    weights = np.bincount(since[long], np.log2(1.0 + units[long]))
+    best = int(np.argmax(weights))
+    return best if weights[best] >= OFF_BEAT_SHARE * weights.sum() else 0
+
+
+def _weights(
+    lines: Sequence[Rhythm], lowest: Sequence[bool], onsets: Sequence[IntArray], unit_ticks: int, count: int
+) -> FloatArray:
+    """(count,): how strong each beat of the bar is, 1 on average; all alike where there is little to go by.
+
+    Parameters
+    ----------
+    onsets : sequence of (N,) int64
+        Where the notes of each line begin, in ticks after the first bar line.
+    """
+    played = [row for row in zip(lines, lowest, onsets, strict=True) if len(row[2])]
+    if sum(len(since) for _, _, since in played) < LEAST_NOTES:
+        return np.ones(count)
+    total = np.zeros(count)
+    for times, low, since in played:
+        place: IntArray = since // unit_ticks % count
+        on_beat = since % unit_ticks == 0
+        units = np.clip((times.played_end_tick - times.onset_tick) / unit_ticks, 0.0, count)
+        accents = np.bincount(place[on_beat], np.log2(1.0 + units[on_beat]), count)
+        total += accents / max(float(accents.sum()), 1e-9) * (BASS_WEIGHT if low else 1.0)
+        total[place[-1]] += LAST_WEIGHT * bool(on_beat[-1])
+    return np.asarray(total * count / max(float(total.sum()), 1e-9))

@@ -1,0 +1,226 @@
+"""Fermatas: all hold a sound or a silence longer than its written length: by the tempo alone, as notation programs and
+sequencers write a fermata.
+
+A fermata is a stretch in which no one begins anything and that is much slower than what comes before it and after it.
+A tempo that stays is none; notes that move in a slow bar are none. Several chords may each have a fermata: then the
+tempo is slow over all of them, and they are long or have rests between.
+"""
+
+from __future__ import annotations
+
+from typing import Final
+
+import msgspec
+import numpy as np
+
+from app.plan.model import FloatArray
+from app.plan.music.piece import IntArray, Piece, Rhythm
+
+HELD_TEMPO: Final = 1.5
+"""Least factor by which the held beat is slower than the beats before and after it ..."""
+LIVE_HELD_TEMPO: Final = 2.0
+"""... or by this one, where the tempo was played, and so never steady."""
+LIVE_SPREAD: Final = 1.1
+"""A tempo whose beats differ by this factor was played, or is changing."""
+MORE_S: Final = 0.2
+"""So much longer than written, at least: less is a lingering."""
+ONE_TEMPO: Final = 1.05
+"""One voice may move in it: beats within this factor are held by one tempo."""
+STANDS_OUT: Final = 1.25
+"""It is slower by this factor than the beat before: the last beat of a ritardando is not held."""
+MOST_IN_A_ROW: Final = 4
+"""More long notes in a slow tempo are a slow passage."""
+LONG_BEATS: Final = 2
+"""Of several in a row each is at least so long, in felt beats, or before a rest."""
+BEFORE_BEATS: Final = 8
+AFTER_BEATS: Final = 4
+"""The tempo before, and after, is the median of so many beats."""
+OTHER_TEMPO: Final = 1.15
+"""A tempo that is faster or slower by this factor is another one."""
+TOGETHER_BEATS: Final = 0.12
+"""Onsets nearer to one another are one: no one plays more exactly."""
+ROUNDING: Final = 1e-3
+"""Tempi in a file are whole microseconds."""
+
+
+class Fermata(msgspec.Struct, frozen=True):
+    """A place that all hold.
+
+    Attributes
+    ----------
+    start_tick : int
+        Onset of what is held.
+    release_tick : int
+        End of the last sound of it; with a legato the tick of the entry.
+    entry_tick : int
+        Onset of what comes next.
+    returns : bool
+        Whether the tempo from before it goes on there; otherwise a new one begins.
+    """
+
+    start_tick: int
+    release_tick: int
+    entry_tick: int
+    returns: bool
+
+
+def fermatas(all_times: tuple[Rhythm, ...], piece: Piece) -> tuple[Fermata, ...]:
+    """Every fermata that the tempo shows, in order and apart; one after which no one begins again is left out.
+
+    Parameters
+    ----------
+    all_times : tuple of Rhythm
+        Of every line on stage; those without notes do not matter. What the accompaniment begins counts as well.
+    """
+    sounding = [times for times in all_times if len(times.onset_tick)]
+    if not sounding:
+        return ()
+    gaps = _Gaps.of(sounding, piece)
+    if not len(gaps.starts):
+        return ()
+    in_a_row = {place: one for row in _rows(gaps, sounding, piece) for place, one in row}
+    found: list[tuple[float, Fermata]] = []
+    # What is held is followed by something faster.
+    followed = np.append(gaps.slowness[:-1] >= gaps.slowness[1:] * (1.0 + ROUNDING), True)
+    followed[list(in_a_row)] = True
+    for place in np.flatnonzero(followed).tolist():
+        fermata = in_a_row.get(place) or _fermata(place, gaps, piece)
+        if fermata is None:
+            continue
+        slowness = float(gaps.slowness[place])
+        # What slows down just before a longer hold belongs to it.
+        if found and found[-1][1].entry_tick >= fermata.start_tick and place not in in_a_row:
+            if found[-1][0] > slowness:
+                continue
+            found.pop()
+        found.append((slowness, fermata))
+    return tuple(
+        msgspec.structs.replace(one, release_tick=_released(sounding, one.start_tick, one.entry_tick))
+        for _, one in found
+    )
+
+
+class _Gaps(msgspec.Struct, frozen=True):
+    """Stretches in which nothing begins, but the last: from an onset to the next of all.
+
+    Attributes
+    ----------
+    starts, ends : (N,) int64
+        The last onset of those that are together, and the first of the next ones.
+    slowness : (N,) float64
+        Mean seconds per tick.
+    """
+
+    starts: IntArray
+    ends: IntArray
+    slowness: FloatArray
+
+    @classmethod
+    def of(cls, sounding: list[Rhythm], piece: Piece) -> _Gaps:
+        begun = [start for start, _ in piece.accompaniment]
+        onsets = np.unique(np.concatenate([*(times.onset_tick for times in sounding), np.array(begun, np.int64)]))
+        apart = np.diff(onsets) > TOGETHER_BEATS * piece.beat_ticks_at(onsets[:-1])
+        starts, ends = onsets[:-1][apart], onsets[1:][apart]
+        seconds = piece.clock.seconds
+        lasts_s = seconds(ends.astype(np.float64)) - seconds(starts.astype(np.float64))
+        return cls(starts, ends, lasts_s / np.maximum(ends - starts, 1))
+
+
+def _rows(gaps: _Gaps, sounding: list[Rhythm], piece: Piece) -> list[list[tuple[int, Fermata]]]:
+    """The fermatas of chords that each have one, with their places: two to `MOST_IN_A_ROW` gaps, much slower than what
+    comes before and after all of them."""
+    rows: list[list[tuple[int, Fermata]]] = []
+    first = 0
+    while first < len(gaps.starts):
+        last = first
+        while (
+            last + 1 < len(gaps.starts) and gaps.slowness[last + 1] * HELD_TEMPO > gaps.slowness[first : last + 2].max()
+        ):
+            last += 1
+            if last - first >= MOST_IN_A_ROW:
+                break
+        if 1 <= last - first < MOST_IN_A_ROW and last + 1 < len(gaps.starts):
+            row = _row(first, last, gaps, sounding, piece)
+            if row:
+                rows.append(row)
+                first = last
+        first += 1
+    return rows
+
+
+def _row(first: int, last: int, gaps: _Gaps, sounding: list[Rhythm], piece: Piece) -> list[tuple[int, Fermata]]:
+    """The fermatas of some gaps in a row, if each is one."""
+    slowest = float(gaps.slowness[first : last + 1].min())
+    after = _beats(int(gaps.ends[last]), AFTER_BEATS, piece)
+    before = _beats(int(gaps.starts[first]), -BEFORE_BEATS, piece) if first else after
+    usual, then = float(np.median(before)), float(np.median(after))
+    factor = LIVE_HELD_TEMPO if _is_live(before) or _is_live(after) else HELD_TEMPO
+    if slowest < factor * max(usual, then) * (1.0 - ROUNDING):
+        return []
+    if first and slowest < STANDS_OUT * float(_beats(int(gaps.starts[first]), -1, piece)[0]):
+        return []
+    row = []
+    for place in range(first, last + 1):
+        start, entry = int(gaps.starts[place]), int(gaps.ends[place])
+        beat = int(piece.beat_ticks_at(np.array([start]))[0])
+        rests = entry - _released(sounding, start, entry) > TOGETHER_BEATS * beat
+        more_s = (float(gaps.slowness[place]) - max(usual, then)) * (entry - start)
+        if more_s < MORE_S - ROUNDING or not (rests or entry - start >= LONG_BEATS * beat):
+            return []
+        # Each but the last is followed by another one.
+        returns = place < last or max(usual / then, then / usual) < OTHER_TEMPO
+        row.append((place, Fermata(start, entry, entry, returns)))
+    return row
+
+
+def _fermata(place: int, gaps: _Gaps, piece: Piece) -> Fermata | None:
+    """The fermata that ends with a gap, if it is one."""
+    start, entry = int(gaps.starts[place]), int(gaps.ends[place])
+    slowness = float(gaps.slowness[place])
+    after = _beats(entry, AFTER_BEATS, piece)
+    least = HELD_TEMPO * float(np.median(after)) * (1.0 - ROUNDING)
+    if slowness < least:
+        return None
+    if place and _moves(place, gaps):
+        start = int(gaps.starts[place - 1])
+    before = _beats(start, -BEFORE_BEATS, piece) if start > gaps.starts[0] else after
+    usual, steady = float(np.median(before)), float(max(np.median(before), np.median(after)))
+    live = _is_live(before) or _is_live(after)
+    more_s = (slowness - steady) * (entry - start)
+    if slowness < (LIVE_HELD_TEMPO if live else HELD_TEMPO) * steady * (1.0 - ROUNDING) or more_s < MORE_S - ROUNDING:
+        return None
+    if start > gaps.starts[0] and slowness < STANDS_OUT * float(_beats(start, -1, piece)[0]):
+        return None
+    ratio = usual / float(np.median(after))
+    return Fermata(start, entry, entry, max(ratio, 1.0 / ratio) < OTHER_TEMPO)
+
+
+def _moves(place: int, gaps: _Gaps) -> bool:
+    """Decide whether a gap is the larger part of the hold, after one voice moved."""
+    own, before = (float(gaps.ends[at] - gaps.starts[at]) for at in (place, place - 1))
+    ratio = float(gaps.slowness[place - 1] / gaps.slowness[place])
+    return own >= before and 1.0 / ONE_TEMPO <= ratio <= ONE_TEMPO
+
+
+def _is_live(beats: FloatArray) -> bool:
+    """Decide whether beats were played, or are changing."""
+    quick, slow = np.quantile(beats, (0.25, 0.75))
+    return bool(slow > LIVE_SPREAD * quick * (1.0 + ROUNDING))
+
+
+def _beats(tick: int, count: int, piece: Piece) -> FloatArray:
+    """Seconds per tick in each of so many beats from a tick on, or before it where ``count`` is negative."""
+    beat = int(piece.beat_ticks_at(np.array([tick]))[0])
+    edges = tick + beat * np.arange(min(count, 0), max(count, 0) + 1, dtype=np.float64)
+    lasts: FloatArray = np.diff(piece.clock.seconds(edges)) / beat
+    return lasts
+
+
+def _released(sounding: list[Rhythm], start: int, entry: int) -> int:
+    """End of the last sound of those that begin at a fermata's start or before."""
+    ends = []
+    for times in sounding:
+        index = int(np.searchsorted(times.onset_tick, entry)) - 1
+        if index >= 0:
+            ends.append(int(times.played_end_tick[index]))
+    return min(max([start, *ends]), entry)

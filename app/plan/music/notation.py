@@ -1,0 +1,247 @@
+"""Where played notes would stand in a score: breathing and phrasing follow that, not the exact timing."""
+
+from __future__ import annotations
+
+import dataclasses
+
+import numpy as np
+import numpy.typing as npt
+
+from app.plan.model import FloatArray
+from app.plan.music.piece import EPSILON, TOUCHING_GATE, IntArray, LineTimes, Piece, gaps_s
+from app.plan.music.rests import AUDIBLE_S, SILENT_S, are_audible
+
+WRITTEN_SHARE = 0.9
+"""Where so many notes lie on fractions of a quarter, they were not played into the file ..."""
+PLAYED_LEAST = 4
+"""... nor where fewer than this lie elsewhere."""
+DIVISIONS = ((1,), (2,), (3, 4), (6, 8), (12,))
+"""Divisions of a quarter, the simplest first."""
+RARE = 4
+"""Thirds or fourths of a quarter are rare in a line that has this many times as many of the others: ..."""
+FARTHER = 4.0
+"""... then they count as so much farther away."""
+NEAREST = 1.0 / 24.0
+"""Quarters within which there is always a place of the finest division."""
+EARLY_OR_LATE_S = 0.045
+"""How far from its place a note begins."""
+EARLY_RELEASE_S = 0.08
+"""How much sooner than written a note ends ..."""
+RELEASE_SHARES = (0.1, 0.22)
+"""... or which part of the time to the next onset, if that is more: the first at least, and up to the last where the
+line's notes are usually released so early, ..."""
+RELEASE_GATES = (0.7, 1.02)
+"""Parts of the time to the next onset that notes without a rest after them sound for."""
+EARLIEST_PERCENT = 10.0
+"""Percentile of these parts that stands for an early release."""
+LEAST_RELEASED = 8
+"""Number of such notes below which the line's releases are unknown."""
+RELEASE_MARGIN = 1.2
+"""A note may be released earlier than nine of ten by this factor."""
+RELEASE_NOTE_SHARE = 0.5
+"""... but no more than this part of what sounds of it, ..."""
+LATE_RELEASE = 0.05
+"""... and how much later, in quarters."""
+SLURRED_SHARE = 0.1
+"""Least share of notes that meet the next one in a line with played onsets; fewer do by chance."""
+STEADY_QUARTERS = 24
+"""The tempo of the score is the median of so many quarters before and after: a shorter ritardando is none."""
+PLACES = 48
+"""Places of a quarter that are distinguished, however finely a file counts."""
+SHORTEST_REST = 0.2
+"""Quarters of silence below which no score writes a rest."""
+
+
+def written_onsets(
+    onsets: IntArray, quarter_ticks: int, bars: IntArray, reach_ticks: IntArray | None = None
+) -> IntArray:
+    """(N,): where played notes would stand in a score.
+
+    Onsets that mostly lie on fractions of a quarter are written ones, and are kept as they are.
+
+    Parameters
+    ----------
+    onsets : (N,) int64
+    bars : (B,) int64
+        Where bars begin: places are counted from there.
+    reach_ticks : (N,) int64, optional
+        How far from its place each may lie, beside `NEAREST`.
+    """
+    if are_written(onsets, quarter_ticks):
+        return onsets
+    least = quarter_ticks * NEAREST
+    reach = np.maximum(least, 0.0 if reach_ticks is None else reach_ticks)
+    begins = bar_starts(onsets, bars)
+    since = onsets - begins
+    rarer = _rarer_division(since / quarter_ticks)
+    return begins + simplest_places(since - reach, since + reach, since, quarter_ticks, rarer)
+
+
+def _rarer_division(quarters: FloatArray) -> int:
+    """3 or 4, where hardly any notes lie on such parts of a quarter but many on the others; 0 if neither is rare."""
+    parts = np.array([0.0, 1.0 / 4.0, 1.0 / 3.0, 1.0 / 2.0, 2.0 / 3.0, 3.0 / 4.0, 1.0])
+    counts = np.bincount(np.searchsorted((parts[1:] + parts[:-1]) / 2.0, quarters % 1.0), minlength=len(parts))
+    thirds, fourths = int(counts[[2, 4]].sum()), int(counts[[1, 5]].sum())
+    if max(thirds, fourths) < PLAYED_LEAST or RARE * min(thirds, fourths) > max(thirds, fourths):
+        return 0
+    return 3 if thirds < fourths else 4
+
+
+def bar_starts(ticks: IntArray, bars: IntArray) -> IntArray:
+    """(N,): where the bar of each time begins; the first bar's begin before it, 0 without bars."""
+    if not len(bars):
+        return np.zeros_like(ticks)
+    return np.asarray(bars[np.maximum(np.searchsorted(bars, ticks, side="right") - 1, 0)])
+
+
+def are_written(ticks: IntArray, quarter_ticks: int) -> bool:
+    """Whether times lie where a score has them, a few aside."""
+    elsewhere = np.count_nonzero(ticks * 24 % quarter_ticks)
+    return bool(elsewhere < max(PLAYED_LEAST, (1.0 - WRITTEN_SHARE) * len(ticks) + 1e-6))
+
+
+def notated(times: LineTimes, piece: Piece) -> LineTimes:
+    """The line as a score would have it.
+
+    Onsets stand at the simplest places near. Where the ends were played, a note lasts until the next onset if it may
+    have been released early, and otherwise to the simplest place where a rest may begin.
+    """
+    clock, quarter = piece.clock, piece.clock.ticks_per_quarter
+    end_tick = times.played_end_tick
+    ends_are_written = are_written(end_tick, quarter)
+    if ends_are_written and are_written(times.onset_tick, quarter):
+        return times
+    steps = np.diff(times.onset_tick)
+    shortest = np.minimum(np.append(steps, quarter), np.insert(steps, 0, quarter))
+    near = np.rint(clock.ticks(times.onset_s + EARLY_OR_LATE_S)).astype(np.int64) - times.onset_tick
+    bars = piece.bars(int(times.onset_tick[0]), int(end_tick[-1]) + 1)
+    onset = written_onsets(times.onset_tick, quarter, bars, np.minimum(near, np.minimum(shortest, quarter) // 3))
+    following, end = onset[1:], end_tick[:-1]
+    if ends_are_written:
+        written = np.minimum(end, following)
+    else:
+        early = np.rint(clock.ticks(times.played_end_s[:-1] + EARLY_RELEASE_S)).astype(np.int64) - end
+        sounding = RELEASE_NOTE_SHARE * (end - times.onset_tick[:-1])
+        # A note that began early ended early, too.
+        moved = 0 if onset is times.onset_tick else near[:-1]
+        latest = end + np.minimum(
+            np.maximum(early, max(usual_release(times), RELEASE_SHARES[0]) * np.diff(onset) + moved), sounding
+        )
+        # An audible silence after a long note is a rest.
+        audible = np.ceil(clock.ticks(times.played_end_s[:-1] + AUDIBLE_S)) - 1.0
+        latest = np.where(are_audible(times, usual_release(times))[1:], np.minimum(latest, audible), latest)
+        begins = bar_starts(end, bars)
+        since = end - begins
+        rest_from = begins + simplest_places(since - LATE_RELEASE * quarter, latest - begins, since, quarter)
+        shortest_rest = round(SHORTEST_REST * quarter)
+        is_rest = (latest < following) & (following - end >= shortest_rest)
+        written = np.where(is_rest, np.minimum(rest_from, following - shortest_rest), following)
+    written = np.maximum(written, onset[:-1])
+    last = int(end_tick[-1] - times.onset_tick[-1])
+    if not ends_are_written:
+        last = max(int(np.ceil(2 * (last / quarter - LATE_RELEASE)) * quarter // 2), 1)
+    ends = np.append(written, onset[-1] + last)
+    return dataclasses.replace(
+        times,
+        onset_tick=onset,
+        played_end_tick=ends,
+        slurs_next=_meant_slurs(times, clock.seconds(onset.astype(np.float64))),
+        silence_tick=np.append(times.silence_tick[:1], following - written),
+        onset_s=clock.seconds(onset.astype(np.float64)),
+        played_end_s=clock.seconds(ends.astype(np.float64)),
+    )
+
+
+def _meant_slurs(times: LineTimes, onset_s: FloatArray) -> npt.NDArray[np.bool_]:
+    """(N,): which notes are slurred to the next, without those that meet it only because it came early.
+
+    Where slurs are meant, most of the slurred notes last as long as written.
+
+    Parameters
+    ----------
+    onset_s : (N,) float64
+        Where the notes are written.
+    """
+    slurred = times.slurs_next.copy()
+    shares = times.duration_s[:-1] / np.maximum(np.diff(onset_s), EPSILON)
+    meet = slurred[:-1]
+    if meet.any() and np.median(shares[meet]) < TOUCHING_GATE:
+        meet &= shares >= TOUCHING_GATE
+    if np.count_nonzero(meet) < SLURRED_SHARE * len(meet) and not np.array_equal(onset_s, times.onset_s):
+        meet[:] = False
+    return slurred
+
+
+def usual_release(times: LineTimes) -> float:
+    """The part of the time to the next onset by which notes of the line are released early; 0 where none shows it."""
+    return min(RELEASE_MARGIN * (_early_share(times) or 0.0), RELEASE_SHARES[1])
+
+
+def _early_share(times: LineTimes) -> float | None:
+    """The part of the time to the next onset by which notes without a rest after them end early; None if unknown."""
+    gates = 1.0 - times.silence_tick[1:] / np.maximum(np.diff(times.onset_tick), 1)
+    gates = gates[(gates >= RELEASE_GATES[0]) & (gates <= RELEASE_GATES[1]) & ~are_audible(times)[1:]]
+    return None if len(gates) < LEAST_RELEASED else max(1.0 - float(np.percentile(gates, EARLIEST_PERCENT)), 0.0)
+
+
+def heard_rests_s(times: LineTimes) -> FloatArray:
+    """(N,): how long a rest before each note is heard to last, less what its note may have been released early.
+
+    Where no note of the line shows how early they are released, and where no release is as long as the silence, the
+    whole silence counts.
+    """
+    gap_s = gaps_s(times)
+    early_s = (_early_share(times) or 0.0) * np.insert(np.diff(times.onset_s), 0, 0.0)
+    return np.where(gap_s >= SILENT_S - EPSILON, gap_s, np.maximum(gap_s - early_s, 0.0))
+
+
+def at_score_tempo(times: LineTimes, piece: Piece) -> LineTimes:
+    """The line without ritardandi and other short changes of tempo: they do not change where a musician breathes."""
+    quarter = piece.clock.ticks_per_quarter
+    grid = np.arange(times.onset_tick[0] // quarter, -(-int(times.played_end_tick[-1]) // quarter) + 1) * quarter
+    seconds = piece.clock.seconds(grid.astype(np.float64))
+    lasts_s = np.diff(seconds)
+    if np.ptp(lasts_s) < 1e-6:
+        return times
+    around = np.pad(lasts_s, STEADY_QUARTERS, mode="reflect" if len(lasts_s) > STEADY_QUARTERS else "edge")
+    steady_s = np.median(np.lib.stride_tricks.sliding_window_view(around, 2 * STEADY_QUARTERS + 1), axis=1)
+    at_s = seconds[0] + np.concatenate(([0.0], np.cumsum(steady_s)))
+    return dataclasses.replace(
+        times,
+        onset_s=np.interp(times.onset_tick, grid, at_s),
+        played_end_s=np.interp(times.played_end_tick, grid, at_s),
+    )
+
+
+def simplest_places(
+    first: npt.NDArray[np.floating] | IntArray,
+    last: npt.NDArray[np.floating] | IntArray,
+    near: npt.NDArray[np.floating] | IntArray,
+    quarter_ticks: int,
+    rarer: int = 0,
+) -> IntArray:
+    """(N,): of the places between ``first`` and ``last`` those of the simplest division, and of these the nearest.
+
+    Parameters
+    ----------
+    first, last, near : (N,)
+        Ticks; where no division has a place between, the nearest one of the finest is taken.
+    rarer : int
+        A division whose places, and those of its half, count as `FARTHER` away than the others of their level.
+    """
+    at: FloatArray = np.asarray(near, np.float64) / quarter_ticks
+    low, high = first / quarter_ticks - 1e-9, last / quarter_ticks + 1e-9
+    finest = DIVISIONS[-1][0]
+    result = np.rint(at * finest) / finest
+    found = np.zeros(len(at), dtype=bool)
+    for level in DIVISIONS:
+        best, distance = result, np.full(len(at), np.inf)
+        for division in level:
+            place = np.clip(np.rint(at * division), np.ceil(low * division), np.floor(high * division)) / division
+            far = FARTHER if rarer and division in (rarer, 2 * rarer) else 1.0
+            off = np.where((place >= low) & (place <= high), far * np.abs(place - at), np.inf)
+            best, distance = np.where(off < distance, place, best), np.minimum(off, distance)
+        here = ~found & np.isfinite(distance)
+        result = np.where(here, best, result)
+        found |= here
+    return np.asarray(np.rint(result * quarter_ticks), np.int64)

@@ -1,0 +1,75 @@
+"""A wind player sounds one note at a time: what of a line can be played, and what to report to the animator.
+
+Messages: ``note.struck_together``, ``note.overlaps``.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import msgspec
+
+from app.errors import Message
+from app.plan.model import Problem
+from app.plan.music.piece import MonophonicPart
+from app.score.model import Note
+from app.score.tempo import TempoMap
+
+LEGATO_OVERLAP_S = 0.030
+"""Players of keyboards and wind controllers hold a note this long into the next: that is legato, no mistake."""
+
+
+class Single(NamedTuple):
+    """A line of which one note sounds at a time, and a problem for every note left out or running into the next."""
+
+    line: MonophonicPart
+    problems: tuple[Problem, ...]
+
+
+def one_at_a_time(line: MonophonicPart, clock: TempoMap) -> Single:
+    """The line without notes that cannot sound beside others: of those struck at one tick the highest is played.
+
+    The line stays the same object where nothing had to go.
+    """
+    notes = line.notes
+    left_out: set[int] = set()
+    problems: list[Problem] = []
+    held: int | None = None
+    for index, note in enumerate(notes):
+        if held is not None:
+            other = notes[held]
+            if other.onset_tick == note.onset_tick:
+                lower, higher = (held, index) if note.pitch >= other.pitch else (index, held)
+                left_out.add(lower)
+                problems.append(_together(notes[lower], notes[higher], clock))
+                held = higher
+                continue
+            _note_overlap(other, note, clock, problems)
+        held = index
+    if not left_out:
+        return Single(line, tuple(problems))
+    kept = [index for index in range(len(notes)) if index not in left_out]
+    loudness = tuple(line.loudness[index] for index in kept) if line.loudness else ()
+    playable = msgspec.structs.replace(line, notes=tuple(notes[index] for index in kept), loudness=loudness)
+    return Single(playable, tuple(problems))
+
+
+def _together(lower: Note, higher: Note, clock: TempoMap) -> Problem:
+    message = Message("note.struck_together", {"note": lower.id, "other": higher.id})
+    start_s = clock.seconds(float(lower.onset_tick))
+    return Problem(message, lower.id, start_s, clock.seconds(float(lower.onset_tick + lower.duration_tick)))
+
+
+def _note_overlap(note: Note, following: Note, clock: TempoMap, problems: list[Problem]) -> None:
+    end_tick = note.onset_tick + note.duration_tick
+    if end_tick <= following.onset_tick:
+        return
+    start_s, end_s = clock.seconds(float(following.onset_tick)), clock.seconds(float(end_tick))
+    if end_s - start_s > LEGATO_OVERLAP_S:
+        overlap_ms = round(1000.0 * (end_s - start_s))
+        arguments: dict[str, str | int | float | bool] = {
+            "note": note.id,
+            "other": following.id,
+            "overlap_ms": overlap_ms,
+        }
+        problems.append(Problem(Message("note.overlaps", arguments), note.id, start_s, end_s))

@@ -1,0 +1,337 @@
+"""What a plan is made from: the piece all players share and one player's line, with its times as arrays."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields, replace
+from functools import cached_property, lru_cache
+
+import msgspec
+import numpy as np
+import numpy.typing as npt
+
+from app.chance import begun, chance, share_of
+from app.plan.acting import Acting
+from app.plan.by_hand.corrections import Correction
+from app.plan.model import FloatArray
+from app.plan.music.dynamics_from_velocities import LEVELS, velocity_loudness
+from app.plan.music.dynamics_from_velocities import MEZZOFORTE as MEZZOFORTE
+from app.plan.parameters import PlayerParameters
+from app.score.metre_map import IntArray as IntArray
+from app.score.metre_map import MetreMap
+from app.score.model import Note
+from app.score.tempo import TempoMap
+from instrument_maps.model import InstrumentMap
+
+EPSILON = 1e-6
+"""Rounding of air summed over an hour of notes, seconds."""
+
+
+def marked(loudness: FloatArray) -> FloatArray:
+    """(N,): the loudness of the dynamic mark nearest to each; mezzoforte is exactly that."""
+    return np.asarray(LEVELS[np.searchsorted((LEVELS[1:] + LEVELS[:-1]) / 2.0, loudness)])
+
+
+@dataclass(frozen=True, eq=False)
+class Steps:
+    """A controller over time: a step function, each value holds until the next tick.
+
+    Attributes
+    ----------
+    ticks, values : (K,) float64
+        At least one; ticks ascend.
+    """
+
+    ticks: FloatArray
+    values: FloatArray
+
+    def __eq__(self, other: object) -> bool:
+        """Whether they are the same to the last bit, as lines are compared."""
+        if not isinstance(other, Steps):
+            return NotImplemented
+        return np.array_equal(self.ticks, other.ticks) and np.array_equal(self.values, other.values)
+
+    def __hash__(self) -> int:
+        return hash((self.ticks.tobytes(), self.values.tobytes()))
+
+
+@dataclass(frozen=True)
+class ControllerInput:
+    """What recorded or drawn controller curves say about how a line is played; None: nothing.
+
+    Attributes
+    ----------
+    breath : Steps or None
+        How strongly it is blown, 0..1.
+    bite : Steps or None
+        How hard the teeth press, 0..1.
+    bend : Steps or None
+        Pitch bend in whole tones.
+    """
+
+    breath: Steps | None = None
+    bite: Steps | None = None
+    bend: Steps | None = None
+
+
+class MonophonicPart(msgspec.Struct, frozen=True):
+    """What one player plays, on what, and what the animator said about it.
+
+    Attributes
+    ----------
+    notes : tuple of Note
+        Monophonic, ordered by onset; neighbours may overlap a little (legato).
+    loudness : tuple of float
+        Mean loudness 0..1 of every note where a breath, volume or expression curve says it; empty: the velocities do.
+    controller : ControllerInput or None
+        Those curves, and the other input for the lips.
+    musician : str
+        Id of the player whose body plays it; empty: one of its own.
+    actings : tuple of (str, Acting)
+        By style that a region names, what the player shows in it.
+    name, styles_known : str
+        What the player and the styles there are are called, for what is reported.
+    muted, stopped : tuple of (start tick, end tick)
+        Where it is played with a mute, and where among these the hand stops the bell.
+    """
+
+    player_id: str
+    notes: tuple[Note, ...]
+    instrument_map: InstrumentMap
+    parameters: PlayerParameters = PlayerParameters()
+    corrections: tuple[Correction, ...] = ()
+    loudness: tuple[float, ...] = ()
+    controller: ControllerInput | None = None
+    musician: str = ""
+    actings: tuple[tuple[str, Acting], ...] = ()
+    name: str = ""
+    styles_known: str = ""
+    muted: tuple[tuple[int, int], ...] = ()
+    stopped: tuple[tuple[int, int], ...] = ()
+
+
+class Piece(msgspec.Struct, frozen=True):
+    """What all players share.
+
+    Attributes
+    ----------
+    metre_map : MetreMap
+        With the beat that is felt, and the bars where they are felt to begin.
+    accompaniment : tuple of (start tick, end tick)
+        Where parts sound that no one plays, in order and apart from each other.
+    """
+
+    clock: TempoMap
+    metre_map: MetreMap
+    accompaniment: tuple[tuple[int, int], ...] = ()
+
+    def beat_ticks_at(self, ticks: IntArray) -> IntArray:
+        """Ticks of the beat that is felt at each of some ticks."""
+        return self.metre_map.felt_ticks_at(ticks)
+
+    def bars(self, first_tick: int, last_tick: int) -> IntArray:
+        """See `MetreMap.bars`."""
+        return self.metre_map.bars(first_tick, last_tick)
+
+
+@dataclass(frozen=True, eq=False)
+class Rhythm:
+    """When something is played, whatever it is: arrays (N,), in ticks and seconds. ``played_end`` is a note's end, at
+    most the next onset. Equal for players in unison of rhythm."""
+
+    onset_tick: IntArray
+    played_end_tick: IntArray
+    onset_s: FloatArray
+    played_end_s: FloatArray
+
+    @property
+    def duration_s(self) -> FloatArray:
+        """Sounding time of each note."""
+        return self.played_end_s - self.onset_s
+
+    def __eq__(self, other: object) -> bool:
+        """Whether they are the same to the last bit, as inputs of steps are compared."""
+        if self.__class__ is not other.__class__:
+            return NotImplemented
+        return all(np.array_equal(getattr(self, field.name), getattr(other, field.name)) for field in fields(self))
+
+    __hash__ = None  # type: ignore[assignment]
+
+
+@dataclass(frozen=True, eq=False)
+class LineTimes(Rhythm):
+    """The notes of a line.
+
+    ``slurs_next`` is whether the next note is slurred to it; ``silence_tick`` the silence before each note (none is 0;
+    before the first it is very long, since the pre-roll is silent); ``loudness`` 0..1.
+    """
+
+    slurs_next: npt.NDArray[np.bool_]
+    silence_tick: IntArray
+    pitch: IntArray
+    loudness: FloatArray
+
+    @cached_property
+    def rhythm(self) -> Rhythm:
+        """When it plays."""
+        return Rhythm(self.onset_tick, self.played_end_tick, self.onset_s, self.played_end_s)
+
+    @cached_property
+    def leaps(self) -> npt.NDArray[np.bool_]:
+        """(N-1,): whether the next note is a leap away."""
+        return np.asarray(np.abs(np.diff(self.pitch)) >= LEAP_SEMITONES)
+
+    @cached_property
+    def contour(self) -> LineTimes:
+        """The line as it divides into phrases: of the pitches only which note is higher, and which a leap away."""
+        steps = np.sign(np.diff(self.pitch)) * np.where(self.leaps, LEAP_SEMITONES, 1)
+        pitch = np.concatenate((np.zeros(min(len(self.pitch), 1), np.int64), np.cumsum(steps)))
+        return replace(self, pitch=pitch)
+
+
+BEFORE_FIRST_TICK = 1 << 40
+"""Silence before the first note of a line, in ticks: longer than any threshold."""
+LEAP_SEMITONES = 5
+"""A leap may divide phrases."""
+
+
+TOUCHING_GATE = 0.97
+"""From this share of the time to the next onset on a note touches the next one; sequencers write 98 to 100 %."""
+DETACHED_GATES = (0.80, 0.955)
+"""What notation programs give a note that is neither slurred nor short: 80 to 95 %, by program and player."""
+DETACHED_SHARE = 0.1
+"""Where so many notes are detached so, those that touch are meant to be slurred."""
+
+
+def slurs_next(onset_tick: IntArray, end_tick: IntArray) -> npt.NDArray[np.bool_]:
+    """(N,): whether each note is slurred to the next: it overlaps it, or touches it in a line that detaches others.
+
+    Where all notes touch (an engraved score rendered to MIDI, or one gate for everything), touching says nothing.
+    """
+    following = np.append(onset_tick[1:], BEFORE_FIRST_TICK)
+    between = np.maximum(following - onset_tick, 1)
+    gates = (end_tick - onset_tick) / between
+    low, high = DETACHED_GATES
+    detached = np.count_nonzero((gates >= low) & (gates <= high))
+    slurred: npt.NDArray[np.bool_] = end_tick > following
+    if detached >= max(DETACHED_SHARE * len(gates), 1):
+        slurred |= gates >= TOUCHING_GATE
+    return slurred
+
+
+STACCATO_GATE = 0.6
+"""A note that lasts no longer share of the time to the next one is staccato; notation programs play it by half..."""
+STACCATO_QUARTERS = 1.0
+"""... where the next one comes so soon: later, what follows is a rest."""
+
+
+def staccato(onset_tick: IntArray, end_tick: IntArray, quarter_ticks: int) -> npt.NDArray[np.bool_]:
+    """(N,): whether each note is short for the time to the next one; after the last one nothing comes that says so."""
+    between = np.append(np.diff(onset_tick), BEFORE_FIRST_TICK)
+    short: npt.NDArray[np.bool_] = end_tick - onset_tick <= STACCATO_GATE * between
+    return short & (between <= STACCATO_QUARTERS * quarter_ticks)
+
+
+def line_times(line: MonophonicPart, clock: TempoMap) -> LineTimes:
+    """The times of a line's notes. A line without notes gives empty arrays."""
+    return note_times(line.notes, line.loudness, clock)
+
+
+def note_times(notes: tuple[Note, ...], loudness: tuple[float, ...], clock: TempoMap) -> LineTimes:
+    """The same of notes, with the loudness that is known of them (see `MonophonicPart`)."""
+    count = len(notes)
+    onset = np.fromiter((note.onset_tick for note in notes), np.int64, count)
+    duration = np.fromiter((note.duration_tick for note in notes), np.int64, count)
+    pitch = np.fromiter((note.pitch for note in notes), np.int64, count)
+    velocity = np.fromiter((note.velocity for note in notes), np.int64, count)
+    end = onset + np.maximum(duration, 1)
+    following = np.append(onset[1:], BEFORE_FIRST_TICK)
+    played_end = np.maximum(np.minimum(end, following), onset)
+    reach = np.maximum.accumulate(end) if count else end
+    silence = np.maximum(onset - np.insert(reach[:-1], 0, -BEFORE_FIRST_TICK)[:count], 0)
+    loud = np.clip(np.asarray(loudness, dtype=np.float64), 0.0, 1.0) if loudness else velocity_loudness(velocity)
+    return LineTimes(
+        onset_tick=onset,
+        played_end_tick=played_end,
+        slurs_next=slurs_next(onset, end),
+        silence_tick=silence,
+        onset_s=clock.seconds(onset.astype(np.float64)),
+        played_end_s=clock.seconds(played_end.astype(np.float64)),
+        pitch=pitch,
+        loudness=loud,
+    )
+
+
+def without_sound(notes: tuple[Note, ...]) -> tuple[Note, ...]:
+    """The notes as far as they are there: neither pitch nor velocity."""
+    return tuple(Note(note.id, note.onset_tick, note.duration_tick, 0, 0) for note in notes)
+
+
+@lru_cache(maxsize=64)
+def _digests(parts: tuple[str | int, ...], places: bytes) -> bytes:
+    """Of the parts with each place (int64) after them. Kept, since an edit of a pitch moves no note of its line."""
+    head = begun(parts)
+    digests = []
+    for place in np.frombuffer(places, np.int64).tolist():
+        digest = head.copy()
+        digest.update(b"%d" % place)
+        digests.append(digest.digest())
+    return b"".join(digests)
+
+
+class Seeds(msgspec.Struct, frozen=True):
+    """What one player's chances are drawn from.
+
+    Attributes
+    ----------
+    names : tuple of str or int
+        Seeds, and who it is.
+    varied : tuple of (start_tick, end_tick, seed)
+        Where chances fall differently; of several the last counts.
+    """
+
+    names: tuple[str | int, ...] = ()
+    varied: tuple[tuple[int, int, int], ...] = ()
+
+    def chance(self, *purpose: str | int) -> float:
+        """A number in [0, 1) for a purpose that belongs to no place of the score."""
+        return chance(*self.names, *purpose)
+
+    def chance_at(self, purpose: str, tick: int) -> float:
+        """A number in [0, 1) for a purpose at a place of the score."""
+        for start_tick, end_tick, seed in reversed(self.varied):
+            if start_tick <= tick < end_tick:
+                return chance(*self.names, "varied", seed, purpose, tick)
+        digest = begun((*self.names, purpose)).copy()
+        digest.update(b"%d" % tick)
+        return share_of(digest.digest())
+
+    def chances_at(
+        self, purpose: str, ticks: IntArray, places: IntArray | None = None, ends: IntArray | None = None
+    ) -> FloatArray:
+        """The same at many places, (N,) float64.
+
+        Parameters
+        ----------
+        places : (N,) int64, optional
+            Drawn for in the stead of ``ticks``, but where chances fall differently.
+        ends : (N,) int64, optional
+            Up to where each has consequences: chances fall differently where these lie within the span too.
+        """
+        drawn = np.asarray(ticks if places is None else places, np.int64)
+        shares: FloatArray = np.frombuffer(_digests((*self.names, purpose), drawn.tobytes()), ">u8") / 2.0**64
+        last = ticks + 1 if ends is None else ends
+        # From the last span on, so that each place is drawn for once, however many spans it lies in.
+        undecided = np.arange(len(ticks)) if self.varied else np.zeros(0, np.int64)
+        for start_tick, end_tick, seed in reversed(self.varied):
+            within = (ticks[undecided] >= start_tick) & (last[undecided] <= end_tick)
+            for place in undecided[within].tolist():
+                shares[place] = chance(*self.names, "varied", seed, purpose, int(ticks[place]))
+            undecided = undecided[~within]
+            if not len(undecided):
+                break
+        return shares
+
+
+def gaps_s(times: LineTimes) -> FloatArray:
+    """(N,): the silence before each note; 0 before the first."""
+    return np.concatenate(([0.0], np.maximum(times.onset_s[1:] - times.played_end_s[:-1], 0.0)))

@@ -1,0 +1,58 @@
+"""Scoops and falls: pitch bends into a note's start and away at its end.
+
+They are articulations of the note. The note keeps its pitch, its fingering and its player.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Final
+
+import numpy as np
+
+from app.plan.music.piece import Steps
+from app.score.model import Note
+
+LEAST_BEND: Final = 0.3
+"""Whole tones between a note's end and its middle: 60 cents, which is twice a wide vibrato."""
+
+
+def bends(notes: Sequence[Note], bend: Steps | None) -> list[tuple[str, ...]]:
+    """How each note is bent: ``scoop`` (into its start from below) or ``plop`` (from above), ``fall`` (away at its end
+    downwards) or ``doit`` (upwards).
+
+    Parameters
+    ----------
+    notes : sequence of Note
+        By onset.
+    bend : Steps or None
+        Pitch bend in whole tones.
+    """
+    if bend is None:
+        return [()] * len(notes)
+    onsets = [note.onset_tick for note in notes]
+    return [
+        _of_note(bend, note.onset_tick, min(note.onset_tick + note.duration_tick, following))
+        for note, following in zip(notes, [*onsets[1:], np.inf], strict=True)
+    ]
+
+
+def _of_note(bend: Steps, onset_tick: float, end_tick: float) -> tuple[str, ...]:
+    first = int(np.searchsorted(bend.ticks, onset_tick, side="right"))
+    stop = int(np.searchsorted(bend.ticks, end_tick, side="left"))
+    if stop <= first:
+        return ()
+    values = np.append(bend.values[first - 1] if first else 0.0, bend.values[first:stop])
+    lengths = np.diff(np.concatenate(([onset_tick], bend.ticks[first:stop], [end_tick])))
+    order = np.argsort(values, kind="stable")
+    middle = values[order][np.searchsorted(np.cumsum(lengths[order]), 0.5 * lengths.sum())]
+    start, end = float(values[0] - middle), float(values[-1] - middle)
+    before = ("scoop",) if start <= -LEAST_BEND else ("plop",) if start >= LEAST_BEND else ()
+    after = ("fall",) if end <= -LEAST_BEND else ("doit",) if end >= LEAST_BEND else ()
+    # A slide through the whole note leaves its pitch or arrives at it; it does not do both.
+    if before and after and start * end < 0.0:
+        if abs(float(values[0])) < LEAST_BEND <= abs(float(values[-1])):
+            return after
+        if abs(float(values[-1])) < LEAST_BEND <= abs(float(values[0])):
+            return before
+    return before + after

@@ -1,0 +1,127 @@
+"""Which silences between the notes of a line are rests of the score.
+
+A MIDI file has no rests: a note that stops early may be followed by one, or may be played detached. A silence of a beat
+is a rest, and so is one that lasts, or that is audible after a long note, whatever the notes around do. Of the other
+notes those are detached that stand in a run of equal steps with equal gates, and those that sound for the part of their
+step for which most notes of the line do.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from app.plan.model import FloatArray
+from app.plan.music.piece import EPSILON, IntArray, LineTimes
+
+BoolArray = npt.NDArray[np.bool_]
+
+AUDIBLE_S = 0.3
+"""Length of a silence that is a rest after a long note, whatever the notes around do."""
+LONG_NOTE_S = 0.8
+"""Sounding time of a long note: no one plays it staccato."""
+SILENT_S = 0.75
+"""Length of a silence that is a rest after any note: no staccato is as slow."""
+LEAST_BEATS = 0.1
+"""Felt beats of silence below which a score has no rest: the end of a note before a grace note."""
+SAME_STEP = 0.05
+"""Steps of a run, the longest and the shortest, differ by less of the shortest: they are written ones."""
+SAME_GATE = 0.12
+"""Parts of the step that sound (0..1) which differ by less are the same articulation."""
+RUN_NOTES = 3
+"""Number of notes in a row that show an articulation; a pair may be two notes with a rest each."""
+SLOW_S = 0.5
+"""Length of silences between which ..."""
+SLOW_RUN_NOTES = 8
+"""... more notes are needed for a run: a few may have a rest each."""
+HABIT_SHARE = 0.5
+"""Part of a line's notes that makes what they do its habit."""
+HABIT_NOTES = 6
+"""The least number of notes that make one."""
+HABIT_GATE = 0.04
+"""Difference between parts of a step within which a habit is kept: more closely than the articulation of a run."""
+
+
+class Rests(NamedTuple):
+    """The rests of a line, before each note: (N,) each, 0 where there is none.
+
+    Attributes
+    ----------
+    sounding_tick : int64
+        As long as nothing sounds.
+    written_tick : int64
+        As the score would have it, ...
+    lasts_s : float64
+        ... and so in seconds, at its tempo.
+    """
+
+    sounding_tick: IntArray
+    written_tick: IntArray
+    lasts_s: FloatArray
+
+
+def rest_ticks(times: LineTimes, beat_ticks: IntArray) -> IntArray:
+    """(N,): how long a rest of the score comes before each note, ticks; 0 where the silence is articulation.
+
+    Parameters
+    ----------
+    times : LineTimes
+        As the score would have the line, at its tempo.
+    beat_ticks : (N,) int64
+        The felt beat at each note: a silence of a beat and more is always a rest.
+    """
+    rests = times.silence_tick.copy()
+    if len(rests) > 1:
+        gap = rests[1:]
+        silence_s = times.onset_s[1:] - times.played_end_s[:-1]
+        is_rest = are_audible(times)[1:] | (gap >= beat_ticks[1:])
+        gap[(_detached(times, silence_s) & ~is_rest) | (gap < LEAST_BEATS * beat_ticks[1:])] = 0
+    return rests
+
+
+def are_audible(times: LineTimes, released: float = 0.0) -> BoolArray:
+    """(N,): whether the silence before each note is a rest by its seconds alone, whatever the notes around do.
+
+    Parameters
+    ----------
+    released : 0..1
+        Part of the time to the next onset by which notes of the line are released early: less than that is no rest
+        after a long note either.
+    """
+    silence_s = times.onset_s[1:] - times.played_end_s[:-1]
+    audible = (times.duration_s[:-1] >= LONG_NOTE_S - EPSILON) & (silence_s >= AUDIBLE_S - EPSILON)
+    audible &= silence_s >= released * np.diff(times.onset_s)
+    return np.insert(audible | (silence_s >= SILENT_S - EPSILON), 0, False)
+
+
+def _detached(times: LineTimes, silence_s: FloatArray) -> BoolArray:
+    """(N-1,): whether the silence after each note but the last is its articulation."""
+    steps = np.maximum(np.diff(times.onset_tick), 1).astype(np.float64)
+    gates = 1.0 - times.silence_tick[1:] / steps
+    silent = times.silence_tick[1:] > 0
+    slow = silence_s >= SLOW_S - EPSILON
+    in_a_run = np.where(slow, _in_a_run(steps, gates, SLOW_RUN_NOTES), _in_a_run(steps, gates, RUN_NOTES))
+    return np.asarray(silent & (in_a_run | (np.abs(gates - _habit(gates, silent)) < HABIT_GATE)))
+
+
+def _in_a_run(steps: FloatArray, gates: FloatArray, notes: int) -> BoolArray:
+    """(N-1,): whether a note stands in a run of so many, of equal steps with equal gates."""
+    result = np.zeros(len(steps), dtype=bool)
+    if len(steps) >= notes:
+        runs = np.lib.stride_tricks.sliding_window_view(np.stack((steps, gates)), notes, axis=1)
+        (shortest, low), (longest, high) = runs.min(axis=2), runs.max(axis=2)
+        alike = (longest - shortest < SAME_STEP * shortest) & (high - low < SAME_GATE)
+        for place in range(notes):
+            result[place : place + len(alike)] |= alike
+    return result
+
+
+def _habit(gates: FloatArray, silent: BoolArray) -> float:
+    """The part of their steps that most notes of a line sound for; nan where there is no such habit."""
+    counts = np.bincount(np.round(gates[silent] / HABIT_GATE).astype(np.int64), minlength=1)
+    usual = float(np.argmax(counts)) * HABIT_GATE
+    near = silent & (np.abs(gates - usual) < HABIT_GATE)
+    enough = max(HABIT_SHARE * len(gates), HABIT_NOTES)
+    return float(np.mean(gates[near])) if np.count_nonzero(near) >= enough else np.nan

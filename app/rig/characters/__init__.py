@@ -1,0 +1,1 @@
+"""Characters: their files read, their bones and faces known."""

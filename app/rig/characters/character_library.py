@@ -1,0 +1,297 @@
+"""The characters the user can cast: the bundled ones and those of their own folder (see `app.formats.user_folder`).
+
+The user's own character is a file (VRM, glTF or FBX) and beside it ``<id>.toml``, which names the file and says what
+was corrected by hand: which bone is which joint, which morphs make a face.
+
+Messages: ``character.missing``, ``table.invalid``, ``character.file_missing``, ``character.odd_name``,
+``character.taken`` and what `app.formats.toml` says.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cache, lru_cache
+from importlib.resources import files
+from pathlib import Path
+from threading import RLock
+from types import MappingProxyType
+from typing import Final
+
+import msgspec
+
+from app.encoding import shown
+from app.errors import AppError, FileError, MapError, Message, UsageError, shortened
+from app.formats.atomic import atomic_write
+from app.formats.files import cannot_write, open_file, read_file
+from app.formats.gltf.read import MOST_BYTES
+from app.formats.toml import read_toml, shaped, toml
+from app.formats.user_folder import Read, Shelf, Stamp, UserFolder, stamp_of
+from app.rig.characters.load_character import load_character
+from app.rig.characters.read_figure import SUFFIXES
+from app.rig.model import Character
+
+MOST_ID: Final = 60
+MOST_TITLE: Final = 200
+RESERVED: Final = re.compile(r"(con|prn|aux|nul|com\d|lpt\d)", re.IGNORECASE)
+"""Names that are devices on Windows."""
+
+
+class CharacterEntry(msgspec.Struct, frozen=True, forbid_unknown_fields=True, omit_defaults=True):
+    """What ``<id>.toml`` says.
+
+    Attributes
+    ----------
+    file : str
+        Name of the character's file, in the same folder.
+    title : str
+        What the character is called; empty: by its id.
+    joints : dict of str to str
+        By VRM 1.0 joint: the bone that is it, whatever its name suggests; empty: none is.
+    morphs : dict of str to dict of str to float
+        By ARKit name: weights of the file's own morphs that make it.
+    """
+
+    file: str
+    title: str = ""
+    joints: dict[str, str] = {}
+    morphs: dict[str, dict[str, float]] = {}
+
+
+@dataclass(frozen=True)
+class Source:
+    """Where a character comes from.
+
+    Attributes
+    ----------
+    path : Path
+        The character's file.
+    entry : CharacterEntry or None
+        What the user's own folder says about it; None: bundled.
+    stamp : frozenset
+        The files as they were when they were read.
+    """
+
+    path: Path
+    entry: CharacterEntry | None = None
+    stamp: Stamp = frozenset()
+
+
+@dataclass(frozen=True)
+class CharacterLibrary(Shelf[Source]):
+    """All characters, as they were when the folder was read."""
+
+    @property
+    def sources(self) -> Mapping[str, Source]:
+        """By id: first the bundled ones, then the user's own, each in the order of the ids."""
+        return self.items
+
+    @property
+    def own(self) -> Mapping[str, CharacterEntry]:
+        """The user's own characters, by id."""
+        return {id: source.entry for id, source in self.sources.items() if source.entry is not None}
+
+
+@cache
+def bundled_characters() -> Mapping[str, Path]:
+    """Return the bundled characters: id and file, in the order of their ids. Looked up once."""
+    folder = Path(str(files("resources"))) / "characters"
+    return MappingProxyType({path.stem: path for path in sorted(folder.glob("*.glb"))})
+
+
+@cache
+def _bundled() -> Mapping[str, Source]:
+    return {id: Source(path) for id, path in bundled_characters().items()}
+
+
+def _own_source(path: Path) -> Read[Source]:
+    """The source of an entry. Raises FileError."""
+    if not path.stem.isprintable():  # Bytes that are no UTF-8 are not printable either.
+        raise FileError("character.odd_name", file=str(path))
+    if path.stem in bundled_characters():
+        # What is known of ours beforehand, their size and their holds, would not be true of another.
+        raise FileError("character.taken", file=str(path), id=path.stem)
+    entry = read_entry(path)
+    file = path.parent / entry.file
+    if not os.path.isfile(file):
+        raise FileError("character.file_missing", file=str(path), name=entry.file)
+    return Read(Source(file, entry, stamp_of([path, file])), (path, file))
+
+
+def read_entry(path: Path) -> CharacterEntry:
+    """Read the description of the user's own character. Raises FileError, MapError."""
+    entry = shaped(read_toml(path), CharacterEntry, str(path))
+    if not _is_plain(entry.file):
+        detail = f"{shortened(entry.file)!r} must be the name of a file in this folder ({', '.join(SUFFIXES)})"
+        raise MapError("table.invalid", file=str(path), place="file", detail=detail)
+    if len(entry.title) > MOST_TITLE:
+        raise MapError("table.invalid", file=str(path), place="title", detail=f"at most {MOST_TITLE} characters")
+    return entry
+
+
+def _is_plain(name: str) -> bool:
+    """Whether a name can only be that of a character's file in the same folder, on every system."""
+    plain = not set(name) & set('<>:"/\\|?*') and name.isprintable() and not name.startswith(".")
+    return plain and name.lower().endswith(SUFFIXES)
+
+
+LIBRARY: Final = UserFolder("characters", SUFFIXES, CharacterLibrary, _bundled, _own_source)
+FOLDER_VARIABLE: Final = LIBRARY.variable
+own_folder, begin_characters = LIBRARY.folder, LIBRARY.begin
+character_library, reload_characters = LIBRARY.now, LIBRARY.reload
+_loading = RLock()
+"""Held while a character is loaded, which may take seconds; never waited for with the library's lock."""
+_good: dict[Path, Character] = {}
+"""The last good version of each of the user's own files."""
+
+
+def characters() -> Mapping[str, Path]:
+    """Return all characters: id and file, first the bundled ones, then the user's own."""
+    return {id: source.path for id, source in character_library().sources.items()}
+
+
+def character_revision(id: str) -> int:
+    """How often the character of an id became another one: what is kept for a character is kept for this too."""
+    return character_library().revisions.get(id, 0)
+
+
+def character_named(id: str) -> Character:
+    """Return a character; loaded once per version of its files.
+
+    Raises
+    ------
+    UsageError
+        There is none of this id.
+    FileError
+        The user's own file holds none, and never did since the program began.
+    """
+    sources = character_library().sources
+    if id not in sources:
+        raise UsageError("character.missing", id=id, known=", ".join(sources))
+    source = sources[id]
+    with _loading:
+        try:
+            character = _opened(id, source)
+        except FileError:
+            if source.path not in _good:
+                raise
+            return _good[source.path]
+        if source.entry is not None:
+            _good[source.path] = character
+        return character
+
+
+def _opened(id: str, source: Source) -> Character:
+    return _loaded(id, source.path, source.stamp, msgspec.json.encode(source.entry))
+
+
+@lru_cache(maxsize=16)
+def _loaded(id: str, path: Path, stamp: Stamp, entry: bytes) -> Character:
+    """A character by the stamps of its files and what is said about it."""
+    said = msgspec.json.decode(entry, type=CharacterEntry | None)
+    return load_character(path) if said is None else load_character(path, id, said.joints, said.morphs)
+
+
+def character_problems() -> Mapping[str, Message]:
+    """What is wrong with the user's own characters, by id; those whose file has not been opened yet are opened."""
+    found = {path.stem: problems[0] for path, problems in character_library().problems.items()}
+    for id, source in character_library().sources.items():
+        if source.entry is not None and id not in found:
+            try:
+                _opened(id, source)
+            except AppError as error:
+                found[id] = error.message
+    return found
+
+
+def add_character(
+    path: Path,
+    title: str = "",
+    joints: Mapping[str, str] | None = None,
+    morphs: Mapping[str, Mapping[str, float]] | None = None,
+) -> str:
+    """Copy a character's file into the user's folder and describe it there.
+
+    Parameters
+    ----------
+    title : str
+        What it is called; by its file's name where empty.
+    joints, morphs : mapping
+        Corrections, as in `CharacterEntry`.
+
+    Returns
+    -------
+    str
+        Its id.
+
+    Raises
+    ------
+    FileError
+        It cannot play, or cannot be copied.
+    """
+    title = shortened(" ".join(title.split()), MOST_TITLE) or shown(path.stem)
+    load_character(path, shown(path.stem), joints or {}, morphs or {})
+    folder = own_folder()
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise cannot_write(folder, error) from error
+    with LIBRARY.lock:
+        id = _free_id(title, folder)
+        suffix = path.suffix.lower() if path.suffix.lower() in SUFFIXES else _suffix_of(path)
+        content = read_file(path, MOST_BYTES)
+        with atomic_write(folder / f"{id}{suffix}") as stream:
+            stream.write(content)
+        # A file without a description is no one: what fails between the two leaves no half of a character.
+        faces = {name: dict(parts) for name, parts in (morphs or {}).items()}
+        write_entry(id, CharacterEntry(f"{id}{suffix}", title, dict(joints or {}), faces))
+        return id
+
+
+def write_entry(id: str, entry: CharacterEntry) -> None:
+    """Describe one of the user's own characters, anew or for the first time, and read the folder again.
+
+    Raises FileError ``file.cannot_write``.
+    """
+    table = {name: value for name, value in msgspec.to_builtins(entry).items() if name == "file" or value}
+    with atomic_write(own_folder() / f"{id}.toml") as stream:
+        stream.write(toml(table).encode())
+    reload_characters()
+
+
+def remove_character(id: str) -> None:
+    """Remove one of the user's own characters, and its file if no other is made of it. Raises UsageError, FileError."""
+    sources = reload_characters().sources
+    source = sources.get(id)
+    if source is None or source.entry is None:
+        raise UsageError("character.missing", id=id, known=", ".join(character_library().own))
+    shared = any(other.path == source.path for name, other in sources.items() if name != id)
+    for path in (own_folder() / f"{id}.toml", *(() if shared else (source.path,))):
+        try:
+            path.unlink(missing_ok=True)
+        except OSError as error:
+            raise cannot_write(path, error) from error
+    reload_characters()
+
+
+def _free_id(title: str, folder: Path) -> str:
+    """An id from a title that no character has and no file in the folder is called by."""
+    stem = re.sub(r"[^a-z0-9]+", "_", title.lower()).strip("_")[:MOST_ID].strip("_") or "character"
+    if RESERVED.fullmatch(stem):
+        stem = f"character_{stem}"
+    taken = {id.casefold() for id in reload_characters().sources}
+    taken |= {path.stem.casefold() for path in folder.iterdir()}
+    id, number = stem, 1
+    while id in taken:
+        number += 1
+        id = f"{stem}_{number}"
+    return id
+
+
+def _suffix_of(path: Path) -> str:
+    """The ending of a file that is not called as what it is."""
+    with open_file(path) as opened:
+        start = opened.read(16)
+    return ".glb" if start.startswith(b"glTF") else ".fbx" if start.startswith(b"Kaydara") else ".gltf"

@@ -1,0 +1,305 @@
+"""A figure from what any file has: nodes that may be scaled, and meshes bound to them in whatever space.
+
+Scales are multiplied out and every vertex is put where it is in the world at rest.
+
+Messages: ``figure.too_large``, ``figure.no_bones``, ``figure.scaled``, ``figure.odd_height``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Final
+
+import numpy as np
+import numpy.typing as npt
+
+from app.errors import FileError, Message
+from app.formats.names import numbered
+from app.rig import quaternion
+from app.rig.characters.bone_placements import local_placements
+from app.rig.figure import Figure, Origin
+from app.rig.mesh import Mesh, Morph, scaled_mesh
+
+FloatArray = npt.NDArray[np.float64]
+
+MOST_BONES: Final = 5000
+MOST_VERTICES: Final = 3_000_000
+PLAUSIBLE_M: Final = (0.3, 4.0)
+"""Heights of figures, from a doll to a giant, that are taken as they are."""
+PERSON_M: Final = (0.9, 2.3)
+GROWN_M: Final = (1.4, 2.1)
+"""Heights that a corrected unit must lead to: powers of ten, and inches, which must explain it better."""
+INCH_M: Final = 0.0254
+AGREEMENT: Final = 1e-3
+"""How far transforms may lie apart, in parts of their size, and still be one."""
+SINGULAR: Final = 1e-18
+"""The determinant of a transform that makes everything flat."""
+
+
+@dataclass(frozen=True, eq=False)
+class Nodes:
+    """The hierarchy of a file.
+
+    Attributes
+    ----------
+    parents : sequence of int
+        In any order; -1: none.
+    world_from_node : (N, 4, 4) float64
+        At rest, scales and all.
+    joints : collection of int
+        Nodes that the file treats as bones: those of skins, of the humanoid.
+    other : collection of int
+        Nodes that are no bones even below one: meshes, cameras, lights.
+    skipped : collection of int
+        The file's own root, which is not shown.
+    """
+
+    names: Sequence[str]
+    parents: Sequence[int]
+    world_from_node: FloatArray
+    joints: Collection[int]
+    other: Collection[int]
+    skipped: Collection[int] = ()
+
+
+@dataclass(frozen=True, eq=False)
+class Part:
+    """A mesh in its own space and what moves it.
+
+    Attributes
+    ----------
+    mesh : Mesh
+        `Mesh.joints` are places in `nodes`.
+    world_from_mesh : (M, 4, 4) float64
+        For each of them, at rest.
+    """
+
+    mesh: Mesh
+    nodes: tuple[int, ...]
+    world_from_mesh: FloatArray
+
+
+def build_figure(
+    file: str,
+    origin: Origin,
+    nodes: Nodes,
+    parts: Sequence[Part],
+    humanoid: Mapping[str, int] | None = None,
+    expressions: Mapping[str, Mapping[str, float]] | None = None,
+) -> Figure:
+    """Build a figure.
+
+    Parameters
+    ----------
+    file : str
+        For messages.
+    origin : str
+    humanoid : mapping of str to int
+        VRM 1.0 joint to node.
+
+    Raises
+    ------
+    FileError
+        It has no bones, or more of anything than a character.
+    """
+    if len(nodes.names) > MOST_BONES or sum(len(part.mesh.positions_m) for part in parts) > MOST_VERTICES:
+        raise FileError("figure.too_large", file=file)
+    if not np.isfinite(nodes.world_from_node).all():
+        raise FileError("model.invalid", file=file, detail="a bone's transform is not finite")
+    listed = _bones(nodes)
+    if not listed:
+        raise FileError("figure.no_bones", file=file)
+    bone_of = {node: bone for bone, node in enumerate(listed)}
+    above = [_nearest_above(nodes, node, bone_of) for node in range(len(nodes.names))]
+    parents = tuple(-1 if nodes.parents[node] < 0 else above[nodes.parents[node]] for node in listed)
+    world = nodes.world_from_node[listed]
+    rotations, positions = nearest_rotations(world), world[:, :3, 3]
+    translations, turns = local_placements(parents, positions, rotations)
+    figure = Figure(
+        file=file,
+        origin=origin,
+        bone_names=numbered((nodes.names[node] or f"node_{node}" for node in listed), key=str),
+        parents=parents,
+        translations_m=translations,
+        rotations=turns,
+        meshes=_named_apart([_at_rest(part, above) for part in parts]),
+        humanoid={joint: bone_of[node] for joint, node in (humanoid or {}).items() if node in bone_of},
+        expressions=expressions or {},
+    )
+    return _in_metres(figure)
+
+
+def apart(a: FloatArray, b: FloatArray) -> bool:
+    """Whether two transforms (4, 4) are so different that they cannot be one bone's in one pose."""
+    return bool(np.abs(a - b).max() > AGREEMENT * max(1e-6, float(np.abs(a[:3]).max())))
+
+
+def rest_pose(parents: Sequence[int], posed: FloatArray, bound: Mapping[int, FloatArray]) -> FloatArray:
+    """Rest transforms (N, 4, 4): what is bound as it was bound, the rest as it hangs from that.
+
+    The skin is exact in that pose alone: in any other, vertices of several bones are blended twice.
+
+    Parameters
+    ----------
+    parents : sequence of int
+        In any order; -1: none.
+    posed : (N, 4, 4) float64
+        World transforms as the file poses its nodes.
+    bound : mapping of int to (4, 4) float64
+        World transforms of nodes when their skin was bound.
+    """
+    world = posed.copy()
+    children: dict[int, list[int]] = {}
+    for node, parent in enumerate(parents):
+        children.setdefault(parent, []).append(node)
+    pending = list(children.get(-1, []))
+    while pending:
+        node = pending.pop()
+        pending.extend(children.get(node, []))
+        parent = parents[node]
+        if node in bound:
+            world[node] = bound[node]
+        elif parent >= 0 and abs(np.linalg.det(posed[parent])) > SINGULAR:
+            world[node] = world[parent] @ np.linalg.inv(posed[parent]) @ posed[node]
+    return world
+
+
+def turned(nodes: Nodes, parts: Sequence[Part], turn: FloatArray) -> tuple[Nodes, tuple[Part, ...]]:
+    """The same with the world turned by a (4, 4) matrix."""
+    return (
+        replace(nodes, world_from_node=turn @ nodes.world_from_node),
+        tuple(replace(part, world_from_mesh=turn @ part.world_from_mesh) for part in parts),
+    )
+
+
+def _bones(nodes: Nodes) -> list[int]:
+    """Nodes that become bones, parents first, a parent's children in the file's order.
+
+    Bones are what the file says, everything they hang from, and what hangs from them and is nothing else. A file whose
+    parts merely hang from one another has all its nodes as bones.
+    """
+    children: dict[int, list[int]] = {}
+    for node, parent in enumerate(nodes.parents):
+        children.setdefault(parent, []).append(node)
+    order: list[int] = []
+    pending = list(reversed(children.get(-1, [])))
+    while pending:
+        node = pending.pop()
+        order.append(node)
+        pending.extend(reversed(children.get(node, [])))
+    joints = set(nodes.joints) or set(order)
+    below = set(joints)
+    for node in order:
+        if nodes.parents[node] in below and node not in nodes.other:
+            below.add(node)
+    chosen = set(below)
+    for node in reversed(order):
+        if node in chosen and nodes.parents[node] >= 0:
+            chosen.add(nodes.parents[node])
+    return [node for node in order if node in chosen and node not in nodes.skipped]
+
+
+def _nearest_above(nodes: Nodes, node: int, bone_of: Mapping[int, int]) -> int:
+    """The bone that a node is or hangs from; -1: none."""
+    while node >= 0 and node not in bone_of:
+        node = nodes.parents[node]
+    return bone_of.get(node, -1)
+
+
+def nearest_rotations(world: FloatArray) -> FloatArray:
+    """The rotations (N, 4) nearest to transforms that may also scale, shear and mirror."""
+    left, _, right = np.linalg.svd(world[:, :3, :3])
+    left[:, :, 2] *= np.linalg.det(left @ right)[:, None]
+    return quaternion.from_matrix(left @ right)
+
+
+def _named_apart(meshes: Sequence[Mesh]) -> tuple[Mesh, ...]:
+    names = numbered((mesh.name or "mesh" for mesh in meshes), key=str)
+    return tuple(replace(mesh, name=name) for mesh, name in zip(meshes, names, strict=True))
+
+
+def _at_rest(part: Part, above: Sequence[int]) -> Mesh:
+    """The mesh with its vertices in the world at rest and bones as its joints."""
+    mesh = part.mesh
+    weights = np.maximum(mesh.weights.astype(np.float64), 0.0)
+    total = weights.sum(axis=1)
+    bones = np.array([max(above[node], 0) for node in part.nodes], dtype=np.int32)
+    # A vertex that nothing moves goes with the bone all others hang from, so that it is not left behind.
+    weights[total <= 0.0] = np.eye(1, weights.shape[1])
+    weights /= weights.sum(axis=1, keepdims=True)
+    joints = np.where(total[:, None] > 0.0, mesh.joints, int(np.argmin(bones)))
+    matrices = part.world_from_mesh[:, :3, :]
+    blended = np.zeros((len(joints), 3, 4))
+    for column in range(joints.shape[1]):
+        used = weights[:, column] > 0.0
+        blended[used] += weights[used, column, None, None] * matrices[joints[used, column]]
+    turn = blended[:, :, :3]
+    positions = np.einsum("vij,vj->vi", turn, mesh.positions_m.astype(np.float64)) + blended[:, :, 3]
+    across = np.stack([np.cross(turn[:, :, i - 2], turn[:, :, i - 1]) for i in range(3)], axis=2)
+    mirrored = np.linalg.det(turn) < 0.0
+    size = np.maximum(np.cbrt(np.abs(np.linalg.det(turn))), 1e-12)
+    across /= (np.where(mirrored, -1.0, 1.0) * size**2)[:, None, None]
+    normals = np.einsum("vij,vj->vi", across, mesh.normals.astype(np.float64))
+    triangles = mesh.triangles
+    if len(triangles):
+        inside_out = mirrored[triangles[:, 0]]
+        triangles = np.where(inside_out[:, None], triangles[:, ::-1], triangles)
+    return replace(
+        mesh,
+        positions_m=positions.astype(np.float32),
+        normals=_unit(normals).astype(np.float32),
+        triangles=triangles,
+        joints=bones[joints],
+        weights=weights.astype(np.float32),
+        morphs=tuple(_morph_at_rest(morph, turn, across) for morph in mesh.morphs),
+    )
+
+
+def _morph_at_rest(morph: Morph, turn: FloatArray, across: FloatArray) -> Morph:
+    rows = morph.vertices
+    normals = morph.normal_deltas
+    return Morph(
+        name=morph.name,
+        vertices=rows,
+        deltas_m=np.einsum("vij,vj->vi", turn[rows], morph.deltas_m.astype(np.float64)).astype(np.float32),
+        normal_deltas=None
+        if normals is None
+        else np.einsum("vij,vj->vi", across[rows], normals.astype(np.float64)).astype(np.float32),
+    )
+
+
+def _unit(vectors: FloatArray) -> FloatArray:
+    result: FloatArray = vectors / np.maximum(np.linalg.norm(vectors, axis=1, keepdims=True), 1e-12)
+    return result
+
+
+def _in_metres(figure: Figure) -> Figure:
+    """The figure at a height that a figure can have, as far as one unit alone explains the height it has."""
+    heights = [mesh.positions_m[:, 1] for mesh in figure.meshes if len(mesh.positions_m)]
+    if not heights:
+        return figure
+    height_m = float(max(values.max() for values in heights) - min(values.min() for values in heights))
+    if PLAUSIBLE_M[0] <= height_m <= PLAUSIBLE_M[1]:
+        return figure
+    factor = unit_factor(height_m)
+    if factor is None:
+        note = Message("figure.odd_height", {"file": figure.file, "height_m": round(height_m, 4)})
+        return replace(figure, notes=(*figure.notes, note))
+    note = Message("figure.scaled", {"file": figure.file, "height_m": round(height_m, 4), "factor": factor})
+    return replace(
+        figure,
+        translations_m=figure.translations_m * factor,
+        meshes=tuple(scaled_mesh(mesh, factor) for mesh in figure.meshes),
+        notes=(*figure.notes, note),
+    )
+
+
+def unit_factor(height_m: float) -> float | None:
+    """The factor to metres that gives a human height; None where no unit, or more than one, does."""
+    if not height_m > 0.0:
+        return None
+    found = [10.0**power for power in range(-5, 6) if PERSON_M[0] <= height_m * 10.0**power <= PERSON_M[1]]
+    if GROWN_M[0] <= height_m * INCH_M <= GROWN_M[1]:
+        found.append(INCH_M)
+    return found[0] if len(found) == 1 else None

@@ -1,0 +1,226 @@
+"""A figure as a character: its joints known, its skeleton normalised, what it lacks supplied.
+
+The vertices stay where the file's rest pose has them; that pose is the bind pose of the character, and the T-pose its
+skeleton's. A joint that the file lacks is supplied so that the motion can be given back to the file's bones exactly:
+
+- between a bone and the next one above it, it lies on the upper of them (a neck on the head, a shoulder on the arm);
+- of the trunk's joints the highest one that has no bone of its own takes the bone below, because shoulders and neck
+  hang from it; the joints between lie on it too;
+- at the end of a chain (fingers of a mitten, toes, eyes) it follows our own bodies' proportions and carries nothing.
+
+Messages: ``character.incomplete``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from typing import Final
+
+import numpy as np
+import numpy.typing as npt
+
+from app.errors import FileError
+from app.rig import quaternion
+from app.rig.characters.landmarks import found_landmarks
+from app.rig.characters.supplied_joints import Fit, inverse_binds, on_the_floor, supplied_ends
+from app.rig.characters.t_pose import Rest, rest_of, turns_to_t_pose, upright
+from app.rig.figure import Figure, OwnSkeleton
+from app.rig.mesh import Mesh, Morph
+from app.rig.model import Character, Skeleton
+from metadata.load import load_skeleton
+from metadata.model import REQUIRED_JOINTS
+
+FloatArray = npt.NDArray[np.float64]
+
+OPTIONAL: Final = frozenset({"jaw"})
+"""Joints that are not supplied: nothing is the worse for their lack."""
+TRUNK: Final = ("hips", "spine", "chest", "upperChest")
+
+
+def figure_character(
+    figure: Figure, id: str, bones: Mapping[str, int], morphs: Mapping[str, Mapping[str, float]]
+) -> Character:
+    """Make a character of a figure.
+
+    Parameters
+    ----------
+    bones : mapping of str to int
+        The bone of each VRM 1.0 joint that has one.
+    morphs : mapping of str to mapping of str to float
+        By ARKit name: weights of the figure's morphs that make it.
+
+    Raises
+    ------
+    FileError
+        A required joint has no bone.
+    """
+    missing = [name for name in REQUIRED_JOINTS if name not in bones]
+    if missing:
+        raise FileError("character.incomplete", file=figure.file, joints=", ".join(missing))
+    figure = upright(figure, bones)
+    rest = rest_of(figure)
+    fit = _fitted(figure, rest, bones)
+    joint_of_bone = _joints_of_bones(figure, rest, fit)
+    meshes = tuple(_mesh(mesh, joint_of_bone, morphs) for mesh in figure.meshes)
+    fit = supplied_ends(fit, meshes)
+    fit = on_the_floor(fit, meshes)
+    joint_from_mesh = inverse_binds(fit)
+    offsets = fit.places_m.copy()
+    offsets[1:] -= fit.places_m[list(fit.parents[1:])]
+    skeleton = Skeleton(fit.names, fit.parents, offsets)
+    return Character(
+        id=id,
+        skeleton=skeleton,
+        joint_from_mesh=joint_from_mesh,
+        meshes=meshes,
+        landmarks=found_landmarks(skeleton, joint_from_mesh, meshes),
+        own=_own(figure, rest, fit, morphs),
+    )
+
+
+# ------------------------------------------------------------------------------------------------------------- joints
+
+
+def _fitted(figure: Figure, rest: Rest, bones: Mapping[str, int]) -> Fit:
+    """Joints in the profile's order; those at the ends of chains that have no bone are not placed yet (NaN)."""
+    profile = [joint for joint in load_skeleton().joints if joint.name not in OPTIONAL or joint.name in bones]
+    names = tuple(joint.name for joint in profile)
+    index = {name: place for place, name in enumerate(names)}
+    parents = tuple(index[joint.parent] if joint.parent else -1 for joint in profile)
+    turn_of = turns_to_t_pose(figure, rest, bones)
+    own, lies_on = _attributed(names, parents, bones)
+    turns = np.tile(quaternion.IDENTITY, (len(names), 1))
+    rest_m = np.full((len(names), 3), np.nan)
+    places = np.full((len(names), 3), np.nan)
+    rest_m[0] = places[0] = 0.0
+    for joint, parent in enumerate(parents):
+        like = lies_on.get(joint, joint)
+        if parent < 0:
+            continue
+        turns[joint] = turn_of.get(names[like], turns[parent])
+        bone = bones[names[like]] if names[like] in bones else own[like]
+        if bone >= 0:
+            rest_m[joint] = rest.positions_m[bone]
+            places[joint] = places[parent] + quaternion.rotate(turns[parent], rest_m[joint] - rest_m[parent])
+            if parent == 0:
+                places[joint] = rest_m[joint]
+    return Fit(names, parents, own, turns, rest_m, places)
+
+
+def _attributed(
+    names: Sequence[str], parents: Sequence[int], bones: Mapping[str, int]
+) -> tuple[list[int], dict[int, int]]:
+    """The bone of each joint, and the joint that one without a bone lies on (see the module's text)."""
+    own = [bones.get(name, -1) for name in names]
+    index = {name: place for place, name in enumerate(names)}
+    lies_on: dict[int, int] = {}
+    top = index["upperChest"]
+    if own[top] < 0:
+        below = next(index[name] for name in reversed(TRUNK) if name in bones)
+        own[top] = own[below]
+        if below != index["hips"]:
+            own[below] = -1
+        for joint in range(below + 1, top + 1):
+            lies_on[joint] = below
+    for joint in reversed(range(1, len(names))):
+        if own[joint] >= 0 or joint in lies_on or names[joint] in bones:
+            continue
+        above = [child for child in range(len(names)) if parents[child] == joint]
+        placed = [child for child in above if own[child] >= 0 or child in lies_on]
+        if len(placed) == 1:
+            lies_on[joint] = lies_on.get(placed[0], placed[0])
+    return own, lies_on
+
+
+def _joints_of_bones(figure: Figure, rest: Rest, fit: Fit) -> npt.NDArray[np.int32]:
+    """The joint that carries each bone's skin: its own, the nearest above, the hips for what those hang from, the
+    nearest one in space for what hangs from no joint."""
+    hips = fit.names.index("hips")
+    joint_of = {bone: joint for joint, bone in enumerate(fit.bones) if bone >= 0}
+    carried = np.full(len(figure.parents), -1, dtype=np.int32)
+    for bone, parent in enumerate(figure.parents):
+        carried[bone] = joint_of.get(bone, carried[parent] if parent >= 0 else -1)
+    above = fit.bones[hips]
+    while above >= 0:
+        if carried[above] < 0:
+            carried[above] = hips
+        above = figure.parents[above]
+    mapped = np.array(sorted(joint_of.values()))
+    for bone in np.flatnonzero(carried < 0).tolist():
+        parent = figure.parents[bone]
+        if parent >= 0 and carried[parent] >= 0 and carried[parent] != hips:
+            carried[bone] = carried[parent]
+            continue
+        away = np.linalg.norm(fit.rest_m[mapped] - rest.positions_m[bone], axis=1)
+        carried[bone] = mapped[int(np.argmin(away))]
+    return carried
+
+
+def _own(figure: Figure, rest: Rest, fit: Fit, morphs: Mapping[str, Mapping[str, float]]) -> OwnSkeleton:
+    joint_from_bone = np.tile(quaternion.IDENTITY, (len(fit.names), 1))
+    world = rest.rotations.copy()
+    joint_of = {bone: joint for joint, bone in enumerate(fit.bones) if bone >= 0}
+    t_pose = figure.rotations.copy()
+    for bone, parent in enumerate(figure.parents):
+        joint = joint_of.get(bone)
+        above = world[parent] if parent >= 0 else quaternion.IDENTITY
+        if joint is None:
+            world[bone] = quaternion.multiply(above, figure.rotations[bone])
+            continue
+        world[bone] = quaternion.multiply(fit.turns[joint], rest.rotations[bone])
+        t_pose[bone] = quaternion.multiply(quaternion.conjugate(above), world[bone])
+        joint_from_bone[joint] = world[bone]
+    return OwnSkeleton(figure, tuple(fit.bones), joint_from_bone, t_pose, morphs)
+
+
+# --------------------------------------------------------------------------------------------------------------- skin
+
+
+def _mesh(mesh: Mesh, joint_of_bone: npt.NDArray[np.int32], morphs: Mapping[str, Mapping[str, float]]) -> Mesh:
+    joints, weights = _merged(joint_of_bone[mesh.joints], mesh.weights.astype(np.float64))
+    return replace(mesh, joints=joints, weights=weights, morphs=_composed(mesh.morphs, morphs))
+
+
+def _merged(
+    joints: npt.NDArray[np.int32], weights: FloatArray
+) -> tuple[npt.NDArray[np.int32], npt.NDArray[np.float32]]:
+    """Influences with each joint once per vertex, the heaviest first, as wide as needed."""
+    joints, weights = joints.copy(), weights.copy()
+    for column in range(1, joints.shape[1]):
+        for before in range(column):
+            same = (joints[:, before] == joints[:, column]) & (weights[:, column] > 0.0)
+            weights[same, before] += weights[same, column]
+            weights[same, column] = 0.0
+    order = np.argsort(-weights, axis=1, kind="stable")
+    joints, weights = np.take_along_axis(joints, order, axis=1), np.take_along_axis(weights, order, axis=1)
+    width = max(int((weights > 0.0).sum(axis=1).max(initial=1)), 1)
+    joints, weights = joints[:, :width], weights[:, :width]
+    joints = np.where(weights > 0.0, joints, joints[:, :1])
+    return joints.astype(np.int32), weights.astype(np.float32)
+
+
+def _composed(own: Sequence[Morph], morphs: Mapping[str, Mapping[str, float]]) -> tuple[Morph, ...]:
+    """The named morphs, each the weighted sum of those of this mesh that make it."""
+    known = {morph.name: morph for morph in own}
+    found = []
+    for name, recipe in morphs.items():
+        shares = [(known[part], weight) for part, weight in recipe.items() if part in known and weight]
+        if len(shares) == 1 and shares[0][1] == 1.0:
+            found.append(replace(shares[0][0], name=name))
+        elif shares:
+            found.append(_summed(name, shares))
+    return tuple(found)
+
+
+def _summed(name: str, shares: Sequence[tuple[Morph, float]]) -> Morph:
+    vertices = np.unique(np.concatenate([morph.vertices for morph, _ in shares]))
+    deltas = np.zeros((len(vertices), 3))
+    normals = np.zeros((len(vertices), 3))
+    has_normals = all(morph.normal_deltas is not None for morph, _ in shares)
+    for morph, weight in shares:
+        places = np.searchsorted(vertices, morph.vertices)
+        np.add.at(deltas, places, weight * morph.deltas_m)
+        if morph.normal_deltas is not None:
+            np.add.at(normals, places, weight * morph.normal_deltas)
+    return Morph(name, vertices, deltas.astype(np.float32), normals.astype(np.float32) if has_normals else None)

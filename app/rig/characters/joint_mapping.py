@@ -1,0 +1,299 @@
+"""Which bones of a foreign figure are which joints: by what the file says, by the names, by shape.
+
+Names come from the tables in ``metadata/bone_names``; of all tables the one counts that most joints and the hierarchy
+agree with. Left is where +X is, whatever a name says.
+
+Messages: ``figure.no_joint``, ``figure.no_bone``.
+"""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cache
+from typing import Final
+from weakref import WeakKeyDictionary
+
+import numpy as np
+
+from app.errors import FileError
+from app.rig.characters.bone_placements import world_placements
+from app.rig.characters.joints_by_shape import Tree, joints_by_shape, spread_spine, tree_of
+from app.rig.figure import Figure
+from metadata.load import load_bone_names, load_skeleton
+from metadata.model import REQUIRED_JOINTS, bone_key
+
+ENDS: Final = re.compile(r"(Toes|Eye|Metacarpal|Proximal|Intermediate|Distal)$")
+"""Joints that names may add to what a file says of itself."""
+CLEARLY: Final = 0.5
+"""Sides are swapped where this part of the way from right to left leads to -X: not where a figure faces sideways."""
+NUMBERED: Final = re.compile(r"[_.]\d+$")
+MOST_NUMBERED: Final = 0.8
+"""Where so many names end in a number, the numbers are some program's, not the names'."""
+ENOUGH: Final = 8
+"""A table that knows fewer of the required joints than this is not the figure's."""
+THUMB_BASE: Final = 0.5
+"""A thumb's bone that begins nearer to the wrist than this, of the way to the index finger, is the metacarpal."""
+SHORTEST_AFFIXED: Final = 3
+"""Names shorter than this count only as they are: too many others end in them."""
+
+
+@dataclass(frozen=True)
+class JointMapping:
+    """Which bones are which joints.
+
+    Attributes
+    ----------
+    profile : str
+        Id of the table of names, ``vrm0`` or ``vrm1`` where the file itself says it, empty where it went by shape.
+    bones : mapping of str to int
+        Bone of the figure by VRM 1.0 joint.
+    missing : tuple of str
+        Joints without a bone.
+    doubtful : tuple of str
+        Joints that were guessed, or whose bone lies elsewhere in the tree or on the other side than its name says.
+    """
+
+    profile: str
+    bones: Mapping[str, int]
+    missing: tuple[str, ...]
+    doubtful: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class _Found:
+    """What one way of mapping says."""
+
+    profile: str
+    bones: dict[str, int]
+    astray: frozenset[str]
+    """Joints whose bone is not below the bone of the joint above."""
+    skinned: int
+    """How many of the bones move skin: controls and mechanics of a rig have the same names."""
+
+    @property
+    def required(self) -> int:
+        return sum(joint in self.bones for joint in REQUIRED_JOINTS)
+
+    @property
+    def score(self) -> float:
+        return len(self.bones) + self.required - 2.0 * len(self.astray) + 3.0 * self.skinned
+
+
+def map_joints(figure: Figure, requested: Mapping[str, str] | None = None) -> JointMapping:
+    """Find the joints of a figure.
+
+    Parameters
+    ----------
+    requested : mapping of str to str
+        The user's corrections, bone by joint; empty: the figure has no such joint.
+
+    Raises
+    ------
+    FileError
+        A correction names a joint or a bone that there is not.
+    """
+    tree, found, guessed = _without_help(figure)
+    bones = dict(found.bones)
+    doubtful = set(found.astray) | guessed
+    doubtful |= _turn_sides(tree, bones)
+    _place_thumbs(tree, bones)
+    for joint, bone in _corrections(figure, requested or {}).items():
+        if bone is not None:
+            for other in [one for one, held in bones.items() if held == bone]:
+                del bones[other]
+        bones.pop(joint, None)
+        if bone is not None:
+            bones[joint] = bone
+        doubtful.discard(joint)
+    joints = _joints()
+    return JointMapping(
+        profile=found.profile,
+        bones={joint: bones[joint] for joint in joints if joint in bones},
+        missing=tuple(joint for joint in joints if joint not in bones),
+        doubtful=tuple(joint for joint in joints if joint in doubtful and joint in bones),
+    )
+
+
+_kept: WeakKeyDictionary[Figure, tuple[Tree, _Found, set[str]]] = WeakKeyDictionary()
+
+
+def _without_help(figure: Figure) -> tuple[Tree, _Found, set[str]]:
+    """What is found by itself, once for each figure: it takes seconds where there are thousands of bones, and is asked
+    for with every correction."""
+    known = _kept.get(figure)
+    if known is None:
+        tree = _tree(figure)
+        known = _kept[figure] = (tree, *_automatic(figure, tree))
+    return known
+
+
+def _automatic(figure: Figure, tree: Tree) -> tuple[_Found, set[str]]:
+    """The best mapping without the user's help, and which joints of it are guessed."""
+    named = _by_names(figure, tree)
+    joints = _joints()
+    if figure.humanoid:
+        bones = {joint: bone for joint, bone in figure.humanoid.items() if joint in joints}
+        for joint, bone in named.bones.items():
+            if joint not in bones and ENDS.search(joint) and bone not in bones.values():
+                top = _joint_above(joint, bones)
+                if top is not None and bones[top] in tree.above[bone] and joint not in named.astray:
+                    bones[joint] = bone
+        found = _Found(figure.origin if figure.origin.startswith("vrm") else "vrm", bones, _astray(tree, bones), 0)
+    elif named.required >= ENOUGH:
+        found = named
+    else:
+        shape = joints_by_shape(tree)
+        return _Found("", shape, frozenset(), 0), set(shape)
+    if found.required == len(REQUIRED_JOINTS):
+        return found, set()
+    shape = joints_by_shape(tree)
+    bones = dict(found.bones)
+    guessed = set()
+    for joint in REQUIRED_JOINTS:
+        if joint not in bones and joint in shape and shape[joint] not in bones.values():
+            bones[joint] = shape[joint]
+            if joint in _astray(tree, bones):
+                del bones[joint]
+            else:
+                guessed.add(joint)
+    return _Found(found.profile, bones, _astray(tree, bones), 0), guessed
+
+
+@cache
+def _joints() -> tuple[str, ...]:
+    return tuple(joint.name for joint in load_skeleton().joints if joint.name != "root")
+
+
+def _joint_above(joint: str, bones: Mapping[str, int]) -> str | None:
+    """The nearest joint above that has a bone."""
+    profile = load_skeleton()
+    parent = profile.joint(joint).parent
+    while parent and parent not in bones:
+        parent = profile.joint(parent).parent
+    return parent or None
+
+
+def _tree(figure: Figure) -> Tree:
+    positions, _ = world_placements(figure.parents, figure.translations_m, figure.rotations)
+    skinned = {int(bone) for mesh in figure.meshes for bone in np.unique(mesh.joints[mesh.weights > 0.0])}
+    return tree_of(figure.parents, positions, frozenset(skinned))
+
+
+def _by_names(figure: Figure, tree: Tree) -> _Found:
+    """The best of all tables of names."""
+    spellings = [[bone_key(name) for name in figure.bone_names]]
+    if sum(NUMBERED.search(name) is not None for name in figure.bone_names) >= MOST_NUMBERED * len(figure.bone_names):
+        spellings.append([bone_key(NUMBERED.sub("", name)) for name in figure.bone_names])
+    best = _Found("", {}, frozenset(), 0)
+    for profile, table in load_bone_names().items():
+        names = table.keys()
+        for keys in spellings:
+            for prefix, suffix in _affixes(keys, {key for own in names.values() for key in own}):
+                bones_of: dict[str, list[int]] = {}
+                for bone, key in enumerate(keys):
+                    if key.startswith(prefix) and key.endswith(suffix) and len(key) >= len(prefix) + len(suffix):
+                        bones_of.setdefault(key[len(prefix) : len(key) - len(suffix)], []).append(bone)
+                # Of bones with one name the body's is the one that most hangs on.
+                place = {
+                    key: min(bones, key=lambda bone: (-tree.below[bone], figure.bone_names[bone]))
+                    for key, bones in bones_of.items()
+                }
+                found = _found(profile, tree, {joint: _first(place, own) for joint, own in names.items()})
+                if found.score > best.score:
+                    best = found
+    return best
+
+
+def _affixes(keys: list[str], known: set[str]) -> list[tuple[str, str]]:
+    """What stands before and after the known names in most of a figure's; none at all comes first."""
+    votes: Counter[tuple[str, str]] = Counter()
+    names = [name for name in known if len(name) >= SHORTEST_AFFIXED]
+    # Most keys of a figure with thousands of bones hold no known name.
+    any_name = re.compile("|".join(map(re.escape, names)))
+    for key in set(keys):
+        if not any_name.search(key):
+            continue
+        for name in names:
+            at = key.find(name)
+            if at >= 0 and len(name) < len(key):
+                votes[key[:at], key[at + len(name) :]] += 1
+    common = sorted(votes, key=lambda affix: (-votes[affix], affix))
+    return [("", ""), *(affix for affix in common[:3] if votes[affix] >= ENOUGH)]
+
+
+def _first(place: Mapping[str, int], keys: tuple[str, ...]) -> int | None:
+    return next((place[key] for key in keys if key in place), None)
+
+
+def _found(profile: str, tree: Tree, named: Mapping[str, int | None]) -> _Found:
+    bones = {joint: bone for joint, bone in named.items() if bone is not None and not joint.startswith("spine.")}
+    column = [bone for joint, bone in named.items() if bone is not None and joint.startswith("spine.")]
+    column = [bone for bone in column if bone not in bones.values()]
+    bones |= spread_spine(tree, sorted(set(column), key=lambda bone: (tree.depth(bone), column.index(bone))))
+    # A joint above one that it should be below is a mistake of the table, not of the figure.
+    for joint in _joints():
+        top = _joint_above(joint, bones) if joint in bones else None
+        if top is not None and (bones[joint] == bones[top] or bones[joint] in tree.above[bones[top]]):
+            del bones[joint]
+    return _Found(profile, bones, _astray(tree, bones), sum(bone in tree.skinned for bone in bones.values()))
+
+
+def _astray(tree: Tree, bones: Mapping[str, int]) -> frozenset[str]:
+    """Joints whose bone is not below that of the joint above."""
+    return frozenset(
+        joint
+        for joint, bone in bones.items()
+        if (top := _joint_above(joint, bones)) is not None and bones[top] not in tree.above[bone]
+    )
+
+
+def _turn_sides(tree: Tree, bones: dict[str, int]) -> set[str]:
+    """Swap what is called left and is at -X; returns the joints swapped."""
+    turned: set[str] = set()
+    for at, own in (
+        ("UpperLeg", r"(UpperLeg|LowerLeg|Foot|Toes)$"),
+        ("UpperArm", r"(Shoulder|UpperArm|LowerArm|Hand|Metacarpal|Proximal|Intermediate|Distal)$"),
+        ("Eye", r"Eye$"),
+    ):
+        left, right = bones.get(f"left{at}"), bones.get(f"right{at}")
+        if left is None or right is None:
+            continue
+        across = tree.positions_m[left] - tree.positions_m[right]
+        if across[0] > -CLEARLY * float(np.linalg.norm(across)) or across[0] == 0.0:
+            continue
+        swapped = {joint: bone for joint, bone in bones.items() if re.search(own, joint)}
+        for joint in swapped:
+            del bones[joint]
+        for joint, bone in swapped.items():
+            other = joint.replace("left", "right", 1) if joint.startswith("left") else joint.replace("right", "left", 1)
+            bones[other] = bone
+            turned.add(other)
+    return turned
+
+
+def _place_thumbs(tree: Tree, bones: dict[str, int]) -> None:
+    """A thumb of one or two bones has no metacarpal where it begins away from the wrist."""
+    for side in ("left", "right"):
+        base, next_, last = (f"{side}Thumb{part}" for part in ("Metacarpal", "Proximal", "Distal"))
+        hand, index = bones.get(f"{side}Hand"), bones.get(f"{side}IndexProximal")
+        if base not in bones or last in bones or hand is None or index is None:
+            continue
+        if tree.distance(hand, bones[base]) > THUMB_BASE * tree.distance(hand, index):
+            if next_ in bones:
+                bones[last] = bones.pop(next_)
+            bones[next_] = bones.pop(base)
+
+
+def _corrections(figure: Figure, requested: Mapping[str, str]) -> dict[str, int | None]:
+    """The user's corrections as bones."""
+    found: dict[str, int | None] = {}
+    for joint, name in requested.items():
+        if joint not in _joints():
+            raise FileError("figure.no_joint", file=figure.file, joint=joint, joints=", ".join(_joints()))
+        if name and name not in figure.bone_names:
+            raise FileError("figure.no_bone", file=figure.file, joint=joint, bone=name)
+        found[joint] = figure.bone_names.index(name) if name else None
+    return found

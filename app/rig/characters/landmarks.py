@@ -1,0 +1,328 @@
+"""Landmarks of a character that brings none: found from joints, skin weights, normals, and the face's morph or shape.
+
+Names are those of our own characters: ``right.index.pad``, ``left.palm``, ``lips.contact``, ``left.foot.sole`` ...
+A finger whose skin hangs on the hand (a mitten) has its places on that skin, where the finger would be.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from app.rig.ik import Side
+from app.rig.mesh import Mesh
+from app.rig.model import Character, Landmark, Skeleton
+from app.rig.skeleton import ancestors, rest_positions
+from metadata.load import load_skeleton
+
+FloatArray = npt.NDArray[np.float64]
+IntArray = npt.NDArray[np.intp]
+
+FINGERS = ("thumb", "index", "middle", "ring", "little")
+JAW_MORPHS = ("jawOpen", "aa", "A")
+"""Morphs that open the mouth, by the names that files use."""
+PAD_VERTICES, SIDE_VERTICES, PALM_VERTICES, WEB_VERTICES, LIP_VERTICES = 6, 4, 8, 5, 6
+MIDLINE_M, SOLE_M = 0.008, 0.008
+COINCIDE_M = 1e-6
+"""Joints nearer to one another lie on one another."""
+PATCH_M = 0.006
+"""A place spreads so far over the skin, or little farther than its nearest vertex is from it: the mean of vertices all
+around a finger lies deep in its flesh."""
+FACING = (0.7, 0.5)
+"""A place's skin looks its way by this (the cosine), or by that where none does."""
+LEAST_WEIGHTS = (0.5, 0.25)
+"""Where no skin clearly belongs to a joint, skin that does by this much is taken."""
+EYES_M, HEAD_M = 0.06, 0.217
+"""Of the heads whose lips the lengths here were chosen for: between the eyes, and the height of their skin."""
+STEPS = 40
+MOUTH_SHARE, MOUTH_SPREAD = 0.63, 0.09
+"""From the eyes down to the chin, in so many steps, the lips meet after this share, give or take the other one."""
+
+
+@dataclass(frozen=True, eq=False)
+class _Skin:
+    """A mesh in the rest pose: positions and normals (V, 3), weights (V, J) on all joints."""
+
+    mesh: Mesh
+    positions: FloatArray
+    normals: FloatArray
+    weights: FloatArray
+
+
+def found_landmarks(skeleton: Skeleton, joint_from_mesh: FloatArray, meshes: tuple[Mesh, ...]) -> dict[str, Landmark]:
+    """Find the landmarks of a character.
+
+    A landmark for which the character has nothing (no skin on the hand: no palm) is absent.
+    """
+    skins = [_rest_skin(skeleton, joint_from_mesh, mesh) for mesh in meshes if len(mesh.positions_m)]
+    found: dict[str, Landmark] = {}
+    for side in ("left", "right"):
+        found.update(_hand(skeleton, skins, side))
+        found.update(_sole(skeleton, skins, side))
+    head = _Head.of(skeleton, skins)
+    for lips in (*(_lips_by_jaw(skin, head) for skin in skins), _lips_by_shape(skins, head)):
+        if lips:
+            found.update(lips)
+            break
+    return found
+
+
+def _rest_skin(skeleton: Skeleton, joint_from_mesh: FloatArray, mesh: Mesh) -> _Skin:
+    weights = np.zeros((len(mesh.positions_m), len(skeleton.names)))
+    np.add.at(weights, (np.arange(len(weights))[:, None], mesh.joints), mesh.weights)
+    world = joint_from_mesh[:, :3, :].copy()
+    world[..., 3] += rest_positions(skeleton)
+    blended = np.tensordot(weights, world, axes=(1, 0))
+    positions = np.einsum("vij,vj->vi", blended[..., :3], mesh.positions_m) + blended[..., 3]
+    normals = np.einsum("vij,vj->vi", blended[..., :3], mesh.normals)
+    normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-9)
+    return _Skin(mesh, positions, normals, weights)
+
+
+def _own(skin: _Skin, joints: list[int], least: float) -> IntArray:
+    """The vertices that belong to some joints."""
+    return np.flatnonzero(skin.weights[:, joints].sum(axis=1) > least)
+
+
+def _patch(skin: _Skin, own: IntArray, origin: FloatArray, direction: FloatArray, count: int) -> IntArray:
+    """Vertices about the place where a ray from inside a limb leaves its skin, or nearest to there where none faces
+    that way."""
+    off = skin.positions[own] - origin
+    along = off @ direction
+    across = np.linalg.norm(off - along[:, None] * direction, axis=1)
+    ahead = skin.normals[own] @ direction
+    facing = next((found for least in FACING if (found := (ahead > least) & (along > 0.0)).any()), None)
+    if facing is None:
+        return _nearest(skin, own, origin, count)
+    place = origin + direction * along[facing][np.argmin(across[facing])]
+    return _nearest(skin, own[facing], place, count)
+
+
+def _nearest(skin: _Skin, own: IntArray, place: FloatArray, count: int) -> IntArray:
+    far = np.linalg.norm(skin.positions[own] - place, axis=1)
+    order = np.argsort(far, kind="stable")[:count]
+    return np.sort(own[order[far[order] <= max(PATCH_M, 1.25 * far[order[0]])]])
+
+
+def _hand(skeleton: Skeleton, skins: list[_Skin], side: Side) -> dict[str, Landmark]:
+    profile, rest = load_skeleton(), rest_positions(skeleton)
+    names = {finger: profile.fingers[side][finger].joints for finger in FINGERS}  # type: ignore[index]
+    fingers = [skeleton.index(name) for finger in FINGERS for name in names[finger]]
+    wrist = skeleton.index(f"{side}Hand")
+    counts = [int((skin.weights[:, [wrist, *fingers]].sum(axis=1) > 0.5).sum()) for skin in skins]
+    on_fingers = [int((skin.weights[:, fingers].sum(axis=1) > 0.5).sum()) for skin in skins]
+    if not any(counts):
+        return {}
+    # Rings, nails and sleeves hang on a hand too; most of its skin is the hand.
+    skin = skins[max(range(len(skins)), key=lambda place: (on_fingers[place], counts[place]))]
+    hand = _own(skin, [wrist, *fingers], 0.5)
+    places: dict[str, IntArray] = {}
+    for finger in FINGERS:
+        for order, phalanx in ((0, "_proximal"), (1, "_middle"), (2, "")):
+            if finger == "thumb" and order == 0:
+                continue
+            joint = skeleton.index(names[finger][order])
+            weights = (0.8 if order == 2 else 0.6, *LEAST_WEIGHTS)
+            own = next((own for least in weights if len(own := _own(skin, [joint], least))), np.zeros(0, np.intp))
+            before = joint if order < 2 else skeleton.index(names[finger][1])
+            following = skeleton.index(names[finger][order + 1]) if order < 2 else joint
+            bone = rest[following] - rest[before]
+            length = float(np.linalg.norm(bone))
+            if length < COINCIDE_M:
+                # A finger of two bones: the joint it lacks lies on the next one, and points as the finger does.
+                bone = rest[skeleton.index(names[finger][2])] - rest[skeleton.index(names[finger][0])]
+                length = float(np.linalg.norm(bone))
+            if length < COINCIDE_M:
+                continue
+            bone /= length
+            # Turning about the flexion axis takes the bone to the palm, about the sideways axis to the thumb's side.
+            axes = profile.joint_axes(names[finger][order])
+            palmar, thumbward = np.cross(axes.flexion, bone), np.cross(axes.sideways, bone)
+            reach = length
+            if order == 2:
+                # A fingertip is about as long as the phalanx before it, where no skin says so.
+                reach = float(((skin.positions[own] - rest[joint]) @ bone).max()) if len(own) else 0.9 * length
+            middle = rest[joint] + bone * reach * (0.5 if order < 2 else 0.55)
+            for place, direction, count in (("pad", palmar, PAD_VERTICES), ("side", thumbward, SIDE_VERTICES)):
+                towards = direction / np.linalg.norm(direction)
+                around = own if len(own) else hand
+                places[f"{finger}.{place}{phalanx}"] = _patch(skin, around, middle, towards, count)
+    knuckle = rest[skeleton.index(f"{side}MiddleProximal")]
+    down = np.array([0.0, -1.0, 0.0])
+    places["palm"] = _patch(skin, hand, rest[wrist] + 0.6 * (knuckle - rest[wrist]), down, PALM_VERTICES)
+    web = (rest[skeleton.index(f"{side}IndexProximal")] + rest[skeleton.index(f"{side}ThumbProximal")]) / 2
+    places["thumb_web"] = _nearest(skin, hand, web, WEB_VERTICES)
+    places["hand"] = hand
+    return {f"{side}.{name}": _landmark(skin, rows) for name, rows in places.items()}
+
+
+def _sole(skeleton: Skeleton, skins: list[_Skin], side: Side) -> dict[str, Landmark]:
+    """The lowest skin of a foot: of a shoe, where there is one; of the leg, where nothing hangs on the foot."""
+    named = (f"{side}Foot", f"{side}Toes"), (f"{side}LowerLeg",)
+    for names in named:
+        joints = [skeleton.names.index(name) for name in names if name in skeleton.names]
+        own = [(skin, rows) for skin in skins if len(rows := _own(skin, joints, 0.5))]
+        if own:
+            skin, rows = min(own, key=lambda one: float(one[0].positions[one[1], 1].min()))
+            height = skin.positions[rows, 1]
+            return {f"{side}.foot.sole": _landmark(skin, rows[height < height.min() + SOLE_M])}
+    return {}
+
+
+@dataclass(frozen=True, eq=False)
+class _Head:
+    """Where a head is, and how large.
+
+    Attributes
+    ----------
+    joints : list of int
+        The head's and all that hang on it.
+    place : (3,) float64
+        Of its joint.
+    eyes_m : float or None
+        Height of the eyes.
+    size : float
+        As a multiple of the head that lengths here were chosen for.
+    """
+
+    joints: list[int]
+    place: FloatArray
+    eyes_m: float | None
+    size: float
+
+    @classmethod
+    def of(cls, skeleton: Skeleton, skins: list[_Skin]) -> _Head:
+        head, rest = skeleton.index("head"), rest_positions(skeleton)
+        joints = [joint for joint in range(len(skeleton.names)) if head in ancestors(skeleton, joint)]
+        eyes = _eyes(skeleton, tuple(skin.mesh for skin in skins))
+        if eyes is not None:
+            return cls(joints, rest[head], float(eyes[0][1]), float(np.linalg.norm(eyes[0] - eyes[1])) / EYES_M)
+        heights = [skin.positions[rows, 1] for skin in skins if len(rows := _own(skin, joints, 0.5))]
+        if not heights:
+            return cls(joints, rest[head], None, 1.0)
+        # Where in a head its joint is differs from rig to rig.
+        low_m, high_m = np.percentile(np.concatenate(heights), [0.5, 99.5])
+        return cls(joints, rest[head], None, float(high_m - low_m) / HEAD_M)
+
+
+def eye_distance(character: Character) -> float:
+    """How far the eyes are apart, metres; where there are none, as far as in another head of this height."""
+    eyes = _eyes(character.skeleton, character.meshes)
+    if eyes is not None:
+        return float(np.linalg.norm(eyes[0] - eyes[1]))
+    skins = [_rest_skin(character.skeleton, character.joint_from_mesh, mesh) for mesh in character.meshes]
+    return EYES_M * _Head.of(character.skeleton, skins).size
+
+
+def _eyes(skeleton: Skeleton, meshes: tuple[Mesh, ...]) -> tuple[FloatArray, FloatArray] | None:
+    """Where the eyes are; None where there are none, or only joints that were supplied and carry nothing."""
+    names = ("leftEye", "rightEye")
+    if not set(names) <= set(skeleton.names):
+        return None
+    rest = rest_positions(skeleton)
+    left, right = (skeleton.index(name) for name in names)
+    carry = [any(np.any(mesh.weights[mesh.joints == joint] > 0.5) for mesh in meshes) for joint in (left, right)]
+    apart = float(np.linalg.norm(rest[left] - rest[right])) > 0.0
+    return (rest[left], rest[right]) if all(carry) and apart else None
+
+
+def _lips_by_jaw(skin: _Skin, head: _Head) -> dict[str, Landmark]:
+    """Where the mouth parts: at the midline, vertices the jaw's morph takes along next to such it leaves."""
+    jaw = next((morph for name in JAW_MORPHS for morph in skin.mesh.morphs if morph.name == name), None)
+    if jaw is None or not len(jaw.vertices):
+        return {}
+    drop = np.zeros(len(skin.positions))
+    drop[jaw.vertices] = -jaw.deltas_m[:, 1]
+    middle = np.abs(skin.positions[:, 0] - head.place[0]) < MIDLINE_M * head.size
+    most = drop[middle].max(initial=0.0)
+    if most <= 0.0:
+        return {}
+    lower = np.flatnonzero(middle & (drop > 0.6 * most))
+    upper = np.flatnonzero(middle & (np.abs(drop) < 0.3 * most))
+    if not len(lower) or not len(upper):
+        return {}
+    gaps = np.linalg.norm(skin.positions[upper][:, None] - skin.positions[lower][None], axis=2)
+    # The foremost place where the lips all but touch: behind it are the insides of the mouth.
+    score = gaps - 0.5 * (skin.positions[upper, 2][:, None] + skin.positions[lower, 2][None])
+    first, second = np.unravel_index(np.argsort(score, axis=None, kind="stable")[:LIP_VERTICES], gaps.shape)
+    contact = np.unique(np.concatenate([upper[first], lower[second]]))
+    return {
+        "lips.contact": _landmark(skin, contact),
+        "lips.upper": _landmark(skin, np.unique(upper[first])),
+        "lips.lower": _landmark(skin, np.unique(lower[second])),
+    }
+
+
+def _lips_by_shape(skins: list[_Skin], head: _Head) -> dict[str, Landmark]:
+    """Where the lips meet on a face that does not move: about so far down from the eyes to the chin, in the notch of
+    the profile if there is one."""
+    profiles = [_profile(skin, head) for skin in skins]
+    # Hair, lashes and teeth hang on the head too: the face covers most of its front's lower half.
+    place = max(range(len(skins)), key=lambda number: _covered(skins[number], profiles[number], head), default=-1)
+    if place < 0 or len(profiles[place]) < 3:
+        return {}
+    skin, front = skins[place], profiles[place]
+    at = skin.positions[front]
+    # The chin: from there down the profile goes back to the neck.
+    foremost_m, middle_m = float(at[:, 2].max()), float(skin.positions[_own(skin, head.joints, 0.5), 2].mean())
+    forward = at[:, 2] > foremost_m - 0.65 * (foremost_m - middle_m)
+    if not forward.any():  # Nothing lies before the middle: it is no face.
+        return {}
+    chin_m = float(at[forward, 1].min())
+    # Eyes are half way up a head, wherever it has none.
+    top_m = float(skin.positions[_own(skin, head.joints, 0.5), 1].max())
+    eyes_m = head.eyes_m if head.eyes_m is not None else (chin_m + top_m) / 2.0
+    requested_m = _notch_m(at[forward], eyes_m, chin_m)
+    nearest = front[np.argsort(np.abs(at[:, 1] - requested_m), kind="stable")[:LIP_VERTICES]]
+    depth_m = float(skin.positions[nearest, 2].max())
+    contact = nearest[skin.positions[nearest, 2] > depth_m - PATCH_M * head.size]
+    heights = skin.positions[contact, 1]
+    upper, lower = contact[heights >= np.median(heights)], contact[heights <= np.median(heights)]
+    found = {"lips.contact": contact, "lips.upper": upper, "lips.lower": lower}
+    return {name: _landmark(skin, np.sort(rows)) for name, rows in found.items()}
+
+
+def _notch_m(profile: FloatArray, eyes_m: float, chin_m: float) -> float:
+    """Height at which a profile (V, 3) goes in between two lips; where it does not, as on most faces."""
+    steps = np.round((eyes_m - profile[:, 1]) / max(eyes_m - chin_m, 1e-6) * STEPS).astype(np.intp)
+    low, high = (round((MOUTH_SHARE + sign * MOUTH_SPREAD) * STEPS) for sign in (-1, 1))
+    depths_m = np.array([profile[steps == step, 2].max(initial=-np.inf) for step in range(low, high + 1)])
+    known = np.flatnonzero(np.isfinite(depths_m))
+    goes_in_m, best = 0.0, round(MOUTH_SHARE * STEPS) - low
+    for place in known[1:-1]:
+        before_m, behind_m = depths_m[:place].max(), depths_m[place + 1 :].max()
+        if min(before_m, behind_m) - depths_m[place] > goes_in_m:
+            goes_in_m, best = float(min(before_m, behind_m) - depths_m[place]), int(place)
+    return eyes_m - (low + best) / STEPS * (eyes_m - chin_m)
+
+
+def _covered(skin: _Skin, front: IntArray, head: _Head) -> int:
+    """How many steps of height some vertices cover that lie before the head's joint and not above its eyes."""
+    at = skin.positions[front]
+    eyes_m = head.place[1] + 0.3 * HEAD_M * head.size if head.eyes_m is None else head.eyes_m
+    before = (at[:, 2] > head.place[2]) & (at[:, 1] < eyes_m)
+    return len(np.unique(np.floor(at[before, 1] / (PATCH_M * head.size))))
+
+
+def _profile(skin: _Skin, head: _Head) -> IntArray:
+    """The foremost vertices of a head near the middle of the face, looking ahead."""
+    own = _own(skin, head.joints, 0.5)
+    off = np.abs(skin.positions[own, 0] - head.place[0])
+    if not len(own):
+        return own
+    ahead = skin.normals[own, 2] > 0.2
+    near = own[ahead & (off < MIDLINE_M * head.size)]
+    if len(near) < 3:
+        near = own[ahead & (off < 3.0 * MIDLINE_M * head.size)]
+    # Not the inside of the mouth, nor what lies behind the skin.
+    at = skin.positions[near]
+    beside = np.abs(at[:, 1][:, None] - at[:, 1][None]) < PATCH_M * head.size
+    outer = np.where(beside, at[:, 2][None], -np.inf).max(axis=1, initial=-np.inf)
+    found: IntArray = near[at[:, 2] > outer - PATCH_M * head.size]
+    return found
+
+
+def _landmark(skin: _Skin, vertices: IntArray) -> Landmark:
+    return Landmark(skin.mesh.name, vertices.astype(np.int32))

@@ -1,0 +1,129 @@
+"""Loading characters: our own glTF binaries as they are, others as figures (`app.rig.characters.figure_to_character`).
+
+Messages: ``model.invalid``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Final
+
+import numpy as np
+
+from app.encoding import shown
+from app.rig.characters.face_map import FaceMapping, map_morphs
+from app.rig.characters.figure_to_character import figure_character
+from app.rig.characters.joint_mapping import JointMapping, map_joints
+from app.rig.characters.read_figure import read_figure
+from app.rig.characters.t_pose import facing_ahead, upright
+from app.rig.figure import Figure
+from app.rig.gltf_source import Source, build_mesh, invalid, read_source
+from app.rig.model import Character, Landmark, Skeleton
+from app.rig.skeleton import rest_positions
+from metadata.model import REQUIRED_JOINTS
+
+OURS: Final = "Suisou build_characters"
+"""The generator of our own files. A changed file names another program, and its vertices differ."""
+
+
+@dataclass(frozen=True, eq=False)
+class Reading:
+    """A figure and what of it is what.
+
+    Attributes
+    ----------
+    figure : Figure
+        Upright, facing +Z.
+    """
+
+    figure: Figure
+    joints: JointMapping
+    face: FaceMapping
+
+
+def load_character(
+    path: Path,
+    id: str = "",
+    joints: Mapping[str, str] | None = None,
+    morphs: Mapping[str, Mapping[str, float]] | None = None,
+) -> Character:
+    """Load a character from a file: VRM, glTF or FBX.
+
+    Parameters
+    ----------
+    id : str
+        The character's; by the file's name where empty.
+    joints : mapping of str to str
+        By VRM 1.0 joint: the bone that is it, whatever its name suggests; empty: none is.
+    morphs : mapping of str to mapping of str to float
+        By ARKit name: weights of the file's own morphs that make it.
+
+    Raises
+    ------
+    FileError
+        The file cannot be read, or holds no humanoid that can play.
+    """
+    try:
+        if path.suffix.lower() == ".glb":
+            source = read_source(path)
+            if source.gltf.generator == OURS:
+                return _ours(source, id or shown(path.stem))
+        reading = read_character(path, joints, morphs)
+        return figure_character(reading.figure, id or shown(path.stem), reading.joints.bones, reading.face.morphs)
+    except (KeyError, IndexError, TypeError, ValueError) as error:
+        raise invalid(path, f"damaged: {error!r}") from error
+
+
+def read_character(
+    path: Path, joints: Mapping[str, str] | None = None, morphs: Mapping[str, Mapping[str, float]] | None = None
+) -> Reading:
+    """Read a figure and find out what of it is what. Raises FileError; a figure that lacks joints raises none.
+
+    Parameters
+    ----------
+    joints, morphs : mapping
+        The user's corrections, as in `load_character`.
+    """
+    figure = read_figure(path)
+    found = map_joints(figure, joints)
+    if set(REQUIRED_JOINTS) <= set(found.bones):
+        facing = facing_ahead(upright(figure, found.bones), found.bones)
+        if facing is not figure:
+            # Which side is left depends on where ahead is.
+            figure, found = facing, map_joints(facing, joints)
+    return Reading(figure, found, map_morphs(figure, morphs))
+
+
+def _ours(source: Source, id: str) -> Character:
+    """One of our own: its nodes are the skeleton, normalised already, and one skin binds all meshes."""
+    nodes, (skin,) = source.gltf.nodes, source.gltf.skins
+    root = nodes[min(skin.joints)].parent
+
+    def way(node: int) -> tuple[int, ...]:
+        return (node,) if node == root else (*way(nodes[node].parent), node)
+
+    # Children follow their parent closely, as the user would list them.
+    joints = sorted((root, *skin.joints), key=way)
+    joint_of = {node: joint for joint, node in enumerate(joints)}
+    parents = tuple(joint_of.get(nodes[node].parent, -1) for node in joints)
+    offsets = source.world_from_node[joints, :3, 3]
+    offsets[1:] -= offsets[list(parents[1:])]
+    skeleton = Skeleton(tuple(nodes[node].name for node in joints), parents, offsets)
+    table = np.array([joint_of[node] for node in skin.joints], dtype=np.int32)
+    # The root, which the skin does not name, is as if bound at rest.
+    joint_from_mesh = np.tile(np.eye(4), (len(joints), 1, 1))
+    joint_from_mesh[:, :3, 3] = -rest_positions(skeleton)
+    joint_from_mesh[table] = skin.joint_from_mesh_bind
+    meshes = []
+    for entry in nodes:
+        if entry.mesh is not None:
+            mesh, _ = build_mesh(source, entry.mesh, source.gltf.meshes[entry.mesh].name)
+            weights = mesh.weights / np.maximum(mesh.weights.sum(axis=1, keepdims=True), 1e-9)
+            meshes.append(replace(mesh, joints=table[mesh.joints], weights=weights.astype(np.float32)))
+    places = source.gltf.scene_extras["suisou"]["landmarks"]
+    marks = {
+        name: Landmark(place["mesh"], np.asarray(place["vertices"], dtype=np.int32)) for name, place in places.items()
+    }
+    return Character(id, skeleton, joint_from_mesh, tuple(meshes), marks)

@@ -1,0 +1,41 @@
+"""Opening a character's file, whatever its format: glTF, GLB, VRM 0.x and 1.0, FBX.
+
+Messages: ``figure.too_large``, ``figure.unknown_format``, ``file.cannot_read``.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Final
+
+from app.errors import FileError
+from app.formats.files import open_file
+from app.rig.characters.figure_gltf import gltf_figure
+from app.rig.figure import Figure
+from app.rig.gltf_source import invalid
+
+SUFFIXES: Final = (".vrm", ".glb", ".gltf", ".fbx")
+"""Of the files that can be opened."""
+
+
+def read_figure(path: Path) -> Figure:
+    """Read the figure a file holds.
+
+    Raises
+    ------
+    FileError
+        It cannot be read, is of no known format, damaged, absurdly large, or holds no skeleton.
+    """
+    with open_file(path) as opened:
+        start = opened.read(64)
+    try:
+        if start.startswith(b"glTF") or start.lstrip(b"\xef\xbb\xbf \t\r\n").startswith(b"{"):
+            return gltf_figure(path)
+        if start.startswith(b"Kaydara FBX") or path.suffix.lower() == ".fbx":
+            # Reads by another process; our own characters are GLB files.
+            from app.rig.characters.figure_fbx import fbx_figure
+
+            return fbx_figure(path)
+    except (KeyError, IndexError, TypeError, ValueError, OverflowError) as error:
+        raise invalid(path, f"damaged: {error!r}") from error
+    raise FileError("figure.unknown_format", file=str(path))

@@ -1,0 +1,86 @@
+"""How a body carries an instrument before any motion: the angles of a map's `Carriage` and the upright posture."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from app.rig import quaternion
+from app.rig.grip.grip_pose import Lips
+from app.rig.model import Character, Skeleton
+from app.rig.skeleton import forward
+from instrument_maps import model as maps
+from instrument_maps.model import Carriage, InstrumentMap
+from metadata.model import Body, Posture
+
+FloatArray = npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Upright:
+    """A player standing still with the instrument at the lips, in the player's frame (+Z ahead, +X left).
+
+    Attributes
+    ----------
+    joints_m : (J, 3) float64
+        World positions of all joints, arms as in the T-pose.
+    instrument_m, instrument_rotation : (3,) and (4,) float64
+        ``world_from_instrument``.
+    """
+
+    joints_m: FloatArray
+    instrument_m: FloatArray
+    instrument_rotation: FloatArray
+
+
+def carriage_rotation(pitch_down_deg: float, yaw_left_deg: float, roll_left_deg: float) -> FloatArray:
+    """Rotation (4,) of an instrument in the player's frame for the angles of a `Carriage`."""
+    # Left is +X: the bell (+Z) goes left about +Y, down about +X, and up (+Y) leans left about -Z.
+    yaw = quaternion.from_axis_angle([0.0, 1.0, 0.0], np.radians(yaw_left_deg))
+    pitch = quaternion.from_axis_angle([1.0, 0.0, 0.0], np.radians(pitch_down_deg))
+    roll = quaternion.from_axis_angle([0.0, 0.0, -1.0], np.radians(roll_left_deg))
+    return quaternion.multiply(quaternion.multiply(yaw, pitch), roll)
+
+
+def carrying(body: Body, posture: maps.Posture, carriage: Carriage) -> Posture:
+    """A body's posture with head and trunk turned to the instrument as its carriage says."""
+    return body.turned_to(
+        posture,
+        pitch_down_deg=carriage.pitch_down_deg[1],
+        head_left_deg=carriage.head_left_deg,
+        head_lean_left_deg=carriage.head_lean_left_deg,
+        trunk_left_deg=carriage.trunk_left_deg,
+    )
+
+
+def joint_rotations(skeleton: Skeleton, posture: Posture) -> FloatArray:
+    """``parent_from_joint`` (1, J, 4) of the posture's spine and neck; arms as in the T-pose."""
+    rotations = np.tile(quaternion.IDENTITY, (1, len(skeleton.names), 1))
+    bent: dict[str, FloatArray] = {}
+    angles = (posture.spine_deg, posture.spine_turn_deg, posture.spine_left_deg)
+    for axis, (degrees, sign) in enumerate(zip(angles, (1.0, 1.0, -1.0), strict=True)):
+        for name, angle in degrees.items():
+            bent.setdefault(name, np.zeros(3))[axis] = sign * np.radians(angle)
+    for name, vector in bent.items():
+        if name in skeleton.names:
+            rotations[0, skeleton.index(name)] = quaternion.from_rotation_vector(vector)
+    return rotations
+
+
+def usual_posture(instrument_map: InstrumentMap) -> maps.Posture:
+    """The posture a hold is fitted in: standing, or the only one the instrument is played in."""
+    return instrument_map.hold.postures[0]
+
+
+def upright(character: Character, instrument_map: InstrumentMap, body: Body, lips: Lips) -> Upright:
+    """Stand a character up with its instrument, as its posture and the instrument's usual carriage say."""
+    usual = usual_posture(instrument_map)
+    skeleton, carriage = character.skeleton, instrument_map.hold.carriage(usual)
+    posed = forward(skeleton, joint_rotations(skeleton, carrying(body, usual, carriage)))
+    head_m, head = posed.of(skeleton.index("head"))
+    mouth_m = head_m[0] + quaternion.rotate(head[0], lips.usual_m)
+    turn = carriage_rotation(carriage.pitch_down_deg[1], carriage.yaw_left_deg[1], carriage.roll_left_deg[1])
+    rim_m = quaternion.rotate(turn, np.asarray(instrument_map.mouthpiece.position_m))
+    return Upright(posed.positions_m[0], mouth_m - rim_m, turn)

@@ -1,0 +1,317 @@
+"""The fingers of a hold at every frame: tables over the controls, and what the hand's giving way asks of them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from app.rig import quaternion
+from app.rig.grip.finger_ik import Asked, brought
+from app.rig.grip.grip_pose import (
+    FingerTable,
+    GripPose,
+    HandHold,
+    Placed,
+    StationTable,
+    WristOffset,
+    come_to,
+    given_way,
+    interpolated,
+    mixed,
+    wrist_given,
+)
+
+FloatArray = npt.NDArray[np.float64]
+IntArray = npt.NDArray[np.intp]
+Controls = Mapping[str, npt.NDArray[np.floating]]
+
+LIFT_STAY_M = 0.004
+"""A finger on its way is lifted as far as that is easy: towards what it cannot reach it would be thrown from one end of
+its range to the other."""
+LOW_HOVER = 0.123
+"""In slow passages a finger waits as low as if its control had come so far: at the map's height, which is 1 / 1.3 of
+the highest (`app.rig.grip.fitting.hand_problem.HOVER_MORE`)."""
+
+NEIGHBOURS = {
+    "index": {"middle": 0.3},
+    "middle": {"index": 0.2, "ring": 0.5},
+    "ring": {"middle": 0.5, "little": 0.5},
+    "little": {"ring": 1.0},
+}
+"""Which fingers come along with which others: ring with little and middle most (Zatsiorsky, Li & Latash 2000)."""
+GIVES = 0.10
+"""How far a waiting finger comes along at most, as a share of its control's way: some 2 mm."""
+
+
+def finger_rotations(
+    hold: GripPose,
+    controls: Controls,
+    frames: int,
+    placed: Mapping[str, Placed] | None = None,
+    raised: FloatArray | float = 0.0,
+) -> FloatArray:
+    """Pose the fingers.
+
+    Parameters
+    ----------
+    controls : dict of str to (F,)
+        Values 0..1; a control that is absent is at 0.
+    frames : int
+        F.
+    placed : mapping of str to Placed, optional
+        Where the fingers are that are not at home.
+    raised : (F,) float64 or float
+        0..1: how high fingers wait over their keys, from a slow passage to the fastest.
+
+    Returns
+    -------
+    (F, len(hold.finger_joints), 4) float64
+        ``parent_from_joint`` rotations in the order of ``hold.finger_joints``.
+    """
+    result = np.empty((len(hold.finger_joints), 4, frames)).transpose(2, 0, 1)
+    height = np.broadcast_to(np.asarray(raised, dtype=np.float64), (frames,))
+    start = 0
+    for hand in hold.hands:
+        ways: list[_Way] = []
+        moved = _moved(hand, frames, placed)
+        for table in hand.fingers:
+            stop = start + len(table.joints)
+            where = None if placed is None else placed.get(table.finger)
+            free = np.arange(frames) if table.chain is None else np.flatnonzero(~moved)
+            ways += _ways(table, where, free, slice(start, stop), given=False)
+            if table.chain is not None:
+                ways += _ways(table, where, np.flatnonzero(moved), slice(start, stop), given=True)
+            start = stop
+        heights = _heights(hand, controls, height)
+        for way, rotations in zip(ways, _posed(hand, ways, placed, controls, heights), strict=True):
+            result[slice(None) if len(way.frames) == frames else way.frames, way.joints] = rotations
+    return result
+
+
+def _heights(hand: HandHold, controls: Controls, raised: FloatArray) -> dict[str, FloatArray]:
+    """How high (F,) each finger waits: lower beside one that presses, with which it shares muscles and sinews."""
+    heights = {table.finger: raised for table in hand.fingers}
+    if not any(station.hovers for table in hand.fingers for station in table.stations):
+        return heights
+    pressing: dict[str, FloatArray] = {}
+    for table in hand.fingers:
+        worked = {name for station in table.stations for name in station.controls if name in controls}
+        if worked:
+            values = [np.asarray(controls[name], dtype=np.float64) for name in sorted(worked)]
+            pressing[table.finger.split(".")[1]] = np.clip(np.maximum.reduce(values), 0.0, 1.0)
+    for finger in heights:
+        for neighbour, share in NEIGHBOURS.get(finger.split(".")[1], {}).items():
+            if neighbour in pressing:
+                heights[finger] = heights[finger] - GIVES / LOW_HOVER * share * pressing[neighbour]
+    return heights
+
+
+@dataclass(frozen=True)
+class _Way:
+    """Frames in which a finger goes from one of its stations to another (or stays), and its joints among all;
+    ``given``: its hand gives way, or one of the fingers waits for that."""
+
+    table: FingerTable
+    first: int
+    second: int
+    frames: IntArray
+    share: FloatArray
+    joints: slice
+    given: bool
+
+
+def _moved(hand: HandHold, frames: int, placed: Mapping[str, Placed] | None) -> npt.NDArray[np.bool_]:
+    """In which frames (F,) a hand gives way, or one of its fingers waits for that."""
+    moved = np.zeros(frames, dtype=np.bool_)
+    for lean in hand.leans:
+        for share in (given_way(lean, placed), come_to(lean, placed)):
+            if share is not None:
+                moved |= share > 0.0
+    return moved
+
+
+def _ways(table: FingerTable, where: Placed | None, frames: IntArray, joints: slice, given: bool) -> list[_Way]:
+    """The ways between two stations among some frames."""
+    if not len(frames):
+        return []
+    if where is None:
+        return [_Way(table, 0, 0, frames, np.ones(len(frames)), joints, given)]
+    before, after = where.before[frames].astype(np.intp), where.after[frames].astype(np.intp)
+    ways = []
+    for first, second in sorted(set(zip(before.tolist(), after.tolist(), strict=True))):
+        here = frames[(before == first) & (after == second)]
+        ways.append(_Way(table, first, second, here, where.share[here], joints, given))
+    return ways
+
+
+def _posed(
+    hand: HandHold,
+    ways: Sequence[_Way],
+    placed: Mapping[str, Placed] | None,
+    controls: Controls,
+    raised: Mapping[str, FloatArray],
+) -> list[FloatArray]:
+    """Rotations (K, n, 4) of the fingers of one hand on their ways, all that is solved for them solved together.
+
+    At their places first, for the wrist there is; what is between two places is lifted over what lies between.
+    """
+    given = [(lean, weight) for lean in hand.leans for weight in [given_way(lean, placed)] if weight is not None]
+    wrist = wrist_given(hand, given)
+    ends: list[FloatArray | Asked] = []
+    for way in ways:
+        values = _sampled(way.table, controls, way.frames)
+        poses: tuple[FloatArray | Asked, ...] = _both(
+            way.table, way.first, way.second, way.share, values, raised[way.table.finger][way.frames]
+        )
+        if way.given:
+            here = (wrist[0][way.frames], wrist[1][way.frames]) if given else wrist
+            now = _Given(given, way.frames, here)
+            near, far = poses
+            assert not isinstance(near, Asked)
+            assert not isinstance(far, Asked)
+            at_far = _at_place(hand, way.table, way.second, far, now)
+            at_near = at_far if way.first == way.second else _at_place(hand, way.table, way.first, near, now)
+            poses = (at_near, at_far)
+        ends += poses
+    solved = _solved(ends)
+    return _solved(
+        [
+            far if way.first == way.second else _on_way(way.table, way.first, way.second, near, far, way.share)
+            for way, near, far in zip(ways, solved[::2], solved[1::2], strict=True)
+        ]
+    )
+
+
+def _solved(asked: Sequence[FloatArray | Asked]) -> list[FloatArray]:
+    """Poses, with those that are asked for brought there; what is the same is brought once."""
+    requested = {id(one): one for one in asked if isinstance(one, Asked)}
+    found = dict(zip(requested, brought(list(requested.values())), strict=True))
+    return [found[id(one)] if isinstance(one, Asked) else one for one in asked]
+
+
+def solved_pose(asked: FloatArray | Asked) -> FloatArray:
+    """One pose by itself."""
+    return _solved([asked])[0]
+
+
+def _at_station(
+    station: StationTable, controls: Controls, raised: FloatArray, pressed: FloatArray | float = 1.0
+) -> FloatArray:
+    """Rotations (F, n, 4) at one station; ``pressed`` lifts a finger that is on its way off what it works."""
+    known = [np.asarray(controls[name], dtype=np.float64) for name in station.controls if name in controls]
+    if not known or len(station.values) == 1:
+        return np.broadcast_to(station.rotations[0], (len(raised), *station.rotations.shape[1:]))
+    value = np.clip(np.maximum.reduce(known), 0.0, 1.0) * pressed
+    if station.hovers:
+        value = value + LOW_HOVER * (1.0 - raised) * (1.0 - value) ** 4
+    return interpolated(station.values, station.rotations, value)
+
+
+def _both(
+    table: FingerTable, first: int, second: int, share: FloatArray, controls: Controls, raised: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """Rotations (F, n, 4) at the two stations a finger goes between.
+
+    It lifts on its way, but where it keeps on something that it works at both ends of the way.
+    """
+    near, far = table.stations[first], table.stations[second]
+    if first == second:
+        stays = _at_station(near, controls, raised)
+        return stays, stays
+    keeps = bool(set(near.controls) & set(far.controls))
+    off, on = (1.0, 1.0) if keeps else (1.0 - share, share)
+    return _at_station(near, controls, raised, off), _at_station(far, controls, raised, on)
+
+
+def _on_way(
+    table: FingerTable, first: int, second: int, near: FloatArray, far: FloatArray, share: FloatArray
+) -> FloatArray | Asked:
+    """Rotations (K, n, 4) between two stations, lifted over what lies between."""
+    pose = mixed(near, far, share[:, None, None])
+    away = max((table.stations[first].away_m, table.stations[second].away_m), key=lambda one: float(one @ one))
+    return raised_way(table, first, second, pose, share, away) if np.any(away) else pose
+
+
+def raised_way(
+    table: FingerTable, first: int, second: int, rotations: FloatArray, share: FloatArray, away_m: FloatArray
+) -> FloatArray | Asked:
+    """Lift a finger that is between two of its stations, most half way: rotations (K, n, 4)."""
+    near, far = table.stations[first], table.stations[second]
+    if table.chain is None or min(near.tip_joint, far.tip_joint) < 0 or not np.any(away_m):
+        return rotations
+    # What touches farther out is lifted, or it would dip into what the inner joints are lifted over.
+    outer = max(near, far, key=lambda station: station.tip_joint)
+    tips = np.broadcast_to(outer.tip_m, (len(share), 3))
+    requested = _tip(table, rotations, tips, outer.tip_joint) + np.multiply.outer(np.sin(np.pi * share), away_m)
+    return Asked(table.chain, rotations, outer.tip_joint, outer.tip_m, requested, LIFT_STAY_M)
+
+
+def _sampled(table: FingerTable, controls: Controls, here: IntArray) -> Controls:
+    names = {name for station in table.stations for name in station.controls if name in controls}
+    return {name: np.asarray(controls[name])[here] for name in sorted(names)}
+
+
+@dataclass(frozen=True)
+class _Given:
+    """How a hand gives way in some frames: how far (F,) for each of its leans in all frames, and where its wrist is in
+    these, (K, 3) and (K, 4), or in one that stands for all."""
+
+    leans: Sequence[tuple[WristOffset, FloatArray]]
+    frames: IntArray
+    wrist: tuple[FloatArray, FloatArray]
+
+    def waits(self, lean: WristOffset) -> FloatArray:
+        """How far (K,) it is from giving way."""
+        weight = next((weight[self.frames] for one, weight in self.leans if one is lean), np.zeros(len(self.frames)))
+        return 1.0 - weight
+
+
+def _at_place(
+    hand: HandHold, table: FingerTable, index: int, rotations: FloatArray, given: _Given
+) -> FloatArray | Asked:
+    """Rotations (K, n, 4) at a station, for another wrist than the one they were solved for."""
+    station = table.stations[index]
+    if station.tip_joint < 0:
+        return rotations
+    lean = next((lean for lean in hand.leans if lean.places == ((table.finger, index),)), None)
+    if lean is None:
+        return with_wrist(table, station, rotations, wrist_given(hand, []), given.wrist)
+    lifted = np.multiply.outer(given.waits(lean), station.waits_m)
+    own = wrist_given(hand, [(lean, np.ones(1))])
+    return with_wrist(table, station, rotations, own, given.wrist, lifted)
+
+
+def with_wrist(
+    table: FingerTable,
+    station: StationTable,
+    rotations: FloatArray,
+    own: tuple[FloatArray, FloatArray],
+    wrist: tuple[FloatArray, FloatArray],
+    lifted_m: FloatArray | float = 0.0,
+) -> Asked:
+    """Rotations (K, n, 4) that leave what touches at a station where it is, for another wrist than their ``own``.
+
+    Wrists are places (K, 3) and rotations (K, 4) in one frame; ``lifted_m`` (K, 3) is added in that of the wrist.
+    """
+    assert table.chain is not None
+    tips = np.broadcast_to(station.tip_m, (len(rotations), 3))
+    requested = own[0] + quaternion.rotate(own[1], _tip(table, rotations, tips, station.tip_joint))
+    local = quaternion.rotate(quaternion.conjugate(wrist[1]), requested - wrist[0]) + lifted_m
+    return Asked(table.chain, rotations, station.tip_joint, station.tip_m, np.broadcast_to(local, (len(rotations), 3)))
+
+
+def tip_m(table: FingerTable, station: StationTable, rotations: FloatArray) -> FloatArray:
+    """Where (K, 3) what touches at a station is in the wrist's frame."""
+    return _tip(table, rotations, np.broadcast_to(station.tip_m, (len(rotations), 3)), station.tip_joint)
+
+
+def _tip(table: FingerTable, rotations: FloatArray, tip_m: FloatArray, joint: int) -> FloatArray:
+    """Where a point (K, 3) of a joint is in the wrist's frame."""
+    assert table.chain is not None
+    point = tip_m
+    for index in range(joint, -1, -1):
+        point = table.chain.offsets_m[index] + quaternion.rotate(rotations[:, index], point)
+    return point

@@ -1,0 +1,207 @@
+"""Fitting a hold: how one body's hands lie on one instrument.
+
+For each hand a bounded least-squares problem (`app.rig.grip.fitting.hand_problem`): the wrist's place in the
+instrument's frame, the finger joints with every control at rest and again with every control fully worked, and the
+elbow's swivel. Requested are the map's contacts on the deformed skin, no skin inside the instrument's proxy, fingers
+that do not pass through each other, a straight wrist under a natural elbow, and fingers near their relaxed curl
+(`app.rig.grip.fitting.residuals`). The fingers that work a control are then solved for values between
+(`app.rig.grip.fitting.solved_fingers`).
+
+Messages: ``character.landmarks_missing``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+import numpy.typing as npt
+
+from app.rig import quaternion
+from app.rig.grip.body_size import sized, sized_character, sized_model
+from app.rig.grip.carriage import Upright, upright
+from app.rig.grip.finger_stations import asked_together
+from app.rig.grip.fitting.fit_terms import GRIP_M, INSIDE_M, TOUCH_M, Progress, no_progress, require_landmarks
+from app.rig.grip.fitting.hand_problem import Problem, grip_problem, joint_angles, travel, wrist_transform
+from app.rig.grip.fitting.judged_grip import judge
+from app.rig.grip.fitting.leaning_hand import Leaning, lean_of, leanings, whole_hand
+from app.rig.grip.fitting.search import finished, search_knots, starts
+from app.rig.grip.fitting.solved_fingers import MOVED_VALUES, STILL_VALUES, GripScene, finger_tables, solve_tables
+from app.rig.grip.fitting.two_fingers import leans_beside
+from app.rig.grip.fitting.ways_between_stations import lifted_ways
+from app.rig.grip.grip_pose import GripPose, HandHold, NodeMotion, StationTable
+from app.rig.grip.lips import fit_lips
+from app.rig.model import Character, InstrumentModel
+from instrument_maps.model import Control, HandSeed, InstrumentMap
+from instrument_maps.size import scaled
+from metadata.model import Body
+
+FloatArray = npt.NDArray[np.float64]
+
+
+def fit_hold(
+    character: Character,
+    model: InstrumentModel,
+    instrument_map: InstrumentMap,
+    body: Body,
+    progress: Progress = no_progress,
+) -> GripPose:
+    """Fit how a character holds an instrument; deterministic, and slow: `app.rig.grip.fitting.grip_files.hold_for`
+    keeps the results.
+
+    Parameters
+    ----------
+    body : Body
+        Limits of the joints and posture.
+    progress : callable
+        Called with the share 0..1 that is done; what it raises stops the work.
+
+    Returns
+    -------
+    GripPose
+        What could not be met stands in its hands' ``contacts`` and ``penetration_m``.
+
+    Raises
+    ------
+    UsageError
+        ``character.landmarks_missing``: the body lacks a place the instrument touches.
+    """
+    require_landmarks(character, instrument_map)
+    lips = fit_lips(character, instrument_map, body)
+    stand = upright(character, instrument_map, body, lips)
+    size = instrument_map.size
+    if size != 1.0:
+        # What is near and what is far in a hand goes with its instrument: both are fitted as if that had its own size.
+        character, model = sized_character(character, 1.0 / size), sized_model(model, 1.0 / size)
+        instrument_map = scaled(instrument_map, 1.0 / size)
+        stand = Upright(stand.joints_m / size, stand.instrument_m / size, stand.instrument_rotation)
+    fitted = []
+    for number, seed in enumerate(instrument_map.hands):
+        part = _part(progress, number / len(instrument_map.hands), (number + 1) / len(instrument_map.hands))
+        fitted.append(_fit_hand(character, model, instrument_map, body, seed, stand, size, part))
+    return GripPose(character.id, instrument_map.id, tuple(sized(hand, size) for hand in fitted), lips)
+
+
+def _part(progress: Progress, first: float, last: float) -> Progress:
+    """Reports progress of a part of the work as a share of the whole."""
+    return lambda share: progress(first + (last - first) * share)
+
+
+def _fit_hand(
+    character: Character,
+    model: InstrumentModel,
+    instrument_map: InstrumentMap,
+    body: Body,
+    seed: HandSeed,
+    stand: Upright,
+    size: float,
+    progress: Progress,
+) -> HandHold:
+    """Fit one hand. Where the best start does not end well, the next ones are tried; the best end counts."""
+    problem, carrier = grip_problem(character, model, instrument_map, body, seed, stand)
+    if carrier is not None:
+        knots, holds = search_knots(problem, model, instrument_map, carrier, _part(progress, 0.0, 0.55))
+        from scipy.interpolate import PchipInterpolator  # heavy; holds are fitted seldom
+
+        # A wrist between knots follows a smooth curve; the fingers are then solved for it.
+        path = PchipInterpolator(knots, holds)(MOVED_VALUES)
+        return _held(problem, model, instrument_map, carrier, holds[0], path, seed, stand, _part(progress, 0.55, 1.0))
+    best: HandHold | None = None
+    for number, start in enumerate(starts(problem, _part(progress, 0.0, 0.4))):
+        part = _part(progress, 0.4 + 0.2 * number, 0.6 + 0.2 * number)
+        part(0.0)
+        whole = finished(problem, start)
+        found = _held(problem, model, instrument_map, None, whole, whole[None], seed, stand, part)
+        if best is None or _missed(found, size) < _missed(best, size):
+            best = found
+        if _missed(best, size) <= 1.0:
+            break
+    assert best is not None
+    return best
+
+
+def _missed(hold: HandHold, size: float) -> float:
+    """What is worst about a hold, as a multiple of what a touch may be off, and skin may be inside."""
+    touches = [one for one in hold.contacts if one.firm]
+    off = [one.distance_m / (GRIP_M if one.control is None else TOUCH_M) for one in touches]
+    return size * max(*off, hold.penetration_m / INSIDE_M, 0.0)
+
+
+def _held(
+    problem: Problem,
+    model: InstrumentModel,
+    instrument_map: InstrumentMap,
+    carrier: Control | None,
+    best: FloatArray,
+    path: FloatArray,
+    seed: HandSeed,
+    stand: Upright,
+    progress: Progress,
+) -> HandHold:
+    """A solved hand: its fingers at all their places, how it gives way for them, and how well it all meets.
+
+    ``best`` (n,) are the parameters that were found, ``path`` (S, n) those along what carries the hand.
+    """
+    hand = problem.hand
+    values = MOVED_VALUES if carrier is not None or problem.worked else STILL_VALUES
+    position, turn = wrist_transform(problem, path)
+    scene = GripScene(model, instrument_map, carrier, position, quaternion.to_matrix(turn))
+    solved = solve_tables(problem, scene, joint_angles(problem, path), best, _part(progress, 0.0, 0.3))
+    leant = leanings(problem, scene, best, solved, _part(progress, 0.3, 0.9))
+    leans = tuple(lean_of(problem, scene, one) for one in leant)
+    at_leans = {(one.solved.number, one.solved.station): one.solved for one in leant}
+    solved = tuple(at_leans.get((one.number, one.station), one) for one in solved)
+    wrists = {(one.solved.number, one.index): one.scene for one in leant}
+    fingers = lifted_ways(problem, scene, finger_tables(problem, scene, solved), wrists)
+    contacts, depth = judge(problem, scene, fingers, values, _leant_tables(problem, leant))
+    motion = None if carrier is None else _node_motion(carrier)
+    pole = quaternion.rotate(
+        stand.instrument_rotation, np.cos(best[6]) * problem.swivel_frame[0] + np.sin(best[6]) * problem.swivel_frame[1]
+    )
+    hold = HandHold(
+        side=hand.side,
+        node=seed.node,
+        motion=motion,
+        values=values if carrier is not None else np.zeros(1),
+        instrument_from_hand_m=position,
+        instrument_from_hand_rotation=turn,
+        fingers=fingers,
+        elbow_direction=pole,
+        contacts=contacts,
+        penetration_m=depth,
+        leans=leans,
+    )
+    if leans:
+        whole = [touch.positions[0] for touch in problem.touches if touch.contact.part in whole_hand(hand.side)]
+        more = leans_beside(hold, np.reshape(whole, (-1, 3)), asked_together(instrument_map))
+        hold = replace(hold, leans=leans + more)
+    return hold
+
+
+def _leant_tables(
+    problem: Problem, leant: Sequence[Leaning]
+) -> dict[tuple[int, int], tuple[GripScene, dict[int, StationTable]]]:
+    """The wrist and the other fingers wherever the hand gives way."""
+    result = {}
+    for one in leant:
+        tables = {
+            number: table.stations[0]
+            for number, table in enumerate(finger_tables(problem, one.scene, one.others))
+            if table.stations
+        }
+        result[one.solved.number, one.index] = (one.scene, tables)
+    return result
+
+
+def _node_motion(control: Control) -> NodeMotion | None:
+    motion = control.motion
+    if motion is None:
+        return None
+    return NodeMotion(
+        control=control.name,
+        travel_m=travel(control),
+        axis=np.asarray(motion.axis, dtype=np.float64),
+        angle_rad=motion.angle_rad or 0.0,
+        pivot_m=np.asarray(motion.pivot_m or (0.0, 0.0, 0.0), dtype=np.float64),
+    )

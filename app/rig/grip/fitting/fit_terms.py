@@ -1,0 +1,38 @@
+"""What a fit of a hold (`app.rig.grip.fitting.fit`) needs and keeps to, for what starts one or uses its results.
+
+Messages: ``character.landmarks_missing``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from app.errors import UsageError
+from app.rig.model import Character
+from instrument_maps.model import InstrumentMap
+
+TOUCH_M, GRIP_M, INSIDE_M = 0.002, 0.003, 0.003
+"""A hold ends well where what works a control is off by no more than this, what carries the instrument by no more than
+this, and no skin is deeper inside it than this."""
+
+FIT_VERSION = 15
+"""Part of the digest of stored holds (`app.rig.grip.fitting.grip_files`): raise it when a fit comes out differently
+..."""
+PLACES_VERSION = 3
+"""... and this one when it does so only where fingers wait over what they work, or work it at several places."""
+
+Progress = Callable[[float], None]
+"""Called with the share 0..1 that is done; what it raises stops the work."""
+
+
+def no_progress(share: float) -> None:
+    """Ignores the progress."""
+
+
+def require_landmarks(character: Character, instrument_map: InstrumentMap) -> None:
+    """Raise UsageError ``character.landmarks_missing`` where a body lacks a place the instrument touches."""
+    needed = {contact.part for contact in instrument_map.contacts}
+    needed |= {f"{seed.hand}.{place}" for seed in instrument_map.hands for place in ("palm", "hand")}
+    missing = sorted(needed - set(character.landmarks))
+    if missing:
+        raise UsageError("character.landmarks_missing", id=character.id, missing=", ".join(missing))

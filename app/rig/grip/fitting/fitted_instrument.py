@@ -1,0 +1,239 @@
+"""The instrument as one body plays it: of the size that its hands and arms ask for, touched by what the body has.
+
+Messages, what an animator should know of a character with an instrument:
+
+character.instrument_size : percent
+    "plays an instrument of {percent} % ..."
+character.no_fingers : side
+    "the {side} hand has no fingers that bend: ..."
+character.no_hand : side
+    "the {side} hand has no skin: ..."
+character.no_lips
+    "there is no mouth ..."
+character.lips_still
+    "the mouth does not open ..."
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+import msgspec
+import numpy as np
+import numpy.typing as npt
+
+from app.errors import Message
+from app.rig import quaternion
+from app.rig.characters.landmarks import JAW_MORPHS
+from app.rig.grip.body_size import arm_m, arm_size, hand_size
+from app.rig.grip.carriage import Upright, upright
+from app.rig.grip.fitting.grip_files import usual_wrists
+from app.rig.grip.fitting.hand_problem import seed_turn, travel
+from app.rig.grip.lips import fit_lips
+from app.rig.model import Character, InstrumentModel
+from app.rig.skeleton import forward, rest_positions
+from app.rig.skinning import landmark_joints, landmark_positions, mesh_named
+from instrument_maps.model import FINGERS, Carriage, Contact, Hand, HandSeed, InstrumentMap
+from instrument_maps.size import scaled
+from metadata.load import load_skeleton
+from metadata.model import Body
+
+FloatArray = npt.NDArray[np.float64]
+
+REACH_SHARE, CARRIED_SHARE = 0.95, 1.70
+"""A wrist is at most so far from its shoulder, as a multiple of the arm; on a slide, far out, shoulders and trunk help.
+What the instruments ask of our own grown-ups, about."""
+LOWERED, WORTH = (0.0, 0.5, 1.0, -0.5), 0.02
+"""Shares of the way to its lowest carriage that an instrument is tried at: another than usual has to be worth it."""
+SAME = (0.95, 1.06)
+"""Hands and arms of so many times a grown-up's play a grown-up's instrument."""
+STEP = 0.01
+"""Sizes are looked at so far apart."""
+BENDS = 0.5
+"""A finger is one of its own where its skin goes along with it by this weight."""
+
+
+class FittedInstrument(NamedTuple):
+    """An instrument as one body plays it, and what is to be reported about that."""
+
+    instrument: InstrumentMap
+    reported: tuple[Message, ...]
+
+
+def suited(
+    character: Character, instrument: InstrumentMap, body: Body, model: Callable[[], InstrumentModel]
+) -> FittedInstrument:
+    """Suit an instrument to a body. One that lacks nothing and is of a grown-up's size gets the very map.
+
+    Parameters
+    ----------
+    model : callable
+        Loads the map's model; asked only where arms are short.
+    """
+    held, reported = _touched(character, instrument)
+    held = _carried(character, held, body, model)
+    if held.size != 1.0:
+        reported = (Message("character.instrument_size", {"percent": round(100.0 * held.size)}), *reported)
+    return FittedInstrument(held, reported)
+
+
+def _touched(character: Character, instrument: InstrumentMap) -> tuple[InstrumentMap, tuple[Message, ...]]:
+    """The map with those contacts that the body can have, and what it has not."""
+    reported = []
+    contacts, hands = instrument.contacts, instrument.hands
+    for side in dict.fromkeys(seed.hand for seed in instrument.hands):
+        if not {f"{side}.hand", f"{side}.palm"} <= character.landmarks.keys():
+            contacts = tuple(contact for contact in contacts if not contact.part.startswith(f"{side}."))
+            hands = tuple(seed for seed in hands if seed.hand != side)
+            reported.append(Message("character.no_hand", {"side": side}))
+            continue
+        stiff = frozenset(finger for finger in FINGERS if not _bends(character, side, finger))
+        if stiff and any(_of(contact, side) in stiff for contact in contacts):
+            contacts = _guided(contacts, side, stiff)
+            reported.append(Message("character.no_fingers", {"side": side}))
+    if "lips.contact" not in character.landmarks:
+        reported.append(Message("character.no_lips", {}))
+    elif not mouth_opens(character):
+        reported.append(Message("character.lips_still", {}))
+    if contacts is instrument.contacts and hands is instrument.hands:
+        return instrument, tuple(reported)
+    return msgspec.structs.replace(instrument, contacts=contacts, hands=hands), tuple(reported)
+
+
+def _of(contact: Contact, side: str) -> str:
+    """Which finger of a hand a contact is with; empty where none."""
+    hand, _, rest = contact.part.partition(".")
+    return rest.partition(".")[0] if hand == side else ""
+
+
+def _guided(contacts: tuple[Contact, ...], side: Hand, stiff: frozenset[str]) -> tuple[Contact, ...]:
+    """Contacts with some fingers only guiding the hand: each to the first place that its parts have."""
+    result: list[Contact] = []
+    placed: set[str] = set()
+    for contact in contacts:
+        if _of(contact, side) not in stiff:
+            result.append(contact)
+        elif contact.part not in placed:
+            placed.add(contact.part)
+            result.append(msgspec.structs.replace(contact, control=None, together=(), when="always", grip="guide"))
+    return tuple(result)
+
+
+def _bends(character: Character, side: Hand, finger: str) -> bool:
+    """Whether the skin of a finger's tip goes along with the finger."""
+    mark = character.landmarks.get(f"{side}.{finger}.pad")
+    if mark is None:
+        return False
+    joints = [character.skeleton.index(name) for name in load_skeleton().fingers[side][finger].joints]  # type: ignore[index]
+    mesh = mesh_named(character, mark.mesh)
+    own = np.isin(mesh.joints[mark.vertices], joints)
+    return float((mesh.weights[mark.vertices] * own).sum(axis=1).mean()) > BENDS
+
+
+def mouth_opens(character: Character) -> bool:
+    """Whether a character has a mouth, and a morph that opens it."""
+    if "lips.contact" not in character.landmarks:
+        return False
+    mesh = mesh_named(character, character.landmarks["lips.contact"].mesh)
+    return any(morph.name in JAW_MORPHS for morph in mesh.morphs)
+
+
+def _carried(
+    character: Character, instrument: InstrumentMap, body: Body, model: Callable[[], InstrumentModel]
+) -> InstrumentMap:
+    """The instrument of the size nearest to 1 at which hands of this size play and both arms reach, moved within the
+    range of its carriage where that lets it be larger; where they never reach, as near as they come."""
+    low, high = instrument.hold.size_range
+    hands = _hands(character)
+    requested = 1.0 if SAME[0] < hands < SAME[1] else round(min(max(hands, low), high), 2)
+    if min((arm_size(character.skeleton, seed.hand) for seed in instrument.hands), default=1.0) > SAME[0]:
+        return scaled(instrument, requested)
+    sizes = np.append(np.arange(requested, low, -STEP), low)
+    mouth = fit_lips(character, instrument, body)
+    best, found = (-np.inf, 0.0), instrument
+    for share in LOWERED:
+        moved = _lowered(instrument, share)
+        stand = upright(character, moved, body, mouth)
+        asked = np.max([_asked(character, moved, model, seed, stand, sizes) for seed in moved.hands], axis=0)
+        reached = np.flatnonzero(asked <= 1.0)
+        row = reached[0] if len(reached) else int(asked.argmin())
+        judged = (-max(float(asked[row]), 1.0), float(sizes[row]))
+        if judged > (best[0] + WORTH, best[1]) or (judged[0] >= best[0] and judged[1] > best[1] + WORTH):
+            best, found = judged, moved
+    return scaled(found, round(best[1], 2))
+
+
+def _hands(character: Character) -> float:
+    """How large the hands are; of supplied ones, which are not shown, how long the arms are."""
+    skeleton, own = character.skeleton, character.own
+    if own is not None and any(
+        own.bone_of_joint[skeleton.index(f"{side}MiddleDistal")] < 0 for side in ("left", "right")
+    ):
+        return min(arm_size(skeleton, "left"), arm_size(skeleton, "right"))
+    return hand_size(skeleton)
+
+
+def _lowered(instrument: InstrumentMap, share: float) -> InstrumentMap:
+    """The instrument usually carried so much nearer to the lowest (its bell down) of its range."""
+
+    def lower(carriage: Carriage | None) -> Carriage | None:
+        if carriage is None:
+            return None
+        highest, usual, lowest = carriage.pitch_down_deg
+        return msgspec.structs.replace(carriage, pitch_down_deg=(highest, usual + share * (lowest - usual), lowest))
+
+    if share == 0.0:
+        return instrument
+    hold = instrument.hold
+    hold = msgspec.structs.replace(hold, standing=lower(hold.standing), seated=lower(hold.seated))
+    return msgspec.structs.replace(instrument, hold=hold)
+
+
+def _asked(
+    character: Character,
+    instrument: InstrumentMap,
+    model: Callable[[], InstrumentModel],
+    seed: HandSeed,
+    stand: Upright,
+    sizes: FloatArray,
+) -> FloatArray:
+    """How much of what an arm can do each size (S,) asks of it; where it is beyond 1 the hand is not reached.
+
+    The palm lies where an adult's does, if any character's hold is known, else where its seed is.
+    """
+    skeleton, side = character.skeleton, seed.hand
+    rim_m = np.asarray(instrument.mouthpiece.position_m)
+    mouth_m = stand.instrument_m + quaternion.rotate(stand.instrument_rotation, rim_m)
+    back = quaternion.conjugate(stand.instrument_rotation)
+    shoulder_m = quaternion.rotate(back, stand.joints_m[skeleton.index(f"{side}UpperArm")] - mouth_m)
+    palm_m = _palm_m(character, side)
+    known = usual_wrists(instrument.id).get(side)
+    if known is None:
+        nodes = model()
+        place_m, turn = (
+            nodes.node_positions_m[nodes.node_names.index(seed.node)] + seed.palm_position_m,
+            seed_turn(seed),
+        )
+    else:
+        wrist_m, turn = known
+        place_m = wrist_m + quaternion.rotate(turn, palm_m / _hands(character))
+    carrier = next((control for control in instrument.controls if control.node == seed.node), None)
+    ways_m = np.zeros((2, 3)) if carrier is None else np.stack([np.zeros(3), travel(carrier)])
+    asked = np.zeros(len(sizes))
+    for way_m, share in zip(ways_m, (REACH_SHARE, CARRIED_SHARE), strict=True):
+        wrists_m = np.multiply.outer(sizes, place_m - rim_m + way_m) - quaternion.rotate(turn, palm_m)
+        asked = np.maximum(asked, np.linalg.norm(wrists_m - shoulder_m, axis=1) / (share * arm_m(skeleton, side)))
+    return asked
+
+
+def _palm_m(character: Character, side: Hand) -> FloatArray:
+    """The middle of the palm's skin in the wrist's frame at rest."""
+    skeleton = character.skeleton
+    name = f"{side}.palm"
+    still = forward(
+        skeleton, np.tile(quaternion.IDENTITY, (1, len(skeleton.names), 1)), joints=landmark_joints(character, (name,))
+    )
+    palm_m: FloatArray = landmark_positions(character, (name,), still)[0, 0]
+    palm_m -= rest_positions(skeleton)[skeleton.index(f"{side}Hand")]
+    return palm_m

@@ -1,0 +1,196 @@
+"""Holds kept in files, because fitting one takes seconds and its inputs seldom change.
+
+A hold is found by the digest of everything it was fitted from: first among those that come with the program, then in
+the user's cache. A file that is absent, damaged or of other inputs is as good as none: the hold is fitted again.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import hashlib
+from collections.abc import Mapping
+from dataclasses import replace
+from functools import lru_cache
+from importlib.resources import files
+from pathlib import Path
+from typing import Any
+
+import msgspec
+import numpy as np
+import numpy.typing as npt
+
+from app.errors import FileError
+from app.formats.atomic import atomic_write
+from app.formats.cache import cache_folder
+from app.formats.files import read_file
+from app.formats.json_data import decode_json
+from app.rig.grip.carriage import usual_posture
+from app.rig.grip.finger_stations import asked_together, only_at
+from app.rig.grip.fitting.fit_terms import FIT_VERSION, PLACES_VERSION, Progress, no_progress, require_landmarks
+from app.rig.grip.grip_pose import GripPose, HandHold, Lips
+from app.rig.grip.lips import fit_lips
+from app.rig.model import Character, InstrumentModel
+from instrument_maps.model import Control, InstrumentMap
+from metadata.model import BREATH_MORPHS, Body
+
+MOST_BYTES = 2**22
+"""Of a file; those that come with the program have a twentieth of it."""
+DIGITS = 6
+"""A millionth of a radian or of a metre is far below what is visible, and keeps the files small."""
+
+
+class _StoredHold(msgspec.Struct, frozen=True):
+    """What is slow to fit; the lips are not, and they follow the face's weights, which the hands do not.
+
+    Files of older versions hold more, which is passed over: to fit a hold anew takes a minute.
+    """
+
+    digest: str
+    character_id: str
+    instrument_id: str
+    hands: tuple[HandHold, ...]
+
+
+def digest_of(character: Character, model: InstrumentModel, instrument: InstrumentMap, body: Body) -> str:
+    """Return the hexadecimal digest of all that the hands of `fit_hold` depend on."""
+    digest = hashlib.blake2b(digest_size=16)
+    digest.update(f"{FIT_VERSION}\n{character.skeleton.names}\n{character.skeleton.parents}\n".encode())
+    arrays: list[npt.NDArray[Any]] = [character.skeleton.offsets_m, character.joint_from_mesh, model.node_positions_m]
+    for mesh in character.meshes:
+        arrays += [mesh.positions_m, mesh.triangles, mesh.joints, mesh.weights]
+        for morph in mesh.morphs:
+            if morph.name in BREATH_MORPHS:
+                # They move no hand and no lip.
+                continue
+            digest.update(morph.name.encode())
+            arrays += [morph.vertices, morph.deltas_m]
+    for name, landmark in sorted(character.landmarks.items()):
+        digest.update(f"{name} {landmark.mesh}\n".encode())
+        arrays.append(landmark.vertices)
+    if any(place is not None for place in only_at(instrument)):
+        digest.update(f"{PLACES_VERSION}\n{asked_together(instrument)}\n".encode())
+    for array in arrays:
+        digest.update(str((array.dtype.str, array.shape)).encode())
+        digest.update(np.ascontiguousarray(array).tobytes())
+    # Names do not touch the hands, nor fingerings but for what they ask of several fingers at once; nor does how it is
+    # carried in a posture that is not the usual one, or in a rest.
+    usual = usual_posture(instrument)
+    hands = (
+        instrument.mouthpiece,
+        tuple(map(_untimed, instrument.controls)),
+        instrument.links,
+        instrument.contacts,
+        instrument.hands,
+        instrument.proxy,
+        (usual, instrument.hold.carriage(usual)),
+        (instrument.embouchure.kind, instrument.embouchure.lips_apart_m),
+    )
+    if instrument.size != 1.0:
+        digest.update(f"size {instrument.size}\n".encode())
+    ranges = {name: (limit.flexion_deg, limit.sideways_deg, limit.twist_deg) for name, limit in body.limits.items()}
+    digest.update(msgspec.json.encode((hands, ranges, body.postures), order="sorted"))
+    return digest.hexdigest()
+
+
+def _untimed(control: Control) -> Control:
+    """A control without how fast and how long it is worked, which the hold does not depend on."""
+    return msgspec.structs.replace(
+        control, move_window_s=0.0, move_note_share=0.0, max_speed_m_s=None, held_min_s=None, attack_s=None
+    )
+
+
+def bundled_path(character_id: str, instrument_id: str) -> Path:
+    """Where the hold of a bundled pair lies in this installation."""
+    return Path(str(files("resources"))) / "holds" / f"{character_id}.{instrument_id}.json"
+
+
+@lru_cache(maxsize=128)
+def usual_wrists(instrument_id: str) -> Mapping[str, tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]]:
+    """Where the wrists of one of our bodies are on an instrument, by side: place (3,) and rotation (4,) in its frame.
+    Empty for an instrument that none of them holds yet."""
+    for path in sorted(bundled_path("*", instrument_id).parent.glob(f"*.{instrument_id}.json")):
+        with contextlib.suppress(FileError):
+            kept = _read(path)
+            return {
+                hand.side: (
+                    np.atleast_2d(hand.instrument_from_hand_m)[0],
+                    np.atleast_2d(hand.instrument_from_hand_rotation)[0],
+                )
+                for hand in kept.hands
+            }
+    return {}
+
+
+def write_hold(path: Path, digest: str, hold: GripPose) -> None:
+    """Write a hold; the file appears whole or not at all. Raises FileError."""
+    with atomic_write(path) as file:
+        stored = _StoredHold(digest, hold.character_id, hold.instrument_id, hold.hands)
+        file.write(msgspec.json.encode(stored, enc_hook=_plain))
+
+
+def stored(hold: GripPose) -> GripPose:
+    """The hold as it comes back from a file: with rounded numbers."""
+    kept = _StoredHold("", hold.character_id, hold.instrument_id, hold.hands)
+    back = msgspec.json.decode(msgspec.json.encode(kept, enc_hook=_plain), type=_StoredHold, dec_hook=_array)
+    return replace(hold, hands=back.hands)
+
+
+def read_hold(path: Path, digest: str, lips: Lips) -> GripPose | None:
+    """Read the hold fitted from inputs of this digest; None where the file holds no such thing."""
+    try:
+        stored = _read(path)
+    except FileError:
+        return None
+    if stored.digest != digest:
+        return None
+    return GripPose(stored.character_id, stored.instrument_id, stored.hands, lips)
+
+
+def hold_for(
+    character: Character,
+    model: InstrumentModel,
+    instrument: InstrumentMap,
+    body: Body,
+    progress: Progress = no_progress,
+) -> GripPose:
+    """Return how a body holds an instrument: the stored hold, or a new fit, which is then kept in the cache.
+
+    ``progress`` is called during the fit, and may stop it (`fit_hold`).
+    """
+    require_landmarks(character, instrument)
+    digest = digest_of(character, model, instrument, body)
+    cached = cache_folder("holds") / f"{digest}.json"
+    lips = fit_lips(character, instrument, body)
+    for path in (bundled_path(character.id, instrument.id), cached):
+        hold = read_hold(path, digest, lips)
+        if hold is not None:
+            return hold
+    from app.rig.grip.fitting.fit import fit_hold  # heavy; holds are fitted seldom
+
+    hold = stored(fit_hold(character, model, instrument, body, progress))
+    # A cache that cannot be written costs the next run some seconds and nothing else.
+    with contextlib.suppress(OSError, FileError):
+        cached.parent.mkdir(parents=True, exist_ok=True)
+        write_hold(cached, digest, hold)
+    return hold
+
+
+def _read(path: Path) -> _StoredHold:
+    return decode_json(read_file(path, MOST_BYTES), _DECODER, str(path))
+
+
+def _plain(value: Any) -> Any:
+    if isinstance(value, np.ndarray):
+        return np.round(value, DIGITS).tolist()
+    raise NotImplementedError(type(value))
+
+
+def _array(kind: Any, value: Any) -> Any:
+    try:
+        return np.asarray(value, dtype=np.float64)
+    except (TypeError, ValueError) as error:
+        raise msgspec.ValidationError(f"expected numbers for {kind}") from error
+
+
+# Worked out here, under the import's lock: two threads that use a type for the first time at once crash msgspec.
+_DECODER = msgspec.json.Decoder(_StoredHold, dec_hook=_array)

@@ -1,0 +1,388 @@
+"""The least-squares problem of one hand on one instrument: what is fixed, and what the parameters mean.
+
+Parameters of a hand (a row ``x``): the wrist's place (3, in units of 0.1 m from the seed), its turn (3, rotation vector
+from the seed), the elbow's swivel, the finger angles with every control at rest, those of the working fingers again
+with the controls of their home stations fully worked, and those of every finger at each of its other stations.
+``configs`` is 2 where any finger works a control at home.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+import numpy.typing as npt
+
+from app.rig import quaternion
+from app.rig.grip.carriage import Upright
+from app.rig.grip.finger_stations import MOST_HOVER_M, Station, aside_m, height_share, stations
+from app.rig.grip.fitting.hand_model import FINGERS, HandModel, hand_model, rest_landmark
+from app.rig.grip.instrument_proxy import Bodies, bodies, near
+from app.rig.instrument import node_transforms, part_transform, part_values
+from app.rig.model import Character, InstrumentModel
+from instrument_maps.model import ROOT, Contact, Control, HandSeed, InstrumentMap
+from metadata.load import load_skeleton
+from metadata.model import Body
+
+FloatArray = npt.NDArray[np.float64]
+
+# What a deviation of one unit of residual is.
+FIRM_M, RESTING_M = 0.0003, 0.0012
+FIRM_NORMAL, RESTING_NORMAL = 0.35, 0.6
+GUIDE_M, GUIDE_NORMAL = 0.006, 1.5
+SPREADS = {"firm": (FIRM_M, FIRM_NORMAL), "resting": (RESTING_M, RESTING_NORMAL), "guide": (GUIDE_M, GUIDE_NORMAL)}
+CURL_RAD, SIDEWAYS_RAD, THUMB_RAD, COUPLING_RAD = 0.4, 0.12, 0.4, 0.18
+LIMIT_RAD = 0.02
+LIMIT_SHARE, CARRIED_LIMIT_SHARE = 0.47, 0.45
+"""Part of the wrist's range a hold may use: the rest is for the body's motion, which moves a slide's hand most."""
+SWIVEL_RANGE_RAD = (0.2, 0.9)
+"""The elbow hangs, off the ribs: its swing from straight down to the outside ..."""
+SWIVEL_ABOUT_RAD = 0.35
+"""... or, where the map says where it is, within so much of that."""
+HOVER_MORE = 1.3
+"""Fingers wait at this multiple of the map's height in the fastest passages."""
+HOVER_SPREAD = 0.5
+"""How far a waiting finger is from its height, as a share of it: it may be lower or higher as the hand lies."""
+HOVER_TURNS = 2.0
+"""How much more freely than at its touch its pad faces elsewhere."""
+ANCHOR = (0.25, 0.7, 0.5)
+"""How far the wrist's place (in 0.1 m), its turn and the fingers (rad) wander from one knot of a slide to the next."""
+METRES = 0.1
+"""The wrist's place is solved in units of this many metres, to weigh like radians."""
+HELP_RAD = 0.44
+"""Turn of the trunk that brings the shoulder towards a far hand; it lasts into nearer places."""
+NEAR_M = 0.28
+"""Bodies of the proxy farther from the palm than this meet neither hand nor forearm."""
+
+
+@dataclass(frozen=True, eq=False)
+class Dof:
+    """One angle of a finger joint: where it stands, its range and its relaxed value."""
+
+    joint: int
+    kind: int
+    low: float
+    high: float
+    relaxed: float
+    spread: float
+
+
+@dataclass(frozen=True, eq=False)
+class Touch:
+    """A contact in the instrument's frame over some values of the controls its finger works there.
+
+    ``positions`` and ``normals`` are (S, 3), ``active``, ``spread_m`` and ``spread_normal`` (S,).
+    """
+
+    contact: Contact
+    positions: FloatArray
+    normals: FloatArray
+    active: npt.NDArray[np.bool_]
+    spread_m: FloatArray
+    spread_normal: FloatArray
+
+
+@dataclass(frozen=True, eq=False)
+class Elsewhere:
+    """A finger at another station than home, its control fully worked.
+
+    ``points`` and ``normals`` are the landmarks that touch, ``angles`` says which of the parameters are its angles.
+    """
+
+    number: int
+    station: Station
+    touches: tuple[Touch, ...]
+    points: FloatArray
+    normals: FloatArray
+    angles: slice
+
+
+@dataclass(frozen=True, eq=False)
+class Problem:
+    """Everything that is fixed while one hand is solved."""
+
+    hand: HandModel
+    seed_m: FloatArray
+    seed_rotation: FloatArray
+    dofs: tuple[Dof, ...]
+    stations: tuple[tuple[Station, ...], ...]
+    worked: tuple[int, ...]
+    touches: tuple[Touch, ...]
+    touch_points: FloatArray
+    touch_normals: FloatArray
+    node_place: FloatArray
+    node_turn: FloatArray
+    proxies: Bodies
+    shoulder_m: FloatArray
+    helped_m: FloatArray
+    helped: bool
+    upper_m: float
+    lower_m: float
+    swivel_frame: FloatArray
+    swivel_usual: float
+    swivel_range: tuple[float, float]
+    reference_shift_m: FloatArray
+    configs: int
+    wrist_limits: FloatArray
+    elsewhere: tuple[Elsewhere, ...] = ()
+    anchor: FloatArray | None = None
+    anchor_spread: tuple[float, float, float] = ANCHOR
+    low: FloatArray = field(default_factory=lambda: np.zeros(0))
+    high: FloatArray = field(default_factory=lambda: np.zeros(0))
+
+
+def grip_problem(
+    character: Character,
+    model: InstrumentModel,
+    instrument_map: InstrumentMap,
+    body: Body,
+    seed: HandSeed,
+    stand: Upright,
+) -> tuple[Problem, Control | None]:
+    side = seed.hand
+    posture = body.postures[instrument_map.hold.postures[0]]
+    hand = hand_model(character, side, body, load_skeleton(body.skeleton))
+    carrier = next((c for c in instrument_map.controls if seed.node != ROOT and c.node == seed.node), None)
+    names = tuple(model.node_names)
+    places = stations(instrument_map)
+    of_finger = tuple(places.get(f"{side}.{finger}", ()) for finger in FINGERS)
+    worked = tuple(number for number, found in enumerate(of_finger) if found and found[0].controls)
+    home = home_controls(of_finger)
+    touches = []
+    for index, contact in enumerate(instrument_map.contacts):
+        if not contact.part.startswith(f"{side}."):
+            continue
+        finger = contact.part.split(".")[1]
+        number = FINGERS.index(finger) if finger in FINGERS else -1
+        if number >= 0 and index not in of_finger[number][0].contacts:
+            continue
+        touch = touch_at(model, instrument_map, contact, home, carrier, np.array([0.0, 1.0]))
+        touches.append(replace(touch, active=touch.active & np.array([True, number in worked])))
+    palm = rest_landmark(hand, f"{side}.palm")
+    outward = -1.0 if side == "left" else 1.0
+    turn = seed_turn(seed)
+    seed_place = model.node_positions_m[names.index(seed.node)] + seed.palm_position_m
+    seed_m = seed_place - quaternion.rotate(turn, palm)
+    back = quaternion.conjugate(stand.instrument_rotation)
+    joint = [character.skeleton.index(f"{side}{part}") for part in ("UpperArm", "LowerArm", "Hand")]
+    shoulder = quaternion.rotate(back, stand.joints_m[joint[0]] - stand.instrument_m)
+    chest = stand.joints_m[character.skeleton.parents[character.skeleton.index(f"{side}Shoulder")]]
+    help_turn = quaternion.from_axis_angle([0.0, 1.0, 0.0], outward * HELP_RAD)
+    helped = chest + quaternion.rotate(help_turn, stand.joints_m[joint[0]] - chest)
+    # The elbow hangs: its swivel is counted from straight down towards the outside.
+    down = quaternion.rotate(back, [0.0, -1.0, 0.0])
+    aside = quaternion.rotate(back, [-outward, 0.0, 0.0])
+    place, node_turn = nodes_at(model, instrument_map, home, carrier, np.array([0.0, 1.0]))
+    near_hand = near(
+        bodies(instrument_map.proxy, names), model.node_positions_m, seed_m + quaternion.rotate(turn, palm), NEAR_M
+    )
+    off_ribs_deg = seed.elbow_off_ribs_deg
+    usual = float(np.radians(posture.elbow_off_ribs_deg if off_ribs_deg is None else off_ribs_deg))
+    about = (usual - SWIVEL_ABOUT_RAD, usual + SWIVEL_ABOUT_RAD)
+    problem = Problem(
+        hand=hand,
+        seed_m=seed_m,
+        seed_rotation=turn,
+        dofs=_dofs(hand, seed.curl),
+        stations=of_finger,
+        worked=worked,
+        touches=tuple(touches),
+        touch_points=np.stack([hand.landmarks[t.contact.part] for t in touches], axis=2),
+        touch_normals=np.stack([hand.landmark_normals[t.contact.part] for t in touches], axis=2),
+        node_place=place,
+        node_turn=node_turn,
+        proxies=near_hand,
+        shoulder_m=shoulder,
+        upper_m=float(np.linalg.norm(character.skeleton.offsets_m[joint[1]])),
+        lower_m=float(np.linalg.norm(character.skeleton.offsets_m[joint[2]])),
+        swivel_frame=np.stack([down, aside]),
+        swivel_usual=usual,
+        swivel_range=SWIVEL_RANGE_RAD if off_ribs_deg is None else about,
+        reference_shift_m=np.zeros(3),
+        helped=False,
+        helped_m=quaternion.rotate(back, helped - stand.instrument_m),
+        configs=2 if worked else 1,
+        wrist_limits=hand.limits[0] * (LIMIT_SHARE if carrier is None else CARRIED_LIMIT_SHARE),
+    )
+    problem = replace(problem, elsewhere=_elsewhere(problem, model, instrument_map, carrier))
+    low, high = _bounds(problem)
+    return replace(problem, low=low, high=high), carrier
+
+
+def seed_turn(seed: HandSeed) -> FloatArray:
+    """Rotation (4,) of the wrist at its seed, in the instrument's frame."""
+    outward = -1.0 if seed.hand == "left" else 1.0
+    direction, normal = np.asarray(seed.finger_direction), np.asarray(seed.palm_normal)
+    direction = direction - normal * float(direction @ normal) / float(normal @ normal)
+    x_axis = -outward * direction / np.linalg.norm(direction)
+    return quaternion.from_frames(x_axis, -normal / np.linalg.norm(normal))
+
+
+def home_controls(of_finger: Sequence[Sequence[Station]]) -> frozenset[str]:
+    """What the fingers of a hand work at their home stations."""
+    return frozenset(name for places in of_finger if places for name in places[0].controls)
+
+
+def _elsewhere(
+    problem: Problem, model: InstrumentModel, instrument_map: InstrumentMap, carrier: Control | None
+) -> tuple[Elsewhere, ...]:
+    """The fingers at their other stations; a hand that is carried has none."""
+    found = []
+    start = 7 + len(problem.dofs) + len(worked_dofs(problem))
+    for number, places in enumerate(problem.stations if carrier is None else ()):
+        for station in places[1:]:
+            contacts = [instrument_map.contacts[index] for index in station.contacts]
+            at = (frozenset(station.controls), None, np.ones(1))
+            stop = start + len(finger_dofs(problem, number))
+            touches = tuple(touch_at(model, instrument_map, contact, *at) for contact in contacts)
+            points = np.stack([problem.hand.landmarks[contact.part] for contact in contacts], axis=2)
+            normals = np.stack([problem.hand.landmark_normals[contact.part] for contact in contacts], axis=2)
+            found.append(Elsewhere(number, station, touches, points, normals, slice(start, stop)))
+            start = stop
+    return tuple(found)
+
+
+def _dofs(hand: HandModel, curl: tuple[float, ...]) -> tuple[Dof, ...]:
+    """The angles that are solved, thumb first; relaxed values follow the seed's curl (1 is a fist)."""
+    found = []
+
+    def add(joint: int, kind: int, relaxed_deg: float, spread: float, share: float = 1.0) -> None:
+        low, high = hand.limits[joint, kind] * share
+        found.append(Dof(joint, kind, low, high, float(np.radians(relaxed_deg)), spread))
+
+    add(1, 0, 8.0, THUMB_RAD)
+    add(1, 1, 20.0, THUMB_RAD)
+    add(1, 2, 0.0, THUMB_RAD * 0.5)
+    add(2, 0, 12.0, THUMB_RAD)
+    add(3, 0, 15.0, THUMB_RAD)
+    for number, bend in zip(range(1, 5), curl, strict=True):
+        first = 1 + 3 * number
+        add(first, 0, 80.0 * bend, CURL_RAD)
+        add(first, 1, 0.0, SIDEWAYS_RAD)
+        add(first + 1, 0, 100.0 * bend, CURL_RAD)
+        add(first + 2, 0, 66.0 * bend, CURL_RAD)
+    return tuple(found)
+
+
+def finger_dofs(problem: Problem, number: int) -> list[int]:
+    return [i for i, dof in enumerate(problem.dofs) if (dof.joint - 1) // 3 == number]
+
+
+def worked_dofs(problem: Problem) -> list[int]:
+    return [i for number in problem.worked for i in finger_dofs(problem, number)]
+
+
+def _bounds(problem: Problem) -> tuple[FloatArray, FloatArray]:
+    """Parameters: wrist place (3), turn (3), swivel, angles at rest, of working fingers fully worked, elsewhere."""
+    order = _order(problem)
+    low = [-np.inf] * 6 + [problem.swivel_range[0]] + [problem.dofs[i].low for i in order]
+    high = [np.inf] * 6 + [problem.swivel_range[1]] + [problem.dofs[i].high for i in order]
+    return np.array(low), np.array(high)
+
+
+def _order(problem: Problem) -> list[int]:
+    """Which of the angles each parameter from the eighth on is."""
+    elsewhere = [i for one in problem.elsewhere for i in finger_dofs(problem, one.number)]
+    return [*range(len(problem.dofs)), *worked_dofs(problem), *elsewhere]
+
+
+def start_at(problem: Problem, turn: FloatArray) -> FloatArray:
+    order = _order(problem)
+    angles = [np.clip(problem.dofs[i].relaxed, problem.dofs[i].low, problem.dofs[i].high) for i in order]
+    start = np.array([0.0, 0.0, 0.0, *turn, problem.swivel_usual, *angles])
+    clipped: FloatArray = np.clip(start, problem.low + 1e-6, problem.high - 1e-6)
+    return clipped
+
+
+def wrist_transform(problem: Problem, x: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Wrist in the instrument's frame: positions (B, 3) and rotations (B, 4)."""
+    turn = quaternion.multiply(quaternion.from_rotation_vector(x[:, 3:6]), problem.seed_rotation)
+    return problem.seed_m + METRES * x[:, :3], turn
+
+
+def joint_angles(problem: Problem, x: FloatArray) -> FloatArray:
+    """Joint angles (B, configs, 16, 3)."""
+    result = np.zeros((len(x), problem.configs, 16, 3))
+    count = len(problem.dofs)
+    for i, dof in enumerate(problem.dofs):
+        result[:, :, dof.joint, dof.kind] = x[:, 7 + i, None]
+    for k, i in enumerate(worked_dofs(problem)):
+        result[:, 1, problem.dofs[i].joint, problem.dofs[i].kind] = x[:, 7 + count + k]
+    return result
+
+
+def touch_at(
+    model: InstrumentModel,
+    instrument_map: InstrumentMap,
+    contact: Contact,
+    worked: frozenset[str],
+    carrier: Control | None,
+    values: FloatArray,
+) -> Touch:
+    """A contact while the ``worked`` controls are all at ``values`` (S,), and where a finger waits over it."""
+    position, normal = contact_at(model, instrument_map, contact, worked, carrier, values)
+    exact_m, exact_normal = SPREADS[contact.grip]
+    spread_m, spread_normal = np.full(len(values), exact_m), np.full(len(values), exact_normal)
+    if contact.control in worked:
+        control = instrument_map.control(contact.control or "")
+        share = height_share(control, values)
+        height_m = min(HOVER_MORE * control.hover_m, MOST_HOVER_M) * share
+        position = position + height_m[:, None] * normal + aside_m(contact, instrument_map, values)
+        spread_m = np.hypot(spread_m, HOVER_SPREAD * height_m)
+        if control.hover_m:
+            spread_normal = spread_normal * (1.0 + HOVER_TURNS * share)
+    return Touch(contact, position, normal, counts(contact, values), spread_m, spread_normal)
+
+
+def counts(contact: Contact, values: FloatArray) -> npt.NDArray[np.bool_]:
+    """At which values of its control a contact counts."""
+    if contact.when == "pressed":
+        return values > 0.0
+    return values == 0.0 if contact.when == "released" else values >= 0.0
+
+
+def contact_at(
+    model: InstrumentModel,
+    instrument_map: InstrumentMap,
+    contact: Contact,
+    worked: frozenset[str],
+    carrier: Control | None,
+    values: FloatArray,
+) -> tuple[FloatArray, FloatArray]:
+    """Place (S, 3) and normal (S, 3) of a contact in the instrument's frame while the worked controls are at values."""
+    place = model.node_positions_m[model.node_names.index(contact.node)] + contact.position_m
+    normal = np.asarray(contact.normal, dtype=np.float64)
+    part = next((part for part in instrument_map.moving_parts if part.node == contact.node), None)
+    if part is None or (carrier is not None and carrier.name in part.controls):
+        return np.tile(place, (len(values), 1)), np.tile(normal, (len(values), 1))
+    moved, turn = part_transform(part.motion, part_values(part, _at(worked, values), len(values)))
+    return quaternion.rotate(turn, place) + moved, quaternion.rotate(turn, normal)
+
+
+def _at(worked: frozenset[str], values: FloatArray) -> Mapping[str, FloatArray]:
+    return dict.fromkeys(sorted(worked), values)
+
+
+def nodes_at(
+    model: InstrumentModel,
+    instrument_map: InstrumentMap,
+    worked: frozenset[str],
+    carrier: Control | None,
+    values: FloatArray,
+) -> tuple[FloatArray, FloatArray]:
+    """Places (S, N, 3) and bases (S, N, 3, 3) of the nodes while the worked controls are at values.
+
+    A hand that is carried sees its own node stay and all others go the other way.
+    """
+    place, turn = node_transforms(model, instrument_map, _at(worked, values), len(values))
+    if carrier is not None:
+        others = np.arange(len(model.node_names)) != model.node_names.index(carrier.node or ROOT)
+        place[:, others] -= np.multiply.outer(values, travel(carrier))[:, None]
+    return place, quaternion.to_matrix(turn)
+
+
+def travel(control: Control) -> FloatArray:
+    """Way of what a control pushes or pulls, (3,); zero for what turns."""
+    axis = (0.0, 0.0, 0.0) if control.motion is None else control.motion.axis
+    return np.asarray(axis, dtype=np.float64) * control.travel_m

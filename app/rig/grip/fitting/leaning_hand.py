@@ -1,0 +1,173 @@
+"""How a hand gives way where a finger does not reach one of its stations with the wrist at home.
+
+A player rolls the hand to a side key and lifts it to a palm key while the other fingers stay on their holes. For such a
+station the wrist is solved again, near its home, and the other fingers with it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+import numpy.typing as npt
+
+from app.rig import quaternion
+from app.rig.grip.finger_stations import Station
+from app.rig.grip.fitting.hand_model import FINGERS
+from app.rig.grip.fitting.hand_problem import (
+    Problem,
+    Touch,
+    finger_dofs,
+    home_controls,
+    joint_angles,
+    nodes_at,
+    touch_at,
+    worked_dofs,
+    wrist_transform,
+)
+from app.rig.grip.fitting.residuals import Residuals
+from app.rig.grip.fitting.search import solve
+from app.rig.grip.fitting.solved_fingers import GripScene, Solved, followed_table, missed_m, solved_about
+from app.rig.grip.grip_pose import WristOffset
+
+FloatArray = npt.NDArray[np.float64]
+
+LEAN_FROM_M = 0.0015
+"""A finger that misses its station by more than this asks the hand to give way ..."""
+LEAN_WORTH_M = 0.0005
+"""... and it does where the finger comes nearer by this much."""
+LEAN_SPREAD = (0.07, 0.12, 0.5)
+"""How far wrist (in 0.1 m), its turn and fingers (rad) go from home: dearer than between a slide's knots."""
+OWN_EASED, OTHERS_EASED = (1.5, 0.5), 1.5
+"""Fingers at work keep their places so much less exactly while the wrist is looked for: it does not go far for the last
+millimetre, and most of the others are up anyway. What holds the instrument goes on holding it. The finger that asks
+keeps its own more exactly ..."""
+LEFT_M = 0.0018
+"""... where it would otherwise still miss it by more than this."""
+ROUNDS = 14
+VALUES = np.array([0.0, 1.0])
+"""Of the controls of the other fingers, at which they are solved."""
+
+
+@dataclass(frozen=True, eq=False)
+class Leaning:
+    """A hand that gave way for one finger at one station.
+
+    ``solved`` is that finger there, ``others`` the fingers at their homes, ``scene`` the wrist.
+    """
+
+    index: int
+    scene: GripScene
+    solved: Solved
+    others: tuple[Solved, ...]
+
+
+def leanings(
+    problem: Problem,
+    scene: GripScene,
+    x: FloatArray,
+    solved: Sequence[Solved],
+    reported: Callable[[float], None] = lambda share: None,
+) -> tuple[Leaning, ...]:
+    """Let the hand give way for every station that its finger misses."""
+    found = []
+    if scene.carrier is not None:
+        return ()
+    homes = {one.number: one for one in reversed(solved)}
+    for place, one in enumerate(solved):
+        reported(place / len(solved))
+        index = problem.stations[one.number].index(one.station) if one.station in problem.stations[one.number] else 0
+        missed = missed_m(problem, scene, one)
+        if not index or missed <= LEAN_FROM_M:
+            continue
+        tries: list[tuple[float, Leaning]] = []
+        for eased in OWN_EASED:
+            leant = _leant(problem, scene, x, one, index, homes, eased)
+            tries.append((missed_m(problem, leant.scene, leant.solved), leant))
+            if tries[-1][0] <= LEFT_M:
+                break
+        left, leant = min(tries, key=lambda one: one[0])
+        if left < missed - LEAN_WORTH_M:
+            found.append(leant)
+    return tuple(found)
+
+
+def _leant(
+    problem: Problem, scene: GripScene, x: FloatArray, one: Solved, index: int, homes: dict[int, Solved], eased: float
+) -> Leaning:
+    there = _lean_problem(problem, scene, one.number, one.station, x, eased)
+    assert there.anchor is not None
+    best = np.asarray(solve(Residuals(there, 1.0), there.anchor, ROUNDS).x)[None]
+    position, turn = wrist_transform(there, best)
+    moved = GripScene(scene.model, scene.instrument_map, None, position, quaternion.to_matrix(turn))
+    angles = joint_angles(there, best)[0, 0]
+    solved = followed_table(problem, moved, one.number, one.station, angles)
+    others = tuple(
+        solved_about(problem, moved, home, VALUES if len(home.values) > 1 else home.values, angles)
+        for number, home in sorted(homes.items())
+        if number != one.number and home.station.contacts
+    )
+    return Leaning(index, moved, solved, others)
+
+
+def _lean_problem(
+    problem: Problem, scene: GripScene, number: int, station: Station, x: FloatArray, eased: float
+) -> Problem:
+    """All fingers at work at once: one at its station, the others at home, the wrist near where it was."""
+    instrument, hand = scene.instrument_map, problem.hand
+    chosen = [station if n == number else places[0] for n, places in enumerate(problem.stations) if places]
+    worked = home_controls([[place] for place in chosen])
+    of_fingers = {index for place in chosen for index in place.contacts}
+    whole = whole_hand(hand.side)
+    touches = tuple(
+        _eased(
+            touch_at(scene.model, instrument, contact, worked, None, np.ones(1)),
+            eased if index in station.contacts else OTHERS_EASED,
+        )
+        for index, contact in enumerate(instrument.contacts)
+        if index in of_fingers or contact.part in whole
+    )
+    place, turn = nodes_at(scene.model, instrument, worked, None, np.ones(1))
+    count = 7 + len(problem.dofs)
+    start = x[:count].copy()
+    for offset, dof in enumerate(worked_dofs(problem)):
+        start[7 + dof] = x[count + offset]
+    for one in problem.elsewhere:
+        if one.number == number and one.station == station:
+            start[[7 + dof for dof in finger_dofs(problem, number)]] = x[one.angles]
+    return replace(
+        problem,
+        touches=touches,
+        touch_points=np.stack([hand.landmarks[t.contact.part] for t in touches], axis=2),
+        touch_normals=np.stack([hand.landmark_normals[t.contact.part] for t in touches], axis=2),
+        node_place=place,
+        node_turn=turn,
+        worked=(),
+        configs=1,
+        elsewhere=(),
+        anchor=start,
+        anchor_spread=LEAN_SPREAD,
+        low=problem.low[:count],
+        high=problem.high[:count],
+    )
+
+
+def _eased(touch: Touch, by: float) -> Touch:
+    return touch if touch.contact.control is None else replace(touch, spread_m=touch.spread_m * by)
+
+
+def whole_hand(side: str) -> tuple[str, ...]:
+    """The parts of a hand that touch without a finger."""
+    return f"{side}.palm", f"{side}.thumb_web"
+
+
+def lean_of(problem: Problem, scene: GripScene, leaning: Leaning) -> WristOffset:
+    """A leaning as a difference to the wrist at home."""
+    before, after = quaternion.from_matrix(scene.basis[0]), quaternion.from_matrix(leaning.scene.basis[0])
+    return WristOffset(
+        finger=f"{problem.hand.side}.{FINGERS[leaning.solved.number]}",
+        station=leaning.index,
+        moved_m=leaning.scene.position_m[0] - scene.position_m[0],
+        turned=quaternion.to_rotation_vector(quaternion.multiply(after, quaternion.conjugate(before))),
+    )

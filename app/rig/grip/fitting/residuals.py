@@ -1,0 +1,294 @@
+"""Residuals of a hand's hold and their Jacobian.
+
+All perturbed poses of a Jacobian go through one vectorised call; the proxy is measured exactly at the current pose and
+linearised by its gradient.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+from app.rig import quaternion
+from app.rig.grip.fitting.hand_model import (
+    ball_centres,
+    flesh_radius,
+    joint_rotations,
+    skinned,
+    turned,
+    wrist_from_joint,
+    wrist_from_mesh,
+)
+from app.rig.grip.fitting.hand_problem import (
+    COUPLING_RAD,
+    LIMIT_RAD,
+    METRES,
+    Elsewhere,
+    Problem,
+    finger_dofs,
+    joint_angles,
+    worked_dofs,
+    wrist_transform,
+)
+from app.rig.grip.instrument_proxy import Bodies, Nodes, gradient, inside
+from app.rig.ik import TWIST_SHARE
+
+FloatArray = npt.NDArray[np.float64]
+
+# What a deviation of one unit of residual is.
+PENETRATION_M, FOREARM_M = 0.0005, 0.003
+BALL_M = 0.001
+GIVE_M, STIFFENING = 0.0019, 5.0
+WORKED_RAD = 0.5
+FLEXION_RAD, DEVIATION_RAD, PRONATION_RAD, SWIVEL_RAD = 0.3, 0.16, 0.8, 0.25
+SEED_M, SEED_RAD = 0.03, 0.4
+PRONATION_MOST_RAD = 1.3
+REACH_M = 0.03
+"""Of an arm that is too short: the shoulder's help is dear, but a finger tip's grip does not bridge half a metre."""
+STEP = 1e-6
+ELSEWHERE_M, ELSEWHERE_NORMAL, ELSEWHERE_RELAXED = 0.006, 0.7, 1.5
+"""The wrist lies near where the fingers also reach their other stations: it gives way for those that they miss
+(`app.rig.grip.fitting.leaning_hand`)."""
+
+
+class Residuals:
+    """Residuals and their Jacobian; keeps the last pose's distances to the proxy, which both need."""
+
+    def __init__(self, problem: Problem, soft: float, stiff: bool = False) -> None:
+        self.problem = problem
+        self.soft = soft
+        self.stiff = stiff
+        hand = problem.hand
+        self.skin = hand.all_points if stiff else hand.skin_points
+        counts = [self.skin.shape[2], len(hand.balls), len(hand.forearm_balls)]
+        self.radius = np.concatenate([np.zeros(counts[0]), flesh_radius(hand)])
+        self.spread = soft * np.repeat([PENETRATION_M, PENETRATION_M, FOREARM_M], counts)
+
+    def __call__(self, x: FloatArray) -> FloatArray:
+        smooth, skin = self._parts(x[None])
+        depth, _ = self._depth(skin[0])
+        others = [self._elsewhere(one, x[None])[0] for one in self.problem.elsewhere]
+        return np.concatenate([smooth[0], (self._counted(depth)[0] / self.spread).ravel(), *others])
+
+    def jacobian(self, x: FloatArray) -> FloatArray:
+        count = len(x) if not self.problem.elsewhere else self.problem.elsewhere[0].angles.start
+        tried = np.repeat(x[None], count + 1, axis=0)
+        step = np.where(x + STEP < self.problem.high, STEP, -STEP)
+        tried[np.arange(1, count + 1), np.arange(count)] += step[:count]
+        smooth, skin = self._parts(tried)
+        depth, slope = self._depth(skin[0])
+        change = (skin[1:] - skin[0]) / step[:count, None, None, None]
+        moved = -np.einsum("xcvi,cvi->xcv", change, slope) * self._counted(depth)[1] / self.spread
+        home = np.concatenate([(smooth[1:] - smooth[0]) / step[:count, None], moved.reshape(count, -1)], axis=1).T
+        if not self.problem.elsewhere:
+            return home
+        blocks = [self._elsewhere_jacobian(one, x, step) for one in self.problem.elsewhere]
+        return np.concatenate([np.pad(home, ((0, 0), (0, len(x) - count))), *blocks])
+
+    def _elsewhere_jacobian(self, one: Elsewhere, x: FloatArray, step: FloatArray) -> FloatArray:
+        """Rows of one finger at one other station: they know of the wrist and of its own angles only."""
+        columns = np.r_[0:6, one.angles]
+        tried = np.repeat(x[None], len(columns) + 1, axis=0)
+        tried[np.arange(1, len(tried)), columns] += step[columns]
+        found = self._elsewhere(one, tried)
+        result = np.zeros((found.shape[1], len(x)))
+        result[:, columns] = ((found[1:] - found[0]) / step[columns, None]).T
+        return result
+
+    def _elsewhere(self, one: Elsewhere, x: FloatArray) -> FloatArray:
+        """Residuals (B, m) of a finger at another station."""
+        problem, hand = self.problem, self.problem.hand
+        place, turn = wrist_transform(problem, x)
+        angles = np.zeros((len(x), 16, 3))
+        dofs = [problem.dofs[i] for i in finger_dofs(problem, one.number)]
+        now = x[:, one.angles]
+        angles[:, [dof.joint for dof in dofs], [dof.kind for dof in dofs]] = now
+        matrices = wrist_from_mesh(hand, wrist_from_joint(hand, joint_rotations(hand, angles)))
+        basis = quaternion.to_matrix(turn)
+        at = np.einsum("bij,bvj->bvi", basis, skinned(matrices, one.points)) + place[:, None]
+        facing = np.einsum("bij,bvj->bvi", basis, turned(matrices, one.normals))
+        relaxed = np.array([(dof.relaxed, dof.spread * ELSEWHERE_RELAXED) for dof in dofs]).T
+        parts = [(now - relaxed[0]) / relaxed[1]]
+        if one.number:
+            parts.append(((now[:, 3] - 0.67 * now[:, 2]) / COUPLING_RAD)[:, None])
+        for number, touch in enumerate(one.touches):
+            parts.append((at[:, number] - touch.positions[0]) / (ELSEWHERE_M * self.soft))
+            parts.append((facing[:, number] + touch.normals[0]) / ELSEWHERE_NORMAL)
+        return np.concatenate(parts, axis=1)
+
+    def _counted(self, depth: FloatArray) -> tuple[FloatArray, FloatArray]:
+        return pressed(depth) if self.stiff else (depth, (depth > 0.0).astype(np.float64))
+
+    def _depth(self, skin: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Depth (configs, V) of skin below the proxy's surface, and the gradient of the distance."""
+        depth, slope = np.zeros(skin.shape[:2]), np.zeros(skin.shape)
+        for config in range(len(skin)):
+            depth[config], slope[config] = inside_proxy(
+                self.problem.proxies,
+                self.problem.node_place[config],
+                self.problem.node_turn[config],
+                skin[config],
+                self.radius,
+            )
+        return depth, slope
+
+    def _parts(self, x: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Residuals but the proxy's (B, m), and skin and balls (B, configs, V, 3) in the instrument's frame."""
+        problem, hand = self.problem, self.problem.hand
+        place, turn = wrist_transform(problem, x)
+        angles = joint_angles(problem, x)
+        count = len(x)
+        transforms = wrist_from_joint(hand, joint_rotations(hand, angles.reshape(-1, 16, 3)))
+        matrices = wrist_from_mesh(hand, transforms)
+        basis = quaternion.to_matrix(turn)
+
+        def placed(points: FloatArray) -> FloatArray:
+            local = points.reshape(count, problem.configs, -1, 3)
+            moved: FloatArray = np.einsum("bij,bcvj->bcvi", basis, local) + place[:, None, None]
+            return moved
+
+        skin = placed(skinned(matrices, self.skin))
+        touching = placed(skinned(matrices, problem.touch_points))
+        facing = np.einsum(
+            "bij,bcvj->bcvi", basis, turned(matrices, problem.touch_normals).reshape(count, problem.configs, -1, 3)
+        )
+        parts = []
+        for number, touch in enumerate(problem.touches):
+            for config in range(problem.configs):
+                if touch.active[config]:
+                    off = touching[:, config, number] - touch.positions[config]
+                    parts.append(off / (touch.spread_m[config] * self.soft))
+                    parts.append((facing[:, config, number] + touch.normals[config]) / touch.spread_normal[config])
+        balls = ball_centres(hand, transforms)
+        skin = np.concatenate([skin, placed(balls), self._forearm(x, place)], axis=2)
+        pairs = balls[:, hand.ball_pairs[:, 0]] - balls[:, hand.ball_pairs[:, 1]]
+        gap = np.sqrt(np.einsum("bki,bki->bk", pairs, pairs))
+        parts.append((np.maximum(hand.ball_gaps_m - gap, 0.0) / (BALL_M * self.soft)).reshape(count, -1))
+        parts.append(self._natural(angles))
+        parts.append(self._arm(x, place, turn))
+        parts.append(self._anchored(x))
+        return np.concatenate(parts, axis=1), skin
+
+    def _forearm(self, x: FloatArray, place: FloatArray) -> FloatArray:
+        """Balls (B, configs, C, 3) of the forearm."""
+        wrist = place + self.problem.reference_shift_m
+        behind = _elbow_place(self.problem, wrist, x[:, 6], self.problem.shoulder_m) - wrist
+        behind /= np.linalg.norm(behind, axis=1)[:, None]
+        balls = place[:, None] + behind[:, None] * self.problem.hand.forearm_balls[:, :1]
+        return np.repeat(balls[:, None], self.problem.configs, axis=1)
+
+    def _natural(self, angles: FloatArray) -> FloatArray:
+        problem = self.problem
+        parts = []
+        for config in range(problem.configs):
+            order = range(len(problem.dofs)) if config == 0 else worked_dofs(problem)
+            for i in order:
+                dof = problem.dofs[i]
+                now = angles[:, config, dof.joint, dof.kind]
+                parts.append((now - dof.relaxed) / dof.spread)
+                if config:
+                    parts.append((now - angles[:, 0, dof.joint, dof.kind]) / WORKED_RAD)
+            for number in range(1, 5) if config == 0 else [n for n in problem.worked if n]:
+                # The last two joints of a finger bend together (about 2 to 3).
+                middle, last = angles[:, config, 2 + 3 * number, 0], angles[:, config, 3 + 3 * number, 0]
+                parts.append((last - 0.67 * middle) / COUPLING_RAD)
+        return np.stack(parts, axis=1)
+
+    def _arm(self, x: FloatArray, place: FloatArray, turn: FloatArray) -> FloatArray:
+        """Straight wrist: how the forearm enters the hand, how far it is turned, where the elbow is."""
+        problem = self.problem
+        wrist = place + problem.reference_shift_m
+        bent, over = self._bend(x, wrist, turn, problem.shoulder_m)
+        far = np.linalg.norm(wrist - problem.shoulder_m, axis=1) - 0.97 * (problem.upper_m + problem.lower_m)
+        parts = [
+            bent / (FLEXION_RAD, DEVIATION_RAD, PRONATION_RAD),
+            over / LIMIT_RAD,
+            ((x[:, 6] - problem.swivel_usual) / SWIVEL_RAD)[:, None],
+            (np.maximum(far, 0.0) / REACH_M)[:, None],
+        ]
+        if problem.helped:
+            parts.append(self._bend(x, wrist, turn, problem.helped_m)[1] / LIMIT_RAD)
+        return np.concatenate(parts, axis=1)
+
+    def _bend(
+        self, x: FloatArray, wrist: FloatArray, turn: FloatArray, shoulder_m: FloatArray
+    ) -> tuple[FloatArray, FloatArray]:
+        """Flexion, deviation and pronation (B, 3), and how far these and the judged ones are beyond limits (B, 5)."""
+        problem = self.problem
+        elbow = _elbow_place(problem, wrist, x[:, 6], shoulder_m)
+        forearm = wrist - elbow
+        forearm /= np.linalg.norm(forearm, axis=1)[:, None]
+        sign = 1.0 if problem.hand.side == "left" else -1.0
+        back = quaternion.conjugate(turn)
+        local = quaternion.rotate(back, forearm)
+        flexion = np.arctan2(sign * local[:, 1], np.maximum(sign * local[:, 0], 1e-3))
+        deviation = np.arctan2(-local[:, 2], np.maximum(sign * local[:, 0], 1e-3))
+        # The elbow's hinge, seen from the hand: along the palm's normal where the forearm is neither turned in nor out.
+        hinge = np.cross(elbow - shoulder_m, forearm)
+        hinge /= np.maximum(np.linalg.norm(hinge, axis=1), 1e-9)[:, None]
+        seen = quaternion.rotate(back, hinge) * sign
+        bent = np.stack([flexion, deviation, np.arctan2(seen[:, 2], -seen[:, 1])], axis=1)
+        both = np.concatenate([bent, self._shared(forearm, hinge, turn)], axis=1)
+        low, high = problem.wrist_limits[:2].T
+        low, high = np.array([*low, -PRONATION_MOST_RAD, *low]), np.array([*high, PRONATION_MOST_RAD, *high])
+        return bent, np.maximum(both - high, 0.0) + np.minimum(both - low, 0.0)
+
+    def _shared(self, forearm: FloatArray, hinge: FloatArray, turn: FloatArray) -> FloatArray:
+        """Flexion and deviation (B, 2) as the hand joint has them when the forearm takes its share of the twist."""
+        hand = self.problem.hand
+        sign = 1.0 if hand.side == "left" else -1.0
+        frame = quaternion.from_frames(sign * forearm, -sign * hinge)
+        local = quaternion.multiply(quaternion.conjugate(frame), turn)
+        axis = np.array([1.0, 0.0, 0.0])
+        taken = quaternion.from_axis_angle(axis, TWIST_SHARE * quaternion.twist_angle(local, axis))
+        swing, _ = quaternion.swing_twist(quaternion.multiply(quaternion.conjugate(taken), local), axis)
+        return quaternion.to_rotation_vector(swing) @ hand.axes[0, :2].T
+
+    def _anchored(self, x: FloatArray) -> FloatArray:
+        """The hand stays about its seed; holds of neighbouring knots stay alike, with one swivel of the elbow."""
+        if self.problem.anchor is None:
+            off: FloatArray = x[:, :6] / np.repeat([SEED_M / METRES, SEED_RAD], 3)
+        else:
+            place, turn, finger = self.problem.anchor_spread
+            off = (x - self.problem.anchor) / ([place] * 3 + [turn] * 3 + [0.01] + [finger] * (x.shape[1] - 7))
+        return off
+
+
+def _elbow_place(problem: Problem, wrist: FloatArray, swivel: FloatArray, shoulder_m: FloatArray) -> FloatArray:
+    """Elbow (B, 3) for a wrist (B, 3) and swivel (B,) from straight down to the outside."""
+    a, b = problem.upper_m, problem.lower_m
+    line = wrist - shoulder_m
+    reach = np.clip(np.linalg.norm(line, axis=1), abs(a - b) + 1e-4, (a + b) * 0.9999)
+    direction = line / np.linalg.norm(line, axis=1)[:, None]
+    along = (a * a - b * b + reach * reach) / (2.0 * reach)
+    aside = np.sqrt(np.maximum(a * a - along * along, 0.0))
+    pole = _pole(problem, direction, swivel)
+    elbow: FloatArray = shoulder_m + direction * along[:, None] + pole * aside[:, None]
+    return elbow
+
+
+def _pole(problem: Problem, direction: FloatArray, swivel: FloatArray) -> FloatArray:
+    down, out = problem.swivel_frame
+    pole = np.cos(swivel)[:, None] * down + np.sin(swivel)[:, None] * out
+    pole = pole - direction * np.einsum("bi,bi->b", pole, direction)[:, None]
+    result: FloatArray = pole / np.maximum(np.linalg.norm(pole, axis=1), 1e-9)[:, None]
+    return result
+
+
+def pressed(depth: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """What a depth counts, and its slope: flesh gives way a little, then resists."""
+    deep = depth > GIVE_M
+    return depth + (STIFFENING - 1.0) * np.maximum(depth - GIVE_M, 0.0), np.where(deep, STIFFENING, depth > 0.0)
+
+
+def inside_proxy(
+    proxies: Bodies, node_place: FloatArray, node_turn: FloatArray, skin: FloatArray, radius: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """Depth (V,) of balls at (V, 3) below the proxy's surface, 0 outside, and the gradient (V, 3) of the distance."""
+    nodes = Nodes(node_place, node_turn)
+    depth, owner = inside(proxies, nodes, skin, radius)
+    hit = np.flatnonzero(owner >= 0)
+    slope = np.zeros(skin.shape)
+    if len(hit):
+        slope[hit] = gradient(proxies, nodes, skin[hit], owner[hit])
+    return depth, slope

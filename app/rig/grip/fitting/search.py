@@ -1,0 +1,102 @@
+"""Solving a hand's hold: many soft starts, a few harder ones, one hard finish."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from app.rig.grip.fitting.fit_terms import Progress, no_progress
+from app.rig.grip.fitting.hand_problem import Problem, home_controls, nodes_at, start_at, travel
+from app.rig.grip.fitting.residuals import Residuals
+from app.rig.model import InstrumentModel
+from instrument_maps.model import Control, InstrumentMap
+
+FloatArray = npt.NDArray[np.float64]
+
+KNOTS = (0.25, 0.0, 0.5, 0.75, 1.0)
+"""Values of the control that carries a hand at which its hold is solved: the first from the seed, the others each from
+its solved neighbour. The grip turns in the fingers as the arm stretches."""
+HELPED_FROM = 0.4
+"""From this value on the trunk may be turned towards the hand."""
+TILTS = (
+    (0.0, 0.0, 0.0),
+    (0.3, 0.0, 0.0),
+    (-0.3, 0.0, 0.0),
+    (0.0, 0.3, 0.0),
+    (0.0, -0.3, 0.0),
+    (0.0, 0.0, 0.3),
+    (0.0, 0.0, -0.3),
+    (0.25, 0.25, 0.0),
+    (-0.25, -0.25, 0.0),
+    (0.0, 0.25, 0.25),
+    (0.0, -0.25, -0.25),
+)
+"""Turns of the seed (rotation vectors in the instrument's frame) that are tried."""
+
+
+def starts(problem: Problem, progress: Progress = no_progress) -> list[FloatArray]:
+    """Start from the seed and from tilts of it with soft contacts; the best few go on with harder ones. Best first."""
+    loose = []
+    for number, tilt in enumerate(TILTS):
+        progress(0.8 * number / len(TILTS))
+        loose.append(solve(Residuals(problem, 6.0), start_at(problem, np.array(tilt)), 8))
+    loose.sort(key=lambda found: float(found.cost))
+    middle = []
+    for number, found in enumerate(loose[:3]):
+        progress(0.8 + 0.2 * number / 3.0)
+        middle.append(solve(Residuals(problem, 2.0), found.x, 10))
+    return [found.x for found in sorted(middle, key=lambda found: float(found.cost))]
+
+
+def finished(problem: Problem, start: FloatArray) -> FloatArray:
+    """Solve a start to its end: with contacts as hard as they are, then with skin as stiff as it is."""
+    hard = solve(Residuals(problem, 1.0), start, 25)
+    return np.asarray(solve(Residuals(problem, 1.0, stiff=True), hard.x, 12).x)
+
+
+def search_knots(
+    problem: Problem,
+    model: InstrumentModel,
+    instrument_map: InstrumentMap,
+    carrier: Control,
+    progress: Progress = no_progress,
+) -> tuple[FloatArray, FloatArray]:
+    """Solve the hold of a carried hand at `KNOTS`: values ascending (K,) and parameters (K, n)."""
+    found: dict[float, FloatArray] = {}
+    for value in KNOTS:
+        place, turn = nodes_at(model, instrument_map, home_controls(problem.stations), carrier, np.array([value]))
+        here = replace(
+            problem,
+            node_place=place,
+            node_turn=turn,
+            reference_shift_m=value * travel(carrier),
+            helped=value >= HELPED_FROM,
+            anchor=found[min(found, key=lambda other: abs(other - value))] if found else None,
+        )
+        if here.anchor is None:
+            found[value] = finished(here, starts(here, lambda share: progress(0.5 * share))[0])
+        else:
+            progress(0.6 + 0.4 * len(found) / len(KNOTS))
+            found[value] = np.asarray(solve(Residuals(here, 1.0, stiff=True), here.anchor, 20).x)
+    knots = np.array(sorted(found))
+    return knots, np.stack([found[value] for value in knots])
+
+
+def solve(residuals: Residuals, start: FloatArray, rounds: int) -> Any:
+    """Least squares within the problem's bounds."""
+    problem = residuals.problem
+    from scipy.optimize import least_squares  # heavy; holds are fitted seldom
+
+    return least_squares(
+        residuals,
+        np.clip(start, problem.low + 1e-9, problem.high - 1e-9),
+        jac=residuals.jacobian,
+        bounds=(problem.low, problem.high),
+        max_nfev=rounds,
+        xtol=1e-7,
+        ftol=1e-6,
+        gtol=1e-8,
+    )

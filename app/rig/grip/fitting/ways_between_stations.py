@@ -1,0 +1,177 @@
+"""How high fingers are lifted on the ways between their places, and where they wait for their hand to give way."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+import numpy.typing as npt
+
+from app.rig import quaternion
+from app.rig.grip.finger_poses import LOW_HOVER, raised_way, solved_pose, with_wrist
+from app.rig.grip.finger_stations import MOST_HOVER_M, Station, hover_m
+from app.rig.grip.fitting.hand_model import skinned, wrist_from_joint, wrist_from_mesh
+from app.rig.grip.fitting.hand_problem import HOVER_MORE, Problem, nodes_at
+from app.rig.grip.fitting.residuals import inside_proxy
+from app.rig.grip.fitting.solved_fingers import GripScene
+from app.rig.grip.grip_pose import FingerTable, StationTable, interpolated, mixed
+
+FloatArray = npt.NDArray[np.float64]
+
+WAYS = np.arange(1, 16) / 16.0
+"""Places on a way that are looked at: a finger passes a narrow tube in a tenth of it."""
+LIFTS_M = np.linspace(0.0, 0.030, 11)
+WAY_CLEAR_M, WORTH_M = 0.0025, 0.0005
+"""On its way from home to another place, and where it waits for a hand that gives way for it there, a finger is lifted
+by the first of these heights that brings it over what lies between; or by the best, higher only where that is worth
+it."""
+BACK, FROM_NEXT = 0.5, 0.1
+"""Where a way straight out of its keys is not clear, or leads too far off them, a finger goes off its home, this share
+of that back from the palm and this share away from the other key: around what stands up between the two, not over
+it."""
+
+
+@dataclass(frozen=True)
+class _Height:
+    """How high a finger is lifted on a way, and how deep in the instrument the deepest of it still is."""
+
+    lift_m: float
+    deep_m: float
+
+    @property
+    def clear(self) -> bool:
+        return self.deep_m <= WAY_CLEAR_M
+
+    @property
+    def near(self) -> bool:
+        """Clear, and no further off its keys than a finger that waits."""
+        return self.clear and self.lift_m <= MOST_HOVER_M
+
+    def betters(self, other: _Height) -> bool:
+        if self.clear and other.clear:
+            return self.lift_m < other.lift_m
+        return self.clear or (not other.clear and self.deep_m < other.deep_m - WORTH_M)
+
+
+def lifted_ways(
+    problem: Problem, scene: GripScene, tables: tuple[FingerTable, ...], wrists: Mapping[tuple[int, int], GripScene]
+) -> tuple[FingerTable, ...]:
+    """Find how high fingers are lifted on their ways between home and their other stations."""
+    result = []
+    for number, table in enumerate(tables):
+        found = [table.stations[0]] if table.stations else []
+        for index, station in enumerate(table.stations[1:], 1):
+            place = problem.stations[number][index]
+            found.append(_lifted(problem, scene, table, number, index, place, wrists.get((number, index), scene)))
+            assert station.controls == found[-1].controls
+        result.append(replace(table, stations=tuple(found)))
+    return tuple(result)
+
+
+def _lifted(
+    problem: Problem, scene: GripScene, table: FingerTable, number: int, index: int, place: Station, wrist: GripScene
+) -> StationTable:
+    home, there = table.stations[0], table.stations[index]
+    if table.chain is None or home.tip_joint < 0 or there.tip_joint < 0 or set(home.controls) & set(there.controls):
+        return there
+    instrument = scene.instrument_map
+    off, out = (
+        np.asarray(instrument.contacts[at].normal)
+        for at in (place.contacts[0], problem.stations[number][0].contacts[0])
+    )
+    palm = next(seed for seed in instrument.hands if place.finger.startswith(f"{seed.hand}.")).palm_normal
+    back = _unit(out - BACK * _unit(np.asarray(palm)) - FROM_NEXT * off)
+    found, best = there, _Height(0.0, np.inf)
+    for away, waits in ((_unit(out + off), off), (back, back)):
+        lifted, height = _lifted_along(problem, scene, table, number, index, place, wrist, away, waits)
+        if height.betters(best):
+            found, best = lifted, height
+        if best.near:
+            break
+    return found
+
+
+def _unit(vector: FloatArray) -> FloatArray:
+    return vector / max(float(np.linalg.norm(vector)), 1e-6)
+
+
+def _lifted_along(
+    problem: Problem,
+    scene: GripScene,
+    table: FingerTable,
+    number: int,
+    index: int,
+    place: Station,
+    wrist: GripScene,
+    away: FloatArray,
+    off: FloatArray,
+) -> tuple[StationTable, _Height]:
+    """A station that a finger goes to lifted towards ``away``, and waits at towards ``off``, in the instrument's
+    frame; and how high."""
+    home, there = table.stations[0], table.stations[index]
+    away, off = away @ scene.basis[0], off @ scene.basis[0]
+    near, come = _waiting(home), _waiting(there)
+    way = np.tile(WAYS, 2)
+
+    def on_way(waits: FloatArray) -> Callable[[float], FloatArray]:
+        first, last = (np.repeat(end, len(WAYS), axis=0) for end in (near, waits))
+        pose = mixed(first, last, way[:, None, None])
+        return lambda lift: solved_pose(raised_way(table, 0, index, pose, way, lift * away))
+
+    if wrist is scene:
+        found = _Height(*_least_lift(problem, scene, number, on_way(come), LIFTS_M))
+        return replace(there, away_m=found.lift_m * away), found
+
+    # A hand that gives way goes along with the key: the finger has come by then.
+    own, at_home = ((one.position_m[:1], quaternion.from_matrix(one.basis[:1])) for one in (wrist, scene))
+
+    def waiting(lift: float) -> FloatArray:
+        return solved_pose(with_wrist(table, there, come, own, at_home, lift * off))
+
+    least, _ = _least_lift(problem, scene, number, waiting, LIFTS_M[: len(LIFTS_M) // 2 + 1])
+    # Where the way to there is not clear at any height, it is to a finger that waits higher; but not too far off.
+    most = max(least, MOST_HOVER_M - HOVER_MORE * hover_m(place, scene.instrument_map))
+    found, best = _Height(0.0, np.inf), least
+    for height in (one for one in LIFTS_M.tolist() if least <= one <= most):
+        one = _Height(*_least_lift(problem, scene, number, on_way(waiting(height)), LIFTS_M))
+        if one.betters(found):
+            found, best = one, height
+        if found.near:
+            break
+    return replace(there, away_m=found.lift_m * away, waits_m=best * off), found
+
+
+def _waiting(station: StationTable) -> FloatArray:
+    """Poses (2, n, 4) of a finger that waits, as high as it ever does and as low."""
+    low = LOW_HOVER if station.hovers else 0.0
+    return interpolated(station.values, station.rotations, np.array([0.0, low]))
+
+
+def _least_lift(
+    problem: Problem, scene: GripScene, number: int, lifted: Callable[[float], FloatArray], lifts_m: FloatArray
+) -> tuple[float, float]:
+    """The first of some heights at which a finger's poses (K, n, 4) all keep clear of the instrument, or the best; and
+    how deep the deepest is there."""
+    hand = problem.hand
+    own = slice(1 + 3 * number, 4 + 3 * number)
+    carried = hand.all_points[own, 3].sum(axis=0) > 0.5
+    skin = np.ascontiguousarray(hand.all_points[:, :, carried])
+    place_m, bases = nodes_at(scene.model, scene.instrument_map, frozenset(), None, np.zeros(1))
+    best, least = 0.0, np.inf
+    for lift in lifts_m.tolist():
+        fingers = lifted(lift)
+        rotations = np.tile(quaternion.IDENTITY, (len(fingers), 16, 1))
+        rotations[:, own] = fingers
+        placed = scene.over(np.zeros(len(fingers)))
+        flesh = placed.placed(skinned(wrist_from_mesh(hand, wrist_from_joint(hand, rotations)), skin))
+        deep = max(
+            float(inside_proxy(problem.proxies, place_m[0], bases[0], points, np.zeros(len(points)))[0].max())
+            for points in flesh
+        )
+        clear = deep <= WAY_CLEAR_M
+        if clear or deep < least - WORTH_M:
+            best, least = lift, deep
+        if clear:
+            break
+    return best, least

@@ -1,0 +1,152 @@
+"""Lifted fingers that stay curved: a finger leaves its key from the knuckle, as bent as it pressed.
+
+A hold is solved for where the pads are (`app.rig.grip.fitting.solved_fingers`), and a finger can come as high above its
+key with its middle joint stretched. People keep it bent, and lift all of it. Here the waiting poses of a hold are made
+so: as high over the key along the same way, the two outer joints bent as a hand at ease has them. The pressed pose, and
+with it every touch, stays what it is.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from app.rig import quaternion
+from app.rig.grip.grip_pose import FingerTable, FloatArray, GripPose, HandHold, StationTable
+from app.rig.model import Skeleton
+from metadata.model import SkeletonProfile
+
+CURVED_RAD = (float(np.deg2rad(26.0)), float(np.deg2rad(62.0)))
+"""So far the middle joint of a waiting finger is bent, at least and at most ..."""
+OUTER_SHARE = 0.55
+"""... and the outer joint by this share of it."""
+BEYOND_RAD = (float(np.deg2rad(28.0)), float(np.deg2rad(22.0)))
+"""Beyond what touches the middle and the outer joint are bent by so much at least."""
+MOST_RAD = (float(np.deg2rad(20.0)), float(np.deg2rad(25.0)))
+"""Neither bends further from how it presses."""
+KNUCKLE_RAD = (float(np.deg2rad(-30.0)), float(np.deg2rad(90.0)))
+AMOUNTS = (1.0, 0.5)
+"""How much of that is tried."""
+ROUNDS, LEAST_SLOPE_M, MOST_STEP_RAD = 8, 0.001, 0.3
+SPREAD_RAD = float(np.deg2rad(0.1))
+"""The knuckle is turned sideways no further than it was solved."""
+EXACT_M, ASIDE_M = 0.0003, 0.012
+"""What does not come as high so nearly, or goes further from the way up, waits as it was solved."""
+
+
+@dataclass(frozen=True)
+class _Finger:
+    """Geometry of a finger's three joints: offsets (3, 3), flexion and twist axes (3, 3), what touches (3,)."""
+
+    offsets_m: FloatArray
+    flexion: FloatArray
+    twist: FloatArray
+    tip_m: FloatArray
+
+    def tips_m(self, rotations: FloatArray) -> FloatArray:
+        """Where (S, 3) what touches is in the wrist's frame."""
+        point = np.broadcast_to(self.tip_m, (len(rotations), 3))
+        for joint in (2, 1, 0):
+            point = self.offsets_m[joint] + quaternion.rotate(rotations[:, joint], point)
+        return point
+
+    def flexed(self, rotations: FloatArray, joint: int, angles_rad: FloatArray) -> FloatArray:
+        """Rotations (S, 3, 4) with a joint bent by so much more."""
+        result = rotations.copy()
+        turn = quaternion.from_axis_angle(self.flexion[joint], angles_rad)
+        result[:, joint] = quaternion.multiply(turn, rotations[:, joint])
+        return result
+
+    def bent_rad(self, rotation: FloatArray, joint: int) -> float:
+        """How far a joint (4,) is bent."""
+        swing, _ = quaternion.swing_twist(rotation, self.twist[joint])
+        return float(quaternion.to_rotation_vector(swing) @ self.flexion[joint])
+
+    def spread_rad(self, rotations: FloatArray) -> float:
+        """How far the knuckle (S, 4) is turned sideways at most."""
+        swing, _ = quaternion.swing_twist(rotations, self.twist[0])
+        sideways = np.cross(self.flexion[0], self.twist[0])
+        return float(np.abs(quaternion.to_rotation_vector(swing) @ sideways).max())
+
+
+def with_curved_fingers(hold: GripPose, skeleton: Skeleton, profile: SkeletonProfile) -> GripPose:
+    """The hold whose waiting fingers are curved, but for those that bear the instrument: they stay on it."""
+    return replace(hold, hands=tuple(_of_hand(hand, skeleton, profile) for hand in hold.hands))
+
+
+def _of_hand(hand: HandHold, skeleton: Skeleton, profile: SkeletonProfile) -> HandHold:
+    bearing = {fit.part.rpartition(".")[0] for fit in hand.contacts if fit.control is None}
+    fingers = tuple(table if table.finger in bearing else _curved(table, skeleton, profile) for table in hand.fingers)
+    return replace(hand, fingers=fingers)
+
+
+def _curved(table: FingerTable, skeleton: Skeleton, profile: SkeletonProfile) -> FingerTable:
+    if table.finger.endswith("thumb") or len(table.joints) != 3:
+        return table
+    axes = [profile.joint_axes(skeleton.names[joint]) for joint in table.joints]
+    flexion, twist = np.array([one.flexion for one in axes]), np.array([one.twist for one in axes])
+    offsets_m = np.array([skeleton.offsets_m[joint] for joint in table.joints])
+    stations = []
+    for station in table.stations:
+        finger = _Finger(offsets_m, flexion, twist, station.tip_m)
+        if station.hovers and station.tip_joint == 2 and len(station.values) > 1:
+            station = _lifted(station, finger)
+        elif station.controls and station.tip_joint in (0, 1):
+            station = replace(station, rotations=_eased_beyond(station, finger))
+        stations.append(station)
+    return replace(table, stations=tuple(stations))
+
+
+def _eased_beyond(station: StationTable, finger: _Finger) -> FloatArray:
+    """Rotations (S, 3, 4) with the joints beyond the one that touches bent at least as a hand at ease has them."""
+    rotations = station.rotations
+    for joint in range(station.tip_joint + 1, 3):
+        bent_rad = np.array([finger.bent_rad(one[joint], joint) for one in rotations])
+        rotations = finger.flexed(rotations, joint, np.maximum(BEYOND_RAD[joint - 1] - bent_rad, 0.0))
+    return rotations
+
+
+def _lifted(station: StationTable, finger: _Finger) -> StationTable:
+    """One station with its finger lifted from the knuckle: as curved as that goes, or half, or as it was solved."""
+    for amount in AMOUNTS:
+        rotations = _from_knuckle(station, finger, amount)
+        if rotations is not None:
+            return replace(station, rotations=rotations)
+    return station
+
+
+def _from_knuckle(station: StationTable, finger: _Finger, amount: float) -> FloatArray | None:
+    """Rotations (S, 3, 4) that come as high; None where they do not."""
+    tips_m, pressed, waiting = finger.tips_m(station.rotations), station.rotations[-1], station.rotations[0]
+    way_m = tips_m[0] - tips_m[-1]
+    way = way_m / max(float(np.linalg.norm(way_m)), 1e-9)
+    height_m = (tips_m - tips_m[-1]) @ way
+    middle, outer = (finger.bent_rad(pressed[joint], joint) for joint in (1, 2))
+    middle_rad = middle + np.clip(np.clip(middle, *CURVED_RAD) - middle, -MOST_RAD[0], MOST_RAD[0])
+    outer_rad = outer + np.clip(OUTER_SHARE * middle_rad - outer, -MOST_RAD[1], MOST_RAD[1])
+    rotations = station.rotations
+    # Half a hole is covered by the pose that was solved for it; above that, bent towards ease as it rises.
+    share = np.square(np.clip(1.0 - 2.0 * station.values, 0.0, 1.0))
+    for joint, eased_rad in ((1, middle_rad), (2, outer_rad)):
+        solved_rad = finger.bent_rad(waiting[joint], joint)
+        rotations = finger.flexed(rotations, joint, share * amount * (eased_rad - solved_rad))
+    bare, turn = rotations, np.zeros(len(share))
+    for _ in range(ROUNDS):
+        now_m = finger.tips_m(finger.flexed(bare, 0, turn))
+        slope = quaternion.cross(np.broadcast_to(finger.flexion[0], now_m.shape), now_m - finger.offsets_m[0]) @ way
+        slope = np.where(np.abs(slope) < LEAST_SLOPE_M, -LEAST_SLOPE_M, slope)
+        turn = turn + np.clip((height_m - (now_m - tips_m[-1]) @ way) / slope, -MOST_STEP_RAD, MOST_STEP_RAD)
+    rotations = finger.flexed(bare, 0, turn)
+    off_m = finger.tips_m(rotations) - tips_m[-1]
+    aside_m = np.linalg.norm(off_m - np.multiply.outer(off_m @ way, way), axis=1)
+    knuckle_rad = np.array([finger.bent_rad(one[0], 0) for one in station.rotations]) + turn
+    if knuckle_rad.min() < KNUCKLE_RAD[0] or knuckle_rad.max() > KNUCKLE_RAD[1]:
+        return None
+    if finger.spread_rad(rotations[:, 0]) > finger.spread_rad(station.rotations[:, 0]) + SPREAD_RAD:
+        return None
+    if np.abs(off_m @ way - height_m).max() > EXACT_M or aside_m.max() > ASIDE_M:
+        return None
+    rotations = np.where((share > 0.0)[:, None, None], rotations, station.rotations)
+    same_side = np.einsum("sjc,sjc->sj", rotations, station.rotations) >= 0.0
+    return np.where(same_side[..., None], rotations, -rotations)

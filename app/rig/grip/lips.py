@@ -1,0 +1,270 @@
+"""Finding a character's lips, and where an instrument hangs on them: by the kind of embouchure, never by instrument.
+
+A cup lies on both lips where they meet, a plate under the lower lip. What goes between the lips lies in the middle of
+their opening: its edges are found among the vertices about the mouth, in the shape that the face's weights make and
+with the jaw as far open as it must be.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from functools import lru_cache
+
+import numpy as np
+import numpy.typing as npt
+
+from app.rig import quaternion
+from app.rig.characters.landmarks import JAW_MORPHS
+from app.rig.grip.body_size import face_size
+from app.rig.grip.carriage import carriage_rotation, carrying, joint_rotations, usual_posture
+from app.rig.grip.grip_pose import Lips
+from app.rig.model import Character, Landmark
+from app.rig.skeleton import forward
+from app.rig.skinning import mesh_named, patch, skin_matrices
+from instrument_maps.model import InstrumentMap
+from metadata.model import Body
+
+FloatArray = npt.NDArray[np.float64]
+IntArray = npt.NDArray[np.intp]
+
+AROUND_M = 0.03
+"""The lips' edges are looked for within this distance of where the lips meet, ..."""
+MIDDLE_M = 0.0045
+"""... at most so far off the middle of the face ..."""
+DEPTH_M = 0.006
+"""... and no further inside the mouth than this: there are gums and teeth."""
+UPPER_SHARE, LOWER_SHARE = 0.3, 0.7
+"""The upper lip goes along with the jaw by less than this share, the lower lip by more."""
+SAME_M = 1e-4
+"""A vertex that is off the middle by less belongs to both halves."""
+MOUTH_M = (0.0, -0.031, 0.104)
+"""Where the lips of a grown-up's face meet, in the head's frame: for one that has none."""
+WIDER = (1.0, 2.0, 4.0)
+"""Of few vertices, those so much further off the middle are looked at."""
+ROUNDS = 3
+"""How often the edges are found anew with the jaw that they ask for; they have settled after two."""
+
+
+@dataclass(frozen=True, eq=False)
+class LipPlaces:
+    """Where an instrument is on a character's lips, as vertices.
+
+    Attributes
+    ----------
+    contact : Landmark
+        The place of the map's ``mouthpiece.position_m`` while it is played.
+    carrier : Landmark
+        What carries it while the mouth is open for a breath.
+    upper, lower : Landmark
+        The edges of the opening between the lips.
+    """
+
+    contact: Landmark
+    carrier: Landmark
+    upper: Landmark
+    lower: Landmark
+
+
+def needed_landmarks(instrument_map: InstrumentMap) -> frozenset[str]:
+    """What a character must have for the instrument's kind of embouchure."""
+    return frozenset(("lips.contact", "lips.lower" if instrument_map.embouchure.kind == "air_jet" else "lips.upper"))
+
+
+def lip_places(character: Character, instrument_map: InstrumentMap, body: Body) -> LipPlaces:
+    """Find where the instrument is on the lips."""
+    marks, embouchure = character.landmarks, instrument_map.embouchure
+    face = body.embouchure[embouchure.kind]
+    opening_m = embouchure.lips_apart_m + face.opening_m
+    mouth = None if opening_m == 0.0 else _mouth(character)
+    if mouth is None:
+        contact = marks["lips.lower" if embouchure.kind == "air_jet" else "lips.contact"]
+        carrier = contact if embouchure.kind == "air_jet" else marks["lips.upper"]
+        return LipPlaces(contact, carrier, marks["lips.upper"], marks["lips.lower"])
+    up, ahead = _mouthpiece_axes(character, instrument_map, body)
+    upper, lower = mouth.edges(face.usual, opening_m, up, ahead)
+    edges = (Landmark(mouth.mesh, mouth.vertices[upper]), Landmark(mouth.mesh, mouth.vertices[lower]))
+    if embouchure.kind == "air_jet":
+        return LipPlaces(marks["lips.lower"], marks["lips.lower"], *edges)
+    both = Landmark(mouth.mesh, np.concatenate([edge.vertices for edge in edges]))
+    return LipPlaces(both, edges[0], *edges)
+
+
+def fit_lips(character: Character, instrument_map: InstrumentMap, body: Body) -> Lips:
+    """Find the place of an instrument on the lips in the head's frame, and how each morph moves it."""
+    embouchure = instrument_map.embouchure
+    if not needed_landmarks(instrument_map) <= character.landmarks.keys():
+        about_m = face_size(character) * np.array(MOUTH_M)
+        return Lips(about_m, {}, {}, about_m)
+    places = lip_places(character, instrument_map, body)
+    contact_m, contact = _in_head(character, places.contact)
+    _, carrier = _in_head(character, places.carrier)
+    opening_m = body.embouchure[embouchure.kind].opening_m
+    usual_m, gap_m, gap, jaw = contact_m, 0.0, dict[str, float](), ""
+    mouth = None if embouchure.lips_apart_m + opening_m == 0.0 else _mouth(character)
+    if mouth is not None:
+        up, _ = _mouthpiece_axes(character, instrument_map, body)
+        (upper_m, upper), (lower_m, lower) = (_in_head(character, edge) for edge in (places.upper, places.lower))
+        still = np.zeros(3)
+        gap_m = float((upper_m - lower_m) @ up)
+        gap = {
+            name: float((upper.get(name, still) - lower.get(name, still)) @ up)
+            for name in sorted(upper.keys() | lower.keys())
+        }
+        jaw = mouth.jaw
+        if embouchure.lips_apart_m > 0.0:
+            # Whatever the face's weights are: a hold is not fitted anew for them.
+            usual_m = _in_head(character, character.landmarks["lips.contact"])[0] - 0.5 * embouchure.lips_apart_m * up
+    return Lips(
+        contact_rest_m=contact_m,
+        contact_deltas_m=contact,
+        carrier_deltas_m=carrier,
+        usual_m=usual_m,
+        apart_m=embouchure.lips_apart_m,
+        opening_m=opening_m,
+        gap_rest_m=gap_m,
+        gap_deltas_m=gap,
+        jaw=jaw,
+    )
+
+
+def meeting(character: Character, instrument_map: InstrumentMap, body: Body) -> Character:
+    """The character with its landmarks ``lips.contact`` and ``lips.upper`` where the instrument is played, and where it
+    stays while the mouth is open: what a judge of contacts measures. Of a cup they are there already; a character
+    without lips stays without."""
+    if not needed_landmarks(instrument_map) <= character.landmarks.keys():
+        return character
+    places = lip_places(character, instrument_map, body)
+    if places.contact is character.landmarks["lips.contact"]:
+        return character
+    vertices = (tuple(place.vertices.tolist()) for place in (places.contact, places.carrier))
+    return _with_lips(character, places.contact.mesh, *vertices)
+
+
+@lru_cache(maxsize=64)
+def _with_lips(character: Character, mesh: str, contact: tuple[int, ...], carrier: tuple[int, ...]) -> Character:
+    own = {
+        name: Landmark(mesh, np.array(vertices, dtype=np.int32))
+        for name, vertices in (("lips.contact", contact), ("lips.upper", carrier))
+    }
+    return replace(character, landmarks={**character.landmarks, **own})
+
+
+def _in_head(character: Character, place: Landmark) -> tuple[FloatArray, dict[str, FloatArray]]:
+    """A place (3,) in the head's frame at rest, and what every morph at weight 1 adds to it."""
+    positions, deltas = _skin(character, place)
+    moved = {name: delta.mean(axis=0) for name, delta in deltas.items()}
+    moving = {name: delta for name, delta in moved.items() if np.abs(delta).max() > 1e-6}
+    return positions.mean(axis=0), moving
+
+
+def _skin(character: Character, place: Landmark) -> tuple[FloatArray, dict[str, FloatArray]]:
+    """Vertices (V, 3) in the head's frame at rest, and what the morphs add to them."""
+    part = patch(character, mesh_named(character, place.mesh), place.vertices)
+    skeleton = character.skeleton
+    rest = forward(skeleton, np.tile(quaternion.IDENTITY, (1, len(skeleton.names), 1)))
+    head_m, _ = rest.of(skeleton.index("head"))
+    matrices = np.tensordot(part.weights, skin_matrices(part.joints, part.joint_from_mesh, rest)[0], axes=1)
+    positions = np.einsum("vab,vb->va", matrices[..., :3], part.positions_m) + matrices[..., 3] - head_m[0]
+    return positions, {name: np.einsum("vab,vb->va", matrices[..., :3], delta) for name, delta in part.morphs.items()}
+
+
+def _mouthpiece_axes(character: Character, instrument_map: InstrumentMap, body: Body) -> tuple[FloatArray, FloatArray]:
+    """The mouthpiece's up and air axes in the head's frame, as it is usually carried."""
+    usual = usual_posture(instrument_map)
+    carriage = instrument_map.hold.carriage(usual)
+    posed = forward(character.skeleton, joint_rotations(character.skeleton, carrying(body, usual, carriage)))
+    _, head = posed.of(character.skeleton.index("head"))
+    turn = carriage_rotation(carriage.pitch_down_deg[1], carriage.yaw_left_deg[1], carriage.roll_left_deg[1])
+    inward = quaternion.multiply(quaternion.conjugate(head[0]), turn)
+    mouthpiece = instrument_map.mouthpiece
+    return (
+        quaternion.rotate(inward, np.asarray(mouthpiece.up_axis, dtype=np.float64)),
+        quaternion.rotate(inward, np.asarray(mouthpiece.air_axis, dtype=np.float64)),
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class _Mouth:
+    """The skin about the middle of the mouth, in the head's frame.
+
+    Attributes
+    ----------
+    vertices : (V,) int32
+    positions_m : (V, 3) float64
+    deltas_m : dict of str to (V, 3) float64
+    seam_m : (3,) float64
+        Where the lips meet.
+    jaw : str
+        The morph that opens the mouth.
+    upper, lower : (V,) bool
+        Which lip a vertex belongs to.
+    size : float
+        Of the face.
+    """
+
+    mesh: str
+    vertices: npt.NDArray[np.int32]
+    positions_m: FloatArray
+    deltas_m: Mapping[str, FloatArray]
+    seam_m: FloatArray
+    jaw: str
+    upper: npt.NDArray[np.bool_]
+    lower: npt.NDArray[np.bool_]
+    size: float = 1.0
+
+    def edges(
+        self, weights: Mapping[str, float], opening_m: float, up: FloatArray, ahead: FloatArray
+    ) -> tuple[IntArray, IntArray]:
+        """Vertices of upper and lower lip that what lies between them touches, with the jaw opened for it."""
+        shape: FloatArray = self.positions_m + sum(
+            weight * self.deltas_m[name] for name, weight in weights.items() if name in self.deltas_m
+        )
+        jaw = 0.0
+        upper = lower = np.zeros(0, dtype=np.intp)
+        for _ in range(ROUNDS):
+            opened = shape + jaw * self.deltas_m[self.jaw]
+            height = opened @ up
+            # As far out as the lips are, each for itself: the jaw takes the lower one back.
+            depth = (opened - self.seam_m) @ ahead
+            upper, lower = (
+                self._edge(height * sign, depth, own) for sign, own in ((1.0, self.upper), (-1.0, self.lower))
+            )
+            drop = self.deltas_m[self.jaw] @ up
+            gap_m = (shape @ up)[upper].mean() - (shape @ up)[lower].mean()
+            jaw = float(np.clip((opening_m - gap_m) / (drop[upper].mean() - drop[lower].mean()), 0.0, 1.0))
+        return upper, lower
+
+    def _edge(self, height: FloatArray, depth: FloatArray, own: npt.NDArray[np.bool_]) -> IntArray:
+        """The lowest vertex of each half of the lip, so that the edge is in the middle."""
+        front = float(np.percentile(depth[own], 90.0))
+        outside = own & (depth > front - DEPTH_M * self.size)
+        off_m = self.positions_m[:, 0] - self.seam_m[0]
+        halves = (np.flatnonzero(outside & half) for half in (off_m > -SAME_M, off_m < SAME_M))
+        return np.array([rows[height[rows].argmin()] for rows in halves if len(rows)], dtype=np.intp)
+
+
+@lru_cache(maxsize=32)
+def _mouth(character: Character) -> _Mouth | None:
+    """The mouth of a character; None where no morph opens it."""
+    lips, size = character.landmarks["lips.contact"], face_size(character)
+    mesh = mesh_named(character, lips.mesh)
+    morphs = {morph.name for morph in mesh.morphs}
+    jaw = next((name for name in JAW_MORPHS if name in morphs), None)
+    if jaw is None:
+        return None
+    raw = np.asarray(mesh.positions_m, dtype=np.float64)
+    near = np.linalg.norm(raw - raw[lips.vertices].mean(axis=0), axis=1) < AROUND_M * size
+    around = Landmark(lips.mesh, np.flatnonzero(near).astype(np.int32))
+    positions_m, deltas_m = _skin(character, around)
+    if jaw not in deltas_m:
+        return None
+    seam_m, _ = _in_head(character, lips)
+    drop = np.linalg.norm(deltas_m[jaw], axis=1)
+    for wider in WIDER:
+        middle = np.abs(positions_m[:, 0] - seam_m[0]) < wider * MIDDLE_M * size
+        most = drop[middle].max(initial=0.0)
+        upper, lower = middle & (drop < UPPER_SHARE * most), middle & (drop > LOWER_SHARE * most)
+        if upper.any() and lower.any():
+            return _Mouth(lips.mesh, around.vertices, positions_m, deltas_m, seam_m, jaw, upper, lower, size)
+    return None

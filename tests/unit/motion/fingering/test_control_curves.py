@@ -1,0 +1,151 @@
+"""Controls are judged as the frames of an exported file are: at whole frames of every rate."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from app.motion.curves.curve import frame_times
+from app.motion.fingering.control_curves import control_curves, window_s
+from tests.unit.motion.events import TICKS, fingerings, press, slide
+
+RATES = [Fraction(24), Fraction(25), Fraction(30000, 1001), Fraction(30), Fraction(60)]
+FIRST_FRAME_S = -2.0
+
+
+@st.composite
+def passages(draw: st.DrawFn, name: str, values: st.SearchStrategy[float], shortest_s: float):
+    """Notes of a line: (onset_s, end_s, controls), with gaps below a beat and rests of a beat or more."""
+    rows = []
+    time_s = draw(st.floats(0.0, 1.0))
+    for _ in range(draw(st.integers(1, 12))):
+        length_s = draw(st.floats(shortest_s, 1.2))
+        gap_s = draw(st.sampled_from([0.0, 0.0, 0.0, 0.02, 0.1, 0.3, 0.5, 0.62, 1.4]))
+        rows.append((time_s, time_s + length_s, {name: draw(values)}))
+        time_s += length_s + gap_s
+    return fingerings(rows)
+
+
+def control_curve(events, control, felt_beats):
+    return control_curves(events, (control,), felt_beats)[control.name]
+
+
+def judged_frame(onset_s: float, fps: Fraction) -> int:
+    return math.ceil(round((onset_s - FIRST_FRAME_S) * fps.numerator / fps.denominator, 9))
+
+
+def sampled(events, control, fps):
+    frames = int((events[-1].end_s + 3.0 - FIRST_FRAME_S) * fps) + 1
+    times_s = frame_times(FIRST_FRAME_S, fps, 0, frames)
+    return times_s, control_curve(events, control, ((0, TICKS),)).sample(times_s)
+
+
+@pytest.mark.parametrize("fps", RATES)
+@given(events=passages("valve_1", st.sampled_from([0.0, 1.0]), 2 / 24 + 0.001))
+@settings(max_examples=60, deadline=None)
+def test_a_press_is_exact_at_the_judged_frame_and_until_its_window(fps, events) -> None:
+    times_s, values = sampled(events, press(), fps)
+    for event, following in zip(events, [*events[1:], None], strict=True):
+        target = event.controls["valve_1"]
+        assert values[judged_frame(event.start_s, fps)] == pytest.approx(target, abs=1e-9)
+        end_s = event.end_s if following is None else min(event.end_s, following.start_s)
+        leave_s = end_s
+        if following is not None:
+            leave_s = min(end_s, following.start_s - min(0.060, 0.40 * (end_s - event.start_s)))
+        held = (times_s >= event.start_s + 1e-9) & (times_s <= leave_s - 1e-9)
+        np.testing.assert_allclose(values[held], target, atol=0.1 + 1e-9)
+
+
+@pytest.mark.parametrize("fps", RATES)
+@given(events=passages("slide", st.sampled_from([0.0, 0.14, 0.29, 0.31, 0.6, 1.0]), 0.5))
+@settings(max_examples=60, deadline=None)
+def test_a_slide_is_exact_at_the_judged_frame_and_until_its_window(fps, events) -> None:
+    times_s, values = sampled(events, slide(), fps)
+    for event, following in zip(events, [*events[1:], None], strict=True):
+        target = event.controls["slide"]
+        assert abs(values[judged_frame(event.start_s, fps)] - target) * 0.6 < 1e-9
+        end_s = event.end_s if following is None else min(event.end_s, following.start_s)
+        leave_s = end_s
+        if following is not None:
+            distance_m = abs(following.controls["slide"] - target) * 0.6
+            window = min(max(0.060, distance_m / 2.5), 0.5 * (end_s - event.start_s))
+            leave_s = min(end_s, following.start_s - window)
+        held = (times_s >= event.start_s + 1e-9) & (times_s <= leave_s - 1e-9)
+        assert np.all(np.abs(values[held] - target) * 0.6 <= 0.005)
+
+
+@given(events=passages("slide", st.floats(0.0, 1.0), 0.06))
+@settings(max_examples=100, deadline=None)
+def test_between_two_notes_a_control_goes_one_way_and_no_further(events) -> None:
+    curve = control_curve(events, slide(), ((0, TICKS),))
+    for event, following in itertools.pairwise(events):
+        if following.start_tick - event.end_tick >= TICKS:
+            continue
+        values = curve.sample(np.linspace(event.start_s, following.start_s, 400))
+        steps = np.diff(values)
+        direction = np.sign(following.controls["slide"] - event.controls["slide"])
+        assert np.all(steps * direction >= -1e-12)
+
+
+@pytest.mark.parametrize("control", [press(), slide(name="valve_1")])
+@pytest.mark.parametrize("beats", [1.0, 1.5, 4.0])
+@pytest.mark.parametrize("quarter_s", [0.22, 0.5, 1.5])
+def test_in_a_rest_of_a_beat_or_more_a_control_is_at_rest(control, beats, quarter_s) -> None:
+    onset_s = 1.0 + beats * quarter_s
+    events = fingerings([(0.0, 1.0, {"valve_1": 1.0}), (onset_s, onset_s + 1.0, {"valve_1": 0.8})], quarter_s)
+    curve = control_curve(events, control, ((0, TICKS),))
+    values = curve.sample(np.linspace(1.0, onset_s, 500))
+    assert values.min() == pytest.approx(0.0, abs=1e-6)
+    assert values[0] == 1.0
+    assert values[-1] == pytest.approx(0.8, abs=1e-12)
+
+
+def test_in_a_rest_below_a_beat_a_control_stays_and_moves_late() -> None:
+    events = fingerings([(0.0, 1.0, {"valve_1": 1.0}), (1.4, 2.0, {"valve_1": 1.0}), (2.4, 3.0, {})])
+    values = control_curve(events, press(), ((0, TICKS),)).sample(np.array([0.5, 1.2, 1.39, 2.2, 2.339, 2.4]))
+    np.testing.assert_allclose(values, [1.0, 1.0, 1.0, 1.0, 1.0, 0.0], atol=0.08)
+
+
+def test_the_beat_of_a_rest_is_the_one_felt_there() -> None:
+    events = fingerings([(at, at + 1.0, {"valve_1": 1.0}) for at in (0.0, 1.5, 3.0)], 0.5)
+    changes = ((0, TICKS), (events[2].start_tick, 2 * TICKS))
+    values = control_curve(events, press(), changes).sample(np.array([1.25, 2.75]))
+    np.testing.assert_allclose(values, [0.0, 1.0], atol=1e-6)
+
+
+def test_before_the_first_note_and_after_the_last_a_control_is_at_its_own_rest_value() -> None:
+    control = press(rest_value=0.25)
+    curve = control_curve(fingerings([(1.0, 2.0, {"valve_1": 1.0})]), control, ((0, TICKS),))
+    np.testing.assert_array_equal(curve.sample(np.array([-1.0, 0.9, 1.0, 2.0, 2.5])), [0.25, 0.25, 1.0, 1.0, 0.25])
+
+
+def test_repeated_notes_do_not_lift() -> None:
+    events = fingerings([(0.3 * i, 0.3 * i + 0.25, {"valve_1": 1.0}) for i in range(8)])
+    values = control_curve(events, press(), ((0, TICKS),)).sample(np.linspace(0.0, events[-1].end_s, 3000))
+    np.testing.assert_array_equal(values, 1.0)
+
+
+def test_a_slide_too_far_for_half_its_note_starts_earlier_but_leaves_the_first_frame() -> None:
+    # 0.6 m need 0.24 s; a note of 0.2 s has 0.1 s in its half and 0.1583 s after its first frame at 24 frames/s
+    assert window_s(slide(), 1.0, 0.2, 0.0) == pytest.approx(0.2 - 1 / 24)
+    assert window_s(slide(), 1.0, 0.47, 0.0) == pytest.approx(0.24)
+    assert window_s(slide(), 1.0, 1.0, 0.0) == pytest.approx(0.24)
+    assert window_s(slide(), 0.05, 1.0, 0.0) == pytest.approx(0.060)
+
+
+def test_a_long_move_gathers_speed_while_it_still_looks_in_place() -> None:
+    events = fingerings([(0.0, 1.0, {"slide": 0.0}), (1.0, 2.0, {"slide": 1.0})])
+    times_s = np.linspace(0.6, 1.0, 40001)
+    place_m = control_curve(events, slide(), ((0, TICKS),)).sample(times_s) * 0.6
+    assert 0.0 < place_m[np.searchsorted(times_s, 1.0 - 0.24)] < 0.0045
+    assert place_m[np.searchsorted(times_s, 1.0 - 0.30)] == 0.0
+    speed_m_s = np.gradient(place_m, times_s)
+    assert 0.8 * 15 / 8 * 2.5 < speed_m_s.max() < 15 / 8 * 2.5
+    # less acceleration than a move that waits for its window: 10 / sqrt(3) d / T²
+    assert np.abs(np.gradient(speed_m_s, times_s)).max() < 0.85 * 10 / np.sqrt(3) * 0.6 / 0.24**2

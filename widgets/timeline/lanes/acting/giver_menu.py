@@ -1,0 +1,68 @@
+"""The menus from which the giver of an entry and those who take it are chosen."""
+
+from __future__ import annotations
+
+from PySide6.QtWidgets import QMenu
+
+from app.editor.selection import EventKey, Selection
+from app.editor.session import Session
+from app.errors import Message
+from app.project.edit.givers import set_giver, set_takers
+from app.project.model import Project
+from widgets.common.clicks import on_click
+from widgets.common.plain import verbatim
+from widgets.timeline.model.regions.shown_event import Region
+
+
+def add_givers(menu: QMenu, session: Session, cue: Region, title: str) -> None:
+    """Every player who may give the entry of a cue; who gives it is checked."""
+    givers = menu.addMenu(title)
+    givers.setObjectName("givers")
+    for player in session.project.players:
+        entry = givers.addAction(verbatim(player.name))
+        entry.setCheckable(True)
+        entry.setChecked(player.id == cue.player_id)
+        on_click(entry, _give, session, cue, player.id)
+
+
+def add_takers(menu: QMenu, session: Session, cue: Region, title: str, automatic: str) -> None:
+    """Every player whom a cue may bring in; those whom it does are checked. ``automatic`` names who comes in there."""
+    plan = session.plans.get(cue.player_id)
+    event = next((one for one in plan.cues if one.id == cue.event_id), None) if plan is not None else None
+    if event is None:
+        return
+    project, taking = session.project, frozenset(event.takers)
+    own = {player.id for player in project.played_by(project.player(cue.player_id))}
+    takers = menu.addMenu(title)
+    takers.setObjectName("takers")
+    for player in project.players:
+        if player.id in own:
+            continue
+        entry = takers.addAction(verbatim(player.name))
+        entry.setCheckable(True)
+        entry.setChecked(player.id in taking)
+        on_click(entry, _take, session, cue, taking ^ {player.id})
+    takers.addSeparator()
+    on_click(takers.addAction(automatic), _take, session, cue, None)
+
+
+def _take(session: Session, cue: Region, takers: frozenset[str] | None) -> None:
+    plan = session.plans.get(cue.player_id)
+    if plan is not None:
+        session.attempt(Message("edit.set_takers"), lambda project: set_takers(project, plan, cue.event_id, takers))
+
+
+def _give(session: Session, cue: Region, giver_id: str) -> None:
+    plan = session.plans.get(cue.player_id)
+    if plan is None or giver_id == cue.player_id:
+        return
+    ids: list[str] = []
+
+    def edit(project: Project) -> Project:
+        edited = set_giver(project, plan, cue.event_id, giver_id)
+        ids[:] = edited.event_ids
+        return edited.project
+
+    message = Message("edit.set_giver", {"player": session.project.player(giver_id).name})
+    if session.attempt(message, edit) and ids:
+        session.select(Selection(events=frozenset(EventKey(giver_id, event_id) for event_id in ids)))

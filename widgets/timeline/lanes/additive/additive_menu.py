@@ -1,0 +1,109 @@
+"""The menus of the lane of additive curves: of channels, and of what is at a place."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection
+from typing import Protocol
+
+from PySide6.QtGui import QAction, QActionGroup
+from PySide6.QtWidgets import QMenu
+
+from app.editor.translated import tr
+from app.plan.by_hand.additive_curve import INTERPOLATIONS, AdditiveCurve, CurveKey, Interpolation
+from widgets.common.channel_names import body_groups, face_groups, way_name
+from widgets.common.clicks import on_click, on_switch
+from widgets.common.plain import verbatim
+
+MARKED = "• "
+"""Before the names of channels that have curves."""
+
+
+class Curves(Protocol):
+    """What the menus ask for, and what they can do."""
+
+    def chosen(self) -> tuple[CurveKey, ...]: ...
+    def interpolate(self, interpolation: Interpolation) -> None: ...
+    def free(self) -> None: ...
+    def flatten(self) -> None: ...
+    def type_value(self) -> None: ...
+    def copy(self) -> None: ...
+    def delete(self) -> None: ...
+    def select_all(self) -> None: ...
+    def type_weight(self, name: str) -> None: ...
+    def type_title(self, name: str) -> None: ...
+    def enable(self, name: str, enabled: bool) -> None: ...
+    def delete_curve(self, name: str) -> None: ...
+
+
+def fill_channels(menu: QMenu, channel: str, used: Collection[str], chosen: Callable[[str], None]) -> None:
+    """Fill a menu with all channels by the parts of body and face; those ``used`` are marked."""
+    menu.clear()
+    group = QActionGroup(menu)
+
+    def offer(into: QMenu, channels: tuple[str, ...]) -> None:
+        for each in channels:
+            mark = MARKED if each in used else ""
+            entry = into.addAction(mark + verbatim(way_name(each)))
+            entry.setObjectName(f"channel_{each}")
+            entry.setCheckable(True)
+            entry.setChecked(each == channel)
+            group.addAction(entry)
+            on_click(entry, chosen, each)
+
+    def marked(name: str, channels: Collection[str]) -> str:
+        return (MARKED if any(each in used for each in channels) else "") + verbatim(name)
+
+    for name, channels in body_groups():
+        offer(menu.addMenu(marked(name, channels)), channels)
+    everything = [each for _, channels in face_groups() for each in channels]
+    face = menu.addMenu(marked(tr("channel.face"), everything))
+    for name, channels in face_groups():
+        offer(face.addMenu(marked(name, channels)), channels)
+
+
+def add_key_entries(menu: QMenu, lane: Curves) -> None:
+    """Entries about the selected keys."""
+    keys = lane.chosen()
+    names = {
+        "bezier": tr("additive_lane.bezier"),
+        "linear": tr("additive_lane.linear"),
+        "constant": tr("additive_lane.constant"),
+    }
+    kinds = menu.addMenu(tr("additive_lane.interpolation"))
+    for interpolation in INTERPOLATIONS:
+        entry = kinds.addAction(names[interpolation])
+        entry.setObjectName(f"interpolation_{interpolation}")
+        entry.setCheckable(True)
+        entry.setChecked(all(key.interpolation == interpolation for key in keys))
+        on_click(entry, lane.interpolate, interpolation)
+    tangents = menu.addMenu(tr("additive_lane.tangents"))
+    automatic = add_entry(tangents, "tangents_automatic", tr("additive_lane.automatic"), lane.free)
+    automatic.setCheckable(True)
+    automatic.setChecked(all(key.arrive is None and key.leave is None for key in keys))
+    add_entry(tangents, "tangents_flat", tr("additive_lane.flat"), lane.flatten)
+    menu.addSeparator()
+    add_entry(menu, "key_value", tr("additive_lane.value"), lane.type_value)
+    add_entry(menu, "copy_keys", tr("additive_lane.copy_keys"), lane.copy)
+    add_entry(menu, "delete_keys", tr("additive_lane.delete_keys"), lane.delete)
+
+
+def add_curve_entries(menu: QMenu, lane: Curves, curve: AdditiveCurve) -> None:
+    """Entries about a whole curve."""
+    name = curve.name
+    menu.addSeparator()
+    enabled = menu.addAction(tr("additive_lane.enabled"))
+    enabled.setObjectName("curve_enabled")
+    enabled.setCheckable(True)
+    enabled.setChecked(curve.enabled)
+    on_switch(enabled, lambda checked: lane.enable(name, checked))
+    add_entry(menu, "curve_weight", tr("additive_lane.weight"), lambda: lane.type_weight(name))
+    add_entry(menu, "curve_title", tr("additive_lane.rename"), lambda: lane.type_title(name))
+    add_entry(menu, "delete_curve", tr("additive_lane.delete_curve"), lambda: lane.delete_curve(name))
+
+
+def add_entry(menu: QMenu, name: str, text: str, run: Callable[[], None]) -> QAction:
+    """An entry that does something, to be found by its name."""
+    entry = menu.addAction(text)
+    entry.setObjectName(name)
+    on_click(entry, run)
+    return entry

@@ -1,0 +1,393 @@
+"""The lane of fingerings: what the hands press, pull and slide for every note, and what else would do."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+from PySide6.QtCore import QPoint, QPointF, QRectF, Qt
+from PySide6.QtGui import QColor, QFontMetricsF, QKeyEvent, QPainter, QPen
+from PySide6.QtWidgets import QMenu, QWidget
+
+from app.editor.selection import Selection
+from app.editor.session import Session
+from app.errors import AppError
+from app.plan.model import FingeringEvent, MuteEvent, PlayerPlan
+from app.project.document import Change
+from app.project.performers import Player
+from instrument_maps.model import Control, InstrumentMap
+from widgets.common.fingering_text import short_label
+from widgets.common.menus import add_actions
+from widgets.common.text import message_text
+from widgets.timeline.lane import Lane, LaneItem, LaneMouse
+from widgets.timeline.lanes.fingering.alternates import Alternates
+from widgets.timeline.lanes.problems import ProblemMarks
+from widgets.timeline.lanes.row_names import RowNames
+from widgets.timeline.model.geometry import Spans
+from widgets.timeline.plot.drawing import draw_mark, draw_path, draw_rects, draw_text, shade, small_font
+from widgets.timeline.plot.time_axis import TimeAxis
+
+Floats = npt.NDArray[np.float64]
+
+LABEL_PX = 16.0
+"""Height of the row of labels."""
+LEAST_LABEL_PX = 9.0
+MOST_BAR_PX = 26.0
+"""However high the lane, bars stay thin enough to be read together."""
+SMALL_BAR_PX = 13.0
+"""A trigger beside a slide leaves the slide the room it needs."""
+CHIPS_DELAY_PX = 3.0
+
+
+@dataclass(frozen=True)
+class Fingerings:
+    """A plan's fingerings as arrays (N,): what is pressed (by control) and where slides are.
+
+    ``pressed`` has a row for every pressable control, ``slides`` for every slide, both with values 0..1.
+    """
+
+    events: tuple[FingeringEvent, ...]
+    start_s: Floats
+    end_s: Floats
+    pressed: Floats
+    slides: Floats
+    spans: Spans
+
+
+def fingerings(plan: PlayerPlan, pressable: tuple[Control, ...], slides: tuple[Control, ...]) -> Fingerings:
+    """A plan's fingerings for drawing."""
+    events = plan.grips
+    start_s = np.array([event.start_s for event in events], np.float64)
+    end_s = np.array([event.end_s for event in events], np.float64)
+
+    def values(controls: tuple[Control, ...]) -> Floats:
+        rows = [[event.controls.get(control.name, control.rest_value) for event in events] for control in controls]
+        return np.array(rows, np.float64).reshape(len(controls), len(events))
+
+    return Fingerings(events, start_s, end_s, values(pressable), values(slides), Spans(start_s, end_s))
+
+
+def slide_places(instrument: InstrumentMap, slide: Control) -> tuple[tuple[float, str], ...]:
+    """Where the named places of a slide are: mean value of the fingerings that the slide alone makes, by label."""
+    found: dict[str, list[float]] = {}
+    for fingering in instrument.fingerings:
+        if set(fingering.controls) <= {slide.name}:
+            found.setdefault(fingering.label, []).append(fingering.controls.get(slide.name, slide.rest_value))
+    return tuple(sorted((sum(values) / len(values), label) for label, values in found.items()))
+
+
+class _Bars(LaneItem["FingeringLane"]):
+    """Pressed controls as bars, slides as lines, labels beneath."""
+
+    def paint_px(self, painter: QPainter, exposed: QRectF) -> None:
+        lane, data, player = self.lane, self.lane.data, self.lane.session.player
+        if data is None or player is None:
+            return
+        axis, tokens = lane.axis, lane.session.tokens
+        painter.setFont(small_font(lane.font()))
+        shown = data.spans.between(axis.seconds(exposed.left()), axis.seconds(exposed.right()))
+        left: Floats = axis.x_px(data.start_s[shown])
+        width = np.maximum(axis.x_px(data.end_s[shown]) - left - 1.0, 1.0)
+        colour = lane.session.colour(player)
+        selected = lane.session.selection.notes
+        chosen = np.array([data.events[index].note_id in selected for index in shown.tolist()], bool)
+        self._paint_selection(painter, left[chosen], width[chosen])
+        for row, values in enumerate(data.pressed):
+            top, height = lane.bar_box(row)
+            painter.setPen(QPen(shade(tokens.line_strong, 110), 1.0))
+            painter.drawLine(QPointF(exposed.left(), top + height / 2), QPointF(exposed.right(), top + height / 2))
+            value = values[shown]
+            for picked, token in ((~chosen, colour), (chosen, tokens.accent)):
+                down = picked & (value > 0.0)
+                size = np.maximum(value[down] * (height - 2.0), 2.0)
+                draw_rects(painter, left[down], top + height / 2 - size / 2, width[down], size, shade(token, 200))
+        for values in data.slides:
+            self._paint_slide(painter, exposed, left, width, values[shown], chosen, colour)
+        self._paint_labels(painter, data, shown, left, width, chosen)
+        self._paint_mutes(painter, exposed)
+
+    def _paint_mutes(self, painter: QPainter, exposed: QRectF) -> None:
+        """A line above the labels of every muted passage, dashed with a mute and whole where the hand stops it."""
+        lane, tokens = self.lane, self.lane.session.tokens
+        y = lane.plot_rect.height() - LABEL_PX - 2.0
+        for mute in lane.mutes:
+            left, right = (float(x) for x in lane.axis.x_px(np.array([mute.start_s, mute.end_s])))
+            if right >= exposed.left() and left <= exposed.right():
+                style = Qt.PenStyle.SolidLine if mute.kind == "stopped" else Qt.PenStyle.DashLine
+                painter.setPen(QPen(QColor(tokens.text), 2.0, style))
+                painter.drawLine(QPointF(left, y), QPointF(right, y))
+
+    def _paint_selection(self, painter: QPainter, left: Floats, width: Floats) -> None:
+        height = np.full(len(left), self.lane.plot_rect.height())
+        draw_rects(painter, left, np.zeros(len(left)), width, height, shade(self.lane.session.tokens.accent, 36))
+
+    def _paint_slide(
+        self,
+        painter: QPainter,
+        exposed: QRectF,
+        left: Floats,
+        width: Floats,
+        value: Floats,
+        chosen: npt.NDArray[np.bool_],
+        colour: str,
+    ) -> None:
+        lane, tokens = self.lane, self.lane.session.tokens
+        top, height = lane.slide_box
+        for place, _ in lane.places:
+            level = top + place * height
+            painter.setPen(QPen(shade(tokens.line_strong, 130), 1.0, Qt.PenStyle.DotLine))
+            painter.drawLine(QPointF(exposed.left(), level), QPointF(exposed.right(), level))
+        y = top + value * height
+        points = np.empty((2 * len(left), 2))
+        points[0::2, 0], points[1::2, 0] = left, left + width
+        points[0::2, 1] = points[1::2, 1] = y
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing, True)
+        draw_path(painter, points, QPen(shade(colour, 110), 1.0))
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing, False)
+        for picked, token in ((~chosen, colour), (chosen, tokens.accent)):
+            count = int(picked.sum())
+            draw_rects(painter, left[picked], y[picked] - 1.5, width[picked], np.full(count, 3.0), shade(token, 230))
+
+    def _paint_labels(
+        self,
+        painter: QPainter,
+        data: Fingerings,
+        shown: npt.NDArray[np.int64],
+        left: Floats,
+        width: Floats,
+        chosen: npt.NDArray[np.bool_],
+    ) -> None:
+        lane, tokens = self.lane, self.lane.session.tokens
+        top = lane.plot_rect.height() - LABEL_PX
+        text, strong = QColor(tokens.text_dim), QColor(tokens.text)
+        metrics = QFontMetricsF(painter.font())
+        rows = zip(shown.tolist(), left.tolist(), width.tolist(), chosen.tolist(), strict=True)
+        for index, x, wide, is_chosen in rows:
+            event = data.events[index]
+            if event.corrected:
+                draw_mark(painter, tokens, x, top - 2.0)
+            if wide < LEAST_LABEL_PX:
+                continue
+            # What is not the first choice stands out: it is what one looks for.
+            painter.setPen(strong if is_chosen or event.corrected or event.rank > 1 else text)
+            inset = 8.0 if event.corrected else 2.0
+            box = QRectF(x + inset, top, max(wide - inset, 15.0), LABEL_PX)
+            label = short_label(event.label)
+            if wide >= metrics.horizontalAdvance(label) + inset:
+                draw_text(painter, box, label)
+
+
+class FingeringLane(Lane):
+    """The fingerings of the player in front. A click on a note shows what else could be played there."""
+
+    id = "fingering"
+    preferred_height_px = 72
+    least_height_px = 46
+
+    def __init__(self, session: Session, axis: TimeAxis, parent: QWidget | None = None) -> None:
+        super().__init__(session, axis, parent)
+        self.data: Fingerings | None = None
+        self.places: tuple[tuple[float, str], ...] = ()
+        self._pressable: tuple[Control, ...] = ()
+        self._slides: tuple[Control, ...] = ()
+        self._plan: PlayerPlan | None = None
+        self._pressed_at: LaneMouse | None = None
+        self._selection_before = Selection()
+        self._hovered: FingeringEvent | None = None
+        self.bars = _Bars(self)
+        self.problem_marks = ProblemMarks(self, ("fingering", "note"))
+        self.alternates = Alternates(session, self)
+        self._names = RowNames(self, self.row_names)
+        self.refresh()
+        self.retranslate()
+
+    def retranslate(self) -> None:
+        self.title.setText(self.tr("fingering_lane.fingering"))
+        self.title.setToolTip(self.tr("fingering_lane.click_note_to_see_its"))
+
+    # What is shown
+
+    def refresh(self) -> None:
+        """Show the plan of the player in front, if it is another."""
+        player = self.session.player
+        plan = self.session.plan
+        if plan is self._plan and plan is not None:
+            return
+        if plan is None and player is not None and self._plan is not None and self._plan.player_id == player.id:
+            # New plans are on their way: what is shown stays until they are there.
+            return
+        self._plan, self.data, self.places = plan, None, ()
+        instrument = self._instrument(player) if player is not None else None
+        if instrument is not None and plan is not None:
+            pitched = [control for control in instrument.controls if control.role == "pitch"]
+            self._pressable = tuple(control for control in pitched if control.kind != "slide")
+            self._slides = tuple(control for control in pitched if control.kind == "slide")
+            self.data = fingerings(plan, self._pressable, self._slides)
+            if self._slides:
+                self.places = slide_places(instrument, self._slides[0])
+        self._hovered = None
+        if hasattr(self, "_names"):
+            self._names.update()
+        self.update_items()
+
+    def _instrument(self, player: Player) -> InstrumentMap | None:
+        """What a player plays; None where it is not installed."""
+        try:
+            return self.session.performance.instrument(player)
+        except AppError:
+            return None
+
+    def row_names(self) -> list[tuple[str, float]]:
+        """Signs of the controls and places of the slide, and where they stand."""
+        if self.data is None:
+            return []
+        names = []
+        for row, control in enumerate(self._pressable):
+            top, height = self.bar_box(row)
+            names.append((control.label or control.name, top + height / 2))
+        top, height = self.slide_box
+        return names + [(label, top + place * height) for place, label in self.places]
+
+    @property
+    def _bars_share(self) -> float:
+        """The part of the height above the labels that the bars of pressed controls take."""
+        if not self._slides:
+            return 1.0
+        return len(self._pressable) / (len(self._pressable) + 4.0)
+
+    def bar_box(self, row: int) -> tuple[float, float]:
+        """Top and height of the bar of a pressable control."""
+        room = (self.plot_rect.height() - LABEL_PX - 4.0) * self._bars_share
+        most = MOST_BAR_PX if not self._slides else SMALL_BAR_PX
+        height = min(room / max(len(self._pressable), 1), most)
+        return 2.0 + row * height, height
+
+    @property
+    def slide_box(self) -> tuple[float, float]:
+        """Top and height of the range of a slide: closed at the top, far out at the bottom."""
+        room = self.plot_rect.height() - LABEL_PX - 4.0
+        top = sum(self.bar_box(len(self._pressable) - 1)) if self._pressable else 2.0
+        return top + 6.0, max(room - top - 10.0, 4.0)
+
+    @property
+    def mutes(self) -> tuple[MuteEvent, ...]:
+        """The muted passages of the player in front."""
+        return () if self._plan is None else self._plan.mutes
+
+    def event_at(self, time_s: float) -> FingeringEvent | None:
+        """The fingering at a time."""
+        if self.data is None:
+            return None
+        reach_s = 2.0 / self.axis.px_per_s
+        found = self.data.spans.between(time_s - reach_s, time_s + reach_s)
+        inside = [index for index in found.tolist() if self.data.start_s[index] <= time_s <= self.data.end_s[index]]
+        return self.data.events[(inside or found.tolist())[-1]] if len(found) else None
+
+    def players_changed(self) -> None:
+        self.alternates.hide()
+        super().players_changed()
+
+    def project_changed(self, change: Change) -> None:
+        if change.opened:
+            self.alternates.hide()
+
+    def selection_changed(self, before: Selection) -> None:
+        if before.notes != self.session.selection.notes:
+            self.update_items()
+
+    def axis_changed(self) -> None:
+        if hasattr(self, "alternates"):
+            self.alternates.hide()
+
+    # The mouse
+
+    def press(self, mouse: LaneMouse) -> None:
+        event = self.event_at(mouse.time_s)
+        self._pressed_at, self._selection_before = mouse, self.session.selection
+        notes = self.session.selection.notes
+        if event is None:
+            if not (mouse.ctrl or mouse.shift):
+                self.session.select(Selection())
+        elif mouse.ctrl:
+            self.session.select(Selection(notes=notes ^ {event.note_id}))
+        elif mouse.shift:
+            self.session.select(Selection(notes=notes | {event.note_id}))
+        elif event.note_id not in notes:
+            self.session.select(Selection(notes=frozenset({event.note_id})))
+
+    def drag(self, mouse: LaneMouse) -> None:
+        start = self._pressed_at
+        if start is None or self.data is None or abs(mouse.x_px - start.x_px) < CHIPS_DELAY_PX:
+            return
+        low, high = sorted((start.time_s, mouse.time_s))
+        inside = frozenset(self.data.events[index].note_id for index in self.data.spans.between(low, high).tolist())
+        more = self._selection_before.notes if start.ctrl or start.shift else frozenset()
+        self.session.select(Selection(notes=inside | more))
+
+    def release(self, mouse: LaneMouse) -> None:
+        start, self._pressed_at = self._pressed_at, None
+        if start is None or mouse.ctrl or mouse.shift or abs(mouse.x_px - start.x_px) >= CHIPS_DELAY_PX:
+            return
+        event = self.event_at(start.time_s)
+        if event is not None:
+            self.session.select(Selection(notes=frozenset({event.note_id})))
+            self._show_alternates(event)
+
+    def key(self, event: QKeyEvent) -> bool:
+        """Alt and an arrow go to the neighbouring note, Enter shows its alternates."""
+        if self.data is None or not self.data.events:
+            return False
+        notes, events = self.session.selection.notes, self.data.events
+        chosen = [index for index, item in enumerate(events) if item.note_id in notes]
+        alt = bool(event.modifiers() & Qt.KeyboardModifier.AltModifier)
+        if alt and event.key() in (Qt.Key.Key_Left, Qt.Key.Key_Right):
+            step = 1 if event.key() == Qt.Key.Key_Right else -1
+            start = int(np.searchsorted(self.data.start_s, self.session.playhead_s))
+            index = (max(chosen) if step > 0 else min(chosen)) + step if chosen else start
+            found = events[min(max(index, 0), len(events) - 1)]
+            self.session.select(Selection(notes=frozenset({found.note_id})))
+            self.axis.reveal(found.start_s, found.end_s)
+            return True
+        if event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter) and chosen:
+            self._show_alternates(events[chosen[0]])
+            self.alternates.take_focus()
+            return True
+        return False
+
+    def _show_alternates(self, event: FingeringEvent) -> None:
+        if self._plan is not None:
+            x = min(max(self.axis.x_px(event.start_s), 0.0), self.plot_rect.width() - 60.0)
+            self.alternates.show_for(self._plan.player_id, event, self.plot.mapTo(self.window(), QPoint(round(x), 0)))
+
+    def cancel(self) -> None:
+        self._pressed_at = None
+        self.session.select(self._selection_before)
+
+    def hover(self, mouse: LaneMouse | None) -> None:
+        event = self.event_at(mouse.time_s) if mouse is not None else None
+        if event is not self._hovered:
+            self._hovered = event
+            self.plot.setToolTip("" if event is None else self._tip(event))
+
+    def _tip(self, event: FingeringEvent) -> str:
+        """What is under the mouse: the fingering and the tongue's stroke, each with its reason."""
+        lines = [event.label, message_text(event.reason, self.session)]
+        strokes = () if self._plan is None else self._plan.tongues
+        stroke = next((one for one in strokes if one.note_id == event.note_id), None)
+        if stroke is not None:
+            lines.append(f"{stroke.stroke}: {message_text(stroke.reason, self.session)}")
+        here = (one for one in self.mutes if one.start_tick <= event.start_tick < one.end_tick)
+        lines += [message_text(one.reason, self.session) for one in here]
+        return "\n".join(lines)
+
+    def context_menu(self, mouse: LaneMouse) -> QMenu | None:
+        event = self.event_at(mouse.time_s)
+        if event is not None and event.note_id not in self.session.selection.notes:
+            self.session.select(Selection(notes=frozenset({event.note_id})))
+        menu = QMenu(self)
+        if event is not None and self._plan is not None:
+            self.alternates.fill_menu(menu, self._plan.player_id, event)
+            menu.addSeparator()
+        add_actions(menu, self.session, ("fingering.cycle", "events.give_back"))
+        return menu

@@ -1,0 +1,1 @@
+"""Additive curves as the timeline shows them."""

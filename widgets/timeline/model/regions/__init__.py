@@ -1,0 +1,1 @@
+"""Events as regions of a lane."""

@@ -1,0 +1,150 @@
+"""The regions of the lane of acting: cues, expressions, poses and gestures, each kind in rows of its own."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from app.plan.model import SIGNED_KINDS, CueEvent, ExpressionEvent, GestureEvent, PoseEvent, StyleEvent
+from app.project.edit.events import OWN
+from app.score.tempo import TempoMap
+from widgets.timeline.model.geometry import Floats, packed_rows
+from widgets.timeline.model.regions.shown_event import Region
+
+CONCERT_KINDS = ("nod", "count", "look_about", "settle_grip", "hold_still", "look_up", "bow")
+"""What is done beside playing."""
+GROUPS: tuple[tuple[str, ...], ...] = (
+    ("cue",),
+    ("expression",),
+    ("lower_instrument", "pose"),
+    (*CONCERT_KINDS, "named"),
+    ("bell_height",),
+    ("weight_shift",),
+    ("step", "tap", "heel"),
+    ("sway",),
+    ("lean",),
+    ("accent",),
+)
+"""Kinds that share rows, from the top."""
+VARIED = "vary"
+"""Bars performed anew: not an event, but the user chose it; its row is there only with them, above all others."""
+STYLE = "style"
+"""Bars played in another style: their row too is there only with them."""
+STRIPS = ("bell_height", "weight_shift", "sway", "lean", "accent")
+"""Kinds of which there are so many that what is generated is drawn as one calm strip."""
+CURVES = ("sway", "lean")
+"""Kinds of these that go on from where the one before ended."""
+BASE = "expression:neutral"
+"""The face beneath all others, as long as the piece: a thin line at the foot of its row."""
+
+
+class Names(NamedTuple):
+    """What things are called in the language of the user."""
+
+    expression: Callable[[str], str]
+    kind: Callable[[str], str]
+    pose: Callable[[str], str]
+    gesture: Callable[[str], str]
+    style: Callable[[str], str]
+
+
+def packed_group(members: Sequence[Region], clock: TempoMap) -> tuple[list[int], int]:
+    """The row of every member of a group, and how many rows there are; the faces beneath all lie in the last."""
+    packed = sorted(
+        (*extent(region, clock), region.event_id, place)
+        for place, region in enumerate(members)
+        if region.event_id != BASE
+    )
+    spans = np.array([item[:2] for item in packed], np.float64).reshape(-1, 2)
+    own = packed_rows(spans[:, 0], spans[:, 1])
+    count = int(own.max(initial=0)) + 1
+    rows = [count - 1] * len(members)
+    for item, place in zip(packed, own.tolist(), strict=True):
+        rows[item[3]] = place
+    return rows, count
+
+
+def entry_near(onset_ticks: Floats, near_tick: float, clock: TempoMap, reach_s: float) -> int | None:
+    """The onset next to a tick, where it is no further than ``reach_s``."""
+    if not len(onset_ticks):
+        return None
+    nearest = float(onset_ticks[np.argmin(np.abs(onset_ticks - near_tick))])
+    return int(nearest) if abs(clock.seconds(nearest) - clock.seconds(near_tick)) <= reach_s else None
+
+
+def extent(region: Region, clock: TempoMap) -> tuple[float, float]:
+    """The ticks that a region covers, with the fades beside it: ticks, because neighbours touch to the tick."""
+    start, end = float(region.start_tick), float(max(region.end_tick, region.start_tick + 1))
+    if region.fades_outside:
+        return min(start, clock.ticks(region.first_s)), max(end, clock.ticks(region.last_s))
+    return start, end
+
+
+def in_guest(region: Region) -> Region:
+    """Shown because it matters here."""
+    region.guest = True
+    return region
+
+
+def cue_region(event: CueEvent, name: str, pattern: str) -> Region:
+    """A cue; ``pattern`` takes the name of who gives it."""
+    return Region(
+        event.player_id, event.id, "cue", event.start_tick, event.end_tick, event.start_s, event.end_s,
+        label=pattern.format(name=name), reason=event.reason, by_hand=event.corrected, steady=True,
+        peak_s=event.peak_s,
+    )  # fmt: skip
+
+
+def expression_region(player_id: str, event: ExpressionEvent, names: Names) -> Region:
+    """An expression."""
+    return Region(
+        player_id, event.id, "expression", event.start_tick, event.end_tick, event.start_s, event.end_s,
+        amount=event.strength, label=names.expression(event.expression), reason=event.reason,
+        by_hand=event.corrected, fade_in_s=event.fade_in_s, fade_out_s=event.fade_out_s,
+        fades=event.id != BASE,
+    )  # fmt: skip
+
+
+def gesture_region(player_id: str, event: GestureEvent, names: Names) -> Region:
+    """A gesture."""
+    label = names.gesture(event.name) if event.kind == "named" else names.kind(event.kind)
+    return Region(
+        player_id, event.id, event.kind, event.start_tick, event.end_tick, event.start_s, event.end_s,
+        amount=event.amount, label=label, reason=event.reason, by_hand=event.corrected,
+        signed=event.kind in SIGNED_KINDS,
+    )  # fmt: skip
+
+
+def pose_region(player_id: str, event: PoseEvent, names: Names) -> Region:
+    """A pose."""
+    return Region(
+        player_id, event.id, "pose", event.start_tick, event.end_tick, event.start_s, event.end_s,
+        label=names.pose(event.target), reason=event.reason, by_hand=event.corrected, steady=True,
+        fade_in_s=event.fade_in_s, fade_out_s=event.fade_out_s, fades=True, fades_outside=True,
+    )  # fmt: skip
+
+
+def style_region(player_id: str, event: StyleEvent, names: Names) -> Region:
+    """Bars in another style."""
+    return Region(
+        player_id, event.id, STYLE, event.start_tick, event.end_tick, event.start_s, event.end_s,
+        label=names.style(event.style), reason=event.reason, by_hand=event.corrected, steady=True,
+        fade_in_s=event.fade_in_s, fade_out_s=event.fade_out_s, fades=True,
+    )  # fmt: skip
+
+
+def strip(regions: Sequence[Region], kind: str) -> tuple[Floats, Floats, Floats]:
+    """Starts, ends and amounts of what is drawn as a strip; a sway's or a lean's curve takes in changed ones,
+    not added ones."""
+    chosen = [
+        region
+        for region in regions
+        if region.kind == kind and (not region.by_hand or (kind in CURVES and f":{OWN}" not in region.event_id))
+    ]
+    return (
+        np.array([region.start_s for region in chosen], np.float64),
+        np.array([region.end_s for region in chosen], np.float64),
+        np.array([region.amount for region in chosen], np.float64),
+    )

@@ -1,0 +1,1 @@
+"""Notes and entries as the piano roll shows them."""

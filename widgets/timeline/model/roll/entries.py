@@ -1,0 +1,227 @@
+"""Who gives an entry to whom, as arrows from note to note, and the hand that drags an end of one."""
+
+from __future__ import annotations
+
+from bisect import bisect_left
+from collections.abc import Iterable, Mapping
+from typing import Final, Literal, NamedTuple, Protocol, TypeAlias
+
+from app.editor.selection import EventKey, Selection
+from app.errors import Message
+from app.plan.model import PlayerPlan
+from app.project.edit.events import Edited
+from app.project.edit.givers import hand_over, set_giver
+from app.project.model import Project
+from app.project.performers import Player
+from widgets.timeline.model.gestures import Gesture, Plane, either, snapped
+from widgets.timeline.model.hand import LaneMouse
+from widgets.timeline.model.roll.note_table import NoteTable
+from widgets.timeline.model.roll.shown_notes import Ensemble, RollModel
+
+End: TypeAlias = Literal["tail", "head"]
+HEAD_PX: Final = 9.0
+"""Before its note: so long is the head that is taken hold of."""
+REACH_PX: Final = 6.0
+"""So near to the tail, or to the middle of the head."""
+NOTE_REACH_PX: Final = 36.0
+"""So near to a note's beginning an end that is dragged goes to it."""
+ROW_REACH_PX: Final = 28.0
+"""So near to a giver's row the tail goes to it."""
+FAR_PX: Final = 4.0
+
+
+class EntryArrow(NamedTuple):
+    """From the preparatory beat of who gives an entry to the note of who comes in with it.
+
+    ``from_pitch`` and ``to_pitch`` are the notes' that they begin with, ``to_tick`` is the onset of the latter.
+    """
+
+    giver_id: str
+    taker_id: str
+    from_s: float
+    from_pitch: int
+    to_s: float
+    to_pitch: int
+    cue_id: str = ""
+    to_tick: int = 0
+
+
+def entry_arrows(project: Project, plans: Mapping[str, PlayerPlan], player_id: str) -> tuple[EntryArrow, ...]:
+    """The entries that a player gives or takes."""
+    arrows = []
+    known = {player.id for player in project.players}
+    for plan in plans.values():
+        for cue in plan.cues:
+            if player_id != cue.player_id and player_id not in cue.takers:
+                continue
+            takers = cue.takers if player_id == cue.player_id else (player_id,)
+            begins = _note_at(project, cue.player_id, cue.end_tick) if cue.player_id in known else None
+            for taker in takers:
+                entry = _note_at(project, taker, cue.end_tick) if taker in known else None
+                if begins is not None and entry is not None:
+                    at_s = project.score.tempo_map.seconds(float(entry[0]))
+                    arrows.append(
+                        EntryArrow(cue.player_id, taker, cue.peak_s, begins[1], at_s, entry[1], cue.id, entry[0])
+                    )
+    return tuple(arrows)
+
+
+def _note_at(project: Project, player_id: str, tick: int) -> tuple[int, int] | None:
+    """Onset and pitch of the first note from a tick on, else of the last one."""
+    notes = project.part(project.player(player_id)).notes
+    if not notes:
+        return None
+    note = notes[min(bisect_left(notes, tick, key=lambda note: note.onset_tick), len(notes) - 1)]
+    return note.onset_tick, note.pitch
+
+
+class EntryPlane(Plane, Protocol):
+    """The roll under the mouse."""
+
+    @property
+    def session(self) -> Ensemble: ...
+    @property
+    def plans(self) -> Mapping[str, PlayerPlan]: ...
+    @property
+    def model(self) -> RollModel: ...
+
+
+def end_at(plane: Plane, arrows: Iterable[EntryArrow], mouse: LaneMouse) -> tuple[EntryArrow, End] | None:
+    """The arrow of which an end lies at a place, and which end."""
+    for arrow in arrows:
+        x_px, y_px = plane.axis.x_px(arrow.to_s), plane.y_px(arrow.to_pitch + 0.5)
+        if -HEAD_PX - 2.0 <= mouse.x_px - x_px <= 1.0 and abs(mouse.y_px - y_px) <= REACH_PX:
+            return arrow, "head"
+    for arrow in arrows:
+        x_px, y_px = plane.axis.x_px(arrow.from_s), plane.y_px(arrow.from_pitch + 0.5)
+        if max(abs(mouse.x_px - x_px), abs(mouse.y_px - y_px)) <= REACH_PX:
+            return arrow, "tail"
+    return None
+
+
+class EntryDrag(Gesture):
+    """Drag the tail of an arrow to another giver or time, its head to another player's note.
+
+    Nothing of the piece changes before the button goes up: `shown` is the arrow as it would be then.
+
+    Attributes
+    ----------
+    end : str
+        Which is dragged.
+    arrow, shown : EntryArrow
+        As it is; and as it would be.
+    meant : bool
+        Whether letting go here would change something.
+    """
+
+    def __init__(self, plane: EntryPlane, mouse: LaneMouse, arrow: EntryArrow, end: End) -> None:
+        super().__init__(mouse, either(FAR_PX))
+        self.end: End = end
+        self.shown, self.meant = arrow, False
+        self._plane, self.arrow = plane, arrow
+        self._session = plane.session
+        self._base = plane.session.project
+        self._peak_tick: int | None = None
+
+    def follow(self, mouse: LaneMouse) -> None:
+        self.shown = self._tail(mouse) if self.end == "tail" else self._head(mouse)
+        arrow = self.arrow
+        self.meant = self._peak_tick is not None or (
+            (self.shown.giver_id, self.shown.taker_id, self.shown.to_tick)
+            != (arrow.giver_id, arrow.taker_id, arrow.to_tick)
+        )
+
+    def _tail(self, mouse: LaneMouse) -> EntryArrow:
+        """In the row of the nearest giver; to the left or right it is another preparatory beat."""
+        arrow, score = self.arrow, self._base.score
+        self._peak_tick = None
+        if abs(mouse.x_px - self.at.x_px) >= 2 * FAR_PX:
+            tick = snapped(self._session.grid, score, mouse.tick, mouse.alt)
+            if tick < self._entry_tick():
+                self._peak_tick = tick
+        from_s = arrow.from_s if self._peak_tick is None else score.tempo_map.seconds(float(self._peak_tick))
+        giver = self._nearest_giver(mouse)
+        if giver is None:
+            return arrow._replace(from_s=from_s, from_pitch=int(mouse.value // 1))
+        if giver[0] == arrow.taker_id:
+            # They change places.
+            own = _note_at(self._base, arrow.giver_id, self._entry_tick())
+            at_s = arrow.to_s if own is None else score.tempo_map.seconds(float(own[0]))
+            arrow = arrow._replace(taker_id=arrow.giver_id, to_s=at_s, to_pitch=arrow.from_pitch)
+        return arrow._replace(giver_id=giver[0], from_s=from_s, from_pitch=giver[1])
+
+    def _nearest_giver(self, mouse: LaneMouse) -> tuple[str, int] | None:
+        """Id and pitch of who has the row nearest to the mouse."""
+        found: list[tuple[float, bool, str, int]] = []
+        for player in self._base.players:
+            note = _note_at(self._base, player.id, self._entry_tick())
+            if note is not None:
+                away_px = abs(self._plane.y_px(note[1] + 0.5) - mouse.y_px)
+                same_row = note[1] == self.arrow.from_pitch and player.id != self.arrow.giver_id
+                found.append((away_px, same_row, player.id, note[1]))
+        best = min(found, default=None)
+        return None if best is None or best[0] > ROW_REACH_PX else best[2:]
+
+    def _head(self, mouse: LaneMouse) -> EntryArrow:
+        """At the beginning of the nearest note that the giver does not play."""
+        arrow, project = self.arrow, self._base
+        own = {one.id for one in project.played_by(project.player(arrow.giver_id))}
+        found: list[tuple[float, bool, Player, NoteTable, int]] = []
+        for player in project.players:
+            if player.id in own:
+                continue
+            table = self._plane.model.table(player)
+            reach_s = NOTE_REACH_PX / self._plane.axis.px_per_s
+            first = int(table.onset_s.searchsorted(mouse.time_s - reach_s))
+            for place in range(first, int(table.onset_s.searchsorted(mouse.time_s + reach_s))):
+                x_px = self._plane.axis.x_px(float(table.onset_s[place]))
+                y_px = self._plane.y_px(float(table.pitch[place]) + 0.5)
+                away_px = max(abs(x_px - mouse.x_px), abs(y_px - mouse.y_px))
+                found.append((away_px, player.id != arrow.taker_id, player, table, place))
+        best = min(found, key=lambda one: one[:2], default=None)
+        if best is None or best[0] > NOTE_REACH_PX:
+            return arrow._replace(to_s=mouse.time_s, to_pitch=int(mouse.value // 1))
+        _, _, player, table, place = best
+        return arrow._replace(
+            taker_id=player.id,
+            to_s=float(table.onset_s[place]),
+            to_pitch=int(table.pitch[place]),
+            to_tick=int(table.onset_tick[place]),
+        )
+
+    def _entry_tick(self) -> int:
+        """Where the cue's entry is; the taker's own note may come later."""
+        plan = self._plane.plans.get(self.arrow.giver_id)
+        cues = plan.cues if plan is not None else ()
+        return next((cue.end_tick for cue in cues if cue.id == self.arrow.cue_id), self.arrow.to_tick)
+
+    def finish(self, mouse: LaneMouse) -> None:
+        arrow, shown = self.arrow, self.shown
+        plan = self._plane.plans.get(arrow.giver_id)
+        if plan is None or not self.meant or self._session.project is not self._base:
+            return
+        entry_tick = self._entry_tick() if shown.to_tick == arrow.to_tick else shown.to_tick
+        ids: list[str] = []
+
+        def edit(project: Project) -> Project:
+            edited: Edited
+            if self.end == "tail":
+                edited = set_giver(project, plan, arrow.cue_id, shown.giver_id, self._peak_tick)
+            else:
+                edited = hand_over(project, plan, arrow.cue_id, arrow.taker_id, shown.taker_id, entry_tick)
+            ids[:] = edited.event_ids
+            return edited.project
+
+        if self._session.attempt(self._named(shown), edit):
+            self._session.select(Selection(events=frozenset(EventKey(shown.giver_id, event_id) for event_id in ids)))
+
+    def _named(self, shown: EntryArrow) -> Message:
+        arrow, project = self.arrow, self._base
+        if shown.giver_id != arrow.giver_id:
+            return Message("edit.set_giver", {"player": project.player(shown.giver_id).name})
+        if shown.taker_id != arrow.taker_id:
+            return Message("edit.set_taker", {"player": project.player(shown.taker_id).name})
+        return Message("edit.resize_events" if self.end == "tail" else "edit.move_events", {"count": 1})
+
+    def cancel(self) -> None:
+        self.shown, self.meant = self.arrow, False

@@ -1,0 +1,246 @@
+"""What a press on the piano roll becomes: each gesture is one step, made from the project that it began with."""
+
+from __future__ import annotations
+
+from typing import Protocol
+
+from app.editor.selection import Selection
+from app.errors import Message
+from app.project.edit import notes
+from app.project.model import Project
+from app.score.model import Note
+from widgets.timeline.model.gestures import Band, Far, Gesture, Plane, Step, snapped, together
+from widgets.timeline.model.hand import Box, LaneMouse
+from widgets.timeline.model.roll.shown_notes import Ensemble, RollModel, cell
+
+VELOCITY_A_PX = 0.5
+
+
+class RollPlane(Plane, Protocol):
+    """The roll under the mouse; ``drag_px``: the mouse moves this far before a press becomes a drag."""
+
+    @property
+    def session(self) -> Ensemble: ...
+    @property
+    def model(self) -> RollModel: ...
+    @property
+    def drag_px(self) -> float: ...
+
+
+class RollGesture(Gesture):
+    """A press on the roll, one step from its beginning to its end.
+
+    Parameters
+    ----------
+    mouse : LaneMouse
+        The press.
+
+    Attributes
+    ----------
+    moved, sounded : str
+        Ids of notes whose new pitch, whose new velocity is worth saying.
+    copies : bool
+        Whether the mouse carries copies.
+    """
+
+    copies = False
+
+    def __init__(self, roll: RollPlane, mouse: LaneMouse, far: Far | None = None) -> None:
+        super().__init__(mouse, far)
+        self.roll = roll
+        self.session = roll.session
+        self.step = Step(self.session, roll)
+        self._selected = self.session.selection
+        self.moved = self.sounded = ""
+
+    def release(self, mouse: LaneMouse) -> None:
+        super().release(mouse)
+        self.step.end()
+
+    def cancel(self) -> None:
+        self.step.take_back()
+        self.session.select(self._selected)
+
+
+class Move(RollGesture):
+    """Drag notes in time and pitch; Shift keeps to one of them, Alt suspends the grid."""
+
+    def __init__(self, roll: RollPlane, mouse: LaneMouse, note: Note, narrow: bool) -> None:
+        super().__init__(roll, mouse, together(roll.drag_px))
+        self._note = note
+        self._narrow = narrow
+        self._ids = self.session.selection.notes
+
+    def follow(self, mouse: LaneMouse) -> None:
+        self._place(*notes.reach_of_move(self.step.base, self._ids, *self._distance(mouse)))
+
+    def _distance(self, mouse: LaneMouse) -> tuple[int, int]:
+        """How far the mouse carries the notes: ticks and semitones."""
+        by_tick = self._snapped(mouse)
+        by_pitch = int(mouse.value // 1) - int(self.at.value // 1)
+        if mouse.shift:
+            across = abs(mouse.x_px - self.at.x_px) >= abs(mouse.y_px - self.at.y_px)
+            return (by_tick, 0) if across else (0, by_pitch)
+        return by_tick, by_pitch
+
+    def _place(self, by_tick: int, by_pitch: int) -> None:
+        self.step.edit(
+            Message("edit.move_notes", {"count": len(self._ids)}),
+            lambda project: notes.move(project, self._ids, by_tick, by_pitch),
+        )
+        self.moved = self._note.id
+
+    def _free(self, mouse: LaneMouse) -> bool:
+        """Whether the grid is suspended."""
+        return mouse.alt
+
+    def _snapped(self, mouse: LaneMouse) -> int:
+        free = self._free(mouse)
+        target = self._note.onset_tick + mouse.tick - self.at.tick
+        # A hand that only transposes must not pull a note onto the grid.
+        if not free and abs(mouse.x_px - self.at.x_px) < self.roll.drag_px:
+            return 0
+        return snapped(self.session.grid, self.step.base.score, target, free) - self._note.onset_tick
+
+    def click(self, mouse: LaneMouse) -> None:
+        if self._narrow:
+            self.session.select(Selection(frozenset({self._note.id})))
+
+
+class Copy(Move):
+    """Drag copies of notes away from them. A press that is none takes its note into the selection or out of it."""
+
+    copies = True
+
+    def __init__(self, roll: RollPlane, mouse: LaneMouse, note: Note) -> None:
+        super().__init__(roll, mouse, note, narrow=False)
+        if note.id not in self._ids:
+            self._ids = frozenset({note.id})
+        self._key_is_alt = mouse.alt
+
+    def _free(self, mouse: LaneMouse) -> bool:
+        # Where the key that copies is the one that suspends the grid, the copies keep to it.
+        return mouse.alt and not self._key_is_alt
+
+    def _place(self, by_tick: int, by_pitch: int) -> None:
+        copies: tuple[str, ...] = ()
+
+        def copied(project: Project) -> Project:
+            nonlocal copies
+            if not by_tick and not by_pitch:
+                # On its original a copy would only be in its way.
+                return project
+            project, copies = notes.duplicate(project, self._ids, by_tick, by_pitch)
+            return project
+
+        if self.step.edit(Message("edit.duplicate_notes", {"count": len(self._ids)}), copied):
+            self.session.select(Selection(frozenset(copies or self._ids)))
+            self.moved = copies[0] if copies else ""
+
+    def click(self, mouse: LaneMouse) -> None:
+        itself = frozenset({self._note.id})
+        self.session.select(Selection(itself if self._key_is_alt else self._selected.notes ^ itself))
+
+
+class Resize(RollGesture):
+    """Drag the end of a note, or its beginning; the others chosen with it grow and shrink alike."""
+
+    def __init__(self, roll: RollPlane, mouse: LaneMouse, note: Note, at_start: bool) -> None:
+        super().__init__(roll, mouse, together(roll.drag_px))
+        self._note = note
+        self._at_start = at_start
+        self._ids = self.session.selection.notes
+
+    def follow(self, mouse: LaneMouse) -> None:
+        edge = self._note.onset_tick if self._at_start else self._note.end_tick
+        target = edge + mouse.tick - self.at.tick
+        placed = snapped(self.session.grid, self.step.base.score, target, mouse.alt)
+        self.step.edit(
+            Message("edit.resize_notes", {"count": len(self._ids)}),
+            lambda project: notes.resize(project, self._ids, placed - edge, at_start=self._at_start),
+        )
+
+
+class Velocity(RollGesture):
+    """Drag up or down: louder or softer."""
+
+    def __init__(self, roll: RollPlane, mouse: LaneMouse, note: Note) -> None:
+        super().__init__(roll, mouse)
+        self._note = note
+        self._ids = self.session.selection.notes
+
+    def follow(self, mouse: LaneMouse) -> None:
+        by = round((self.at.y_px - mouse.y_px) * VELOCITY_A_PX)
+        self.step.edit(
+            Message("edit.change_velocity", {"count": len(self._ids)}),
+            lambda project: notes.change_velocity(project, self._ids, by),
+        )
+        self.sounded = self._note.id
+
+
+class Draw(RollGesture):
+    """A new note where the press was, as long as the drag."""
+
+    def __init__(self, roll: RollPlane, mouse: LaneMouse, part_id: str, velocity: int) -> None:
+        super().__init__(roll, mouse)
+        self._part_id = part_id
+        self._velocity = velocity
+        self._onset, self._least = cell(self.step.base.score, self.session.grid, mouse)
+        self._pitch = int(mouse.value // 1)
+        self.note_id = ""
+        self._make(self._onset + self._least)
+
+    def _make(self, end: int) -> None:
+        def added(project: Project) -> Project:
+            length = max(end - self._onset, 1)
+            project, self.note_id = notes.add_note(
+                project, self._part_id, self._onset, length, self._pitch, self._velocity
+            )
+            return project
+
+        if self.step.edit(Message("edit.add_note"), added):
+            self.session.select(Selection(frozenset({self.note_id})))
+
+    def follow(self, mouse: LaneMouse) -> None:
+        end = round(mouse.tick) if mouse.alt else mouse.snapped_tick
+        self._make(end if mouse.alt else max(end, self._onset + self._least))
+
+
+class Erase(RollGesture):
+    """Every note that the mouse passes over goes."""
+
+    def __init__(self, roll: RollPlane, mouse: LaneMouse) -> None:
+        super().__init__(roll, mouse)
+        self._gone: set[str] = set()
+        self.follow(mouse)
+
+    def follow(self, mouse: LaneMouse) -> None:
+        hit = self.roll.model.note_at(mouse)
+        if hit is not None and hit.id not in self._gone:
+            self._gone.add(hit.id)
+            self.step.edit(
+                Message("edit.erase_notes", {"count": len(self._gone)}),
+                lambda project: notes.erase(project, self._gone),
+            )
+
+
+class LassoNotes(Band):
+    """A rectangle over notes; Shift and Ctrl add to what was selected before."""
+
+    def __init__(self, roll: RollPlane, mouse: LaneMouse) -> None:
+        super().__init__(roll, mouse, together(roll.drag_px), self._select_inside)
+        self._roll, self._before = roll, roll.session.selection
+        self._kept = self._before.notes if mouse.shift or mouse.ctrl else frozenset[str]()
+
+    def _select_inside(self, _box: Box, mouse: LaneMouse) -> None:
+        times = sorted((self.at.time_s, mouse.time_s))
+        low, high = sorted((int(self.at.value // 1), int(mouse.value // 1)))
+        inside = self._roll.model.notes_within(times[0], times[1], low, high)
+        self._roll.session.select(Selection(self._kept | inside))
+
+    def click(self, mouse: LaneMouse) -> None:
+        self._roll.session.select(Selection(self._kept))
+
+    def cancel(self) -> None:
+        super().cancel()
+        self._roll.session.select(self._before)

@@ -1,0 +1,225 @@
+"""What the piano roll shows and what lies under the mouse: notes of the player in front and of those behind."""
+
+from __future__ import annotations
+
+from operator import is_
+from typing import Protocol
+
+import numpy as np
+import numpy.typing as npt
+
+from app.editor.selection import Selection
+from app.editor.timeline_view import Ghosts
+from app.editor.tokens import Tokens
+from app.project.grid import Grid
+from app.project.model import Project
+from app.project.performers import Player
+from app.score.model import Note, Score
+from widgets.timeline.model.gestures import Editing
+from widgets.timeline.model.hand import LaneMouse
+from widgets.timeline.model.roll.note_table import Behind, Flags, Floats, NoteTable, Sounding
+from widgets.timeline.model.view import Scale
+
+Integers = npt.NDArray[np.int64]
+
+EDGE_PX = 6.0
+"""So near to a note's end a press takes hold of the end."""
+SLACK_PX = 3.0
+LEAST_ROWS, MOST_ROWS = 10.0, 128.0
+USUAL_ROWS = 30.0
+USUAL_ROW_PX = 8.0
+AIR_ROWS = 4.0
+"""Around what is fitted."""
+
+NO_GHOSTS = Behind((), ())
+
+
+class Ensemble(Editing, Protocol):
+    """What the roll needs of the session."""
+
+    @property
+    def player(self) -> Player | None: ...
+    @property
+    def tokens(self) -> Tokens: ...
+    def colour(self, player: Player) -> str: ...
+    def set_players(self, players: tuple[str, ...]) -> None: ...
+
+
+def kept_pitches(bottom: float, rows: float) -> tuple[float, float]:
+    """The lowest and the highest pitch to show, as near to these as there are pitches."""
+    rows = min(max(rows, LEAST_ROWS), MOST_ROWS)
+    bottom = min(max(bottom, 0.0), MOST_ROWS - rows)
+    return bottom, bottom + rows
+
+
+def fitted_pitches(low: float, high: float, room_px: float) -> tuple[float, float]:
+    """The lowest and the highest pitch to show around a range, with some air."""
+    rows = max(high - low + AIR_ROWS, min(USUAL_ROWS, room_px / USUAL_ROW_PX))
+    return kept_pitches((low + high) / 2 - rows / 2, rows)
+
+
+def zoomed_pitches(pitches: tuple[float, float], factor: float, at: float) -> tuple[float, float]:
+    """``factor`` times fewer; the pitch ``at`` stays where it is."""
+    bottom, top = pitches
+    rows = min(max((top - bottom) / factor, LEAST_ROWS), MOST_ROWS)
+    return kept_pitches(at - (at - bottom) / (top - bottom) * rows, rows)
+
+
+def visible(table: Sounding, start_s: float, end_s: float, pitches: tuple[float, float]) -> Integers:
+    """Places of the notes that may show in a range of time and pitch."""
+    found = table.visible(start_s, end_s)
+    bottom, top = pitches
+    pitch = table.pitch[found]
+    inside = (pitch > bottom - 1) & (pitch < top) & (table.end_s[found] > start_s)
+    rows: Integers = np.flatnonzero(inside) + found.start
+    return rows
+
+
+def boxes(
+    table: Sounding, rows: Integers, scale: Scale, highest: float, row_px: float
+) -> tuple[Floats, Floats, Floats, Floats]:
+    """Left, top, width and height of notes, in whole pixels so that edges are sharp."""
+    left = np.floor(scale.x_px(table.onset_s[rows]))
+    right = np.floor(scale.x_px(table.end_s[rows]))
+    pitch = table.pitch[rows]
+    top = np.floor((highest - pitch - 1) * row_px)
+    below = np.floor((highest - pitch) * row_px)
+    gap = 1.0 if row_px >= 4 else 0.0
+    return left, top, np.maximum(right - left - 1.0, 1.0), np.maximum(below - top - gap, 1.0)
+
+
+def edge_of(left_px: float, right_px: float, x_px: float) -> bool | None:
+    """Whether a place is at the beginning (True) or end (False) of a note; None: in its middle."""
+    reach = min(EDGE_PX, max((right_px - left_px) / 4, 1.5))
+    if right_px - x_px <= reach:
+        return False
+    # Short notes are for moving, and long enough at their end: only the end takes hold there.
+    return True if x_px - left_px <= reach and right_px - left_px >= 4 * EDGE_PX else None
+
+
+def cell(score: Score, grid: Grid, mouse: LaneMouse) -> tuple[int, int]:
+    """Beginning and length in ticks of the grid's cell under the mouse; with Alt the very tick."""
+    length = max(round(grid.quarters * score.ticks_per_quarter), 1)
+    tick = max(mouse.tick, 0.0)
+    if mouse.alt or not grid.enabled:
+        return round(tick), length
+    onset = grid.snap(score.metre_map, tick)
+    if onset > tick:
+        onset = grid.snap(score.metre_map, max(tick - length / 2, 0.0))
+    return onset, length
+
+
+class RollModel:
+    """Every player's notes as arrays; the one in front answers the mouse."""
+
+    def __init__(self, session: Ensemble, axis: Scale) -> None:
+        self._session, self._axis = session, axis
+        self.ghosts_mode = Ghosts.GHOSTS
+        """How the players behind are seen."""
+        self._tables: dict[str, NoteTable] = {}
+        self._flags: dict[str, tuple[NoteTable, Selection, Flags]] = {}
+        self._ghosts_of: tuple[tuple[object, ...], Behind] = ((None, None, None, None), NO_GHOSTS)
+        """The players behind, and what that was found from: it is asked with every repaint."""
+
+    def forget(self) -> None:
+        """Another piece is open."""
+        self._tables.clear()
+        self._flags.clear()
+
+    def table(self, player: Player) -> NoteTable:
+        """A player's notes as arrays; kept until they are others."""
+        project = self._session.project
+        part, tempo = project.part(player), project.score.tempo_map
+        known = self._tables.get(part.id)
+        if known is None or known.part is not part or known.tempo is not tempo:
+            known = self._tables[part.id] = NoteTable(part, tempo)
+        return known
+
+    def front(self) -> tuple[NoteTable, str] | None:
+        """The notes of the player in front, and their colour."""
+        player = self._session.player
+        return (self.table(player), self._session.colour(player)) if player is not None else None
+
+    def ghosts(self) -> Behind:
+        """The notes of the players behind."""
+        if self.ghosts_mode is Ghosts.ALONE:
+            return NO_GHOSTS
+        project, front = self._session.project, self._session.player
+        sources = (project.players, project.score, front, self._session.tokens)
+        if not all(map(is_, sources, self._ghosts_of[0])):
+            self._ghosts_of = (sources, self._find_ghosts(project, front))
+        return self._ghosts_of[1]
+
+    def _find_ghosts(self, project: Project, front: Player | None) -> Behind:
+        # Players of one part are seen once, in the colour of the first.
+        behind = {player.part_id: player for player in reversed(project.players)}
+        if front is not None:
+            behind.pop(front.part_id, None)
+        tables = [self.table(player) for player in behind.values()]
+        return Behind(tables, [self._session.colour(player) for player in behind.values()], self._ghosts_of[1])
+
+    def _touchable(self) -> list[NoteTable]:
+        """The notes that answer the mouse: of the player in front; where all are seen, then of the others."""
+        front = self.front()
+        tables = [] if front is None else [front[0]]
+        return tables + list(self.ghosts().tables) if self.ghosts_mode is Ghosts.ALL else tables
+
+    def note(self, note_id: str) -> Note | None:
+        """A note of the player in front."""
+        front = self.front()
+        place = front[0].index.get(note_id) if front is not None else None
+        return front[0].part.notes[place] if front is not None and place is not None else None
+
+    def note_at(self, mouse: LaneMouse) -> Note | None:
+        """The note at a place: of the player in front; where all are seen, else of another."""
+        slack_s = SLACK_PX / self._axis.px_per_s
+        for table in self._touchable():
+            place = table.at(mouse.time_s, int(mouse.value // 1), slack_s)
+            if place is not None:
+                return table.part.notes[place]
+        return None
+
+    def edge_at(self, note: Note, mouse: LaneMouse) -> bool | None:
+        """Whether the mouse is at the note's beginning (True) or end (False)."""
+        tempo = self._session.project.score.tempo_map
+        left_px, right_px = (self._axis.x_px(tempo.seconds(float(tick))) for tick in (note.onset_tick, note.end_tick))
+        return edge_of(left_px, right_px, mouse.x_px)
+
+    def notes_within(self, start_s: float, end_s: float, low: int, high: int) -> frozenset[str]:
+        """Ids of the notes that touch a rectangle."""
+        return frozenset(id for table in self._touchable() for id in table.within(start_s, end_s, low, high))
+
+    def notes_of_pitch(self, pitch: int) -> frozenset[str]:
+        """Ids of every note of a pitch in the part in front."""
+        front = self.front()
+        if front is None:
+            return frozenset()
+        notes = front[0].part.notes
+        return frozenset(notes[place].id for place in np.flatnonzero(front[0].pitch == pitch).tolist())
+
+    def selected(self, table: NoteTable) -> Flags | None:
+        """Which notes of a table are selected; None: none."""
+        selection = self._session.selection
+        if not selection.notes:
+            return None
+        known = self._flags.get(table.part.id)
+        if known is None or known[0] is not table or known[1].notes is not selection.notes:
+            known = (table, selection, table.flags(selection.notes))
+            self._flags[table.part.id] = known
+        return known[2] if known[2].any() else None
+
+    @property
+    def selects_behind(self) -> bool:
+        """Whether notes are selected that the player in front does not play."""
+        notes, front = self._session.selection.notes, self.front()
+        return bool(notes) and (front is None or not front[0].index.keys() >= notes)
+
+    def bring_forward(self, note: Note) -> None:
+        """Let the player of a note be in front."""
+        player = self._session.player
+        if player is not None and note.id in self.table(player).index:
+            return
+        for other in self._session.project.players:
+            if note.id in self.table(other).index:
+                self._session.set_players((other.id,))
+                return

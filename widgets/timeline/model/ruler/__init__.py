@@ -1,0 +1,1 @@
+"""The ruler, and beats put where they sound."""

@@ -1,0 +1,1 @@
+"""Takes as the timeline shows them."""

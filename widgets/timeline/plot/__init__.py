@@ -1,0 +1,1 @@
+"""The drawing area that ruler, roll and lanes share: time axis, drawing, mouse."""

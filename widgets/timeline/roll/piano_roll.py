@@ -1,0 +1,451 @@
+"""The piano roll: every player's notes, the one in front in colour and open to the mouse."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from PySide6.QtCore import QEvent, QLineF, QRectF, Qt, Signal
+from PySide6.QtGui import QCursor, QFont, QKeyEvent, QResizeEvent
+from PySide6.QtWidgets import QApplication, QMenu, QToolTip, QWidget
+
+from app.editor.selection import Selection
+from app.editor.session import Session
+from app.editor.timeline_view import Ghosts, Tool
+from app.editor.tokens import LEAST_TEXT_PT
+from app.errors import AppError, Message
+from app.plan.model import PlayerPlan
+from app.project.document import Change
+from app.project.edit import notes
+from app.score.model import Note
+from instrument_maps.model import InstrumentMap
+from widgets.common.menus import add_actions
+from widgets.common.pitch import pitch_text
+from widgets.common.text import sentence
+from widgets.timeline.lane import GUTTER_PX, Lane, LaneItem, LaneMouse
+from widgets.timeline.model.gestures import Gesture
+from widgets.timeline.model.roll.entries import EntryDrag
+from widgets.timeline.model.roll.note_table import Behind, Floats, Sounding
+from widgets.timeline.model.roll.roll_gestures import Copy, Draw, Erase, LassoNotes, Move, Resize, RollGesture, Velocity
+from widgets.timeline.model.roll.shown_notes import (
+    Integers,
+    RollModel,
+    boxes,
+    fitted_pitches,
+    kept_pitches,
+    visible,
+    zoomed_pitches,
+)
+from widgets.timeline.plot.drawing import rect
+from widgets.timeline.plot.time_axis import TimeAxis
+from widgets.timeline.roll.drawn_notes import Hint, Labels, Lasso, Notes, Rows
+from widgets.timeline.roll.entry_arrows import EntryArrows
+from widgets.timeline.roll.keyboard import KEYBOARD_PX, Keyboard
+
+ROWS_A_NOTCH = 3.0
+ZOOM_A_NOTCH = 1.18
+FIRST_VELOCITY = 80
+MENU = (
+    "notes.cut",
+    "notes.copy",
+    "notes.paste",
+    "",
+    "notes.split",
+    "notes.join",
+    "notes.duplicate",
+    "notes.quantise",
+    "edit.delete",
+    "",
+    "notes.select_pitch",
+    "notes.select_bar",
+)
+
+
+class PianoRoll(Lane):
+    """The piano roll."""
+
+    reported = Signal(str)
+    """What is under the mouse, for the tool bar."""
+
+    id = "roll"
+    preferred_height_px = 240
+    least_height_px = 112
+
+    def __init__(self, session: Session, axis: TimeAxis, parent: QWidget | None = None) -> None:
+        self.model = RollModel(session, axis)
+        self._gesture: Gesture | None = None
+        self._tool = Tool.SELECT
+        self._velocity = FIRST_VELOCITY
+        super().__init__(session, axis, parent)
+        self.keyboard = Keyboard(self)
+        self.rows = Rows(self, -200.0)
+        self.notes = Notes(self)
+        self.labels = Labels(self)
+        self.entries = EntryArrows(self)
+        self.lasso = Lasso(self)
+        Hint(self, 5.0)
+        self._set_font()
+        session.pitch_display.changed.connect(self.keyboard.update)
+        session.problems_changed.connect(self.performance_changed)
+        self.fit_pitch()
+        self.retranslate()
+
+    # What is shown
+
+    @property
+    def tool(self) -> Tool:
+        """What the left button does."""
+        return self._tool
+
+    def set_tool(self, tool: Tool) -> None:
+        """Let the left button do this."""
+        self._tool = tool
+        self.lasso.show(None)
+        shapes = {Tool.SELECT: Qt.CursorShape.ArrowCursor, Tool.DRAW: Qt.CursorShape.CrossCursor}
+        self.plot.setCursor(shapes.get(tool, Qt.CursorShape.PointingHandCursor))
+
+    @property
+    def ghosted(self) -> bool:
+        """Whether the players behind are only seen, faintly."""
+        return self.model.ghosts_mode is not Ghosts.ALL
+
+    @property
+    def ghosts_mode(self) -> Ghosts:
+        """How the players behind are seen."""
+        return self.model.ghosts_mode
+
+    def set_ghosts(self, ghosts: Ghosts) -> None:
+        """See the players behind so."""
+        self.model.ghosts_mode = ghosts
+        self.update_items()
+
+    def ghosts(self) -> Behind:
+        """The notes of the players behind."""
+        return self.model.ghosts()
+
+    def hint(self) -> str:
+        """What to do where nothing is yet; empty where there are notes."""
+        front = self.model.front()
+        if front is None:
+            return self.tr("piano_roll.no_players_yet_open_midi")
+        if len(front[0]):
+            return ""
+        return self.tr("piano_roll.no_notes_yet_take_pencil")
+
+    @property
+    def playable(self) -> tuple[int, int] | None:
+        """The range of the instrument in front, concert pitches."""
+        instrument = self._instrument()
+        return (instrument.range.low, instrument.range.high) if instrument is not None else None
+
+    def _instrument(self) -> InstrumentMap | None:
+        """What the player in front plays; None where no one does, or where its map is gone."""
+        player = self.session.player
+        if player is None:
+            return None
+        try:
+            return self.session.performance.instrument(player)
+        except AppError:
+            return None
+
+    @property
+    def plans(self) -> Mapping[str, PlayerPlan]:
+        """What the players do, by player id."""
+        return self.session.plans
+
+    @property
+    def row_px(self) -> float:
+        """Height of a pitch."""
+        bottom, top = self.y_range
+        return self.plot_rect.height() / (top - bottom)
+
+    def visible(self, table: Sounding, exposed: QRectF) -> Integers:
+        """Places of the notes that may show in a part of the plot."""
+        times = self.axis.seconds(exposed.left()), self.axis.seconds(exposed.right())
+        return visible(table, *times, self.y_range)
+
+    def boxes(self, table: Sounding, rows: Integers) -> tuple[Floats, Floats, Floats, Floats]:
+        """Left, top, width and height of notes, in whole pixels so that edges are sharp."""
+        return boxes(table, rows, self.axis, self.y_range[1], self.row_px)
+
+    # Pitch
+
+    def fit_pitch(self) -> None:
+        """Show the notes of the player in front, with some air."""
+        front = self.model.front()
+        pitches = front[0].pitch if front is not None else np.empty(0)
+        if len(pitches):
+            low, high = float(pitches.min()), float(pitches.max()) + 1.0
+        elif self.playable is not None:
+            low, high = float(self.playable[0]), float(self.playable[1])
+        else:
+            low, high = 53.0, 77.0
+        self._show_pitches(*fitted_pitches(low, high, self.plot_rect.height()))
+
+    def scroll_pitch(self, notches: float) -> None:
+        """Scroll up and down."""
+        bottom, top = self.y_range
+        self._show_pitches(*kept_pitches(bottom + notches * ROWS_A_NOTCH, top - bottom))
+
+    def _show_pitches(self, bottom: float, top: float) -> None:
+        self.set_y_range(bottom, top)
+        if hasattr(self, "keyboard"):
+            self.keyboard.update()
+
+    def pitch_text(self, pitch: int) -> str:
+        """A pitch named by the user's settings."""
+        instrument = self._instrument()
+        return pitch_text(
+            self.session.pitch_display, pitch, instrument.transposition_semitones if instrument is not None else 0
+        )
+
+    def pitch_tip(self, pitch: int) -> str:
+        """What the keyboard says about a key."""
+        return self.tr("piano_roll.click_to_select_all_its").format(pitch=self.pitch_text(pitch))
+
+    def select_pitch(self, pitch: int, add: bool) -> None:
+        """Select every note of a pitch in the part in front."""
+        if self.session.player is None:
+            return
+        found = self.model.notes_of_pitch(pitch)
+        self.session.select(Selection((self.session.selection.notes if add else frozenset()) | found))
+
+    # The mouse
+
+    @property
+    def drag_px(self) -> float:
+        """The mouse moves this far before a press becomes a drag."""
+        return QApplication.startDragDistance() / 2
+
+    def press(self, mouse: LaneMouse) -> None:
+        self._gesture = self._begin(mouse)
+
+    def _begin(self, mouse: LaneMouse) -> Gesture | None:
+        entry = self.entries.end_at(mouse) if self._tool is Tool.SELECT else None
+        if entry is not None:
+            return EntryDrag(self, mouse, *entry)
+        hit = self.model.note_at(mouse)
+        player = self.session.player
+        if self._tool is Tool.ERASE:
+            return Erase(self, mouse)
+        if self._tool is Tool.SPLIT:
+            if hit is not None:
+                self._split(hit, mouse)
+            return None
+        if hit is not None:
+            return self._take_hold(hit, mouse)
+        if self._tool is Tool.DRAW and player is not None and 0 <= mouse.value < 128:
+            return Draw(self, mouse, player.part_id, self._velocity)
+        return LassoNotes(self, mouse)
+
+    def _take_hold(self, note: Note, mouse: LaneMouse) -> Gesture | None:
+        self.model.bring_forward(note)
+        selected = self.session.selection.notes
+        if _copies(mouse):
+            return Copy(self, mouse, note)
+        if mouse.ctrl and not mouse.alt:
+            self.session.select(Selection(selected ^ {note.id}))
+            return None
+        narrow = note.id in selected and len(selected) > 1 and not mouse.shift
+        if note.id not in selected:
+            self.session.select(Selection((selected if mouse.shift else frozenset()) | {note.id}))
+        elif self.session.selection.events or self.session.selection.span:
+            self.session.select(Selection(selected))
+        self._velocity = note.velocity
+        if mouse.ctrl:
+            return Velocity(self, mouse, note)
+        edge = self.model.edge_at(note, mouse)
+        if edge is not None:
+            return Resize(self, mouse, note, at_start=edge)
+        return Move(self, mouse, note, narrow)
+
+    def _split(self, note: Note, mouse: LaneMouse) -> None:
+        self.session.attempt(
+            Message("edit.split_notes", {"count": 1}),
+            lambda project: notes.split(project, {note.id}, mouse.snapped_tick)[0],
+        )
+
+    def drag(self, mouse: LaneMouse) -> None:
+        if self._gesture is not None:
+            self._gesture.drag(mouse)
+            self._show_gesture(self._gesture)
+        self.keyboard.show_pitch(int(mouse.value // 1))
+
+    def _show_gesture(self, gesture: Gesture) -> None:
+        """Draw what it encloses, or say what it has made of a note."""
+        if isinstance(gesture, LassoNotes):
+            self.lasso.show(rect(gesture.box) if gesture.box is not None else None)
+        elif isinstance(gesture, EntryDrag):
+            self.entries.show(gesture)
+            if gesture.began:
+                QToolTip.showText(QCursor.pos(), self.entries.drag_text(gesture), self.plot)
+        elif isinstance(gesture, RollGesture) and gesture.began:
+            if gesture.copies:
+                self.plot.setCursor(Qt.CursorShape.DragCopyCursor)
+            self._tell_pitch(gesture.moved)
+            self._tell_velocity(gesture.sounded)
+
+    def release(self, mouse: LaneMouse) -> None:
+        gesture, self._gesture = self._gesture, None
+        if gesture is not None:
+            gesture.release(mouse)
+        self.entries.show(None)
+        self.set_tool(self._tool)
+        QToolTip.hideText()
+
+    def cancel(self) -> None:
+        gesture, self._gesture = self._gesture, None
+        if gesture is not None:
+            gesture.cancel()
+        self.entries.show(None)
+        self.set_tool(self._tool)
+        QToolTip.hideText()
+
+    def double_click(self, mouse: LaneMouse) -> None:
+        """A new note on empty ground."""
+        player = self.session.player
+        if self._tool is Tool.SELECT and player is not None and self.model.note_at(mouse) is None:
+            Draw(self, mouse, player.part_id, self._velocity).release(mouse)
+
+    def hover(self, mouse: LaneMouse | None) -> None:
+        self.keyboard.show_pitch(None if mouse is None else int(mouse.value // 1))
+        over_entry = self.entries.hover(mouse if self._tool is Tool.SELECT else None)
+        if mouse is None:
+            self.lasso.show(None)
+            self.reported.emit("")
+            return
+        hit = self.model.note_at(mouse)
+        self._report(mouse, hit)
+        if self._tool is Tool.SPLIT:
+            x = self.axis.x_px(self.session.project.score.tempo_map.seconds(float(mouse.snapped_tick)))
+            top = self.y_px(int(mouse.value // 1) + 1)
+            self.lasso.show(None, QLineF(x, top - 3, x, top + self.row_px + 3) if hit is not None else None)
+        elif self._tool in (Tool.SELECT, Tool.DRAW):
+            edge = self.model.edge_at(hit, mouse) if hit is not None and not mouse.ctrl else None
+            if over_entry:
+                self.plot.setCursor(Qt.CursorShape.OpenHandCursor)
+            elif edge is not None:
+                self.plot.setCursor(Qt.CursorShape.SizeHorCursor)
+            else:
+                self.set_tool(self._tool)
+
+    def key(self, event: QKeyEvent) -> bool:
+        """Escape lets go of the selection."""
+        if event.key() == Qt.Key.Key_Escape and self.session.selection:
+            self.session.select(Selection())
+            return True
+        return False
+
+    def wheel(self, mouse: LaneMouse, steps: float) -> bool:
+        """Scroll the pitches; with Alt zoom them about the one under the mouse."""
+        if not mouse.alt:
+            self.scroll_pitch(steps)
+            return True
+        self._show_pitches(*zoomed_pitches(self.y_range, ZOOM_A_NOTCH**steps, mouse.value))
+        return True
+
+    def pan_y(self, by_px: float) -> None:
+        """The plot is dragged up or down with the middle button."""
+        bottom, top = self.y_range
+        self._show_pitches(*kept_pitches(bottom + by_px / self.row_px, top - bottom))
+
+    def context_menu(self, mouse: LaneMouse) -> QMenu | None:
+        hit = self.model.note_at(mouse)
+        if hit is not None and hit.id not in self.session.selection.notes:
+            self.model.bring_forward(hit)
+            self.session.select(Selection(frozenset({hit.id})))
+        menu = QMenu(self)
+        add_actions(menu, self.session, MENU)
+        return menu
+
+    def _tell_pitch(self, note_id: str) -> None:
+        """Say which pitch a dragged note has."""
+        note = self.model.note(note_id)
+        if note is not None:
+            QToolTip.showText(QCursor.pos(), self.pitch_text(note.pitch), self.plot)
+
+    def _tell_velocity(self, note_id: str) -> None:
+        """Say how loud a dragged note is."""
+        note = self.model.note(note_id)
+        if note is not None:
+            self._velocity = note.velocity
+            QToolTip.showText(QCursor.pos(), self.tr("piano_roll.velocity").format(velocity=note.velocity), self.plot)
+
+    def _report(self, mouse: LaneMouse, note: Note | None) -> None:
+        """Say what is under the mouse: place and pitch, or the note; problems of a note as a tool tip."""
+        score = self.session.project.score
+        tick = mouse.tick if note is None else note.onset_tick
+        pitch = self.pitch_text(int(mouse.value // 1))
+        text = self.tr("piano_roll.pitch_place").format(pitch=pitch, place=score.metre_map.label(int(tick // 1)))
+        problems = ""
+        if note is not None:
+            text += self.tr("piano_roll.velocity_2").format(velocity=note.velocity)
+            player = self.session.player
+            known = self.session.problems(player.id) if player is not None else ()
+            found = [problem for problem in known if problem.note_id == note.id]
+            problems = "\n".join(sentence(problem.message, self.session) for problem in found)
+        self.reported.emit(text)
+        if self.plot.toolTip() != problems:
+            self.plot.setToolTip(problems)
+
+    # When something changes
+
+    def project_changed(self, change: Change) -> None:
+        if change.opened:
+            self.model.forget()
+            self.fit_pitch()
+        if change.before.score is not change.after.score or change.before.players is not change.after.players:
+            self.update_items()
+            self.keyboard.update()
+
+    def performance_changed(self) -> None:
+        self._redraw(self.labels)
+
+    def selection_changed(self, before: Selection) -> None:
+        if before.notes != self.session.selection.notes:
+            self._redraw(self.notes)
+
+    def players_changed(self) -> None:
+        front = self.model.front()
+        if front is not None and len(front[0]):
+            bottom, top = self.y_range
+            if front[0].pitch.min() < bottom or front[0].pitch.max() + 1 > top:
+                self.fit_pitch()
+        self.keyboard.update()
+        self.update_items()
+
+    def theme_changed(self) -> None:
+        self.keyboard.update()
+
+    def retranslate(self) -> None:
+        self.title.setText(self.tr("piano_roll.notes"))
+        self.title.setToolTip(self.tr("piano_roll.notes_of_player_in_front"))
+        self.keyboard.update()
+
+    def _redraw(self, item: LaneItem[Any]) -> None:
+        item.update()
+
+    def _set_font(self) -> None:
+        font = QFont(self.font())
+        if 0 < font.pointSizeF() < LEAST_TEXT_PT:
+            font.setPointSizeF(LEAST_TEXT_PT)
+        self.setFont(font)
+        self.labels.forget_fonts()
+
+    # Qt overrides
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        super().resizeEvent(event)
+        self.keyboard.setGeometry(GUTTER_PX - KEYBOARD_PX, 0, KEYBOARD_PX, self.height())
+
+    def changeEvent(self, event: QEvent) -> None:
+        if event.type() == QEvent.Type.FontChange and hasattr(self, "labels"):
+            self.labels.forget_fonts()
+        super().changeEvent(event)
+
+
+def _copies(mouse: LaneMouse) -> bool:
+    """Whether a drag leaves the notes and takes copies along: Ctrl, on macOS Option, as in the file manager there."""
+    return mouse.alt and not mouse.ctrl if sys.platform == "darwin" else mouse.ctrl and not mouse.alt

@@ -1,0 +1,94 @@
+"""The marks of the ruler as Qt has them: where they are drawn, and the field in which one is typed."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from PySide6.QtCore import QRectF, Qt, Signal
+from PySide6.QtGui import QFontMetricsF, QKeyEvent
+from PySide6.QtWidgets import QLineEdit, QWidget
+
+from app.score.model import Score
+from widgets.timeline.model.ruler import ruler_marks as model
+from widgets.timeline.plot.drawing import rect
+from widgets.timeline.plot.time_axis import TimeAxis
+
+FIELD_PX = 80
+
+
+@dataclass(frozen=True)
+class Mark:
+    """See `widgets.timeline.model.ruler.ruler_marks.Mark`."""
+
+    kind: str
+    tick: int
+    text: str
+    rect: QRectF
+
+
+def lay_marks(
+    score: Score, axis: TimeAxis, metrics: QFontMetricsF, left_px: float, right_px: float, height_px: float
+) -> list[Mark]:
+    """See `widgets.timeline.model.ruler.ruler_marks.lay_marks`."""
+    laid = model.lay_marks(score, axis, metrics, left_px, right_px, height_px)
+    return [Mark(mark.kind, mark.tick, mark.text, rect(mark.box)) for mark in laid]
+
+
+class MarkEditor(QLineEdit):
+    """A tempo or a metre typed in place.
+
+    Signals
+    -------
+    typed(str, int, str)
+        Kind, tick and text: what stands there is meant.
+    """
+
+    typed = Signal(str, int, str)
+
+    def __init__(self, parent: QWidget) -> None:
+        super().__init__(parent)
+        self._ruler = parent
+        self.setObjectName("mark_editor")
+        self._mark: tuple[str, int] | None = None
+        self.hide()
+        self.editingFinished.connect(self._editing_finished)
+
+    def open(self, kind: str, tick: int, text: str, left_px: float, height_px: int) -> None:
+        """Type the mark at a tick."""
+        self._mark = (kind, tick)
+        self.setText(text)
+        self.setToolTip(
+            self.tr("mark_editor.tempo_in_quarters_per_minute")
+            if kind == "tempo"
+            else self.tr("mark_editor.metre_e_g_6_8")
+        )
+        self.setGeometry(int(min(left_px, self._ruler.width() - FIELD_PX - 4)), 0, FIELD_PX, height_px)
+        self.show()
+        self.raise_()
+        self.selectAll()
+        self.setFocus(Qt.FocusReason.OtherFocusReason)
+
+    def leave(self, meant: bool) -> None:
+        """Done; whether what stands there is meant."""
+        if self._mark is None:
+            return
+        (kind, tick), self._mark = self._mark, None
+        self.hide()
+        self._ruler.setFocus(Qt.FocusReason.OtherFocusReason)
+        if meant:
+            self.typed.emit(kind, tick, self.text().strip())
+
+    def _editing_finished(self) -> None:
+        """The focus went elsewhere: what was typed is meant."""
+        if self.isVisible() and not self.hasFocus():
+            self.leave(True)
+
+    # Qt overrides
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        if event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter):
+            self.leave(True)
+        elif event.key() == Qt.Key.Key_Escape:
+            self.leave(False)
+        else:
+            super().keyPressEvent(event)

@@ -1,0 +1,58 @@
+"""What the rows above the lanes have in common: the ruler and the flags."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QSize, Qt, Signal
+from PySide6.QtGui import QColor, QFont, QWheelEvent
+from PySide6.QtWidgets import QWidget
+
+from app.editor.session import Session
+from app.editor.tokens import LEAST_TEXT_PT
+from widgets.timeline.lane import GUTTER_PX
+from widgets.timeline.plot.pictured import Pictured
+from widgets.timeline.plot.time_axis import TimeAxis
+
+
+class Strip(Pictured):
+    """A row above the lanes, along their time axis.
+
+    Signals
+    -------
+    sought(float)
+        The playhead is requested at this time (seconds).
+    """
+
+    sought = Signal(float)
+
+    def __init__(self, session: Session, axis: TimeAxis, height_px: int, parent: QWidget | None) -> None:
+        super().__init__(parent)
+        self.session = session
+        self.axis = axis
+        self.setFixedHeight(height_px)
+        self.setMouseTracking(True)
+        font = QFont(self.font())
+        if 0 < font.pointSizeF() < LEAST_TEXT_PT:
+            font.setPointSizeF(LEAST_TEXT_PT)
+            self.setFont(font)
+
+    def x_px(self, tick: int) -> float:
+        """Where a tick is."""
+        return GUTTER_PX + self.axis.x_px(self.seconds_of(tick))
+
+    def seconds_of(self, tick: int) -> float:
+        """When a tick is."""
+        return self.session.project.score.tempo_map.seconds(float(tick))
+
+    # Qt overrides
+
+    def sizeHint(self) -> QSize:
+        return QSize(800, self.height())
+
+    def ground(self) -> QColor:
+        return QColor(self.session.tokens.surface)
+
+    def wheelEvent(self, event: QWheelEvent) -> None:
+        event.accept()
+        notches = (event.angleDelta().y() or event.angleDelta().x()) / 120.0
+        zooms = bool(event.modifiers() & Qt.KeyboardModifier.ControlModifier)
+        self.axis.turn_wheel(notches, event.position().x() - GUTTER_PX, zooms)
