@@ -7,16 +7,14 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import FloatArray
 from app.errors import FileError
 from app.formats.gltf.model import GltfModel
 from app.formats.gltf.read import read_glb
 from instrument_maps.model import ROOT, InstrumentMap
 from instrument_maps.surface import nearest_point
 from instrument_maps.validate import Problem
-
-FloatArray = npt.NDArray[np.float64]
 
 SURFACE_M = 0.001
 """A touch point further from the surface than this hangs in the air or lies inside."""

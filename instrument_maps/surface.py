@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-import numpy.typing as npt
 
-FloatArray = npt.NDArray[np.float64]
+from app.arrays import FloatArray
 
 
 def nearest_point(triangles: FloatArray, point: FloatArray) -> tuple[float, FloatArray]:

@@ -11,16 +11,14 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
-from typing import Final, TypeAlias
+from typing import Final
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import BoolArray, FloatArray, IntArray
 from app.audio.track import Samples
 from app.errors import AppError
 from app.score.model import ControllerCurve, Part, Score
-
-Floats: TypeAlias = npt.NDArray[np.float64]
 
 STEP_S: Final = 0.02
 _SMOOTH_S: Final = 0.08
@@ -52,12 +50,12 @@ class Loudness:
         Every `STEP_S` from the first sample on.
     """
 
-    level_db: Floats
+    level_db: FloatArray
 
-    def at(self, seconds: Floats) -> Floats:
+    def at(self, seconds: FloatArray) -> FloatArray:
         """Between the steps; beyond the ends it is silent."""
         at_s = STEP_S * np.arange(len(self.level_db))
-        result: Floats = np.interp(seconds, at_s, self.level_db, left=_FLOOR_DB, right=_FLOOR_DB)
+        result: FloatArray = np.interp(seconds, at_s, self.level_db, left=_FLOOR_DB, right=_FLOOR_DB)
         return result
 
 
@@ -129,7 +127,7 @@ def dynamics(
     return result
 
 
-def _weighting(rate_hz: int) -> Floats:
+def _weighting(rate_hz: int) -> FloatArray:
     """Second-order sections of K-weighting at any rate: the filters of BT.1770, by the bilinear transform."""
     k = np.tan(np.pi * 1681.974450955533 / rate_hz)
     gain, quality = 10.0 ** (3.999843853973347 / 20.0), 0.7071752369554196
@@ -146,9 +144,9 @@ def _weighting(rate_hz: int) -> Floats:
 class _Sounding:
     """When a part sounds: a grid of seconds of the score, and where in it a note is."""
 
-    at_s: Floats
-    sounds: npt.NDArray[np.bool_]
-    pitch: npt.NDArray[np.int64]
+    at_s: FloatArray
+    sounds: BoolArray
+    pitch: IntArray
     """Pitch of the note that began last."""
 
     @classmethod
@@ -161,7 +159,7 @@ class _Sounding:
         last = np.maximum(np.searchsorted(start_s, at_s, side="right") - 1, 0)
         return cls(at_s, _count(start_s, end_s, at_s) > 0, pitches[last])
 
-    def curve(self, score: Score, values: Floats, audible: npt.NDArray[np.bool_]) -> ControllerCurve:
+    def curve(self, score: Score, values: FloatArray, audible: BoolArray) -> ControllerCurve:
         """Steps of a controller: in rests it goes on to what comes next."""
         from scipy.ndimage import gaussian_filter1d
 
@@ -175,7 +173,7 @@ class _Sounding:
         return ControllerCurve("breath", tuple(ticks[kept].tolist()), tuple((steps[kept] / _RESOLUTION).tolist()))
 
 
-def _together(score: Score, at_s: Floats) -> npt.NDArray[np.int64]:
+def _together(score: Score, at_s: FloatArray) -> IntArray:
     """How many notes sound at once."""
     seconds, notes = score.tempo_map.seconds, [note for part in score.parts for note in part.notes]
     return _count(
@@ -185,28 +183,28 @@ def _together(score: Score, at_s: Floats) -> npt.NDArray[np.int64]:
     )
 
 
-def _count(start_s: Floats, end_s: Floats, at_s: Floats) -> npt.NDArray[np.int64]:
+def _count(start_s: FloatArray, end_s: FloatArray, at_s: FloatArray) -> IntArray:
     begun = np.searchsorted(np.sort(start_s), at_s, side="right")
     ended = np.searchsorted(np.sort(end_s), at_s, side="right")
-    result: npt.NDArray[np.int64] = begun - ended
+    result: IntArray = begun - ended
     return result
 
 
-def _of_pitches(pitch: npt.NDArray[np.int64], levels: Floats, audible: npt.NDArray[np.bool_]) -> Floats:
+def _of_pitches(pitch: IntArray, levels: FloatArray, audible: BoolArray) -> FloatArray:
     """How much louder each pitch sounds than the others whatever is played, as instruments and rooms have it: the mean
     over the piece, drawn to 0 where a pitch sounds seldom."""
     about = levels - np.median(levels[audible])
     count = np.bincount(pitch[audible], minlength=128) * STEP_S
     total = np.bincount(pitch[audible], about[audible], minlength=128) * STEP_S
-    result: Floats = (total / (count + _SELDOM_S))[pitch]
+    result: FloatArray = (total / (count + _SELDOM_S))[pitch]
     return result
 
 
-def _scaled(levels: Floats, audible: npt.NDArray[np.bool_]) -> Floats:
+def _scaled(levels: FloatArray, audible: BoolArray) -> FloatArray:
     """Decibels on the scale of controllers."""
     low, middle, high = np.quantile(levels[audible], [_SHARE, 0.5, 1.0 - _SHARE])
     slope = min(
         _PER_DB, (_MIDDLE - _QUIETEST) / max(middle - low, 1e-6), (_LOUDEST - _MIDDLE) / max(high - middle, 1e-6)
     )
-    result: Floats = np.clip(_MIDDLE + slope * (levels - middle), _LEAST, _MOST)
+    result: FloatArray = np.clip(_MIDDLE + slope * (levels - middle), _LEAST, _MOST)
     return result

@@ -10,10 +10,10 @@ from collections.abc import Iterator
 from typing import Final
 
 import numpy as np
-import numpy.typing as npt
 
-Floats = npt.NDArray[np.float64]
-Sound = npt.NDArray[np.float32]
+from app.arrays import FloatArray, SingleArray
+
+Sound = SingleArray
 
 _A4_HZ: Final = 440.0
 _PITCHED_HZ: Final = (60.0, 5000.0)
@@ -57,7 +57,7 @@ def tuning(sound: Sound, rate_hz: int) -> float:
     return float(np.angle(total) / (2.0 * np.pi))
 
 
-def chroma(sound: Sound, rate_hz: int, size: int, hop: int, tuned: float) -> Floats:
+def chroma(sound: Sound, rate_hz: int, size: int, hop: int, tuned: float) -> FloatArray:
     """Energy of each pitch class, C first.
 
     Parameters
@@ -83,7 +83,7 @@ def chroma(sound: Sound, rate_hz: int, size: int, hop: int, tuned: float) -> Flo
     return np.concatenate([power[:, 1:] @ weights for power in _spectra(sound, size, hop)]).T
 
 
-def onset_strength(sound: Sound, rate_hz: int, size: int, hop: int) -> Floats:
+def onset_strength(sound: Sound, rate_hz: int, size: int, hop: int) -> FloatArray:
     """How much louder it has become since the frame before, over bands as wide as the ear's: the spectral flux.
 
     Parameters
@@ -100,8 +100,8 @@ def onset_strength(sound: Sound, rate_hz: int, size: int, hop: int) -> Floats:
     starts = np.unique(np.round(edges).astype(np.intp))
     # A window's energy, spread over the bands.
     mean = max(float(np.square(sound, dtype=np.float64).mean()) * size**2 / 8 / len(starts), 1e-12)
-    result: list[Floats] = []
-    before: Floats | None = None
+    result: list[FloatArray] = []
+    before: FloatArray | None = None
     for power in _spectra(sound, size, hop):
         level = np.log1p(_COMPRESSION / mean * np.add.reduceat(power, starts, axis=1))
         rise = np.diff(level, axis=0, prepend=level[:1] if before is None else before)
@@ -110,7 +110,7 @@ def onset_strength(sound: Sound, rate_hz: int, size: int, hop: int) -> Floats:
     return np.concatenate(result)
 
 
-def _spectra(sound: Sound, size: int, hop: int) -> Iterator[Floats]:
+def _spectra(sound: Sound, size: int, hop: int) -> Iterator[FloatArray]:
     """Power spectra, shape (frames, size // 2 + 1), some frames at a time."""
     padded = np.pad(sound, size // 2)
     frames = np.lib.stride_tricks.sliding_window_view(padded, size)[::hop]

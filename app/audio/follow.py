@@ -15,6 +15,7 @@ from typing import Final
 
 import numpy as np
 
+from app.arrays import FloatArray, IntArray
 from app.audio.onset_path import FINAL_WIDTH_S, LEAST_GAP_S, on_onsets
 from app.audio.passages import Passage
 from app.audio.places import LEAST_APART_S, Place, places, usual_ratios
@@ -24,7 +25,6 @@ from app.audio.score_sound import (
     ODD_HARMONICS,
     ONSET_S,
     ExpectedSound,
-    Floats,
     RecordedSound,
     confidence_of,
     onset_edges,
@@ -33,7 +33,7 @@ from app.audio.score_sound import (
 )
 from app.audio.steady import steady_line
 from app.audio.track import Samples
-from app.audio.warping import MISSING_S, NO_PINS, Integers, Jump, Pins, Warped, along, played, warped
+from app.audio.warping import MISSING_S, NO_PINS, Jump, Pins, Warped, along, played, warped
 from app.errors import AppError, stoppable
 from app.score.following import Following, RunnerUp, Span
 from app.score.metre_map import MetreMap
@@ -78,7 +78,7 @@ _AS_SURE: Final = 0.01
 """A part is taken even where the whole is more sure by this: its ends are found better."""
 
 
-def beats_of(metre_map: MetreMap, end_tick: int, pinned: Iterable[int] = ()) -> Integers:
+def beats_of(metre_map: MetreMap, end_tick: int, pinned: Iterable[int] = ()) -> IntArray:
     """The felt beats of a piece, the first at tick 0, and what else is pinned."""
     ticks = metre_map.felt_between(0, max(end_tick, 1))
     return np.unique(np.concatenate(([0], ticks[ticks > 0], np.array([*pinned], np.int64))))
@@ -88,7 +88,7 @@ def follow(
     samples: Samples,
     rate_hz: int,
     score: Score,
-    beat_ticks: Integers,
+    beat_ticks: IntArray,
     progress: Callable[[float], None] = lambda share: None,
     stop_requested: Callable[[], bool] = lambda: False,
     pinned: Mapping[int, float] | None = None,
@@ -139,8 +139,8 @@ class _Prepared:
     score: Score
     expected: ExpectedSound
     recorded: RecordedSound
-    shapes: Floats
-    beat_ticks: Integers
+    shapes: FloatArray
+    beat_ticks: IntArray
     pins: Pins
 
 
@@ -276,7 +276,9 @@ def _refined(prepared: _Prepared, rough: Warped, pins: Pins) -> Following:
     return Following(prepared.beat_ticks, recording_s + EARLY_S, likely, missing, rough.added)
 
 
-def _present(times: Floats, found: Floats, rough: Warped, recorded: RecordedSound) -> tuple[Floats, Floats]:
+def _present(
+    times: FloatArray, found: FloatArray, rough: Warped, recorded: RecordedSound
+) -> tuple[FloatArray, FloatArray]:
     """The onsets that the recording has."""
     there = (found >= 0.0) & (found < recorded.length_s)
     for span in rough.missing:
@@ -291,7 +293,7 @@ def _pins(score: Score, pinned: Mapping[int, float]) -> Pins:
     )
 
 
-def _beats(beat_s: Floats, times: Floats, found: Floats, warped: Warped, pins: Pins) -> Floats:
+def _beats(beat_s: FloatArray, times: FloatArray, found: FloatArray, warped: Warped, pins: Pins) -> FloatArray:
     """Return when the beats sound: by the onsets around each, else by the warping; at least `LEAST_GAP_S` apart, and
     pinned ones where they are pinned."""
     result = warped.at(beat_s)
@@ -315,13 +317,18 @@ def _beats(beat_s: Floats, times: Floats, found: Floats, warped: Warped, pins: P
     result += along(numbers, numbers[fixed], pins.recording_s - result[fixed], _ALONG_BEATS)
     weights = np.ones(len(result))
     weights[fixed] = _OF_PINS
-    rising: Floats = isotonic_regression(result - gaps_s, sample_weight=weights) + gaps_s
+    rising: FloatArray = isotonic_regression(result - gaps_s, sample_weight=weights) + gaps_s
     return rising
 
 
 def _confidence(
-    beat_s: Floats, recording_s: Floats, shapes: Floats, recorded: RecordedSound, times: Floats, found: Floats
-) -> Floats:
+    beat_s: FloatArray,
+    recording_s: FloatArray,
+    shapes: FloatArray,
+    recorded: RecordedSound,
+    times: FloatArray,
+    found: FloatArray,
+) -> FloatArray:
     """How sure each beat is, 0..1: whether what sounds around it is what the score has there, rather than the score
     transposed, and whether notes begin where they should."""
     frames = np.arange(shapes.shape[1])
@@ -347,16 +354,16 @@ def _confidence(
     return result * np.exp(-((uneven / _USUAL_UNEVEN) ** 2))
 
 
-def _lengths(beat_s: Floats, recording_s: Floats) -> Floats:
+def _lengths(beat_s: FloatArray, recording_s: FloatArray) -> FloatArray:
     """Around each beat the natural logarithm of how long beats last, against the score and the whole recording."""
     wide = min(_EVEN_BEATS, len(beat_s) - 1)
     lengths = (recording_s[wide:] - recording_s[:-wide]) / np.maximum(beat_s[wide:] - beat_s[:-wide], 1e-6)
     places = np.clip(np.arange(len(beat_s)) - wide // 2, 0, len(lengths) - 1)
-    result: Floats = np.log(lengths / np.median(lengths))[places]
+    result: FloatArray = np.log(lengths / np.median(lengths))[places]
     return result
 
 
-def _squeezed(beat_s: Floats, lengths: Floats) -> tuple[Span, ...]:
+def _squeezed(beat_s: FloatArray, lengths: FloatArray) -> tuple[Span, ...]:
     """Seconds of the score that the recording hardly has time for: it leaves them out, whatever sounds there."""
     places = np.flatnonzero(lengths < _SQUEEZED)
     if not len(places):

@@ -11,8 +11,9 @@ from typing import Final
 
 import numpy as np
 
+from app.arrays import FloatArray
 from app.audio.features import Sound, tuning
-from app.audio.score_sound import ANALYSIS_RATE_HZ, Floats, analysed
+from app.audio.score_sound import ANALYSIS_RATE_HZ, analysed
 from app.audio.track import Samples
 from app.score.model import Score
 
@@ -80,13 +81,13 @@ def note_onsets(
     return _without_lateness(score, shifts)
 
 
-def _own_partials(pitch: float, others: Floats) -> Floats:
+def _own_partials(pitch: float, others: FloatArray) -> FloatArray:
     """Frequencies of the partials of a note that none of the others has."""
     numbers = np.arange(1, _PARTIALS + 1)
     own = pitch + 12.0 * np.log2(numbers)
     theirs = others[:, None] + 12.0 * np.log2(np.arange(1, 2 * _PARTIALS + 1))
     apart = np.abs(own[:, None] - theirs.ravel()).min(axis=1) if theirs.size else np.full(len(own), np.inf)
-    hz: Floats = 440.0 * 2.0 ** ((own[apart > _APART] - 69.0) / 12.0)
+    hz: FloatArray = 440.0 * 2.0 ** ((own[apart > _APART] - 69.0) / 12.0)
     return hz[hz < 0.45 * ANALYSIS_RATE_HZ]
 
 
@@ -101,7 +102,7 @@ def _without_lateness(score: Score, shifts: dict[str, float]) -> dict[str, float
     return result
 
 
-def _shift(sound: Sound, at_s: float, hz: Floats, floor: float) -> float | None:
+def _shift(sound: Sound, at_s: float, hz: FloatArray, floor: float) -> float | None:
     """Where these frequencies begin to sound, around a moment; None where that is not clear."""
     reach = round((_REACH_S + 2 * _EDGE_S) / _STEP_S)
     centre = round(at_s * ANALYSIS_RATE_HZ)
@@ -125,7 +126,7 @@ def _shift(sound: Sound, at_s: float, hz: Floats, floor: float) -> float | None:
     return float(shifts[best])
 
 
-def _rise(level: Floats) -> Floats:
+def _rise(level: FloatArray) -> FloatArray:
     """(n,): how much more comes just after a frame than just before it, mean over the columns."""
     width = max(round(_EDGE_S / _STEP_S), 1)
     sums = np.concatenate((np.zeros((1, level.shape[1])), np.cumsum(level, axis=0)))

@@ -6,8 +6,9 @@ from typing import Final
 
 import numpy as np
 
-from app.audio.score_sound import CHROMA_S, ONSET_S, ExpectedSound, Floats, RecordedSound, onset_edges
-from app.audio.warping import Integers, Pins, Warped
+from app.arrays import FloatArray, IntArray
+from app.audio.score_sound import CHROMA_S, ONSET_S, ExpectedSound, RecordedSound, onset_edges
+from app.audio.warping import Pins, Warped
 
 FINAL_WIDTH_S: Final = 0.03
 """Width of an onset's edge in the last round."""
@@ -23,8 +24,8 @@ _CHUNK: Final = 2000
 
 
 def on_onsets(
-    expected: ExpectedSound, recorded: RecordedSound, shapes: Floats, rough: Warped, pins: Pins
-) -> tuple[Floats, Floats]:
+    expected: ExpectedSound, recorded: RecordedSound, shapes: FloatArray, rough: Warped, pins: Pins
+) -> tuple[FloatArray, FloatArray]:
     """Find when the notes of a score begin in a recording.
 
     The strength of onsets alone does not tell a run of equal notes from the same run one note later, so the first round
@@ -63,7 +64,9 @@ def on_onsets(
     return times, found
 
 
-def alike(times: Floats, found: Floats, shifts: Floats, shapes: Floats, chroma: Floats) -> Floats:
+def alike(
+    times: FloatArray, found: FloatArray, shifts: FloatArray, shapes: FloatArray, chroma: FloatArray
+) -> FloatArray:
     """Compare the pitch classes after each onset in the score and in the recording.
 
     Parameters
@@ -95,7 +98,7 @@ def alike(times: Floats, found: Floats, shifts: Floats, shapes: Floats, chroma: 
     return result
 
 
-def _even_path(strength: Floats, shifts: Floats, gaps_s: Floats, uneven: float) -> Integers:
+def _even_path(strength: FloatArray, shifts: FloatArray, gaps_s: FloatArray, uneven: float) -> IntArray:
     """Of each onset the shift, so that strong places are chosen and neighbours shift alike: Viterbi's algorithm.
 
     Parameters

@@ -17,9 +17,9 @@ from typing import Final
 
 import miniaudio
 import numpy as np
-import numpy.typing as npt
 import soxr
 
+from app.arrays import SingleArray
 from app.audio.sink import BUFFER_S, Sink
 from app.audio.track import RATE_HZ, Block
 
@@ -159,13 +159,13 @@ class Queue:
             self._fetches.append((self._fetched_s + self._delay_s, before + last, done))
         return out * np.float32(self.gain)
 
-    def frames(self) -> Generator[npt.NDArray[np.float32] | bytes, int, None]:
+    def frames(self) -> Generator[SingleArray | bytes, int, None]:
         """`fetch` as the generator that miniaudio sends counts to, begun."""
         generator = self._frames()
         next(generator)
         return generator
 
-    def _frames(self) -> Generator[npt.NDArray[np.float32] | bytes, int, None]:
+    def _frames(self) -> Generator[SingleArray | bytes, int, None]:
         count = yield b""
         while True:
             count = yield self.fetch(count)

@@ -9,14 +9,12 @@ score-performance synchronization" (ISMIR 2010).
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Final, TypeAlias
+from typing import Final
 
 import numpy as np
-import numpy.typing as npt
 
-from app.audio.score_sound import CHROMA_S, Floats
-
-Integers: TypeAlias = npt.NDArray[np.int64]
+from app.arrays import FloatArray, IntArray
+from app.audio.score_sound import CHROMA_S
 
 _JUMP: Final = 6.0
 """Cost of a jump, in frames that are wholly alike."""
@@ -42,7 +40,7 @@ class Passage:
     recording_end_s: float
 
 
-def passages(score: Floats, recording: Floats, frame_s: float = CHROMA_S) -> tuple[Passage, ...]:
+def passages(score: FloatArray, recording: FloatArray, frame_s: float = CHROMA_S) -> tuple[Passage, ...]:
     """What is played of a score, in order, without what is played again: of a repeat the first time.
 
     Parameters
@@ -77,7 +75,7 @@ def passages(score: Floats, recording: Floats, frame_s: float = CHROMA_S) -> tup
     )
 
 
-def _path(score: Floats, recording: Floats) -> Integers:
+def _path(score: FloatArray, recording: FloatArray) -> IntArray:
     """Of every frame of the recording the frame of the score."""
     count = len(score)
     places = np.arange(count)
@@ -103,7 +101,7 @@ def _path(score: Floats, recording: Floats) -> Integers:
     return path
 
 
-def _rising(runs: list[tuple[int, int]], path: Integers) -> list[tuple[int, int]]:
+def _rising(runs: list[tuple[int, int]], path: IntArray) -> list[tuple[int, int]]:
     """Of runs of the recording those that go on in the score, and together are longest; what was played already is cut
     off their beginnings."""
     # By the last run: length, runs as they are cut.

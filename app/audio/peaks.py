@@ -7,7 +7,8 @@ from typing import TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-Floats: TypeAlias = npt.NDArray[np.float32]
+from app.arrays import IntArray, SingleArray
+
 Samples: TypeAlias = npt.NDArray[np.int16]
 
 BASE_SAMPLES = 64
@@ -44,7 +45,7 @@ class Peaks:
         """Length of the recording."""
         return len(self._samples) / self.rate_hz
 
-    def levels(self, start_s: float, end_s: float, width_px: int) -> tuple[Floats, Floats]:
+    def levels(self, start_s: float, end_s: float, width_px: int) -> tuple[SingleArray, SingleArray]:
         """Extremes of the span, one pair a column.
 
         Parameters
@@ -110,7 +111,7 @@ def _bins(values: Samples, size: int, of: np.ufunc) -> Samples:
     return result if whole == len(values) else np.append(result, of.reduce(values[whole:]))
 
 
-def _reduced(values: Samples, first: npt.NDArray[np.int64], last: npt.NDArray[np.int64], of: np.ufunc) -> Samples:
+def _reduced(values: Samples, first: IntArray, last: IntArray, of: np.ufunc) -> Samples:
     """Extremes of ``values[first:last]`` of every column; neighbours may share a value."""
     # reduceat takes pairs of indices; an end at the array's own end must be left to its padding.
     padded = np.append(values, values[-1:])

@@ -7,11 +7,11 @@ from dataclasses import dataclass
 from typing import Final, TypeAlias
 
 import numpy as np
-import numpy.typing as npt
 
-from app.audio.score_sound import CHROMA_S, ExpectedSound, Floats, RecordedSound, score_chroma
+from app.arrays import ComplexArray, FloatArray, IntArray
+from app.audio.score_sound import CHROMA_S, ExpectedSound, RecordedSound, score_chroma
 
-Spectrum: TypeAlias = npt.NDArray[np.complex128]
+Spectrum: TypeAlias = ComplexArray
 
 TEMPO_RATIOS: Final = (0.94, 1.06)
 """A recording may be this much slower or faster than the score."""
@@ -87,8 +87,8 @@ def places(
 
 
 def _correlate(
-    recorded: Floats, expected_chroma: Floats, energy: Floats, spectra: dict[int, Spectrum]
-) -> tuple[npt.NDArray[np.int64], Floats]:
+    recorded: FloatArray, expected_chroma: FloatArray, energy: FloatArray, spectra: dict[int, Spectrum]
+) -> tuple[IntArray, FloatArray]:
     """Likeness of the two at every lag of the recording, -1..1, by how much of them overlaps."""
     frames, length = recorded.shape[1], expected_chroma.shape[1]
     from scipy import fft  # heavy, and only here
@@ -110,7 +110,7 @@ def _correlate(
     return lags, np.where(ours >= least, likeness * np.sqrt(overlap), -1.0)
 
 
-def _peaks(values: Floats) -> list[int]:
+def _peaks(values: FloatArray) -> list[int]:
     """The highest few values that lie apart."""
     rest = values.copy()
     apart = round(_APART_S / CHROMA_S)

@@ -7,15 +7,13 @@ from dataclasses import dataclass
 from typing import Final, TypeAlias
 
 import numpy as np
-import numpy.typing as npt
 import soxr
 
+from app.arrays import FloatArray, IntArray
 from app.audio.features import Sound, chroma, onset_strength, tuning
 from app.audio.track import Samples
 from app.errors import AppError
 from app.score.model import Score
-
-Floats: TypeAlias = npt.NDArray[np.float64]
 
 ANALYSIS_RATE_HZ: Final = 22050
 _BLOCK: Final = 1 << 20
@@ -40,8 +38,8 @@ built-in synthesiser."""
 class RecordedSound:
     """What a recording sounds like: chroma (12, frames), onset strength (frames,), length in seconds."""
 
-    chroma: Floats
-    onsets: Floats
+    chroma: FloatArray
+    onsets: FloatArray
     length_s: float
 
 
@@ -49,10 +47,10 @@ class RecordedSound:
 class ExpectedSound:
     """What a score asks for: notes' onsets and ends in seconds, pitches, weights; and how its tones sound."""
 
-    onset_s: Floats
-    end_s: Floats
-    pitch: npt.NDArray[np.int64]
-    loudness: Floats
+    onset_s: FloatArray
+    end_s: FloatArray
+    pitch: IntArray
+    loudness: FloatArray
     harmonics: Harmonics = USUAL_HARMONICS
 
 
@@ -123,27 +121,27 @@ def recorded_sound(samples: Samples, rate_hz: int, progress: Callable[[float], N
     return RecordedSound(shape(classes), evened(onsets), len(sound) / ANALYSIS_RATE_HZ)
 
 
-def shape(chroma: Floats) -> Floats:
+def shape(chroma: FloatArray) -> FloatArray:
     """Each frame as a direction: which pitch classes stand out, however loud; near silence counts less."""
     level = np.sqrt(chroma.sum(axis=0))
     chroma = np.sqrt(chroma)
     chroma = chroma - chroma.mean(axis=0)
     size = np.sqrt((chroma**2).sum(axis=0))
     typical = np.median(level[level > 0]) if (level > 0).any() else 1.0
-    result: Floats = chroma / np.maximum(size, 1e-9) * np.minimum(level / typical, 1.0)
+    result: FloatArray = chroma / np.maximum(size, 1e-9) * np.minimum(level / typical, 1.0)
     return result
 
 
-def evened(onsets: Floats) -> Floats:
+def evened(onsets: FloatArray) -> FloatArray:
     """Onset strength above its surroundings, in units of its own spread."""
     width = round(1.5 / ONSET_S)
     around = np.convolve(onsets, np.ones(width) / width, "same")
     spread = np.sqrt(np.convolve((onsets - around) ** 2, np.ones(width) / width, "same"))
-    result: Floats = np.clip((onsets - around) / np.maximum(spread, 0.3 * spread.max() + 1e-9), -1.0, 4.0)
+    result: FloatArray = np.clip((onsets - around) / np.maximum(spread, 0.3 * spread.max() + 1e-9), -1.0, 4.0)
     return result
 
 
-def score_chroma(expected: ExpectedSound, ratio: float, later_frames: float = 0.0) -> Floats:
+def score_chroma(expected: ExpectedSound, ratio: float, later_frames: float = 0.0) -> FloatArray:
     """The score's chroma at a tempo, from second 0 of the score, or from so many frames before it."""
     begin = expected.onset_s / ratio / CHROMA_S + later_frames
     end = expected.end_s / ratio / CHROMA_S + later_frames
@@ -160,7 +158,7 @@ def score_chroma(expected: ExpectedSound, ratio: float, later_frames: float = 0.
     return shape(np.maximum(np.cumsum(steps, axis=1)[:, :frames], 0.0) ** 2)
 
 
-def onset_edges(onsets: Floats, width_s: float) -> Floats:
+def onset_edges(onsets: FloatArray, width_s: float) -> FloatArray:
     """How much more of an onset comes after a moment than before it.
 
     A tone's strength rises at once and goes on rising for a while, the longer the slower it speaks: its beginning is
@@ -170,7 +168,7 @@ def onset_edges(onsets: Floats, width_s: float) -> Floats:
     decay = np.exp(-(np.arange(reach) + 0.5) * ONSET_S / width_s)
     # np.convolve turns its kernel round: what comes after a moment stands first.
     kernel = np.concatenate([decay[::-1], -decay]) / decay.sum()
-    result: Floats = np.convolve(onsets, kernel, "full")[reach - 1 : reach - 1 + len(onsets)]
+    result: FloatArray = np.convolve(onsets, kernel, "full")[reach - 1 : reach - 1 + len(onsets)]
     return result
 
 

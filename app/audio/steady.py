@@ -11,8 +11,9 @@ from typing import Final
 
 import numpy as np
 
+from app.arrays import FloatArray
 from app.audio.onset_path import FINAL_WIDTH_S
-from app.audio.score_sound import ONSET_S, Floats, onset_edges
+from app.audio.score_sound import ONSET_S, onset_edges
 
 _FAR_S: Final = 0.02
 """Onsets farther from the line than this count less in its fit."""
@@ -30,7 +31,7 @@ _LEAST_S: Final = 6.0
 """Fewer or shorter says nothing of the tempo."""
 
 
-def steady_line(times: Floats, found: Floats, onsets: Floats) -> tuple[float, float] | None:
+def steady_line(times: FloatArray, found: FloatArray, onsets: FloatArray) -> tuple[float, float] | None:
     """Find the line that the onsets of a recording lie on.
 
     Parameters
@@ -61,7 +62,7 @@ def steady_line(times: Floats, found: Floats, onsets: Floats) -> tuple[float, fl
     return float(start_s), float(slope)
 
 
-def _fitted(times: Floats, found: Floats) -> tuple[float, float]:
+def _fitted(times: FloatArray, found: FloatArray) -> tuple[float, float]:
     """Both ends of the line through what was found, of which some is wrong."""
     weights = np.ones(len(times))
     line = np.zeros(2)
@@ -72,7 +73,7 @@ def _fitted(times: Floats, found: Floats) -> tuple[float, float]:
     return float(first_s), float(last_s)
 
 
-def _refined(edges: Floats, times: Floats, first_s: float, last_s: float) -> tuple[float, float]:
+def _refined(edges: FloatArray, times: FloatArray, first_s: float, last_s: float) -> tuple[float, float]:
     """Both ends, moved a little to where the onsets on the line are strongest."""
     shares = (times - times[0]) / (times[-1] - times[0])
     for reach_s, step_s in _REFINED_S:
@@ -88,8 +89,10 @@ def _refined(edges: Floats, times: Floats, first_s: float, last_s: float) -> tup
     return first_s, last_s
 
 
-def _strength(edges: Floats, at_s: Floats) -> Floats:
+def _strength(edges: FloatArray, at_s: FloatArray) -> FloatArray:
     """Return how strongly notes begin at some seconds of the recording."""
     places = at_s / ONSET_S
-    result: Floats = np.interp(places.ravel(), np.arange(len(edges)), edges, left=0.0, right=0.0).reshape(at_s.shape)
+    result: FloatArray = np.interp(places.ravel(), np.arange(len(edges)), edges, left=0.0, right=0.0).reshape(
+        at_s.shape
+    )
     return result

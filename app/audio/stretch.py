@@ -11,8 +11,8 @@ from collections.abc import Callable
 from typing import Final
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import FloatArray, SingleArray
 from app.audio.track import RATE_HZ, Block
 
 HOP: Final = round(0.03 * RATE_HZ)
@@ -79,9 +79,9 @@ class Stretch:
         fine = _likeness(field[start : near + _COARSE + HOP], pattern)
         return low + start + int(fine.argmax())
 
-    def _mono(self, at: int, count: int) -> npt.NDArray[np.float32]:
+    def _mono(self, at: int, count: int) -> SingleArray:
         part = self._input[at - self._first : at - self._first + count]
-        result: npt.NDArray[np.float32] = part[:, 0] + part[:, 1]
+        result: SingleArray = part[:, 0] + part[:, 1]
         return result
 
     def _fill(self, end: int) -> None:
@@ -96,10 +96,10 @@ class Stretch:
             self._first += gone
 
 
-def _likeness(field: npt.NDArray[np.float32], pattern: npt.NDArray[np.float32]) -> npt.NDArray[np.float64]:
+def _likeness(field: SingleArray, pattern: SingleArray) -> FloatArray:
     """Correlation of a pattern with every place of a field, by the loudness there."""
     products = np.correlate(field, pattern, "valid")
     energy = np.concatenate([[0.0], np.cumsum(field.astype(np.float64) ** 2)])
     sizes = np.sqrt(np.maximum(energy[len(pattern) :] - energy[: -len(pattern)], 1e-6))
-    result: npt.NDArray[np.float64] = products / sizes
+    result: FloatArray = products / sizes
     return result

@@ -13,11 +13,11 @@ import struct
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from functools import cache
-from typing import Final, TypeAlias
+from typing import Final
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import IntArray
 from app.audio.rendering import rendered, soundfont
 from app.audio.track import RATE_HZ, Piece, Samples
 from app.choreography.percussion import SAME_SOUND
@@ -28,8 +28,6 @@ from app.score.sound_module import DRUM_CHANNEL
 from app.score.tempo import TempoMap
 from instrument_maps.model import InstrumentMap
 from instrument_maps.vocabulary import vocabulary
-
-Integers: TypeAlias = npt.NDArray[np.int64]
 
 TICKS_PER_QUARTER: Final = 24000
 """At MIDI's own 120 quarters per minute a tick is a sample at 48 kHz."""
@@ -196,7 +194,7 @@ def _opening(program: int, bent: int) -> bytes:
     return b"\0".join(messages)
 
 
-def _controls(part: Part, tempo_map: TempoMap, bent: int) -> tuple[tuple[Integers, tuple[bytes, ...]], ...]:
+def _controls(part: Part, tempo_map: TempoMap, bent: int) -> tuple[tuple[IntArray, tuple[bytes, ...]], ...]:
     """The audible curves, as samples and messages: the player's loudness as expression, volume, pitch bend.
 
     ``bent`` is the range of the bends in semitones.
@@ -224,9 +222,9 @@ def _control(kind: CurveKind, value: float, bent: int) -> bytes:
 
 def _phrase(
     notes: Sequence[Note],
-    onsets: Integers,
-    ends: Integers,
-    controls: Sequence[tuple[Integers, tuple[bytes, ...]]],
+    onsets: IntArray,
+    ends: IntArray,
+    controls: Sequence[tuple[IntArray, tuple[bytes, ...]]],
     opening: bytes,
     channel: int = 0,
 ) -> Phrase:
@@ -274,5 +272,5 @@ def _variable_length(number: int) -> bytes:
     return bytes(reversed(out))
 
 
-def _samples(tempo_map: TempoMap, ticks: Integers) -> Integers:
+def _samples(tempo_map: TempoMap, ticks: IntArray) -> IntArray:
     return np.round(tempo_map.seconds(ticks) * RATE_HZ).astype(np.int64)

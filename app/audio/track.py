@@ -11,8 +11,10 @@ from typing import Final, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
+from app.arrays import SingleArray
+
 Samples: TypeAlias = npt.NDArray[np.int16]
-Block: TypeAlias = npt.NDArray[np.float32]
+Block: TypeAlias = SingleArray
 
 RATE_HZ: Final = 48000
 """Everything is mixed at this rate; a device that has another gets it resampled."""

@@ -11,17 +11,15 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Final, TypeAlias
+from typing import Final
 
 import numpy as np
-import numpy.typing as npt
 from dtaidistance import dtw
 
+from app.arrays import BoolArray, FloatArray, IntArray
 from app.audio.passages import Passage, passages
-from app.audio.score_sound import CHROMA_S, Floats
+from app.audio.score_sound import CHROMA_S
 from app.score.following import Span
-
-Integers: TypeAlias = npt.NDArray[np.int64]
 
 _MOST_CELLS: Final = 60_000_000
 """Largest matrix of the warping, 8 bytes a cell: longer pieces are warped with coarser frames."""
@@ -49,8 +47,8 @@ _NEAR: Final = 80
 class Pins:
     """Seconds of the score, and of the recording, that were put on one another by hand; both rise strictly."""
 
-    score_s: Floats
-    recording_s: Floats
+    score_s: FloatArray
+    recording_s: FloatArray
 
     def inside(self, recording_s: float) -> Pins:
         """Those within a recording of this length."""
@@ -90,8 +88,8 @@ class Jump:
 class Warped:
     """Seconds of the score and of the recording that belong together, both rising; what only one has, in seconds."""
 
-    score_s: Floats
-    recording_s: Floats
+    score_s: FloatArray
+    recording_s: FloatArray
     missing: tuple[Span, ...]
     added: tuple[Span, ...]
     length_s: float
@@ -105,7 +103,7 @@ class Warped:
         outside = [Span(*span) for span in ((0.0, score_s), (last_s, end_s)) if span[1] - span[0] >= MISSING_S]
         return replace(self, score_s=self.score_s + score_s, missing=(*missing, *outside), length_s=end_s)
 
-    def at(self, score_s: Floats) -> Floats:
+    def at(self, score_s: FloatArray) -> FloatArray:
         """Seconds of the recording at seconds of the score; beyond the ends at the tempo found near them."""
         x, y = self.score_s, self.recording_s
         near = min(_NEAR, len(x) - 1)
@@ -113,11 +111,11 @@ class Warped:
         last = (y[-1] - y[-1 - near]) / (x[-1] - x[-1 - near])
         inner = np.interp(score_s, x, y)
         before = np.where(score_s < x[0], y[0] + (score_s - x[0]) * first, inner)
-        result: Floats = np.where(score_s > x[-1], y[-1] + (score_s - x[-1]) * last, before)
+        result: FloatArray = np.where(score_s > x[-1], y[-1] + (score_s - x[-1]) * last, before)
         return result
 
 
-def warped(score: Floats, recording: Floats, pins: Pins = NO_PINS, jumps: Sequence[Jump] = ()) -> Warped:
+def warped(score: FloatArray, recording: FloatArray, pins: Pins = NO_PINS, jumps: Sequence[Jump] = ()) -> Warped:
     """Which frames belong together, by dynamic time warping.
 
     Parameters
@@ -151,14 +149,14 @@ def warped(score: Floats, recording: Floats, pins: Pins = NO_PINS, jumps: Sequen
     return Warped(*_through(pins, score_s, recording_s), missing, inside, length_s)
 
 
-def played(score: Floats, recording: Floats) -> tuple[Passage, ...]:
+def played(score: FloatArray, recording: FloatArray) -> tuple[Passage, ...]:
     """The passages of a score that a recording plays; arguments as of `warped`."""
     pool = int(np.ceil(np.sqrt(max(score.shape[1] * recording.shape[1] / _MOST_CELLS, 1.0))))
     return passages(_pooled(score, pool), _pooled(recording, pool), pool * CHROMA_S)
 
 
 def _stretches(
-    ours: Floats, theirs: Floats, pins: Pins, jumps: Sequence[Jump], frame_s: float
+    ours: FloatArray, theirs: FloatArray, pins: Pins, jumps: Sequence[Jump], frame_s: float
 ) -> list[tuple[int, int, int, int]]:
     """First and last frames of both between which the path goes: from beginning, pin or jump to the next."""
     cuts = [(at, at, there, there) for at, there in zip(pins.score_s, pins.recording_s, strict=True)]
@@ -173,8 +171,8 @@ def _stretches(
 
 
 def _path(
-    ours: Floats, theirs: Floats, step: int, stretches: Sequence[tuple[int, int, int, int]]
-) -> tuple[Integers, Integers]:
+    ours: FloatArray, theirs: FloatArray, step: int, stretches: Sequence[tuple[int, int, int, int]]
+) -> tuple[IntArray, IntArray]:
     """Frames that belong together, stretch by stretch."""
     found = []
     for first, last, first_theirs, last_theirs in stretches:
@@ -188,7 +186,7 @@ def _path(
     return np.concatenate(one), np.concatenate(other)
 
 
-def _through(pins: Pins, x: Floats, y: Floats) -> tuple[Floats, Floats]:
+def _through(pins: Pins, x: FloatArray, y: FloatArray) -> tuple[FloatArray, FloatArray]:
     """A rising curve, put through the pins."""
     if not len(pins.score_s):
         return x, y
@@ -201,20 +199,20 @@ def _through(pins: Pins, x: Floats, y: Floats) -> tuple[Floats, Floats]:
     return x, np.maximum.accumulate(np.clip(y, low, high))
 
 
-def _sounding(frames: Floats, least: float) -> npt.NDArray[np.bool_]:
+def _sounding(frames: FloatArray, least: float) -> BoolArray:
     """Which frames are more than near silence."""
-    result: npt.NDArray[np.bool_] = np.linalg.norm(frames, axis=1) > least
+    result: BoolArray = np.linalg.norm(frames, axis=1) > least
     return result
 
 
-def _alone(frames: Floats, matched: Integers) -> npt.NDArray[np.bool_]:
+def _alone(frames: FloatArray, matched: IntArray) -> BoolArray:
     """Which frames sound without one of the other."""
     alone = _sounding(frames, _LOUD)
     alone[matched] = False
     return alone
 
 
-def _runs(there: npt.NDArray[np.bool_], frame_s: float) -> tuple[Span, ...]:
+def _runs(there: BoolArray, frame_s: float) -> tuple[Span, ...]:
     """Where they are for `MISSING_S` at least; short breaks between them are none."""
     places = np.flatnonzero(there)
     if not len(places):
@@ -229,21 +227,21 @@ def _runs(there: npt.NDArray[np.bool_], frame_s: float) -> tuple[Span, ...]:
     )
 
 
-def _pooled(shapes: Floats, count: int) -> Floats:
+def _pooled(shapes: FloatArray, count: int) -> FloatArray:
     """(n, 12): the mean of every so many frames."""
     whole = shapes.shape[1] // count * count
-    result: Floats = np.ascontiguousarray(shapes[:, :whole].reshape(12, -1, count).mean(axis=2).T)
+    result: FloatArray = np.ascontiguousarray(shapes[:, :whole].reshape(12, -1, count).mean(axis=2).T)
     return result
 
 
-def _with_fillers(frames: Floats, step: int) -> tuple[Floats, Integers]:
+def _with_fillers(frames: FloatArray, step: int) -> tuple[FloatArray, IntArray]:
     """Frames with one of silence before every so many and at the end, and the place of each before, -1 of those."""
     places = np.append(np.arange(0, len(frames), step), len(frames))
     filled = np.insert(frames, places, 0.0, axis=0)
     return np.ascontiguousarray(filled), np.insert(np.arange(len(frames)), places, -1)
 
 
-def _smoothed(x: Floats, y: Floats) -> Floats:
+def _smoothed(x: FloatArray, y: FloatArray) -> FloatArray:
     """Local lines through what was found, rising."""
     result = np.empty_like(y)
     first = np.searchsorted(x, x - _AROUND_S)
@@ -251,11 +249,11 @@ def _smoothed(x: Floats, y: Floats) -> Floats:
     for place in range(len(x)):
         inside = slice(first[place], last[place])
         result[place] = _line_at(x[inside] - x[place], y[inside], 1.0 - ((x[inside] - x[place]) / _AROUND_S) ** 2)
-    rising: Floats = np.maximum.accumulate(result)
+    rising: FloatArray = np.maximum.accumulate(result)
     return rising
 
 
-def _line_at(x: Floats, y: Floats, weights: Floats) -> float:
+def _line_at(x: FloatArray, y: FloatArray, weights: FloatArray) -> float:
     """At 0, the value of the line through weighted points."""
     total = float(weights.sum())
     mean_x, mean_y = float((weights * x).sum()) / total, float((weights * y).sum()) / total
@@ -264,7 +262,7 @@ def _line_at(x: Floats, y: Floats, weights: Floats) -> float:
     return mean_y - slope * mean_x
 
 
-def along(x: Floats, at: Floats, by: Floats, reach: float) -> Floats:
+def along(x: FloatArray, at: FloatArray, by: FloatArray, reach: float) -> FloatArray:
     """How far places go along with some (``at``, rising) that are put right by so much: less the further away, and not
     beyond a reach or the next of those."""
     if not len(at):
@@ -277,5 +275,5 @@ def along(x: Floats, at: Floats, by: Floats, reach: float) -> Floats:
             ends = (place + reach, following - reach) if np.isfinite(following) else (place + reach,)
             places += ends
             amounts += [0.0] * len(ends)
-    result: Floats = np.interp(x, places, amounts)
+    result: FloatArray = np.interp(x, places, amounts)
     return result

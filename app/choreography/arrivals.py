@@ -10,18 +10,15 @@ from __future__ import annotations
 from typing import Final
 
 import numpy as np
-import numpy.typing as npt
 from scipy.ndimage import gaussian_filter1d
 
+from app.arrays import FloatArray, IntArray
 from app.choreography.body import SEGMENTS
 from app.choreography.clip import MotionClip
 from app.choreography.features import points_m
 from app.choreography.music_offset import speed_minima
 from app.choreography.sequence import Grid
 from app.choreography.warp import TimeMap, arriving
-
-FloatArray = npt.NDArray[np.float64]
-IntArray = npt.NDArray[np.int64]
 
 SMOOTHING_S: Final = 5.0 / 60.0
 """Standard deviation of the Gaussian over which speed is averaged to find where the body arrives (Li et al., "AI

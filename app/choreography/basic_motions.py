@@ -6,11 +6,9 @@ from collections.abc import Callable
 from typing import Final
 
 import numpy as np
-import numpy.typing as npt
 from sklearn.cluster import KMeans
 
-FloatArray = npt.NDArray[np.float64]
-IntArray = npt.NDArray[np.int64]
+from app.arrays import FloatArray, IntArray
 
 SPREAD: Final = 0.09
 """Without a given number the fewest basic motions are taken whose motions are this near to their mean: root mean square

@@ -8,11 +8,9 @@ from __future__ import annotations
 from typing import Final
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import AnyFloatArray
 from app.rig.model import Skeleton
-
-FloatArray = npt.NDArray[np.floating]
 
 PARENT_OF: Final = {
     "hips": "root",
@@ -39,7 +37,7 @@ ENDS: Final = ("head", "leftHand", "rightHand", "leftFoot", "rightFoot")
 FEET: Final = ("leftFoot", "rightFoot")
 
 
-def body_skeleton(offsets_m: FloatArray) -> Skeleton:
+def body_skeleton(offsets_m: AnyFloatArray) -> Skeleton:
     """Skeleton of a body: the root on the floor, then the 16 segments in the order of `SEGMENTS`.
 
     Parameters

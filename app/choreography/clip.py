@@ -7,13 +7,11 @@ from fractions import Fraction
 from typing import Final
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import FloatArray
 from app.choreography.body import body_skeleton
 from app.rig.model import Skeleton
 from app.rig.skeleton import JointTransforms, forward
-
-FloatArray = npt.NDArray[np.float64]
 
 KEPT_FPS: Final = Fraction(60)
 """Frame rate of the motions that a model is learned from and keeps."""

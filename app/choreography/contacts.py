@@ -5,16 +5,13 @@ from __future__ import annotations
 from typing import Final
 
 import numpy as np
-import numpy.typing as npt
 from scipy.ndimage import gaussian_filter1d, label
 
+from app.arrays import BoolArray, FloatArray
 from app.choreography.body import ENDS, FEET, SEGMENTS
 from app.choreography.clip import MotionClip
 from app.rig import quaternion
 from app.rig.skeleton import JointTransforms
-
-FloatArray = npt.NDArray[np.float64]
-BoolArray = npt.NDArray[np.bool_]
 
 STANDS_M_S: Final = 0.20
 """A foot whose tip is slower than this stands ..."""

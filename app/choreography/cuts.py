@@ -12,14 +12,12 @@ from itertools import pairwise
 from typing import Final
 
 import numpy as np
-import numpy.typing as npt
 from scipy.ndimage import gaussian_filter1d
 
+from app.arrays import FloatArray
 from app.choreography.body import SEGMENTS
 from app.choreography.clip import MotionClip
 from app.rig import quaternion
-
-FloatArray = npt.NDArray[np.float64]
 
 SIDES: Final = ("left", "right")
 CUT_OFF_HZ: Final = 4.0

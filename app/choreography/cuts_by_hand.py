@@ -17,15 +17,13 @@ from pathlib import Path
 from typing import Final
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import FloatArray, IntArray
 from app.choreography.cuts import Cut
 from app.encoding import guessed
 from app.errors import FileError, UsageError, shortened
 from app.formats.files import read_file
 
-FloatArray = npt.NDArray[np.float64]
-IntArray = npt.NDArray[np.int64]
 Cuts = tuple[Cut, ...]
 
 MOST_FILE_BYTES: Final = 2**20

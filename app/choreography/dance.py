@@ -4,13 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import numpy as np
-import numpy.typing as npt
-
+from app.arrays import FloatArray
 from app.choreography.clip import MotionClip
 from app.choreography.feet import Stand
-
-FloatArray = npt.NDArray[np.float64]
 
 
 @dataclass(frozen=True)

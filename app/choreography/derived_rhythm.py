@@ -23,13 +23,11 @@ from __future__ import annotations
 from typing import Final
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import BoolArray, FloatArray, IntArray
 from app.choreography.percussion import score_rhythm
-from app.choreography.rhythm import SYMBOLS, FloatArray, IntArray, Rhythm
+from app.choreography.rhythm import SYMBOLS, Rhythm
 from app.score.model import Score
-
-BoolArray = npt.NDArray[np.bool_]
 
 BASS, ACCENT, PHRASE, LEAP_UP, LEAP_DOWN, LONG, SHORT = (
     SYMBOLS.index(sound) for sound in (36, 38, 49, 50, 45, 46, 42)

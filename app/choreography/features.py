@@ -12,15 +12,13 @@ from collections.abc import Sequence
 from typing import Final
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import FloatArray
 from app.choreography.body import ENDS, SEGMENTS
 from app.choreography.clip import MotionClip
 from app.choreography.cuts import Cut
 from app.rig import quaternion
 from app.rig.skeleton import rest_positions
-
-FloatArray = npt.NDArray[np.float64]
 
 POSES: Final = 3
 """Start, accent, end."""

@@ -7,18 +7,16 @@ from dataclasses import dataclass, replace
 from typing import Final
 
 import numpy as np
-import numpy.typing as npt
 from scipy.ndimage import gaussian_filter1d, maximum_filter1d
 
+from app.arrays import BoolArray, FloatArray
 from app.choreography.body import ENDS, FEET, SEGMENTS
 from app.choreography.clip import MotionClip
-from app.choreography.contacts import BoolArray, tips_m
+from app.choreography.contacts import tips_m
 from app.choreography.limbs import bend
 from app.rig import quaternion
 from app.rig.ik import Side, leg
 from app.rig.skeleton import JointTransforms
-
-FloatArray = npt.NDArray[np.float64]
 
 LEG: Final = ("UpperLeg", "LowerLeg", "Foot")
 AHEAD: Final = (0.0, 0.0, 1.0)

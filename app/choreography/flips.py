@@ -10,14 +10,11 @@ from dataclasses import dataclass, replace
 from typing import Final
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import FloatArray, IntArray
 from app.choreography.body import SEGMENTS
 from app.choreography.clip import MotionClip
 from app.rig import quaternion
-
-FloatArray = npt.NDArray[np.float64]
-IntArray = npt.NDArray[np.int64]
 
 LEAST_RAD: Final = 0.35
 """A turn between two frames that is smaller than this (20 degrees) is no flip."""

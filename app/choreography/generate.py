@@ -11,13 +11,12 @@ from itertools import pairwise
 from typing import Final, NamedTuple
 
 import numpy as np
-import numpy.typing as npt
 from scipy.ndimage import gaussian_filter1d, maximum_filter1d
 
+from app.arrays import BoolArray, FloatArray, IntArray
 from app.choreography.arrivals import FPS, arrival_frames, joint_speed_m_s, settled, smoothed
 from app.choreography.body import SEGMENTS
 from app.choreography.clip import MotionClip
-from app.choreography.contacts import BoolArray
 from app.choreography.dance import Dance, Manner, Step
 from app.choreography.feet import planted, stands
 from app.choreography.hands import out_of_body
@@ -29,9 +28,6 @@ from app.choreography.sequence import Candidates, Constraints, Grid, Weights, ch
 from app.choreography.stitch import STAGE_M, Frames, Stitcher
 from app.choreography.warp import REST_S, TimeMap, arriving
 from app.rig import quaternion
-
-FloatArray = npt.NDArray[np.float64]
-IntArray = npt.NDArray[np.int64]
 
 DRAFT_FPS: Final = Fraction(30)
 """Frame rate of the draft in which arrivals are looked for."""

@@ -10,17 +10,15 @@ from dataclasses import replace
 from typing import Final
 
 import numpy as np
-import numpy.typing as npt
 from scipy.ndimage import gaussian_filter1d, maximum_filter1d
 
+from app.arrays import FloatArray
 from app.choreography.body import ENDS, SEGMENTS
 from app.choreography.clip import MotionClip
 from app.choreography.features import height_m
 from app.choreography.limbs import bend
 from app.rig import quaternion
 from app.rig.skeleton import JointTransforms
-
-FloatArray = npt.NDArray[np.float64]
 
 CAPSULES: Final = (
     ("hips", "chest", 0.060),

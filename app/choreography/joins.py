@@ -13,14 +13,11 @@ from collections.abc import Sequence
 from typing import Final
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import ComplexArray, FloatArray
 from app.choreography.body import ENDS, SEGMENTS
 from app.choreography.clip import MotionClip
 from app.choreography.features import height_m, points_m
-
-FloatArray = npt.NDArray[np.float64]
-ComplexArray = npt.NDArray[np.complex128]
 
 AROUND_S: Final = (-0.1, 0.0, 0.1)
 """Times about a join at which bodies are compared."""

@@ -10,15 +10,13 @@ from fractions import Fraction
 from typing import Final
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import FloatArray
 from app.choreography.clip import MotionClip
 from app.choreography.contacts import tips_m
 from app.choreography.feet import Stand
 from app.choreography.resample import resampled
 from app.rig import quaternion
-
-FloatArray = npt.NDArray[np.float64]
 
 JERKS: Final = 1.25
 """A join shows whose largest change of angular velocity is this many times what is usual in the capture."""

@@ -15,8 +15,8 @@ from pathlib import Path
 from typing import Final
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import IntArray
 from app.choreography.basic_motions import classify
 from app.choreography.clip import KEPT_FPS, MotionClip
 from app.choreography.cuts import Cut, Segmentation, segment
@@ -29,9 +29,6 @@ from app.choreography.resample import resampled
 from app.choreography.rhythm import Rhythm
 from app.encoding import shown
 from app.errors import Message, UsageError
-
-FloatArray = npt.NDArray[np.float64]
-IntArray = npt.NDArray[np.int64]
 
 FPS: Final = KEPT_FPS
 """Of the motion in a model."""

@@ -5,15 +5,13 @@ from __future__ import annotations
 from typing import Final
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import FloatArray
 from app.choreography.body import SEGMENTS
 from app.choreography.clip import MotionClip
 from app.rig import quaternion
 from app.rig.ik import SOFT_SHARE
 from app.rig.skeleton import JointTransforms
-
-FloatArray = npt.NDArray[np.float64]
 
 STRAIGHT: Final = 0.03
 BENT: Final = 0.09

@@ -4,12 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import numpy as np
-import numpy.typing as npt
-
+from app.arrays import FloatArray
 from app.choreography.clip import MotionClip
-
-FloatArray = npt.NDArray[np.float64]
 
 
 @dataclass(frozen=True)

@@ -17,8 +17,8 @@ from typing import Any, Final
 
 import msgspec
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import FloatArray
 from app.choreography.body import ENDS, SEGMENTS
 from app.choreography.clip import BodyShape, MotionClip
 from app.choreography.model import ChoreographyModel, MotionSegment, Source
@@ -27,8 +27,6 @@ from app.errors import FileError, shortened
 from app.formats.atomic import atomic_write
 from app.formats.files import read_file
 from app.formats.json_data import decode_json
-
-FloatArray = npt.NDArray[np.float64]
 
 VERSION: Final = 1
 MOST_BYTES: Final = 128 * 2**20

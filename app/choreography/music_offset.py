@@ -11,16 +11,13 @@ from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
-import numpy.typing as npt
 from scipy.ndimage import gaussian_filter1d
 
+from app.arrays import FloatArray, IntArray
 from app.choreography.clip import MotionClip
 from app.choreography.features import points_m
 from app.choreography.peaks import prominent_peaks
 from app.choreography.rhythm import Rhythm
-
-FloatArray = npt.NDArray[np.float64]
-IntArray = npt.NDArray[np.int64]
 
 SMOOTHING_S: Final = 0.04
 """Standard deviation of the Gaussian over which speed is averaged before its minima are looked for."""

@@ -16,8 +16,8 @@ from pathlib import Path
 from typing import Final
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import FloatArray
 from app.errors import FileError
 from app.formats.bvh import BvhClip
 from app.formats.fbx.foreign import read_foreign_motion
@@ -29,8 +29,6 @@ from app.rig import quaternion
 from app.rig.characters.figure_build import SINGULAR, nearest_rotations, rest_pose
 from app.rig.characters.figure_gltf import bind_pose
 from app.rig.gltf_source import read_source
-
-FloatArray = npt.NDArray[np.float64]
 
 MOST_FPS: Final = 240.0
 LEAST_BAKED_FPS: Final = 20.0

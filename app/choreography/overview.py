@@ -6,14 +6,12 @@ from collections import Counter
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import FloatArray
 from app.choreography.body import ENDS, SEGMENTS
 from app.choreography.cuts import Cut
 from app.choreography.features import POSES, features
 from app.choreography.model import ChoreographyModel
-
-FloatArray = npt.NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

@@ -8,10 +8,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 import numpy as np
-import numpy.typing as npt
 
-FloatArray = npt.NDArray[np.float64]
-IntArray = npt.NDArray[np.int64]
+from app.arrays import FloatArray, IntArray
 
 
 def prominent_peaks(values: FloatArray, least: float) -> tuple[IntArray, FloatArray]:

@@ -15,7 +15,8 @@ from typing import Final
 
 import numpy as np
 
-from app.choreography.rhythm import SYMBOLS, FloatArray, IntArray, Rhythm
+from app.arrays import FloatArray, IntArray
+from app.choreography.rhythm import SYMBOLS, Rhythm
 from app.score.felt_beat import felt_beats
 from app.score.metre_map import beat_ticks_at
 from app.score.model import Score

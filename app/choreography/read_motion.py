@@ -20,9 +20,9 @@ from pathlib import Path
 from typing import Final
 
 import numpy as np
-import numpy.typing as npt
 from scipy.spatial.transform import Rotation
 
+from app.arrays import FloatArray
 from app.choreography.body import ENDS, FEET, PARENT_OF, SEGMENTS
 from app.choreography.clip import KEPT_FPS, BodyShape, MotionClip
 from app.choreography.flips import Flip, lead_in, mend_flips, mend_steps
@@ -35,8 +35,6 @@ from app.rig.characters.joint_mapping import JointMapping, map_joints
 from app.rig.characters.t_pose import Rest, facing_ahead, rest_of, turned_figure, turns_to_t_pose, upright
 from app.rig.figure import Figure
 from metadata.model import REQUIRED_JOINTS
-
-FloatArray = npt.NDArray[np.float64]
 
 UNITS_M: Final = {"cm": 0.01, "m": 1.0, "inch": 0.0254, "CMU": 0.0254 / 0.45}
 """Lengths that BVH files are written in, metres; CMU: a 0.45th of an inch (its ASF files, and BVH made of them)."""

@@ -11,9 +11,9 @@ from __future__ import annotations
 from typing import Final
 
 import numpy as np
-import numpy.typing as npt
 from scipy.ndimage import gaussian_filter1d, maximum_filter1d
 
+from app.arrays import FloatArray
 from app.choreography.body import ENDS, SEGMENTS
 from app.choreography.clip import BodyShape, MotionClip
 from app.choreography.feet import SINK_S
@@ -22,8 +22,6 @@ from app.rig import quaternion
 from app.rig.ik import Side, leg, solve_limb
 from app.rig.model import Character, Skeleton
 from app.rig.skeleton import rest_positions
-
-FloatArray = npt.NDArray[np.float64]
 
 SIDES: Final[tuple[Side, Side]] = ("left", "right")
 TRUNK: Final[tuple[str, ...]] = ("spine", "chest", "upperChest")

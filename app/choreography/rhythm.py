@@ -6,10 +6,8 @@ from dataclasses import dataclass, replace
 from typing import Final
 
 import numpy as np
-import numpy.typing as npt
 
-FloatArray = npt.NDArray[np.float64]
-IntArray = npt.NDArray[np.int64]
+from app.arrays import FloatArray, IntArray
 
 SYMBOLS: Final = tuple(range(35, 82))
 """The 47 percussion sounds of General MIDI System Level 1: symbol n is note 35 + n."""

@@ -22,12 +22,9 @@ from dataclasses import dataclass, field
 from typing import Final
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import BoolArray, FloatArray, IntArray, SingleArray
 from app.choreography.rhythm import Rhythm
-
-FloatArray = npt.NDArray[np.float64]
-IntArray = npt.NDArray[np.int64]
 
 SPEEDS: Final = (0.67, 1.5)
 """A motion is danced no slower and no faster than this from one arrival to the next, beside the speed it was captured
@@ -82,7 +79,7 @@ class Grid:
     """
 
     times_s: FloatArray
-    on_beat: npt.NDArray[np.bool_]
+    on_beat: BoolArray
 
 
 @dataclass(frozen=True, eq=False)
@@ -234,7 +231,7 @@ class _Search:
         np.fill_diagonal(base, NEVER)
         self._base = base.astype(np.float32)
         self._lasts_s = candidates.after_s[:, None] + candidates.before_s[None, :]
-        self._between: dict[int, npt.NDArray[np.float32]] = {}
+        self._between: dict[int, SingleArray] = {}
         self._longest_s = float(self._lasts_s.max()) / SPEEDS[0] if self._lasts_s.size else 0.0
         self._shortest_s = float(self._lasts_s.min()) / SPEEDS[1] if self._lasts_s.size else 0.0
 
@@ -314,7 +311,7 @@ class _Search:
     def _possible(self, gap_s: float) -> bool:
         return self._shortest_s <= gap_s <= self._longest_s
 
-    def _moves(self, gap_s: float) -> npt.NDArray[np.float32]:
+    def _moves(self, gap_s: float) -> SingleArray:
         """(S, S) score of going to the one's accent from the other's in a time; times are rounded to one in 50."""
         key = round(50.0 * float(np.log(gap_s)))
         if key not in self._between:

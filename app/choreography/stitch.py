@@ -9,20 +9,16 @@ from fractions import Fraction
 from typing import Final
 
 import numpy as np
-import numpy.typing as npt
 from scipy.interpolate import CubicSpline
 
+from app.arrays import BoolArray, ComplexArray, FloatArray, IntArray
 from app.choreography.body import SEGMENTS
 from app.choreography.clip import MotionClip
-from app.choreography.contacts import BoolArray, foot_contacts
+from app.choreography.contacts import foot_contacts
 from app.choreography.features import facing, height_m
 from app.choreography.joins import FADE_S, STATURE_M, Clouds, best_turn_rad, faded
 from app.choreography.model import ChoreographyModel
 from app.rig import quaternion
-
-FloatArray = npt.NDArray[np.float64]
-IntArray = npt.NDArray[np.int64]
-ComplexArray = npt.NDArray[np.complex128]
 
 STAGE_M: Final = 1.2
 """A dancer keeps this near to the place."""

@@ -15,12 +15,10 @@ from functools import cached_property
 from typing import Final
 
 import numpy as np
-import numpy.typing as npt
 from scipy.interpolate import PchipInterpolator
 
+from app.arrays import FloatArray
 from app.choreography.sequence import SPEEDS, Grid
-
-FloatArray = npt.NDArray[np.float64]
 
 REST_S: Final = 0.4
 """A dance begins and ends with so much of the motion before and after it, ever slower: it comes out of standing."""

@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
-import numpy.typing as npt
 
-SingleArray = npt.NDArray[np.float32]
-IntArray = npt.NDArray[np.intp]
+from app.arrays import IndexArray, SingleArray
 
 
-def alike(places_m: SingleArray, block: int, least: int) -> IntArray:
+def alike(places_m: SingleArray, block: int, least: int) -> IndexArray:
     """Order frames so that some points are near the same places throughout a block.
 
     The frames are halved again and again by the coordinate that differs most among them.

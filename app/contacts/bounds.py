@@ -3,20 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TypeAlias
 
 import msgspec
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import BoolArray, FloatArray
 from app.rig.grip.finger_stations import MOST_HOVER_M
 from app.rig.grip.fitting.fit_terms import GRIP_M, INSIDE_M, TOUCH_M
 from app.rig.grip.grip_pose import ContactFit
 from instrument_maps.model import Contact, Control
-
-FloatArray: TypeAlias = npt.NDArray[np.float64]
-BoolArray: TypeAlias = npt.NDArray[np.bool_]
-IntArray: TypeAlias = npt.NDArray[np.intp]
 
 TOUCH_MM, GRIP_MM, PENETRATION_MM = 1000.0 * TOUCH_M, 1000.0 * GRIP_M, 1000.0 * INSIDE_M
 LIPS_MM = 2.0

@@ -15,7 +15,7 @@ from typing import Literal
 
 import numpy as np
 
-from app.contacts.bounds import BoolArray, FloatArray
+from app.arrays import BoolArray, FloatArray
 from app.contacts.reach import OUT_OF_REACH
 from app.errors import Message
 from app.plan.model import FingeringEvent, Problem

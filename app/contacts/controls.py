@@ -9,7 +9,8 @@ from functools import cached_property
 import msgspec
 import numpy as np
 
-from app.contacts.bounds import BoolArray, FloatArray, IntArray, in_place
+from app.arrays import BoolArray, FloatArray, IndexArray
+from app.contacts.bounds import in_place
 from app.plan.model import FingeringEvent
 from instrument_maps.model import Control
 
@@ -87,7 +88,7 @@ class NoteFrames:
         return pressed, released
 
     @cached_property
-    def _frames_of_notes(self) -> tuple[IntArray, IntArray]:
+    def _frames_of_notes(self) -> tuple[IndexArray, IndexArray]:
         """The frames at which each note sounds, one note after another, and which note it is: one may sound on under
         the next."""
         starts, stops = self._bounds(self._starts_s, self._ends_s)
@@ -99,7 +100,7 @@ class NoteFrames:
         chosen = np.asarray(requested, dtype=np.bool_)
         return self._inside(starts[chosen], stops[chosen])
 
-    def kept(self, station: int, worked: IntArray, controls: Sequence[Control]) -> BoolArray:
+    def kept(self, station: int, worked: IndexArray, controls: Sequence[Control]) -> BoolArray:
         """Frames of the notes that a finger works at this of its stations, until it may leave for the next note.
 
         Parameters
@@ -195,16 +196,16 @@ class NoteFrames:
         return np.concatenate([np.minimum(ends_s, next_s - window_s), self._ends_s[-1:]])
 
     @cached_property
-    def _own(self) -> tuple[IntArray, IntArray]:
+    def _own(self) -> tuple[IndexArray, IndexArray]:
         """From which frame (N,) to before which each note has the frames, to the next one's onset at most."""
         following_s = np.append(self._starts_s[1:], math.inf)
         return self._bounds(self._starts_s, np.minimum(self._ends_s, following_s[: len(self.notes)]))
 
-    def _bounds(self, starts_s: FloatArray, ends_s: FloatArray) -> tuple[IntArray, IntArray]:
+    def _bounds(self, starts_s: FloatArray, ends_s: FloatArray) -> tuple[IndexArray, IndexArray]:
         """First frames (K,) of spans, and the frames after their last."""
         return np.searchsorted(self._times_s, starts_s - 1e-9), np.searchsorted(self._times_s, ends_s - 1e-9)
 
-    def _inside(self, starts: IntArray, stops: IntArray) -> BoolArray:
+    def _inside(self, starts: IndexArray, stops: IndexArray) -> BoolArray:
         """Frames (F,) inside any of the spans that begin and end there."""
         count = len(self._times_s) + 1
         some = stops > starts
@@ -213,11 +214,11 @@ class NoteFrames:
         return inside
 
 
-def _indices(starts: IntArray, stops: IntArray) -> IntArray:
+def _indices(starts: IndexArray, stops: IndexArray) -> IndexArray:
     """The indices of spans (K,), one span after another."""
     lengths = np.maximum(stops - starts, 0)
     before = np.cumsum(lengths) - lengths
-    indices: IntArray = np.arange(lengths.sum()) + np.repeat(starts - before, lengths)
+    indices: IndexArray = np.arange(lengths.sum()) + np.repeat(starts - before, lengths)
     return indices
 
 

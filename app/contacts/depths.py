@@ -15,27 +15,13 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import AnyFloatArray, BoolArray, FloatArray, IndexArray, SingleArray
 from app.contacts.alike import alike
 from app.contacts.distance_field import DistanceField
-from app.contacts.hand_poses import (
-    Carried,
-    IntArray,
-    Parts,
-    Placed,
-    Poses,
-    SingleArray,
-    carried,
-    joints_in_node,
-    moving_parts_m,
-    steadiest,
-)
+from app.contacts.hand_poses import Carried, Parts, Placed, Poses, carried, joints_in_node, moving_parts_m, steadiest
 from app.rig.skinning import Skin
 from instrument_maps.model import Proxy
-
-FloatArray = npt.NDArray[np.float64]
-AnyFloatArray = npt.NDArray[np.floating]
 
 BLOCKS = (128, 16, 4, 1)
 """Frames of the blocks, each a multiple of the next."""
@@ -144,15 +130,15 @@ class _Pairs:
         Which of these is near which node.
     """
 
-    blocks: IntArray
-    items: IntArray
-    spots: IntArray
-    nodes: IntArray
+    blocks: IndexArray
+    items: IndexArray
+    spots: IndexArray
+    nodes: IndexArray
 
     def __len__(self) -> int:
         return len(self.spots)
 
-    def __getitem__(self, rows: npt.NDArray[np.bool_]) -> _Pairs:
+    def __getitem__(self, rows: BoolArray) -> _Pairs:
         spots = self.spots[rows]
         used = np.zeros(len(self.blocks), dtype=bool)
         used[spots] = True
@@ -274,7 +260,7 @@ class _Search:
             places_m[:, rows] = Poses(self._hand, local, morphs).places_m(at, vertices[rows])
         return places_m
 
-    def _placed(self, pairs: _Pairs, vertices: IntArray) -> Placed:
+    def _placed(self, pairs: _Pairs, vertices: IndexArray) -> Placed:
         """Vertices (S,) of what is near nodes, in these nodes' frames in the middle of the blocks."""
         size, spots = self._moved.size, pairs.spots
         middles = pairs.blocks * size + size // 2
@@ -285,8 +271,8 @@ class _Search:
         return self._moved.placed(pairs.blocks[spots], pairs.nodes, places_m.take(spots, axis=1), moves_m[spots])
 
     def _near(
-        self, pairs: _Pairs, vertices: IntArray, radii_m: SingleArray, depths_m: SingleArray
-    ) -> tuple[npt.NDArray[np.bool_], Placed]:
+        self, pairs: _Pairs, vertices: IndexArray, radii_m: SingleArray, depths_m: SingleArray
+    ) -> tuple[BoolArray, Placed]:
         """Which pairs (N,) the grids leave, of vertices (S,) and what is within radii (S,) around them: those that may
         be deepest in some frame of their block. What was found raises the depths (B, size)."""
         placed, own_m = self._placed(pairs, vertices), radii_m[pairs.spots]
@@ -320,8 +306,8 @@ class _Groups:
         Around it.
     """
 
-    members: IntArray
-    middles: IntArray
+    members: IndexArray
+    middles: IndexArray
     radii_m: SingleArray
 
     def vertices(self, grouped: _Pairs) -> _Pairs:
@@ -351,7 +337,7 @@ def _groups(places_m: bytes, strongest: bytes) -> _Groups:
     return _Groups(members, middles, radii_m)
 
 
-def _split(rows: IntArray, positions_m: FloatArray) -> list[IntArray]:
+def _split(rows: IndexArray, positions_m: FloatArray) -> list[IndexArray]:
     """Halve along the longest side until the groups are small."""
     if len(rows) <= GROUP:
         return [rows]

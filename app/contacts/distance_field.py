@@ -14,12 +14,9 @@ from threading import Lock
 import numpy as np
 import numpy.typing as npt
 
+from app.arrays import AnyFloatArray, AnyIntArray, FloatArray, IndexArray, SingleArray
 from app.rig.grip.instrument_proxy import Bodies, bodies, distances
 from instrument_maps.model import Proxy
-
-FloatArray = npt.NDArray[np.float64]
-SingleArray = npt.NDArray[np.float32]
-IntArray = npt.NDArray[np.intp]
 
 CELL_M = 0.003
 BRICK_CELLS = 4
@@ -78,16 +75,16 @@ class DistanceField:
         """By brick: its place."""
         self._about_m = np.zeros((0, BRICK_CELLS**3), dtype=np.float32)
         """By brick, of its cells; NaN where nothing has been computed."""
-        self._nearest: list[IntArray] = []
+        self._nearest: list[IndexArray] = []
         """By brick: the bodies that may be the nearest to something in it."""
-        self._touching: list[IntArray] = []
+        self._touching: list[IndexArray] = []
         """By brick: the bodies that a point in it may be near."""
         self._lock = Lock()
 
     def about_m(
         self,
         points_m: SingleArray,
-        nodes: IntArray,
+        nodes: IndexArray,
         clear_m: SingleArray | None = None,
         depth_m: SingleArray | None = None,
     ) -> tuple[SingleArray, SingleArray]:
@@ -124,7 +121,7 @@ class DistanceField:
             about_m[rows], error_m[rows] = self._by_cells(inside.take(rows, axis=1), nodes.take(rows))
         return about_m, error_m
 
-    def beyond_m(self, points_m: SingleArray, nodes: IntArray) -> SingleArray:
+    def beyond_m(self, points_m: SingleArray, nodes: IndexArray) -> SingleArray:
         """How far points (N, 3) in the frames of nodes (N,) are outside the boxes around their bodies: (N,), the
         distance or less. Inside a box it is minus infinity."""
         low_m, high_m = self._low_m.astype(np.float32)[nodes], self._high_m.astype(np.float32)[nodes]
@@ -132,7 +129,7 @@ class DistanceField:
         found: SingleArray = np.sqrt(np.einsum("ni,ni->n", outside_m, outside_m))
         return np.where(found > 0.0, found, np.float32(-np.inf))
 
-    def distances_m(self, points_m: npt.NDArray[np.floating], nodes: IntArray) -> npt.NDArray[np.floating]:
+    def distances_m(self, points_m: AnyFloatArray, nodes: IndexArray) -> AnyFloatArray:
         """Distance (N,) of points (N, 3) in the frames of nodes (N,), at most `NEAR_M`."""
         result = np.full(len(points_m), NEAR_M, dtype=points_m.dtype)
         places = self._inside((points_m.T - self._corners_m.T.take(nodes, axis=1)) / _BRICK_M, nodes, 1).astype(
@@ -145,7 +142,7 @@ class DistanceField:
             np.minimum.at(result, point, distances(self._bodies, points_m[point], np.concatenate(bodies_of)))
         return result
 
-    def _inside(self, scaled: npt.NDArray[np.floating], nodes: IntArray, parts: int) -> npt.NDArray[np.floating]:
+    def _inside(self, scaled: AnyFloatArray, nodes: IndexArray, parts: int) -> AnyFloatArray:
         """Numbers (3, N) within the nodes' grids, of so many parts of a brick. What is beyond a grid is taken for
         something at its edge: nothing is near that."""
         scaled = np.ascontiguousarray(np.maximum(scaled, 0.0))
@@ -153,7 +150,7 @@ class DistanceField:
         np.minimum(scaled, (self._shapes.T * parts - _EDGE).astype(scaled.dtype).take(nodes, axis=1), out=scaled)
         return scaled
 
-    def _by_cells(self, inside: SingleArray, nodes: IntArray) -> tuple[SingleArray, SingleArray]:
+    def _by_cells(self, inside: SingleArray, nodes: IndexArray) -> tuple[SingleArray, SingleArray]:
         """`about_m` for places (3, N) in the grids, in cells, by the middles of the cells."""
         cells = inside.astype(np.int32)
         places = cells // BRICK_CELLS
@@ -168,7 +165,7 @@ class DistanceField:
                 found[missing] = self._about_m.reshape(-1)[cell[missing]]
         return found, _off_middle(inside, cells, 1)
 
-    def _flat(self, places: npt.NDArray[np.int32], nodes: IntArray) -> npt.NDArray[np.int32]:
+    def _flat(self, places: npt.NDArray[np.int32], nodes: IndexArray) -> npt.NDArray[np.int32]:
         """Where bricks at places (3, N) of nodes (N,) are among those of all nodes."""
         x, y, z = places
         flat: npt.NDArray[np.int32] = (x * self._shapes[:, 1].take(nodes) + y) * self._shapes[:, 2].take(nodes) + z
@@ -198,11 +195,11 @@ class DistanceField:
             bricks[missing] = self._brick_at[flat[missing]]
         return bricks
 
-    def _nodes_of(self, flat: npt.NDArray[np.integer]) -> IntArray:
+    def _nodes_of(self, flat: AnyIntArray) -> IndexArray:
         """The nodes (N,) of bricks."""
         return np.searchsorted(self._starts, flat, side="right") - 1
 
-    def _corners_of(self, flat: npt.NDArray[np.integer]) -> FloatArray:
+    def _corners_of(self, flat: AnyIntArray) -> FloatArray:
         """The lowest corners (N, 3) of bricks, metres."""
         nodes = self._nodes_of(flat)
         _, y, z = self._shapes.T.take(nodes, axis=1)
@@ -210,7 +207,7 @@ class DistanceField:
         corners_m: FloatArray = np.stack([*np.divmod(place, y), at_z], axis=-1) * _BRICK_M + self._corners_m[nodes]
         return corners_m
 
-    def _from_middles_m(self, corners_m: FloatArray, nodes: IntArray) -> tuple[FloatArray, IntArray, IntArray]:
+    def _from_middles_m(self, corners_m: FloatArray, nodes: IndexArray) -> tuple[FloatArray, IndexArray, IndexArray]:
         """Distances of the middles of bricks (N,) with lowest corners (N, 3) from the bodies of their nodes (N,): the
         distances, these bodies, and where those of each brick begin (N,)."""
         counts = self._owned[nodes]
@@ -218,7 +215,7 @@ class DistanceField:
         body = self._own[np.arange(len(brick)) + (self._first_own[nodes] - firsts)[brick]]
         return distances(self._bodies, (corners_m + _BRICK_M / 2.0)[brick], body), body, firsts
 
-    def _compute(self, flat: npt.NDArray[np.integer]) -> None:
+    def _compute(self, flat: AnyIntArray) -> None:
         if not len(flat):
             return
         nodes, corners_m = self._nodes_of(flat), self._corners_of(flat)
@@ -239,7 +236,7 @@ class DistanceField:
         # Last, since other threads look here without a lock.
         self._brick_at[flat] = count + np.arange(len(flat), dtype=np.int32)
 
-    def _compute_cells(self, cells: npt.NDArray[np.integer]) -> None:
+    def _compute_cells(self, cells: AnyIntArray) -> None:
         """Compute cells (N,), numbered brick by brick."""
         bricks, within = np.divmod(cells, BRICK_CELLS**3)
         bodies_of = [self._nearest[brick] for brick in bricks.tolist()]

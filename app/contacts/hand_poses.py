@@ -10,13 +10,9 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import BoolArray, FloatArray, IndexArray, SingleArray
 from app.rig.skinning import Skin
-
-FloatArray = npt.NDArray[np.float64]
-SingleArray = npt.NDArray[np.float32]
-IntArray = npt.NDArray[np.intp]
 
 MOVES_M = 0.001
 """Frames are not compared by a part that moves less where the hand is."""
@@ -41,8 +37,8 @@ class Carried:
         Displacements, in the frame of each carrier.
     """
 
-    joints: IntArray
-    carriers: IntArray
+    joints: IndexArray
+    carriers: IndexArray
     weights: SingleArray
     places_m: SingleArray
     arms_m: SingleArray
@@ -82,7 +78,7 @@ def joints_in_node(world_from_node: FloatArray, world_from_joint: SingleArray) -
     return np.ascontiguousarray(turned.transpose(1, 3, 0, 2))
 
 
-def _through(matrices: SingleArray, at: IntArray, points_m: SingleArray) -> SingleArray:
+def _through(matrices: SingleArray, at: IndexArray, points_m: SingleArray) -> SingleArray:
     """Points (3, N) through chosen ones (N,) of matrices (3, 4, M)."""
     result = np.empty_like(points_m)
     for axis, row in enumerate(matrices):
@@ -112,7 +108,7 @@ class Poses:
     def __init__(self, hand: Carried, node_from_joint: SingleArray, morphs: Mapping[str, SingleArray]) -> None:
         self._hand, self._node_from_joint, self._morphs = hand, node_from_joint, morphs
 
-    def places_m(self, frames: IntArray, vertices: IntArray) -> SingleArray:
+    def places_m(self, frames: IndexArray, vertices: IndexArray) -> SingleArray:
         """Where vertices (N,) are at frames (N,): (3, N)."""
         hand = self._hand
         result = np.zeros((3, len(frames)), dtype=np.float32)
@@ -135,7 +131,7 @@ class Poses:
                     result[axis][rows] += moved_m[axis]
         return result
 
-    def moves(self, size: int, blocks: IntArray) -> Moves:
+    def moves(self, size: int, blocks: IndexArray) -> Moves:
         """How far joints move from the middle frames of some blocks (B,) of a size."""
         joints = self._node_from_joint.shape[3]
         placed = self._node_from_joint.reshape(3, 4, -1, size, joints)[:, :, blocks]
@@ -171,7 +167,7 @@ class Moves:
     greatest: Mapping[str, SingleArray]
     changes: Mapping[str, SingleArray]
 
-    def most_m(self, blocks: IntArray, vertices: IntArray) -> SingleArray:
+    def most_m(self, blocks: IndexArray, vertices: IndexArray) -> SingleArray:
         """What vertices (N,) move at most in blocks (N,)."""
         hand = self.hand
         result, first = np.zeros(len(blocks), dtype=np.float32), blocks * len(hand.joints)
@@ -275,7 +271,7 @@ class PartMoves:
     shifts_m: SingleArray
     reaches_m: SingleArray
 
-    def placed(self, blocks: IntArray, nodes: IntArray, base_m: SingleArray, moves_m: SingleArray) -> Placed:
+    def placed(self, blocks: IndexArray, nodes: IndexArray, base_m: SingleArray, moves_m: SingleArray) -> Placed:
         """Place points in the frames of nodes (N,) in the middle of blocks (N,).
 
         Parameters
@@ -311,7 +307,7 @@ class Placed:
     turns_m: SingleArray
     beyond_m: SingleArray
 
-    def __getitem__(self, rows: npt.NDArray[np.bool_]) -> Placed:
+    def __getitem__(self, rows: BoolArray) -> Placed:
         return Placed(self.places_m[:, rows], self.shifts_m[rows], self.turns_m[rows], self.beyond_m[rows])
 
     @property

@@ -6,19 +6,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from app.contacts.bounds import (
-    FEET_MM,
-    GRIP_MM,
-    LIPS_MM,
-    MOVED_MM,
-    SLIDE_M,
-    BoolArray,
-    FloatArray,
-    IntArray,
-    allowed_mm,
-    bound_mm,
-    contact_name,
-)
+from app.arrays import BoolArray, FloatArray, IndexArray
+from app.contacts.bounds import FEET_MM, GRIP_MM, LIPS_MM, MOVED_MM, SLIDE_M, allowed_mm, bound_mm, contact_name
 from app.contacts.breaks import JUDGED_PER_S, Break, runs
 from app.contacts.controls import NoteFrames
 from app.contacts.hold import missed_mm
@@ -78,7 +67,7 @@ class ContactJudge:
             found += self._playing_contacts(motion, frames[sounds], times_s[sounds], NoteFrames(times_s[sounds], notes))
         return tuple(found)
 
-    def _feet(self, motion: Motion, frames: IntArray, times_s: FloatArray) -> Iterator[Break]:
+    def _feet(self, motion: Motion, frames: IndexArray, times_s: FloatArray) -> Iterator[Break]:
         place, meant_m = self._playing.player.place, self._playing.ankles_m(times_s)
         ankles = {side: limb.end for side, limb in place.legs.items()}
         joints = forward(
@@ -89,7 +78,7 @@ class ContactJudge:
             yield from runs(("foot", side, ""), times_s, gaps_m, gaps_m * 1000.0 > FEET_MM)
 
     def _playing_contacts(
-        self, motion: Motion, frames: IntArray, times_s: FloatArray, notes: NoteFrames
+        self, motion: Motion, frames: IndexArray, times_s: FloatArray, notes: NoteFrames
     ) -> Iterator[Break]:
         instrument = self._playing.instrument_map
         joints = forward(self._character.skeleton, motion.rotations[frames], motion.hips_m[frames], self._joints)

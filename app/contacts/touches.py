@@ -11,7 +11,8 @@ from functools import cached_property
 
 import numpy as np
 
-from app.contacts.bounds import CLEAR_MM, TOUCH_MM, BoolArray, FloatArray, IntArray
+from app.arrays import BoolArray, FloatArray, IndexArray
+from app.contacts.bounds import CLEAR_MM, TOUCH_MM
 from app.contacts.controls import NoteFrames
 from app.motion.contacts.hand_in_bell import FINGERS_KEPT
 from app.rig import quaternion
@@ -149,7 +150,7 @@ class TouchJudge:
         self._only_at = only_at(instrument)
 
     @cached_property
-    def _stations(self) -> Mapping[str, IntArray]:
+    def _stations(self) -> Mapping[str, IndexArray]:
         """Which of its stations each finger works in each note."""
         fingered = ((note.controls, note.fingers) for note in self._notes.notes)
         return stations_of_notes(self._instrument, fingered)

@@ -11,7 +11,8 @@ from typing import Final
 
 from PySide6.QtCore import QObject, Signal
 
-from app.performance.chunks import Floats, Pose
+from app.arrays import SingleArray
+from app.performance.chunks import Pose
 from app.performance.play_along import PlayAlong
 from app.score.take import ControllerMapping
 
@@ -100,7 +101,7 @@ class LivePlayers(QObject):
         if struck:
             self.struck.emit()
 
-    def lying(self, player_id: str, other_id: str) -> tuple[Floats, Floats] | None:
+    def lying(self, player_id: str, other_id: str) -> tuple[SingleArray, SingleArray] | None:
         """Where another instrument of the musician lies while this one is played: position (3,) and rotation (4,)."""
         play_along = self._playing.get(player_id)
         return None if play_along is None else play_along.lying.get(other_id)

@@ -6,11 +6,9 @@ from collections.abc import Mapping, Sequence
 from typing import Protocol
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import AnyFloatArray, SingleArray
 from app.performance.chunks import Pose, between
-
-Floats = npt.NDArray[np.floating]
 
 
 def blended(one: Pose, other: Pose, share: float) -> Pose:
@@ -20,10 +18,10 @@ def blended(one: Pose, other: Pose, share: float) -> Pose:
         names = {**before, **after}
         return {name: (1.0 - share) * before.get(name, 0.0) + share * after.get(name, 0.0) for name in names}
 
-    def moved(before: Floats, after: Floats) -> npt.NDArray[np.float32]:
+    def moved(before: AnyFloatArray, after: AnyFloatArray) -> SingleArray:
         return np.asarray(before + share * (after - before), np.float32)
 
-    def turned(before: Floats, after: Floats) -> npt.NDArray[np.float32]:
+    def turned(before: AnyFloatArray, after: AnyFloatArray) -> SingleArray:
         return between(np.asarray(before, np.float32), np.asarray(after, np.float32), share)
 
     return Pose(

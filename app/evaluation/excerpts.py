@@ -7,11 +7,9 @@ from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import FloatArray
 from app.project.model import Project
-
-Floats = npt.NDArray[np.float64]
 
 _STEP_S: Final = 0.25
 """Excerpts are looked for at these distances."""
@@ -72,12 +70,12 @@ def choose_excerpts(
     return tuple(found)
 
 
-def _played_s(starts_s: Floats, ends_s: Floats, from_s: float, until_s: float) -> float:
+def _played_s(starts_s: FloatArray, ends_s: FloatArray, from_s: float, until_s: float) -> float:
     """How many seconds of notes sound within these."""
     return float(np.clip(np.minimum(ends_s, until_s) - np.maximum(starts_s, from_s), 0.0, None).sum())
 
 
-def _notes_s(project: Project) -> tuple[Floats, Floats]:
+def _notes_s(project: Project) -> tuple[FloatArray, FloatArray]:
     """When all notes of the players begin and end."""
     notes = [note for player in project.players for note in project.part(player).notes]
     clock = project.score.tempo_map

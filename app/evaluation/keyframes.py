@@ -20,8 +20,8 @@ from typing import Final, TypeAlias
 
 import msgspec
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import FloatArray
 from app.errors import FileError
 from app.evaluation.excerpts import Excerpt
 from app.evaluation.imported import require_covered
@@ -40,7 +40,6 @@ from app.rig.grip.grip_pose import hand_targets
 from app.rig.model import Character, Skeleton
 from app.rig.skeleton import forward
 
-FloatArray: TypeAlias = npt.NDArray[np.float64]
 Posed: TypeAlias = Callable[[str, float, Pose], Pose]
 """A player's id, a time and the pose of the performance to the pose that is seen."""
 

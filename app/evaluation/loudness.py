@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from typing import Final
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import FloatArray
 from app.audio.track import RATE_HZ, Block
 
 TARGET_LUFS: Final = -20.0
@@ -35,7 +35,7 @@ def loudness_lufs(sound: Block) -> float:
         raise ValueError("the filters are those for 48 kHz")
     if not len(sound):
         return -np.inf
-    weighted: npt.NDArray[np.float64] = lfilter(*_LOW, lfilter(*_HEAD, sound.astype(np.float64), axis=0), axis=0)
+    weighted: FloatArray = lfilter(*_LOW, lfilter(*_HEAD, sound.astype(np.float64), axis=0), axis=0)
     power = float((weighted**2).mean(axis=0).sum())
     return -0.691 + 10.0 * float(np.log10(power)) if power > 0.0 else -np.inf
 

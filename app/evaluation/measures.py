@@ -9,8 +9,8 @@ from typing import Final, Literal
 
 import msgspec
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import AnyFloatArray, BoolArray, FloatArray, SingleArray
 from app.contacts.breaks import Break
 from app.contacts.controls import NoteFrames
 from app.contacts.judge import ContactJudge
@@ -39,9 +39,6 @@ VERSION: Final = 1
 _MOST_BYTES: Final = 16_000_000
 _AROUND_BREATH_S: Final = 0.05
 _LEAST_FRAMES: Final = 3
-
-FloatArray = npt.NDArray[np.float64]
-BoolArray = npt.NDArray[np.bool_]
 
 
 class Visible(msgspec.Struct, frozen=True):
@@ -217,7 +214,7 @@ def _breath_visibility(
     breaths: Sequence[BreathEvent],
     times_s: FloatArray,
     places: Mapping[str, FloatArray],
-    morphs: Mapping[str, npt.NDArray[np.float32]],
+    morphs: Mapping[str, SingleArray],
 ) -> BreathVisibility:
     drawn = [event for event in breaths if event.kind == "breath"]
     spans, rests = [], []
@@ -243,7 +240,7 @@ def _frames(times_s: FloatArray, begin_s: float, end_s: float) -> slice:
     return slice(int(first), max(int(last), int(first) + _LEAST_FRAMES))
 
 
-def _range(curve: npt.NDArray[np.floating], spans: Sequence[slice]) -> float | None:
+def _range(curve: AnyFloatArray, spans: Sequence[slice]) -> float | None:
     return round(float(np.median([np.ptp(curve[span]) for span in spans])), 4) if spans else None
 
 

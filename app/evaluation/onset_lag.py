@@ -12,8 +12,8 @@ from typing import Final
 
 import msgspec
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import AnyFloatArray, FloatArray
 from app.contacts.bounds import PRESSED, SLIDE_M, in_place
 from app.plan.model import FingeringEvent
 from instrument_maps.model import Control
@@ -24,8 +24,6 @@ _AROUND_S: Final = 0.5
 """An arrival belongs to a note at most so far from it."""
 _PHRASE_S: Final = 0.15
 """After a longer rest fingers are in place early, unheard: such a note says nothing about lag."""
-
-FloatArray = npt.NDArray[np.float64]
 
 
 class LagMeasure(msgspec.Struct, frozen=True):
@@ -54,7 +52,7 @@ class LagMeasure(msgspec.Struct, frozen=True):
 def measure_lag(
     fingerings: Sequence[FingeringEvent],
     controls: Sequence[Control],
-    values: Mapping[str, npt.NDArray[np.floating]],
+    values: Mapping[str, AnyFloatArray],
     times_s: FloatArray,
 ) -> LagMeasure:
     """Compare what is seen with what is heard.

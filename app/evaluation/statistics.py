@@ -11,15 +11,14 @@ from typing import Final, Literal
 
 import msgspec
 import numpy as np
-import numpy.typing as npt
 from scipy import stats
+
+from app.arrays import FloatArray
 
 LEVEL: Final = 0.95
 SIGNIFICANT: Final = 0.05
 _EXACT: Final = 200
 """Of more differences the normal approximation is as good."""
-
-FloatArray = npt.NDArray[np.float64]
 
 
 class Summary(msgspec.Struct, frozen=True):

@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import FloatArray
 from app.export.equip import socket_names
 from app.export.playback import METRES, Playback
 from app.export.target import TargetSkeleton, Trajectory, instrument_path, placed, still
@@ -15,8 +15,6 @@ from app.formats.names import numbered
 from app.formats.scene import Clip, Place, Scene, SkinnedMesh
 from app.motion.model import Motion
 from app.rig import quaternion
-
-FloatArray = npt.NDArray[np.float64]
 
 
 def own_path(target: TargetSkeleton, motion: Motion) -> Trajectory:

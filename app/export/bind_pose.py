@@ -11,8 +11,8 @@ from dataclasses import replace
 from typing import Final
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import AnyFloatArray, FloatArray, SingleArray
 from app.export.own_skeleton import LIMBS
 from app.export.rig_options import RestPose
 from app.export.target import TargetSkeleton, matrices
@@ -20,14 +20,12 @@ from app.rig import quaternion
 from app.rig.mesh import Mesh, Morph
 from app.rig.model import Character
 
-FloatArray = npt.NDArray[np.float64]
-
 CENTIMETRES: Final = 100.0
 ARM: Final = ("UpperArm", "LowerArm", "Hand")
 _DOWN_RAD: Final[Mapping[RestPose, float]] = {"t": 0.0, "a": np.pi / 4.0}
 
 
-def bind_transforms(character: Character, target: TargetSkeleton) -> npt.NDArray[np.floating]:
+def bind_transforms(character: Character, target: TargetSkeleton) -> AnyFloatArray:
     """Where the bones were when the body was modelled, ``world_from_bone`` (B, 4, 4), centimetres.
 
     They are with their joints, the others on their parents.
@@ -35,20 +33,20 @@ def bind_transforms(character: Character, target: TargetSkeleton) -> npt.NDArray
     return _of_bones(character, target, _modelled(character))
 
 
-def rest_transforms(character: Character, target: TargetSkeleton) -> npt.NDArray[np.floating]:
+def rest_transforms(character: Character, target: TargetSkeleton) -> AnyFloatArray:
     """Where the bones are in the rest pose that the target asks for; as `bind_transforms`."""
     if target.rest_pose == "model":
         return bind_transforms(character, target)
     return _of_bones(character, target, _posed(character, _DOWN_RAD[target.rest_pose]))
 
 
-def _modelled(character: Character) -> npt.NDArray[np.floating]:
+def _modelled(character: Character) -> AnyFloatArray:
     world_from_joint = np.linalg.inv(character.joint_from_mesh)
     world_from_joint[:, :3, 3] *= CENTIMETRES
     return world_from_joint
 
 
-def _posed(character: Character, down_rad: float) -> npt.NDArray[np.floating]:
+def _posed(character: Character, down_rad: float) -> AnyFloatArray:
     """``world_from_joint`` with both arms straight to the side, lowered by an angle; fingers keep to their hands."""
     skeleton, before = character.skeleton, _modelled(character)
     world = before.copy()
@@ -63,9 +61,7 @@ def _posed(character: Character, down_rad: float) -> npt.NDArray[np.floating]:
     return world
 
 
-def _of_bones(
-    character: Character, target: TargetSkeleton, world_from_joint: npt.NDArray[np.floating]
-) -> npt.NDArray[np.floating]:
+def _of_bones(character: Character, target: TargetSkeleton, world_from_joint: AnyFloatArray) -> AnyFloatArray:
     if target.normalised:
         return world_from_joint
     steady = matrices(target.offsets_m * CENTIMETRES, target.t_pose)
@@ -84,9 +80,7 @@ def _of_bones(
     return result
 
 
-def _twisted(
-    character: Character, target: TargetSkeleton, world_from_joint: npt.NDArray[np.floating], bone: int
-) -> FloatArray:
+def _twisted(character: Character, target: TargetSkeleton, world_from_joint: AnyFloatArray, bone: int) -> FloatArray:
     """How a twist bone's base is turned with its share of the twist that the joint has in this pose, (3, 3)."""
     twist = target.twists[bone]
     parent = character.skeleton.parents[twist.joint]
@@ -155,7 +149,7 @@ def _along(target: TargetSkeleton, bone: int) -> float:
     return share if share >= 0.0 else 1.0 + share
 
 
-def _moved(mesh: Mesh, moved: npt.NDArray[np.floating]) -> Mesh:
+def _moved(mesh: Mesh, moved: AnyFloatArray) -> Mesh:
     """A mesh where its bones take it that are moved (B, 4, 4), metres, to be bound there."""
     blended = np.einsum("vk,vkij->vij", mesh.weights.astype(np.float64), moved[mesh.joints])
     turned = blended[:, :3, :3]
@@ -179,6 +173,6 @@ def _turned(morph: Morph, turned: FloatArray) -> Morph:
     )
 
 
-def _unit(vectors: FloatArray) -> npt.NDArray[np.float32]:
+def _unit(vectors: FloatArray) -> SingleArray:
     lengths = np.linalg.norm(vectors, axis=1, keepdims=True)
     return (vectors / np.where(lengths > 0.0, lengths, 1.0)).astype(np.float32)

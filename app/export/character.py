@@ -7,6 +7,7 @@ from collections.abc import Iterable, Mapping, Sequence
 import numpy as np
 import numpy.typing as npt
 
+from app.arrays import AnyFloatArray, SingleArray
 from app.export.bind_pose import CENTIMETRES, bound_meshes, rest_transforms
 from app.export.own_skeleton import own_weights
 from app.export.target import BoneMotion, TargetSkeleton, Trajectory, bone_motion, matrices, normalised_target
@@ -107,7 +108,7 @@ def character_clip(
     motion: Motion,
     name: str,
     target: TargetSkeleton,
-    morph_weights: Mapping[str, npt.NDArray[np.float32]],
+    morph_weights: Mapping[str, SingleArray],
     held: Sequence[Trajectory] = (),
 ) -> Clip:
     """What the bones and the face do."""
@@ -150,8 +151,8 @@ def skinned_mesh(
     mesh: Mesh,
     name: str,
     joints: npt.NDArray[np.int32],
-    weights: npt.NDArray[np.float32],
-    world_from_bone_bind: npt.NDArray[np.floating],
+    weights: SingleArray,
+    world_from_bone_bind: AnyFloatArray,
 ) -> SkinnedMesh:
     """A mesh bound to bones. Texture coordinates turn from glTF's (v down) to FBX's (v up)."""
     uvs = mesh.uvs.astype(np.float64)

@@ -13,7 +13,6 @@ from typing import Final, Literal, TypeAlias
 
 import msgspec
 import numpy as np
-import numpy.typing as npt
 
 from app.errors import Message
 from app.export.own_skeleton import has_armature
@@ -21,7 +20,6 @@ from app.export.target import TargetSkeleton
 from app.rig import quaternion
 from app.rig.figure import Figure
 
-FloatArray = npt.NDArray[np.float64]
 DifferenceKind: TypeAlias = Literal[
     "root", "unit", "parent", "additional", "requested", "missing", "rotation", "position"
 ]

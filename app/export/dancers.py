@@ -6,9 +6,8 @@ from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
-import numpy.typing as npt
 
-from app.choreography.contacts import BoolArray
+from app.arrays import BoolArray, FloatArray
 from app.choreography.feet import SIDES
 from app.choreography.retarget import foot_tip_m
 from app.export.attachment import without_place
@@ -28,8 +27,6 @@ from app.performance.dancers import Dancing
 from app.performance.span import FrameSpan
 from app.rig import quaternion
 from app.rig.model import Character
-
-FloatArray = npt.NDArray[np.float64]
 
 
 def standing_frames(dancing: Dancing, span: FrameSpan) -> BoolArray:

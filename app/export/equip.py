@@ -7,8 +7,8 @@ from dataclasses import dataclass, field, replace
 from typing import Final
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import FloatArray
 from app.errors import Message
 from app.export.own_skeleton import LIMBS, limb_twist
 from app.export.rig import Rig
@@ -19,8 +19,6 @@ from app.rig import quaternion
 from app.rig.characters.bone_placements import local_placements, world_placements
 from app.rig.model import Character, Skeleton
 from app.rig.skeleton import rest_positions
-
-FloatArray = npt.NDArray[np.float64]
 
 IK_BONES: Final[Mapping[str, tuple[str, str]]] = {
     "ik_foot_root": ("", ""),

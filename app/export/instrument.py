@@ -7,7 +7,6 @@ control that moves it, or of its own node where it only moves along.
 from __future__ import annotations
 
 import numpy as np
-import numpy.typing as npt
 
 from app.export.bind_pose import CENTIMETRES
 from app.export.character import mesh_names, skinned_mesh
@@ -19,8 +18,6 @@ from app.rig import quaternion
 from app.rig.instrument import part_transform, part_values
 from app.rig.model import InstrumentModel
 from instrument_maps.model import InstrumentMap
-
-FloatArray = npt.NDArray[np.float64]
 
 
 def instrument_scene(

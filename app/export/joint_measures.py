@@ -7,13 +7,11 @@ from collections.abc import Iterable, Mapping
 
 import msgspec
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import FloatArray
 from app.export.joint_playback import JointPlayback
 from app.export.joints import anatomical_angles, angular_accelerations
 from metadata.model import Body, JointLimits, SkeletonProfile
-
-FloatArray = npt.NDArray[np.float64]
 
 _CHUNK = 512
 _BEYOND_DEG = 0.01

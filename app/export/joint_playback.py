@@ -6,16 +6,14 @@ from collections.abc import Mapping
 from functools import cached_property
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import BoolArray, FloatArray, IntArray
 from app.export.playback import Playback
 from app.export.target import TargetSkeleton
 from app.formats.scene import SkinnedMesh
 from app.rig import quaternion
 from app.rig.figure import OwnSkeleton
 from app.rig.model import Character, Landmark
-
-FloatArray = npt.NDArray[np.float64]
 
 _TRUNK = ("spine", "chest", "upperChest", "neck", "head")
 
@@ -59,7 +57,7 @@ class JointPlayback:
         raise KeyError(joints[0])
 
     @cached_property
-    def rigid(self) -> npt.NDArray[np.bool_]:
+    def rigid(self) -> BoolArray:
         """Bones (B,) whose length must stay: all but roots, the hips and what follows something else."""
         parents = self.playback.parents
         return np.array([parent >= 0 and bone not in self._moved for bone, parent in enumerate(parents)])
@@ -80,7 +78,7 @@ class JointPlayback:
         shown = [np.asarray(curves[name], np.float64) / part for name, part in parts.items() if name in curves and part]
         return np.minimum(np.max(shown, axis=0), 1.0) if shown else np.zeros(frames)
 
-    def surface(self, landmark: Landmark) -> tuple[SkinnedMesh, npt.NDArray[np.int64]]:
+    def surface(self, landmark: Landmark) -> tuple[SkinnedMesh, IntArray]:
         """The file's mesh that a landmark is on, and the landmark's vertices there.
 
         A file on the character's own skeleton has its meshes one by one, any other has them joined, in their order.

@@ -15,8 +15,8 @@ from typing import Final
 
 import msgspec
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import FloatArray
 from app.export.own_skeleton import limb_twist
 from app.export.target import HIPS, TargetSkeleton, Twist
 from app.formats.toml import read_toml, shaped
@@ -28,8 +28,6 @@ from app.rig.model import Skeleton
 from app.rig.skeleton import rest_positions
 from metadata.model import REQUIRED_JOINTS
 from metadata.tables import ROOT
-
-FloatArray = npt.NDArray[np.float64]
 
 TABLE: Final = ROOT / "mannequin.toml"
 

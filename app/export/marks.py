@@ -6,8 +6,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import AnyFloatArray, AnyIntArray, BoolArray, IndexArray, IntArray
 from app.export.joint_playback import JointPlayback
 from app.export.playback import METRES, Playback, Surface
 from app.formats.scene import SkinnedMesh
@@ -15,9 +15,7 @@ from app.rig.mesh import Mesh
 from app.rig.model import Character
 from app.rig.skinning import Skin
 
-FloatArray = npt.NDArray[np.floating]
-IntArray = npt.NDArray[np.intp]
-_NO_SHAPES: FloatArray = np.zeros((0, 0, 3))
+_NO_SHAPES: AnyFloatArray = np.zeros((0, 0, 3))
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,10 +33,10 @@ class Carried:
         What each morph of `Marks.morphs` adds to the points.
     """
 
-    marks: IntArray
-    points_m: FloatArray
-    shares: FloatArray
-    shapes_m: FloatArray
+    marks: IndexArray
+    points_m: AnyFloatArray
+    shares: AnyFloatArray
+    shapes_m: AnyFloatArray
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,7 +56,7 @@ class Marks:
     carried: Mapping[int, Carried]
     morphs: tuple[str, ...] = ()
 
-    def hang_on(self, parents: Sequence[int]) -> npt.NDArray[np.bool_]:
+    def hang_on(self, parents: Sequence[int]) -> BoolArray:
         """Whether what a bone does moves a mark: (K, B)."""
         above = np.eye(len(parents), dtype=bool)
         for bone, parent in enumerate(parents):
@@ -76,12 +74,12 @@ class _Gathered:
     """Marks while they are gathered: by bone their number, point and share, and by morph what it adds."""
 
     count: int
-    rows: dict[int, list[tuple[int, FloatArray, float, dict[str, FloatArray]]]] = field(default_factory=dict)
+    rows: dict[int, list[tuple[int, AnyFloatArray, float, dict[str, AnyFloatArray]]]] = field(default_factory=dict)
 
-    def add(self, bone: int, point_m: FloatArray, share: float = 1.0, **shapes_m: FloatArray) -> None:
+    def add(self, bone: int, point_m: AnyFloatArray, share: float = 1.0, **shapes_m: AnyFloatArray) -> None:
         self.rows.setdefault(bone, []).append((self.count, point_m, share, shapes_m))
 
-    def add_box(self, bone: int, points_m: FloatArray) -> None:
+    def add_box(self, bone: int, points_m: AnyFloatArray) -> None:
         """Add the corners of the box around some points of a bone's frame."""
         low, high = points_m.min(axis=0), points_m.max(axis=0)
         for corner in np.ndindex(2, 2, 2):
@@ -116,7 +114,7 @@ def character_marks(
         By bone, in its frame: an instrument, as it is at rest.
     """
     gathered = _Gathered(len(joints.playback.bone_names))
-    meshes: dict[int, tuple[SkinnedMesh, list[npt.NDArray[np.int64]]]] = {}
+    meshes: dict[int, tuple[SkinnedMesh, list[IntArray]]] = {}
     for name in sorted(character.landmarks):
         mesh, vertices = joints.surface(character.landmarks[name])
         meshes.setdefault(id(mesh), (mesh, []))[1].append(vertices)
@@ -179,13 +177,13 @@ class Link:
     """
 
     above: int
-    turn: FloatArray | None
-    offset_m: FloatArray
-    place_m: FloatArray
+    turn: AnyFloatArray | None
+    offset_m: AnyFloatArray
+    place_m: AnyFloatArray
 
 
 def rigid_links(
-    marks: Marks, parents: Sequence[int], moving: npt.NDArray[np.integer], turns: FloatArray, places_m: FloatArray
+    marks: Marks, parents: Sequence[int], moving: AnyIntArray, turns: AnyFloatArray, places_m: AnyFloatArray
 ) -> tuple[list[Link], dict[int, Carried]]:
     """Only the bones that move, and the marks on them: what is still on its parent goes with it.
 
@@ -206,7 +204,7 @@ def rigid_links(
         By row of the moving bone; -1: what is still in the world.
     """
     row_of = {bone: row for row, bone in enumerate(moving.tolist())}
-    at: list[tuple[int, FloatArray, FloatArray]] = []
+    at: list[tuple[int, AnyFloatArray, AnyFloatArray]] = []
     links: list[Link] = []
     parts: dict[int, list[Carried]] = {}
     for bone, parent in enumerate(parents):
@@ -238,5 +236,5 @@ def _joined(parts: Sequence[Carried], morphs: int, count: int) -> Carried:
     return Carried(used, _single(points_m[used]), _single(shares[used]), _single(shapes_m[:, used]))
 
 
-def _single(values: FloatArray) -> FloatArray:
+def _single(values: AnyFloatArray) -> AnyFloatArray:
     return values.astype(np.float32)

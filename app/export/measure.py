@@ -15,13 +15,12 @@ from functools import partial
 import msgspec
 import numpy as np
 
+from app.arrays import BoolArray, FloatArray
 from app.contacts.bounds import (
     FEET_MM,
     HOVER_MM,
     LIPS_MM,
     PENETRATION_MM,
-    BoolArray,
-    FloatArray,
     Spread,
     bound_mm,
     contact_name,

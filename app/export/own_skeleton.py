@@ -7,16 +7,14 @@ from collections.abc import Mapping
 from typing import Final
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import FloatArray, SingleArray
 from app.errors import Message
 from app.export.target import HIPS, TargetSkeleton, Twist
 from app.rig import quaternion
 from app.rig.characters.bone_placements import world_placements
 from app.rig.figure import Figure, OwnSkeleton
 from app.rig.model import Character, Skeleton
-
-FloatArray = npt.NDArray[np.float64]
 
 TWIST_NAME: Final = re.compile(r"twist|roll(?!er)", re.IGNORECASE)
 """Bones of such names along a limb share its twist: Unreal, MetaHuman and Character Creator say twist
@@ -85,9 +83,9 @@ def has_armature(figure: Figure) -> bool:
     return not any((mesh.weights[mesh.joints == 0] > 0.0).any() for mesh in figure.meshes)
 
 
-def own_weights(morphs: Mapping[str, npt.NDArray[np.float32]], own: OwnSkeleton) -> dict[str, npt.NDArray[np.float32]]:
+def own_weights(morphs: Mapping[str, SingleArray], own: OwnSkeleton) -> dict[str, SingleArray]:
     """Curves of a figure's own morphs that make the curves of ARKit's: sums, from 0 to 1."""
-    sums: dict[str, npt.NDArray[np.float32]] = {}
+    sums: dict[str, SingleArray] = {}
     there = set(own.figure.morph_names)
     for name, curve in morphs.items():
         for morph, factor in own.morphs.get(name, {}).items():

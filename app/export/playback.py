@@ -7,15 +7,13 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import AnyFloatArray, AnyIntArray, BoolArray, FloatArray
 from app.export.joints import matrix_rows, world_rows
 from app.formats.scene import Clip, Scene, SkinnedMesh
 from app.rig import quaternion
 from app.rig.skinning import Skin, skin_of
 
-FloatArray = npt.NDArray[np.float64]
-IntArray = npt.NDArray[np.integer]
 METRES = 0.01
 
 
@@ -63,10 +61,10 @@ class Playback:
         return self.clip.translations_cm[bone].astype(np.float64) * METRES
 
     @cached_property
-    def still(self) -> npt.NDArray[np.bool_]:
+    def still(self) -> BoolArray:
         """Bones (J,) that are where they are on their parents in all frames."""
         rotations = self.clip.rotations_xyzw
-        still: npt.NDArray[np.bool_] = (rotations == rotations[:1]).all(axis=(0, 2))
+        still: BoolArray = (rotations == rotations[:1]).all(axis=(0, 2))
         still[[*self.clip.translations_cm]] = False
         return still
 
@@ -77,7 +75,7 @@ class Playback:
         result[..., 3, 3] = 1.0
         return result
 
-    def morphs(self, first: int, last: int) -> dict[str, npt.NDArray[np.floating]]:
+    def morphs(self, first: int, last: int) -> dict[str, AnyFloatArray]:
         """Weights (n,) of the morphs at the frames ``first`` .. ``last - 1``."""
         return {name: np.asarray(weights)[first:last] for name, weights in self.clip.morph_weights.items()}
 
@@ -98,7 +96,7 @@ class Surface:
         Its joints are the file's bones.
     """
 
-    def __init__(self, playback: Playback, mesh: SkinnedMesh, vertices: IntArray) -> None:
+    def __init__(self, playback: Playback, mesh: SkinnedMesh, vertices: AnyIntArray) -> None:
         binds = np.array(mesh.world_from_bone_bind, np.float64)
         binds[:, :3, 3] *= METRES
         carrying = np.unique(mesh.joint_indices[vertices])
@@ -214,7 +212,7 @@ class Middles:
                 added[..., columns] = np.einsum("jik,mjk->jim", skin.joint_from_mesh[..., :3], deltas_m)
                 self._shapes += [(index, row, shapes) for row, shapes in zip(rows, added, strict=True)]
 
-    def places_m(self, world: FloatArray, morphs: Mapping[str, npt.NDArray[np.floating]]) -> FloatArray:
+    def places_m(self, world: FloatArray, morphs: Mapping[str, AnyFloatArray]) -> FloatArray:
         """Places (K, 3, n); ``world`` is `Limbs.world` of some frames, and ``morphs`` are the weights (n,) there."""
         result = np.zeros((len(self.names), 3, world.shape[-1]))
         for index, row, point_m in self._points:

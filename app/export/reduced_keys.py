@@ -19,18 +19,15 @@ from dataclasses import replace
 from typing import Final, NamedTuple
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import AnyFloatArray, AnyIntArray, BoolArray, SingleArray
 from app.export.marks import Marks, rigid_links
 from app.export.playback import METRES
 from app.formats.continuous import continuous
 from app.formats.euler import matrices, quaternions
 from app.formats.fbx.curves import EULER_ORDER, place_curves, rotation_curves
-from app.formats.keys import BoolArray, Keys, Spans, runs, straight_keys
+from app.formats.keys import Keys, Spans, runs, straight_keys
 from app.formats.scene import Clip, Scene
-
-FloatArray = npt.NDArray[np.floating]
-IntArray = npt.NDArray[np.integer]
 
 PLACE_MM: Final = 0.5
 INSTRUMENT_MM: Final = 0.25
@@ -99,7 +96,7 @@ def _with_end(keys: Keys, frames: int) -> Keys:
     return keys
 
 
-def _weight_keys(clip: Clip, marks: Marks, most_m: float) -> tuple[dict[str, IntArray], IntArray]:
+def _weight_keys(clip: Clip, marks: Marks, most_m: float) -> tuple[dict[str, AnyIntArray], AnyIntArray]:
     """Frames of each morph's keys, and of those of all morphs together."""
     names = list(clip.morph_weights)
     if not names:
@@ -162,7 +159,7 @@ class _Motion:
 
     # How much each bone may be off
 
-    def _reach_m(self) -> FloatArray:
+    def _reach_m(self) -> AnyFloatArray:
         """How far marks are from each moving bone (N,) that they hang on."""
         frames = np.unique(np.linspace(0, self.frames - 1, _SAMPLES).astype(int))
         marks_m = self.places_of_marks(*self.meant(frames))
@@ -172,7 +169,7 @@ class _Motion:
             result[row] = away_m.max(initial=0.0)
         return result
 
-    def scaled(self) -> list[tuple[IntArray, npt.NDArray[np.float32]]]:
+    def scaled(self) -> list[tuple[AnyIntArray, SingleArray]]:
         """Rows of bones, and their numbers (n, F, D) over what each may be off; those that leave their place apart."""
         turns = np.concatenate([2.0 * self.rotations, np.radians(self.angles)], axis=2)
         changes = _changes(turns) / _BOX
@@ -187,7 +184,7 @@ class _Motion:
         tolerance_m = np.minimum(self.most_m, least * placed)
         tolerance = np.where(changes > 0.0, tolerance, _ROTATION_RAD) / _BOX
         turns /= tolerance[:, None, None].astype(np.float32)
-        result: list[tuple[IntArray, npt.NDArray[np.float32]]] = []
+        result: list[tuple[AnyIntArray, SingleArray]] = []
         leaving = np.isin(np.arange(len(self.moving)), list(self.places_m))
         for rows in (np.flatnonzero(~leaving), np.flatnonzero(leaving)):
             numbers = turns[rows]
@@ -202,8 +199,8 @@ class _Motion:
     # What a program shows
 
     def places_of_marks(
-        self, turned: npt.NDArray[np.floating], places_m: Mapping[int, FloatArray], weights: FloatArray
-    ) -> FloatArray:
+        self, turned: AnyFloatArray, places_m: Mapping[int, AnyFloatArray], weights: AnyFloatArray
+    ) -> AnyFloatArray:
         """Where the marks are (K, f, 3) at some frames, metres.
 
         Parameters
@@ -218,10 +215,10 @@ class _Motion:
         local = matrices(turned).astype(np.float32)
         placed_m = {row: values.astype(np.float32) for row, values in places_m.items()}
         result = np.zeros((self.marks.count, turned.shape[1], 3), np.float32)
-        placed: list[tuple[FloatArray, FloatArray]] = []
+        placed: list[tuple[AnyFloatArray, AnyFloatArray]] = []
         for row, link in enumerate(self._links):
-            turn: FloatArray = local[row]
-            place_m: FloatArray = placed_m.get(row, link.place_m)
+            turn: AnyFloatArray = local[row]
+            place_m: AnyFloatArray = placed_m.get(row, link.place_m)
             if link.turn is not None:
                 turn, place_m = link.turn @ turn, _applied(link.turn, place_m) + link.offset_m
             if link.above >= 0:
@@ -242,12 +239,12 @@ class _Motion:
             result[carried.marks] += moved + carried.shares[:, None, None] * place_m
         return result
 
-    def meant(self, frames: IntArray) -> Shown:
+    def meant(self, frames: AnyIntArray) -> Shown:
         """What the motion is at some frames."""
         places_m = {row: values[frames] for row, values in self.places_m.items()}
         return Shown(self.rotations[:, frames].astype(np.float64), places_m, self.weights[:, frames])
 
-    def shown(self, frames: IntArray, spans: Spans, by_angles: bool) -> Shown:
+    def shown(self, frames: AnyIntArray, spans: Spans, by_angles: bool) -> Shown:
         """What a program shows at some frames between keys, if it interpolates angles or quaternions."""
         angles = spans.straight(self.angles) if by_angles else None
         turned = spans.turned(self.rotations) if angles is None else quaternions(angles, EULER_ORDER)
@@ -258,9 +255,9 @@ class _Motion:
 class Shown(NamedTuple):
     """Rotations (N, f, 4) and, by row, places (f, 3) of the moving bones, and weights (M, f) of the marks' morphs."""
 
-    turned: FloatArray
-    places_m: Mapping[int, FloatArray]
-    weights: FloatArray
+    turned: AnyFloatArray
+    places_m: Mapping[int, AnyFloatArray]
+    weights: AnyFloatArray
 
 
 def _together(shown: Sequence[Shown]) -> Shown:
@@ -272,14 +269,14 @@ def _together(shown: Sequence[Shown]) -> Shown:
     )
 
 
-def _applied(turns: FloatArray, vectors: FloatArray) -> FloatArray:
+def _applied(turns: AnyFloatArray, vectors: AnyFloatArray) -> AnyFloatArray:
     """Vectors (..., f, 3), or (3,), turned."""
     if vectors.ndim == 1 and turns.ndim == 3:
         return np.asarray((turns.reshape(-1, 3) @ vectors).reshape(-1, 3))
     return np.asarray(np.einsum("...ij,...j->...i", turns, vectors))
 
 
-def _changes(values: npt.NDArray[np.floating]) -> FloatArray:
+def _changes(values: AnyFloatArray) -> AnyFloatArray:
     """How many keys curves (N, F, D) need: the mean root of how much they change direction from frame to frame."""
     if values.shape[1] < 3:
         return np.zeros(len(values))
@@ -327,7 +324,7 @@ def _add_keys(
     kept: BoolArray,
     added: BoolArray,
     spans: Spans,
-    frames: IntArray,
+    frames: AnyIntArray,
     shared: bool,
     all_frames: bool,
 ) -> BoolArray:
@@ -364,7 +361,7 @@ def _add_keys(
     return beyond
 
 
-def _worst(excess: FloatArray, all_frames: bool) -> list[int]:
+def _worst(excess: AnyFloatArray, all_frames: bool) -> list[int]:
     """Where something is beyond its bound: at the worst of each run of frames, or at all of them."""
     beyond = excess > 1.0
     if all_frames:
@@ -372,12 +369,12 @@ def _worst(excess: FloatArray, all_frames: bool) -> list[int]:
     return [span.start + int(excess[span].argmax()) for span in runs(beyond)]
 
 
-def _lengths(vectors: npt.NDArray[np.floating]) -> npt.NDArray[np.floating]:
+def _lengths(vectors: AnyFloatArray) -> AnyFloatArray:
     """Of vectors (..., D)."""
     return np.asarray(np.sqrt(np.einsum("...i,...i->...", vectors, vectors)))
 
 
-def _angles(shown: FloatArray, meant: FloatArray) -> FloatArray:
+def _angles(shown: AnyFloatArray, meant: AnyFloatArray) -> AnyFloatArray:
     """Angles between unit quaternions (..., 4), radians."""
     chord = np.minimum(_lengths(shown - meant), _lengths(shown + meant))
     return np.asarray(4.0 * np.arcsin(np.minimum(0.5 * chord, 1.0)))

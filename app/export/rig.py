@@ -8,16 +8,14 @@ from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import FloatArray
 from app.export.rig_options import DEFAULT_RIG, RigOptions
 from app.formats.scene import Place
 from app.performance.cast import Performer
 from app.project.casting import StagePosition
 from app.rig import quaternion
 from app.rig.grip.grip_pose import Side
-
-FloatArray = npt.NDArray[np.float64]
 
 ORIGIN: Final = Place(np.zeros(3), quaternion.IDENTITY)
 

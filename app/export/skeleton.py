@@ -6,15 +6,13 @@ from collections.abc import Mapping, Sequence
 from types import MappingProxyType
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import FloatArray
 from app.export.joints import world_transforms
 from app.formats.bvh import BvhClip
 from app.formats.names import numbered
 from app.formats.scene import Clip, Scene
 from app.rig import quaternion
-
-FloatArray = npt.NDArray[np.float64]
 
 OWN_VERTEX = 0.5
 """A vertex belongs to the joint that holds more than this share of it."""

@@ -13,8 +13,8 @@ from functools import cached_property
 from typing import Literal, TypeAlias
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import AnyFloatArray, FloatArray, SingleArray
 from app.errors import Message
 from app.export.rig_options import RestPose, RootBone
 from app.formats.scene import Place
@@ -23,7 +23,6 @@ from app.rig import quaternion
 from app.rig.model import Skeleton
 from app.rig.skeleton import forward
 
-FloatArray = npt.NDArray[np.float64]
 SkeletonChoice: TypeAlias = Literal["suisou", "own", "ue5"]
 """Our normalised skeleton, the one of the character's own file, the mannequin of Unreal Engine 5."""
 
@@ -151,8 +150,8 @@ def matrices(positions: FloatArray, turned: FloatArray) -> FloatArray:
 class Trajectory:
     """Where something is in the player's space: positions (F, 3), metres, and rotations (F, 4)."""
 
-    positions_m: npt.NDArray[np.floating]
-    rotations: npt.NDArray[np.floating]
+    positions_m: AnyFloatArray
+    rotations: AnyFloatArray
 
 
 def instrument_path(motion: Motion) -> Trajectory:
@@ -185,7 +184,7 @@ class BoneMotion:
         Of the bones that leave their place on their parent.
     """
 
-    rotations: npt.NDArray[np.float32]
+    rotations: SingleArray
     translations_m: Mapping[int, FloatArray]
 
 

@@ -22,6 +22,7 @@ import numpy as np
 import numpy.typing as npt
 import soundfile
 
+from app.arrays import SingleArray
 from app.child_limits import limited_command
 from app.errors import FileError
 from app.export.tree import tree_into
@@ -64,7 +65,7 @@ def video_into(
     path: Path,
     size: tuple[int, int],
     fps: Fraction,
-    sound: npt.NDArray[np.float32] | None = None,
+    sound: SingleArray | None = None,
     sound_rate: int = SOUND_RATE_HZ,
     crf: int = QUALITY_CRF,
 ) -> Iterator[VideoWriter]:

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Set
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import AnyFloatArray, AnyIntArray, BoolArray, FloatArray, IntArray, SingleArray
 from app.contacts.depths import HandDepths
 from app.contacts.touches import LIPS, UPPER_LIP, Traces
 from app.export.joint_playback import JointPlayback
@@ -15,9 +15,6 @@ from app.formats.scene import SkinnedMesh
 from app.rig.model import Character
 from app.rig.skinning import Skin
 from instrument_maps.model import ROOT, InstrumentMap
-
-FloatArray = npt.NDArray[np.float64]
-IntArray = npt.NDArray[np.integer]
 
 SOLES = ("left.foot.sole", "right.foot.sole")
 _CHUNK = 512
@@ -58,7 +55,7 @@ class Walk:
         self._placed = np.empty((len(bones), 3, 4, frames))
         self._torso = np.empty((2, frames))
 
-    def read(self, first: int, last: int, chosen: npt.NDArray[np.bool_]) -> list[npt.NDArray[np.float32]]:
+    def read(self, first: int, last: int, chosen: BoolArray) -> list[SingleArray]:
         """Read the frames ``first`` .. ``last - 1``; returned is ``world_from_joint`` (N, J, 3, 4) of what carries each
         hand, at those that are ``chosen`` (F,)."""
         at = np.flatnonzero(chosen[first:last]) + first
@@ -79,11 +76,11 @@ class Walk:
                     joints[own, :, joint] = world[row][..., shown].transpose(2, 0, 1)
         return [joints.swapaxes(1, 2) for joints in found]
 
-    def morphs(self, frames: IntArray) -> dict[str, npt.NDArray[np.floating]]:
+    def morphs(self, frames: AnyIntArray) -> dict[str, AnyFloatArray]:
         """Weights (N,) of the morphs at some frames."""
         return {name: np.asarray(weights)[frames] for name, weights in self._player.clip.morph_weights.items()}
 
-    def nodes(self, frames: IntArray) -> dict[str, FloatArray]:
+    def nodes(self, frames: AnyIntArray) -> dict[str, FloatArray]:
         """``world_from_node`` (N, 4, 4) at some frames that were read."""
         result = np.zeros((len(self._nodes), len(frames), 4, 4))
         result[:, :, :3] = self._placed[..., frames].transpose(0, 3, 1, 2)
@@ -105,7 +102,7 @@ class Walk:
 
 def _skins(joints: JointPlayback, character: Character, names: Set[str]) -> dict[str, Skin]:
     """The landmarks of these names that the character has, as the file's meshes have them."""
-    meshes: dict[int, tuple[SkinnedMesh, dict[str, npt.NDArray[np.int64]]]] = {}
+    meshes: dict[int, tuple[SkinnedMesh, dict[str, IntArray]]] = {}
     for name in sorted(names & character.landmarks.keys()):
         mesh, vertices = joints.surface(character.landmarks[name])
         meshes.setdefault(id(mesh), (mesh, {}))[1][name] = vertices

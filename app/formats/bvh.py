@@ -20,16 +20,14 @@ from decimal import Decimal
 from fractions import Fraction
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import AnyFloatArray, FloatArray
 from app.errors import FileError, shortened
 from app.formats import euler
 from app.formats.atomic import atomic_write
 from app.formats.files import read_file
 from app.formats.fixed_point import table_text
 from app.formats.rates import exact_rate
-
-FloatArray = npt.NDArray[np.floating]
 
 _ORDER = "ZXY"
 _AXES = "XYZ"
@@ -68,12 +66,12 @@ class BvhClip:
 
     names: tuple[str, ...]
     parents: tuple[int, ...]
-    offsets_cm: FloatArray
-    end_sites_cm: Mapping[int, FloatArray]
+    offsets_cm: AnyFloatArray
+    end_sites_cm: Mapping[int, AnyFloatArray]
     fps: Fraction
-    root_translation_cm: FloatArray
-    rotations_xyzw: FloatArray
-    translations_cm: Mapping[int, FloatArray] = field(default_factory=dict)
+    root_translation_cm: AnyFloatArray
+    rotations_xyzw: AnyFloatArray
+    translations_cm: Mapping[int, AnyFloatArray] = field(default_factory=dict)
     milliseconds: float | None = None
 
 
@@ -152,7 +150,7 @@ def _joint_lines(clip: BvhClip, children: list[list[int]], lines: list[str], ord
         pending += [(child, depth + 1) for child in reversed(children[joint])]
 
 
-def _vector(values: FloatArray) -> str:
+def _vector(values: AnyFloatArray) -> str:
     return " ".join(f"{value + 0.0:.6f}" for value in values)
 
 
@@ -212,7 +210,7 @@ class _Hierarchy:
         self.parents: list[int] = []
         self.offsets: list[list[float]] = []
         self.channels: list[list[str]] = []
-        self.end_sites: dict[int, npt.NDArray[np.float64]] = {}
+        self.end_sites: dict[int, FloatArray] = {}
 
     def read(self, head: str) -> None:
         lines = ((number, line.split()) for number, line in enumerate(head.splitlines(), start=1))
@@ -313,7 +311,7 @@ def _motion(motion: str, hierarchy: _Hierarchy, file: str) -> BvhClip:
     offsets[0] = 0.0
     rotations = np.zeros((frames, len(hierarchy.names), 4))
     rotations[..., 3] = 1.0
-    translations: dict[int, FloatArray] = {}
+    translations: dict[int, AnyFloatArray] = {}
     column = 0
     for joint, channels in enumerate(hierarchy.channels):
         columns = table[:, column : column + len(channels)]
@@ -343,7 +341,7 @@ def _motion(motion: str, hierarchy: _Hierarchy, file: str) -> BvhClip:
     )
 
 
-def _rotations(angles_degrees: FloatArray, order: str) -> npt.NDArray[np.float64]:
+def _rotations(angles_degrees: AnyFloatArray, order: str) -> FloatArray:
     """Quaternions of angles (F, up to 3) about these axes; about the others by nothing."""
     missing = "".join(axis for axis in _AXES if axis not in order)
     return euler.quaternions(np.pad(angles_degrees, ((0, 0), (0, len(missing)))), order + missing)

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
-import numpy.typing as npt
 
-from app.formats.scene import FloatArray
+from app.arrays import AnyFloatArray, SingleArray
 
 
-def continuous(rotations_xyzw: FloatArray) -> npt.NDArray[np.float32]:
+def continuous(rotations_xyzw: AnyFloatArray) -> SingleArray:
     """Unit quaternions (F, ..., 4) of which none is further from the frame before than its opposite would be.
 
     A rotation has two quaternions; a reader that interpolates the numbers would turn the long way round between two

@@ -10,9 +10,8 @@ from __future__ import annotations
 import math
 
 import numpy as np
-import numpy.typing as npt
 
-Float64Array = npt.NDArray[np.float64]
+from app.arrays import AnyFloatArray, FloatArray
 
 # Below this cosine of the middle angle the first angle is not determined by the rotation. The others are computed from
 # the first one, so that any choice gives the exact rotation; the middle angle is then wrong by less than this (rad).
@@ -28,7 +27,7 @@ _JOINTS = 8
 """Joints taken out of the clip at once, whose values lie apart in it."""
 
 
-def euler_degrees(rotations_xyzw: npt.NDArray[np.floating], order: str) -> npt.NDArray[np.float64]:
+def euler_degrees(rotations_xyzw: AnyFloatArray, order: str) -> FloatArray:
     """Angles of every joint, unrolled along the frames.
 
     Of the two triples for each rotation the one nearer to the previous frame's is taken, and whole turns are added
@@ -60,7 +59,7 @@ def euler_degrees(rotations_xyzw: npt.NDArray[np.floating], order: str) -> npt.N
     return angles
 
 
-def quaternions(angles_degrees: npt.NDArray[np.floating], order: str) -> npt.NDArray[np.float64]:
+def quaternions(angles_degrees: AnyFloatArray, order: str) -> FloatArray:
     """Inverse of `euler_degrees`.
 
     Parameters
@@ -93,7 +92,7 @@ def quaternions(angles_degrees: npt.NDArray[np.floating], order: str) -> npt.NDA
     return np.moveaxis(result, 0, -1)
 
 
-def matrices(rotations_xyzw: npt.NDArray[np.floating]) -> npt.NDArray[np.float64]:
+def matrices(rotations_xyzw: AnyFloatArray) -> FloatArray:
     """Rotation matrices, shape (..., 3, 3), column-vector convention, of quaternions (..., 4) of any nonzero length."""
     q = np.asarray(rotations_xyzw, dtype=np.float64)
     x, y, z, w = np.moveaxis(q, -1, 0)
@@ -111,7 +110,7 @@ def matrices(rotations_xyzw: npt.NDArray[np.floating]) -> npt.NDArray[np.float64
     return result
 
 
-def _angles(q: Float64Array, order: str) -> Float64Array:
+def _angles(q: FloatArray, order: str) -> FloatArray:
     """Principal angles in radians, shape (3, J, F), of quaternions (4, J, F)."""
     parts = [_part_angles(q[..., :_BLOCK], order)]
     for start in range(_BLOCK, q.shape[-1], _BLOCK):
@@ -119,7 +118,7 @@ def _angles(q: Float64Array, order: str) -> Float64Array:
     return parts[0] if len(parts) == 1 else np.concatenate(parts, axis=-1)
 
 
-def _part_angles(q: Float64Array, order: str, before: Float64Array | None = None) -> Float64Array:
+def _part_angles(q: FloatArray, order: str, before: FloatArray | None = None) -> FloatArray:
     """Principal angles of some frames; ``before`` has the first angles (J,) of the frame before them."""
     i, j, k = ("XYZ".index(axis) for axis in order)
     sign = 1.0 if (j - i) % 3 == 1 else -1.0
@@ -153,7 +152,7 @@ def _part_angles(q: Float64Array, order: str, before: Float64Array | None = None
     return np.stack([first, middle, third])
 
 
-def _unrolled(angles: Float64Array) -> Float64Array:
+def _unrolled(angles: FloatArray) -> FloatArray:
     """Degrees without jumps along the last axis, from principal radians, shape (3, J, F)."""
     turns = angles * (0.5 / np.pi)
     step = np.diff(turns, axis=-1)
@@ -164,7 +163,7 @@ def _unrolled(angles: Float64Array) -> Float64Array:
     return turns
 
 
-def _without_jumps(turns: Float64Array, step: Float64Array) -> Float64Array:
+def _without_jumps(turns: FloatArray, step: FloatArray) -> FloatArray:
     """Turns (3, J, F), given their differences from frame to frame. Both arrays are used up."""
     same = np.abs(step - np.rint(step)).sum(axis=0)
     # The other triple of a rotation is (first + half a turn, half a turn - middle, third + half a turn). The distance

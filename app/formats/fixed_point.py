@@ -5,6 +5,8 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
+from app.arrays import AnyFloatArray, FloatArray
+
 IntArray = npt.NDArray[np.signedinteger]
 
 DECIMALS = 6
@@ -23,7 +25,7 @@ _FIRST_DIGITS, _DIGITS, _AFTER_POINT, _LAST_DIGITS = map(_words, ("%4d", " %03d"
 _BLOCK = 16384
 
 
-def table_text(values: npt.NDArray[np.floating]) -> list[bytearray]:
+def table_text(values: AnyFloatArray) -> list[bytearray]:
     """Text of a table: rows on lines, numbers with `DECIMALS` decimals and one blank between them.
 
     Parameters
@@ -48,7 +50,7 @@ def table_text(values: npt.NDArray[np.floating]) -> list[bytearray]:
     return [_block_text(np.asarray(values[first : first + step], dtype=np.float64)) for first in range(0, rows, step)]
 
 
-def _block_text(values: npt.NDArray[np.float64]) -> bytearray:
+def _block_text(values: FloatArray) -> bytearray:
     largest = np.abs(values).max(initial=0.0)
     if not largest < 1e9:
         raise ValueError("a value is not finite or not below 1e9")

@@ -13,7 +13,8 @@ from typing import TypeVar
 import numpy as np
 import numpy.typing as npt
 
-from app.formats.scene import FloatArray, IntArray, Material, MorphTarget, SkinnedMesh
+from app.arrays import AnyFloatArray, AnyIntArray
+from app.formats.scene import Material, MorphTarget, SkinnedMesh
 
 Number = TypeVar("Number", bound=np.generic)
 
@@ -59,15 +60,15 @@ def join_meshes(meshes: Sequence[SkinnedMesh], name: str) -> SkinnedMesh:
     )
 
 
-def _spread(mesh: SkinnedMesh, values: FloatArray, by_corner: bool) -> FloatArray:
+def _spread(mesh: SkinnedMesh, values: AnyFloatArray, by_corner: bool) -> AnyFloatArray:
     return values[mesh.faces.ravel()] if by_corner and len(values) == len(mesh.vertices_cm) else values
 
 
-def _uvs(mesh: SkinnedMesh, by_corner: bool) -> FloatArray:
+def _uvs(mesh: SkinnedMesh, by_corner: bool) -> AnyFloatArray:
     return _spread(mesh, np.zeros((len(mesh.vertices_cm), 2)) if mesh.uvs is None else mesh.uvs, by_corner)
 
 
-def _face_materials(mesh: SkinnedMesh, materials: dict[Material, int]) -> IntArray:
+def _face_materials(mesh: SkinnedMesh, materials: dict[Material, int]) -> AnyIntArray:
     own = np.zeros(len(mesh.faces), dtype=np.int64) if mesh.face_materials is None else mesh.face_materials
     return np.array([materials[material] for material in mesh.materials])[own]
 

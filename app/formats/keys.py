@@ -12,11 +12,8 @@ from dataclasses import dataclass, field, replace
 from typing import Final, Literal
 
 import numpy as np
-import numpy.typing as npt
 
-FloatArray = npt.NDArray[np.floating]
-IntArray = npt.NDArray[np.integer]
-BoolArray = npt.NDArray[np.bool_]
+from app.arrays import AnyFloatArray, AnyIntArray, BoolArray, FloatArray, SingleArray
 
 KeyChoice = Literal["every", "reduced"]
 """A key on every frame, or as few as keep everything within a bound."""
@@ -43,10 +40,10 @@ class Keys:
         Of all bones together, for formats in which they share their keys; None: on every frame there.
     """
 
-    bones: tuple[IntArray, ...]
-    morphs: Mapping[str, IntArray] = field(default_factory=dict)
-    face: IntArray = field(default_factory=lambda: np.zeros(1, np.intp))
-    pose: IntArray | None = None
+    bones: tuple[AnyIntArray, ...]
+    morphs: Mapping[str, AnyIntArray] = field(default_factory=dict)
+    face: AnyIntArray = field(default_factory=lambda: np.zeros(1, np.intp))
+    pose: AnyIntArray | None = None
 
     def beside(self, other: Keys) -> Keys:
         """These keys, and behind those of the bones those of other bones, which move no morphs."""
@@ -75,9 +72,9 @@ class Spans:
         How far a frame is from the one to the other, 0..1.
     """
 
-    before: IntArray
-    after: IntArray
-    share: npt.NDArray[np.float32]
+    before: AnyIntArray
+    after: AnyIntArray
+    share: SingleArray
 
     @classmethod
     def of(cls, kept: BoolArray) -> Spans:
@@ -90,7 +87,7 @@ class Spans:
         share = (frames - before) / np.maximum(after - before, 1).astype(np.float32)
         return cls(before, after, np.where(after > before, share, np.float32(0.0)))
 
-    def at(self, frames: IntArray) -> Spans:
+    def at(self, frames: AnyIntArray) -> Spans:
         """Of some of the frames."""
         return Spans(self.before[:, frames], self.after[:, frames], self.share[:, frames])
 
@@ -98,19 +95,19 @@ class Spans:
         """Of one of the curves."""
         return Spans(self.before[row, None], self.after[row, None], self.share[row, None])
 
-    def straight(self, values: FloatArray) -> npt.NDArray[np.float64]:
+    def straight(self, values: AnyFloatArray) -> FloatArray:
         """What numbers (L, F, D) are at these frames if only the keys are known."""
         rows = np.arange(len(values))[:, None]
         first, last = values[rows, self.before], values[rows, self.after]
         return np.asarray(first + (last - first) * self.share[..., None], np.float64)
 
-    def turned(self, rotations: FloatArray) -> npt.NDArray[np.float64]:
+    def turned(self, rotations: AnyFloatArray) -> FloatArray:
         """What unit quaternions (L, F, 4) are at these frames if only the keys are known."""
         rows = np.arange(len(rotations))[:, None]
         return slerp(rotations[rows, self.before], rotations[rows, self.after], self.share[..., None])
 
 
-def slerp(a: FloatArray, b: FloatArray, share: FloatArray) -> npt.NDArray[np.float64]:
+def slerp(a: AnyFloatArray, b: AnyFloatArray, share: AnyFloatArray) -> FloatArray:
     """Between unit quaternions (..., 4) by the shorter way; ``share`` (..., 1) is 0 at a."""
     cosine = np.einsum("...i,...i->...", a, b)[..., None]
     b = np.where(cosine < 0.0, -b, b)
@@ -123,7 +120,7 @@ def slerp(a: FloatArray, b: FloatArray, share: FloatArray) -> npt.NDArray[np.flo
     return np.asarray(of_a * a + of_b * b)
 
 
-def straight_keys(values: FloatArray) -> BoolArray:
+def straight_keys(values: AnyFloatArray) -> BoolArray:
     """Few frames whose values, joined by straight lines, are nowhere more than 1 off in any number.
 
     Parameters
@@ -158,7 +155,7 @@ def straight_keys(values: FloatArray) -> BoolArray:
     return kept
 
 
-def _walked(rows: FloatArray, lanes: int, borders: IntArray) -> BoolArray:
+def _walked(rows: AnyFloatArray, lanes: int, borders: AnyIntArray) -> BoolArray:
     """Frames (L, F) of `straight_keys`, with every border among them; ``rows`` is (D, L * F)."""
     frames = rows.shape[1] // lanes
     kept = np.zeros(lanes * frames, bool)
@@ -190,7 +187,7 @@ def _walked(rows: FloatArray, lanes: int, borders: IntArray) -> BoolArray:
     return kept.reshape(lanes, frames)
 
 
-def _without_needless(rows: FloatArray, kept: BoolArray, borders: IntArray) -> BoolArray:
+def _without_needless(rows: AnyFloatArray, kept: BoolArray, borders: AnyIntArray) -> BoolArray:
     """The keys without those at some frames that straight lines do not need.
 
     Of those that are left every second one is tried at a time, so that each stands between two keys that stay.
@@ -214,7 +211,7 @@ def _without_needless(rows: FloatArray, kept: BoolArray, borders: IntArray) -> B
     return result
 
 
-def _joined(rows: FloatArray, first: IntArray, last: IntArray) -> BoolArray:
+def _joined(rows: AnyFloatArray, first: AnyIntArray, last: AnyIntArray) -> BoolArray:
     """Which straight lines (N,) between two columns of ``rows`` are nowhere more than 1 off."""
     lengths = last - first
     line = np.repeat(np.arange(len(first)), lengths)

@@ -11,13 +11,10 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import AnyFloatArray, AnyIntArray, FloatArray
 from app.formats.euler import matrices
 from app.formats.keys import Keys
-
-FloatArray = npt.NDArray[np.floating]
-IntArray = npt.NDArray[np.integer]
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,8 +32,8 @@ class Bone:
 
     name: str
     parent: int
-    translation_cm: FloatArray
-    rotation_xyzw: FloatArray
+    translation_cm: AnyFloatArray
+    rotation_xyzw: AnyFloatArray
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,9 +51,9 @@ class MorphTarget:
     """
 
     name: str
-    vertex_indices: IntArray
-    position_deltas_cm: FloatArray
-    normal_deltas: FloatArray | None = None
+    vertex_indices: AnyIntArray
+    position_deltas_cm: AnyFloatArray
+    normal_deltas: AnyFloatArray | None = None
 
 
 @dataclass(frozen=True)
@@ -98,15 +95,15 @@ class SkinnedMesh:
     """
 
     name: str
-    vertices_cm: FloatArray
-    faces: IntArray
-    normals: FloatArray
-    uvs: FloatArray | None
+    vertices_cm: AnyFloatArray
+    faces: AnyIntArray
+    normals: AnyFloatArray
+    uvs: AnyFloatArray | None
     materials: tuple[Material, ...]
-    face_materials: IntArray | None
-    joint_indices: IntArray
-    weights: FloatArray
-    world_from_bone_bind: FloatArray
+    face_materials: AnyIntArray | None
+    joint_indices: AnyIntArray
+    weights: AnyFloatArray
+    world_from_bone_bind: AnyFloatArray
     morphs: tuple[MorphTarget, ...] = ()
 
 
@@ -131,9 +128,9 @@ class Clip:
     name: str
     fps: Fraction
     frames: int
-    rotations_xyzw: FloatArray
-    translations_cm: Mapping[int, FloatArray] = field(default_factory=dict)
-    morph_weights: Mapping[str, FloatArray] = field(default_factory=dict)
+    rotations_xyzw: AnyFloatArray
+    translations_cm: Mapping[int, AnyFloatArray] = field(default_factory=dict)
+    morph_weights: Mapping[str, AnyFloatArray] = field(default_factory=dict)
     keys: Keys | None = None
 
     @property
@@ -146,11 +143,11 @@ class Clip:
 class Place:
     """Where a node stands: translation (3,) in centimetres and rotation (4,) xyzw."""
 
-    translation_cm: FloatArray
-    rotation_xyzw: FloatArray
+    translation_cm: AnyFloatArray
+    rotation_xyzw: AnyFloatArray
 
     @property
-    def matrix(self) -> npt.NDArray[np.float64]:
+    def matrix(self) -> FloatArray:
         """``world_from_node``, shape (4, 4)."""
         result = np.eye(4)
         result[:3, :3] = matrices(np.asarray(self.rotation_xyzw, dtype=np.float64))
@@ -285,7 +282,7 @@ def _check_morphs(mesh: SkinnedMesh, vertex_count: int) -> None:
             raise ValueError(f"mesh {mesh.name!r}: morph {morph.name!r} has not one delta per vertex")
 
 
-def _check_indices(mesh: SkinnedMesh, what: str, indices: IntArray, count: int) -> None:
+def _check_indices(mesh: SkinnedMesh, what: str, indices: AnyIntArray, count: int) -> None:
     if indices.size and not 0 <= indices.min() <= indices.max() < count:
         raise ValueError(f"mesh {mesh.name!r}: {what} beyond 0..{count - 1}")
 
@@ -293,7 +290,7 @@ def _check_indices(mesh: SkinnedMesh, what: str, indices: IntArray, count: int) 
 def _check_clip(clip: Clip, bone_count: int) -> None:
     if clip.frames < 1 or clip.fps <= 0:
         raise ValueError(f"a clip of {clip.frames} frames at {clip.fps} frames/s")
-    curves: dict[str, tuple[FloatArray, tuple[int, ...]]] = {}
+    curves: dict[str, tuple[AnyFloatArray, tuple[int, ...]]] = {}
     curves |= {f"translations of bone {bone}": (values, (3,)) for bone, values in clip.translations_cm.items()}
     curves |= {f"weights of {name!r}": (values, ()) for name, values in clip.morph_weights.items()}
     curves["rotations"] = (clip.rotations_xyzw, (bone_count, 4))

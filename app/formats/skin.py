@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import FloatArray, IntArray
 from app.formats.scene import SkinnedMesh
 
 
-def influences(mesh: SkinnedMesh) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.float64]]:
+def influences(mesh: SkinnedMesh) -> tuple[IntArray, FloatArray]:
     """Bones and weights (V, K) of every vertex, the strongest first.
 
     A bone comes once per vertex and the weights of a vertex sum to 1; slots that are not needed have bone 0 and

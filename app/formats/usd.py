@@ -25,8 +25,8 @@ from threading import Lock
 from typing import Any, Final
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import AnyFloatArray, AnyIntArray, FloatArray
 from app.errors import FileError, UsageError
 from app.formats.atomic import atomic_write
 from app.formats.continuous import continuous
@@ -395,24 +395,24 @@ def _identifiers(names: Iterable[str], taken: Iterable[str] = ()) -> tuple[str, 
     return numbered(valid, taken)
 
 
-def _matrix(translation: npt.NDArray[np.floating], rotation_xyzw: npt.NDArray[np.floating]) -> npt.NDArray[np.float64]:
+def _matrix(translation: AnyFloatArray, rotation_xyzw: AnyFloatArray) -> FloatArray:
     result = np.eye(4)
     result[:3, :3] = matrices(rotation_xyzw)
     result[:3, 3] = translation
     return result
 
 
-def _rows(values: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+def _rows(values: FloatArray) -> FloatArray:
     return np.ascontiguousarray(values.transpose(0, 2, 1))
 
 
-def _integers(values: npt.NDArray[np.integer]) -> Any:
+def _integers(values: AnyIntArray) -> Any:
     from pxr import Vt
 
     return Vt.IntArray.FromNumpy(np.ascontiguousarray(values, dtype=np.int32))
 
 
-def _interpolation(mesh: SkinnedMesh, values: npt.NDArray[np.floating]) -> Any:
+def _interpolation(mesh: SkinnedMesh, values: AnyFloatArray) -> Any:
     from pxr import UsdGeom
 
     return UsdGeom.Tokens.vertex if len(values) == len(mesh.vertices_cm) else UsdGeom.Tokens.faceVarying

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from app.motion.curves.curve import FloatArray
+from app.arrays import FloatArray
 from app.plan.by_hand.pose_corrections import NECK_SHARES, TRUNK_SHARES
 from metadata.model import Posture
 

@@ -12,11 +12,11 @@ from dataclasses import dataclass, field, fields, replace
 from fractions import Fraction
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import FloatArray, IndexArray, SingleArray
 from app.motion.contacts.instrument_put_aside import Aside
 from app.motion.contacts.trunk_and_legs import solve_legs
-from app.motion.curves.curve import EVERYWHERE, Curve, FloatArray, frame_times, moves
+from app.motion.curves.curve import EVERYWHERE, Curve, frame_times, moves
 from app.motion.model import Motion, joined
 from app.motion.perform import PerformanceCurves
 from app.plan.doubling import Change
@@ -101,11 +101,11 @@ class Doubling(PerformanceCurves):
     def _blend(
         self,
         shares: FloatArray,
-        frames: npt.NDArray[np.intp],
+        frames: IndexArray,
         made: Mapping[int, Motion],
-        rotations: npt.NDArray[np.float32],
-        hips_m: npt.NDArray[np.float32],
-        morphs: Mapping[str, npt.NDArray[np.float32]],
+        rotations: SingleArray,
+        hips_m: SingleArray,
+        morphs: Mapping[str, SingleArray],
     ) -> None:
         """Fill in the frames in which the body changes from one motion to another."""
         order = np.argsort(shares, axis=0)

@@ -7,8 +7,8 @@ from typing import Final
 
 import numpy as np
 
+from app.arrays import FloatArray
 from app.motion.body_motion import BodyMotion
-from app.motion.curves.curve import FloatArray
 from app.motion.perform import PerformanceCurves
 from app.plan.by_hand.additive_curve import CHANNELS, FACE
 from app.plan.by_hand.pose_corrections import NECK_SHARES, TRUNK_SHARES

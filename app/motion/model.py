@@ -7,7 +7,8 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 import numpy as np
-import numpy.typing as npt
+
+from app.arrays import SingleArray
 
 
 @dataclass(frozen=True)
@@ -36,12 +37,12 @@ class Motion:
 
     fps: Fraction
     first_frame_s: float
-    rotations: npt.NDArray[np.float32]
-    hips_m: npt.NDArray[np.float32]
-    morphs: dict[str, npt.NDArray[np.float32]]
-    controls: dict[str, npt.NDArray[np.float32]]
-    instrument_position_m: npt.NDArray[np.float32]
-    instrument_rotation: npt.NDArray[np.float32]
+    rotations: SingleArray
+    hips_m: SingleArray
+    morphs: dict[str, SingleArray]
+    controls: dict[str, SingleArray]
+    instrument_position_m: SingleArray
+    instrument_rotation: SingleArray
 
     @property
     def frames(self) -> int:

@@ -12,6 +12,7 @@ from typing import Final, NamedTuple, cast
 
 import numpy as np
 
+from app.arrays import FloatArray
 from app.identity_cache import IdentityCache
 from app.motion.body_motion import BodyMotion
 from app.motion.breath.air_in_trunk import widened
@@ -25,7 +26,7 @@ from app.motion.contacts.limited_amounts import settled, shown_by
 from app.motion.contacts.solve import Curves, Player, padding, solve
 from app.motion.contacts.trunk_and_legs import SIDES, Side, footing, hips_path, stance, torso_forward, trunk
 from app.motion.contacts.wrists import wrists_of
-from app.motion.curves.curve import EVERYWHERE, Curve, Envelopes, FloatArray, frame_times, moves
+from app.motion.curves.curve import EVERYWHERE, Curve, Envelopes, frame_times, moves
 from app.motion.faces.exertion import Lungs
 from app.motion.faces.face_curves import FACE, Drivers, Face
 from app.motion.faces.gaze import GAZE, Gaze, Look, Watching, plan_gaze

@@ -10,9 +10,7 @@ import os
 from collections.abc import Iterator
 from functools import cache, lru_cache
 
-import numpy as np
-import numpy.typing as npt
-
+from app.arrays import FloatArray
 from app.errors import FileError, MapError, UsageError, shortened
 from app.identity_cache import IdentityCache
 from app.motion.perform import lying
@@ -30,8 +28,6 @@ from instrument_maps.load import bundled_maps
 from instrument_maps.model import InstrumentMap
 from metadata.load import load_body
 from metadata.model import Body
-
-FloatArray = npt.NDArray[np.float64]
 
 _MODELS: IdentityCache[InstrumentModel] = IdentityCache(128)
 """More than there are instruments: in an orchestra with one more than these, each would be read again at every edit."""

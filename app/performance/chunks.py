@@ -8,14 +8,12 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import FloatArray, IndexArray, SingleArray
 from app.motion.contacts.solve import padding
 from app.motion.model import Motion
 from app.motion.perform import frame_count
 from app.plan.model import TimeFrame
-
-Floats = npt.NDArray[np.float32]
 
 CHUNK_S = 4.0
 """Length of a chunk: long enough that numpy's overhead is small, short enough that a correction is seen at once."""
@@ -37,12 +35,12 @@ class Pose:
     instrument_position_m, instrument_rotation : (3,) and (4,) float32
     """
 
-    rotations: Floats
-    hips_m: Floats
+    rotations: SingleArray
+    hips_m: SingleArray
     morphs: dict[str, float]
     controls: dict[str, float]
-    instrument_position_m: Floats
-    instrument_rotation: Floats
+    instrument_position_m: SingleArray
+    instrument_rotation: SingleArray
 
     @classmethod
     def of(cls, motion: Motion, frame: int) -> Pose:
@@ -64,11 +62,11 @@ class Chunk:
     ``values`` (F, M + C) are morphs, then controls.
     """
 
-    still: Floats
-    moving: npt.NDArray[np.intp]
-    rotations: Floats
-    placed: Floats
-    values: Floats
+    still: SingleArray
+    moving: IndexArray
+    rotations: SingleArray
+    placed: SingleArray
+    values: SingleArray
     morphs: tuple[str, ...]
     controls: tuple[str, ...]
     bytes: int
@@ -137,10 +135,10 @@ def poses_of(chunks: Sequence[Chunk], frame: int, share: float) -> list[Pose]:
     return result
 
 
-def between(before: Floats, after: Floats, share: float) -> Floats:
+def between(before: SingleArray, after: SingleArray, share: float) -> SingleArray:
     """Rotations (N, 4) on the straight way from one frame's to the next one's, which are near each other."""
     sign = np.where(np.einsum("ji,ji->j", before, after) < 0.0, np.float32(-share), np.float32(share))
-    mixed: Floats = before * np.float32(1.0 - share) + after * sign[:, None]
+    mixed: SingleArray = before * np.float32(1.0 - share) + after * sign[:, None]
     mixed /= np.sqrt(np.einsum("ji,ji->j", mixed, mixed))[:, None]
     return mixed
 
@@ -181,7 +179,7 @@ class Grid:
         """Whether a frame of one is the same moment in the other."""
         return self.fps == other.fps and self.start_s == other.start_s
 
-    def touched(self, spans_s: npt.NDArray[np.float64]) -> list[bool]:
+    def touched(self, spans_s: FloatArray) -> list[bool]:
         """For every chunk whether one of the spans (N, 2) lies in it, or in the frames around that it is made from."""
         rate = self.fps.numerator / self.fps.denominator
         pad = padding(self.fps) + 2

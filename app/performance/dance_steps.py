@@ -12,8 +12,8 @@ from functools import cached_property
 from typing import Final
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import FloatArray
 from app.choreography.body import ENDS, PARENT_OF, SEGMENTS
 from app.choreography.clip import MotionClip
 from app.choreography.dance import Step
@@ -28,8 +28,6 @@ from app.performance.ensemble import Performance
 from app.project.dance_corrections import DanceCorrection, ForbidState, PinState, UseSegment
 from app.project.performers import Dancer
 from app.rig import quaternion
-
-FloatArray = npt.NDArray[np.float64]
 
 BONES: Final = tuple(
     [(SEGMENTS.index(parent), SEGMENTS.index(name)) for name, parent in PARENT_OF.items() if parent != "root"]

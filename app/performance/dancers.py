@@ -22,8 +22,8 @@ from typing import Final, NamedTuple
 
 import msgspec
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import FloatArray
 from app.chance import chance, performed_seed
 from app.choreography.dance import Dance, Manner, Step
 from app.choreography.derived_rhythm import audible_rhythm
@@ -49,8 +49,6 @@ from app.rig.characters.character_library import character_library, character_na
 from app.rig.model import Character
 from app.score.model import Score
 from app.score.tempo import TempoMap
-
-FloatArray = npt.NDArray[np.float64]
 
 BLINK_S: Final = (0.08, 0.05, 0.16)
 """Closing, shut and opening."""

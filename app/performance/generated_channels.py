@@ -6,7 +6,7 @@ from typing import Final
 
 import numpy as np
 
-from app.motion.curves.curve import FloatArray
+from app.arrays import FloatArray
 from app.motion.generated_channel import generated
 from app.performance.cast import performer_of
 from app.performance.ensemble import Performance

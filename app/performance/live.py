@@ -15,9 +15,7 @@ from dataclasses import dataclass, field
 from threading import Lock
 from typing import TYPE_CHECKING
 
-import numpy as np
-import numpy.typing as npt
-
+from app.arrays import FloatArray
 from app.contacts.breaks import Break, contact_problems
 from app.contacts.judge import ContactJudge
 from app.errors import AppError, Message
@@ -577,7 +575,7 @@ class LiveMotion:
         return False
 
 
-def _changed_s(playing: PerformanceCurves | Dancing, basis: PerformanceCurves | Dancing) -> npt.NDArray[np.float64]:
+def _changed_s(playing: PerformanceCurves | Dancing, basis: PerformanceCurves | Dancing) -> FloatArray:
     """Spans (K, 2) in which the motion of one is not that of the other."""
     if isinstance(playing, PerformanceCurves) and isinstance(basis, PerformanceCurves):
         return playing.changed_s(basis)

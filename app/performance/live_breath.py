@@ -7,8 +7,8 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import FloatArray
 from app.motion.curves.live_values import Reach, Spring
 from app.motion.curves.seeded_chance import generator
 from app.motion.faces.exertion import LIGHT, Exertion
@@ -26,8 +26,6 @@ from app.plan.music.piece import MEZZOFORTE
 from metadata.library import bundled_rules
 from metadata.model import Expression
 from metadata.rules import Rule
-
-FloatArray = npt.NDArray[np.float64]
 
 SILENT = 0.02
 """A breath sensor that says no more than this says nothing."""

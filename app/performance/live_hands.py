@@ -13,8 +13,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import FloatArray
 from app.motion.curves.live_values import Journey, Reach
 from app.motion.fingering.control_curves import RELEASE_S, need_s, release_s
 from app.motion.fingering.finger_curves import FAST_NOTE_S, HOME_S, LEAST_TRAVEL_S, NEIGHBOURS, SLOW_NOTE_S, TRAVEL_S
@@ -23,8 +23,6 @@ from app.plan.fingering.live_fingering import REMEMBERED, Fingered, NextFingerin
 from app.rig.grip.finger_stations import fingers_at_work, station_for, stations
 from app.rig.grip.grip_pose import Placed, giving_for
 from instrument_maps.model import Control, Fingering
-
-FloatArray = npt.NDArray[np.float64]
 
 LET_GO_S = 0.5
 """Controls stay where they are in a silence this long: as in a rest of less than a beat."""

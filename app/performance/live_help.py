@@ -9,13 +9,11 @@ from __future__ import annotations
 import math
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import FloatArray
 from app.motion.contacts.help_for_far_hands import Help
 from app.motion.curves.curve import minimum_jerk
 from app.motion.curves.live_values import Reach
-
-FloatArray = npt.NDArray[np.float64]
 
 PEAK = 10.0 / math.sqrt(3.0)
 """Peak acceleration of a minimum-jerk move over 1 in 1 s."""

@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from typing import Final, TypeAlias
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import FloatArray, IntArray
 from app.identity_cache import IdentityCache
 from app.plan.music.breath_controller import STOPS_AT, step_means
 from app.plan.music.dynamics_from_velocities import (
@@ -22,8 +22,6 @@ from app.plan.music.dynamics_from_velocities import (
 from app.plan.music.piece import MEZZOFORTE, ControllerInput, Steps
 from app.plan.music.velocity_ladders import DYNAMICS
 from app.score.model import ControllerCurve, Part
-
-Floats: TypeAlias = npt.NDArray[np.float64]
 
 _SPEAKING = ("breath", "expression", "aftertouch", "volume")
 """Controllers that may carry the dynamics, the most telling first: wind controllers send one of the first three, and
@@ -129,8 +127,8 @@ def sounding_curve(part: Part, reading: VelocityReading | None = None) -> Contro
     return ControllerCurve(curve.kind, tuple(ticks), tuple(levels[tick] for tick in ticks))
 
 
-def _loudness(part: Part, curve: ControllerCurve, reading: VelocityReading | None) -> Floats:
-    means: Floats = np.clip(_means(part, _steps(curve)), 0.0, 1.0)
+def _loudness(part: Part, curve: ControllerCurve, reading: VelocityReading | None) -> FloatArray:
+    means: FloatArray = np.clip(_means(part, _steps(curve)), 0.0, 1.0)
     by_velocity = _by_velocity(part, reading)
     if curve.kind in _SCALING and len({note.velocity for note in part.notes}) == 1:
         # Who draws the dynamics as a curve leaves the velocity as it is.
@@ -143,11 +141,11 @@ def _loudness(part: Part, curve: ControllerCurve, reading: VelocityReading | Non
     return np.where(played, blown, by_velocity)
 
 
-def _velocity(part: Part) -> npt.NDArray[np.int64]:
+def _velocity(part: Part) -> IntArray:
     return np.array([note.velocity for note in part.notes], np.int64)
 
 
-def _by_velocity(part: Part, reading: VelocityReading | None) -> Floats:
+def _by_velocity(part: Part, reading: VelocityReading | None) -> FloatArray:
     return velocity_loudness(_velocity(part), part.program, reading)
 
 
@@ -164,7 +162,7 @@ def _span(part: Part) -> tuple[float, float] | None:
     return (float(part.notes[0].onset_tick), float(part.notes[-1].end_tick)) if part.notes else None
 
 
-def _spans(part: Part) -> tuple[Floats, Floats]:
+def _spans(part: Part) -> tuple[FloatArray, FloatArray]:
     """Onsets and ends of the notes, ticks."""
     onsets = np.array([note.onset_tick for note in part.notes], np.float64)
     return onsets, np.array([note.end_tick for note in part.notes], np.float64)
@@ -177,6 +175,6 @@ def _moves(steps: Steps, first: float, last: float) -> bool:
     return len(values) > 0 and bool(np.ptp(values) > 0.0)
 
 
-def _means(part: Part, steps: Steps) -> Floats:
+def _means(part: Part, steps: Steps) -> FloatArray:
     """Mean over each note."""
     return step_means(steps.ticks, steps.values, *_spans(part))

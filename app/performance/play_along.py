@@ -14,13 +14,14 @@ from fractions import Fraction
 
 import numpy as np
 
+from app.arrays import SingleArray
 from app.motion.by_hand.additive_curves import Additive
 from app.motion.by_hand.pose_corrections import Poses
 from app.motion.contacts.help_for_far_hands import Help
 from app.motion.contacts.solve import Curves, helped, needs, poses
 from app.motion.doubling import Doubling
 from app.motion.perform import Frames, PerformanceCurves
-from app.performance.chunks import Floats, Pose
+from app.performance.chunks import Pose
 from app.performance.live_breath import LiveBreath, LiveLook
 from app.performance.live_hands import FRAMES, LiveHands
 from app.performance.live_help import LiveHelp
@@ -83,7 +84,7 @@ class PlayAlong:
         return self._playing.player_id
 
     @property
-    def lying(self) -> dict[str, tuple[Floats, Floats]]:
+    def lying(self) -> dict[str, tuple[SingleArray, SingleArray]]:
         """Where the musician's other instruments lie meanwhile, by player: position (3,) and rotation (4,)."""
         if not isinstance(self._whole, Doubling):
             return {}

@@ -12,16 +12,14 @@ from typing import Final, Generic, Literal, NamedTuple, TypeAlias, TypeVar, get_
 
 import msgspec
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import FloatArray
 from app.errors import Message
 from app.identity_cache import IdentityCache
 from app.plan.acting import Acting
 from metadata.gestures import Gesture
 
 E = TypeVar("E")
-
-FloatArray: TypeAlias = npt.NDArray[np.float64]
 
 
 # Events hold no cycles (`gc=False`): a hundred thousand notes have a million of them, and a collection that looked at

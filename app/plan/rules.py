@@ -14,12 +14,13 @@ from typing import Final, NamedTuple, TypeVar
 
 import numpy as np
 
+from app.arrays import BoolArray, FloatArray, IntArray
 from app.errors import Argument, Message
 from app.plan.gestures.when_possible import Lowered, belongs, comes_up, may_start
 from app.plan.lips.embouchure import efforts_of
-from app.plan.model import EmbouchureEvent, ExpressionEvent, FloatArray, GestureEvent, Problem, StyleEvent, TimeFrame
-from app.plan.music.dynamics import BoolArray, Dynamics
-from app.plan.music.piece import IntArray, LineTimes, Piece, Seeds
+from app.plan.model import EmbouchureEvent, ExpressionEvent, GestureEvent, Problem, StyleEvent, TimeFrame
+from app.plan.music.dynamics import Dynamics
+from app.plan.music.piece import LineTimes, Piece, Seeds
 from app.plan.music.spans import Spans
 from app.plan.styles import styles_at
 from app.score.model import Note

@@ -13,11 +13,12 @@ from typing import Final, overload
 import msgspec
 import numpy as np
 
+from app.arrays import FloatArray
 from app.errors import Message
 from app.identity_cache import IdentityCache
 from app.plan.acting import Acting
 from app.plan.by_hand.corrections import BY_HAND, Correction, PlayStyle
-from app.plan.model import CueEvent, FloatArray, GestureEvent, Planned, PlayerPlan, Problem, StyleEvent
+from app.plan.model import CueEvent, GestureEvent, Planned, PlayerPlan, Problem, StyleEvent
 from app.score.tempo import TempoMap
 
 LAYER_OF: Final[Mapping[str, str]] = {

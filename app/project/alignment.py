@@ -14,12 +14,9 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import FloatArray, IntArray
 from app.score.model import Note
-
-Floats = npt.NDArray[np.float64]
-Ints = npt.NDArray[np.int64]
 
 SAME_QUARTERS = 1 / 16
 """Onsets this close are one: another resolution rounds, and people nudge."""
@@ -48,9 +45,9 @@ _MOST_CELLS = 5_000_000
 class AlignmentPart:
     """A line as arrays, all of one length and in the order of onset and pitch; times in quarters."""
 
-    onsets: Floats
-    lengths: Floats
-    pitches: Ints
+    onsets: FloatArray
+    lengths: FloatArray
+    pitches: IntArray
 
     @classmethod
     def of(cls, notes: Sequence[Note], ticks_per_quarter: int) -> AlignmentPart:
@@ -69,7 +66,7 @@ class AlignmentPart:
         return AlignmentPart(self.onsets[first:end], self.lengths[first:end], self.pitches[first:end])
 
 
-def align(old: AlignmentPart, new: AlignmentPart) -> Ints:
+def align(old: AlignmentPart, new: AlignmentPart) -> IntArray:
     """The pairs of notes that are one, as indices.
 
     Returns
@@ -92,7 +89,7 @@ def align(old: AlignmentPart, new: AlignmentPart) -> Ints:
     return np.array(sorted(pairs), np.int64).reshape(-1, 2)
 
 
-def pair_costs(old: AlignmentPart, new: AlignmentPart, shifts: Sequence[float], transposition: int) -> Floats:
+def pair_costs(old: AlignmentPart, new: AlignmentPart, shifts: Sequence[float], transposition: int) -> FloatArray:
     """What it costs to take an old note for a new one; shape (old, new).
 
     Parameters
@@ -110,7 +107,7 @@ def pair_costs(old: AlignmentPart, new: AlignmentPart, shifts: Sequence[float], 
     return np.asarray(costs, np.float64)
 
 
-def cheapest(costs: Floats) -> list[tuple[int, int]]:
+def cheapest(costs: FloatArray) -> list[tuple[int, int]]:
     """The cheapest way to pair the rows of a matrix with its columns in order; what stays alone costs `GAP_COST`."""
     rows, columns = costs.shape
     steps = GAP_COST * np.arange(columns + 1)
@@ -138,7 +135,7 @@ def cheapest(costs: Floats) -> list[tuple[int, int]]:
     return pairs[::-1]
 
 
-def _distances(old: AlignmentPart, new: AlignmentPart) -> tuple[Floats, int]:
+def _distances(old: AlignmentPart, new: AlignmentPart) -> tuple[FloatArray, int]:
     """The distances in time (new - old, quarters) at which many notes are found again, and the transposition."""
     found, _ = _partners(old, new, 0.0, 0)
     if np.count_nonzero(found >= 0) >= 0.98 * max(len(old), len(new)):
@@ -165,7 +162,9 @@ def _distances(old: AlignmentPart, new: AlignmentPart) -> tuple[Floats, int]:
     return np.unique(distances), transposition
 
 
-def _partners(old: AlignmentPart, new: AlignmentPart, distance: float, transposition: int) -> tuple[Ints, Floats]:
+def _partners(
+    old: AlignmentPart, new: AlignmentPart, distance: float, transposition: int
+) -> tuple[IntArray, FloatArray]:
     """The new note where each old one would be, -1 where there is none, and how far it is off (quarters)."""
     width = float(max(old.onsets[-1] + abs(distance), new.onsets[-1]) + 2.0)
     order = np.lexsort((new.onsets, new.pitches))
@@ -178,7 +177,9 @@ def _partners(old: AlignmentPart, new: AlignmentPart, distance: float, transposi
     return np.where(away <= SAME_QUARTERS, order[nearer], -1), away
 
 
-def _anchors(old: AlignmentPart, new: AlignmentPart, distances: Floats, transposition: int) -> list[tuple[int, int]]:
+def _anchors(
+    old: AlignmentPart, new: AlignmentPart, distances: FloatArray, transposition: int
+) -> list[tuple[int, int]]:
     """Notes found again at a distance that holds over a stretch of the line, both indices ascending."""
     partners, away = zip(*(_partners(old, new, distance, transposition) for distance in distances), strict=True)
     found = np.array(partners)
@@ -198,7 +199,7 @@ def _anchors(old: AlignmentPart, new: AlignmentPart, distances: Floats, transpos
     return _ascending(pairs)
 
 
-def _held(costs: Floats, changes: Floats) -> Ints:
+def _held(costs: FloatArray, changes: FloatArray) -> IntArray:
     """For every column the row of a cheapest path through them; to go from row a to b costs ``changes[a, b]``."""
     states, count = costs.shape
     if states == 1:

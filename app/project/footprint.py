@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import FloatArray
 from app.identity_cache import IdentityCache
 from app.project.casting import Footprint
 from app.rig import quaternion
@@ -60,7 +60,7 @@ def _footprint(instrument: InstrumentMap) -> Footprint:
     return Footprint(row, place, left, right, ahead)
 
 
-def _turn(carriage: Carriage) -> npt.NDArray[np.float64]:
+def _turn(carriage: Carriage) -> FloatArray:
     """As it is usually carried: yaw, then pitch, then roll."""
     yaw, pitch, roll = (
         np.radians(angles[1]) for angles in (carriage.yaw_left_deg, carriage.pitch_down_deg, carriage.roll_left_deg)
@@ -71,7 +71,7 @@ def _turn(carriage: Carriage) -> npt.NDArray[np.float64]:
     return quaternion.multiply(about_y, quaternion.multiply(about_x, about_z))
 
 
-def _ends(instrument: InstrumentMap) -> npt.NDArray[np.float64]:
+def _ends(instrument: InstrumentMap) -> FloatArray:
     """Points around the bodies of the model, in the root's frame; what a hand pulls out, also where it goes."""
     travels = {
         control.node: np.array(control.motion.axis) * control.travel_m
@@ -87,7 +87,7 @@ def _ends(instrument: InstrumentMap) -> npt.NDArray[np.float64]:
     return np.concatenate(found) if found else np.zeros((0, 3))
 
 
-def _bodies(instrument: InstrumentMap) -> Iterator[tuple[npt.NDArray[np.float64], str]]:
+def _bodies(instrument: InstrumentMap) -> Iterator[tuple[FloatArray, str]]:
     """Corners of a box around every body, with its node."""
     corners = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], float)
     for body in instrument.proxy:

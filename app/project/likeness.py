@@ -7,9 +7,8 @@ from collections.abc import Sequence
 from typing import Final
 
 import numpy as np
-import numpy.typing as npt
 
-Floats = npt.NDArray[np.float64]
+from app.arrays import FloatArray
 
 ALIKE: Final = 0.25
 """Melodies that share this much are one, whatever they are called."""
@@ -21,7 +20,7 @@ _GRAM: Final = 3
 _MIX: Final = np.uint64(0x9E3779B97F4A7C15)
 
 
-def turns(onset_ticks: Sequence[int], pitches: Sequence[int], quarter: int) -> Floats:
+def turns(onset_ticks: Sequence[int], pitches: Sequence[int], quarter: int) -> FloatArray:
     """The steps of a melody from each note over the next ones, as one number each, sorted; independent of its key, its
     place and the file's resolution.
 
@@ -44,10 +43,10 @@ def turns(onset_ticks: Sequence[int], pitches: Sequence[int], quarter: int) -> F
     return np.sort(single[:count] * 1e6 + single[len(single) - count :])
 
 
-def shares(old: Sequence[Floats], new: Sequence[Floats]) -> Floats:
+def shares(old: Sequence[FloatArray], new: Sequence[FloatArray]) -> FloatArray:
     """The share of turns that two melodies both have, 0..1, (old, new): turn by turn, for of many melodies most pairs
     have nothing in common."""
-    both: Floats = np.zeros((len(old), len(new)))
+    both: FloatArray = np.zeros((len(old), len(new)))
     here, there = _owners(old), _owners(new)
     for turn, (melodies, counts) in here.items():
         if turn in there:
@@ -57,7 +56,7 @@ def shares(old: Sequence[Floats], new: Sequence[Floats]) -> Floats:
     return 2.0 * both / np.maximum(lengths, 1)
 
 
-def _owners(melodies: Sequence[Floats]) -> dict[float, tuple[list[int], list[int]]]:
+def _owners(melodies: Sequence[FloatArray]) -> dict[float, tuple[list[int], list[int]]]:
     """The melodies that have each turn, and how often."""
     owners: dict[float, tuple[list[int], list[int]]] = {}
     for index, found in enumerate(melodies):
@@ -69,16 +68,16 @@ def _owners(melodies: Sequence[Floats]) -> dict[float, tuple[list[int], list[int
     return owners
 
 
-def sketch(found: Floats) -> tuple[int, ...]:
+def sketch(found: FloatArray) -> tuple[int, ...]:
     """A few turns that stand for all of them: those of the smallest hashes (bottom-k sketch; Cohen and Kaplan, 2007).
     Two sketches tell how much their melodies have in common."""
     mixed = (found.astype(np.int64).astype(np.uint64) * _MIX) >> np.uint64(64 - SKETCH_BITS)
     return tuple(np.unique(mixed)[:SKETCH].tolist())
 
 
-def sketched_shares(old: Sequence[Sequence[int]], new: Sequence[Sequence[int]]) -> Floats:
+def sketched_shares(old: Sequence[Sequence[int]], new: Sequence[Sequence[int]]) -> FloatArray:
     """`sketched_share` of all pairs, (old, new)."""
-    result: Floats = np.zeros((len(old), len(new)))
+    result: FloatArray = np.zeros((len(old), len(new)))
     owners: dict[int, list[int]] = {}
     for index, melody in enumerate(new):
         for hash_ in melody:

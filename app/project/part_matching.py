@@ -6,8 +6,9 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from app.arrays import FloatArray
 from app.project.imported import Place
-from app.project.likeness import ALIKE, Floats, shares, turns
+from app.project.likeness import ALIKE, shares, turns
 from app.score.model import Part, Score
 
 _NAMED = 0.4
@@ -43,7 +44,7 @@ def matched_parts(old: Score, new: Score, hints: Sequence[Place | None]) -> list
     ]
 
 
-def turns_of(part: Part, quarter: int) -> Floats:
+def turns_of(part: Part, quarter: int) -> FloatArray:
     """The turns of a part's melody (`app.project.likeness.turns`)."""
     return turns([note.onset_tick for note in part.notes], [note.pitch for note in part.notes], quarter)
 

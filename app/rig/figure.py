@@ -10,13 +10,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Literal, TypeAlias
 
-import numpy as np
-import numpy.typing as npt
-
+from app.arrays import FloatArray
 from app.errors import Message
 from app.rig.mesh import Mesh
 
-FloatArray = npt.NDArray[np.float64]
 Origin: TypeAlias = Literal["vrm0", "vrm1", "gltf", "fbx", "bvh"]
 """What kind of file a figure came from."""
 

@@ -12,14 +12,13 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
+from app.arrays import FloatArray, SingleArray
 from app.errors import FileError
 from app.formats.gltf.model import GltfMaterial, GltfModel, GltfNode, GltfPrimitive
 from app.formats.gltf.read import read_glb
 from app.formats.scene import Material
 from app.rig import quaternion
 from app.rig.mesh import Mesh, Morph
-
-FloatArray = npt.NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)
@@ -103,7 +102,7 @@ def build_mesh(source: Source, index: int, name: str) -> tuple[Mesh, bool]:
     return mesh, width > 0
 
 
-def moved_mesh(mesh: Mesh, change: FloatArray, joints: npt.NDArray[np.int32], weights: npt.NDArray[np.float32]) -> Mesh:
+def moved_mesh(mesh: Mesh, change: FloatArray, joints: npt.NDArray[np.int32], weights: SingleArray) -> Mesh:
     """Return a mesh with its vertices taken through a matrix and its skinning replaced."""
     values = {field: getattr(mesh, field) for field in Mesh.__dataclass_fields__}
     values.update(joints=joints, weights=weights)

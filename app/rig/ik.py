@@ -11,12 +11,11 @@ from functools import cached_property, lru_cache
 from typing import Literal
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import FloatArray
 from app.rig import quaternion
 from app.rig.model import Skeleton
 
-FloatArray = npt.NDArray[np.float64]
 Side = Literal["left", "right"]
 
 SOFT_SHARE = 0.01

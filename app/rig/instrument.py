@@ -11,14 +11,13 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
+from app.arrays import AnyFloatArray, FloatArray
 from app.rig import quaternion
 from app.rig.gltf_source import build_mesh, invalid, moved_mesh, read_source
 from app.rig.mesh import Mesh
 from app.rig.model import InstrumentModel
 from instrument_maps.model import ROOT, InstrumentMap, MovingPart
 from instrument_maps.model import Motion as MotionOfPart
-
-FloatArray = npt.NDArray[np.float64]
 
 
 def load_instrument(path: Path, instrument_map: InstrumentMap) -> InstrumentModel:
@@ -66,7 +65,7 @@ def load_instrument(path: Path, instrument_map: InstrumentMap) -> InstrumentMode
     return InstrumentModel(path.stem, tuple(names), positions, tuple(meshes))
 
 
-def part_values(part: MovingPart, controls: Mapping[str, npt.NDArray[np.floating]], frames: int) -> FloatArray:
+def part_values(part: MovingPart, controls: Mapping[str, AnyFloatArray], frames: int) -> FloatArray:
     """How far a part goes, (F,) of 0..1, for values of the controls by name; an absent control is at 0."""
     values = [np.asarray(controls.get(name, np.zeros(frames)), dtype=np.float64) for name in part.controls]
     together: FloatArray = (np.minimum if part.when == "all" else np.maximum).reduce(values)
@@ -97,7 +96,7 @@ def part_transform(motion: MotionOfPart, values: npt.ArrayLike) -> tuple[FloatAr
 
 
 def node_transforms(
-    model: InstrumentModel, instrument_map: InstrumentMap, controls: Mapping[str, npt.NDArray[np.floating]], frames: int
+    model: InstrumentModel, instrument_map: InstrumentMap, controls: Mapping[str, AnyFloatArray], frames: int
 ) -> tuple[FloatArray, FloatArray]:
     """Transforms of a model's nodes in the instrument's frame.
 

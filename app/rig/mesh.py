@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 import numpy.typing as npt
 
+from app.arrays import SingleArray
 from app.formats.scene import Material
 
 
@@ -16,8 +17,8 @@ class Morph:
 
     name: str
     vertices: npt.NDArray[np.int32]
-    deltas_m: npt.NDArray[np.float32]
-    normal_deltas: npt.NDArray[np.float32] | None
+    deltas_m: SingleArray
+    normal_deltas: SingleArray | None
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,14 +38,14 @@ class Mesh:
     """
 
     name: str
-    positions_m: npt.NDArray[np.float32]
-    normals: npt.NDArray[np.float32]
-    uvs: npt.NDArray[np.float32]
+    positions_m: SingleArray
+    normals: SingleArray
+    uvs: SingleArray
     triangles: npt.NDArray[np.int32]
     triangle_materials: npt.NDArray[np.int32]
     materials: tuple[Material, ...]
     joints: npt.NDArray[np.int32]
-    weights: npt.NDArray[np.float32]
+    weights: SingleArray
     morphs: tuple[Morph, ...] = ()
 
 

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from app.arrays import FloatArray
 from app.rig.figure import OwnSkeleton
 from app.rig.mesh import Mesh
 
@@ -32,7 +33,7 @@ class Skeleton:
 
     names: tuple[str, ...]
     parents: tuple[int, ...]
-    offsets_m: npt.NDArray[np.float64]
+    offsets_m: FloatArray
 
     def index(self, name: str) -> int:
         """Index of a joint; KeyError where there is none."""
@@ -64,7 +65,7 @@ class Character:
 
     id: str
     skeleton: Skeleton
-    joint_from_mesh: npt.NDArray[np.float64]
+    joint_from_mesh: FloatArray
     meshes: tuple[Mesh, ...]
     landmarks: dict[str, Landmark]
     own: OwnSkeleton | None = None
@@ -86,5 +87,5 @@ class InstrumentModel:
 
     id: str
     node_names: tuple[str, ...]
-    node_positions_m: npt.NDArray[np.float64]
+    node_positions_m: FloatArray
     meshes: tuple[Mesh, ...]

@@ -13,7 +13,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-FloatArray = npt.NDArray[np.float64]
+from app.arrays import FloatArray
+
 ArrayLike = npt.ArrayLike
 
 IDENTITY: FloatArray = np.array([0.0, 0.0, 0.0, 1.0])

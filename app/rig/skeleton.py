@@ -7,12 +7,10 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import AnyFloatArray, FloatArray
 from app.rig import quaternion
 from app.rig.model import Skeleton
-
-FloatArray = npt.NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -71,8 +69,8 @@ def rest_positions(skeleton: Skeleton) -> FloatArray:
 
 def forward(
     skeleton: Skeleton,
-    rotations: npt.NDArray[np.floating],
-    hips_m: npt.NDArray[np.floating] | None = None,
+    rotations: AnyFloatArray,
+    hips_m: AnyFloatArray | None = None,
     joints: Iterable[int] | None = None,
 ) -> JointTransforms:
     """Compute world transforms of joints and their ancestors.

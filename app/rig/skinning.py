@@ -7,15 +7,12 @@ from dataclasses import dataclass
 from functools import cached_property, lru_cache
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import AnyFloatArray, AnyIntArray, FloatArray, IndexArray
 from app.rig import quaternion
 from app.rig.mesh import Mesh
 from app.rig.model import Character
 from app.rig.skeleton import JointTransforms
-
-FloatArray = npt.NDArray[np.float64]
-IntArray = npt.NDArray[np.intp]
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,7 +32,7 @@ class Skin:
     """
 
     positions_m: FloatArray
-    joints: IntArray
+    joints: IndexArray
     weights: FloatArray
     joint_from_mesh: FloatArray
     morphs: Mapping[str, FloatArray]
@@ -47,7 +44,7 @@ class Skin:
         blend: FloatArray = np.einsum("vj,vi->jiv", self.weights, homogeneous).reshape(-1, len(self.positions_m))
         return blend
 
-    def part(self, rows: npt.NDArray[np.integer]) -> Skin:
+    def part(self, rows: AnyIntArray) -> Skin:
         """Some of the vertices alone."""
         weights = self.weights[rows]
         used = np.flatnonzero(weights.any(axis=0))
@@ -55,9 +52,7 @@ class Skin:
         positions_m, joint_from_mesh = self.positions_m[rows], self.joint_from_mesh[used]
         return Skin(positions_m, self.joints[used], weights[:, used], joint_from_mesh, morphs)
 
-    def deformed(
-        self, world_from_joint: FloatArray, morphs: Mapping[str, npt.NDArray[np.floating]] | None = None
-    ) -> FloatArray:
+    def deformed(self, world_from_joint: FloatArray, morphs: Mapping[str, AnyFloatArray] | None = None) -> FloatArray:
         """Positions (F, V, 3) of the vertices, metres.
 
         Parameters
@@ -101,12 +96,12 @@ def mesh_named(character: Character, name: str) -> Mesh:
 
 
 def skin_of(
-    vertices: npt.NDArray[np.integer],
-    positions_m: npt.NDArray[np.floating],
-    joints: npt.NDArray[np.integer],
+    vertices: AnyIntArray,
+    positions_m: AnyFloatArray,
+    joints: AnyIntArray,
     weights: FloatArray,
     joint_from_mesh: FloatArray,
-    morphs: Iterable[tuple[str, npt.NDArray[np.integer], npt.NDArray[np.floating]]],
+    morphs: Iterable[tuple[str, AnyIntArray, AnyFloatArray]],
 ) -> Skin:
     """Prepare some vertices (V,) of a mesh for deforming.
 
@@ -141,7 +136,7 @@ def skin_of(
     return Skin(place_m, used, np.ascontiguousarray(dense[:, used]), joint_from_mesh[used, :3], moved)
 
 
-def patch(character: Character, mesh: Mesh, vertices: npt.NDArray[np.integer]) -> Patch:
+def patch(character: Character, mesh: Mesh, vertices: AnyIntArray) -> Patch:
     """Prepare vertices of one of a character's meshes for `deform`."""
     vertices = np.asarray(vertices, dtype=np.intp)
     weights = mesh.weights[vertices].astype(np.float64)
@@ -150,7 +145,7 @@ def patch(character: Character, mesh: Mesh, vertices: npt.NDArray[np.integer]) -
     return Patch(**vars(skin), normals=mesh.normals[vertices].astype(np.float64))
 
 
-def skin_matrices(joints: IntArray, joint_from_mesh: FloatArray, transforms: JointTransforms) -> FloatArray:
+def skin_matrices(joints: IndexArray, joint_from_mesh: FloatArray, transforms: JointTransforms) -> FloatArray:
     """Return ``world_from_mesh`` of some joints, (F, J, 3, 4), for their inverse bind matrices (J, 3, 4)."""
     places = np.searchsorted(np.asarray(transforms.joints), joints)
     turn = quaternion.to_matrix(transforms.rotations[:, places])
@@ -175,7 +170,7 @@ class LandmarkSet:
     """
 
     names: tuple[str, ...]
-    joints: IntArray
+    joints: IndexArray
     joint_from_mesh: FloatArray
     points: FloatArray
     morphs: Mapping[str, FloatArray]
@@ -209,7 +204,7 @@ def landmark_positions(
     character: Character,
     names: Sequence[str],
     transforms: JointTransforms,
-    morphs: Mapping[str, npt.NDArray[np.floating]] | None = None,
+    morphs: Mapping[str, AnyFloatArray] | None = None,
 ) -> FloatArray:
     """Positions of landmarks on the deformed meshes.
 

@@ -9,12 +9,10 @@ from __future__ import annotations
 from typing import Final
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import FloatArray, IndexArray
 from app.errors import AppError
 from app.score.tempo import TempoChange, TempoMap
-
-Floats = npt.NDArray[np.float64]
 
 _RATE_HZ: Final = 200
 """Of the envelope: 5 ms, finer than a beat is played."""
@@ -27,7 +25,7 @@ _SMOOTHED: Final = 32
 _SLOWEST_US, _FASTEST_US = 2_000_000.0, 200_000.0
 
 
-def find_beats(onsets_s: Floats, ends_s: Floats, start_bpm: float = 100.0) -> Floats:
+def find_beats(onsets_s: FloatArray, ends_s: FloatArray, start_bpm: float = 100.0) -> FloatArray:
     """Times of the beats.
 
     Parameters
@@ -63,7 +61,7 @@ def find_beats(onsets_s: Floats, ends_s: Floats, start_bpm: float = 100.0) -> Fl
     return _covering(beats, float(onsets_s[0]), float(onsets_s[-1]))
 
 
-def _tracked(envelope: Floats, period: float) -> npt.NDArray[np.intp]:
+def _tracked(envelope: FloatArray, period: float) -> IndexArray:
     """The frames of the beats: those at which the envelope is high and whose distances are near a period, in frames."""
     reach = round(period)
     kernel = np.exp(-0.5 * (np.arange(-(reach // 4), reach // 4 + 1) * _SMOOTHED / period) ** 2)
@@ -88,7 +86,7 @@ def _tracked(envelope: Floats, period: float) -> npt.NDArray[np.intp]:
     return np.array(beats[::-1]) - most
 
 
-def _likely_bpm(envelope: Floats, start_bpm: float) -> float:
+def _likely_bpm(envelope: FloatArray, start_bpm: float) -> float:
     """The tempo at which the envelope is most like itself; an octave from ``start_bpm`` is a standard deviation."""
     import scipy.fft  # heavy, and only here
 
@@ -100,7 +98,7 @@ def _likely_bpm(envelope: Floats, start_bpm: float) -> float:
     return float(bpm[np.argmax(likely)])
 
 
-def tempo_of_beats(beats_s: Floats, ticks_per_quarter: int) -> TempoMap:
+def tempo_of_beats(beats_s: FloatArray, ticks_per_quarter: int) -> TempoMap:
     """A tempo map in which every beat is a quarter; the first lies on tick 0 and second 0.
 
     A bar line cannot be found in onsets alone: the first beat begins one.
@@ -110,7 +108,7 @@ def tempo_of_beats(beats_s: Floats, ticks_per_quarter: int) -> TempoMap:
     return TempoMap.of_changes(ticks_per_quarter, changes)
 
 
-def _settled(beats_s: Floats, onsets_s: Floats) -> Floats:
+def _settled(beats_s: FloatArray, onsets_s: FloatArray) -> FloatArray:
     """Beats on the notes that they mean: the envelope is coarse, and a beat near an onset is that onset."""
     if not len(beats_s):
         return beats_s
@@ -121,7 +119,7 @@ def _settled(beats_s: Floats, onsets_s: Floats) -> Floats:
     return np.where(np.abs(nearest - beats_s) <= 2 * _SPREAD_S, nearest, beats_s)
 
 
-def _covering(beats_s: Floats, first_s: float, last_s: float) -> Floats:
+def _covering(beats_s: FloatArray, first_s: float, last_s: float) -> FloatArray:
     """Beats from the first note, or just before it, to the last one or just after it; where none were found, at the
     pace of those next to there."""
     inside = beats_s[(beats_s > first_s - 2 * _SPREAD_S) & (beats_s < last_s + 2 * _SPREAD_S)]

@@ -14,8 +14,8 @@ from itertools import pairwise
 from typing import Final, Literal, TypeAlias
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import BoolArray, FloatArray, IntArray
 from app.score.take import Cleaning, Controlled, Played, Take
 
 Fault: TypeAlias = Literal["", "ghost", "silent", "slip", "double"]
@@ -73,10 +73,10 @@ class Cleaned:
     pitches, velocities : int64
     """
 
-    onsets_s: npt.NDArray[np.float64]
-    ends_s: npt.NDArray[np.float64]
-    pitches: npt.NDArray[np.int64]
-    velocities: npt.NDArray[np.int64]
+    onsets_s: FloatArray
+    ends_s: FloatArray
+    pitches: IntArray
+    velocities: IntArray
     faults: tuple[Fault, ...]
 
     @property
@@ -140,7 +140,7 @@ def clean_notes(notes: Played, cleaning: Cleaning) -> Cleaned:
     return Cleaned(onsets, ends, notes.pitches, notes.velocities, tuple(faults))
 
 
-def _is_sent(notes: Played, cleaning: Cleaning) -> npt.NDArray[np.bool_]:
+def _is_sent(notes: Played, cleaning: Cleaning) -> BoolArray:
     """(N,): whether the breath says how loud each note is: not where none comes with notes that are sent loudly."""
     breath = notes.curves.get("breath")
     if breath is None:
@@ -150,7 +150,7 @@ def _is_sent(notes: Played, cleaning: Cleaning) -> npt.NDArray[np.bool_]:
     return np.asarray(audible | (notes.velocities <= _FLICKER_VELOCITY))
 
 
-def _trills(notes: Played) -> npt.NDArray[np.bool_]:
+def _trills(notes: Played) -> BoolArray:
     """(N,): whether each note belongs to a trill."""
     found = np.zeros(len(notes), bool)
     if len(notes) < _TRILL_NOTES:
@@ -169,7 +169,7 @@ def _trills(notes: Played) -> npt.NDArray[np.bool_]:
     return found
 
 
-def loudest(notes: Played) -> npt.NDArray[np.float64]:
+def loudest(notes: Played) -> FloatArray:
     """How loud each note gets, 0..1: its highest breath; without breath its velocity."""
     breath = notes.curves.get("breath")
     if breath is None:
@@ -177,24 +177,22 @@ def loudest(notes: Played) -> npt.NDArray[np.float64]:
     return highest(breath, notes.onsets_s, notes.ends_s)
 
 
-def highest(
-    curve: Controlled, starts_s: npt.NDArray[np.float64], ends_s: npt.NDArray[np.float64]
-) -> npt.NDArray[np.float64]:
+def highest(curve: Controlled, starts_s: FloatArray, ends_s: FloatArray) -> FloatArray:
     """The highest value of a curve in each of some spans, closed at both ends."""
     values = np.concatenate(([0.0], curve.values, [0.0]))
     first = np.searchsorted(curve.times_s, starts_s, side="right")
     last = np.maximum(np.searchsorted(curve.times_s, ends_s, side="right"), first) + 1
     # Pairs of bounds: what lies between a pair's end and the next one's beginning is passed over.
     bounds = np.stack([first, last], axis=1).ravel()
-    peaks: npt.NDArray[np.float64] = np.maximum.reduceat(values, bounds)[::2] if len(bounds) else np.empty(0)
+    peaks: FloatArray = np.maximum.reduceat(values, bounds)[::2] if len(bounds) else np.empty(0)
     return peaks
 
 
 def _is_double(
     held: int,
     index: int,
-    onsets: npt.NDArray[np.float64],
-    ends: npt.NDArray[np.float64],
+    onsets: FloatArray,
+    ends: FloatArray,
     notes: Played,
     cleaning: Cleaning,
 ) -> bool:
@@ -231,8 +229,8 @@ def _is_octave_slip(
     held: int,
     index: int,
     following: int,
-    onsets: npt.NDArray[np.float64],
-    ends: npt.NDArray[np.float64],
+    onsets: FloatArray,
+    ends: FloatArray,
     notes: Played,
 ) -> bool:
     """Whether a note is an octave, or two, off the note after it, and short in a legato of long ones."""
@@ -246,7 +244,7 @@ def _is_octave_slip(
     return breathes and _touches(held, index, following, onsets, ends)
 
 
-def _is_before_its_note(held: int, place: int, audible: list[int], onsets: npt.NDArray[np.float64]) -> bool:
+def _is_before_its_note(held: int, place: int, audible: list[int], onsets: FloatArray) -> bool:
     """Whether a short note is an ornament that comes before its note: that one is on time then, as the notes around
     show. A slip of the octave keys begins when its note should have."""
     index, following = audible[place], audible[place + 1]
@@ -265,7 +263,7 @@ def _is_before_its_note(held: int, place: int, audible: list[int], onsets: npt.N
     return off(float(onsets[following])) + _ON_TIME < off(float(onsets[index]))
 
 
-def _struck_again(audible: list[int], notes: Played) -> npt.NDArray[np.bool_]:
+def _struck_again(audible: list[int], notes: Played) -> BoolArray:
     """(N,): whether each note was struck, though the breath goes on from the one before of its pitch: by another
     velocity, in a row of equal strokes, or by a player who detaches all notes without the breath."""
     struck = np.zeros(len(notes), bool)
@@ -302,9 +300,7 @@ def _octave(notes: Played, index: int, other: int) -> bool:
     return abs(int(notes.pitches[index] - notes.pitches[other])) in _OCTAVES
 
 
-def _touches(
-    held: int, index: int, following: int, onsets: npt.NDArray[np.float64], ends: npt.NDArray[np.float64]
-) -> bool:
+def _touches(held: int, index: int, following: int, onsets: FloatArray, ends: FloatArray) -> bool:
     """Whether a note only leads from one note of a legato to the next."""
     before_s, after_s = onsets[index] - ends[held], onsets[following] - ends[index]
     return bool(before_s <= _TOUCHING_S and after_s <= _TOUCHING_S and ends[following] > onsets[following])

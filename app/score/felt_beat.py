@@ -12,8 +12,9 @@ import itertools
 
 import numpy as np
 
-from app.score.metre_map import FeltBeats, IntArray, MetreMap
-from app.score.tempo import Floats, TempoMap
+from app.arrays import FloatArray, IntArray
+from app.score.metre_map import FeltBeats, MetreMap
+from app.score.tempo import TempoMap
 
 SLOWEST_BPM = 40.0
 """Slower beats are divided, if they are longer than a quarter."""
@@ -72,7 +73,7 @@ def felt_beat_ticks(numerator: int, denominator: int, quarters_bpm: float, ticks
     return max(round(quarters * ticks_per_quarter), 1)
 
 
-def _steady(bpm: Floats, metres: IntArray) -> Floats:
+def _steady(bpm: FloatArray, metres: IntArray) -> FloatArray:
     """The tempo of each bar, by those around it in the same metre (by its number)."""
     result = bpm.copy()
     half = STEADY_BARS // 2

@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Final, TypeAlias
+from typing import Final
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import BoolArray, FloatArray, IntArray
 from app.errors import Argument, Message
 from app.score.metre_map import MetreMap
-
-Floats: TypeAlias = npt.NDArray[np.float64]
-Integers: TypeAlias = npt.NDArray[np.int64]
 
 SURE: Final = 0.5
 """Bars with less confidence are to be checked by ear."""
@@ -95,9 +92,9 @@ class Following:
         None where no other place is alike at all.
     """
 
-    ticks: Integers
-    recording_s: Floats
-    confidence: Floats
+    ticks: IntArray
+    recording_s: FloatArray
+    confidence: FloatArray
     missing: tuple[Span, ...] = ()
     added: tuple[Span, ...] = ()
     runner_up: RunnerUp | None = None
@@ -141,7 +138,7 @@ class Following:
                 before = place
         return [(run[0][0], run[-1][0], round(100 * sum(mean for _, mean in run) / len(run))) for run in runs]
 
-    def _there(self) -> npt.NDArray[np.bool_]:
+    def _there(self) -> BoolArray:
         """Which beats the recording has."""
         there = np.ones(len(self.ticks), np.bool_)
         for span in self.missing:

@@ -12,16 +12,13 @@ metre); `app.score.metre_weights` says how much each counts.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Final, NamedTuple, TypeAlias
+from typing import Final, NamedTuple
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import FloatArray, IntArray
 from app.score import metre_weights
 from app.score.metre_map import Metre
-
-Floats: TypeAlias = npt.NDArray[np.float64]
-IntArray: TypeAlias = npt.NDArray[np.int64]
 
 STEPS: Final = 4
 """Cells in a quarter: signals are looked at sixteenth by sixteenth."""
@@ -93,8 +90,8 @@ class _Signals(NamedTuple):
         Cell at which the last note ends.
     """
 
-    values: Floats
-    kinds: Floats
+    values: FloatArray
+    kinds: FloatArray
     first: int
     last: int
     end: int
@@ -162,7 +159,7 @@ def _signals(columns: Sequence[IntArray], ticks_per_quarter: int) -> _Signals:
     return _Signals(values, kinds[:, : last + 1], first, last, end)
 
 
-def _add_line(sums: Floats, kinds: Floats, onsets: IntArray, ends: IntArray, pitches: IntArray) -> None:
+def _add_line(sums: FloatArray, kinds: FloatArray, onsets: IntArray, ends: IntArray, pitches: IntArray) -> None:
     """Add what a line says: an onset; a long note; one longer than the one before; an entry; a leap; a turning point; a
     note held over; one of the longest."""
     at, first = np.unique(onsets, return_index=True)
@@ -190,7 +187,7 @@ def _add_line(sums: Floats, kinds: Floats, onsets: IntArray, ends: IntArray, pit
     kinds[at] = 1.0 + 0.15 * np.clip(np.rint(2.0 * longer), -4, 4) + 0.25 * np.sign(moves)
 
 
-def _harmony_changes(classes: Floats, reach: int) -> Floats:
+def _harmony_changes(classes: FloatArray, reach: int) -> FloatArray:
     """(T,): how different the pitch classes of so many cells up to each and after it are, 0..1."""
     count = classes.shape[1]
     total = np.cumsum(np.pad(classes, ((0, 0), (reach, reach))), axis=1)[:, : count + 2 * reach]
@@ -201,7 +198,7 @@ def _harmony_changes(classes: Floats, reach: int) -> Floats:
     return np.where(both, changes, np.nanmean(changes) if both.any() else 0.0)
 
 
-def _alike(kinds: Floats, lag: int) -> float:
+def _alike(kinds: FloatArray, lag: int) -> float:
     """Return how much of the notes is as it was so many cells before, 0..1."""
     now, before = kinds[:, lag:], kinds[:, :-lag]
     if now.shape[1] < 16:
@@ -228,7 +225,7 @@ def _candidates(signals: _Signals) -> list[tuple[_Kind, int, float]]:
     return [(*one, share) for one, share in zip(found, (odds / odds.sum()).tolist(), strict=True)]
 
 
-def _score(bar: Floats, number: int, place: int, signals: _Signals, again: dict[int, float], scale: float) -> float:
+def _score(bar: FloatArray, number: int, place: int, signals: _Signals, again: dict[int, float], scale: float) -> float:
     """Score a candidate.
 
     Parameters

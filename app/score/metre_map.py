@@ -17,7 +17,8 @@ import msgspec
 import numpy as np
 import numpy.typing as npt
 
-IntArray: TypeAlias = npt.NDArray[np.int64]
+from app.arrays import IntArray
+
 FeltBeats: TypeAlias = tuple[tuple[int, int], ...]
 """The beat that is felt from each tick on, as (tick, ticks), by tick; at least one."""
 

@@ -7,9 +7,8 @@ from functools import cached_property
 from typing import Final, Literal, TypeAlias
 
 import msgspec
-import numpy as np
-import numpy.typing as npt
 
+from app.arrays import IntArray
 from app.errors import Message
 from app.score.metre_map import Metre, MetreMap
 from app.score.tempo import TempoMap
@@ -248,7 +247,7 @@ class Score(msgspec.Struct, frozen=True, dict=True):
         return self.metre_map.bar_of_tick(max(self.end_tick - 1, 0))
 
     @property
-    def bar_starts(self) -> npt.NDArray[np.int64]:
+    def bar_starts(self) -> IntArray:
         """Ticks at which the bars begin, to the bar in which the last note ends.
 
         The first is the pickup (bar 0) if there is one, else bar 1.

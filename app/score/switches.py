@@ -10,8 +10,8 @@ from typing import Final
 
 import msgspec
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import BoolArray, IntArray
 from app.score.choose import Candidates, How, MapChoice, TrackChannel, candidates
 from app.score.tempo import TempoMap
 
@@ -56,7 +56,7 @@ def without_key_switches(
     return stream, ()
 
 
-def _far(pitches: npt.NDArray[np.int64]) -> list[npt.NDArray[np.bool_]]:
+def _far(pitches: IntArray) -> list[BoolArray]:
     """The few notes below and above the widest gap of a stream's pitches."""
     used = np.unique(pitches)
     gaps = np.diff(used)
@@ -68,7 +68,7 @@ def _far(pitches: npt.NDArray[np.int64]) -> list[npt.NDArray[np.bool_]]:
     return [part for part in few if len(np.unique(pitches[part])) <= _MOST_PITCHES]
 
 
-def _switch(stream: TrackChannel, away: npt.NDArray[np.bool_], tempo_map: TempoMap) -> bool:
+def _switch(stream: TrackChannel, away: BoolArray, tempo_map: TempoMap) -> bool:
     """Whether notes are played as key switches are: short, before the music, or held while it sounds."""
     onsets = tempo_map.seconds(np.array(stream.onset_ticks))
     ends = tempo_map.seconds(np.array(stream.end_ticks))
@@ -82,7 +82,7 @@ def _switch(stream: TrackChannel, away: npt.NDArray[np.bool_], tempo_map: TempoM
     return bool(np.count_nonzero(odd) <= _MOST_ODD * len(odd))
 
 
-def _kept(stream: TrackChannel, kept: npt.NDArray[np.bool_]) -> TrackChannel:
+def _kept(stream: TrackChannel, kept: BoolArray) -> TrackChannel:
     """Some notes of a stream."""
     places = np.flatnonzero(kept).tolist()
     columns = ("onset_ticks", "end_ticks", "pitches", "velocities", "numbers")

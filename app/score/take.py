@@ -9,22 +9,19 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
-from typing import Final, TypeAlias
+from typing import Final
 
 import mido
 import msgspec
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import FloatArray, IntArray
 from app.identity_cache import IdentityCache
 from app.score.bend_range import PARAMETERS, USUAL_SEMITONES, BendRanges
 from app.score.model import CurveKind
 from app.score.sounding import Sounding
 from app.score.tempo import TempoMap
 from metadata.model import BiteSource, BreathSource
-
-Floats: TypeAlias = npt.NDArray[np.float64]
-Ints: TypeAlias = npt.NDArray[np.int64]
 
 _BEND_RANGE = 8192
 
@@ -141,10 +138,10 @@ class Controlled:
         Values as `app.score.model.ControllerCurve` has them.
     """
 
-    times_s: Floats
-    values: Floats
+    times_s: FloatArray
+    values: FloatArray
 
-    def at(self, times_s: Floats) -> Floats:
+    def at(self, times_s: FloatArray) -> FloatArray:
         """The value at times; 0 before the first."""
         index = np.searchsorted(self.times_s, times_s, side="right")
         return np.concatenate(([0.0], self.values))[index]
@@ -163,10 +160,10 @@ class Played:
         ``breath`` and ``bite`` by the take's wiring, the others as they came.
     """
 
-    onsets_s: Floats
-    ends_s: Floats
-    pitches: Ints
-    velocities: Ints
+    onsets_s: FloatArray
+    ends_s: FloatArray
+    pitches: IntArray
+    velocities: IntArray
     curves: Mapping[CurveKind, Controlled]
 
     def __len__(self) -> int:

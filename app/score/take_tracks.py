@@ -12,10 +12,11 @@ from typing import Final, Literal, TypeAlias
 import msgspec
 import numpy as np
 
+from app.arrays import FloatArray, IntArray
 from app.score.choose import TrackChannel
 from app.score.clean import Fault, clean_notes
 from app.score.model import ControllerCurve, CurveKind, Note
-from app.score.take import Cleaning, Controlled, Floats, Ints, Played
+from app.score.take import Cleaning, Controlled, Played
 from app.score.tempo import TempoMap
 from instrument_maps.vocabulary import vocabulary
 
@@ -84,7 +85,7 @@ def without_faults(stream: TrackChannel, tempo_map: TempoMap) -> tuple[TrackChan
 def played(stream: TrackChannel, tempo_map: TempoMap) -> Played:
     """A stream as a take has its notes, with the curve that carries its breath."""
 
-    def seconds(ticks: list[int]) -> Floats:
+    def seconds(ticks: list[int]) -> FloatArray:
         return tempo_map.seconds(np.array(ticks, np.float64))
 
     onsets_s, ends_s = seconds(stream.onset_ticks), seconds(stream.end_ticks)
@@ -117,10 +118,10 @@ def _is_blown(notes: Played, breath: Controlled) -> bool:
     return bool(np.count_nonzero(inside) >= _SENT_PER_S * lasts_s)
 
 
-def _among(notes: Played, times_s: Floats) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
+def _among(notes: Played, times_s: FloatArray) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
     """Whether a note sounds at each of some moments."""
     ends_s = np.maximum.accumulate(notes.ends_s)
-    index: Ints = np.searchsorted(notes.onsets_s, times_s, side="right") - 1
+    index: IntArray = np.searchsorted(notes.onsets_s, times_s, side="right") - 1
     return np.asarray((index >= 0) & (times_s < ends_s[np.maximum(index, 0)]))
 
 

@@ -8,9 +8,9 @@ from typing import TypeAlias, overload
 
 import msgspec
 import numpy as np
-import numpy.typing as npt
 
-Floats: TypeAlias = npt.NDArray[np.float64]
+from app.arrays import AnyFloatArray, AnyIntArray, FloatArray
+
 _Pieces: TypeAlias = tuple[list[float], list[float], list[float]]
 """Knots, values at them, slopes after them."""
 
@@ -68,7 +68,7 @@ class TempoMap(msgspec.Struct, frozen=True, dict=True):
         return cls(ticks_per_quarter, (TempoChange(0, 1e6 * ticks_per_quarter / ticks_per_second),))
 
     @cached_property
-    def _table(self) -> tuple[Floats, Floats, Floats]:
+    def _table(self) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Ticks and seconds where each tempo begins, and its seconds per tick; each float64, shape (changes,)."""
         ticks = np.array([change.tick for change in self.changes], np.float64)
         slopes = np.array([change.microseconds_per_quarter for change in self.changes], np.float64)
@@ -94,8 +94,8 @@ class TempoMap(msgspec.Struct, frozen=True, dict=True):
     @overload
     def seconds(self, ticks: float) -> float: ...
     @overload
-    def seconds(self, ticks: npt.NDArray[np.floating] | npt.NDArray[np.integer]) -> Floats: ...
-    def seconds(self, ticks: float | npt.NDArray[np.floating] | npt.NDArray[np.integer]) -> float | Floats:
+    def seconds(self, ticks: AnyFloatArray | AnyIntArray) -> FloatArray: ...
+    def seconds(self, ticks: float | AnyFloatArray | AnyIntArray) -> float | FloatArray:
         """Seconds at ticks.
 
         Parameters
@@ -115,8 +115,8 @@ class TempoMap(msgspec.Struct, frozen=True, dict=True):
     @overload
     def ticks(self, seconds: float) -> float: ...
     @overload
-    def ticks(self, seconds: npt.NDArray[np.floating] | npt.NDArray[np.integer]) -> Floats: ...
-    def ticks(self, seconds: float | npt.NDArray[np.floating] | npt.NDArray[np.integer]) -> float | Floats:
+    def ticks(self, seconds: AnyFloatArray | AnyIntArray) -> FloatArray: ...
+    def ticks(self, seconds: float | AnyFloatArray | AnyIntArray) -> float | FloatArray:
         """Ticks at seconds, fractional: the inverse of `seconds`.
 
         Parameters
@@ -141,11 +141,9 @@ def _piecewise_at(x: float, pieces: _Pieces) -> float:
     return values[piece] + (x - knots[piece]) * slopes[piece]
 
 
-def _piecewise(
-    x: npt.NDArray[np.floating] | npt.NDArray[np.integer], knots: Floats, values: Floats, slopes: Floats
-) -> Floats:
+def _piecewise(x: AnyFloatArray | AnyIntArray, knots: FloatArray, values: FloatArray, slopes: FloatArray) -> FloatArray:
     """A piecewise linear function whose outer pieces extend; ``values`` are at the ``knots``, ``slopes`` after them."""
     places = np.asarray(x, np.float64)
     piece = np.maximum(np.searchsorted(knots, places, side="right") - 1, 0)
-    result: Floats = values[piece] + (places - knots[piece]) * slopes[piece]
+    result: FloatArray = values[piece] + (places - knots[piece]) * slopes[piece]
     return result

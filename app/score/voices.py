@@ -27,8 +27,8 @@ from typing import Final, NamedTuple, TypeAlias
 
 import msgspec
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import BoolArray, FloatArray, IndexArray, IntArray
 from app.score.model import MOST_VOICES, Note
 from app.score.tempo import TempoMap
 
@@ -77,7 +77,6 @@ _BEAM = 2
 _HOPELESS_COST = 16.0
 _CHOICES = 24
 
-Floats: TypeAlias = npt.NDArray[np.float64]
 _History: TypeAlias = "tuple[_History, tuple[int, ...]] | None"
 
 
@@ -128,16 +127,16 @@ class Shared(NamedTuple):
 class _Spans(NamedTuple):
     """When notes sound, in seconds, by onset: a note's release is where another one may begin in its voice."""
 
-    onsets: Floats
-    ends: Floats
-    releases: Floats
+    onsets: FloatArray
+    ends: FloatArray
+    releases: FloatArray
 
-    def depths(self) -> npt.NDArray[np.intp]:
+    def depths(self) -> IndexArray:
         """How many notes sound when each begins, itself among them."""
         started = np.searchsorted(self.onsets, self.onsets, side="right")
         return started - np.searchsorted(np.sort(self.releases), self.onsets, side="right")
 
-    def of(self, kept: npt.NDArray[np.bool_] | npt.NDArray[np.intp]) -> _Spans:
+    def of(self, kept: BoolArray | IndexArray) -> _Spans:
         """Those of some notes."""
         return _Spans(self.onsets[kept], self.ends[kept], self.releases[kept])
 
@@ -149,7 +148,7 @@ def _spans(notes: Sequence[Note], tempo_map: TempoMap) -> _Spans:
     return _Spans(onsets, ends, ends - _legato_s(ends - onsets))
 
 
-def _legato_s(lengths_s: Floats) -> Floats:
+def _legato_s(lengths_s: FloatArray) -> FloatArray:
     """How long notes of these lengths may last into the next one of their player."""
     legato = np.clip(_LEGATO_SHARE * lengths_s, _LEGATO_LEAST_S, _LEGATO_MOST_S)
     return np.minimum(legato, _LEGATO_MOST_SHARE * lengths_s)
@@ -248,7 +247,7 @@ def _unisons(notes: Sequence[Note], spans: _Spans) -> set[int]:
     return found
 
 
-def _players(spans: _Spans, depths: npt.NDArray[np.intp], pitches: npt.NDArray[np.int64]) -> int:
+def _players(spans: _Spans, depths: IndexArray, pitches: IntArray) -> int:
     """How many players the simultaneity of the notes calls for."""
     doubled = _doubled(spans, pitches)
     plain = spans.of(~doubled)
@@ -263,7 +262,7 @@ def _players(spans: _Spans, depths: npt.NDArray[np.intp], pitches: npt.NDArray[n
     return deepest
 
 
-def _within(spans: _Spans, depths: npt.NDArray[np.intp], more: int) -> npt.NDArray[np.bool_]:
+def _within(spans: _Spans, depths: IndexArray, more: int) -> BoolArray:
     """Which notes sound where so many sound together."""
     counts = np.concatenate(([0], np.cumsum(depths >= more)))
     first = np.searchsorted(spans.onsets, spans.onsets, side="left")
@@ -271,7 +270,7 @@ def _within(spans: _Spans, depths: npt.NDArray[np.intp], more: int) -> npt.NDArr
     return np.asarray(counts[np.maximum(last, first + 1)] > counts[first])
 
 
-def _sustained(spans: _Spans, depths: npt.NDArray[np.intp], more: int, several: int) -> bool:
+def _sustained(spans: _Spans, depths: IndexArray, more: int, several: int) -> bool:
     """Whether so many players are needed over several notes in a row and for a while."""
     struck = depths >= more
     if np.count_nonzero(struck) < several:
@@ -287,7 +286,7 @@ def _sustained(spans: _Spans, depths: npt.NDArray[np.intp], more: int, several: 
     return bool(np.any((notes >= several) & (seconds >= SUSTAINED_S)))
 
 
-def _doubled(spans: _Spans, pitches: npt.NDArray[np.int64]) -> npt.NDArray[np.bool_]:
+def _doubled(spans: _Spans, pitches: IntArray) -> BoolArray:
     """Which notes only double the one before or after them in the unison or in octaves."""
     doubled = np.zeros(len(pitches), bool)
     order = np.lexsort((pitches, spans.onsets))
@@ -302,7 +301,7 @@ def _doubled(spans: _Spans, pitches: npt.NDArray[np.int64]) -> npt.NDArray[np.bo
     return doubled
 
 
-def _first(spans: _Spans, _: npt.NDArray[np.int64], order: npt.NDArray[np.intp], count: int) -> list[int]:
+def _first(spans: _Spans, _: IntArray, order: IndexArray, count: int) -> list[int]:
     """The notes that find a free voice if each takes one until its release: no section is larger, so what sounds
     beyond it is no music that could be saved."""
     sounding: list[float] = []
@@ -317,7 +316,7 @@ def _first(spans: _Spans, _: npt.NDArray[np.int64], order: npt.NDArray[np.intp],
     return kept
 
 
-def _playable(spans: _Spans, pitches: npt.NDArray[np.int64], order: npt.NDArray[np.intp], count: int) -> list[int]:
+def _playable(spans: _Spans, pitches: IntArray, order: IndexArray, count: int) -> list[int]:
     """The notes that so many players can play, by onset and from the highest; releases are brought forward, in place,
     where a player must leave a note for the next one.
 
@@ -351,9 +350,7 @@ def _playable(spans: _Spans, pitches: npt.NDArray[np.int64], order: npt.NDArray[
     return [index for index in order.tolist() if index not in gone]
 
 
-def _voices(
-    spans: _Spans, pitches: npt.NDArray[np.int64], kept: list[int], count: int, tempo_map: TempoMap
-) -> list[list[int]]:
+def _voices(spans: _Spans, pitches: IntArray, kept: list[int], count: int, tempo_map: TempoMap) -> list[list[int]]:
     """The notes of each voice, by onset."""
     onsets, ends, releases = (column[kept] for column in spans)
     struck = _chords(onsets, releases)
@@ -373,7 +370,7 @@ def _voices(
     return [sorted(voice, key=spans.onsets.__getitem__) for voice in voices]
 
 
-def _chords(onsets: Floats, releases: Floats) -> Floats:
+def _chords(onsets: FloatArray, releases: FloatArray) -> FloatArray:
     """Where the chord begins that each note belongs to; a note alone is its own."""
     struck = onsets.tolist()
     begin, free = -1.0, -1.0
@@ -403,7 +400,7 @@ def _legato(notes: Sequence[Note], spans: _Spans, tempo_map: TempoMap) -> tuple[
     return tuple(line), shortened
 
 
-def _move_together(spans: _Spans, kept: npt.NDArray[np.intp]) -> bool:
+def _move_together(spans: _Spans, kept: IndexArray) -> bool:
     """Whether notes that sound together mostly begin together."""
     own = spans.of(kept)
     together = np.flatnonzero(own.depths() > 1)

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 from typing import Final, Literal
 
 import numpy as np
-import numpy.typing as npt
+
+from app.arrays import FloatArray
 
 FaceNames = Literal["arkit", "arkit_capital", "vrm"]
 """``jawOpen``; ``JawOpen``, as clips for perfect sync are often named; ``A``, ``Blink_L`` and the like."""
@@ -39,12 +40,12 @@ class FaceLayout:
 
     names: tuple[str, ...]
     morphs: tuple[str, ...]
-    shares: npt.NDArray[np.float64] | None = None
+    shares: FloatArray | None = None
 
-    def values(self, weights: Mapping[str, float]) -> npt.NDArray[np.float64]:
+    def values(self, weights: Mapping[str, float]) -> FloatArray:
         """The values 0..1 that are sent, in the order of the names."""
         own = np.array([weights.get(morph, 0.0) for morph in self.morphs])
-        values: npt.NDArray[np.float64] = np.clip(own if self.shares is None else self.shares @ own, 0.0, 1.0)
+        values: FloatArray = np.clip(own if self.shares is None else self.shares @ own, 0.0, 1.0)
         return values
 
 

@@ -11,10 +11,11 @@ from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
-import numpy.typing as npt
 from pythonosc.osc_bundle_builder import IMMEDIATELY, OscBundleBuilder
 from pythonosc.osc_message import OscMessage
 from pythonosc.osc_message_builder import OscMessageBuilder
+
+from app.arrays import AnyFloatArray, IndexArray
 
 MOST_BYTES: Final = 1400
 """Largest bundle: an Ethernet packet, with room for tunnels."""
@@ -47,7 +48,7 @@ class Packets:
 
     def __init__(self, heads: Sequence[Head]) -> None:
         self.floats = sum(head.floats for head in heads)
-        self._bundles: list[tuple[bytes, npt.NDArray[np.intp], slice]] = []
+        self._bundles: list[tuple[bytes, IndexArray, slice]] = []
         first, taken, size = 0, list[OscMessage](), _BUNDLE_HEAD
         floats = list[int]()
         for head in heads:
@@ -70,7 +71,7 @@ class Packets:
             words.extend(range(end // _WORD - count, end // _WORD))
         self._bundles.append((bundle.build().dgram, np.array(words, np.intp), slice(first, first + sum(floats))))
 
-    def filled(self, values: npt.NDArray[np.floating]) -> list[bytes]:
+    def filled(self, values: AnyFloatArray) -> list[bytes]:
         """The datagrams of a frame.
 
         Parameters

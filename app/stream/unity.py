@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-import numpy.typing as npt
+
+from app.arrays import AnyFloatArray, FloatArray
 
 _POSITION = np.array([-1.0, 1.0, 1.0])
 _ROTATION = np.array([1.0, -1.0, -1.0, 1.0])
@@ -11,12 +12,12 @@ _ROTATION = np.array([1.0, -1.0, -1.0, 1.0])
 _THUMB = {"ThumbMetacarpal": "ThumbProximal", "ThumbProximal": "ThumbIntermediate"}
 
 
-def unity_positions(positions_m: npt.NDArray[np.floating]) -> npt.NDArray[np.float64]:
+def unity_positions(positions_m: AnyFloatArray) -> FloatArray:
     """Positions (..., 3) in Unity's space, metres."""
     return np.asarray(positions_m * _POSITION + 0.0, np.float64)
 
 
-def unity_rotations(rotations: npt.NDArray[np.floating]) -> npt.NDArray[np.float64]:
+def unity_rotations(rotations: AnyFloatArray) -> FloatArray:
     """Rotations (..., 4), xyzw, in Unity's space."""
     return np.asarray(rotations * _ROTATION, np.float64)
 

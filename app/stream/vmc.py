@@ -11,8 +11,8 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import AnyFloatArray
 from app.project.casting import StagePosition
 from app.rig import quaternion
 from app.rig.model import Character
@@ -23,7 +23,6 @@ from app.stream.unity import unity_bone, unity_positions, unity_rotations
 if TYPE_CHECKING:
     from app.performance.chunks import Pose
 
-Floats = npt.NDArray[np.floating]
 
 LOADED = 1
 """A character is there, and moves."""
@@ -103,7 +102,7 @@ class Sent:
             values.append(_transforms(held_m[None], held[None]))
         return self._packets.filled(np.concatenate([*values, self._face.values(pose.morphs)]))
 
-    def _local(self, pose: Pose) -> tuple[Floats, Floats]:
+    def _local(self, pose: Pose) -> tuple[AnyFloatArray, AnyFloatArray]:
         """Positions and rotations of the bones, each in the frame of the bone above it that is sent."""
         rotations = quaternion.normalize(pose.rotations[self._joints])
         positions_m = self._offsets_m.copy()
@@ -118,6 +117,6 @@ class Sent:
         return positions_m, rotations
 
 
-def _transforms(positions_m: Floats, rotations: Floats) -> Floats:
+def _transforms(positions_m: AnyFloatArray, rotations: AnyFloatArray) -> AnyFloatArray:
     """Position and rotation of each, one after the other, in Unity's space."""
     return np.concatenate([unity_positions(positions_m), unity_rotations(rotations)], axis=1).ravel()

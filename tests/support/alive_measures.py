@@ -17,12 +17,12 @@ from functools import cached_property
 from pathlib import Path
 
 import numpy as np
-import numpy.typing as npt
 from scipy.signal import butter, periodogram, sosfiltfilt
 from scipy.spatial import ConvexHull
 from scipy.spatial.transform import Rotation
 from scipy.stats import rankdata, spearmanr
 
+from app.arrays import BoolArray, FloatArray
 from app.evaluation.measures import quantity_of_motion_mm_s
 from app.export.playback import Playback, Surface
 from app.export.request import Request
@@ -38,9 +38,6 @@ from app.project.edit.players import set_parameters
 from app.project.model import Project, map_choices, project_from_score
 from app.score.read import read_midi
 from instrument_maps.load import bundled_maps
-
-FloatArray = npt.NDArray[np.float64]
-BoolArray = npt.NDArray[np.bool_]
 
 UPPER_FACE = ("brow", "eyeSquint", "eyeWide", "cheekSquint", "noseSneer")
 LIPS = ("mouth", "jaw", "cheekPuff")

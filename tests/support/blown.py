@@ -10,8 +10,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import FloatArray
 from app.score.model import ControllerCurve, CurveKind, Note, Part
 from app.score.tempo import TempoChange, TempoMap
 
@@ -19,7 +19,7 @@ TICKS_PER_S = 960.0
 """At 120 quarters a minute and 480 ticks a quarter."""
 TEMPO = TempoMap(480, (TempoChange(0, 500_000.0),))
 
-Dynamics = Callable[[npt.NDArray[np.float64]], npt.NDArray[np.float64]]
+Dynamics = Callable[[FloatArray], FloatArray]
 
 
 @dataclass(frozen=True)
@@ -60,7 +60,7 @@ def vibrato_curve(
     return _curve(kind, at, np.where(inside, middle + depth * np.sin(2 * np.pi * rate_hz * (at - start_s)), middle))
 
 
-def _curve(kind: CurveKind, at: npt.NDArray[np.float64], values: npt.NDArray[np.float64]) -> ControllerCurve:
+def _curve(kind: CurveKind, at: FloatArray, values: FloatArray) -> ControllerCurve:
     changed = np.flatnonzero(np.diff(values, prepend=np.nan) != 0.0)
     places = np.round(at[changed] * TICKS_PER_S).astype(int).tolist()
     return ControllerCurve(kind, tuple(places), tuple(values[changed].tolist()))

@@ -14,15 +14,13 @@ from pathlib import Path
 from unittest.mock import patch
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import FloatArray
 from app.rig.characters.character_library import character_named
 from app.rig.characters.landmarks import found_landmarks
 from app.rig.mesh import Mesh, Morph
 from app.rig.model import Character, Skeleton
 from app.rig.skeleton import rest_positions
-
-FloatArray = npt.NDArray[np.float64]
 
 
 @dataclass(frozen=True)

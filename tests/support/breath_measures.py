@@ -14,8 +14,8 @@ from pathlib import Path
 
 import msgspec
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import IntArray
 from app.performance.ensemble import Performance
 from app.plan.model import PlayerPlan
 from app.plan.music.piece import MonophonicPart, line_times
@@ -127,7 +127,7 @@ def main(folders: list[str]) -> None:
             print(f"{name:32} {np.mean(each):6.1f} {min(each):6.1f} {max(each):6.1f}  ({len(each)} players)")
 
 
-def _figures(sums: npt.NDArray[np.int64]) -> str:
+def _figures(sums: IntArray) -> str:
     return "".join(f"{value:{width}}" for value, width in zip(sums, (7, 6, 13, 5, 6, 8), strict=True))
 
 

@@ -18,12 +18,12 @@ from pathlib import Path
 from typing import Final
 
 import numpy as np
-import numpy.typing as npt
 from scipy.interpolate import CubicSpline
 from scipy.ndimage import gaussian_filter1d
 from scipy.signal import argrelmin
 from scipy.spatial import cKDTree
 
+from app.arrays import BoolArray, FloatArray
 from app.choreography.body import ENDS, SEGMENTS
 from app.choreography.clip import MotionClip
 from app.choreography.contacts import foot_contacts, tips_m
@@ -42,10 +42,6 @@ from app.choreography.sequence import Weights
 from app.choreography.write_motion import write_motion
 from app.rig import quaternion
 from app.score.read import read_contents, uncast_score
-
-FloatArray = npt.NDArray[np.float64]
-IntArray = npt.NDArray[np.int64]
-BoolArray = npt.NDArray[np.bool_]
 
 STATURE_M: Final = 1.7
 SHARED: Final = Path(__file__).parents[3] / "shared" / "data"

@@ -5,7 +5,6 @@ from __future__ import annotations
 from fractions import Fraction
 
 import numpy as np
-import numpy.typing as npt
 from scipy.spatial.transform import Rotation
 
 from app.choreography.body import SEGMENTS
@@ -23,7 +22,6 @@ SHAPE = BodyShape.of(
     np.array([(0, 0.25, 0), (0.18, 0, 0), (-0.18, 0, 0), (0, -ANKLE_M, 0.2), (0, -ANKLE_M, 0.2)], np.float64),
 )
 """A body of 1.8 m that stands with its soles on the floor."""
-Array = npt.NDArray[np.float64]
 
 
 def still(frames: int, fps: int = 60) -> MotionClip:

@@ -5,15 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import AnyFloatArray, FloatArray
 from app.rig.skeleton import JointTransforms
-from app.rig.skinning import FloatArray, Patch, skin_matrices
+from app.rig.skinning import Patch, skin_matrices
 
 
-def deform(
-    part: Patch, transforms: JointTransforms, morphs: Mapping[str, npt.NDArray[np.floating]] | None = None
-) -> FloatArray:
+def deform(part: Patch, transforms: JointTransforms, morphs: Mapping[str, AnyFloatArray] | None = None) -> FloatArray:
     """Deform the vertices of a patch.
 
     Parameters

@@ -6,8 +6,8 @@ from fractions import Fraction
 from pathlib import Path
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import SingleArray
 from app.export.video import video_into
 from app.formats.video import Picture
 
@@ -27,7 +27,7 @@ def number_of(picture: Picture) -> int:
     return sum(1 << bit for bit in range(BITS) if columns[bit] > 127)
 
 
-def written(path: Path, rate: Fraction, pictures: int, sound: npt.NDArray[np.float32] | None = None) -> Path:
+def written(path: Path, rate: Fraction, pictures: int, sound: SingleArray | None = None) -> Path:
     """A film of numbered pictures, from 0 on; its sound (n, 2) is at 48 kHz."""
     with video_into(path, SIZE, rate, sound) as film:
         for number in range(pictures):

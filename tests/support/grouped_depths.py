@@ -10,15 +10,11 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import AnyFloatArray, AnyIntArray, FloatArray
 from app.rig.grip.instrument_proxy import signed_distance
 from app.rig.skinning import Skin
 from instrument_maps.model import Proxy
-
-FloatArray = npt.NDArray[np.float64]
-AnyFloatArray = npt.NDArray[np.floating]
-IntArray = npt.NDArray[np.integer]
 
 GROUP = 8
 """Vertices per group, about."""
@@ -30,7 +26,7 @@ STRETCH = 1.3
 
 @dataclass(frozen=True, eq=False)
 class _Group:
-    members: IntArray
+    members: AnyIntArray
     """Rows of the hand's vertices."""
     middle: int
     radius_m: float
@@ -139,7 +135,7 @@ def _moved(matrices: AnyFloatArray, points: AnyFloatArray) -> AnyFloatArray:
     return points @ matrices[:, :3, :3].swapaxes(1, 2) + matrices[:, None, :3, 3]
 
 
-def _split(rows: IntArray, positions_m: FloatArray) -> list[IntArray]:
+def _split(rows: AnyIntArray, positions_m: FloatArray) -> list[AnyIntArray]:
     """Halve along the longest side until the groups are small."""
     if len(rows) <= GROUP:
         return [rows]
@@ -149,7 +145,7 @@ def _split(rows: IntArray, positions_m: FloatArray) -> list[IntArray]:
     return _split(order[:half], positions_m) + _split(order[half:], positions_m)
 
 
-def _group(rows: IntArray, positions_m: FloatArray) -> _Group:
+def _group(rows: AnyIntArray, positions_m: FloatArray) -> _Group:
     points = positions_m[rows]
     middle = int(np.argmin(np.linalg.norm(points - points.mean(axis=0), axis=1)))
     radius_m = float(np.linalg.norm(points - points[middle], axis=1).max()) * STRETCH

@@ -8,8 +8,8 @@ from fractions import Fraction
 
 import msgspec
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import FloatArray
 from app.motion.model import Motion
 from app.motion.perform import PerformanceCurves
 from app.performance.chunks import Pose
@@ -50,12 +50,12 @@ class Played:
     playing: PerformanceCurves
     motion: Motion
     plan: PlayerPlan
-    hands: dict[str, npt.NDArray[np.float64]]
+    hands: dict[str, FloatArray]
 
     @property
-    def times_s(self) -> npt.NDArray[np.float64]:
+    def times_s(self) -> FloatArray:
         """Of the frames."""
-        times_s: npt.NDArray[np.float64] = self.motion.first_frame_s + np.arange(self.motion.frames) / FPS
+        times_s: FloatArray = self.motion.first_frame_s + np.arange(self.motion.frames) / FPS
         return times_s
 
     @property
@@ -83,12 +83,12 @@ class Played:
         """As of `PerformanceCurves`: none, for no one knows beforehand where they are asked to be."""
         return {}
 
-    def ankles_m(self, times_s: npt.NDArray[np.float64]) -> dict[str, npt.NDArray[np.float64]]:
+    def ankles_m(self, times_s: FloatArray) -> dict[str, FloatArray]:
         """As of `PerformanceCurves`: the feet of a live player stay."""
         place = self.playing.player.place
         return {side: np.tile(ankle_m, (len(times_s), 1)) for side, ankle_m in place.ankles_m.items()}
 
-    def placed(self, times_s: npt.NDArray[np.float64]) -> dict[str, Placed]:
+    def placed(self, times_s: FloatArray) -> dict[str, Placed]:
         """Where the fingers were."""
         frames = np.round((times_s - self.motion.first_frame_s) * FPS).astype(int)
         return {name: Placed(*rows[frames].T) for name, rows in self.hands.items()}

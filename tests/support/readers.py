@@ -21,8 +21,8 @@ from fractions import Fraction
 from pathlib import Path
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import AnyFloatArray
 from tests.support import check_animation_file
 
 QUICK_FBX = ("structure", "ufbx")
@@ -65,9 +65,9 @@ class Expected:
     fps: Fraction
     frames: int
     sampled: Sequence[int]
-    joints_cm: Mapping[str, npt.NDArray[np.floating]]
+    joints_cm: Mapping[str, AnyFloatArray]
     parents: Mapping[str, str | None]
-    weights: Mapping[str, npt.NDArray[np.floating]] = field(default_factory=dict)
+    weights: Mapping[str, AnyFloatArray] = field(default_factory=dict)
     every_key: bool = True
 
 

@@ -11,11 +11,11 @@ import numpy.typing as npt
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QImage
 
+from app.arrays import FloatArray, IndexArray, IntArray
 from app.rig.mesh import Mesh
 from app.rig.model import Character
 from app.rig.skeleton import rest_positions
 
-Floats = npt.NDArray[np.float64]
 Crop = Literal["body", "head"]
 
 _LIGHT: Final = np.array([0.35, 0.45, 0.82])
@@ -48,11 +48,11 @@ class Seen:
         Height of the head's joint, of the crown; its middle from side to side is at 0.
     """
 
-    positions_m: Floats
-    normals: Floats
-    triangles: npt.NDArray[np.intp]
-    colours: Floats
-    morphs: Mapping[str, tuple[npt.NDArray[np.intp], Floats]]
+    positions_m: FloatArray
+    normals: FloatArray
+    triangles: IndexArray
+    colours: FloatArray
+    morphs: Mapping[str, tuple[IndexArray, FloatArray]]
     head_m: tuple[float, float]
 
 
@@ -61,9 +61,9 @@ def seen(character: Character) -> Seen:
     places = rest_positions(character.skeleton)
     world_from_mesh = character.joint_from_mesh[:, :3, :].copy()
     world_from_mesh[:, :, 3] += places
-    positions, normals = list[Floats](), list[Floats]()
-    triangles, colours = list[npt.NDArray[np.intp]](), list[Floats]()
-    moved: dict[str, list[tuple[npt.NDArray[np.intp], Floats]]] = {}
+    positions, normals = list[FloatArray](), list[FloatArray]()
+    triangles, colours = list[IndexArray](), list[FloatArray]()
+    moved: dict[str, list[tuple[IndexArray, FloatArray]]] = {}
     first = 0
     for mesh in character.meshes:
         matrices = np.einsum("vk,vkij->vij", mesh.weights.astype(np.float64), world_from_mesh[mesh.joints])
@@ -129,13 +129,13 @@ def picture(
     return image.scaled(width // _OVERSAMPLED, height // _OVERSAMPLED, Qt.AspectRatioMode.IgnoreAspectRatio, smooth)
 
 
-def _colours(mesh: Mesh) -> Floats:
+def _colours(mesh: Mesh) -> FloatArray:
     base = np.array([material.base_color[:3] for material in mesh.materials], np.float64)
-    result: Floats = base[mesh.triangle_materials]
+    result: FloatArray = base[mesh.triangle_materials]
     return result
 
 
-def _frame(shown: Seen, positions: Floats, crop: Crop) -> tuple[float, float, float]:
+def _frame(shown: Seen, positions: FloatArray, crop: Crop) -> tuple[float, float, float]:
     """Lowest and highest point, and half the width, that are seen."""
     if crop == "body":
         return float(positions[:, 1].min()), float(positions[:, 1].max()), float(np.abs(positions[:, 0]).max())
@@ -150,18 +150,18 @@ def _head_middle(shown: Seen) -> float:
     return float((above[:, 0].min() + above[:, 0].max()) / 2.0) if len(above) else 0.0
 
 
-def _unit(vectors: Floats) -> Floats:
-    result: Floats = vectors / np.maximum(np.linalg.norm(vectors, axis=-1, keepdims=True), 1e-12)
+def _unit(vectors: FloatArray) -> FloatArray:
+    result: FloatArray = vectors / np.maximum(np.linalg.norm(vectors, axis=-1, keepdims=True), 1e-12)
     return result
 
 
-def _across(triangles: npt.NDArray[np.intp], positions: Floats) -> Floats:
+def _across(triangles: IndexArray, positions: FloatArray) -> FloatArray:
     """Normals (T, 3) of triangles, as long as twice their areas."""
     corners = positions[triangles]
     return np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
 
 
-def _facing(triangles: npt.NDArray[np.intp], positions: Floats) -> Floats:
+def _facing(triangles: IndexArray, positions: FloatArray) -> FloatArray:
     """Unit normals (V, 3) of the vertices, from the triangles around them."""
     across = _across(triangles, positions)
     return _unit(
@@ -175,7 +175,7 @@ def _facing(triangles: npt.NDArray[np.intp], positions: Floats) -> Floats:
     )
 
 
-def _in_front(points: Floats, triangles: npt.NDArray[np.intp], width: int, height: int) -> npt.NDArray[np.int64]:
+def _in_front(points: FloatArray, triangles: IndexArray, width: int, height: int) -> IntArray:
     """The triangle that is seen in each pixel, -1 for none.
 
     Each triangle is drawn as points close enough to one another, those in front over those behind.
@@ -205,7 +205,7 @@ def _in_front(points: Floats, triangles: npt.NDArray[np.intp], width: int, heigh
 
 
 def _painted(
-    front: npt.NDArray[np.int64], points: Floats, positions: Floats, normals: Floats, shown: Seen, size: tuple[int, int]
+    front: IntArray, points: FloatArray, positions: FloatArray, normals: FloatArray, shown: Seen, size: tuple[int, int]
 ) -> npt.NDArray[np.uint8]:
     """Colours (pixels, 4), shaded smoothly where the vertices' normals are."""
     width, height = size
@@ -224,7 +224,7 @@ def _painted(
     return canvas
 
 
-def _shares(corners: Floats, pixels: npt.NDArray[np.intp], width: int) -> Floats:
+def _shares(corners: FloatArray, pixels: IndexArray, width: int) -> FloatArray:
     """How much of each corner (P, 3) of its triangle (P, 3, 2) is in the middle of a pixel."""
     middle = np.stack([pixels % width, pixels // width], axis=1) + 0.5
     one, two, at = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0], middle - corners[:, 0]
@@ -234,11 +234,11 @@ def _shares(corners: Floats, pixels: npt.NDArray[np.intp], width: int) -> Floats
     third = (one[:, 0] * at[:, 1] - one[:, 1] * at[:, 0]) / area
     # A pixel at the edge has its middle outside.
     shares = np.clip(np.stack([1.0 - second - third, second, third], axis=1), 0.0, 1.0)
-    result: Floats = shares / shares.sum(axis=1, keepdims=True)
+    result: FloatArray = shares / shares.sum(axis=1, keepdims=True)
     return result
 
 
-def _by_edges(placed: Floats) -> tuple[Floats, npt.NDArray[np.intp]]:
+def _by_edges(placed: FloatArray) -> tuple[FloatArray, IndexArray]:
     """Triangles (T, 3, 3) from the corner between their two shorter edges, and the powers of two (T, 2) that those are
     divided into, so that no pixel is left out."""
     edges = np.linalg.norm((placed - np.roll(placed, -1, axis=1))[:, :, :2], axis=2)

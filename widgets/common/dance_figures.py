@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
-import numpy.typing as npt
 from PySide6.QtCore import QLineF, QPointF, QSize, Qt
 from PySide6.QtGui import QColor, QIcon, QPainter, QPen, QPixmap
 
-Floats = npt.NDArray[np.float64]
+from app.arrays import FloatArray
 
 HIGHEST = 1.3
 """Of the body's height, with the arms up."""
@@ -16,7 +15,7 @@ LEAST_HEAD = 0.13
 ICON_PX = 40
 
 
-def draw_figures(painter: QPainter, points: Floats, colour: QColor, width_px: float, height_px: float) -> None:
+def draw_figures(painter: QPainter, points: FloatArray, colour: QColor, width_px: float, height_px: float) -> None:
     """Draw figures (N, 21, 2) in pixels, with lines so wide; ``height_px`` is what they were `placed` with."""
     from app.performance.dance_steps import BONES, HEAD
 
@@ -37,13 +36,13 @@ def draw_figures(painter: QPainter, points: Floats, colour: QColor, width_px: fl
     painter.setRenderHint(QPainter.RenderHint.Antialiasing, False)
 
 
-def placed(drawn: Floats, middles_px: Floats, floor_px: float, height_px: float) -> Floats:
+def placed(drawn: FloatArray, middles_px: FloatArray, floor_px: float, height_px: float) -> FloatArray:
     """Figures (N, 21, 2) of parts of the body's height as pixels."""
     scale = height_px / HIGHEST
     return np.stack([middles_px[:, None] + scale * drawn[..., 0], floor_px - scale * drawn[..., 1]], axis=-1)
 
 
-def figure_icon(drawn: Floats, colour: QColor, ratio: float) -> QIcon:
+def figure_icon(drawn: FloatArray, colour: QColor, ratio: float) -> QIcon:
     """One figure (21, 2) as the picture of a menu's entry."""
     picture = QPixmap(QSize(ICON_PX, ICON_PX) * ratio)
     picture.setDevicePixelRatio(ratio)

@@ -12,6 +12,7 @@ import numpy as np
 from PySide6.QtCore import QSize, Qt
 from PySide6.QtWidgets import QDialog, QPlainTextEdit, QTabWidget, QWidget
 
+from app.arrays import FloatArray
 from app.editor.session import Session
 from app.editor.tasks import Progress, StopRequested
 from app.errors import AppError, Message
@@ -19,7 +20,6 @@ from app.performance.ensemble import Performance
 from app.project.document import Change
 from app.project.performers import Dancer
 from widgets.common.controls import Button, Retranslated, named, wrapped
-from widgets.common.dance_figures import Floats
 from widgets.common.layouts import STRETCH, begin_with_size, in_column, in_row, panel
 from widgets.common.percussion_names import percussion_names
 from widgets.common.plain import Label, verbatim_title
@@ -193,7 +193,7 @@ class ChoreographyDialog(Retranslated, QDialog):
 
     def _show_tables(self, shown: Shown, mirrored: bool) -> None:
         model, names = shown.model, percussion_names()
-        figures: Floats = np.array([motion.poses[1] for motion in shown.motions])
+        figures: FloatArray = np.array([motion.poses[1] for motion in shown.motions])
         if mirrored:
             figures = figures * (-1.0, 1.0)
         states = Side(
@@ -211,7 +211,7 @@ class ChoreographyDialog(Retranslated, QDialog):
         self.percussion.show_table(shares, sounds, states, self._struck(shares, sounds.names))
         self._hints["percussion"].setText(self._percussion_hint(shown.derived))
 
-    def _followed(self, transition: Floats) -> Callable[[int, int], str]:
+    def _followed(self, transition: FloatArray) -> Callable[[int, int], str]:
         def text(row: int, column: int) -> str:
             words = (
                 self.tr("choreography_dialog.basic_motion_is_danced_again")
@@ -222,7 +222,7 @@ class ChoreographyDialog(Retranslated, QDialog):
 
         return text
 
-    def _struck(self, shares: Floats, names: tuple[str, ...]) -> Callable[[int, int], str]:
+    def _struck(self, shares: FloatArray, names: tuple[str, ...]) -> Callable[[int, int], str]:
         def text(row: int, column: int) -> str:
             return self.tr("choreography_dialog.of_strokes_during_basic_motion").format(
                 share=_percent(shares[row, column]), number=column + 1, sound=names[row]
@@ -317,7 +317,7 @@ def _percent(share: float) -> str:
     return f"{100.0 * share:.1f}"
 
 
-def _most(shares: Floats, names: list[str] | tuple[str, ...]) -> str:
+def _most(shares: FloatArray, names: list[str] | tuple[str, ...]) -> str:
     """The most probable names with their shares."""
     order = np.argsort(-shares, kind="stable")[:_MOST_NAMED]
     return ", ".join(f"{names[at]} ({100.0 * shares[at]:.0f} %)" for at in order.tolist())

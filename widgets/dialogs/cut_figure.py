@@ -7,10 +7,11 @@ from PySide6.QtCore import QPointF, QSize
 from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
+from app.arrays import FloatArray
 from app.choreography.body import ENDS, SEGMENTS
 from app.choreography.clip import MotionClip
 from app.choreography.cuts import Cut
-from app.choreography.features import POSES, FloatArray, features
+from app.choreography.features import POSES, features
 from app.editor.session import Session
 from widgets.common.dance_figures import HIGHEST, draw_figures, placed
 

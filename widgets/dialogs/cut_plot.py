@@ -17,9 +17,9 @@ from PySide6.QtCore import QEvent, QObject, QPointF, Qt, Signal
 from PySide6.QtGui import QColor, QKeyEvent, QMouseEvent, QWheelEvent
 from PySide6.QtWidgets import QWidget
 
+from app.arrays import FloatArray
 from app.choreography.cuts_by_hand import (
     Cuts,
-    FloatArray,
     added_bound,
     automatic_accent,
     bounds,

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-import numpy.typing as npt
 from PySide6.QtCore import QRectF
 from PySide6.QtGui import QColor, QPainter, QPaintEvent
 from PySide6.QtWidgets import QWidget
 
+from app.arrays import IntArray
 from app.editor.tokens import Tokens
 from app.score.choose import TrackChannel
 
@@ -45,7 +45,7 @@ class NotesPreview(QWidget):
         columns = max(int(width_px), 1)
         begins = np.clip((self._onsets * columns / self._end_tick).astype(np.intp), 0, columns - 1)
         ends = np.clip(np.ceil(self._ends * columns / self._end_tick).astype(np.intp), begins + 1, columns)
-        changes: npt.NDArray[np.int64] = np.zeros((128, columns + 1), np.int64)
+        changes: IntArray = np.zeros((128, columns + 1), np.int64)
         np.add.at(changes, (self._pitches, begins), 1)
         np.add.at(changes, (self._pitches, ends), -1)
         sounding = np.cumsum(changes, axis=1) > 0

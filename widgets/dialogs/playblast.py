@@ -14,6 +14,7 @@ import numpy.typing as npt
 from PySide6.QtCore import QSize, QTimer, Signal
 from PySide6.QtWidgets import QWidget
 
+from app.arrays import SingleArray
 from app.editor.session import Session
 from app.editor.tasks import Progress, StopRequested
 from app.editor.viewport_state import View
@@ -34,7 +35,7 @@ Draw = Callable[[float], Pictures]
 """Time in seconds to a picture (H, W, 3 or 4)."""
 Film = Callable[[int, int, tuple[float, float], View | None], Draw]
 """Width, height, span in seconds, view (None: as the viewport shows it now) to what draws the pictures in order."""
-Sound = Callable[[float, float, int], npt.NDArray[np.float32]]
+Sound = Callable[[float, float, int], SingleArray]
 """Start, end in seconds and samples per second to (N, 2) samples of the sound; runs beside the window."""
 
 SIZES: Final = ((1280, 720), (1920, 1080), (2560, 1440), (3840, 2160), (1080, 1920))

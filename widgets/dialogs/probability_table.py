@@ -19,9 +19,10 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from app.arrays import FloatArray
 from app.editor.session import Session
 from app.editor.tokens import LEAST_TARGET_PX, LEAST_TEXT_PT, Tokens
-from widgets.common.dance_figures import Floats, draw_figures, placed
+from widgets.common.dance_figures import draw_figures, placed
 
 AnyIndex = QModelIndex | QPersistentModelIndex
 
@@ -51,7 +52,7 @@ class Side:
     names: tuple[str, ...]
     marked: frozenset[int]
     notes: Mapping[int, str]
-    figures: Floats | None = None
+    figures: FloatArray | None = None
 
 
 _NONE: Final = Side((), frozenset(), {})
@@ -62,11 +63,11 @@ class _TableModel(QAbstractTableModel):
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self.values: Floats = np.zeros((0, 0))
+        self.values: FloatArray = np.zeros((0, 0))
         self.rows, self.columns = _NONE, _NONE
         self.sentence: Callable[[int, int], str] = lambda row, column: ""
 
-    def show_table(self, values: Floats, rows: Side, columns: Side, sentence: Callable[[int, int], str]) -> None:
+    def show_table(self, values: FloatArray, rows: Side, columns: Side, sentence: Callable[[int, int], str]) -> None:
         self.beginResetModel()
         self.values, self.rows, self.columns, self.sentence = values, rows, columns, sentence
         self.endResetModel()
@@ -134,7 +135,7 @@ class ProbabilityTable(QTableView):
         self.setMouseTracking(True)
         self.selectionModel().currentChanged.connect(self._point)
 
-    def show_table(self, values: Floats, rows: Side, columns: Side, sentence: Callable[[int, int], str]) -> None:
+    def show_table(self, values: FloatArray, rows: Side, columns: Side, sentence: Callable[[int, int], str]) -> None:
         """Show probabilities (R, C) and what each of them says; the current cell stays so."""
         before = self.currentIndex()
         row, column = max(before.row(), 0), max(before.column(), 0)

@@ -10,8 +10,9 @@ from PySide6.QtCore import QPointF, QRectF, QSize, Qt, Signal
 from PySide6.QtGui import QColor, QFocusEvent, QKeyEvent, QMouseEvent, QPainter, QPainterPath, QPaintEvent, QPen
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
+from app.arrays import FloatArray
 from app.editor.session import Session
-from widgets.common.dance_figures import Floats, draw_figures, placed
+from widgets.common.dance_figures import draw_figures, placed
 
 LEARNED: Final = 1.5
 """A transition was seen whose probability is this many times that of the row's least, which smoothing gives to all."""
@@ -41,8 +42,8 @@ class TransitionGraph(QWidget):
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._session = session
-        self._transition: Floats = np.zeros((0, 0))
-        self._figures: Floats = np.zeros((0, 21, 2))
+        self._transition: FloatArray = np.zeros((0, 0))
+        self._figures: FloatArray = np.zeros((0, 21, 2))
         self._used: frozenset[int] = frozenset()
         self._colour = ""
         self.looked_at = -1
@@ -51,7 +52,7 @@ class TransitionGraph(QWidget):
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
         session.theme_changed.connect(self.update)
 
-    def show_graph(self, transition: Floats, figures: Floats, used: frozenset[int], colour: str) -> None:
+    def show_graph(self, transition: FloatArray, figures: FloatArray, used: frozenset[int], colour: str) -> None:
         """Draw another choreography.
 
         Parameters

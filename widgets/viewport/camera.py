@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 import numpy.typing as npt
 
-Floats = npt.NDArray[np.float64]
+from app.arrays import FloatArray
 
 FOV_DEG = 32.0
 """Vertical angle of view, as of a 42 mm lens on a full-frame camera: faces keep their shape."""
@@ -45,12 +45,12 @@ class Camera:
     fov_deg: float = FOV_DEG
 
     @property
-    def eye_m(self) -> Floats:
+    def eye_m(self) -> FloatArray:
         """Where the camera is (3,)."""
         return np.asarray(self.target_m) + self.distance_m * self.backward
 
     @property
-    def backward(self) -> Floats:
+    def backward(self) -> FloatArray:
         """From the target to the eye, unit (3,)."""
         level = math.cos(self.pitch_rad)
         return np.array(
@@ -58,12 +58,12 @@ class Camera:
         )
 
     @property
-    def right(self) -> Floats:
+    def right(self) -> FloatArray:
         """To the right of the picture, unit (3,)."""
         return np.array([math.cos(self.yaw_rad), 0.0, -math.sin(self.yaw_rad)], np.float64)
 
     @property
-    def up(self) -> Floats:
+    def up(self) -> FloatArray:
         """Upwards in the picture, unit (3,)."""
         steepness = math.sin(self.pitch_rad)
         return np.array(
@@ -81,7 +81,7 @@ class Camera:
         """Distance of the far plane."""
         return self.distance_m + 80.0
 
-    def view(self) -> Floats:
+    def view(self) -> FloatArray:
         """``eye_from_world`` (4, 4)."""
         rotation = np.stack([self.right, self.up, self.backward])
         matrix = np.eye(4)
@@ -89,7 +89,7 @@ class Camera:
         matrix[:3, 3] = -rotation @ self.eye_m
         return matrix
 
-    def projection(self, aspect: float) -> Floats:
+    def projection(self, aspect: float) -> FloatArray:
         """``clip_from_eye`` (4, 4) for a picture ``aspect`` times as wide as high."""
         f = 1.0 / math.tan(math.radians(self.fov_deg) / 2.0)
         near, far = self.near_m, self.far_m
@@ -102,7 +102,7 @@ class Camera:
             ]
         )
 
-    def clip_from_world(self, aspect: float) -> Floats:
+    def clip_from_world(self, aspect: float) -> FloatArray:
         """Projection times view (4, 4)."""
         return self.projection(aspect) @ self.view()
 
@@ -111,7 +111,7 @@ class Camera:
         distance = self.distance_m if distance_m is None else max(distance_m, 1e-3)
         return 0.5 * height_px / (distance * math.tan(math.radians(self.fov_deg) / 2.0))
 
-    def project(self, points_m: npt.ArrayLike, width_px: float, height_px: float) -> tuple[Floats, Floats]:
+    def project(self, points_m: npt.ArrayLike, width_px: float, height_px: float) -> tuple[FloatArray, FloatArray]:
         """Pixels (N, 2) from the upper left corner, and depths (N,) in metres before the eye, negative behind it."""
         points = np.atleast_2d(np.asarray(points_m, np.float64))
         view = self.view()
@@ -123,7 +123,7 @@ class Camera:
         pixels = np.stack([0.5 * width_px + eye[:, 0] * scale, 0.5 * height_px - eye[:, 1] * scale], axis=-1)
         return pixels, depth
 
-    def ray(self, x_px: float, y_px: float, width_px: float, height_px: float) -> tuple[Floats, Floats]:
+    def ray(self, x_px: float, y_px: float, width_px: float, height_px: float) -> tuple[FloatArray, FloatArray]:
         """Origin and unit direction of the line of sight through a pixel."""
         scale = math.tan(math.radians(self.fov_deg) / 2.0) / (0.5 * height_px)
         direction = -self.backward + scale * ((x_px - 0.5 * width_px) * self.right + (0.5 * height_px - y_px) * self.up)
@@ -196,6 +196,6 @@ def _wrapped(angle_rad: float) -> float:
     return (angle_rad + math.pi) % (2.0 * math.pi) - math.pi
 
 
-def triple(vector: Floats) -> tuple[float, float, float]:
+def triple(vector: FloatArray) -> tuple[float, float, float]:
     """A vector as plain numbers."""
     return float(vector[0]), float(vector[1]), float(vector[2])

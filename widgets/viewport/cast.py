@@ -11,8 +11,8 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import FloatArray, IndexArray
 from app.errors import AppError
 from app.performance.bodies import body_of, character_of, lies_at, model_of, suited_to
 from app.performance.chunks import Pose
@@ -26,9 +26,6 @@ from instrument_maps.library import find_map
 from instrument_maps.model import InstrumentMap
 from metadata.model import Posture
 from widgets.viewport.held import Instruments
-
-Floats = npt.NDArray[np.float64]
-Ints = npt.NDArray[np.intp]
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,10 +75,10 @@ class Member:
 
     player_id: str
     kit: RenderAssets
-    world_from_player: Floats
-    seat_m: Floats | None
+    world_from_player: FloatArray
+    seat_m: FloatArray | None
     musician_id: str
-    stand_m: Floats | None = None
+    stand_m: FloatArray | None = None
 
     @property
     def has_body(self) -> bool:
@@ -107,7 +104,7 @@ def dancing_member(dancer: Dancer, kit: RenderAssets) -> Member:
     return Member(dancer.id, kit, placed(dancer.stage), None, dancer.id)
 
 
-def stand_of(player: Player, kit: RenderAssets, number: int) -> Floats | None:
+def stand_of(player: Player, kit: RenderAssets, number: int) -> FloatArray | None:
     """Top of the stand for one of the instruments of a musician, counted from 0; None as long as no one knows."""
     found = lies_at(player, find_map(player.instrument_id), number)
     if found is None:
@@ -116,11 +113,11 @@ def stand_of(player: Player, kit: RenderAssets, number: int) -> Floats | None:
     middle = (points.min(axis=0) + points.max(axis=0)) / 2.0
     # It lies on what is nearest to its middle.
     nearest = points[int(np.argmin(np.linalg.norm(points - middle, axis=1)))]
-    top_m: Floats = found[0] + quaternion.rotate(found[1], nearest)
+    top_m: FloatArray = found[0] + quaternion.rotate(found[1], nearest)
     return top_m
 
 
-def member_of(player: Player, kit: RenderAssets, musician_id: str = "", stand_m: Floats | None = None) -> Member:
+def member_of(player: Player, kit: RenderAssets, musician_id: str = "", stand_m: FloatArray | None = None) -> Member:
     """A player at their place, with the body of a musician; empty: one of their own."""
     musician_id = musician_id or player.id
     posture = body_of(player).postures[kit.map.hold.possible(player.parameters.posture)]
@@ -128,13 +125,13 @@ def member_of(player: Player, kit: RenderAssets, musician_id: str = "", stand_m:
     return Member(player.id, kit, placed(player.stage), seat_m, musician_id, stand_m)
 
 
-def placed(stage: StagePosition) -> Floats:
+def placed(stage: StagePosition) -> FloatArray:
     """``world_from_player`` (3, 4) of a place on the stage."""
     cosine, sine = math.cos(stage.turn_rad), math.sin(stage.turn_rad)
     return np.array([[cosine, 0.0, sine, stage.x_m], [0.0, 1.0, 0.0, 0.0], [-sine, 0.0, cosine, stage.z_m]])
 
 
-def seat(skeleton: Skeleton, posture: Posture) -> Floats | None:
+def seat(skeleton: Skeleton, posture: Posture) -> FloatArray | None:
     """Where the middle of a seat's top is in a posture; None where one stands."""
     if posture.seat_height_shank <= 0.0:
         return None
@@ -162,7 +159,7 @@ class SkeletonBatch:
     """
 
     def __init__(self, members: Sequence[Member], rows: Sequence[int]) -> None:
-        self.rows: Ints = np.array(rows, np.intp)
+        self.rows: IndexArray = np.array(rows, np.intp)
         characters = [members[row].kit.character for row in rows]
         skeleton = characters[0].skeleton
         self.joint_count = len(skeleton.names)
@@ -173,7 +170,7 @@ class SkeletonBatch:
         self._stages = np.array([members[row].world_from_player for row in rows])
         self._bind = np.array([character.joint_from_mesh for character in characters])
 
-    def joints(self, rotations: Floats, hips_m: Floats) -> Floats:
+    def joints(self, rotations: FloatArray, hips_m: FloatArray) -> FloatArray:
         """``world_from_joint`` (P, J, 3, 4) of joints' rotations (P, J, 4) and places of the hips (P, 3)."""
         local = np.empty((*rotations.shape[:2], 3, 4))
         local[..., :3] = quaternion.to_matrix(rotations[:, self._order])
@@ -187,9 +184,9 @@ class SkeletonBatch:
             own[..., 3] += above[..., 3]
         return world[:, self._back]
 
-    def skinning(self, joints: Floats) -> Floats:
+    def skinning(self, joints: FloatArray) -> FloatArray:
         """``world_from_mesh`` (P, J, 3, 4) of joints' transforms."""
-        matrices: Floats = joints @ self._bind
+        matrices: FloatArray = joints @ self._bind
         return matrices
 
 
@@ -294,19 +291,19 @@ class Stage:
         rows = [self.index(player_id) for player_id in player_ids]
         return [row for row in rows if row is not None]
 
-    def joint_m(self, row: int, name: str) -> Floats:
+    def joint_m(self, row: int, name: str) -> FloatArray:
         """Where a joint is (3,)."""
         skeleton = self.members[row].kit.character.skeleton
-        place: Floats = self.joints[row, skeleton.index(name), :, 3]
+        place: FloatArray = self.joints[row, skeleton.index(name), :, 3]
         return place
 
-    def node_matrix(self, row: int, node: int = 0) -> Floats:
+    def node_matrix(self, row: int, node: int = 0) -> FloatArray:
         """``world_from_rest`` (3, 4) of an instrument's node."""
-        matrix: Floats = self.bones[row, self.first_node + node].astype(np.float64)
+        matrix: FloatArray = self.bones[row, self.first_node + node].astype(np.float64)
         return matrix
 
 
-def _levels(skeleton: Skeleton) -> tuple[Ints, list[tuple[slice, Ints | None]]]:
+def _levels(skeleton: Skeleton) -> tuple[IndexArray, list[tuple[slice, IndexArray | None]]]:
     """An order of the joints by their depth; each depth's place in it, with the parents' places: the root has none."""
     depth: list[int] = []
     for parent in skeleton.parents:
@@ -314,7 +311,7 @@ def _levels(skeleton: Skeleton) -> tuple[Ints, list[tuple[slice, Ints | None]]]:
     order = np.argsort(depth, kind="stable")
     place = np.argsort(order)
     ends = np.searchsorted(np.array(depth)[order], np.arange(max(depth) + 2))
-    levels: list[tuple[slice, Ints | None]] = []
+    levels: list[tuple[slice, IndexArray | None]] = []
     for start, end in pairwise(ends):
         parents = place[[skeleton.parents[joint] for joint in order[start:end]]] if start else None
         levels.append((slice(int(start), int(end)), parents))
@@ -328,6 +325,6 @@ def _grouped(keys: Sequence[Hashable]) -> list[list[int]]:
     return list(groups.values())
 
 
-def _moved(matrix: Floats, point: Floats) -> Floats:
-    moved: Floats = matrix[:, :3] @ point + matrix[:, 3]
+def _moved(matrix: FloatArray, point: FloatArray) -> FloatArray:
+    moved: FloatArray = matrix[:, :3] @ point + matrix[:, 3]
     return moved

@@ -6,14 +6,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import FloatArray
 from app.rig.grip.finger_stations import aside_m, only_at, worked_by
 from app.rig.skinning import landmark_set
 from instrument_maps.model import ROOT, InstrumentMap
 from widgets.viewport.cast import Stage
-
-Floats = npt.NDArray[np.float64]
 
 AWAY_FROM_REST = 0.5
 """A control farther than this from its rest, as a share of its least use, is pressed."""
@@ -34,8 +32,8 @@ class Touch:
     """
 
     part: str
-    requested_m: Floats
-    found_m: Floats
+    requested_m: FloatArray
+    found_m: FloatArray
     firm: bool
 
     @property

@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import FloatArray
 from app.editor.viewport_state import View
 from widgets.viewport import camera as moves
 from widgets.viewport.camera import Camera
-
-Floats = npt.NDArray[np.float64]
 
 TRANSITION_S = 0.35
 ARRIVED_M = 0.0008
@@ -74,12 +72,12 @@ class Eye:
             self._flight = None
         return True
 
-    def centred(self, middle_m: Floats) -> Floats:
+    def centred(self, middle_m: FloatArray) -> FloatArray:
         """The target for a followed place: the user may have shifted it."""
-        shifted: Floats = middle_m + self._shift_m
+        shifted: FloatArray = middle_m + self._shift_m
         return shifted
 
-    def follow(self, middle_m: Floats | None, now_s: float) -> bool:
+    def follow(self, middle_m: FloatArray | None, now_s: float) -> bool:
         """Go after a place; whether there is still a way to go."""
         elapsed_s, self._last_s = min(now_s - self._last_s, LONGEST_STEP_S), now_s
         if middle_m is None or self._flight is not None:

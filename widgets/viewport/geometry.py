@@ -13,12 +13,11 @@ from itertools import pairwise
 import numpy as np
 import numpy.typing as npt
 
+from app.arrays import AnyIntArray, FloatArray, IntArray, SingleArray
 from app.rig.mesh import Mesh
 from app.rig.model import Character, InstrumentModel
 from widgets.viewport.kept_shapes import kept
-from widgets.viewport.shape_model import BONES_PER_VERTEX, SHAPE, SURFACE, Face, Floats, Geometry, numbers
-
-Ints = npt.NDArray[np.int64]
+from widgets.viewport.shape_model import BONES_PER_VERTEX, SHAPE, SURFACE, Face, Geometry, numbers
 
 BODY_CELLS_M = (0.0, 0.0055, 0.02)
 """Vertices nearer to one another than this are one, by level of detail; 0: all are kept."""
@@ -51,7 +50,7 @@ class Crowd:
     parts: tuple[tuple[int, Geometry], ...]
     shape: npt.NDArray[np.void]
     surface: npt.NDArray[np.void]
-    rows: Floats
+    rows: SingleArray
     triangles: npt.NDArray[np.uint32]
     one_sided: int
 
@@ -160,14 +159,14 @@ def edges(geometry: Geometry) -> npt.NDArray[np.uint32]:
 
 
 def _turned(
-    profile: npt.NDArray[np.float64], color: tuple[float, float, float], roughness: float, metallic: float, bone: int
+    profile: FloatArray, color: tuple[float, float, float], roughness: float, metallic: float, bone: int
 ) -> Geometry:
     """A surface of revolution about Y through points (radius, height), with an edge at every point."""
     steps = 28
     angles = np.linspace(0.0, 2.0 * np.pi, steps + 1)
     around = np.stack([np.cos(angles), np.zeros(steps + 1), np.sin(angles)], axis=1)
     shapes: list[npt.NDArray[np.void]] = []
-    triangles: list[npt.NDArray[np.int64]] = []
+    triangles: list[IntArray] = []
     for (r0, y0), (r1, y1) in pairwise(profile):
         slope = np.array([y0 - y1, r1 - r0])
         slope /= max(float(np.linalg.norm(slope)), 1e-9)
@@ -207,10 +206,10 @@ class _Split:
     """A mesh whose vertices have one material each: those between materials are doubled."""
 
     mesh: Mesh
-    vertices: Ints
+    vertices: IntArray
     """Vertex of the mesh for every vertex here."""
-    materials: Ints
-    triangles: Ints
+    materials: IntArray
+    triangles: IntArray
 
 
 def _split(mesh: Mesh) -> _Split:
@@ -279,7 +278,7 @@ class _Whole:
         corners = place[sorted_triangles].astype(np.uint16 if len(order) <= _MOST_SHORT else np.uint32)
         return Geometry(shape, surfaces, corners, int((~last).sum()), face, surface_of)
 
-    def _surfaces(self, order: Ints) -> tuple[npt.NDArray[np.void], npt.NDArray[np.uint16] | None]:
+    def _surfaces(self, order: IntArray) -> tuple[npt.NDArray[np.void], npt.NDArray[np.uint16] | None]:
         """`Geometry.surfaces` of some vertices, and `Geometry.surface_of`."""
         if self._bends:
             return self._surface[order], None
@@ -290,7 +289,7 @@ class _Whole:
             return self._surface[order], None
         return self._surface[order[first]], surface_of.reshape(-1).astype(np.uint16)
 
-    def _face(self, names: tuple[str, ...], shape: npt.NDArray[np.void], place: Ints, count: int) -> Face:
+    def _face(self, names: tuple[str, ...], shape: npt.NDArray[np.void], place: IntArray, count: int) -> Face:
         targets = []
         for name in names:
             vertices, moves, turns = self._morphs[name]
@@ -300,7 +299,7 @@ class _Whole:
         rest = np.ascontiguousarray(shape[:count]).view(np.float32).reshape(count, -1).copy()
         return Face(count, names, tuple(targets), rest)
 
-    def _clustered(self, cell_m: float, thin_share: float) -> tuple[Ints, Ints]:
+    def _clustered(self, cell_m: float, thin_share: float) -> tuple[IntArray, IntArray]:
         """Vertices kept, and triangles between them: of those in one cell and of one surface the first one stays."""
         if cell_m <= 0.0:
             return np.arange(len(self._shape)), self._triangles
@@ -317,10 +316,10 @@ class _Whole:
         triangles = triangles[np.unique(row_keys(*np.sort(triangles, axis=1).T), return_index=True)[1]]
         return np.unique(triangles), triangles
 
-    def _all_morphs(self) -> dict[str, tuple[Ints, Floats, Floats]]:
+    def _all_morphs(self) -> dict[str, tuple[IntArray, SingleArray, SingleArray]]:
         """Every morph over all meshes: vertices, displacements, and changes of their normals."""
         names = list(dict.fromkeys(morph.name for split in self._splits for morph in split.mesh.morphs))
-        result: dict[str, tuple[Ints, Floats, Floats]] = {}
+        result: dict[str, tuple[IntArray, SingleArray, SingleArray]] = {}
         welds = {index: _Weld(split) for index, split in enumerate(self._splits) if split.mesh.morphs}
         for name in names:
             found = []
@@ -341,7 +340,7 @@ class _Whole:
         return result
 
 
-def row_keys(*columns: npt.NDArray[np.integer], size: int | None = None) -> npt.NDArray[np.int64]:
+def row_keys(*columns: AnyIntArray, size: int | None = None) -> IntArray:
     """One number for every row of whole numbers: the same for the same rows, in the order of the rows.
 
     Without a column the rows, of which there are ``size``, are all the same.
@@ -371,7 +370,7 @@ class _Weld:
         self._triangles = split.triangles
         self._rest = self._normals(self._positions)
 
-    def _normals(self, positions: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+    def _normals(self, positions: FloatArray) -> FloatArray:
         a, b, c = (positions[self._triangles[:, corner]] for corner in range(3))
         faces = np.cross(b - a, c - a)
         count = int(self._whole.max()) + 1
@@ -382,7 +381,7 @@ class _Weld:
         total /= np.maximum(np.linalg.norm(total, axis=1, keepdims=True), 1e-20)
         return total[self._whole]
 
-    def turned(self, moves: Floats) -> Floats:
+    def turned(self, moves: SingleArray) -> SingleArray:
         """How normals change under displacements (V, 3)."""
         return (self._normals(self._positions + moves) - self._rest).astype(np.float32)
 
@@ -397,7 +396,7 @@ def _thickness_m(mesh: Mesh) -> float:
     return float((mesh.positions_m.max(axis=0) - mesh.positions_m.min(axis=0)).min())
 
 
-def _strongest(joints: npt.NDArray[np.int32], weights: Floats) -> tuple[npt.NDArray[np.int32], Floats]:
+def _strongest(joints: npt.NDArray[np.int32], weights: SingleArray) -> tuple[npt.NDArray[np.int32], SingleArray]:
     """The few strongest bones of every vertex, their weights summing to 1."""
     if joints.shape[1] > BONES_PER_VERTEX:
         order = np.argsort(-weights, axis=1, kind="stable")[:, :BONES_PER_VERTEX]

@@ -10,8 +10,8 @@ from typing import Literal, cast
 
 import msgspec
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import FloatArray
 from app.plan.by_hand.corrections import Correction, PoseCorrection
 from app.plan.model import PoseTarget
 from app.project.edit import corrections as edit
@@ -21,7 +21,6 @@ from instrument_maps.model import ROOT
 from widgets.viewport.camera import Camera
 from widgets.viewport.cast import Stage
 
-Floats = npt.NDArray[np.float64]
 Angle = Literal["up_deg", "left_deg", "roll_deg"]
 
 TARGETS: tuple[PoseTarget, ...] = ("bell", "head", "left_elbow", "right_elbow", "torso")
@@ -48,9 +47,9 @@ class Handle:
     """
 
     target: PoseTarget
-    at_m: Floats
-    turns: tuple[tuple[Angle, Floats], ...]
-    leans: tuple[tuple[Angle, Floats], ...]
+    at_m: FloatArray
+    turns: tuple[tuple[Angle, FloatArray], ...]
+    leans: tuple[tuple[Angle, FloatArray], ...]
 
 
 def handles(stage: Stage, row: int) -> tuple[Handle, ...]:
@@ -87,12 +86,12 @@ def handles(stage: Stage, row: int) -> tuple[Handle, ...]:
     )
 
 
-def _turns(arm_m: Floats, **axes: Floats) -> tuple[tuple[Angle, Floats], ...]:
+def _turns(arm_m: FloatArray, **axes: FloatArray) -> tuple[tuple[Angle, FloatArray], ...]:
     """How the end of an arm moves under turns about axes through its other end."""
     return tuple((cast(Angle, angle), np.cross(axis, arm_m)) for angle, axis in axes.items())
 
 
-def _elbow(stage: Stage, row: int, target: PoseTarget, outwards: Floats, up: Floats) -> Handle:
+def _elbow(stage: Stage, row: int, target: PoseTarget, outwards: FloatArray, up: FloatArray) -> Handle:
     """An elbow, which swings about the line from shoulder to wrist."""
     side = target.split("_")[0]
     shoulder, elbow, wrist = (stage.joint_m(row, side + name) for name in ("UpperArm", "LowerArm", "Hand"))
@@ -105,12 +104,12 @@ def _elbow(stage: Stage, row: int, target: PoseTarget, outwards: Floats, up: Flo
 
 
 @lru_cache(maxsize=64)
-def _bell(model: InstrumentModel) -> Floats:
+def _bell(model: InstrumentModel) -> FloatArray:
     """The far end of what does not move in the instrument, in its frame: for most, the middle of the bell."""
     root = model.node_names.index(ROOT)
     places = np.concatenate([mesh.positions_m[mesh.joints[:, 0] == root] for mesh in model.meshes])
     far = places[:, 2] > places[:, 2].max() - 0.01
-    end: Floats = places[far].astype(np.float64).mean(axis=0)
+    end: FloatArray = places[far].astype(np.float64).mean(axis=0)
     return end
 
 

@@ -10,13 +10,11 @@ from collections.abc import Mapping, Sequence
 from itertools import pairwise
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import FloatArray
 from app.rig import quaternion
 from app.rig.model import InstrumentModel
 from instrument_maps.model import InstrumentMap, MovingPart
-
-Floats = npt.NDArray[np.float64]
 
 NOWHERE_M = (0.0, 0.0, 0.0)
 
@@ -73,7 +71,7 @@ class Instruments:
         """Set what moves the parts of an instrument, 0..1; one that is not named is at 0."""
         self._values[self._own[row]] = [controls.get(name, 0.0) for name in self._names[row]]
 
-    def matrices(self, held: Floats) -> Floats:
+    def matrices(self, held: FloatArray) -> FloatArray:
         """``world_from_rest`` (N, nodes, 3, 4) of instruments with these ``world_from_instrument`` (N, 3, 4)."""
         result = np.empty((len(held), self.nodes, 3, 4))
         result[:] = held[:, None]

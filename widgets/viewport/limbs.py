@@ -6,14 +6,11 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import FloatArray, IndexArray
 from app.rig.model import InstrumentModel, Skeleton
 from app.rig.skeleton import rest_positions
 from widgets.viewport.cast import Stage
-
-Floats = npt.NDArray[np.float64]
-Ints = npt.NDArray[np.intp]
 
 SOLE_RADIUS_M = 0.046
 FAR_AWAY_M = (0.0, -50.0, 0.0)
@@ -43,9 +40,9 @@ SHADING, HELD = len(_BONES), len(_BONES) + 2
 class _Anatomy:
     """Which joints the capsules of one character hang on, and where in their frames. (L, 2), (L, 2, 3), (L,)."""
 
-    joints: Ints
-    offsets_m: Floats
-    radii_m: Floats
+    joints: IndexArray
+    offsets_m: FloatArray
+    radii_m: FloatArray
 
 
 @lru_cache(maxsize=16)
@@ -73,7 +70,7 @@ def _anatomy(skeleton: Skeleton) -> _Anatomy:
 
 
 @lru_cache(maxsize=64)
-def model_bounds(model: InstrumentModel) -> tuple[Floats, Floats]:
+def model_bounds(model: InstrumentModel) -> tuple[FloatArray, FloatArray]:
     """The box around a model at rest, in its frame."""
     low = np.min([mesh.positions_m.min(axis=0) for mesh in model.meshes], axis=0).astype(np.float64)
     high = np.max([mesh.positions_m.max(axis=0) for mesh in model.meshes], axis=0).astype(np.float64)
@@ -81,7 +78,7 @@ def model_bounds(model: InstrumentModel) -> tuple[Floats, Floats]:
 
 
 @lru_cache(maxsize=64)
-def instrument_capsule(model: InstrumentModel) -> tuple[Floats, Floats, float]:
+def instrument_capsule(model: InstrumentModel) -> tuple[FloatArray, FloatArray, float]:
     """The capsule along the longest side of a model's bounds: both ends in its frame, and the radius."""
     low, high = model_bounds(model)
     size, middle = high - low, (low + high) / 2.0
@@ -117,7 +114,7 @@ class Limbs:
         self._seated = np.array([member.seat_m is not None for member in stage.members], dtype=bool)
         self._without = np.array([not member.has_body for member in stage.members], dtype=bool)
 
-    def capsules(self) -> Floats:
+    def capsules(self) -> FloatArray:
         """(N, LIMBS, 2, 4): both ends with their radius beside them, in the world."""
         stage = self._stage
         count = len(stage.members)
@@ -142,7 +139,7 @@ class Limbs:
         return result
 
 
-def hit(capsules: Floats, origin: Floats, direction: Floats) -> tuple[int, float] | None:
+def hit(capsules: FloatArray, origin: FloatArray, direction: FloatArray) -> tuple[int, float] | None:
     """The first row of capsules (N, L, 2, 4) that a ray meets, with the distance; None where it meets none."""
     if not capsules.size:
         return None

@@ -6,18 +6,16 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
-import numpy.typing as npt
 from PySide6.QtCore import QLineF, QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QFont, QFontMetricsF, QPainter, QPen
 
+from app.arrays import FloatArray
 from app.editor.tokens import Tokens
 from app.plan.model import PoseTarget
 from widgets.viewport.camera import Camera
 from widgets.viewport.cast import Stage
 from widgets.viewport.contacts import Touch
 from widgets.viewport.handles import Handle
-
-Floats = npt.NDArray[np.float64]
 
 HANDLE_RADIUS_PX = 9.0
 CROWN_M = np.array([0.0, 0.12, 0.0])
@@ -34,7 +32,7 @@ class Name:
     text: str
     color: str
     """Of a player in front; of others it is not seen."""
-    at_m: Floats
+    at_m: FloatArray
     in_front: bool
 
 
@@ -71,10 +69,10 @@ def paint(
         _paint_names(painter, marks.names, camera, size, tokens)
 
 
-def over_heads_m(stage: Stage, rows: Sequence[int], upwards: Floats) -> Floats:
+def over_heads_m(stage: Stage, rows: Sequence[int], upwards: FloatArray) -> FloatArray:
     """A little over players' heads (R, 3), over meaning upwards in the picture."""
     heads = stage.joints[rows, stage.heads[rows]]
-    places_m: Floats = heads[..., :3] @ CROWN_M + heads[..., 3] + NAME_UP_M * upwards
+    places_m: FloatArray = heads[..., :3] @ CROWN_M + heads[..., 3] + NAME_UP_M * upwards
     return places_m
 
 

@@ -13,6 +13,7 @@ from PySide6.QtCore import QEvent, QObject, QPoint, QPointF, QRectF, QSize, Qt, 
 from PySide6.QtGui import QColor, QImage, QPainter
 from PySide6.QtWidgets import QStackedWidget, QWidget
 
+from app.arrays import FloatArray
 from app.editor.poses import Poses
 from app.editor.session import Session
 from app.editor.viewport_state import SHOWN, VIEWS, View
@@ -39,7 +40,6 @@ from widgets.viewport.shot import Shot, times_looked_at
 from widgets.viewport.video import BesideVideo, VideoStrip
 from widgets.viewport.views import bounds, in_the_way, steady_camera, tracked, view_camera
 
-Floats = npt.NDArray[np.float64]
 Draw = Callable[[float], npt.NDArray[np.uint8]]
 """Draws a film's picture of a time in seconds (height, width, 4)."""
 
@@ -397,7 +397,7 @@ class ViewportPanel(Retranslated, QWidget):
 
     # The camera
 
-    def _tracked(self) -> Floats | None:
+    def _tracked(self) -> FloatArray | None:
         """What the view keeps in the middle."""
         stage, rows = self.scene.stage, self.scene.rows()
         return tracked(self._eye.view, stage, rows[0]) if stage is not None and rows else None

@@ -12,10 +12,10 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 from vispy import gloo
 from vispy.gloo import gl
 
+from app.arrays import FloatArray, IndexArray, SingleArray
 from app.formats.video import Picture
 from widgets.viewport import shaders
 from widgets.viewport.camera import Camera
@@ -34,8 +34,6 @@ from widgets.viewport.geometry import (
 from widgets.viewport.limbs import HELD, LIMBS, SHADING, Limbs
 from widgets.viewport.look import Color, Look
 from widgets.viewport.shape_model import Geometry
-
-Floats = npt.NDArray[np.float64]
 
 FINE_PX_PER_M = 620.0
 """Above this a player is drawn from all vertices ..."""
@@ -358,7 +356,7 @@ class Renderer:
         self._video.draw("triangle_strip")
         gloo.set_state(blend=False)
 
-    def _levels(self, stage: Stage, camera: Camera, matrix: Floats, height_px: float) -> npt.NDArray[np.intp]:
+    def _levels(self, stage: Stage, camera: Camera, matrix: FloatArray, height_px: float) -> IndexArray:
         """The level of detail of everyone; -1: not in the picture."""
         middles = self._middles_m
         away = np.linalg.norm(middles - camera.eye_m, axis=1)
@@ -373,7 +371,7 @@ class Renderer:
         level[outside | ~stage.shown] = -1
         return level
 
-    def _upload(self, stage: Stage, limbs: Limbs, level: npt.NDArray[np.intp], emphasis: Emphasis) -> None:
+    def _upload(self, stage: Stage, limbs: Limbs, level: IndexArray, emphasis: Emphasis) -> None:
         count = len(stage.members)
         rows = self._bone_rows
         rows[:, :-1] = stage.bones.reshape(count, -1, 4)
@@ -392,7 +390,7 @@ class Renderer:
         self._limb_rows[:, -1, 3] = np.where(stage.shown, SHADOW_RADIUS_M, 0.0)
         self._limb_texture.set_data(self._limb_rows)
 
-    def _draw_rings(self, stage: Stage, clip: npt.NDArray[np.float32], emphasis: Emphasis) -> None:
+    def _draw_rings(self, stage: Stage, clip: SingleArray, emphasis: Emphasis) -> None:
         rings = []
         for row, color in emphasis.rings.items():
             if row < len(stage.members) and stage.shown[row]:
@@ -409,7 +407,7 @@ class Renderer:
             self._ring.draw("triangle_strip")
 
     @staticmethod
-    def _light(program: Any, camera: Camera, clip: npt.NDArray[np.float32], look: Look) -> None:
+    def _light(program: Any, camera: Camera, clip: SingleArray, look: Look) -> None:
         program["u_clip_from_world"] = clip
         program["u_eye"] = camera.eye_m
         program["u_key"] = look.key
@@ -420,7 +418,7 @@ class Renderer:
         program["u_key_light"], program["u_fill_light"] = look.key_light, look.fill_light
         program["u_glow"] = look.glow
 
-    def _draw_near(self, stage: Stage, shapes: Shapes, level: npt.NDArray[np.intp], mode: str) -> None:
+    def _draw_near(self, stage: Stage, shapes: Shapes, level: IndexArray, mode: str) -> None:
         """All performers that are drawn singly; things of one kind in a row, so that buffers are bound once."""
         near = [int(row) for row in np.flatnonzero((level >= 0) & (level < LEVELS - 1))]
         if not near:
@@ -465,7 +463,7 @@ class Renderer:
         self,
         stage: Stage,
         shapes: Shapes,
-        level: npt.NDArray[np.intp],
+        level: IndexArray,
         lift_m: float,
         color: tuple[float, float, float, float],
     ) -> None:

@@ -6,9 +6,9 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
-import numpy.typing as npt
 from PySide6.QtCore import QObject, Signal
 
+from app.arrays import FloatArray
 from app.editor.live_poses import LivePoses
 from app.editor.poses import Poses, same
 from app.editor.session import Session, Severity
@@ -34,8 +34,6 @@ from widgets.viewport.worn_face import WornFaces
 CONDUCTORS_NAME = "stage.conductor"
 PODIUM_NAME_M = 0.5
 """So high over the conductor's place it says what it is."""
-
-Floats = npt.NDArray[np.float64]
 
 
 class Scene(QObject):
@@ -176,7 +174,7 @@ class Scene(QObject):
         rows = self.rows() if selected else range(len(stage.members))
         return [row for row in rows if stage.shown[row]]
 
-    def row_at(self, origin_m: Floats, direction: Floats) -> int | None:
+    def row_at(self, origin_m: FloatArray, direction: FloatArray) -> int | None:
         """Who is first met by a ray."""
         stage = self.stage
         if stage is None or not stage.shown.any():

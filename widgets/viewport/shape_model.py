@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-Floats = npt.NDArray[np.float32]
+from app.arrays import SingleArray
 
 BONES_PER_VERTEX = 4
 
@@ -38,10 +38,10 @@ class Face:
 
     count: int
     names: tuple[str, ...]
-    targets: tuple[tuple[npt.NDArray[np.int32], Floats], ...]
-    rest: Floats
+    targets: tuple[tuple[npt.NDArray[np.int32], SingleArray], ...]
+    rest: SingleArray
 
-    def morphed(self, weights: npt.NDArray[np.float32]) -> npt.NDArray[np.void]:
+    def morphed(self, weights: SingleArray) -> npt.NDArray[np.void]:
         """The first vertices under these weights (len(names),), as `SHAPE` records."""
         shape = self.rest.copy()
         for index in np.flatnonzero(np.abs(weights) > 1e-4).tolist():
@@ -84,6 +84,6 @@ class Geometry:
         return numbers(self.surfaces).take(self.surface_of, axis=0).view(SURFACE).reshape(-1)
 
 
-def numbers(records: npt.NDArray[np.void]) -> Floats:
+def numbers(records: npt.NDArray[np.void]) -> SingleArray:
     """Records of float32 as rows of them; the same memory."""
     return records.view(np.float32).reshape(len(records), -1)

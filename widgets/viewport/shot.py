@@ -13,8 +13,6 @@ from widgets.viewport.camera import Camera, followed
 from widgets.viewport.cast import Stage
 from widgets.viewport.views import tracked
 
-Floats = npt.NDArray[np.float64]
-
 _POSES: Final = 64
 """So many poses of players are looked at before a film, in all."""
 _LEAST_TIMES, _MOST_TIMES = 3, 17

@@ -6,12 +6,11 @@ import math
 from collections.abc import Sequence
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import FloatArray
 from app.rig.grip.instrument_proxy import Nodes, bodies, inside
 from widgets.viewport.cast import Stage
 
-Floats = npt.NDArray[np.float64]
 Direction = tuple[float, float]
 """Turn from the player's front towards their left, height of the eye, both in degrees."""
 
@@ -34,7 +33,7 @@ def directions(usual: Direction) -> list[Direction]:
     return [usual, *((side, height) for side in _SIDES_DEG for height in _HEIGHTS_DEG)]
 
 
-def clearest(gained: Floats, usual: Direction) -> Direction:
+def clearest(gained: FloatArray, usual: Direction) -> Direction:
     """The direction near the usual one from which most of the fingers are not hidden by the instrument.
 
     Parameters
@@ -51,7 +50,7 @@ def clearest(gained: Floats, usual: Direction) -> Direction:
     return found[int(np.argmax(gained - _UNUSUAL * np.array(turned)))]
 
 
-def seen(stage: Stage, row: int, towards_deg: Sequence[Direction], turn_rad: float) -> Floats:
+def seen(stage: Stage, row: int, towards_deg: Sequence[Direction], turn_rad: float) -> FloatArray:
     """Which share (D,) of the player's fingers is seen from each direction past the instrument; ``turn_rad`` is which
     way the player faces, from +Z towards +X."""
     kit = stage.members[row].kit
@@ -67,11 +66,11 @@ def seen(stage: Stage, row: int, towards_deg: Sequence[Direction], turn_rad: flo
     nodes = Nodes(kit.instrument.node_positions_m, np.tile(np.eye(3), (len(names), 1, 1)))
     depth_m, _ = inside(bodies(kit.map.proxy, names), nodes, local, np.full(len(local), _WIRE_M))
     hidden = (depth_m.reshape(on_line.shape[:3]) > 0.0).any(axis=2)
-    share: Floats = 1.0 - hidden.mean(axis=1)
+    share: FloatArray = 1.0 - hidden.mean(axis=1)
     return share
 
 
-def _fingers(stage: Stage, row: int) -> Floats:
+def _fingers(stage: Stage, row: int) -> FloatArray:
     names: Sequence[str] = [
         f"{side}{finger}{joint}"
         for side in ("left", "right")
@@ -81,7 +80,7 @@ def _fingers(stage: Stage, row: int) -> Floats:
     return np.array([stage.joint_m(row, name) for name in names])
 
 
-def _unit(yaw_rad: float, pitch_rad: float) -> Floats:
+def _unit(yaw_rad: float, pitch_rad: float) -> FloatArray:
     """The direction in which a camera's eye is."""
     flat = math.cos(pitch_rad)
     return np.array([flat * math.sin(yaw_rad), math.sin(pitch_rad), flat * math.cos(yaw_rad)])

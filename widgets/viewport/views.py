@@ -7,16 +7,14 @@ from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import FloatArray
 from app.editor.viewport_state import View
 from app.rig.grip.body_size import face_size, hand_size
 from widgets.viewport.camera import Camera, frame
 from widgets.viewport.cast import Stage
 from widgets.viewport.limbs import model_bounds
 from widgets.viewport.sight import clearest, directions, seen
-
-Floats = npt.NDArray[np.float64]
 
 # Turn from the player's front towards their left, height of the eye, both in degrees; of the hands: the usual ones.
 _DIRECTIONS_DEG: dict[View, tuple[float, float]] = {
@@ -61,7 +59,7 @@ def steady_camera(view: View, posed: Iterable[Stage], rows: Sequence[int], camer
     posed : iterable of Stage
         The same stage, in another pose each time that it is given out.
     """
-    clear, halves, boxes = list[Floats](), list[Floats](), list[tuple[Floats, Floats]]()
+    clear, halves, boxes = list[FloatArray](), list[FloatArray](), list[tuple[FloatArray, FloatArray]]()
     turn, middle, usual = 0.0, None, _DIRECTIONS_DEG[view]
     for stage in posed:
         everyone = [row for row in range(len(stage.members)) if stage.shown[row]]
@@ -89,12 +87,12 @@ def steady_camera(view: View, posed: Iterable[Stage], rows: Sequence[int], camer
     return frame(camera, low, high, aspect, 1.04 if view == "ensemble" else 1.08)
 
 
-def tracked(view: View, stage: Stage, row: int) -> Floats | None:
+def tracked(view: View, stage: Stage, row: int) -> FloatArray | None:
     """What a close-up keeps in the middle (3,); None: the view does not follow anything."""
     if not stage.shown[row]:
         return None
     if view == "hands":
-        hands: Floats = _hands(stage, row).mean(axis=0)
+        hands: FloatArray = _hands(stage, row).mean(axis=0)
         return hands
     if view == "mouth":
         held = stage.node_matrix(row)
@@ -103,13 +101,13 @@ def tracked(view: View, stage: Stage, row: int) -> Floats | None:
         # Lips and eyes both, and in a long rest, when the instrument is lowered, still the face.
         head = stage.joints[row, kit.character.skeleton.index("head")]
         size = face_size(kit.character)
-        face: Floats = head[:, :3] @ (size * np.array([0.0, 0.02, 0.09])) + head[:, 3]
+        face: FloatArray = head[:, :3] @ (size * np.array([0.0, 0.02, 0.09])) + head[:, 3]
         near = float(np.clip(1.0 - (np.linalg.norm(lips - face) / size - 0.1) / 0.15, 0.0, 1.0))
-        mouth: Floats = (1.0 - 0.6 * near) * face + 0.6 * near * lips
+        mouth: FloatArray = (1.0 - 0.6 * near) * face + 0.6 * near * lips
         return mouth
     if view == "feet":
         feet = np.array([stage.joint_m(row, "leftFoot"), stage.joint_m(row, "rightFoot")])
-        low: Floats = feet.mean(axis=0) + np.array([0.0, 0.05, 0.0]) + 0.08 * ahead(stage, row)
+        low: FloatArray = feet.mean(axis=0) + np.array([0.0, 0.05, 0.0]) + 0.08 * ahead(stage, row)
         return low
     return None
 
@@ -134,7 +132,7 @@ def in_the_way(view: View, stage: Stage, rows: Sequence[int], camera: Camera) ->
     return frozenset(found - set(chosen))
 
 
-def bounds(stage: Stage, rows: Sequence[int]) -> tuple[Floats, Floats]:
+def bounds(stage: Stage, rows: Sequence[int]) -> tuple[FloatArray, FloatArray]:
     """The box around players with their instruments, from the floor up."""
     points = []
     for row in rows:
@@ -161,17 +159,17 @@ def turn_rad(stage: Stage, row: int) -> float:
     return math.atan2(forward[0], forward[2])
 
 
-def ahead(stage: Stage, row: int) -> Floats:
+def ahead(stage: Stage, row: int) -> FloatArray:
     """The player's front, a unit vector."""
     return stage.members[row].world_from_player[:, 2]
 
 
-def _hands(stage: Stage, row: int) -> Floats:
+def _hands(stage: Stage, row: int) -> FloatArray:
     names = [f"{side}{joint}" for side in ("left", "right") for joint in ("Hand", "MiddleProximal")]
     return np.array([stage.joint_m(row, name) for name in names])
 
 
-def _half(view: View, stage: Stage, row: int) -> Floats:
+def _half(view: View, stage: Stage, row: int) -> FloatArray:
     kit = stage.members[row].kit
     half = _HALF_M[view]
     if view == "mouth":

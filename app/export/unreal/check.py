@@ -15,9 +15,9 @@ from pathlib import Path
 from typing import Final
 
 import numpy as np
-import numpy.typing as npt
 import soundfile
 
+from app.arrays import FloatArray
 from app.errors import FileError
 from app.formats.fbx.decode import read_elements
 from app.formats.fbx.graph import numbers, properties_of
@@ -54,8 +54,8 @@ class Expected:
     fps: Fraction
     frames: int
     bones: Sequence[str]
-    low_cm: npt.NDArray[np.float64]
-    high_cm: npt.NDArray[np.float64]
+    low_cm: FloatArray
+    high_cm: FloatArray
     morphs: frozenset[str]
 
 

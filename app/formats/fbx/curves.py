@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import AnyFloatArray, AnyIntArray, FloatArray, IntArray, SingleArray
 from app.formats.euler import euler_degrees
 from app.formats.fbx.assembly import Assembly
 from app.formats.fbx.encode import Element, PackedArray, pack_array
 from app.formats.fbx.sections import integer, property_block, property_row
-from app.formats.scene import Clip, FloatArray, IntArray
+from app.formats.scene import Clip
 
 # FBX calls this order XYZ: x turns first, so the matrix is Rz Ry Rx.
 EULER_ORDER = "ZYX"
@@ -21,19 +21,19 @@ _KEY_FLAGS = np.array([0x6104], dtype=np.int32)
 _KEY_DATA = np.array([0.0, 0.0, 9.419963346924634e-30, 0.0], dtype=np.float32)
 
 
-def rotation_curves(clip: Clip) -> npt.NDArray[np.float64]:
+def rotation_curves(clip: Clip) -> FloatArray:
     """Euler angles (B, 3, F) in degrees, of the axes in `EULER_ORDER`, as they are written."""
     angles = euler_degrees(clip.rotations_xyzw, EULER_ORDER)
     return angles if clip.keys is None else steady(angles, STEADY_DEG).astype(np.float64, copy=False)
 
 
-def place_curves(clip: Clip, bone: int) -> FloatArray:
+def place_curves(clip: Clip, bone: int) -> AnyFloatArray:
     """Places (3, F) of a bone that leaves its own, in centimetres, as they are written."""
     places = np.asarray(clip.translations_cm[bone]).T
     return places if clip.keys is None else steady(places, STEADY_CM)
 
 
-def steady(curves: FloatArray, least: float) -> FloatArray:
+def steady(curves: AnyFloatArray, least: float) -> AnyFloatArray:
     """Curves (..., F) of which those that change by no more than ``least`` keep their first value."""
     rests = np.ptp(curves, axis=-1, keepdims=True) <= least
     return np.where(rests, curves[..., :1], curves)
@@ -42,7 +42,7 @@ def steady(curves: FloatArray, least: float) -> FloatArray:
 class Curves:
     """Adds the curves of one layer. What is the same in many of them is packed once."""
 
-    def __init__(self, assembly: Assembly, layer: int, key_ticks: npt.NDArray[np.int64]) -> None:
+    def __init__(self, assembly: Assembly, layer: int, key_ticks: IntArray) -> None:
         self._assembly = assembly
         self._layer = layer
         self._ticks = key_ticks
@@ -70,8 +70,8 @@ class Curves:
         target_property: str,
         name: str,
         channels: str | tuple[str, ...],
-        values: FloatArray,
-        frames: IntArray | None,
+        values: AnyFloatArray,
+        frames: AnyIntArray | None,
     ) -> None:
         """Animate one property; `values` has a row of frames per channel, with keys at some frames or at all."""
         defaults = [
@@ -91,7 +91,7 @@ class Curves:
             curve = self._assembly.add("AnimationCurve", "", "AnimCurve", "", children)
             self._assembly.connect(curve, node, f"d|{channel}")
 
-    def _times(self, frames: IntArray | None) -> tuple[tuple[Element, ...], tuple[Element, ...]]:
+    def _times(self, frames: AnyIntArray | None) -> tuple[tuple[Element, ...], tuple[Element, ...]]:
         """What is before and after the values of a curve with keys at some frames, or at all."""
         known = b"" if frames is None else frames.tobytes()
         if known not in self._at:
@@ -107,7 +107,7 @@ class Curves:
             )
         return self._at[known]
 
-    def _keys(self, row: npt.NDArray[np.float32]) -> PackedArray:
+    def _keys(self, row: SingleArray) -> PackedArray:
         """Keys of one channel.
 
         One that rests is compressed to nothing; the noise of a moving one is not worth the time.

@@ -26,14 +26,13 @@ import msgspec
 import numpy as np
 import numpy.typing as npt
 
+from app.arrays import FloatArray, IntArray
 from app.child_limits import LIMITS, confine
 from app.errors import FileError
 from app.formats.files import read_file
 from app.formats.rates import exact_rate
 from app.own_process import own_process
 
-FloatArray = npt.NDArray[np.float64]
-IntArray = npt.NDArray[np.int64]
 T = TypeVar("T")
 
 MOST_BYTES: Final = 2**30

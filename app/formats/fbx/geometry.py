@@ -7,8 +7,9 @@ from collections.abc import Iterator
 import numpy as np
 import numpy.typing as npt
 
+from app.arrays import AnyFloatArray, FloatArray
 from app.formats.fbx.encode import Element, Property
-from app.formats.scene import FloatArray, MorphTarget, SkinnedMesh
+from app.formats.scene import MorphTarget, SkinnedMesh
 
 
 def geometry(mesh: SkinnedMesh) -> tuple[Element, ...]:
@@ -43,7 +44,7 @@ def morph_geometry(morph: MorphTarget) -> tuple[Element, ...]:
     )
 
 
-def skin_clusters(mesh: SkinnedMesh) -> Iterator[tuple[int, npt.NDArray[np.int32], npt.NDArray[np.float64]]]:
+def skin_clusters(mesh: SkinnedMesh) -> Iterator[tuple[int, npt.NDArray[np.int32], FloatArray]]:
     """Bone, its vertices in order and their weights, for every bone that moves any vertex."""
     vertex_count = len(mesh.vertices_cm)
     weights = np.asarray(mesh.weights, dtype=np.float64)
@@ -84,7 +85,7 @@ def _smoothing_layer(mesh: SkinnedMesh) -> Element:
     return _layer("LayerElementSmoothing", 102, "ByPolygon", "Direct", ("Smoothing", groups))
 
 
-def _uv_layer(mesh: SkinnedMesh, uvs: FloatArray) -> Element:
+def _uv_layer(mesh: SkinnedMesh, uvs: AnyFloatArray) -> Element:
     if len(uvs) == len(mesh.vertices_cm):
         indices = mesh.faces.ravel().astype(np.int32)
     else:
@@ -101,5 +102,5 @@ def _material_layer(mesh: SkinnedMesh) -> Element:
     return _layer("LayerElementMaterial", 101, "ByPolygon", "IndexToDirect", ("Materials", indices))
 
 
-def _flat(values: FloatArray) -> npt.NDArray[np.float64]:
+def _flat(values: AnyFloatArray) -> FloatArray:
     return np.ascontiguousarray(values, dtype=np.float64).ravel()

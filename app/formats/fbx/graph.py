@@ -11,11 +11,11 @@ from typing import TypeVar
 import numpy as np
 import numpy.typing as npt
 
+from app.arrays import AnyFloatArray, FloatArray, IntArray
 from app.errors import FileError
 from app.formats.fbx.encode import Element, Property
 
 T = TypeVar("T")
-Float64Array = npt.NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -74,22 +74,22 @@ class ObjectGraph:
             raise FileError("fbx.missing", file=self.file, what=f"{name} of a {element.name}")
         return values
 
-    def floats(self, element: Element, name: str, width: int) -> Float64Array:
+    def floats(self, element: Element, name: str, width: int) -> FloatArray:
         """Array of doubles in rows; not to be written to."""
         return self.stored(element, name, width).astype(np.float64, copy=False)
 
-    def stored(self, element: Element, name: str, width: int) -> npt.NDArray[np.floating]:
+    def stored(self, element: Element, name: str, width: int) -> AnyFloatArray:
         """Array of numbers in rows, in the file's precision."""
-        values: npt.NDArray[np.floating] = self._array(element, name, "f")  # type: ignore[assignment]
+        values: AnyFloatArray = self._array(element, name, "f")  # type: ignore[assignment]
         if len(values) % width or not np.isfinite(values).all():
             raise FileError("fbx.contradiction", file=self.file, detail=f"{name} is not made of finite {width}s")
         return values.reshape(-1, width)
 
-    def integers(self, element: Element, name: str) -> npt.NDArray[np.int64]:
+    def integers(self, element: Element, name: str) -> IntArray:
         """Array of integers; not to be written to."""
         return self._array(element, name, "i").astype(np.int64, copy=False)
 
-    def matrix(self, element: Element, name: str) -> Float64Array:
+    def matrix(self, element: Element, name: str) -> FloatArray:
         """A 4 x 4 matrix for column vectors."""
         values = self.floats(element, name, 16)
         if len(values) != 1:

@@ -14,14 +14,14 @@ import os
 from collections.abc import Iterator
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import FloatArray, IntArray
 from app.errors import FileError
 from app.formats import euler
 from app.formats.fbx.curves import EULER_ORDER
 from app.formats.fbx.decode import read_elements
 from app.formats.fbx.encode import Element
-from app.formats.fbx.graph import FbxObject, Float64Array, ObjectGraph, numbers, properties_of
+from app.formats.fbx.graph import FbxObject, ObjectGraph, numbers, properties_of
 from app.formats.fbx.materials import roughness_of
 from app.formats.fbx.take import MOST_VALUES, Curve, Take, read_take
 from app.formats.files import read_file
@@ -144,7 +144,7 @@ def _bones(graph: ObjectGraph, node: FbxObject | None) -> tuple[tuple[Bone, ...]
     return tuple(Bone(model.name, parent, place, turn) for (model, parent), (place, _), turn in rows), index
 
 
-def _placement(graph: ObjectGraph, model: FbxObject) -> tuple[Float64Array, Float64Array]:
+def _placement(graph: ObjectGraph, model: FbxObject) -> tuple[FloatArray, FloatArray]:
     """Local translation and Euler angles of a model that has nothing else."""
     properties = properties_of(model.element)
     for name in _NOT_SUPPORTED:
@@ -162,7 +162,7 @@ def _placement(graph: ObjectGraph, model: FbxObject) -> tuple[Float64Array, Floa
 
 
 def _mesh(
-    graph: ObjectGraph, model: FbxObject, bone_of_model: dict[int, int], node_from_world: Float64Array
+    graph: ObjectGraph, model: FbxObject, bone_of_model: dict[int, int], node_from_world: FloatArray
 ) -> SkinnedMesh:
     if any(np.concatenate(_placement(graph, model))):
         raise FileError("fbx.unsupported", file=graph.file, what=f"place of the mesh {model.name}")
@@ -197,7 +197,7 @@ def _layer(graph: ObjectGraph, element: Element, name: str, mapping: str) -> Ele
     return layer
 
 
-def _faces(graph: ObjectGraph, element: Element, name: str) -> npt.NDArray[np.int64]:
+def _faces(graph: ObjectGraph, element: Element, name: str) -> IntArray:
     corners = graph.integers(element, "PolygonVertexIndex")
     ends = np.flatnonzero(corners < 0)
     width = int(ends[0]) + 1 if len(ends) else 0
@@ -206,7 +206,7 @@ def _faces(graph: ObjectGraph, element: Element, name: str) -> npt.NDArray[np.in
     return np.where(corners < 0, -corners - 1, corners).reshape(-1, width)
 
 
-def _uvs(graph: ObjectGraph, element: Element) -> Float64Array | None:
+def _uvs(graph: ObjectGraph, element: Element) -> FloatArray | None:
     if element.child("LayerElementUV") is None:
         return None
     layer = _layer(graph, element, "LayerElementUV", "ByPolygonVertex")
@@ -216,7 +216,7 @@ def _uvs(graph: ObjectGraph, element: Element) -> Float64Array | None:
     return uvs.take(indices, axis=0)
 
 
-def _face_materials(graph: ObjectGraph, element: Element, face_count: int) -> npt.NDArray[np.int64]:
+def _face_materials(graph: ObjectGraph, element: Element, face_count: int) -> IntArray:
     layer = graph.section(element, "LayerElementMaterial")
     indices = graph.integers(layer, "Materials")
     return np.repeat(indices, face_count) if len(indices) == 1 else indices
@@ -239,11 +239,11 @@ def _material(material: FbxObject) -> Material:
 
 def _skin(
     graph: ObjectGraph, shape: FbxObject, vertex_count: int, bone_of_model: dict[int, int]
-) -> tuple[npt.NDArray[np.int64], Float64Array, Float64Array]:
+) -> tuple[IntArray, FloatArray, FloatArray]:
     """Joints and weights by vertex, the strongest first, and the bind pose of every bone."""
     binds = _bind_pose(graph, bone_of_model)
-    shares: list[tuple[int, npt.NDArray[np.int64], Float64Array]] = []
-    slots: list[npt.NDArray[np.int64]] = []
+    shares: list[tuple[int, IntArray, FloatArray]] = []
+    slots: list[IntArray] = []
     counts = np.zeros(vertex_count, dtype=np.int64)
     for skin in graph.below(shape, "Deformer", "Skin"):
         for cluster in graph.below(skin, "Deformer", "Cluster"):
@@ -275,7 +275,7 @@ def _skin(
     return np.ascontiguousarray(joint_indices.T), np.ascontiguousarray(weights.T), binds
 
 
-def _bind_pose(graph: ObjectGraph, bone_of_model: dict[int, int]) -> Float64Array:
+def _bind_pose(graph: ObjectGraph, bone_of_model: dict[int, int]) -> FloatArray:
     binds = np.full((len(bone_of_model), 4, 4), np.nan)
     for pose in graph.of_kind("Pose", "BindPose"):
         for node in pose.element.children or ():
@@ -322,8 +322,8 @@ def _clip(
     rotations = np.empty((4, len(bones), frames))
     rotations[:] = np.array([bone.rotation_xyzw for bone in bones]).T[..., None]
     turning: list[tuple[int, list[Curve]]] = []
-    translations: dict[int, Float64Array] = {}
-    weights: dict[str, Float64Array] = {}
+    translations: dict[int, FloatArray] = {}
+    weights: dict[str, FloatArray] = {}
     for (target, to_property), channels in take.curves.items():
         if target in bone_of_model and to_property == "Lcl Rotation":
             turning.append((bone_of_model[target], channels[::-1]))
@@ -339,7 +339,7 @@ def _clip(
     return Clip(take.name, take.fps, frames, rotations.transpose(2, 1, 0), translations, weights)
 
 
-def _turn(rotations: Float64Array, turning: list[tuple[int, list[Curve]]]) -> None:
+def _turn(rotations: FloatArray, turning: list[tuple[int, list[Curve]]]) -> None:
     """Set the rotations (4, B, F) of bones to what the curves of their angles say, some bones at a time."""
     frames = rotations.shape[-1]
     resting = [row for row in turning if all(curve.rests for curve in row[1])]

@@ -9,12 +9,12 @@ from fractions import Fraction
 from typing import NamedTuple
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import AnyFloatArray, FloatArray, IntArray
 from app.errors import FileError
 from app.formats.fbx import ticks
 from app.formats.fbx.encode import Element
-from app.formats.fbx.graph import FbxObject, Float64Array, ObjectGraph, numbers, properties_of
+from app.formats.fbx.graph import FbxObject, ObjectGraph, numbers, properties_of
 
 MOST_VALUES = 2**25
 """Frames times bones, and vertices times influences: far beyond any real file, small enough for any computer."""
@@ -30,19 +30,19 @@ _ANIMATED = {
 class Curve(NamedTuple):
     """Frames of a curve's keys, and their values as the file has them."""
 
-    frames: npt.NDArray[np.int64]
-    values: npt.NDArray[np.floating]
+    frames: IntArray
+    values: AnyFloatArray
 
     @property
     def rests(self) -> bool:
         """Whether it has one value at all frames."""
         return bool((self.values == self.values[0]).all())
 
-    def at(self, frames: int) -> Float64Array:
+    def at(self, frames: int) -> FloatArray:
         """Its values at all frames: straight lines between the keys, at rest before and after them."""
         if len(self.frames) == frames:
             return self.values.astype(np.float64)
-        found: Float64Array = np.interp(np.arange(frames), self.frames, self.values)
+        found: FloatArray = np.interp(np.arange(frames), self.frames, self.values)
         return found
 
 
@@ -81,12 +81,12 @@ def read_take(graph: ObjectGraph, root: Element) -> Take | None:
 
 
 def _curves(
-    graph: ObjectGraph, stack: FbxObject, frame_ticks: npt.NDArray[np.int64], fps: Fraction
+    graph: ObjectGraph, stack: FbxObject, frame_ticks: IntArray, fps: Fraction
 ) -> dict[tuple[int, str], list[Curve]]:
     """The curves of every animated property, channel by channel."""
     result: dict[tuple[int, str], list[Curve]] = {}
     # Equal arrays of a file are one array.
-    known: dict[int, tuple[npt.NDArray[np.int64], npt.NDArray[np.int64]]] = {}
+    known: dict[int, tuple[IntArray, IntArray]] = {}
     for layer in graph.below(stack, "AnimationLayer"):
         for node in graph.below(layer, "AnimationCurveNode"):
             channels = []
@@ -107,9 +107,7 @@ def _curves(
     return result
 
 
-def _key_frames(
-    graph: ObjectGraph, key_ticks: npt.NDArray[np.int64], frame_ticks: npt.NDArray[np.int64], fps: Fraction
-) -> npt.NDArray[np.int64]:
+def _key_frames(graph: ObjectGraph, key_ticks: IntArray, frame_ticks: IntArray, fps: Fraction) -> IntArray:
     """The frames at which keys are."""
     frames = ticks.nearest_frames(key_ticks.astype(np.float64), fps)
     there = len(frames) and 0 <= frames.min() <= frames.max() < len(frame_ticks)

@@ -8,8 +8,8 @@ from __future__ import annotations
 from fractions import Fraction
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import FloatArray, IntArray
 from app.formats.rates import exact_rate
 
 TICKS_PER_SECOND = 46_186_158_000
@@ -36,7 +36,7 @@ _TIME_MODES = {
 _RATES = {mode: fps for fps, mode in _TIME_MODES.items()} | {7: Fraction(30), 8: Fraction(30000, 1001)}
 
 
-def frame_ticks(fps: Fraction, frames: int) -> npt.NDArray[np.int64]:
+def frame_ticks(fps: Fraction, frames: int) -> IntArray:
     """Tick of each frame, shape (frames,), rounded from its own number so that no error adds up."""
     numerator, denominator = TICKS_PER_SECOND * fps.denominator, fps.numerator
     if numerator % denominator == 0:
@@ -45,7 +45,7 @@ def frame_ticks(fps: Fraction, frames: int) -> npt.NDArray[np.int64]:
     return np.array([(2 * n * numerator + denominator) // (2 * denominator) for n in range(frames)], dtype=np.int64)
 
 
-def nearest_frames(at_ticks: npt.NDArray[np.float64], fps: Fraction) -> npt.NDArray[np.int64]:
+def nearest_frames(at_ticks: FloatArray, fps: Fraction) -> IntArray:
     """The frames (N,) that are nearest to some ticks (N,)."""
     return np.rint(at_ticks * (float(fps) / TICKS_PER_SECOND)).astype(np.int64)
 

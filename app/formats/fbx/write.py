@@ -12,8 +12,8 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import AnyFloatArray, FloatArray
 from app.formats.atomic import atomic_write
 from app.formats.euler import euler_degrees
 from app.formats.fbx import encode, ticks
@@ -32,7 +32,7 @@ from app.formats.fbx.sections import (
     property_row,
     takes,
 )
-from app.formats.scene import Bone, Clip, FloatArray, Material, Place, Scene, SkinnedMesh, checked_scenes
+from app.formats.scene import Bone, Clip, Material, Place, Scene, SkinnedMesh, checked_scenes
 
 _BESIDE_CM = 5e-4
 
@@ -85,7 +85,7 @@ def scene_elements(scenes: Iterable[Scene]) -> tuple[Element, ...]:
     )
 
 
-def _vector(name: str, values: FloatArray) -> Element:
+def _vector(name: str, values: AnyFloatArray) -> Element:
     """A transform property that may be animated; its kind is called like the property."""
     return property_row(name, name, "", "A", *(float(value) for value in values))
 
@@ -132,7 +132,7 @@ def _add_figure(graph: Assembly, scene: Scene) -> _Figure:
     return figure
 
 
-def _add_bone(graph: Assembly, figure: _Figure, bone: Bone, rotation_degrees: FloatArray) -> None:
+def _add_bone(graph: Assembly, figure: _Figure, bone: Bone, rotation_degrees: AnyFloatArray) -> None:
     flags = (Element("TypeFlags", ("Skeleton",)),)
     attribute = graph.add("NodeAttribute", bone.name, "NodeAttribute", "LimbNode", flags)
     model = graph.add("Model", bone.name, "Model", "LimbNode", _model(bone.translation_cm, rotation_degrees))
@@ -146,7 +146,7 @@ def _placed(place: Place) -> tuple[Element, ...]:
     return _model(place.translation_cm, rotation)
 
 
-def _model(translation_cm: FloatArray, rotation_degrees: FloatArray) -> tuple[Element, ...]:
+def _model(translation_cm: AnyFloatArray, rotation_degrees: AnyFloatArray) -> tuple[Element, ...]:
     return (
         integer("Version", 232),
         property_block(
@@ -161,7 +161,7 @@ def _model(translation_cm: FloatArray, rotation_degrees: FloatArray) -> tuple[El
     )
 
 
-def _unconnected_binds(scene: Scene) -> npt.NDArray[np.float64]:
+def _unconnected_binds(scene: Scene) -> FloatArray:
     """Bind transforms (J, 4, 4) in which no bone that changes its place lies exactly on its parent's y axis.
 
     Blender takes the child at the end of that axis for connected and then drops its location keys, so such a bone is
@@ -182,8 +182,8 @@ def _add_mesh(
     graph: Assembly,
     figure: _Figure,
     mesh: SkinnedMesh,
-    binds: npt.NDArray[np.float64],
-    world_from_node: npt.NDArray[np.float64],
+    binds: FloatArray,
+    world_from_node: FloatArray,
 ) -> int:
     packed = packed_mesh(mesh)
     model = graph.add("Model", mesh.name, "Model", "Mesh", _model(np.zeros(3), np.zeros(3)))
@@ -256,8 +256,8 @@ def _add_skin(
     name: str,
     packed: PackedMesh,
     shape: int,
-    binds: npt.NDArray[np.float64],
-    world_from_node: npt.NDArray[np.float64],
+    binds: FloatArray,
+    world_from_node: FloatArray,
 ) -> None:
     skin_children = (integer("Version", 101), Element("Link_DeformAcuracy", (50.0,)))
     skin = graph.add("Deformer", name, "Deformer", "Skin", skin_children)
@@ -277,12 +277,12 @@ def _add_skin(
         graph.connect(figure.bone_ids[bone], cluster)
 
 
-def _matrix(name: str, matrix: FloatArray) -> Element:
+def _matrix(name: str, matrix: AnyFloatArray) -> Element:
     """Stored column by column: the translation is in entries 12 to 14."""
     return Element(name, (np.ascontiguousarray(matrix.T, dtype=np.float64).ravel(),))
 
 
-def _pose_node(node: int, world_from_node: FloatArray) -> Element:
+def _pose_node(node: int, world_from_node: AnyFloatArray) -> Element:
     return Element("PoseNode", (), (Element("Node", (np.int64(node),)), _matrix("Matrix", world_from_node)))
 
 

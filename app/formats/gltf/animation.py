@@ -7,7 +7,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from app.formats.gltf.model import FloatArray, GltfChannel, IntArray
+from app.arrays import FloatArray, IntArray
+from app.formats.gltf.model import GltfChannel
 from app.formats.keys import slerp
 
 

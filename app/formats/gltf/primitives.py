@@ -6,7 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from app.formats.scene import FloatArray, IntArray, SkinnedMesh
+from app.arrays import AnyFloatArray, AnyIntArray
+from app.formats.scene import SkinnedMesh
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,10 +29,10 @@ class Primitive:
     """
 
     material: int
-    vertices: IntArray
-    normals: FloatArray
-    uvs: FloatArray | None
-    triangles: IntArray
+    vertices: AnyIntArray
+    normals: AnyFloatArray
+    uvs: AnyFloatArray | None
+    triangles: AnyIntArray
 
 
 def primitives(mesh: SkinnedMesh) -> tuple[Primitive, ...]:
@@ -49,7 +50,7 @@ def primitives(mesh: SkinnedMesh) -> tuple[Primitive, ...]:
     return tuple(result)
 
 
-def _primitive(mesh: SkinnedMesh, material: int, triangles: IntArray) -> Primitive:
+def _primitive(mesh: SkinnedMesh, material: int, triangles: AnyIntArray) -> Primitive:
     """Of triangles whose corners are numbered through the mesh."""
     places = triangles.ravel()
     vertices = mesh.faces.ravel()[places]
@@ -69,7 +70,7 @@ def _primitive(mesh: SkinnedMesh, material: int, triangles: IntArray) -> Primiti
         kept = place_of_vertex[place_of_vertex >= 0]
         indices = (np.cumsum(place_of_vertex >= 0) - 1)[vertices]
 
-    def own(values: FloatArray) -> FloatArray:
+    def own(values: AnyFloatArray) -> AnyFloatArray:
         return np.asarray(values[vertices[kept]] if len(values) == count else values[places[kept]], dtype=np.float64)
 
     normals = own(mesh.normals)

@@ -17,12 +17,12 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from app.arrays import FloatArray, IntArray
 from app.errors import FileError, shortened
 from app.formats.files import read_file
 from app.formats.gltf.accessors import Accessors
 from app.formats.gltf.container import field, split
 from app.formats.gltf.model import (
-    FloatArray,
     GltfAnimation,
     GltfChannel,
     GltfMaterial,
@@ -32,7 +32,6 @@ from app.formats.gltf.model import (
     GltfNode,
     GltfPrimitive,
     GltfSkin,
-    IntArray,
 )
 
 MOST_BYTES = 2**30

@@ -9,8 +9,9 @@ import numpy as np
 import numpy.typing as npt
 import pygltflib as gltf
 
+from app.arrays import AnyIntArray, SingleArray
 from app.formats.continuous import continuous
-from app.formats.scene import Clip, IntArray, Scene, SkinnedMesh
+from app.formats.scene import Clip, Scene, SkinnedMesh
 
 METRES = 0.01
 
@@ -61,9 +62,7 @@ class Samplers:
                 frames = None if keys is None else keys.face
                 self._add(node, "weights", weights, frames, flat=True)
 
-    def _add(
-        self, node: int, path: str, values: npt.NDArray[np.float32], frames: IntArray | None, flat: bool = False
-    ) -> None:
+    def _add(self, node: int, path: str, values: SingleArray, frames: AnyIntArray | None, flat: bool = False) -> None:
         """Animate one property; `values` has a row per frame, with keys at some frames or at all."""
         if frames is not None:
             frames = frames[:1] if (values[frames] == values[0]).all() else frames
@@ -76,7 +75,7 @@ class Samplers:
         target = gltf.AnimationChannelTarget(node=node, path=path)
         self._animation.channels.append(gltf.AnimationChannel(sampler=len(self._animation.samplers) - 1, target=target))
 
-    def _input(self, frames: IntArray | None) -> int:
+    def _input(self, frames: AnyIntArray | None) -> int:
         """The accessor of the times of keys at some frames, or at all."""
         known = b"" if frames is None else frames.tobytes()
         if known not in self._times:
@@ -90,7 +89,7 @@ def weights_move(clip: Clip | None, mesh: SkinnedMesh) -> bool:
     return clip is not None and any(morph.name in clip.morph_weights for morph in mesh.morphs)
 
 
-def _weights(clip: Clip, names: Iterable[str]) -> npt.NDArray[np.float32]:
+def _weights(clip: Clip, names: Iterable[str]) -> SingleArray:
     """Weights (F, T) of a mesh's targets; those that the clip does not move rest at zero."""
     rest = np.zeros(clip.frames)
     return np.stack([clip.morph_weights.get(name, rest) for name in names], axis=1).astype(np.float32)

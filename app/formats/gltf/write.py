@@ -25,20 +25,12 @@ import numpy as np
 import numpy.typing as npt
 import pygltflib as gltf
 
+from app.arrays import AnyFloatArray, AnyIntArray, SingleArray
 from app.errors import FileError
 from app.formats.atomic import atomic_write
 from app.formats.gltf.primitives import Primitive, primitives
 from app.formats.gltf.samplers import METRES, Samplers, weights_move
-from app.formats.scene import (
-    FloatArray,
-    IntArray,
-    Material,
-    MorphTarget,
-    Place,
-    Scene,
-    SkinnedMesh,
-    checked_scenes,
-)
+from app.formats.scene import Material, MorphTarget, Place, Scene, SkinnedMesh, checked_scenes
 from app.formats.skin import influences
 
 _MAGIC, _JSON, _BINARY = b"glTF", 0x4E4F534A, 0x004E4942
@@ -168,7 +160,7 @@ class _Document:
             )
         )
 
-    def sparse(self, count: int, rows: IntArray, values: npt.NDArray[np.float32]) -> int:
+    def sparse(self, count: int, rows: AnyIntArray, values: SingleArray) -> int:
         """Index of an accessor of vectors (count, 3) of which only some rows are not zero."""
         if not len(rows):  # legal without any, but assimp refuses an accessor that has no bytes
             rows, values = np.zeros(1, np.int64), np.zeros((1, 3), np.float32)
@@ -281,7 +273,7 @@ def _material(material: Material) -> gltf.Material:
     )
 
 
-def _skin(document: _Document, world_from_bone_bind: FloatArray, name: str, first: int) -> gltf.Skin:
+def _skin(document: _Document, world_from_bone_bind: AnyFloatArray, name: str, first: int) -> gltf.Skin:
     binds = np.array(world_from_bone_bind, dtype=np.float64)
     binds[:, :3, 3] *= METRES
     # Stored column by column, and the last row of each must be exact.
@@ -344,7 +336,7 @@ def _targets(
     count = len(primitive.vertices)
     zeros: list[int] = []
 
-    def accessor(rows: IntArray, deltas: FloatArray) -> int:
+    def accessor(rows: AnyIntArray, deltas: AnyFloatArray) -> int:
         moved = deltas.any(axis=1)
         if moved.any():
             return document.sparse(count, rows[moved], deltas[moved])

@@ -7,7 +7,8 @@ from itertools import zip_longest
 
 import numpy as np
 
-from app.motion.curves.curve import Curve, FloatArray, moves
+from app.arrays import FloatArray
+from app.motion.curves.curve import Curve, moves
 from app.plan.model import BreathEvent
 from metadata.model import BREATH_MORPHS, BreathMotion
 

@@ -9,7 +9,8 @@ from typing import Final
 
 import numpy as np
 
-from app.motion.curves.curve import Curve, Envelopes, FloatArray
+from app.arrays import FloatArray
+from app.motion.curves.curve import Curve, Envelopes
 from app.plan.model import BreathEvent
 
 SHOWN: Final = 0.8

@@ -12,9 +12,10 @@ from typing import Final
 
 import numpy as np
 
+from app.arrays import FloatArray
 from app.motion.body_motion import BodyMotion
 from app.motion.by_hand.pose_corrections import Offset, within
-from app.motion.curves.curve import FloatArray, rows_changed_s
+from app.motion.curves.curve import rows_changed_s
 from app.plan.by_hand.additive_curve import CHANNELS, FACE
 from app.plan.by_hand.additive_events import POSED
 from app.plan.by_hand.bezier import COLUMNS, rows, sampled_rows

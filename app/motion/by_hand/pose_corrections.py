@@ -10,7 +10,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from app.motion.curves.curve import Envelopes, FloatArray, rows_changed_s
+from app.arrays import FloatArray
+from app.motion.curves.curve import Envelopes, rows_changed_s
 from app.plan.by_hand.pose_corrections import BELL_LEFT, BELL_UP, NECK_SHARES, TRUNK_SHARES
 from app.plan.model import PoseEvent, PoseTarget
 from metadata.model import Body

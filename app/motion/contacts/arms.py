@@ -6,15 +6,14 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import FloatArray, IndexArray
 from app.motion.body_motion import BodyMotion
 from app.motion.contacts.carried_instrument import Carried
 from app.motion.contacts.hands_away import Away
 from app.motion.contacts.help_for_far_hands import clavicle_of, forwards_axis
 from app.motion.contacts.trunk_and_legs import Side, Trunk, exact_target
 from app.motion.contacts.wrists import Wrist
-from app.motion.curves.curve import FloatArray
 from app.rig import quaternion
 from app.rig.grip.grip_pose import GripPose, HandHold, Placed, hand_targets
 from app.rig.ik import Limb, LimbPose, arm, end_of, solve_limb, swivelled
@@ -132,7 +131,7 @@ def _relieve(
     wrist: Wrist,
     limb: Limb,
     pose: LimbPose,
-    bent: npt.NDArray[np.intp],
+    bent: IndexArray,
     angles_rad: tuple[FloatArray, FloatArray],
     line: FloatArray,
     clavicle: FloatArray,

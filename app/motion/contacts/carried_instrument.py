@@ -10,12 +10,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import BoolArray, FloatArray
 from app.motion.body_motion import BodyMotion
 from app.motion.by_hand.pose_corrections import within
 from app.motion.contacts.trunk_and_legs import Trunk
-from app.motion.curves.curve import FloatArray
 from app.motion.curves.soft_bounds import softly_over
 from app.rig import quaternion
 from app.rig.grip.grip_pose import GripPose
@@ -42,7 +41,7 @@ class BellRoom:
     high_rad: float = np.inf
 
     @classmethod
-    def within(cls, down_rad: FloatArray, fits: npt.NDArray[np.bool_]) -> BellRoom:
+    def within(cls, down_rad: FloatArray, fits: BoolArray) -> BellRoom:
         """From ascending angles (T,), the middle one of which is where it is played, and whether the wrists follow."""
         usual, misses = len(down_rad) // 2, np.flatnonzero(~fits)
         low, high = misses[misses < usual], misses[misses > usual]

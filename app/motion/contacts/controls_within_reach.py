@@ -12,11 +12,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from app.arrays import FloatArray
 from app.motion.body_motion import BodyMotion
 from app.motion.contacts.arms import shoulder
 from app.motion.contacts.carried_instrument import Carried
 from app.motion.contacts.trunk_and_legs import Trunk
-from app.motion.curves.curve import FloatArray
 from app.motion.curves.soft_bounds import softly_capped
 from app.rig import quaternion
 from app.rig.grip.grip_pose import GripPose, HandHold, Placed, hand_targets

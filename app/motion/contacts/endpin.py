@@ -9,11 +9,10 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import AnyFloatArray, FloatArray
 from app.motion.body_motion import BodyMotion
 from app.motion.contacts.carried_instrument import Carried, attitude, held_angles
-from app.motion.curves.curve import FloatArray
 from app.rig import quaternion
 from instrument_maps.model import Carriage, Endpin
 
@@ -55,7 +54,7 @@ class Stand:
         swung = quaternion.between(_unit(pointing_m), _unit(requested_m))
         return Carried(carried.position_m, quaternion.multiply(swung, carried.rotation))
 
-    def drawn_out(self, position_m: npt.NDArray[np.floating], rotation: npt.NDArray[np.floating]) -> FloatArray:
+    def drawn_out(self, position_m: AnyFloatArray, rotation: AnyFloatArray) -> FloatArray:
         """How far the pin is drawn out, (F,) of 0..1, so that its tip is on the floor, or as near to it as it can be.
 
         Parameters
@@ -75,9 +74,7 @@ def _unit(vectors: FloatArray) -> FloatArray:
     return result
 
 
-def _needed(
-    endpin: Endpin, position_m: npt.NDArray[np.floating], rotation: npt.NDArray[np.floating]
-) -> tuple[FloatArray, FloatArray]:
+def _needed(endpin: Endpin, position_m: AnyFloatArray, rotation: AnyFloatArray) -> tuple[FloatArray, FloatArray]:
     """How far a pin has to come out to touch the floor, metres (F,), and how much it points down (F,)."""
     turn = np.asarray(rotation, np.float64)
     tip_y = np.asarray(position_m, np.float64)[:, 1] + quaternion.rotate(turn, np.asarray(endpin.tip_m))[:, 1]

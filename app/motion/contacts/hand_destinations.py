@@ -7,12 +7,12 @@ from typing import Final
 
 import numpy as np
 
+from app.arrays import FloatArray
 from app.motion.contacts.carried_instrument import Carried
 from app.motion.contacts.hand_in_bell import STOPPING, shifted
 from app.motion.contacts.hands_away import Away
 from app.motion.contacts.help_for_far_hands import clavicle_of
 from app.motion.contacts.trunk_and_legs import SIDES, Side, Trunk
-from app.motion.curves.curve import FloatArray
 from app.motion.gestures.hand_gestures import PLACES, SHAPES
 from app.rig import quaternion
 from app.rig.grip.empty_hand_shapes import shaped, tip_m

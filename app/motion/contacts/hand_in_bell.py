@@ -9,9 +9,10 @@ from typing import Final
 
 import numpy as np
 
+from app.arrays import FloatArray
 from app.motion.contacts.carried_instrument import Carried
 from app.motion.contacts.hands_away import Shift
-from app.motion.curves.curve import Envelopes, FloatArray
+from app.motion.curves.curve import Envelopes
 from app.plan.model import MuteEvent
 from app.rig import quaternion
 from app.rig.grip.grip_pose import GripPose

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from app.motion.curves.curve import FloatArray
+from app.arrays import FloatArray
 from app.rig import quaternion
 from app.rig.grip.grip_pose import Side
 

@@ -8,10 +8,10 @@ from functools import lru_cache
 
 import numpy as np
 
+from app.arrays import FloatArray
 from app.motion.contacts.carried_instrument import Carried
 from app.motion.contacts.hands_away import Away
 from app.motion.contacts.trunk_and_legs import Side, Trunk
-from app.motion.curves.curve import FloatArray
 from app.motion.curves.soft_bounds import softly_capped, softly_over
 from app.rig import quaternion
 from app.rig.grip.grip_pose import GripPose, Placed, hand_targets

@@ -10,12 +10,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from app.arrays import FloatArray
 from app.motion.body_motion import BodyMotion
 from app.motion.contacts.arms import HANGS_RAD
 from app.motion.contacts.carried_instrument import Y_AXIS, Z_AXIS, Carried
 from app.motion.contacts.help_for_far_hands import clavicle_of
 from app.motion.contacts.trunk_and_legs import Side, Trunk
-from app.motion.curves.curve import FloatArray
 from app.rig import quaternion
 from app.rig.grip.grip_pose import GripPose, hand_targets
 from app.rig.ik import arm

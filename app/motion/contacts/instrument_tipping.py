@@ -6,11 +6,11 @@ from dataclasses import replace
 
 import numpy as np
 
+from app.arrays import FloatArray
 from app.motion.contacts.carried_instrument import BellRoom, tips_freely
 from app.motion.contacts.help_for_far_hands import clavicle_of
 from app.motion.contacts.solve import Curves, Player, arms_of, helped, needs, upper_body
 from app.motion.contacts.wrists import LOST_RAD
-from app.motion.curves.curve import FloatArray
 from app.rig import quaternion
 from app.rig.grip.grip_pose import Placed, giving_for
 from app.rig.ik import arm

@@ -6,9 +6,9 @@ from dataclasses import replace
 
 import numpy as np
 
+from app.arrays import FloatArray
 from app.motion.body_motion import BodyMotion
 from app.motion.contacts.help_for_far_hands import Help
-from app.motion.curves.curve import FloatArray
 from app.motion.curves.running_extremes import greatest_within, least_within
 from app.motion.curves.soft_bounds import softly_capped
 from app.plan.by_hand.pose_corrections import NECK_SHARES, TRUNK_SHARES

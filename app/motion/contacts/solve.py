@@ -10,6 +10,7 @@ from functools import cached_property
 
 import numpy as np
 
+from app.arrays import FloatArray
 from app.motion.body_motion import BodyMotion
 from app.motion.contacts.arms import solve_arms
 from app.motion.contacts.carried_instrument import ANYWHERE, BellRoom, Carried, carry
@@ -24,7 +25,6 @@ from app.motion.contacts.shares_of_help import HELP_EASE_S, drawn, spread, turne
 from app.motion.contacts.trunk_and_legs import Side, Stance, Trunk, hips_path, solve_legs, trunk
 from app.motion.contacts.upper_body import UpperBody, joined
 from app.motion.contacts.wrists import Wrist
-from app.motion.curves.curve import FloatArray
 from app.motion.curves.soft_bounds import softly_capped
 from app.motion.model import Motion
 from app.rig import quaternion

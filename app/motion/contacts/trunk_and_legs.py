@@ -7,10 +7,9 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import FloatArray, IndexArray
 from app.motion.body_motion import BodyMotion
-from app.motion.curves.curve import FloatArray
 from app.rig import quaternion
 from app.rig.grip.body_size import leg_size
 from app.rig.ik import SOFT_SHARE, Limb, leg, solve_limb
@@ -142,7 +141,7 @@ def _moved_parts(side: Side, moved: Mapping[str, FloatArray]) -> dict[str, Float
     return {name: moved[f"{side}_{name}"] for name in FOOT_PARTS if f"{side}_{name}" in moved}
 
 
-def _where_moved(parts: Mapping[str, FloatArray]) -> npt.NDArray[np.intp]:
+def _where_moved(parts: Mapping[str, FloatArray]) -> IndexArray:
     """The frames in which a foot is moved: most of the time it stands, to the bit."""
     if not parts:
         return np.zeros(0, np.intp)

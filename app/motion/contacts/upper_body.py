@@ -7,9 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from app.arrays import FloatArray
 from app.motion.contacts.carried_instrument import Carried
 from app.motion.contacts.trunk_and_legs import Trunk
-from app.motion.curves.curve import FloatArray
 
 
 @dataclass(frozen=True)

@@ -11,8 +11,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from app.arrays import FloatArray
 from app.motion.contacts.trunk_and_legs import SIDES, Side
-from app.motion.curves.curve import FloatArray
 from app.motion.curves.soft_bounds import softly_capped, softly_over
 from app.rig import quaternion
 from metadata.model import Body, SkeletonProfile

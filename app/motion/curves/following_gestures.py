@@ -6,7 +6,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from app.motion.curves.curve import Curve, FloatArray, moves_to
+from app.arrays import FloatArray
+from app.motion.curves.curve import Curve, moves_to
 from app.motion.curves.path import Path
 from app.plan.model import GestureEvent, GestureKind
 

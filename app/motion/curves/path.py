@@ -7,7 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from app.motion.curves.curve import ROUNDING_S, FloatArray, rows_changed_s
+from app.arrays import FloatArray
+from app.motion.curves.curve import ROUNDING_S, rows_changed_s
 
 
 @dataclass(frozen=True, eq=False)

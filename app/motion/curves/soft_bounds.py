@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from app.motion.curves.curve import FloatArray
+from app.arrays import FloatArray
 
 
 def softly_over(x: FloatArray, ease: FloatArray | float) -> FloatArray:

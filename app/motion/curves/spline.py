@@ -11,7 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from app.motion.curves.curve import EVERYWHERE, FloatArray
+from app.arrays import FloatArray
+from app.motion.curves.curve import EVERYWHERE
 
 REACH = 2
 """So many points to either side have a part in a sample."""

@@ -10,7 +10,8 @@ from typing import Final
 
 import numpy as np
 
-from app.motion.curves.curve import Envelopes, FloatArray
+from app.arrays import FloatArray
+from app.motion.curves.curve import Envelopes
 from app.motion.curves.seeded_chance import generator
 from app.motion.faces.silences import Silences, holds, overlaps
 from app.plan.model import PlayerPlan

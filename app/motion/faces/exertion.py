@@ -13,7 +13,7 @@ from typing import Final, NamedTuple, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from app.motion.curves.curve import FloatArray
+from app.arrays import BoolArray, FloatArray, IntArray
 from app.motion.curves.spline import Spline
 from app.plan.breath.lungs import air_rate, lungful_s
 from app.plan.model import PlayerPlan
@@ -21,7 +21,6 @@ from app.plan.parameters import PlayerParameters
 from instrument_maps.model import Air
 from metadata.face_model import FaceMotion
 
-IntArray: TypeAlias = npt.NDArray[np.int64]
 Whole: TypeAlias = npt.NDArray[np.int32]
 """Whole numbers on the grid, `ONE` for 1: a product of two has 24 bits, and wider ones take twice as long."""
 
@@ -109,9 +108,7 @@ def exertion_of(plan: PlayerPlan, face: FaceMotion, lungs: Lungs) -> Spline:
     return Spline(first, STEP_S, np.clip(np.stack(rows), low, ONE).astype(np.int16), float(ONE))
 
 
-def _load(
-    face: FaceMotion, tension: FloatArray, air: FloatArray, effort: FloatArray, sounds: npt.NDArray[np.bool_]
-) -> Whole:
+def _load(face: FaceMotion, tension: FloatArray, air: FloatArray, effort: FloatArray, sounds: BoolArray) -> Whole:
     """What the notes cost, on the grid."""
     share = face.load
     cost = share.tension * tension + share.air * air + share.effort * effort - share.easy
@@ -119,7 +116,7 @@ def _load(
 
 
 def _asked(
-    plan: PlayerPlan, at_s: FloatArray, note: IntArray, sounds: npt.NDArray[np.bool_], *, as_planned: bool
+    plan: PlayerPlan, at_s: FloatArray, note: IntArray, sounds: BoolArray, *, as_planned: bool
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Tension, air and effort on the grid, 0 in silences: as they were recorded where they were, else by the notes.
 
@@ -188,9 +185,7 @@ def _strain(load: Whole, rise_s: float, decay_s: float) -> Whole:
     return _mean(strain, 0.1, 0.1)
 
 
-def _emptying(
-    plan: PlayerPlan, lungs: Lungs, loudness: FloatArray, sounds: npt.NDArray[np.bool_], at_s: FloatArray
-) -> Whole:
+def _emptying(plan: PlayerPlan, lungs: Lungs, loudness: FloatArray, sounds: BoolArray, at_s: FloatArray) -> Whole:
     """How much of the last breath's air is used up."""
     rate = _whole(np.where(sounds, air_rate(loudness, lungs.air), 0.0))
     used = np.cumsum(rate, dtype=np.int64)

@@ -11,7 +11,8 @@ from typing import Final
 
 import numpy as np
 
-from app.motion.curves.curve import Curve, Envelopes, FloatArray, Trace, moves, moves_to
+from app.arrays import FloatArray
+from app.motion.curves.curve import Curve, Envelopes, Trace, moves, moves_to
 from app.motion.curves.spline import Spline
 from app.motion.faces.exertion import Exertion, exertion_of
 from app.motion.faces.lips_within_notes import easing, firmness, vibrato_size

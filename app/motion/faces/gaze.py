@@ -14,7 +14,8 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
-from app.motion.curves.curve import Curve, Envelopes, FloatArray, moves_to
+from app.arrays import FloatArray
+from app.motion.curves.curve import Curve, Envelopes, moves_to
 from app.motion.curves.seeded_chance import generator
 from app.motion.curves.spline import Spline
 from app.motion.faces.blinks import BLINK_DOWN_S, BLINK_SHUT_S, BLINK_UP_S, ENTRY_GUARD_S, blinks_of

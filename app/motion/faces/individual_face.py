@@ -8,7 +8,8 @@ from typing import Final
 
 import numpy as np
 
-from app.motion.curves.curve import FloatArray, Noise
+from app.arrays import FloatArray
+from app.motion.curves.curve import Noise
 from app.motion.curves.seeded_chance import generator
 from app.motion.curves.spline import Spline
 from metadata.face_model import Embouchure, FaceMotion

@@ -10,7 +10,8 @@ from typing import Final
 
 import numpy as np
 
-from app.motion.curves.curve import Curve, FloatArray, moves, moves_to
+from app.arrays import FloatArray
+from app.motion.curves.curve import Curve, moves, moves_to
 from app.plan.model import PlayerPlan
 
 PREPARES_S: Final = 0.14

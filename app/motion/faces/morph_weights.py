@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from app.motion.curves.curve import FloatArray
+from app.arrays import FloatArray
 from app.motion.faces.face_curves import Drivers
 from app.motion.faces.gaze import Look
 from app.motion.faces.individual_face import OwnFace, Wandering, face_of_player

@@ -3,15 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, fields
-from typing import TypeAlias
 
 import numpy as np
-import numpy.typing as npt
 
-from app.motion.curves.curve import FloatArray
+from app.arrays import BoolArray, FloatArray
 from app.plan.model import PlayerPlan
-
-BoolArray: TypeAlias = npt.NDArray[np.bool_]
 
 REST_S = 1.0
 QUICK_S = 0.16

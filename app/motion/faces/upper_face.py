@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from app.motion.curves.curve import FloatArray
+from app.arrays import FloatArray
 from app.motion.faces.exertion import Exertion
 from app.motion.faces.individual_face import Wandering
 from metadata.face_model import FaceMotion

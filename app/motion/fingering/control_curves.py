@@ -12,8 +12,8 @@ from functools import lru_cache
 from types import MappingProxyType
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import BoolArray
 from app.motion.curves.curve import Curve, minimum_jerk, moves
 from app.plan.model import FingeringEvent
 from app.score.metre_map import FeltBeats, beat_ticks_at
@@ -102,9 +102,7 @@ def control_curves(
     return {control.name: _curve(fingerings, control, rests, farthest.get(control.name, 1.0)) for control in controls}
 
 
-def _curve(
-    fingerings: Sequence[FingeringEvent], control: Control, rests: npt.NDArray[np.bool_], farthest: float
-) -> Curve:
+def _curve(fingerings: Sequence[FingeringEvent], control: Control, rests: BoolArray, farthest: float) -> Curve:
     """One control's; ``rests`` (N,) says which notes a rest precedes that brings controls back to rest."""
     if not fingerings:
         return moves((), control.rest_value)

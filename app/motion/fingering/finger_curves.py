@@ -13,9 +13,9 @@ from dataclasses import dataclass
 from typing import NamedTuple, TypeAlias
 
 import numpy as np
-import numpy.typing as npt
 
-from app.motion.curves.curve import Curve, FloatArray, moves, moves_to
+from app.arrays import BoolArray, FloatArray, IndexArray
+from app.motion.curves.curve import Curve, moves, moves_to
 from app.plan.model import FingeringEvent
 from app.rig.grip.finger_stations import Station, kinds_of_notes, station_for, stations
 from app.rig.grip.grip_pose import Placed, giving_for
@@ -136,9 +136,9 @@ def raised_curve(fingerings: Sequence[FingeringEvent]) -> Curve:
 
 def _visits(
     fingerings: Sequence[FingeringEvent],
-    worked: npt.NDArray[np.intp],
+    worked: IndexArray,
     sets: Sequence[frozenset[str]],
-    follows: npt.NDArray[np.bool_],
+    follows: BoolArray,
     places: Sequence[Station],
     controls: Mapping[str, Curve],
 ) -> list[_Visit]:
@@ -245,7 +245,7 @@ def _ways(visits: Sequence[_Visit]) -> list[tuple[float, float, float]]:
 
 
 def _givings(
-    visits: Sequence[_Visit], kinds: npt.NDArray[np.intp], others: Sequence[frozenset[tuple[str, int]]]
+    visits: Sequence[_Visit], kinds: IndexArray, others: Sequence[frozenset[tuple[str, int]]]
 ) -> list[tuple[float, float, float]]:
     """Moves (start_s, end_s, station) of a hand that gives way: with the keys, and kept where a trill comes back.
 

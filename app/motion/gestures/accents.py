@@ -7,7 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from app.motion.curves.curve import FloatArray, rows_changed_s
+from app.arrays import FloatArray
+from app.motion.curves.curve import rows_changed_s
 from app.plan.model import ACCENT_AT, GestureEvent
 
 DOWN_HALF, BEFORE_HALF, AFTER_HALF = 0.27, 0.19, 0.23

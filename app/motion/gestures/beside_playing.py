@@ -7,7 +7,8 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
-from app.motion.curves.curve import Envelopes, FloatArray, minimum_jerk, rows_changed_s
+from app.arrays import FloatArray
+from app.motion.curves.curve import Envelopes, minimum_jerk, rows_changed_s
 from app.plan.model import GestureEvent, GestureKind
 from app.score.metre_map import FeltBeats, beat_ticks_at
 from metadata.model import AmplitudeScale, ConcertMotion, at_amplitude

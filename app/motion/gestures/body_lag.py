@@ -6,7 +6,7 @@ from typing import NamedTuple, Protocol
 
 import numpy as np
 
-from app.motion.curves.curve import FloatArray
+from app.arrays import FloatArray
 from metadata.model import Overlap
 
 

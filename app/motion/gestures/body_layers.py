@@ -16,11 +16,12 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
+from app.arrays import FloatArray
 from app.motion.body_motion import BodyMotion
 from app.motion.breath.air_in_trunk import air
 from app.motion.breath.resting_breath import quiet_breaths
 from app.motion.by_hand.pose_corrections import Offset, Poses, hold_body
-from app.motion.curves.curve import Curve, Envelopes, FloatArray, moves
+from app.motion.curves.curve import Curve, Envelopes, moves
 from app.motion.curves.following_gestures import follow, path
 from app.motion.curves.path import Path
 from app.motion.faces.gaze import Look, with_instrument

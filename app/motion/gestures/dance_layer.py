@@ -15,9 +15,10 @@ from typing import Final
 
 import numpy as np
 
+from app.arrays import FloatArray
 from app.motion.body_motion import BodyMotion
 from app.motion.by_hand.pose_corrections import within
-from app.motion.curves.curve import Envelopes, FloatArray
+from app.motion.curves.curve import Envelopes
 from app.motion.gestures.body_layers import EYES_BACK
 from app.plan.by_hand.pose_corrections import NECK_SHARES, TRUNK_SHARES
 from app.plan.model import BreathEvent

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from app.motion.curves.curve import FloatArray, minimum_jerk, rows_changed_s
+from app.arrays import FloatArray
+from app.motion.curves.curve import minimum_jerk, rows_changed_s
 from app.plan.gestures.feet import FOOT_KINDS, foot_of, moves_s
 from app.plan.model import GestureEvent
 from metadata.model import Body, at_amplitude

@@ -13,7 +13,8 @@ from typing import Final, NamedTuple, TypeAlias, get_args
 
 import numpy as np
 
-from app.motion.curves.curve import FloatArray, rows_changed_s
+from app.arrays import FloatArray
+from app.motion.curves.curve import rows_changed_s
 from app.motion.gestures.named_gestures import Gestured, keyed
 from app.plan.model import GestureEvent
 from app.rig.grip.grip_pose import Side

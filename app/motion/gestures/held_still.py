@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any, Final, TypeVar
 
 import numpy as np
 
-from app.motion.curves.curve import Envelopes, FloatArray
+from app.arrays import FloatArray
+from app.motion.curves.curve import Envelopes
 from app.motion.gestures.body_lag import Overlapped
 from app.plan.model import GestureEvent
 

@@ -12,8 +12,9 @@ from typing import TypeAlias
 
 import numpy as np
 
+from app.arrays import FloatArray
 from app.motion.by_hand.pose_corrections import Offset, within
-from app.motion.curves.curve import FloatArray, rows_changed_s
+from app.motion.curves.curve import rows_changed_s
 from app.plan.by_hand.pose_corrections import ELBOW_DEG, HANDS_FOLLOW_DEG
 from app.plan.model import GestureEvent, PoseTarget
 from metadata.gestures import Gesture, Track

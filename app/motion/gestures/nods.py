@@ -10,7 +10,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from app.motion.curves.curve import FloatArray, bump, rows_changed_s
+from app.arrays import FloatArray
+from app.motion.curves.curve import bump, rows_changed_s
 from app.plan.model import CueEvent, GestureEvent
 
 DIP_BEATS = 0.5

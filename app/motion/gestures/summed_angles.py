@@ -9,8 +9,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from app.arrays import FloatArray
 from app.motion.body_motion import TRUNK
-from app.motion.curves.curve import FloatArray, Noise
+from app.motion.curves.curve import Noise
 from app.motion.curves.seeded_chance import generator
 from app.motion.gestures.body_lag import Leads, Overlapped
 from app.plan.by_hand.pose_corrections import NECK_SHARES, TRUNK_SHARES

@@ -10,11 +10,12 @@ from bisect import bisect_right
 import msgspec
 import numpy as np
 
+from app.arrays import FloatArray, IntArray
 from app.errors import Message
 from app.plan.breath.lungs import drawn, levels
 from app.plan.by_hand.corrections import WITHIN, kind_of
-from app.plan.model import BreathEvent, FloatArray, Problem
-from app.plan.music.piece import EPSILON, IntArray, LineTimes
+from app.plan.model import BreathEvent, Problem
+from app.plan.music.piece import EPSILON, LineTimes
 from app.score.model import Note
 
 LEAST_DEPTH = 0.3

@@ -21,6 +21,7 @@ from typing import NamedTuple
 import msgspec
 import numpy as np
 
+from app.arrays import BoolArray, FloatArray, IntArray
 from app.errors import Argument, Message
 from app.plan.breath.breath_depths import is_within, too_long, with_depths
 from app.plan.breath.breaths_in_rests import AIR_SHORT, because, blown_breaths, blown_catch, rest_breaths, within_note
@@ -38,10 +39,10 @@ from app.plan.breath.lungs import (
 from app.plan.breath.staggered_breaths import Shared, within_held
 from app.plan.breath.which_rests import ALWAYS_S, Decided, RestNeeds, breathed_in, rest_needs, why
 from app.plan.by_hand.corrections import BY_HAND, Correction, SetBreath, breath_id, removed_ids, without_removed
-from app.plan.model import BreathEvent, FloatArray, Problem, TimeFrame
-from app.plan.music.breath_controller import BoolArray, BreathEnvelope, Silences, gaps_within, silences
+from app.plan.model import BreathEvent, Problem, TimeFrame
+from app.plan.music.breath_controller import BreathEnvelope, Silences, gaps_within, silences
 from app.plan.music.notation import at_score_tempo, heard_rests_s, notated, usual_release
-from app.plan.music.piece import EPSILON, IntArray, LineTimes, Piece, Seeds, gaps_s
+from app.plan.music.piece import EPSILON, LineTimes, Piece, Seeds, gaps_s
 from app.plan.music.rests import Rests, are_audible, rest_ticks
 from app.plan.parameters import PlayerParameters
 from app.score.model import Note

@@ -11,12 +11,13 @@ from typing import Final, Literal, NamedTuple
 
 import numpy as np
 
+from app.arrays import FloatArray, IntArray
 from app.errors import Argument, Message
 from app.plan.breath.which_rests import LONG_S
 from app.plan.by_hand.corrections import WITHIN
-from app.plan.model import BreathEvent, FloatArray, TimeFrame
+from app.plan.model import BreathEvent, TimeFrame
 from app.plan.music.breath_controller import BREATH_S, Silences
-from app.plan.music.piece import EPSILON, IntArray, LineTimes, Piece
+from app.plan.music.piece import EPSILON, LineTimes, Piece
 from app.plan.music.rests import Rests
 from app.plan.parameters import PlayerParameters
 from app.score.model import Note

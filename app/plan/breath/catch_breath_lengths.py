@@ -11,8 +11,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from app.plan.model import FloatArray
-from app.plan.music.piece import EPSILON, IntArray, LineTimes, gaps_s
+from app.arrays import FloatArray, IntArray
+from app.plan.music.piece import EPSILON, LineTimes, gaps_s
 
 CATCH_MIN_S = 0.2
 """A shorter gasp is no breath: a litre at 5 to 8 litres a second, the most that healthy adults breathe in with."""

@@ -5,14 +5,13 @@ from __future__ import annotations
 from functools import lru_cache
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import BoolArray, FloatArray, IntArray
 from app.plan.breath.catch_breath_lengths import MOST_DROPPED, Room
 from app.plan.breath.lungs import FULL_BREATH_S, HASTY_SHARE
 from app.plan.breath.phrase_ends import place_costs, slur_costs
 from app.plan.breath.which_rests import LEAST_PLAYED_S
-from app.plan.model import FloatArray
-from app.plan.music.piece import EPSILON, IntArray, LineTimes, Piece, Seeds
+from app.plan.music.piece import EPSILON, LineTimes, Piece, Seeds
 
 LEAST_COST = 0.2
 """A breath costs so much at least before the air is used up that asks for one at a phrase's end."""
@@ -40,8 +39,8 @@ def catch_places(
     lung_s: float,
     refill: FloatArray,
     level: FloatArray,
-    may: npt.NDArray[np.bool_],
-    taken: npt.NDArray[np.bool_],
+    may: BoolArray,
+    taken: BoolArray,
     missing: IntArray,
     seeds: Seeds,
     rests: IntArray,
@@ -96,7 +95,7 @@ def catch_places(
     air_s = np.minimum(room.lasts_s / FULL_BREATH_S, 1.0) * lung_s
     played_s = np.concatenate(([0.0], np.cumsum(times.duration_s)))
 
-    def chain(start: int, end: int, allowed: npt.NDArray[np.bool_]) -> tuple[list[int], bool]:
+    def chain(start: int, end: int, allowed: BoolArray) -> tuple[list[int], bool]:
         places = start + 1 + np.flatnonzero(allowed[start + 1 : end])
         nodes = np.concatenate(([start], places, [end]))
         found, is_enough = _cheapest_chain(

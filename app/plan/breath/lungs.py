@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from app.plan.model import FloatArray
+from app.arrays import FloatArray, IntArray
 from app.plan.music.breath_controller import STOPS_AT, BreathEnvelope, step_means
 from app.plan.music.dynamics import mean_around
-from app.plan.music.piece import EPSILON, MEZZOFORTE, IntArray, LineTimes, marked
+from app.plan.music.piece import EPSILON, MEZZOFORTE, LineTimes, marked
 from app.plan.parameters import PlayerParameters
 from instrument_maps.model import Air
 

@@ -13,14 +13,11 @@ from statistics import median
 from typing import Final, NamedTuple
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import BoolArray, FloatArray, IntArray
 from app.plan.breath.catch_breath_lengths import CATCH_MIN_S, CATCH_NOTE_SHARE, MOST_DROPPED
-from app.plan.model import FloatArray
 from app.plan.music.notation import PLACES, written_onsets
-from app.plan.music.piece import EPSILON, IntArray, LineTimes, Piece, Seeds, gaps_s, staccato
-
-BoolArray = npt.NDArray[np.bool_]
+from app.plan.music.piece import EPSILON, LineTimes, Piece, Seeds, gaps_s, staccato
 
 # Learned: log odds of a phrase's end, each where ...
 LONG_NOTE: Final = 0.8

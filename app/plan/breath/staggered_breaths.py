@@ -19,11 +19,12 @@ from typing import Final, NamedTuple, TypeAlias
 
 import numpy as np
 
+from app.arrays import FloatArray
 from app.errors import Message
 from app.plan.breath.breaths_in_rests import breath_at
 from app.plan.breath.lungs import FULL_BREATH_S
 from app.plan.by_hand.corrections import WITHIN, kind_of, within_id
-from app.plan.model import BreathEvent, FloatArray
+from app.plan.model import BreathEvent
 from app.plan.music.fermatas import Fermata
 from app.plan.music.notation import PLACES, notated
 from app.plan.music.piece import EPSILON, LineTimes, Piece

@@ -11,14 +11,11 @@ from __future__ import annotations
 from typing import Final, NamedTuple
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import BoolArray, FloatArray
 from app.errors import Argument
-from app.plan.model import FloatArray
 from app.plan.music.piece import EPSILON
 from app.plan.parameters import PARAMETERS
-
-BoolArray = npt.NDArray[np.bool_]
 
 USUAL_NEED: Final = float(PARAMETERS["breath_need"].default)
 """The need that gives the figures below; a smaller one scales them down to 0, a greater one up to whole lungs."""

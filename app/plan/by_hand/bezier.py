@@ -9,11 +9,9 @@ from collections.abc import Sequence
 from typing import Final
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import FloatArray
 from app.plan.model import CurveSegment
-
-FloatArray = npt.NDArray[np.float64]
 
 HALVINGS: Final = 40
 """After so many the place on a segment is known to the last bits that matter."""

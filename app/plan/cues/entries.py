@@ -7,9 +7,9 @@ from typing import Literal, TypeAlias
 import msgspec
 import numpy as np
 
-from app.plan.model import FloatArray
+from app.arrays import FloatArray, IntArray
 from app.plan.music.fermatas import OTHER_TEMPO, Fermata, fermatas
-from app.plan.music.piece import IntArray, Piece, Rhythm
+from app.plan.music.piece import Piece, Rhythm
 from app.plan.music.spans import Spans
 
 COMMON_REST_S = 1.5

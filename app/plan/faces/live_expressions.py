@@ -7,7 +7,7 @@ from collections.abc import Collection
 
 import numpy as np
 
-from app.plan.model import FloatArray
+from app.arrays import FloatArray
 from app.plan.rules import Facts, growth_of, matches
 from instrument_maps.model import InstrumentMap
 from metadata.rules import Rule, When

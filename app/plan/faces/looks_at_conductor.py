@@ -12,9 +12,10 @@ from typing import Final
 
 import numpy as np
 
+from app.arrays import FloatArray, IntArray
 from app.plan.faces.glances import PLAYING_HEAD, StagePlace, bearing_rad, pitch_rad
-from app.plan.model import CONDUCTOR, FloatArray, GlanceEvent, TimeFrame
-from app.plan.music.piece import IntArray, LineTimes, Piece, Rhythm, Seeds
+from app.plan.model import CONDUCTOR, GlanceEvent, TimeFrame
+from app.plan.music.piece import LineTimes, Piece, Rhythm, Seeds
 from app.plan.music.spans import Spans
 
 CHANGING: Final = 0.03

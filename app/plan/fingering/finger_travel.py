@@ -11,8 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from app.plan.model import FloatArray
-from app.plan.music.piece import IntArray
+from app.arrays import FloatArray, IntArray
 from instrument_maps.model import Contact, Control, Fingering
 
 _DOWN = 0.5

@@ -15,6 +15,7 @@ from collections.abc import Mapping, Sequence
 import msgspec
 import numpy as np
 
+from app.arrays import IntArray
 from app.errors import Message
 from app.plan.fingering.mutes import stopped_notes
 from app.plan.fingering.search import (
@@ -26,7 +27,7 @@ from app.plan.fingering.search import (
     never_worse,
 )
 from app.plan.model import FingeringEvent, Planned, Problem, Vent
-from app.plan.music.piece import IntArray, LineTimes
+from app.plan.music.piece import LineTimes
 from app.score.model import Note
 from instrument_maps.model import Fingering, InstrumentMap
 

@@ -6,8 +6,8 @@ Messages: ``mute.mute``, ``mute.stopped_left``, ``mute.stopped_right``, ``mute.n
 from __future__ import annotations
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import BoolArray
 from app.errors import Message
 from app.plan.model import MuteEvent, MuteKind
 from app.score.model import Note
@@ -18,7 +18,7 @@ from instrument_maps.model import InstrumentMap
 Spans = tuple[tuple[int, int], ...]
 
 
-def stopped_notes(notes: tuple[Note, ...], stopped: Spans, instrument: InstrumentMap) -> npt.NDArray[np.bool_]:
+def stopped_notes(notes: tuple[Note, ...], stopped: Spans, instrument: InstrumentMap) -> BoolArray:
     """(N,): whether the hand stops each note."""
     if instrument.stopped is None or not stopped:
         return np.zeros(len(notes), dtype=bool)

@@ -11,16 +11,13 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import BoolArray, FloatArray, IntArray
 from app.plan.fingering.finger_travel import FingerPlaces, finger_places
 from app.plan.fingering.trills_and_runs import TRILL_S, attacked_notes, chromatic_notes, glissando_steps, trill_steps
-from app.plan.model import FloatArray
-from app.plan.music.piece import IntArray, LineTimes
+from app.plan.music.piece import LineTimes
 from app.score.model import Note
 from instrument_maps.model import Control, Fingering, InstrumentMap
-
-BoolArray = npt.NDArray[np.bool_]
 
 # What choosing an alternate costs. The unit is one step down in rank.
 RANK_COST = 1.0

@@ -6,11 +6,9 @@ Each function looks at the times and pitches of the whole line at once.
 from __future__ import annotations
 
 import numpy as np
-import numpy.typing as npt
 
-from app.plan.music.piece import IntArray, LineTimes
-
-BoolArray = npt.NDArray[np.bool_]
+from app.arrays import BoolArray, IntArray
+from app.plan.music.piece import LineTimes
 
 TRILL_S = 0.15
 """A trill or tremolo is at least `TRILL_NOTES` notes of at most this length that alternate between two pitches."""

@@ -14,10 +14,11 @@ from typing import Final, Literal
 
 import numpy as np
 
+from app.arrays import FloatArray
 from app.errors import Message
 from app.plan.gestures.leans_and_accents import Phrase
 from app.plan.gestures.sways import Pulse
-from app.plan.model import FloatArray, GestureEvent, GestureKind, StyleEvent
+from app.plan.model import GestureEvent, GestureKind, StyleEvent
 from app.plan.music.piece import Rhythm, Seeds
 from app.plan.styles import amount_at
 from app.score.tempo import TempoMap

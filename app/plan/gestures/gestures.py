@@ -26,11 +26,11 @@ from functools import lru_cache
 from operator import attrgetter
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import BoolArray, FloatArray, IntArray
 from app.errors import Message
 from app.plan.gestures.sways import STIR_S, Pulse, stirring
-from app.plan.model import FloatArray, GestureEvent, TimeFrame
+from app.plan.model import GestureEvent, TimeFrame
 from app.plan.music.dynamics import Dynamics, grown
 from app.plan.music.piece import LineTimes, Piece, Rhythm, Seeds
 from app.score.model import Note
@@ -97,7 +97,7 @@ def weight_shifts(
     return events
 
 
-def _in_silence(times: Rhythm, seeds: Seeds, clock: TempoMap) -> npt.NDArray[np.int64]:
+def _in_silence(times: Rhythm, seeds: Seeds, clock: TempoMap) -> IntArray:
     """Ticks of shifts in the middle of long silences: a few, however long they are."""
     found = []
     quiet = times.onset_s[1:] - times.played_end_s[:-1] > 2.0 * STIR_S + SHIFT_LEAST_S
@@ -202,9 +202,9 @@ def _arches(
     at_s: FloatArray,
     heights: FloatArray,
     loudness: FloatArray,
-    first_of_bar: npt.NDArray[np.bool_],
-    apart: npt.NDArray[np.bool_],
-) -> tuple[FloatArray, npt.NDArray[np.bool_]]:
+    first_of_bar: BoolArray,
+    apart: BoolArray,
+) -> tuple[FloatArray, BoolArray]:
     """What the phrases add to the bell's height, beat by beat: up to the climax (the highest, loudest beat, sooner the
     first of a bar) and down at the end; and which beats these are. Rests of a beat (``apart``) divide phrases."""
     arches, turns = np.zeros(len(at_s)), np.zeros(len(at_s), dtype=bool)

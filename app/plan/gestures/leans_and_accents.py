@@ -14,16 +14,14 @@ from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import BoolArray, FloatArray, IntArray
 from app.errors import Message
 from app.plan.gestures.sways import Pulse, Swings
-from app.plan.model import ACCENT_AT, BreathEvent, CueEvent, FloatArray, GestureEvent
+from app.plan.model import ACCENT_AT, BreathEvent, CueEvent, GestureEvent
 from app.plan.music.dynamics import Dynamics, grown
-from app.plan.music.piece import IntArray, LineTimes, Piece, Rhythm, Seeds
+from app.plan.music.piece import LineTimes, Piece, Rhythm, Seeds
 from app.score.tempo import TempoMap
-
-BoolArray = npt.NDArray[np.bool_]
 
 LEAN_BACK, ACCENT, LOUD = Message("gesture.lean_back"), Message("gesture.accent"), Message("gesture.accent_loud")
 REST_S = 0.9

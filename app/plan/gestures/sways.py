@@ -9,12 +9,12 @@ import math
 from dataclasses import dataclass, fields
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import BoolArray, FloatArray, IntArray
 from app.errors import Message
-from app.plan.model import FloatArray, GestureEvent, StyleEvent, TimeFrame
+from app.plan.model import GestureEvent, StyleEvent, TimeFrame
 from app.plan.music.dynamics import Dynamics, grown
-from app.plan.music.piece import IntArray, Piece, Rhythm, Seeds
+from app.plan.music.piece import Piece, Rhythm, Seeds
 from app.plan.styles import amount_at
 
 SWING_S = 1.1
@@ -97,7 +97,7 @@ class Swings:
     amounts: FloatArray
     lasts: IntArray
 
-    def still_at(self, ticks: IntArray) -> npt.NDArray[np.bool_]:
+    def still_at(self, ticks: IntArray) -> BoolArray:
         """Whether the body keeps still at some ticks."""
         if not len(self.ticks):
             return np.ones(len(ticks), np.bool_)

@@ -10,8 +10,9 @@ from functools import lru_cache
 
 import numpy as np
 
+from app.arrays import FloatArray
 from app.errors import Message
-from app.plan.model import EmbouchureEvent, FloatArray
+from app.plan.model import EmbouchureEvent
 from app.plan.music.piece import MEZZOFORTE, LineTimes
 from app.score.model import Note
 from instrument_maps.model import InstrumentMap

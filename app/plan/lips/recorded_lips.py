@@ -7,11 +7,11 @@ A note whose embouchure was set by hand keeps what was set, from its beginning t
 from __future__ import annotations
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import BoolArray, FloatArray
 from app.plan.by_hand.corrections import Correction, SetEmbouchure
 from app.plan.lips.embouchure import strain_of, tension_of
-from app.plan.model import FloatArray, SampledCurves
+from app.plan.model import SampledCurves
 from app.plan.music.breath_controller import BreathEnvelope, step_means
 from app.plan.music.piece import ControllerInput, LineTimes, Steps
 from app.score.model import Note
@@ -98,9 +98,7 @@ def _spans(
     return spans
 
 
-def _pressed(
-    controller: ControllerInput, clock: TempoMap, at_s: FloatArray, sounds: npt.NDArray[np.bool_]
-) -> FloatArray:
+def _pressed(controller: ControllerInput, clock: TempoMap, at_s: FloatArray, sounds: BoolArray) -> FloatArray:
     """What bite and pitch bend add to the tension: the bite by how far it is from the usual one."""
     bite = bend = np.zeros(len(at_s))
     if controller.bite is not None:

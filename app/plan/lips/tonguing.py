@@ -14,18 +14,16 @@ from functools import lru_cache
 from typing import Final
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import BoolArray, IntArray
 from app.errors import Message
 from app.plan.model import Articulation, FingeringEvent, Stroke, TongueEvent
 from app.plan.music.dynamics import ACCENT, louder_by
-from app.plan.music.piece import DETACHED_GATES, EPSILON, TOUCHING_GATE, IntArray, LineTimes, Piece, Seeds, staccato
+from app.plan.music.piece import DETACHED_GATES, EPSILON, TOUCHING_GATE, LineTimes, Piece, Seeds, staccato
 from app.plan.music.rests import rest_ticks
 from app.score.metre_map import Metre
 from app.score.model import Note
 from instrument_maps.model import InstrumentMap
-
-BoolArray = npt.NDArray[np.bool_]
 
 TONGUE_S: Final = 0.0345
 """Contact of the tongue before an attack, independent of tempo (Hofmann 2012)."""

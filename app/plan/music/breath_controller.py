@@ -10,13 +10,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 
-from app.plan.model import FloatArray
-from app.plan.music.piece import IntArray, LineTimes, Steps
+from app.arrays import BoolArray, FloatArray, IntArray
+from app.plan.music.piece import LineTimes, Steps
 from app.score.tempo import TempoMap
-
-BoolArray = npt.NDArray[np.bool_]
 
 BLOWS_FROM, STOPS_AT = 6.0 / 127.0, 2.0 / 127.0
 """Who does not blow begins at the one, who blows stops at the other: a sensor's noise about zero is no breath."""

@@ -6,13 +6,10 @@ from dataclasses import dataclass
 from typing import TypeVar
 
 import numpy as np
-import numpy.typing as npt
 
-from app.plan.model import FloatArray
+from app.arrays import FloatArray
 from app.plan.music.breath_controller import BreathEnvelope
 from app.plan.music.piece import MEZZOFORTE, LineTimes
-
-BoolArray = npt.NDArray[np.bool_]
 
 LOUDNESSES = (0.0, 0.26, 0.39, MEZZOFORTE, 0.76, 0.88, 1.0)
 """Silence, pianissimo, piano, mezzoforte, forte, fortissimo, and as loud as can be: MIDI velocities 33, 49, 80 ..."""

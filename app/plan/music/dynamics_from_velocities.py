@@ -11,12 +11,12 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 from functools import lru_cache
-from typing import Final, TypeAlias
+from typing import Final
 
 import msgspec
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import BoolArray, FloatArray, IntArray
 from app.plan.music.velocity_ladders import (
     DYNAMICS,
     LADDERS,
@@ -27,9 +27,6 @@ from app.plan.music.velocity_ladders import (
     articulated,
     ladder_of,
 )
-
-FloatArray: TypeAlias = npt.NDArray[np.float64]
-IntArray: TypeAlias = npt.NDArray[np.int64]
 
 MEZZOFORTE: Final = 0.63
 """Loudness 0..1 of mezzoforte: MIDI velocity 80 of 127."""
@@ -396,7 +393,7 @@ def _on_ladder(velocity: IntArray, name: str, program: int | None) -> tuple[Floa
     return np.clip(LEVELS[marks] + more, 0.0, 1.0), marks
 
 
-def _carried(marks: IntArray, stressed: npt.NDArray[np.bool_], more: FloatArray) -> tuple[IntArray, FloatArray]:
+def _carried(marks: IntArray, stressed: BoolArray, more: FloatArray) -> tuple[IntArray, FloatArray]:
     """Give notes without a mark of their own (-1) the mark before them, and the first of some stressed ones an accent:
     LilyPond stays at a *sf* until the next mark, players do not; and it plays a voice without marks at its default."""
     unmarked = marks < 0

@@ -13,9 +13,9 @@ from collections.abc import Sequence
 import msgspec
 import numpy as np
 
-from app.plan.model import FloatArray
+from app.arrays import FloatArray, IntArray
 from app.plan.music.notation import written_onsets
-from app.plan.music.piece import IntArray, LineTimes, Piece, Rhythm
+from app.plan.music.piece import LineTimes, Piece, Rhythm
 
 LEAST_NOTES = 24
 """Fewer notes show no metre."""

@@ -13,8 +13,8 @@ from typing import Final
 import msgspec
 import numpy as np
 
-from app.plan.model import FloatArray
-from app.plan.music.piece import IntArray, Piece, Rhythm
+from app.arrays import FloatArray, IntArray
+from app.plan.music.piece import Piece, Rhythm
 
 HELD_TEMPO: Final = 1.5
 """Least factor by which the held beat is slower than the beats before and after it ..."""

@@ -5,10 +5,9 @@ from __future__ import annotations
 import dataclasses
 
 import numpy as np
-import numpy.typing as npt
 
-from app.plan.model import FloatArray
-from app.plan.music.piece import EPSILON, TOUCHING_GATE, IntArray, LineTimes, Piece, gaps_s
+from app.arrays import AnyFloatArray, BoolArray, FloatArray, IntArray
+from app.plan.music.piece import EPSILON, TOUCHING_GATE, LineTimes, Piece, gaps_s
 from app.plan.music.rests import AUDIBLE_S, SILENT_S, are_audible
 
 WRITTEN_SHARE = 0.9
@@ -152,7 +151,7 @@ def notated(times: LineTimes, piece: Piece) -> LineTimes:
     )
 
 
-def _meant_slurs(times: LineTimes, onset_s: FloatArray) -> npt.NDArray[np.bool_]:
+def _meant_slurs(times: LineTimes, onset_s: FloatArray) -> BoolArray:
     """(N,): which notes are slurred to the next, without those that meet it only because it came early.
 
     Where slurs are meant, most of the slurred notes last as long as written.
@@ -214,9 +213,9 @@ def at_score_tempo(times: LineTimes, piece: Piece) -> LineTimes:
 
 
 def simplest_places(
-    first: npt.NDArray[np.floating] | IntArray,
-    last: npt.NDArray[np.floating] | IntArray,
-    near: npt.NDArray[np.floating] | IntArray,
+    first: AnyFloatArray | IntArray,
+    last: AnyFloatArray | IntArray,
+    near: AnyFloatArray | IntArray,
     quarter_ticks: int,
     rarer: int = 0,
 ) -> IntArray:

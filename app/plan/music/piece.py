@@ -7,16 +7,14 @@ from functools import cached_property, lru_cache
 
 import msgspec
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import BoolArray, FloatArray, IntArray
 from app.chance import begun, chance, share_of
 from app.plan.acting import Acting
 from app.plan.by_hand.corrections import Correction
-from app.plan.model import FloatArray
 from app.plan.music.dynamics_from_velocities import LEVELS, velocity_loudness
 from app.plan.music.dynamics_from_velocities import MEZZOFORTE as MEZZOFORTE
 from app.plan.parameters import PlayerParameters
-from app.score.metre_map import IntArray as IntArray
 from app.score.metre_map import MetreMap
 from app.score.model import Note
 from app.score.tempo import TempoMap
@@ -165,7 +163,7 @@ class LineTimes(Rhythm):
     before the first it is very long, since the pre-roll is silent); ``loudness`` 0..1.
     """
 
-    slurs_next: npt.NDArray[np.bool_]
+    slurs_next: BoolArray
     silence_tick: IntArray
     pitch: IntArray
     loudness: FloatArray
@@ -176,7 +174,7 @@ class LineTimes(Rhythm):
         return Rhythm(self.onset_tick, self.played_end_tick, self.onset_s, self.played_end_s)
 
     @cached_property
-    def leaps(self) -> npt.NDArray[np.bool_]:
+    def leaps(self) -> BoolArray:
         """(N-1,): whether the next note is a leap away."""
         return np.asarray(np.abs(np.diff(self.pitch)) >= LEAP_SEMITONES)
 
@@ -202,7 +200,7 @@ DETACHED_SHARE = 0.1
 """Where so many notes are detached so, those that touch are meant to be slurred."""
 
 
-def slurs_next(onset_tick: IntArray, end_tick: IntArray) -> npt.NDArray[np.bool_]:
+def slurs_next(onset_tick: IntArray, end_tick: IntArray) -> BoolArray:
     """(N,): whether each note is slurred to the next: it overlaps it, or touches it in a line that detaches others.
 
     Where all notes touch (an engraved score rendered to MIDI, or one gate for everything), touching says nothing.
@@ -212,7 +210,7 @@ def slurs_next(onset_tick: IntArray, end_tick: IntArray) -> npt.NDArray[np.bool_
     gates = (end_tick - onset_tick) / between
     low, high = DETACHED_GATES
     detached = np.count_nonzero((gates >= low) & (gates <= high))
-    slurred: npt.NDArray[np.bool_] = end_tick > following
+    slurred: BoolArray = end_tick > following
     if detached >= max(DETACHED_SHARE * len(gates), 1):
         slurred |= gates >= TOUCHING_GATE
     return slurred
@@ -224,10 +222,10 @@ STACCATO_QUARTERS = 1.0
 """... where the next one comes so soon: later, what follows is a rest."""
 
 
-def staccato(onset_tick: IntArray, end_tick: IntArray, quarter_ticks: int) -> npt.NDArray[np.bool_]:
+def staccato(onset_tick: IntArray, end_tick: IntArray, quarter_ticks: int) -> BoolArray:
     """(N,): whether each note is short for the time to the next one; after the last one nothing comes that says so."""
     between = np.append(np.diff(onset_tick), BEFORE_FIRST_TICK)
-    short: npt.NDArray[np.bool_] = end_tick - onset_tick <= STACCATO_GATE * between
+    short: BoolArray = end_tick - onset_tick <= STACCATO_GATE * between
     return short & (between <= STACCATO_QUARTERS * quarter_ticks)
 
 

@@ -11,12 +11,9 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-import numpy.typing as npt
 
-from app.plan.model import FloatArray
-from app.plan.music.piece import EPSILON, IntArray, LineTimes
-
-BoolArray = npt.NDArray[np.bool_]
+from app.arrays import BoolArray, FloatArray, IntArray
+from app.plan.music.piece import EPSILON, LineTimes
 
 AUDIBLE_S = 0.3
 """Length of a silence that is a rest after a long note, whatever the notes around do."""

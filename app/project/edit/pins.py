@@ -8,11 +8,10 @@ from __future__ import annotations
 
 from collections.abc import Collection
 from dataclasses import dataclass, replace
-from typing import Final, TypeAlias
+from typing import Final
 
 import msgspec
 import numpy as np
-import numpy.typing as npt
 
 from app.errors import UsageError
 from app.project import limits
@@ -20,8 +19,6 @@ from app.project.edit.tempo import replace_tempi
 from app.project.model import Project
 from app.project.recording import AudioTrack, BeatPin
 from app.score.tempo import TempoChange
-
-Floats: TypeAlias = npt.NDArray[np.float64]
 
 _REACH_BEATS: Final = 8
 """Where no pin is nearer, beats this far away stay where they are."""

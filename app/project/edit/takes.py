@@ -18,12 +18,12 @@ from typing import Any, Final
 
 import msgspec
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import FloatArray, IntArray
 from app.errors import AppError
 from app.identity_cache import IdentityCache
 from app.project import limits
-from app.project.alignment import AlignmentPart, Floats, align
+from app.project.alignment import AlignmentPart, align
 from app.project.check import take_faults
 from app.project.edit.length import with_score
 from app.project.grid import Grid
@@ -43,10 +43,10 @@ class _Placed:
     """A take's notes in the piece, and where its onsets went: from ticks as played, ascending, to ticks as they are."""
 
     notes: tuple[Note, ...]
-    played: Floats
-    here: Floats
+    played: FloatArray
+    here: FloatArray
 
-    def moved(self, ticks: Floats) -> Floats:
+    def moved(self, ticks: FloatArray) -> FloatArray:
         """Where other moments of the take go: between two onsets in proportion, so that none overtakes another."""
         if not len(self.played):
             return ticks
@@ -61,7 +61,7 @@ BEFORE: Final = ""
 
 _PLACED: Final[IdentityCache[_Placed]] = IdentityCache(64)
 _CURVES: Final[IdentityCache[tuple[ControllerCurve, ...]]] = IdentityCache(64)
-_STEPS: Final[IdentityCache[tuple[npt.NDArray[np.int64], Floats]]] = IdentityCache(16)
+_STEPS: Final[IdentityCache[tuple[IntArray, FloatArray]]] = IdentityCache(16)
 
 
 def recorded_of(project: Project, player_id: str) -> PlayerTakes:
@@ -214,7 +214,7 @@ def take_curves(project: Project, player_id: str, take_id: str) -> tuple[Control
 # A take without a score
 
 
-def beats_of(project: Project, player_id: str, take_id: str) -> Floats:
+def beats_of(project: Project, player_id: str, take_id: str) -> FloatArray:
     """When the beats of a take that was played freely are, seconds. Slow at first: its library compiles.
 
     Raises
@@ -228,7 +228,7 @@ def beats_of(project: Project, player_id: str, take_id: str) -> Floats:
     return find_beats(clean.onsets_s[kept], clean.ends_s[kept])
 
 
-def follow_beats(project: Project, player_id: str, take_id: str, beats_s: Floats) -> Project:
+def follow_beats(project: Project, player_id: str, take_id: str, beats_s: FloatArray) -> Project:
     """Let the piece have the tempo of a take that was played freely: its first beat begins the piece, and its notes
     lie on beats as they were meant. Raises AppError ``take.not_free``."""
     _require_free(project, player_id)
@@ -322,13 +322,13 @@ def _place(take: Take, before: tuple[Note, ...], metre_map: MetreMap) -> _Placed
 
 def _aligned(
     strength: float,
-    onsets: Floats,
-    ends: Floats,
+    onsets: FloatArray,
+    ends: FloatArray,
     ids: list[str],
     pitches: list[int],
     before: tuple[Note, ...],
     metre_map: MetreMap,
-) -> tuple[Floats, Floats, list[str], list[int]]:
+) -> tuple[FloatArray, FloatArray, list[str], list[int]]:
     """Notes drawn to those of the score that they are taken for, which give them pitch and name; others move with
     their neighbours, so that what was played between stays between."""
     quarter = metre_map.ticks_per_quarter
@@ -353,7 +353,9 @@ def _aligned(
     return onsets, onsets + lengths, ids, pitches
 
 
-def _quantised(cleaning: Cleaning, onsets: Floats, ends: Floats, metre_map: MetreMap) -> tuple[Floats, Floats]:
+def _quantised(
+    cleaning: Cleaning, onsets: FloatArray, ends: FloatArray, metre_map: MetreMap
+) -> tuple[FloatArray, FloatArray]:
     """Onsets drawn to the grid; where a legato note's successor goes its end goes with it."""
     grid = Grid(Fraction(cleaning.grid_quarters).limit_denominator(960))
     by = cleaning.quantise * np.array([grid.snap(metre_map, onset) - onset for onset in onsets.tolist()])
@@ -456,18 +458,18 @@ def _spliced(
     return tuple(result)
 
 
-def _steps(curve: ControllerCurve | None) -> tuple[npt.NDArray[np.int64], Floats]:
+def _steps(curve: ControllerCurve | None) -> tuple[IntArray, FloatArray]:
     """A curve as arrays."""
     if curve is None:
         return np.empty(0, np.int64), np.empty(0)
     return _STEPS.step(_arrays, curve)
 
 
-def _arrays(curve: ControllerCurve) -> tuple[npt.NDArray[np.int64], Floats]:
+def _arrays(curve: ControllerCurve) -> tuple[IntArray, FloatArray]:
     return np.array(curve.ticks, np.int64), np.array(curve.values, np.float64)
 
 
-def _held(ticks: npt.NDArray[np.int64], values: Floats, tick: int) -> float:
+def _held(ticks: IntArray, values: FloatArray, tick: int) -> float:
     """What holds at a tick; 0 before the first."""
     index = int(np.searchsorted(ticks, tick, side="right")) - 1
     return float(values[index]) if index >= 0 else 0.0

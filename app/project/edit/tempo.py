@@ -10,8 +10,8 @@ from collections.abc import Iterable
 
 import msgspec
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import FloatArray, IntArray
 from app.errors import UsageError
 from app.project import limits
 from app.project.edit.length import with_score
@@ -75,7 +75,7 @@ def scale_tempo(project: Project, ratio: float) -> Project:
     return replace_tempi(project, changes)
 
 
-def set_beats(project: Project, ticks: npt.NDArray[np.int64], seconds: npt.NDArray[np.float64]) -> Project:
+def set_beats(project: Project, ticks: IntArray, seconds: FloatArray) -> Project:
     """Let beats lie these seconds from one another; between them the tempo is constant, and after the last it goes on.
 
     Parameters

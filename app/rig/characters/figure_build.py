@@ -12,16 +12,14 @@ from dataclasses import dataclass, replace
 from typing import Final
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import FloatArray
 from app.errors import FileError, Message
 from app.formats.names import numbered
 from app.rig import quaternion
 from app.rig.characters.bone_placements import local_placements
 from app.rig.figure import Figure, Origin
 from app.rig.mesh import Mesh, Morph, scaled_mesh
-
-FloatArray = npt.NDArray[np.float64]
 
 MOST_BONES: Final = 5000
 MOST_VERTICES: Final = 3_000_000

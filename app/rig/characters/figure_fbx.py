@@ -14,15 +14,13 @@ from typing import Final
 import numpy as np
 import numpy.typing as npt
 
+from app.arrays import FloatArray, IntArray, SingleArray
 from app.errors import FileError
 from app.formats.fbx.foreign import FbxCluster, FbxContent, FbxMesh, FbxNode, read_foreign_fbx
 from app.formats.scene import Material
 from app.rig.characters.figure_build import SINGULAR, Nodes, Part, apart, build_figure, rest_pose
 from app.rig.figure import Figure
 from app.rig.mesh import Mesh, Morph
-
-FloatArray = npt.NDArray[np.float64]
-IntArray = npt.NDArray[np.int64]
 
 MOST_INFLUENCES: Final = 16
 FREE_MOVES: Final = 2**19
@@ -106,7 +104,7 @@ def _parts(
     return parts
 
 
-def _influences(clusters: list[FbxCluster], count: int) -> tuple[npt.NDArray[np.int32], npt.NDArray[np.float32]]:
+def _influences(clusters: list[FbxCluster], count: int) -> tuple[npt.NDArray[np.int32], SingleArray]:
     """Clusters and weights of every point, the heaviest first, as wide as the busiest point needs."""
     points = np.concatenate([cluster.points for cluster in clusters])
     weights = np.concatenate([cluster.weights[: len(cluster.points)] for cluster in clusters])

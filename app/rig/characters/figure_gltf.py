@@ -13,14 +13,12 @@ from pathlib import Path
 from typing import Any, Final
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import FloatArray
 from app.rig.characters.figure_build import SINGULAR, Nodes, Part, apart, build_figure, rest_pose, turned
 from app.rig.characters.texture_color import Textures, coloured
 from app.rig.figure import Figure, Origin
 from app.rig.gltf_source import Source, build_mesh, read_source
-
-FloatArray = npt.NDArray[np.float64]
 
 THUMBS_OF_VRM0: Final = {"ThumbProximal": "ThumbMetacarpal", "ThumbIntermediate": "ThumbProximal"}
 PRESETS_OF_VRM0: Final = {

@@ -20,6 +20,7 @@ from typing import Final
 import numpy as np
 import numpy.typing as npt
 
+from app.arrays import FloatArray, SingleArray
 from app.errors import FileError
 from app.rig import quaternion
 from app.rig.characters.landmarks import found_landmarks
@@ -30,8 +31,6 @@ from app.rig.mesh import Mesh, Morph
 from app.rig.model import Character, Skeleton
 from metadata.load import load_skeleton
 from metadata.model import REQUIRED_JOINTS
-
-FloatArray = npt.NDArray[np.float64]
 
 OPTIONAL: Final = frozenset({"jaw"})
 """Joints that are not supplied: nothing is the worse for their lack."""
@@ -182,9 +181,7 @@ def _mesh(mesh: Mesh, joint_of_bone: npt.NDArray[np.int32], morphs: Mapping[str,
     return replace(mesh, joints=joints, weights=weights, morphs=_composed(mesh.morphs, morphs))
 
 
-def _merged(
-    joints: npt.NDArray[np.int32], weights: FloatArray
-) -> tuple[npt.NDArray[np.int32], npt.NDArray[np.float32]]:
+def _merged(joints: npt.NDArray[np.int32], weights: FloatArray) -> tuple[npt.NDArray[np.int32], SingleArray]:
     """Influences with each joint once per vertex, the heaviest first, as wide as needed."""
     joints, weights = joints.copy(), weights.copy()
     for column in range(1, joints.shape[1]):

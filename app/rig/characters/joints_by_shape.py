@@ -12,9 +12,8 @@ from itertools import pairwise
 from typing import Final
 
 import numpy as np
-import numpy.typing as npt
 
-FloatArray = npt.NDArray[np.float64]
+from app.arrays import FloatArray
 
 MIRROR_TOLERANCE: Final = 0.03
 """How far a bone may be from its partner's mirror image, of the figure's height."""

@@ -9,16 +9,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import FloatArray, IndexArray
 from app.rig.ik import Side
 from app.rig.mesh import Mesh
 from app.rig.model import Character, Landmark, Skeleton
 from app.rig.skeleton import ancestors, rest_positions
 from metadata.load import load_skeleton
-
-FloatArray = npt.NDArray[np.float64]
-IntArray = npt.NDArray[np.intp]
 
 FINGERS = ("thumb", "index", "middle", "ring", "little")
 JAW_MORPHS = ("jawOpen", "aa", "A")
@@ -81,12 +78,12 @@ def _rest_skin(skeleton: Skeleton, joint_from_mesh: FloatArray, mesh: Mesh) -> _
     return _Skin(mesh, positions, normals, weights)
 
 
-def _own(skin: _Skin, joints: list[int], least: float) -> IntArray:
+def _own(skin: _Skin, joints: list[int], least: float) -> IndexArray:
     """The vertices that belong to some joints."""
     return np.flatnonzero(skin.weights[:, joints].sum(axis=1) > least)
 
 
-def _patch(skin: _Skin, own: IntArray, origin: FloatArray, direction: FloatArray, count: int) -> IntArray:
+def _patch(skin: _Skin, own: IndexArray, origin: FloatArray, direction: FloatArray, count: int) -> IndexArray:
     """Vertices about the place where a ray from inside a limb leaves its skin, or nearest to there where none faces
     that way."""
     off = skin.positions[own] - origin
@@ -100,7 +97,7 @@ def _patch(skin: _Skin, own: IntArray, origin: FloatArray, direction: FloatArray
     return _nearest(skin, own[facing], place, count)
 
 
-def _nearest(skin: _Skin, own: IntArray, place: FloatArray, count: int) -> IntArray:
+def _nearest(skin: _Skin, own: IndexArray, place: FloatArray, count: int) -> IndexArray:
     far = np.linalg.norm(skin.positions[own] - place, axis=1)
     order = np.argsort(far, kind="stable")[:count]
     return np.sort(own[order[far[order] <= max(PATCH_M, 1.25 * far[order[0]])]])
@@ -118,7 +115,7 @@ def _hand(skeleton: Skeleton, skins: list[_Skin], side: Side) -> dict[str, Landm
     # Rings, nails and sleeves hang on a hand too; most of its skin is the hand.
     skin = skins[max(range(len(skins)), key=lambda place: (on_fingers[place], counts[place]))]
     hand = _own(skin, [wrist, *fingers], 0.5)
-    places: dict[str, IntArray] = {}
+    places: dict[str, IndexArray] = {}
     for finger in FINGERS:
         for order, phalanx in ((0, "_proximal"), (1, "_middle"), (2, "")):
             if finger == "thumb" and order == 0:
@@ -298,7 +295,7 @@ def _notch_m(profile: FloatArray, eyes_m: float, chin_m: float) -> float:
     return eyes_m - (low + best) / STEPS * (eyes_m - chin_m)
 
 
-def _covered(skin: _Skin, front: IntArray, head: _Head) -> int:
+def _covered(skin: _Skin, front: IndexArray, head: _Head) -> int:
     """How many steps of height some vertices cover that lie before the head's joint and not above its eyes."""
     at = skin.positions[front]
     eyes_m = head.place[1] + 0.3 * HEAD_M * head.size if head.eyes_m is None else head.eyes_m
@@ -306,7 +303,7 @@ def _covered(skin: _Skin, front: IntArray, head: _Head) -> int:
     return len(np.unique(np.floor(at[before, 1] / (PATCH_M * head.size))))
 
 
-def _profile(skin: _Skin, head: _Head) -> IntArray:
+def _profile(skin: _Skin, head: _Head) -> IndexArray:
     """The foremost vertices of a head near the middle of the face, looking ahead."""
     own = _own(skin, head.joints, 0.5)
     off = np.abs(skin.positions[own, 0] - head.place[0])
@@ -320,9 +317,9 @@ def _profile(skin: _Skin, head: _Head) -> IntArray:
     at = skin.positions[near]
     beside = np.abs(at[:, 1][:, None] - at[:, 1][None]) < PATCH_M * head.size
     outer = np.where(beside, at[:, 2][None], -np.inf).max(axis=1, initial=-np.inf)
-    found: IntArray = near[at[:, 2] > outer - PATCH_M * head.size]
+    found: IndexArray = near[at[:, 2] > outer - PATCH_M * head.size]
     return found
 
 
-def _landmark(skin: _Skin, vertices: IntArray) -> Landmark:
+def _landmark(skin: _Skin, vertices: IndexArray) -> Landmark:
     return Landmark(skin.mesh.name, vertices.astype(np.int32))

@@ -7,12 +7,10 @@ from dataclasses import dataclass, replace
 from typing import Final
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import BoolArray, FloatArray
 from app.rig import quaternion
 from app.rig.mesh import Mesh
-
-FloatArray = npt.NDArray[np.float64]
 
 SIDES: Final = ("left", "right")
 OFF_CENTRE: Final = 0.1
@@ -196,7 +194,7 @@ def _t_posed(fit: Fit, joint_from_mesh: FloatArray, mesh: Mesh) -> FloatArray:
     return result
 
 
-def _held(mesh: Mesh, joints: Sequence[int]) -> npt.NDArray[np.bool_]:
+def _held(mesh: Mesh, joints: Sequence[int]) -> BoolArray:
     """Vertices that belong to some joints."""
-    held: npt.NDArray[np.bool_] = np.where(np.isin(mesh.joints, joints), mesh.weights, 0.0).sum(axis=1) > OWN_VERTEX
+    held: BoolArray = np.where(np.isin(mesh.joints, joints), mesh.weights, 0.0).sum(axis=1) > OWN_VERTEX
     return held

@@ -13,13 +13,11 @@ from itertools import pairwise
 from typing import Final
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import FloatArray, IntArray, SingleArray
 from app.rig import quaternion
 from app.rig.characters.bone_placements import world_placements
 from app.rig.figure import Figure
-
-FloatArray = npt.NDArray[np.float64]
 
 FINGERS: Final = ("Index", "Middle", "Ring", "Little")
 PHALANGES: Final = ("Proximal", "Intermediate", "Distal")
@@ -62,7 +60,7 @@ def rest_of(figure: Figure) -> Rest:
     return Rest(*world_placements(figure.parents, figure.translations_m, figure.rotations))
 
 
-def heaviest(figure: Figure) -> tuple[FloatArray, npt.NDArray[np.int64]]:
+def heaviest(figure: Figure) -> tuple[FloatArray, IntArray]:
     """All vertices (V, 3) at rest and the bone (V,) that holds most of each."""
     points, holders = [np.zeros((0, 3))], [np.zeros(0, np.int64)]
     for mesh in figure.meshes:
@@ -136,7 +134,7 @@ def turned_figure(figure: Figure, turn: FloatArray) -> Figure:
     translations[roots] = translations[roots] @ turn.T
     rotations[roots] = quaternion.multiply(quaternion.from_matrix(turn), rotations[roots])
 
-    def moved(vectors: npt.NDArray[np.float32]) -> npt.NDArray[np.float32]:
+    def moved(vectors: SingleArray) -> SingleArray:
         return (vectors @ turn.T).astype(np.float32)
 
     meshes = tuple(

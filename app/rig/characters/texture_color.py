@@ -8,12 +8,10 @@ from dataclasses import replace
 from typing import Final
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import FloatArray
 from app.formats.gltf.model import GltfModel, GltfPrimitive
 from app.formats.scene import Material
-
-FloatArray = npt.NDArray[np.float64]
 
 SAMPLED_PX: Final = 256
 """Textures are made so small first: a mean needs no more."""

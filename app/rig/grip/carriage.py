@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import FloatArray
 from app.rig import quaternion
 from app.rig.grip.grip_pose import Lips
 from app.rig.model import Character, Skeleton
@@ -14,8 +14,6 @@ from app.rig.skeleton import forward
 from instrument_maps import model as maps
 from instrument_maps.model import Carriage, InstrumentMap
 from metadata.model import Body, Posture
-
-FloatArray = npt.NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

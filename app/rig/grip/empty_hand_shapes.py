@@ -11,8 +11,9 @@ from typing import Final
 
 import numpy as np
 
+from app.arrays import FloatArray
 from app.rig import quaternion
-from app.rig.grip.grip_pose import FloatArray, Side
+from app.rig.grip.grip_pose import Side
 from app.rig.model import Skeleton
 from metadata.gestures import HandShape
 

@@ -13,11 +13,9 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from app.arrays import BoolArray, FloatArray, IndexArray
 from app.rig import quaternion
 from app.rig.grip.grip_pose import Chain
-
-FloatArray = npt.NDArray[np.float64]
-IntArray = npt.NDArray[np.intp]
 
 ROUNDS = 5
 DAMPING_M = 0.004
@@ -59,14 +57,14 @@ class _Rows:
 
     offsets_m: FloatArray
     axes: FloatArray
-    joints: IntArray
-    kinds: IntArray
-    used: npt.NDArray[np.bool_]
+    joints: IndexArray
+    kinds: IndexArray
+    used: BoolArray
     low: FloatArray
     high: FloatArray
 
     @classmethod
-    def of(cls, chains: Sequence[Chain], each: IntArray) -> _Rows:
+    def of(cls, chains: Sequence[Chain], each: IndexArray) -> _Rows:
         most = max(len(chain.dofs) for chain in chains)
         dofs = np.zeros((len(chains), most, 2), np.intp)
         used = np.zeros((len(chains), most), dtype=bool)
@@ -112,7 +110,7 @@ def brought(asked: Sequence[Asked]) -> list[FloatArray]:
     return result
 
 
-def distinct_rows(columns: Sequence[npt.NDArray[Any]]) -> tuple[IntArray, IntArray]:
+def distinct_rows(columns: Sequence[npt.NDArray[Any]]) -> tuple[IndexArray, IndexArray]:
     """Find rows that are equal bit by bit.
 
     Parameters
@@ -149,7 +147,7 @@ def _factors(count: int) -> npt.NDArray[np.uint64]:
 def _brought(
     chains: _Rows,
     rotations: FloatArray,
-    joint: IntArray,
+    joint: IndexArray,
     tip_m: FloatArray,
     requested_m: FloatArray,
     stay_m: FloatArray,

@@ -6,8 +6,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import AnyFloatArray, BoolArray, FloatArray, IndexArray
 from app.rig import quaternion
 from app.rig.grip.finger_ik import Asked, brought
 from app.rig.grip.grip_pose import (
@@ -24,9 +24,7 @@ from app.rig.grip.grip_pose import (
     wrist_given,
 )
 
-FloatArray = npt.NDArray[np.float64]
-IntArray = npt.NDArray[np.intp]
-Controls = Mapping[str, npt.NDArray[np.floating]]
+Controls = Mapping[str, AnyFloatArray]
 
 LIFT_STAY_M = 0.004
 """A finger on its way is lifted as far as that is easy: towards what it cannot reach it would be thrown from one end of
@@ -117,13 +115,13 @@ class _Way:
     table: FingerTable
     first: int
     second: int
-    frames: IntArray
+    frames: IndexArray
     share: FloatArray
     joints: slice
     given: bool
 
 
-def _moved(hand: HandHold, frames: int, placed: Mapping[str, Placed] | None) -> npt.NDArray[np.bool_]:
+def _moved(hand: HandHold, frames: int, placed: Mapping[str, Placed] | None) -> BoolArray:
     """In which frames (F,) a hand gives way, or one of its fingers waits for that."""
     moved = np.zeros(frames, dtype=np.bool_)
     for lean in hand.leans:
@@ -133,7 +131,7 @@ def _moved(hand: HandHold, frames: int, placed: Mapping[str, Placed] | None) -> 
     return moved
 
 
-def _ways(table: FingerTable, where: Placed | None, frames: IntArray, joints: slice, given: bool) -> list[_Way]:
+def _ways(table: FingerTable, where: Placed | None, frames: IndexArray, joints: slice, given: bool) -> list[_Way]:
     """The ways between two stations among some frames."""
     if not len(frames):
         return []
@@ -249,7 +247,7 @@ def raised_way(
     return Asked(table.chain, rotations, outer.tip_joint, outer.tip_m, requested, LIFT_STAY_M)
 
 
-def _sampled(table: FingerTable, controls: Controls, here: IntArray) -> Controls:
+def _sampled(table: FingerTable, controls: Controls, here: IndexArray) -> Controls:
     names = {name for station in table.stations for name in station.controls if name in controls}
     return {name: np.asarray(controls[name])[here] for name in sorted(names)}
 
@@ -260,7 +258,7 @@ class _Given:
     these, (K, 3) and (K, 4), or in one that stands for all."""
 
     leans: Sequence[tuple[WristOffset, FloatArray]]
-    frames: IntArray
+    frames: IndexArray
     wrist: tuple[FloatArray, FloatArray]
 
     def waits(self, lean: WristOffset) -> FloatArray:

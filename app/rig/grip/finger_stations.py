@@ -15,9 +15,8 @@ from functools import lru_cache
 import numpy as np
 import numpy.typing as npt
 
+from app.arrays import FloatArray, IndexArray
 from instrument_maps.model import FINGERS, Contact, Control, InstrumentMap
-
-FloatArray = npt.NDArray[np.float64]
 
 HOVER_POWER = 2.0
 """A finger drops to its key ahead of the key's way down: what is left of its height goes with this power."""
@@ -110,7 +109,7 @@ def fingers_at_work(
 
 def stations_of_notes(
     instrument: InstrumentMap, notes: Iterable[tuple[Mapping[str, float], Mapping[str, str]]]
-) -> dict[str, npt.NDArray[np.intp]]:
+) -> dict[str, IndexArray]:
     """Which of its stations each finger works in each note (N,), by finger; -1 where it works nothing.
 
     Parameters
@@ -129,7 +128,7 @@ def stations_of_notes(
 
 def kinds_of_notes(
     instrument: InstrumentMap, notes: Iterable[tuple[Mapping[str, float], Mapping[str, str]]]
-) -> tuple[npt.NDArray[np.intp], list[dict[str, frozenset[str]]]]:
+) -> tuple[IndexArray, list[dict[str, frozenset[str]]]]:
     """Notes (N,) by what they are fingered with, and the fingers at work of each kind: a line has few of them."""
     known: dict[tuple[int, int], int] = {}
     at_work: list[dict[str, frozenset[str]]] = []

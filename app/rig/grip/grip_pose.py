@@ -21,11 +21,10 @@ from dataclasses import dataclass, field
 from typing import Literal, NamedTuple
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import AnyFloatArray, FloatArray
 from app.rig import quaternion
 
-FloatArray = npt.NDArray[np.float64]
 Side = Literal["left", "right"]
 
 
@@ -254,11 +253,11 @@ class Lips:
     gap_deltas_m: Mapping[str, float] = field(default_factory=dict)
     jaw: str = ""
 
-    def contact_m(self, morphs: Mapping[str, npt.NDArray[np.floating]], frames: int) -> FloatArray:
+    def contact_m(self, morphs: Mapping[str, AnyFloatArray], frames: int) -> FloatArray:
         """Return (F, 3) the mouthpiece's place in the head's frame for weight curves (F,) by morph name."""
         return _weighted(self.contact_rest_m, self.contact_deltas_m, morphs, frames)
 
-    def carried_m(self, morphs: Mapping[str, npt.NDArray[np.floating]], frames: int) -> FloatArray:
+    def carried_m(self, morphs: Mapping[str, AnyFloatArray], frames: int) -> FloatArray:
         """Return (F, 3) the place as one lip alone carries it: what the mouthpiece stays on when the mouth opens.
 
         Equal to `contact_m` where no morph moves the lips.
@@ -267,7 +266,7 @@ class Lips:
         carried += self.contact_rest_m
         return carried
 
-    def gap_m(self, morphs: Mapping[str, npt.NDArray[np.floating]], frames: int) -> FloatArray:
+    def gap_m(self, morphs: Mapping[str, AnyFloatArray], frames: int) -> FloatArray:
         """Return (F,) how far the lips are apart in the middle of the mouth; negative where they are pressed."""
         gap = np.full(frames, self.gap_rest_m)
         for name, delta in self.gap_deltas_m.items():
@@ -275,7 +274,7 @@ class Lips:
                 gap += delta * np.asarray(morphs[name], dtype=np.float64)
         return gap
 
-    def jaw_for(self, gap_m: FloatArray, morphs: Mapping[str, npt.NDArray[np.floating]], frames: int) -> FloatArray:
+    def jaw_for(self, gap_m: FloatArray, morphs: Mapping[str, AnyFloatArray], frames: int) -> FloatArray:
         """Return (F,) the weight of `jaw` that brings the lips this far apart, beside all the other weights."""
         others = {name: values for name, values in morphs.items() if name != self.jaw}
         needed: FloatArray = (gap_m - self.gap_m(others, frames)) / self.gap_deltas_m[self.jaw]
@@ -301,7 +300,7 @@ def hand_targets(
     hand: HandHold,
     world_from_instrument_m: FloatArray,
     world_from_instrument_rotation: FloatArray,
-    controls: Mapping[str, npt.NDArray[np.floating]],
+    controls: Mapping[str, AnyFloatArray],
     placed: Mapping[str, Placed] | None = None,
 ) -> tuple[FloatArray, FloatArray]:
     """Place a hand on a moving instrument.
@@ -413,7 +412,7 @@ def mixed(near: FloatArray, far: FloatArray, share: FloatArray) -> FloatArray:
 
 
 def _weighted(
-    rest: FloatArray, deltas: Mapping[str, FloatArray], morphs: Mapping[str, npt.NDArray[np.floating]], frames: int
+    rest: FloatArray, deltas: Mapping[str, FloatArray], morphs: Mapping[str, AnyFloatArray], frames: int
 ) -> FloatArray:
     result = quaternion.repeated(rest, frames)
     components = result.T

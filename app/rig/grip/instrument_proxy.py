@@ -15,10 +15,9 @@ from typing import Any, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
+from app.arrays import AnyFloatArray, BoolArray, FloatArray, IndexArray
 from instrument_maps.model import Box, Capsule, Cone, Cylinder, Proxy, Ring
 
-FloatArray = npt.NDArray[np.float64]
-IntArray = npt.NDArray[np.intp]
 _STEP_M = 1e-6
 _Measure = Callable[[npt.NDArray[Any], npt.NDArray[Any]], npt.NDArray[Any]]
 
@@ -47,13 +46,13 @@ class Bodies:
     capsules: FloatArray
     rings: FloatArray
     boxes: FloatArray
-    nodes: IntArray
+    nodes: IndexArray
     hulls: FloatArray
 
     def __len__(self) -> int:
         return len(self.nodes)
 
-    def taken(self, chosen: npt.NDArray[np.bool_]) -> Bodies:
+    def taken(self, chosen: BoolArray) -> Bodies:
         """Only the chosen bodies."""
         edges = np.cumsum([0, len(self.tapers), len(self.capsules), len(self.rings), len(self.boxes)])
         keep = [chosen[a:b] for a, b in itertools.pairwise(edges)]
@@ -118,7 +117,7 @@ class Nodes(NamedTuple):
     basis: FloatArray
 
 
-def inside(some: Bodies, nodes: Nodes, points_m: FloatArray, radius_m: FloatArray) -> tuple[FloatArray, IntArray]:
+def inside(some: Bodies, nodes: Nodes, points_m: FloatArray, radius_m: FloatArray) -> tuple[FloatArray, IndexArray]:
     """How deep balls reach into the union.
 
     Parameters
@@ -155,7 +154,7 @@ def distance(some: Bodies, nodes: Nodes, points_m: FloatArray) -> FloatArray:
     return nearest
 
 
-def gradient(some: Bodies, nodes: Nodes, points_m: FloatArray, body: IntArray) -> FloatArray:
+def gradient(some: Bodies, nodes: Nodes, points_m: FloatArray, body: IndexArray) -> FloatArray:
     """Gradient (P, 3) of the distance of each point (P, 3) to one body (P,), in the instrument's frame."""
     local = _local(some, nodes, points_m, body)
     steps = _STEP_M * np.concatenate([np.eye(3), -np.eye(3)])
@@ -165,7 +164,7 @@ def gradient(some: Bodies, nodes: Nodes, points_m: FloatArray, body: IntArray) -
     return turned
 
 
-def signed_distance(shape: Proxy, points_m: npt.NDArray[np.floating]) -> npt.NDArray[np.floating]:
+def signed_distance(shape: Proxy, points_m: AnyFloatArray) -> AnyFloatArray:
     """Signed distance (...) of points (..., 3) to one body, both in the frame of its node, in the points' precision."""
     row, measure = _alone(shape)
     return measure(row.astype(points_m.dtype), points_m)
@@ -177,7 +176,7 @@ def _alone(shape: Proxy) -> tuple[FloatArray, _Measure]:
     return next((rows[0], measure) for rows, measure in _kinds(bodies((shape,), (shape.node,))) if len(rows))
 
 
-def _local(some: Bodies, nodes: Nodes, points_m: FloatArray, body: IntArray) -> FloatArray:
+def _local(some: Bodies, nodes: Nodes, points_m: FloatArray, body: IndexArray) -> FloatArray:
     """Points (K, 3) in the frame of the node of a body (K,) each."""
     node = some.nodes[body]
     off = points_m - nodes.place_m[node]
@@ -185,7 +184,9 @@ def _local(some: Bodies, nodes: Nodes, points_m: FloatArray, body: IntArray) -> 
     return local
 
 
-def _candidates(some: Bodies, nodes: Nodes, points_m: FloatArray, radius_m: FloatArray) -> tuple[IntArray, IntArray]:
+def _candidates(
+    some: Bodies, nodes: Nodes, points_m: FloatArray, radius_m: FloatArray
+) -> tuple[IndexArray, IndexArray]:
     """Pairs of ball and body whose hull the ball reaches: first the bodies near all balls together, then each."""
     basis, place_m = nodes.basis[some.nodes], nodes.place_m[some.nodes]
     a = (basis @ some.hulls[:, :3, None])[:, :, 0] + place_m
@@ -219,7 +220,7 @@ def _candidates(some: Bodies, nodes: Nodes, points_m: FloatArray, radius_m: Floa
     return point, members[body]
 
 
-def distances(some: Bodies, local_m: npt.NDArray[Any], body: IntArray) -> npt.NDArray[Any]:
+def distances(some: Bodies, local_m: npt.NDArray[Any], body: IndexArray) -> npt.NDArray[Any]:
     """Signed distance (K,) of points (K, 3), each to one body (K,) in the frame of its node, in the points'
     precision."""
     result = np.empty(len(body), dtype=local_m.dtype)

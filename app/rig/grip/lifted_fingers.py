@@ -12,8 +12,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from app.arrays import FloatArray
 from app.rig import quaternion
-from app.rig.grip.grip_pose import FingerTable, FloatArray, GripPose, HandHold, StationTable
+from app.rig.grip.grip_pose import FingerTable, GripPose, HandHold, StationTable
 from app.rig.model import Skeleton
 from metadata.model import SkeletonProfile
 

@@ -14,6 +14,7 @@ from functools import lru_cache
 import numpy as np
 import numpy.typing as npt
 
+from app.arrays import BoolArray, FloatArray, IndexArray
 from app.rig import quaternion
 from app.rig.characters.landmarks import JAW_MORPHS
 from app.rig.grip.body_size import face_size
@@ -24,9 +25,6 @@ from app.rig.skeleton import forward
 from app.rig.skinning import mesh_named, patch, skin_matrices
 from instrument_maps.model import InstrumentMap
 from metadata.model import Body
-
-FloatArray = npt.NDArray[np.float64]
-IntArray = npt.NDArray[np.intp]
 
 AROUND_M = 0.03
 """The lips' edges are looked for within this distance of where the lips meet, ..."""
@@ -209,13 +207,13 @@ class _Mouth:
     deltas_m: Mapping[str, FloatArray]
     seam_m: FloatArray
     jaw: str
-    upper: npt.NDArray[np.bool_]
-    lower: npt.NDArray[np.bool_]
+    upper: BoolArray
+    lower: BoolArray
     size: float = 1.0
 
     def edges(
         self, weights: Mapping[str, float], opening_m: float, up: FloatArray, ahead: FloatArray
-    ) -> tuple[IntArray, IntArray]:
+    ) -> tuple[IndexArray, IndexArray]:
         """Vertices of upper and lower lip that what lies between them touches, with the jaw opened for it."""
         shape: FloatArray = self.positions_m + sum(
             weight * self.deltas_m[name] for name, weight in weights.items() if name in self.deltas_m
@@ -235,7 +233,7 @@ class _Mouth:
             jaw = float(np.clip((opening_m - gap_m) / (drop[upper].mean() - drop[lower].mean()), 0.0, 1.0))
         return upper, lower
 
-    def _edge(self, height: FloatArray, depth: FloatArray, own: npt.NDArray[np.bool_]) -> IntArray:
+    def _edge(self, height: FloatArray, depth: FloatArray, own: BoolArray) -> IndexArray:
         """The lowest vertex of each half of the lip, so that the edge is in the middle."""
         front = float(np.percentile(depth[own], 90.0))
         outside = own & (depth > front - DEPTH_M * self.size)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from functools import partial
 
+from app.arrays import FloatArray
 from app.editor.listening import RecordedTake
 from app.editor.selection import Selection
 from app.editor.session import Session, Severity
@@ -15,7 +16,7 @@ from app.project.edit.takes import BEFORE
 from app.project.limits import LAST_TICK
 from app.project.model import Project
 from app.project.performers import Player
-from app.score.take import Cleaning, Floats, Take
+from app.score.take import Cleaning, Take
 from app.shell.action import Action
 from app.shell.commands.chosen import on_timeline
 from app.shell.editor import Editor, EditorAction
@@ -111,10 +112,10 @@ def find_beats(session: Session) -> None:
     player, take = chosen
     project = session.project
 
-    def work(progress: Progress, stop_requested: StopRequested) -> Floats:
+    def work(progress: Progress, stop_requested: StopRequested) -> FloatArray:
         return edit.beats_of(project, player.id, take.id)
 
-    def done(beats_s: Floats) -> None:
+    def done(beats_s: FloatArray) -> None:
         found = [one for one in _takes_of(session.project, player.id) if one.id == take.id]
         if not found or found[0].played is not take.played:
             session.notice(Message("take.changed", {"take": take.name}), Severity.WARNING)

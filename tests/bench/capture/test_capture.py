@@ -17,9 +17,9 @@ from contextlib import contextmanager
 from pathlib import Path
 
 import numpy as np
-import numpy.typing as npt
 import pytest
 
+from app.arrays import FloatArray
 from app.capture.journal import Header, read_journal
 from app.capture.link import RecorderLink
 from app.capture.protocol import Finished, Opened, Ports, Restarted, Written
@@ -110,7 +110,7 @@ class Calibration:
         return found
 
 
-def percentiles(values: npt.NDArray[np.float64]) -> str:
+def percentiles(values: FloatArray) -> str:
     requested = (("median", 50), ("95 %", 95), ("99 %", 99))
     return ", ".join(f"{name} {np.percentile(values, q):.2f}" for name, q in requested)
 

@@ -5,19 +5,19 @@ from __future__ import annotations
 import itertools
 
 import numpy as np
-import numpy.typing as npt
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 from scipy.spatial.transform import Rotation, Slerp
 
+from app.arrays import AnyFloatArray, BoolArray, FloatArray, SingleArray
 from app.formats.keys import Keys, Spans, runs, straight_keys
 
 WITHIN = 1.0 + 1e-5
 
 
-def _slow_off(values: npt.NDArray[np.floating], kept: npt.NDArray[np.bool_]) -> float:
+def _slow_off(values: AnyFloatArray, kept: BoolArray) -> float:
     """How far numbers of one curve (F, D) are at most from what a reader draws, frame by frame."""
     keys = [frame for frame in range(len(values)) if kept[frame]]
     worst = 0.0
@@ -32,7 +32,7 @@ def _slow_off(values: npt.NDArray[np.floating], kept: npt.NDArray[np.bool_]) -> 
 
 
 @st.composite
-def curves(draw: st.DrawFn) -> npt.NDArray[np.float64]:
+def curves(draw: st.DrawFn) -> FloatArray:
     """A few curves: noise, rests, ramps, steps and waves, over more than one chunk of frames at times."""
     lanes, width = draw(st.integers(1, 3)), draw(st.integers(1, 3))
     frames = draw(st.sampled_from([1, 2, 3, 7, 40, 300]))
@@ -55,7 +55,7 @@ def curves(draw: st.DrawFn) -> npt.NDArray[np.float64]:
 
 
 @given(curves())
-def test_no_number_is_more_than_its_tolerance_off_at_any_frame(values: npt.NDArray[np.float64]) -> None:
+def test_no_number_is_more_than_its_tolerance_off_at_any_frame(values: FloatArray) -> None:
     kept = straight_keys(values)
     assert kept[:, 0].all()
     for lane in range(len(values)):
@@ -65,7 +65,7 @@ def test_no_number_is_more_than_its_tolerance_off_at_any_frame(values: npt.NDArr
 
 
 @given(arrays(np.float32, (2, 33, 2), elements=st.floats(-1e4, 1e4, width=32)))
-def test_any_numbers_in_single_precision(values: npt.NDArray[np.float32]) -> None:
+def test_any_numbers_in_single_precision(values: SingleArray) -> None:
     kept = straight_keys(values)
     for lane in range(len(values)):
         # Lines between numbers of this size are not known better.
@@ -73,7 +73,7 @@ def test_any_numbers_in_single_precision(values: npt.NDArray[np.float32]) -> Non
 
 
 @given(curves())
-def test_every_curve_alone_has_the_keys_that_it_has_among_others_of_its_length(values: npt.NDArray[np.float64]) -> None:
+def test_every_curve_alone_has_the_keys_that_it_has_among_others_of_its_length(values: FloatArray) -> None:
     """Curves are walked at once, but none minds the others: only how they are cut into chunks may differ."""
     kept = straight_keys(values)
     if values.shape[1] <= 64:
@@ -110,7 +110,7 @@ def test_there_are_about_as_few_keys_as_a_search_of_all_finds() -> None:
 
 
 @given(arrays(np.bool_, st.integers(1, 30)))
-def test_runs_are_what_is_flagged(flags: npt.NDArray[np.bool_]) -> None:
+def test_runs_are_what_is_flagged(flags: BoolArray) -> None:
     again = np.zeros(len(flags), bool)
     spans = list(runs(flags))
     for span in spans:

@@ -5,10 +5,10 @@ from __future__ import annotations
 import itertools
 
 import numpy as np
-import numpy.typing as npt
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from app.arrays import IntArray
 from app.plan.fingering.fingerings import plan_fingerings
 from app.plan.fingering.search import FingeringProblem, best_path, fingering_problem
 from app.plan.generate import MonophonicPart
@@ -234,7 +234,7 @@ def naive_cost(notes: tuple[PlainNote, ...], choice: list[Fingering], instrument
     return cost
 
 
-def path_cost(problem: FingeringProblem, path: npt.NDArray[np.int64]) -> float:
+def path_cost(problem: FingeringProblem, path: IntArray) -> float:
     """What the search pays for a path, over the whole line."""
     count = len(path)
     notes, steps = np.arange(count), np.arange(count - 1)

@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
-import numpy.typing as npt
 import pytest
 
+from app.arrays import FloatArray
 from app.choreography.basic_motions import SPREAD, classify
-
-FloatArray = npt.NDArray[np.float64]
 
 
 def groups(

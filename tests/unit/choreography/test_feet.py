@@ -7,9 +7,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from app.arrays import BoolArray
 from app.choreography.body import SEGMENTS
 from app.choreography.clip import MotionClip
-from app.choreography.contacts import BoolArray, foot_contacts, tips_m
+from app.choreography.contacts import foot_contacts, tips_m
 from app.choreography.feet import DEEPER, HIGHER, STEP_S, Stand, planted, stands
 from app.rig import quaternion
 from tests.support.dance_measures import angular_jumps

@@ -8,10 +8,10 @@ from functools import cache
 from itertools import pairwise
 
 import numpy as np
-import numpy.typing as npt
 import pytest
 from scipy.spatial.transform import Rotation
 
+from app.arrays import FloatArray
 from app.choreography.clip import MotionClip
 from app.choreography.contacts import foot_contacts, tips_m
 from app.choreography.dance import Dance, Manner
@@ -35,7 +35,7 @@ def dance(seed: int = 0, beats: int = 64, beat_s: float = 0.55) -> Dance:
     return choreographer().dance(beaten(beats, beat_s), Manner(seed=seed), FPS)
 
 
-def spins(clip: MotionClip) -> npt.NDArray[np.float64]:
+def spins(clip: MotionClip) -> FloatArray:
     """(F - 1, 16, 3) angular velocities, rad/s, by scipy."""
     turns = Rotation.from_quat(clip.rotations.reshape(-1, 4))
     frames, joints = clip.rotations.shape[:2]

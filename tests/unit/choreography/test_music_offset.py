@@ -5,15 +5,13 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-import numpy.typing as npt
 import pytest
 
+from app.arrays import FloatArray
 from app.choreography.clip import MotionClip
 from app.choreography.music_offset import CONFIDENT, find_offset, motion_beats
 from app.choreography.rhythm import Rhythm
 from tests.unit.choreography.test_features import random_clip
-
-FloatArray = npt.NDArray[np.float64]
 
 
 def rhythm(hits_s: FloatArray) -> Rhythm:

@@ -8,9 +8,9 @@ from fractions import Fraction
 from pathlib import Path
 
 import numpy as np
-import numpy.typing as npt
 import pytest
 
+from app.arrays import FloatArray
 from app.choreography.body import ENDS, PARENT_OF, SEGMENTS
 from app.choreography.clip import MotionClip
 from app.choreography.read_motion import read_motion
@@ -21,7 +21,6 @@ from app.rig import quaternion
 from tests.support.encoded import encode_glb, encode_scene
 from tests.unit.choreography.test_features import random_clip
 
-FloatArray = npt.NDArray[np.float64]
 CLIP = random_clip(5, 91)
 IDENTITY = np.array((0.0, 0.0, 0.0, 1.0))
 

@@ -8,10 +8,10 @@ import subprocess
 from pathlib import Path
 
 import numpy as np
-import numpy.typing as npt
 import pytest
 from scipy.spatial.transform import Rotation
 
+from app.arrays import FloatArray
 from app.formats.bvh import read_bvh
 from tests.support.dance_measures import SHARED
 
@@ -44,13 +44,13 @@ def shortened(clip: Path, folder: Path) -> Path:
     return path
 
 
-def places(path: Path) -> list[dict[str, npt.NDArray[np.float64]]]:
+def places(path: Path) -> list[dict[str, FloatArray]]:
     """Of each frame every joint's place as our reader has it, by scipy's rotations."""
     clip = read_bvh(path)
     found = []
     for frame in range(FRAMES):
         turns: list[Rotation] = []
-        here: list[npt.NDArray[np.float64]] = []
+        here: list[FloatArray] = []
         for joint, parent in enumerate(clip.parents):
             own = Rotation.from_quat(clip.rotations_xyzw[frame, joint])
             if parent < 0:

@@ -7,10 +7,10 @@ from fractions import Fraction
 from pathlib import Path
 
 import numpy as np
-import numpy.typing as npt
 import pytest
 from scipy.spatial.transform import Rotation
 
+from app.arrays import FloatArray
 from app.choreography.body import SEGMENTS
 from app.choreography.read_motion import guesses, read_motion
 from app.errors import FileError
@@ -60,7 +60,7 @@ def test_limbs_are_where_another_reader_has_them(name: str) -> None:
             assert apart < read.apart_m + 1e-6, (frame, part)
 
 
-def bvh(turn: npt.NDArray[np.float64], unit_m: float, frames: int = 20, toes: bool = True) -> str:
+def bvh(turn: FloatArray, unit_m: float, frames: int = 20, toes: bool = True) -> str:
     """A small figure of 1.7 m, turned and in a unit of its own, that stands and lifts nothing."""
     joints = {
         "Hips": ("", (0, 0, 0)),
@@ -104,7 +104,7 @@ Z_UP = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])
 @pytest.mark.parametrize(("unit", "unit_m"), [("m", 1.0), ("cm", 0.01), ("inch", 0.0254), ("CMU", 0.0254 / 0.45)])
 @pytest.mark.parametrize(("turn", "up"), [(np.eye(3), "+Y"), (Z_UP, "+Z")], ids=["y", "z"])
 def test_a_figure_of_any_unit_and_axes_stands_on_the_floor(
-    tmp_path: Path, turn: npt.NDArray[np.float64], up: str, unit: str, unit_m: float
+    tmp_path: Path, turn: FloatArray, up: str, unit: str, unit_m: float
 ) -> None:
     (tmp_path / "a.bvh").write_text(bvh(turn, unit_m), encoding="utf-8")
     read = read_motion(tmp_path / "a.bvh", Fraction(60))
@@ -122,7 +122,7 @@ def test_a_figure_of_any_unit_and_axes_stands_on_the_floor(
 @pytest.mark.parametrize("axes", [np.eye(3), Z_UP], ids=["y", "z"])
 @pytest.mark.parametrize("toes", [True, False], ids=["toes", "end sites"])
 def test_a_rest_pose_that_faces_elsewhere_keeps_its_sides(
-    tmp_path: Path, axes: npt.NDArray[np.float64], yaw_deg: float, toes: bool
+    tmp_path: Path, axes: FloatArray, yaw_deg: float, toes: bool
 ) -> None:
     yaw = Rotation.from_euler("y", yaw_deg, degrees=True).as_matrix()
     (tmp_path / "a.bvh").write_text(bvh(axes @ yaw, 0.01, toes=toes), encoding="utf-8")
@@ -149,7 +149,7 @@ SIDEWAYS = np.array([[0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [-1.0, 0.0, 0.0]])
     ids=["y", "z", "-z", "x", "sideways"],
 )
 def test_bones_without_names_are_found_by_shape_whatever_is_up(
-    tmp_path: Path, axes: npt.NDArray[np.float64], way_m: tuple[float, float, float]
+    tmp_path: Path, axes: FloatArray, way_m: tuple[float, float, float]
 ) -> None:
     text = bvh(axes, 0.01)
     names = re.findall(r"(?:ROOT|JOINT) (\S+)", text)

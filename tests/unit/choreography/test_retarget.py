@@ -6,10 +6,10 @@ from dataclasses import replace
 from fractions import Fraction
 
 import numpy as np
-import numpy.typing as npt
 import pytest
 from scipy.spatial.transform import Rotation, Slerp
 
+from app.arrays import FloatArray
 from app.choreography.body import SEGMENTS
 from app.choreography.clip import BodyShape, MotionClip
 from app.choreography.retarget import retarget
@@ -26,7 +26,6 @@ SHAPE = BodyShape.of(
     np.array([(0, HIPS_M, 0), (0, 0.1, 0), (0, 0.2, 0), (0, 0.3, 0), *ARM, *(ARM * MIRRORED), *LEG, *(LEG * MIRRORED)]),
     np.array([(0, 0.25, 0), (0.18, 0, 0), (-0.18, 0, 0), (0, -ANKLE_M, 0.2), (0, -ANKLE_M, 0.2)], np.float64),
 )
-Array = npt.NDArray[np.float64]
 
 
 def still(frames: int = FRAMES) -> MotionClip:
@@ -53,9 +52,9 @@ def moving(seed: int = 3) -> MotionClip:
     return replace(clip, rotations=rotations, hips_m=hips)
 
 
-def joints(character: Character, motion: Motion, frame: int) -> dict[str, tuple[Array, Rotation]]:
+def joints(character: Character, motion: Motion, frame: int) -> dict[str, tuple[FloatArray, Rotation]]:
     """Where every joint is, by a loop."""
-    skeleton, found = character.skeleton, dict[str, tuple[Array, Rotation]]()
+    skeleton, found = character.skeleton, dict[str, tuple[FloatArray, Rotation]]()
     for at, (name, parent) in enumerate(zip(skeleton.names, skeleton.parents, strict=True)):
         turn = Rotation.from_quat(motion.rotations[frame, at].astype(np.float64))
         offset = motion.hips_m[frame].astype(np.float64) if name == "hips" else skeleton.offsets_m[at]

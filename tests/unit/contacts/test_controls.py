@@ -6,12 +6,12 @@ from collections.abc import Set
 
 import msgspec
 import numpy as np
-import numpy.typing as npt
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
+from app.arrays import FloatArray
 from app.contacts.bounds import in_place
 from app.contacts.controls import ControlMeasure, NoteFrames, notes_of
 from app.errors import Message
@@ -93,9 +93,7 @@ def test_a_slide_may_leave_the_last_note_of_a_cut_for_the_note_after_it() -> Non
     notes=st.lists(st.tuples(st.floats(-1.0, 5.0), st.floats(0.0, 2.0), st.sampled_from((0.0, 0.5, 1.0))), max_size=8),
     values=arrays(np.float64, 40, elements=st.sampled_from((0.0, 0.05, 0.45, 0.5, 0.95, 1.0))),
 )
-def test_what_works_is_what_is_found_note_by_note(
-    notes: list[tuple[float, float, float]], values: npt.NDArray[np.float64]
-) -> None:
+def test_what_works_is_what_is_found_note_by_note(notes: list[tuple[float, float, float]], values: FloatArray) -> None:
     events = [event(start_s, start_s + length_s, value) for start_s, length_s, value in sorted(notes)]
     times_s, press = FIRST_FRAME_S + np.arange(40) / FPS, control()
     expected = {True: np.zeros(40, dtype=np.bool_), False: np.zeros(40, dtype=np.bool_)}
@@ -108,9 +106,7 @@ def test_what_works_is_what_is_found_note_by_note(
     np.testing.assert_array_equal(released, expected[False])
 
 
-def _kept_slowly(
-    times_s: npt.NDArray[np.float64], notes: list[FingeringEvent], asked: list[bool], moved: Control
-) -> list[bool]:
+def _kept_slowly(times_s: FloatArray, notes: list[FingeringEvent], asked: list[bool], moved: Control) -> list[bool]:
     """Frames of the notes asked for, until the control may leave for the next one, note after note."""
     frames = [False] * len(times_s)
 

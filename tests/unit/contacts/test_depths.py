@@ -12,9 +12,9 @@ from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
-import numpy.typing as npt
 import pytest
 
+from app.arrays import AnyFloatArray, FloatArray
 from app.contacts.bounds import NEARLY_ALL, reported_least_m
 from app.contacts.depths import HandDepths
 from app.contacts.distance_field import FAR_M, NEAR_M, DistanceField
@@ -36,7 +36,6 @@ from tests.support.deformed import deform
 from tests.support.grouped_depths import GroupedDepths
 from tests.support.performed import player_motion
 
-FloatArray = npt.NDArray[np.float64]
 QUARTET = Path(__file__).parents[3] / "resources" / "examples" / "quartet.mid"
 FPS = Fraction(30)
 SINGLE_PRECISION_M = 2e-6
@@ -48,7 +47,7 @@ class Played(NamedTuple):
     instrument: InstrumentMap
     joints: JointTransforms
     world: FloatArray
-    morphs: Mapping[str, npt.NDArray[np.floating]]
+    morphs: Mapping[str, AnyFloatArray]
     nodes: dict[str, FloatArray]
     hands: tuple[Patch, ...]
 

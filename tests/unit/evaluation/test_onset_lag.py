@@ -5,11 +5,11 @@ from __future__ import annotations
 import itertools
 
 import numpy as np
-import numpy.typing as npt
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from app.arrays import FloatArray
 from app.errors import Message
 from app.evaluation.onset_lag import ACCEPTED_S, DETECTED_S, LagMeasure, measure_lag
 from app.plan.model import FingeringEvent
@@ -31,9 +31,7 @@ def notes(*fingered: tuple[float, float, dict[str, float]]) -> list[FingeringEve
     ]
 
 
-def moved(
-    fingerings: list[FingeringEvent], name: str, late_s: float = 0.0, takes_s: float = 0.05
-) -> npt.NDArray[np.float64]:
+def moved(fingerings: list[FingeringEvent], name: str, late_s: float = 0.0, takes_s: float = 0.05) -> FloatArray:
     """A control that moves evenly and arrives so late at every note."""
     times, values, before = [-10.0], [0.0], 0.0
     for note in fingerings:

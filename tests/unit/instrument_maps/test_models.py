@@ -7,10 +7,10 @@ from functools import cache
 from pathlib import Path
 
 import numpy as np
-import numpy.typing as npt
 import pytest
 from scipy.spatial import cKDTree
 
+from app.arrays import BoolArray, FloatArray
 from app.formats.gltf.model import GltfModel
 from app.formats.gltf.read import read_glb
 from app.rig.grip import instrument_proxy
@@ -20,8 +20,6 @@ from instrument_maps.model import ROOT, InstrumentMap
 from instrument_maps.surface import nearest_point
 from resources.build import build_instruments
 from resources.build.instrument_glb import MATERIALS
-
-FloatArray = npt.NDArray[np.float64]
 
 MAPS = [pytest.param(instrument, id=name) for name, instrument in bundled_maps().items()]
 
@@ -259,7 +257,7 @@ def test_bodies_are_not_fatter_than_the_mesh_near_the_hands(instrument: Instrume
         assert far == [], contact
 
 
-def overlapping(low: FloatArray, high: FloatArray, least: FloatArray, most: FloatArray) -> npt.NDArray[np.bool_]:
+def overlapping(low: FloatArray, high: FloatArray, least: FloatArray, most: FloatArray) -> BoolArray:
     """Which of the boxes (3, T) meet another box."""
     meets = (low[0] <= most[0]) & (high[0] >= least[0])
     for axis in (1, 2):

@@ -5,9 +5,9 @@ from __future__ import annotations
 from fractions import Fraction
 
 import numpy as np
-import numpy.typing as npt
 import pytest
 
+from app.arrays import FloatArray
 from app.export.joints import anatomical_angles
 from app.motion.contacts.hand_destinations import USUAL_ARM_M, page_m
 from app.motion.model import Motion
@@ -60,9 +60,7 @@ def _tick(at_s: float) -> int:
     return round(at_s / QUARTER_S * QUARTER)
 
 
-def made(
-    performance: Performance, from_s: float, to_s: float
-) -> tuple[PerformanceCurves, Motion, npt.NDArray[np.float64]]:
+def made(performance: Performance, from_s: float, to_s: float) -> tuple[PerformanceCurves, Motion, FloatArray]:
     """A player's curves, some of its motion, and the times of its frames."""
     playing = playing_of(performance, performance.project.players[0])
     first = round((from_s - playing.start_s) * FPS)
@@ -70,7 +68,7 @@ def made(
     return playing, motion, motion.first_frame_s + np.arange(motion.frames) / FPS
 
 
-def fingertip_m(playing: PerformanceCurves, motion: Motion, side: str, finger: str) -> npt.NDArray[np.float64]:
+def fingertip_m(playing: PerformanceCurves, motion: Motion, side: str, finger: str) -> FloatArray:
     """A finger's pad in the world, by the joints of the motion."""
     skeleton = playing.player.skeleton
     last = finger_joints(skeleton, side, finger)[-1]  # type: ignore[arg-type]
@@ -163,7 +161,7 @@ def _on_the_grip(playing: PerformanceCurves, motion: Motion) -> None:
         assert np.linalg.norm(there_m - asked_m, axis=1).max() < 1e-3, hand.side
 
 
-def _back_on_the_grip(playing: PerformanceCurves, motion: Motion, times_s: npt.NDArray[np.float64]) -> None:
+def _back_on_the_grip(playing: PerformanceCurves, motion: Motion, times_s: FloatArray) -> None:
     """Half a second before the next note both hands are where they hold."""
     first = int(np.searchsorted(times_s, NEXT_S - 0.5))
     playing_again = playing.motion(Fraction(FPS), round((times_s[first] - playing.start_s) * FPS), 30)

@@ -6,12 +6,10 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 import pytest
 
+from app.arrays import FloatArray
 from app.rig import quaternion
-
-FloatArray = npt.NDArray[np.float64]
 
 MANY = 70
 

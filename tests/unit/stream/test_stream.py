@@ -13,9 +13,9 @@ from importlib.resources import files
 from pathlib import Path
 
 import numpy as np
-import numpy.typing as npt
 import pytest
 
+from app.arrays import FloatArray
 from app.editor.streaming import Streaming
 from app.messages import error_text
 from app.performance.bodies import character_of
@@ -42,7 +42,6 @@ from tests.support.doubled import flutist
 from tests.support.osc import Frame, Receiver, frames, read_packet
 from tests.unit.export.unreal.conftest import with_dancers
 
-Floats = npt.NDArray[np.float64]
 _FINGERS = ("Thumb", "Index", "Middle", "Ring", "Little")
 HUMAN_BODY_BONES = (
     *("Hips", "Spine", "Chest", "UpperChest", "Neck", "Head", "Jaw"),
@@ -103,7 +102,7 @@ def parent_of(bone: str) -> str:
     return side + above if side and above not in ("Hips", "Head", "UpperChest") else above
 
 
-def turned(rotation: tuple[float, ...]) -> Floats:
+def turned(rotation: tuple[float, ...]) -> FloatArray:
     """The matrix of a unit quaternion xyzw, by its textbook formula: the same in a left-handed space."""
     x, y, z, w = rotation
     return np.array(
@@ -115,12 +114,12 @@ def turned(rotation: tuple[float, ...]) -> Floats:
     )
 
 
-def world(frame: Frame) -> dict[str, tuple[Floats, Floats]]:
+def world(frame: Frame) -> dict[str, tuple[FloatArray, FloatArray]]:
     """Position and turn of every bone as a receiver composes them, mirrored back into our space."""
     mirror = np.diag([-1.0, 1.0, 1.0])
-    known: dict[str, tuple[Floats, Floats]] = {"": (np.array(frame.root[:3]), turned(frame.root[3:]))}
+    known: dict[str, tuple[FloatArray, FloatArray]] = {"": (np.array(frame.root[:3]), turned(frame.root[3:]))}
 
-    def of(bone: str) -> tuple[Floats, Floats]:
+    def of(bone: str) -> tuple[FloatArray, FloatArray]:
         if bone not in known:
             above = parent_of(bone)
             while above and above not in frame.bones:
@@ -135,7 +134,7 @@ def world(frame: Frame) -> dict[str, tuple[Floats, Floats]]:
     return {bone: (mirror @ place, mirror @ turn @ mirror) for bone, (place, turn) in known.items() if bone}
 
 
-def ours(character: Character, pose: Pose, stage: StagePosition) -> dict[str, tuple[Floats, Floats]]:
+def ours(character: Character, pose: Pose, stage: StagePosition) -> dict[str, tuple[FloatArray, FloatArray]]:
     rotations = pose.rotations[None].astype(np.float64)
     rotations /= np.linalg.norm(rotations, axis=-1, keepdims=True)
     at = forward(character.skeleton, rotations, pose.hips_m[None].astype(np.float64))

@@ -10,6 +10,7 @@ from PySide6.QtCore import QRectF, Qt
 from PySide6.QtGui import QColor, QKeyEvent, QPainter, QPen
 from PySide6.QtWidgets import QMenu, QWidget
 
+from app.arrays import FloatArray
 from app.editor.selection import EventKey, Selection
 from app.editor.session import Session
 from app.errors import Message
@@ -24,7 +25,7 @@ from widgets.common.text import message_text
 from widgets.timeline.lane import Lane, LaneItem, LaneMouse
 from widgets.timeline.lanes.number_field import NumberField
 from widgets.timeline.model.curves import LIPS, DragController, DragCurve, Lips, controller_steps, lips, with_values
-from widgets.timeline.model.geometry import Floats, Steps, step_path
+from widgets.timeline.model.geometry import Steps, step_path
 from widgets.timeline.plot.drawing import draw_lines, draw_mark, draw_path, draw_rects, draw_text, shade, small_font
 from widgets.timeline.plot.time_axis import TimeAxis
 
@@ -102,9 +103,9 @@ class _Curves(LaneItem["CurvesLane"]):
                 over = top - 14.0 if top > 16.0 else top + 2.0
                 draw_text(painter, QRectF(x + 2.0, over, max(wide, 26.0), 13.0), value)
 
-    def _y(self, value: Floats) -> Floats:
+    def _y(self, value: FloatArray) -> FloatArray:
         height = self.lane.plot_rect.height() - 2 * MARGIN_PX
-        result: Floats = MARGIN_PX + (1.0 - value) * height
+        result: FloatArray = MARGIN_PX + (1.0 - value) * height
         return result
 
 

@@ -7,13 +7,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from app.arrays import FloatArray
 from app.errors import Message
 from app.plan.model import EmbouchureEvent, PlayerPlan
 from app.project.edit.dynamics import change_level
 from app.project.edit.events import set_embouchure
 from app.project.model import Project
 from app.score.model import CurveKind, Part
-from widgets.timeline.model.geometry import Floats, Spans, Steps
+from widgets.timeline.model.geometry import Spans, Steps
 from widgets.timeline.model.gestures import DRAG_PX, Editing, Gesture, Step, across
 from widgets.timeline.model.hand import LaneMouse
 
@@ -42,12 +43,12 @@ def lips(plan: PlayerPlan) -> Lips:
     return Lips(events, Spans(start_s, end_s), steps, _traces(plan, start_s, end_s))
 
 
-def _traces(plan: PlayerPlan, start_s: Floats, end_s: Floats) -> dict[str, Steps]:
+def _traces(plan: PlayerPlan, start_s: FloatArray, end_s: FloatArray) -> dict[str, Steps]:
     """What was recorded, while notes sound; nothing in between."""
     traces = plan.traces
     if traces is None:
         return {}
-    time_s: Floats = traces.start_s + traces.step_s * np.arange(len(traces.tension), dtype=np.float64)
+    time_s: FloatArray = traces.start_s + traces.step_s * np.arange(len(traces.tension), dtype=np.float64)
     note = np.searchsorted(start_s, time_s, side="right") - 1
     sounds = (note >= 0) & (time_s < end_s[np.maximum(note, 0)])
     recorded = {"tension": traces.tension, "effort": traces.effort, "air": traces.air}

@@ -5,13 +5,11 @@ from __future__ import annotations
 from heapq import heappop, heappush
 
 import numpy as np
-import numpy.typing as npt
 
-Floats = npt.NDArray[np.float64]
-Ints = npt.NDArray[np.int64]
+from app.arrays import FloatArray, IntArray
 
 
-def packed_rows(start: Floats, end: Floats) -> Ints:
+def packed_rows(start: FloatArray, end: FloatArray) -> IntArray:
     """The lowest free row for every span, so that none lies over another; spans may touch.
 
     Parameters
@@ -44,11 +42,11 @@ class Spans:
         Ascending starts; ends in any order.
     """
 
-    def __init__(self, start_s: Floats, end_s: Floats) -> None:
+    def __init__(self, start_s: FloatArray, end_s: FloatArray) -> None:
         self.start_s, self.end_s = start_s, end_s
         self._furthest_s = np.maximum.accumulate(end_s) if len(end_s) else end_s
 
-    def between(self, start_s: float, end_s: float) -> Ints:
+    def between(self, start_s: float, end_s: float) -> IntArray:
         """Indices of the spans that meet a range, ascending."""
         first = int(np.searchsorted(self._furthest_s, start_s, side="left"))
         last = int(np.searchsorted(self.start_s, end_s, side="right"))
@@ -65,10 +63,10 @@ class Steps:
     value : array (N,)
     """
 
-    def __init__(self, time_s: Floats, value: Floats) -> None:
+    def __init__(self, time_s: FloatArray, value: FloatArray) -> None:
         self.time_s, self.value = time_s, value
 
-    def columns(self, start_s: float, end_s: float, width_px: int) -> tuple[Floats, Floats]:
+    def columns(self, start_s: float, end_s: float, width_px: int) -> tuple[FloatArray, FloatArray]:
         """Least and greatest value of every column of pixels; NaN where there is none.
 
         However many values there are, no more than two a column are left to draw.
@@ -100,7 +98,7 @@ class Steps:
         return float(self.value[index]) if index >= 0 else None
 
 
-def step_path(low: Floats, high: Floats) -> Floats:
+def step_path(low: FloatArray, high: FloatArray) -> FloatArray:
     """The outline of columns as points to join, shape (M, 2) of column and value: from column to column it goes on
     from the nearer end of the one before. Columns without values break it with NaN."""
     count = len(low)

@@ -6,12 +6,10 @@ from itertools import pairwise
 
 import msgspec
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import FloatArray
 from app.project.grid import Grid
 from app.score.model import Score
-
-Floats = npt.NDArray[np.float64]
 
 LEAST_BAR_PX = 56.0
 """Labelled bars stand at least so far apart."""
@@ -31,9 +29,9 @@ class Lines(msgspec.Struct, frozen=True):
     """
 
     bars: tuple[int, ...]
-    bar_s: Floats
-    beat_s: Floats
-    step_s: Floats
+    bar_s: FloatArray
+    beat_s: FloatArray
+    step_s: FloatArray
 
 
 class LineCache:
@@ -69,8 +67,8 @@ def visible_lines(score: Score, grid: Grid, start_s: float, end_s: float, px_per
     bars = np.arange(first - (first - 1) % every, last + 1, every, dtype=np.int64)
     bar_ticks = metre_map.tick_of_bar(bars)
     bar_s = tempo.seconds(bar_ticks)
-    beats: list[Floats] = []
-    steps: list[Floats] = []
+    beats: list[FloatArray] = []
+    steps: list[FloatArray] = []
     if every == 1:
         step = float(grid.quarters * score.ticks_per_quarter)
         spans = zip(bars.tolist(), pairwise(bar_ticks.tolist()), pairwise(bar_s.tolist()), strict=False)
@@ -101,7 +99,7 @@ def _bar_step(score: Score, first: int, last: int, px_per_s: float) -> int:
     return every
 
 
-def _between(start: int, end: int, step: float) -> Floats:
+def _between(start: int, end: int, step: float) -> FloatArray:
     """The lines strictly inside a bar."""
     count = int(np.ceil((end - start) / step - 1e-9))
     return start + step * np.arange(1, count, dtype=np.float64)

@@ -4,10 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple, Protocol, overload
 
-import numpy as np
-import numpy.typing as npt
-
-Floats = npt.NDArray[np.float64]
+from app.arrays import FloatArray
 
 LEAST_SPAN_S = 0.05
 """The closest zoom shows this much: a few frames."""
@@ -23,7 +20,7 @@ class Scale(Protocol):
     @overload
     def x_px(self, seconds: float) -> float: ...
     @overload
-    def x_px(self, seconds: Floats) -> Floats: ...
+    def x_px(self, seconds: FloatArray) -> FloatArray: ...
     def seconds(self, x_px: float) -> float: ...
 
 
@@ -74,8 +71,8 @@ class TimeView(NamedTuple):
     @overload
     def x_px(self, seconds: float) -> float: ...
     @overload
-    def x_px(self, seconds: Floats) -> Floats: ...
-    def x_px(self, seconds: float | Floats) -> float | Floats:
+    def x_px(self, seconds: FloatArray) -> FloatArray: ...
+    def x_px(self, seconds: float | FloatArray) -> float | FloatArray:
         """Where times lie; numbers or arrays of any shape."""
         return (seconds - self.start_s) * self.px_per_s
 

@@ -7,15 +7,13 @@ from itertools import pairwise
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 from PySide6.QtCore import QLineF, QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QFont, QFontMetricsF, QPainter, QPen, QPolygonF
 from shiboken6 import wrapInstance
 
+from app.arrays import AnyIntArray, FloatArray
 from app.editor.tokens import LEAST_TEXT_PT, Tokens
 from widgets.timeline.model.hand import Box
-
-Floats = npt.NDArray[np.float64]
 
 # As numbers: joining flags of Qt takes Python as long as drawing a word.
 _ONE_LINE = int(Qt.TextFlag.TextDontClip) | int(Qt.TextFlag.TextSingleLine)
@@ -70,14 +68,18 @@ def draw_mark(painter: QPainter, tokens: Tokens, x: float, y: float, removed: bo
     painter.restore()
 
 
-def draw_rects(painter: QPainter, left: Floats, top: Floats, width: Floats, height: Floats, colour: QColor) -> None:
+def draw_rects(
+    painter: QPainter, left: FloatArray, top: FloatArray, width: FloatArray, height: FloatArray, colour: QColor
+) -> None:
     """Many rectangles of one colour; arrays (N,) of pixels."""
     if len(left):
         painter.setPen(Qt.PenStyle.NoPen)
         fill_rects(painter, left, top, width, height, colour)
 
 
-def fill_rects(painter: QPainter, left: Floats, top: Floats, width: Floats, height: Floats, colour: QColor) -> None:
+def fill_rects(
+    painter: QPainter, left: FloatArray, top: FloatArray, width: FloatArray, height: FloatArray, colour: QColor
+) -> None:
     """As `draw_rects`, outlined with the painter's pen."""
     if len(left):
         table = _side_by_side(left, top, width, height)
@@ -85,23 +87,23 @@ def fill_rects(painter: QPainter, left: Floats, top: Floats, width: Floats, heig
         painter.drawRects(_first(table, QRectF), len(table))
 
 
-def _side_by_side(*columns: Floats) -> Floats:
+def _side_by_side(*columns: FloatArray) -> FloatArray:
     """Four numbers a row, as Qt has the members of a rectangle or a line in memory: ``qreal`` is a double."""
-    table: Floats = np.empty((len(columns[0]), len(columns)), np.float64)
+    table: FloatArray = np.empty((len(columns[0]), len(columns)), np.float64)
     for place, values in enumerate(columns):
         table[:, place] = values
     return table
 
 
-def _first(table: Floats, kind: type[QRectF] | type[QLineF], row: int = 0) -> Any:
+def _first(table: FloatArray, kind: type[QRectF] | type[QLineF], row: int = 0) -> Any:
     """A row of a table as Qt's object, and with it all that follow: ``table`` is their memory and must outlive them."""
     return wrapInstance(table.ctypes.data + row * table.strides[0], kind)
 
 
 def draw_groups(
     painter: QPainter,
-    boxes: tuple[Floats, Floats, Floats, Floats],
-    group: npt.NDArray[np.integer],
+    boxes: tuple[FloatArray, FloatArray, FloatArray, FloatArray],
+    group: AnyIntArray,
     colours: Sequence[QColor],
 ) -> None:
     """Many rectangles in the colours of their groups.
@@ -123,7 +125,7 @@ def draw_groups(
         painter.drawRects(_first(table, QRectF, start), end - start)
 
 
-def draw_lines(painter: QPainter, x0: Floats, y0: Floats, x1: Floats, y1: Floats, pen: QPen) -> None:
+def draw_lines(painter: QPainter, x0: FloatArray, y0: FloatArray, x1: FloatArray, y1: FloatArray, pen: QPen) -> None:
     """Many lines with one pen; arrays (N,) of pixels."""
     if len(x0):
         table = _side_by_side(x0, y0, x1, y1)
@@ -131,7 +133,7 @@ def draw_lines(painter: QPainter, x0: Floats, y0: Floats, x1: Floats, y1: Floats
         painter.drawLines(_first(table, QLineF), len(table))
 
 
-def draw_path(painter: QPainter, points: Floats, pen: QPen) -> None:
+def draw_path(painter: QPainter, points: FloatArray, pen: QPen) -> None:
     """Joined points (N, 2) of pixels; NaN breaks the line."""
     before, after = points[:-1], points[1:]
     both = np.isfinite(before[:, 1]) & np.isfinite(after[:, 1])
@@ -140,7 +142,13 @@ def draw_path(painter: QPainter, points: Floats, pen: QPen) -> None:
 
 
 def draw_columns(
-    painter: QPainter, room: QRectF, left: Floats, right: Floats, y: Floats, base: float | None, colour: QColor
+    painter: QPainter,
+    room: QRectF,
+    left: FloatArray,
+    right: FloatArray,
+    y: FloatArray,
+    base: float | None,
+    colour: QColor,
 ) -> None:
     """Many narrow steps as one line a column of pixels, from the least to the greatest ``y`` there (and ``base``)."""
     first = int(np.floor(room.left()))
@@ -150,10 +158,10 @@ def draw_columns(
     top, bottom = np.minimum.reduceat(y, starts), np.maximum.reduceat(y, starts)
     if base is not None:
         top, bottom = np.minimum(top, base), np.maximum(bottom, base)
-    x: Floats = column[starts].astype(np.float64) + first + 0.5
+    x: FloatArray = column[starts].astype(np.float64) + first + 0.5
     draw_lines(painter, x, top, x, np.maximum(bottom, top + 1.0), QPen(colour, 1.0))
 
 
-def polygon(points: Floats) -> QPolygonF:
+def polygon(points: FloatArray) -> QPolygonF:
     """Points (N, 2) as Qt has them."""
     return QPolygonF([QPointF(x, y) for x, y in points.tolist()])

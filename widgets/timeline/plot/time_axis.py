@@ -6,10 +6,11 @@ from typing import overload
 
 from PySide6.QtCore import QObject, Signal
 
+from app.arrays import FloatArray
 from app.project.grid import Grid
 from app.score.model import Score
 from widgets.timeline.model.lines import LineCache, Lines
-from widgets.timeline.model.view import Floats, TimeView
+from widgets.timeline.model.view import TimeView
 
 ZOOM_A_NOTCH = 1.2
 PAN_A_NOTCH = 0.12
@@ -67,8 +68,8 @@ class TimeAxis(QObject):
     @overload
     def x_px(self, seconds: float) -> float: ...
     @overload
-    def x_px(self, seconds: Floats) -> Floats: ...
-    def x_px(self, seconds: float | Floats) -> float | Floats:
+    def x_px(self, seconds: FloatArray) -> FloatArray: ...
+    def x_px(self, seconds: float | FloatArray) -> float | FloatArray:
         """Where times lie; numbers or arrays of any shape."""
         return self._view.x_px(seconds)
 

@@ -7,16 +7,15 @@ from itertools import repeat
 from typing import Protocol
 
 import numpy as np
-import numpy.typing as npt
 from PySide6.QtCore import QLineF, QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QFontMetricsF, QImage, QPainter, QPen, QPolygonF, QStaticText
 
+from app.arrays import AnyIntArray, FloatArray, IntArray
 from app.plan.model import FingeringEvent, PlayerPlan, Problem
 from widgets.common.fingering_text import short_label
 from widgets.common.pitch import BLACK
 from widgets.timeline.model.roll.note_table import Behind, NoteTable, Sounding
-from widgets.timeline.model.roll.shown_notes import Integers, RollModel
-from widgets.timeline.model.view import Floats
+from widgets.timeline.model.roll.shown_notes import RollModel
 from widgets.timeline.plot.drawing import draw_groups, fill_rects
 from widgets.timeline.plot.plot import LaneItem, LaneView
 
@@ -42,8 +41,8 @@ class RollView(LaneView, Protocol):
     def playable(self) -> tuple[int, int] | None: ...
     @property
     def row_px(self) -> float: ...
-    def visible(self, table: Sounding, exposed: QRectF) -> Integers: ...
-    def boxes(self, table: Sounding, rows: Integers) -> tuple[Floats, Floats, Floats, Floats]: ...
+    def visible(self, table: Sounding, exposed: QRectF) -> IntArray: ...
+    def boxes(self, table: Sounding, rows: IntArray) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]: ...
     def hint(self) -> str: ...
 
 
@@ -140,7 +139,7 @@ class Notes(LaneItem[RollView]):
         self._draw(painter, table, rows, fill)
         painter.setPen(Qt.PenStyle.NoPen)
 
-    def _draw(self, painter: QPainter, table: NoteTable, rows: Integers, shade: QColor) -> None:
+    def _draw(self, painter: QPainter, table: NoteTable, rows: IntArray, shade: QColor) -> None:
         if not len(rows):
             return
         fill_rects(painter, *self.lane.boxes(table, rows), shade)
@@ -192,10 +191,10 @@ def picture_behind(lane: RollView, behind: Behind, alpha: int, ratio: float) -> 
 def _draw_points(
     painter: QPainter,
     lane: RollView,
-    left: Floats,
-    pitch: Floats,
-    width: Floats,
-    owner: npt.NDArray[np.integer],
+    left: FloatArray,
+    pitch: FloatArray,
+    width: FloatArray,
+    owner: AnyIntArray,
     shades: Sequence[QColor],
 ) -> None:
     """Notes of a few pixels' width, drawn as pixels: a column for each of the plot's, a row for each pitch."""
@@ -231,10 +230,10 @@ class Labels(LaneItem[RollView]):
         self._texts: dict[str, tuple[QStaticText, float]] = {}
         self._plan: PlayerPlan | None = None
         self._table: NoteTable | None = None
-        self._fingered: Integers = np.empty(0, np.int64)
+        self._fingered: IntArray = np.empty(0, np.int64)
         self._events: tuple[FingeringEvent, ...] = ()
         self._note_ids: list[str] = []
-        self._said: Integers = np.empty(0, np.int64)
+        self._said: IntArray = np.empty(0, np.int64)
         """Numbers of the events, as the notes are ordered that they finger."""
         self._reported: tuple[Problem, ...] = ()
         self._problems: frozenset[int] = frozenset()
@@ -281,7 +280,7 @@ class Labels(LaneItem[RollView]):
         self._paint_problems(painter, table, rows)
         self._paint_fingerings(painter, table, wider, colour)
 
-    def _paint_problems(self, painter: QPainter, table: NoteTable, rows: Integers) -> None:
+    def _paint_problems(self, painter: QPainter, table: NoteTable, rows: IntArray) -> None:
         lane = self.lane
         found = [place for place in rows.tolist() if place in self._problems] if self._problems else []
         if not found:

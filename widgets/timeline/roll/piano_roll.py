@@ -11,6 +11,7 @@ from PySide6.QtCore import QEvent, QLineF, QRectF, Qt, Signal
 from PySide6.QtGui import QCursor, QFont, QKeyEvent, QResizeEvent
 from PySide6.QtWidgets import QApplication, QMenu, QToolTip, QWidget
 
+from app.arrays import FloatArray, IntArray
 from app.editor.selection import Selection
 from app.editor.session import Session
 from app.editor.timeline_view import Ghosts, Tool
@@ -27,10 +28,9 @@ from widgets.common.text import sentence
 from widgets.timeline.lane import GUTTER_PX, Lane, LaneItem, LaneMouse
 from widgets.timeline.model.gestures import Gesture
 from widgets.timeline.model.roll.entries import EntryDrag
-from widgets.timeline.model.roll.note_table import Behind, Floats, Sounding
+from widgets.timeline.model.roll.note_table import Behind, Sounding
 from widgets.timeline.model.roll.roll_gestures import Copy, Draw, Erase, LassoNotes, Move, Resize, RollGesture, Velocity
 from widgets.timeline.model.roll.shown_notes import (
-    Integers,
     RollModel,
     boxes,
     fitted_pitches,
@@ -161,12 +161,12 @@ class PianoRoll(Lane):
         bottom, top = self.y_range
         return self.plot_rect.height() / (top - bottom)
 
-    def visible(self, table: Sounding, exposed: QRectF) -> Integers:
+    def visible(self, table: Sounding, exposed: QRectF) -> IntArray:
         """Places of the notes that may show in a part of the plot."""
         times = self.axis.seconds(exposed.left()), self.axis.seconds(exposed.right())
         return visible(table, *times, self.y_range)
 
-    def boxes(self, table: Sounding, rows: Integers) -> tuple[Floats, Floats, Floats, Floats]:
+    def boxes(self, table: Sounding, rows: IntArray) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
         """Left, top, width and height of notes, in whole pixels so that edges are sharp."""
         return boxes(table, rows, self.axis, self.y_range[1], self.row_px)
 

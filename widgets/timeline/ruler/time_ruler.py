@@ -21,6 +21,7 @@ from PySide6.QtGui import (
 )
 from PySide6.QtWidgets import QApplication, QMenu, QWidget
 
+from app.arrays import FloatArray
 from app.editor.selection import Selection
 from app.editor.session import Session, Severity, TimeDisplay
 from app.errors import Message
@@ -41,7 +42,6 @@ from widgets.timeline.model.ruler.ruler_marks import (
     removal,
     typed,
 )
-from widgets.timeline.model.view import Floats
 from widgets.timeline.plot.drawing import draw_lines
 from widgets.timeline.plot.mouse import mouse_at
 from widgets.timeline.plot.time_axis import TimeAxis
@@ -150,7 +150,7 @@ class Ruler(Retranslated, Strip):
             if -120 <= x <= self.width() + 4:
                 painter.drawText(QRectF(x + 4, MARKS_PX, 120.0, SCALE_PX - 3.0), _MIDDLE, text)
 
-    def _upright(self, painter: QPainter, seconds: Floats, top: float, pen: QPen) -> None:
+    def _upright(self, painter: QPainter, seconds: FloatArray, top: float, pen: QPen) -> None:
         """Lines down to the lower edge."""
         x = np.trunc(GUTTER_PX + self.axis.x_px(seconds)) + 0.5
         draw_lines(painter, x, np.full(len(x), top), x, np.full(len(x), float(self.height())), pen)

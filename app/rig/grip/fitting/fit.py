@@ -16,8 +16,8 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import FloatArray
 from app.rig import quaternion
 from app.rig.grip.body_size import sized, sized_character, sized_model
 from app.rig.grip.carriage import Upright, upright
@@ -36,8 +36,6 @@ from app.rig.model import Character, InstrumentModel
 from instrument_maps.model import Control, HandSeed, InstrumentMap
 from instrument_maps.size import scaled
 from metadata.model import Body
-
-FloatArray = npt.NDArray[np.float64]
 
 
 def fit_hold(

@@ -21,8 +21,8 @@ from typing import NamedTuple
 
 import msgspec
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import FloatArray
 from app.errors import Message
 from app.rig import quaternion
 from app.rig.characters.landmarks import JAW_MORPHS
@@ -38,8 +38,6 @@ from instrument_maps.model import FINGERS, Carriage, Contact, Hand, HandSeed, In
 from instrument_maps.size import scaled
 from metadata.load import load_skeleton
 from metadata.model import Body
-
-FloatArray = npt.NDArray[np.float64]
 
 REACH_SHARE, CARRIED_SHARE = 0.95, 1.70
 """A wrist is at most so far from its shoulder, as a multiple of the arm; on a slide, far out, shoulders and trunk help.

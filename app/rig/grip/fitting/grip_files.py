@@ -19,6 +19,7 @@ import msgspec
 import numpy as np
 import numpy.typing as npt
 
+from app.arrays import FloatArray
 from app.errors import FileError
 from app.formats.atomic import atomic_write
 from app.formats.cache import cache_folder
@@ -105,7 +106,7 @@ def bundled_path(character_id: str, instrument_id: str) -> Path:
 
 
 @lru_cache(maxsize=128)
-def usual_wrists(instrument_id: str) -> Mapping[str, tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]]:
+def usual_wrists(instrument_id: str) -> Mapping[str, tuple[FloatArray, FloatArray]]:
     """Where the wrists of one of our bodies are on an instrument, by side: place (3,) and rotation (4,) in its frame.
     Empty for an instrument that none of them holds yet."""
     for path in sorted(bundled_path("*", instrument_id).parent.glob(f"*.{instrument_id}.json")):

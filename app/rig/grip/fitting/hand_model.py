@@ -10,17 +10,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import AnyIntArray, FloatArray, IndexArray
 from app.rig import quaternion
 from app.rig.grip.grip_pose import Side
 from app.rig.model import Character
 from app.rig.skeleton import ancestors, rest_positions
 from app.rig.skinning import mesh_named, patch
 from metadata.model import Body, SkeletonProfile
-
-FloatArray = npt.NDArray[np.float64]
-IntArray = npt.NDArray[np.intp]
 
 FINGERS = ("thumb", "index", "middle", "ring", "little")
 _CELL_M = 0.006
@@ -88,10 +85,10 @@ class HandModel:
     skin_points: FloatArray
     all_points: FloatArray
     balls: FloatArray
-    ball_joints: IntArray
-    ball_finger: IntArray
+    ball_joints: IndexArray
+    ball_finger: IndexArray
     forearm_balls: FloatArray
-    ball_pairs: IntArray
+    ball_pairs: IndexArray
     ball_gaps_m: FloatArray
 
 
@@ -223,7 +220,7 @@ def hand_model(character: Character, side: Side, body: Body, profile: SkeletonPr
     return _with_skin(draft)
 
 
-def _carrier_table(character: Character, joints: Sequence[int], elbow: int) -> IntArray:
+def _carrier_table(character: Character, joints: Sequence[int], elbow: int) -> IndexArray:
     """Which of the 17 carriers stands for each joint of the skeleton: the nearest one above, else the forearm."""
     place = {joint: index for index, joint in enumerate(joints)}
     table = np.full(len(character.skeleton.names), 16, dtype=np.intp)
@@ -236,7 +233,7 @@ def _carrier_table(character: Character, joints: Sequence[int], elbow: int) -> I
 
 
 def _moments(
-    character: Character, mesh_name: str, vertices: npt.NDArray[np.integer], table: IntArray
+    character: Character, mesh_name: str, vertices: AnyIntArray, table: IndexArray
 ) -> tuple[FloatArray, FloatArray]:
     """Weighted homogeneous points (17, 4, V) and normals (17, 3, V) of vertices."""
     part = patch(character, mesh_named(character, mesh_name), vertices)
@@ -281,7 +278,7 @@ def _with_skin(hand: HandModel) -> HandModel:
 
 
 def _finger_balls(
-    hand: HandModel, rest: FloatArray, skin: FloatArray, owner: IntArray, weights: FloatArray
+    hand: HandModel, rest: FloatArray, skin: FloatArray, owner: IndexArray, weights: FloatArray
 ) -> list[tuple[int, list[float]]]:
     """Balls along the bones of the fingers and the thumb's metacarpal: joint, and centre and radius."""
     found = []
@@ -305,7 +302,7 @@ def _finger_balls(
     return found
 
 
-def _palm_balls(hand: HandModel, skin: FloatArray, owner: IntArray) -> list[tuple[int, list[float]]]:
+def _palm_balls(hand: HandModel, skin: FloatArray, owner: IndexArray) -> list[tuple[int, list[float]]]:
     """Balls between the wrist and the knuckles, half as thick as the palm is there."""
     found = []
     flesh = skin[(owner == 0) | (owner == 16) | (owner == 1) | ((owner - 1) % 3 == 0)]

@@ -12,8 +12,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import BoolArray, FloatArray
 from app.rig import quaternion
 from app.rig.grip.carriage import Upright
 from app.rig.grip.finger_stations import MOST_HOVER_M, Station, aside_m, height_share, stations
@@ -24,8 +24,6 @@ from app.rig.model import Character, InstrumentModel
 from instrument_maps.model import ROOT, Contact, Control, HandSeed, InstrumentMap
 from metadata.load import load_skeleton
 from metadata.model import Body
-
-FloatArray = npt.NDArray[np.float64]
 
 # What a deviation of one unit of residual is.
 FIRM_M, RESTING_M = 0.0003, 0.0012
@@ -78,7 +76,7 @@ class Touch:
     contact: Contact
     positions: FloatArray
     normals: FloatArray
-    active: npt.NDArray[np.bool_]
+    active: BoolArray
     spread_m: FloatArray
     spread_normal: FloatArray
 
@@ -335,7 +333,7 @@ def touch_at(
     return Touch(contact, position, normal, counts(contact, values), spread_m, spread_normal)
 
 
-def counts(contact: Contact, values: FloatArray) -> npt.NDArray[np.bool_]:
+def counts(contact: Contact, values: FloatArray) -> BoolArray:
     """At which values of its control a contact counts."""
     if contact.when == "pressed":
         return values > 0.0

@@ -6,8 +6,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import FloatArray
 from app.rig import quaternion
 from app.rig.grip.fitting.hand_model import (
     ball_centres,
@@ -21,8 +21,6 @@ from app.rig.grip.fitting.hand_problem import Problem, contact_at, counts, home_
 from app.rig.grip.fitting.residuals import inside_proxy
 from app.rig.grip.fitting.solved_fingers import GripScene
 from app.rig.grip.grip_pose import ContactFit, FingerTable, StationTable, interpolated
-
-FloatArray = npt.NDArray[np.float64]
 
 
 def judge(

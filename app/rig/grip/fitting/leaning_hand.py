@@ -10,8 +10,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import FloatArray
 from app.rig import quaternion
 from app.rig.grip.finger_stations import Station
 from app.rig.grip.fitting.hand_model import FINGERS
@@ -30,8 +30,6 @@ from app.rig.grip.fitting.residuals import Residuals
 from app.rig.grip.fitting.search import solve
 from app.rig.grip.fitting.solved_fingers import GripScene, Solved, followed_table, missed_m, solved_about
 from app.rig.grip.grip_pose import WristOffset
-
-FloatArray = npt.NDArray[np.float64]
 
 LEAN_FROM_M = 0.0015
 """A finger that misses its station by more than this asks the hand to give way ..."""

@@ -7,8 +7,8 @@ linearised by its gradient.
 from __future__ import annotations
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import FloatArray
 from app.rig import quaternion
 from app.rig.grip.fitting.hand_model import (
     ball_centres,
@@ -32,8 +32,6 @@ from app.rig.grip.fitting.hand_problem import (
 )
 from app.rig.grip.instrument_proxy import Bodies, Nodes, gradient, inside
 from app.rig.ik import TWIST_SHARE
-
-FloatArray = npt.NDArray[np.float64]
 
 # What a deviation of one unit of residual is.
 PENETRATION_M, FOREARM_M = 0.0005, 0.003

@@ -6,15 +6,13 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import FloatArray
 from app.rig.grip.fitting.fit_terms import Progress, no_progress
 from app.rig.grip.fitting.hand_problem import Problem, home_controls, nodes_at, start_at, travel
 from app.rig.grip.fitting.residuals import Residuals
 from app.rig.model import InstrumentModel
 from instrument_maps.model import Control, InstrumentMap
-
-FloatArray = npt.NDArray[np.float64]
 
 KNOTS = (0.25, 0.0, 0.5, 0.75, 1.0)
 """Values of the control that carries a hand at which its hold is solved: the first from the seed, the others each from

@@ -7,8 +7,8 @@ from copy import copy
 from dataclasses import dataclass, replace
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import FloatArray, IndexArray
 from app.rig.grip.finger_stations import Station, hover_m
 from app.rig.grip.fitting.hand_model import (
     FINGERS,
@@ -25,9 +25,6 @@ from app.rig.grip.fitting.residuals import PENETRATION_M, STEP, WORKED_RAD, insi
 from app.rig.grip.grip_pose import Chain, FingerTable, StationTable
 from app.rig.model import InstrumentModel
 from instrument_maps.model import Control, InstrumentMap
-
-FloatArray = npt.NDArray[np.float64]
-IntArray = npt.NDArray[np.intp]
 
 EXACTER = 0.3
 """With the wrist held, touches are met this much more exactly than in the search."""
@@ -71,7 +68,7 @@ class GripScene:
         """Likewise for directions."""
         return vectors @ self.basis.transpose(0, 2, 1)
 
-    def only(self, which: IntArray) -> GripScene:
+    def only(self, which: IndexArray) -> GripScene:
         """The scene at some of its samples."""
         return replace(self, position_m=self.position_m[which], basis=self.basis[which])
 
@@ -263,7 +260,7 @@ class _Finger:
         return False
 
     def solve(
-        self, start: FloatArray, usual: FloatArray, usual_rad: float, which: IntArray
+        self, start: FloatArray, usual: FloatArray, usual_rad: float, which: IndexArray
     ) -> tuple[FloatArray, FloatArray]:
         """Solve some samples about usual angles; both (S, n). Returns the angles and the cost (S,) of each.
 
@@ -299,7 +296,7 @@ class _Finger:
         return np.clip(stepped, self.low, self.high)
 
     def _cost(
-        self, x: FloatArray, usual: FloatArray, usual_rad: float, which: IntArray
+        self, x: FloatArray, usual: FloatArray, usual_rad: float, which: IndexArray
     ) -> tuple[FloatArray, FloatArray, FloatArray]:
         smooth, skin = self._residuals(x[None], usual, usual_rad, which)
         place, turn = self.nodes
@@ -311,7 +308,13 @@ class _Finger:
         return cost, depth, slope
 
     def _linear(
-        self, x: FloatArray, usual: FloatArray, usual_rad: float, which: IntArray, depth: FloatArray, slope: FloatArray
+        self,
+        x: FloatArray,
+        usual: FloatArray,
+        usual_rad: float,
+        which: IndexArray,
+        depth: FloatArray,
+        slope: FloatArray,
     ) -> tuple[FloatArray, FloatArray]:
         """Jacobian (S, m, n) and residuals (S, m)."""
         count = x.shape[1]
@@ -326,7 +329,7 @@ class _Finger:
         return (np.concatenate([slant, skin_slope], axis=1), np.concatenate([smooth[0], push / PENETRATION_M], axis=1))
 
     def _residuals(
-        self, x: FloatArray, usual: FloatArray, usual_rad: float, which: IntArray
+        self, x: FloatArray, usual: FloatArray, usual_rad: float, which: IndexArray
     ) -> tuple[FloatArray, FloatArray]:
         """Residuals (B, S, m) without the proxy's, and skin (B, S, V, 3), for angles (B, S, n)."""
         hand = self.problem.hand

@@ -11,14 +11,13 @@ from dataclasses import dataclass
 from typing import TypeAlias
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import FloatArray
 from app.rig import quaternion
 from app.rig.grip.finger_poses import solved_pose, tip_m, with_wrist
 from app.rig.grip.fitting.hand_problem import METRES
 from app.rig.grip.grip_pose import FingerTable, HandHold, WristOffset, wrist_given
 
-FloatArray = npt.NDArray[np.float64]
 Place: TypeAlias = tuple[str, int]
 
 MISSED_M = 0.0015

@@ -6,8 +6,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import FloatArray
 from app.rig import quaternion
 from app.rig.grip.finger_poses import LOW_HOVER, raised_way, solved_pose, with_wrist
 from app.rig.grip.finger_stations import MOST_HOVER_M, Station, hover_m
@@ -16,8 +16,6 @@ from app.rig.grip.fitting.hand_problem import HOVER_MORE, Problem, nodes_at
 from app.rig.grip.fitting.residuals import inside_proxy
 from app.rig.grip.fitting.solved_fingers import GripScene
 from app.rig.grip.grip_pose import FingerTable, StationTable, interpolated, mixed
-
-FloatArray = npt.NDArray[np.float64]
 
 WAYS = np.arange(1, 16) / 16.0
 """Places on a way that are looked at: a finger passes a narrow tube in a tenth of it."""

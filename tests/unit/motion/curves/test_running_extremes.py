@@ -8,7 +8,8 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 from scipy.ndimage import maximum_filter1d, minimum_filter1d
 
-from app.motion.curves.running_extremes import FloatArray, greatest_within, least_within
+from app.arrays import FloatArray
+from app.motion.curves.running_extremes import greatest_within, least_within
 
 finite = st.floats(-10.0, 10.0)
 

@@ -8,9 +8,9 @@ from functools import cache
 
 import msgspec
 import numpy as np
-import numpy.typing as npt
 import pytest
 
+from app.arrays import BoolArray, FloatArray
 from app.motion.model import Motion
 from app.plan.generate import MonophonicPart, make_plans, time_frame
 from app.plan.model import PlayerPlan
@@ -31,7 +31,6 @@ from tests.support.models import bundled_instrument
 from tests.support.performed import perform
 from tests.support.plan import PlainClock, line_of, piece_of
 
-FloatArray = npt.NDArray[np.float64]
 KINDS = {
     # Kind, what is between the lips, how far the instrument hangs down.
     "cup": ("cup", 0.0, 8.0),
@@ -59,18 +58,18 @@ class Played:
     def times_s(self) -> FloatArray:
         return self.motion.first_frame_s + np.arange(self.motion.frames) / float(FPS)
 
-    def spans(self, *spans: tuple[float, float]) -> npt.NDArray[np.bool_]:
+    def spans(self, *spans: tuple[float, float]) -> BoolArray:
         inside = np.zeros(self.motion.frames, dtype=bool)
         for start_s, end_s in spans:
             inside |= (self.times_s >= start_s) & (self.times_s <= end_s)
         return inside
 
     @property
-    def breathing(self) -> npt.NDArray[np.bool_]:
+    def breathing(self) -> BoolArray:
         return self.spans(*((event.start_s - 0.01, event.end_s + 0.01) for event in self.plan.breaths))
 
     @property
-    def sounding(self) -> npt.NDArray[np.bool_]:
+    def sounding(self) -> BoolArray:
         return self.spans(*((event.start_s, event.end_s - 0.01) for event in self.plan.fingerings)) & ~self.breathing
 
     def skin_m(self, place: Landmark) -> FloatArray:

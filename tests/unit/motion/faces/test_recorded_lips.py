@@ -6,11 +6,11 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 
 import numpy as np
-import numpy.typing as npt
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from app.arrays import BoolArray, FloatArray
 from app.contacts.breaks import joined
 from app.contacts.judge import ContactJudge
 from app.motion.contacts.solve import padding
@@ -43,16 +43,16 @@ class Seen:
     def plan(self) -> PlayerPlan:
         return self.performance.plan(self.performance.project.players[0])
 
-    def between(self, morph: str, start_s: float, end_s: float) -> npt.NDArray[np.float64]:
-        values: npt.NDArray[np.float64] = self.motion.morphs[morph][self.frames(start_s, end_s)].astype(np.float64)
+    def between(self, morph: str, start_s: float, end_s: float) -> FloatArray:
+        values: FloatArray = self.motion.morphs[morph][self.frames(start_s, end_s)].astype(np.float64)
         return values
 
-    def frames(self, start_s: float, end_s: float) -> npt.NDArray[np.bool_]:
+    def frames(self, start_s: float, end_s: float) -> BoolArray:
         times_s = self.times_s
         return (times_s >= start_s) & (times_s < end_s)
 
     @property
-    def times_s(self) -> npt.NDArray[np.float64]:
+    def times_s(self) -> FloatArray:
         return self.motion.first_frame_s + np.arange(self.motion.frames) / float(FPS)
 
 

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
-import numpy.typing as npt
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from app.arrays import BoolArray
 from app.performance.loudness import controller_input, note_loudness
 from app.plan.breath.lungs import air_used_s
 from app.plan.by_hand.corrections import RemoveEvent, SetBreath
@@ -42,7 +42,7 @@ def breaths(plan: PlayerPlan) -> list[BreathEvent]:
     return [event for event in plan.breaths if event.kind == "breath" and event.reason.id != "breath.first"]
 
 
-def slow_gaps(at_s: list[float], values: list[float], until_s: float) -> npt.NDArray[np.bool_]:
+def slow_gaps(at_s: list[float], values: list[float], until_s: float) -> BoolArray:
     """Whether someone blows, millisecond by millisecond."""
     blows, result = False, []
     for millisecond in range(int(until_s * 1000)):

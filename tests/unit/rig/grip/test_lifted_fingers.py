@@ -7,10 +7,11 @@ from functools import lru_cache
 import numpy as np
 import pytest
 
+from app.arrays import FloatArray
 from app.rig.characters.character_library import bundled_characters, character_named
 from app.rig.grip.finger_poses import finger_rotations
 from app.rig.grip.fitting.grip_files import hold_for
-from app.rig.grip.grip_pose import FloatArray, GripPose, StationTable
+from app.rig.grip.grip_pose import GripPose, StationTable
 from app.rig.grip.lifted_fingers import with_curved_fingers
 from app.rig.model import Skeleton
 from app.rig.skeleton import forward

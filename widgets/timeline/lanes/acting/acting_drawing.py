@@ -8,7 +8,7 @@ import numpy as np
 from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QPainter, QPen, QPolygonF
 
-from widgets.timeline.model.geometry import Floats
+from app.arrays import FloatArray
 from widgets.timeline.model.regions.acting_regions import BASE
 from widgets.timeline.model.regions.shown_event import Region
 from widgets.timeline.model.regions.shown_regions import HANDLE_PX
@@ -31,7 +31,7 @@ class ActingPainter:
     def __init__(self, lane: ActingView) -> None:
         self._lane = lane
 
-    def paint_sway(self, painter: QPainter, x0: Floats, x1: Floats, y: Floats, colour: QColor) -> None:
+    def paint_sway(self, painter: QPainter, x0: FloatArray, x1: FloatArray, y: FloatArray, colour: QColor) -> None:
         """From side to side, at rest where it turns."""
         if not len(x0):
             return

@@ -11,6 +11,7 @@ from PySide6.QtCore import QPoint, QPointF, QRectF
 from PySide6.QtGui import QColor, QPainter, QPen
 from PySide6.QtWidgets import QMenu, QWidget
 
+from app.arrays import FloatArray
 from app.editor.additions import add_cues, add_expressions, add_gestures, add_named_gestures
 from app.editor.session import Session
 from app.errors import Message
@@ -29,7 +30,6 @@ from widgets.timeline.lanes.acting.giver_menu import add_givers, add_takers
 from widgets.timeline.lanes.acting.style_menu import add_styles_menus
 from widgets.timeline.lanes.regions import RegionLane
 from widgets.timeline.lanes.row_names import RowNames
-from widgets.timeline.model.geometry import Floats
 from widgets.timeline.model.hand import Box, LaneMouse
 from widgets.timeline.model.regions.acting_regions import (
     BASE,
@@ -75,7 +75,7 @@ class ActingLane(RegionLane):
     def __init__(self, session: Session, axis: TimeAxis, parent: QWidget | None = None) -> None:
         self.groups: list[tuple[str, int, int]] = []
         """Kinds with their first row and number of rows."""
-        self._strips: dict[str, tuple[Floats, Floats, Floats]] = {}
+        self._strips: dict[str, tuple[FloatArray, FloatArray, FloatArray]] = {}
         self._known: dict[int, tuple[GestureEvent, Region]] = {}
         """Regions of gestures, by the identity of the event."""
         self._groups_known: dict[tuple[str, ...], tuple[TempoMap, list[Region], tuple[list[int], int]]] = {}

@@ -8,10 +8,10 @@ import numpy as np
 from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QPainter, QPen
 
+from app.arrays import FloatArray
 from app.plan.by_hand.additive_curve import Interpolation
 from widgets.common.channel_names import value_text
 from widgets.timeline.model.additive.additive_curves import KeyRef, ShownCurve
-from widgets.timeline.model.geometry import Floats
 from widgets.timeline.model.hand import Box
 from widgets.timeline.plot.drawing import MARK_PX, draw_path, draw_text, polygon, shade, small_font
 from widgets.timeline.plot.plot import LaneItem, LaneView
@@ -29,7 +29,7 @@ class Shown(LaneView, Protocol):
     channel: str
     selected: frozenset[KeyRef]
     limits: tuple[float, float]
-    generated: tuple[Floats, Floats] | None
+    generated: tuple[FloatArray, FloatArray] | None
 
     @property
     def band(self) -> Box | None: ...
@@ -79,7 +79,7 @@ class CurvesItem(LaneItem[Shown]):
         if bottom < exposed.bottom():
             painter.fillRect(QRectF(exposed.left(), bottom, exposed.width(), exposed.bottom() - bottom), ground)
 
-    def _paint_generated(self, painter: QPainter, exposed: QRectF, times_s: Floats, values: Floats) -> None:
+    def _paint_generated(self, painter: QPainter, exposed: QRectF, times_s: FloatArray, values: FloatArray) -> None:
         axis = self.lane.axis
         x = np.arange(np.floor(exposed.left()), np.ceil(exposed.right()) + 1.0)
         at_s = axis.seconds(0.0) + x / axis.px_per_s
@@ -117,7 +117,7 @@ class CurvesItem(LaneItem[Shown]):
             begins = max(left, SCALE_PX) + 2.0
             draw_text(painter, QRectF(begins, 1.0, right - begins, 14.0), curve.title)
 
-    def _paint_beyond(self, painter: QPainter, shown: ShownCurve, x: Floats) -> None:
+    def _paint_beyond(self, painter: QPainter, shown: ShownCurve, x: FloatArray) -> None:
         """Where it asks for more than the body does: in the colour of problems, with a mark at its beginning."""
         lane, axis, warning = self.lane, self.lane.axis, QColor(self.lane.session.tokens.warning)
         for start_s, end_s in shown.beyond_s(lane.limits):
@@ -134,7 +134,7 @@ class CurvesItem(LaneItem[Shown]):
             corners = ((0.0, -half), (half, half), (-half, half))
             painter.drawPolygon([QPointF(left + dx, at + dy) for dx, dy in corners])
 
-    def _paint_line(self, painter: QPainter, x: Floats, values: Floats, pen: QPen) -> None:
+    def _paint_line(self, painter: QPainter, x: FloatArray, values: FloatArray, pen: QPen) -> None:
         """As one line, so that dots and dashes go on along it."""
         painter.setPen(pen)
         painter.setBrush(Qt.BrushStyle.NoBrush)
@@ -177,9 +177,9 @@ class CurvesItem(LaneItem[Shown]):
             sign = "+" if value > 0 else ""
             draw_text(painter, QRectF(3.0, y, LABEL_PX, 14.0), sign + value_text(lane.channel, value), align)
 
-    def _y(self, values: Floats) -> Floats:
+    def _y(self, values: FloatArray) -> FloatArray:
         bottom, top = self.lane.y_range
-        result: Floats = (top - values) / (top - bottom) * self.lane.plot_rect.height()
+        result: FloatArray = (top - values) / (top - bottom) * self.lane.plot_rect.height()
         return result
 
 

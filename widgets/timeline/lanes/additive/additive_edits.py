@@ -9,6 +9,7 @@ from PySide6.QtCore import QMimeData, QRectF, Qt
 from PySide6.QtGui import QGuiApplication, QKeyEvent
 from PySide6.QtWidgets import QWidget
 
+from app.arrays import FloatArray
 from app.editor.selection import Selection
 from app.editor.session import Session
 from app.errors import Message
@@ -20,7 +21,6 @@ from widgets.timeline.lane import Lane
 from widgets.timeline.lanes.number_field import NumberField, TextField
 from widgets.timeline.model.additive import additive_curves as model
 from widgets.timeline.model.additive.additive_curves import KeyRef, ShownCurve, by_curve
-from widgets.timeline.model.geometry import Floats
 from widgets.timeline.plot.time_axis import TimeAxis
 
 MIME = "application/x-suisou-curve-keys"
@@ -49,7 +49,7 @@ class CurveEditing(Lane):
         self.channel = FIRST_CHANNEL
         self.curves: tuple[ShownCurve, ...] = ()
         self.selected: frozenset[KeyRef] = frozenset()
-        self.generated: tuple[Floats, Floats] | None = None
+        self.generated: tuple[FloatArray, FloatArray] | None = None
         self.number = NumberField(self)
         self.text = TextField(self)
 

@@ -7,6 +7,7 @@ from functools import partial
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QMenu, QSizePolicy, QToolButton, QWidget
 
+from app.arrays import FloatArray
 from app.editor.selection import EventKey, Selection
 from app.editor.session import Session
 from app.editor.tasks import Progress, StopRequested
@@ -30,7 +31,6 @@ from widgets.timeline.lanes.additive.additive_menu import add_curve_entries, add
 from widgets.timeline.model.additive import additive_curves as model
 from widgets.timeline.model.additive.additive_curves import Hit, KeyRef
 from widgets.timeline.model.additive.additive_gestures import DragBlend, DragHandle, DragKeys
-from widgets.timeline.model.geometry import Floats
 from widgets.timeline.model.gestures import Band, Gesture, either
 from widgets.timeline.model.hand import Box
 from widgets.timeline.plot.time_axis import TimeAxis
@@ -120,7 +120,7 @@ class AdditiveLane(CurveEditing):
                 Message("work.generated_curve"), work, self._show_generated, lambda _: None, key="generated curve"
             )
 
-    def _show_generated(self, found: tuple[str, str, Floats, Floats]) -> None:
+    def _show_generated(self, found: tuple[str, str, FloatArray, FloatArray]) -> None:
         player_id, channel, times_s, values = found
         if (player_id, channel) == (self.player_id, self.channel):
             self.generated = (times_s, values)
@@ -290,5 +290,5 @@ class AdditiveLane(CurveEditing):
 
 def _generated(
     performance: Performance, player_id: str, channel: str, progress: Progress, stop_requested: StopRequested
-) -> tuple[str, str, Floats, Floats]:
+) -> tuple[str, str, FloatArray, FloatArray]:
     return player_id, channel, *generated_channel(performance, player_id, channel)

@@ -5,10 +5,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
-import numpy.typing as npt
 from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QPainter, QPen
 
+from app.arrays import IntArray
 from app.project.performers import Dancer
 from widgets.common.dance_figures import draw_figures, placed
 from widgets.timeline.model.dances import MoveStep
@@ -109,17 +109,13 @@ class DancesItem(LaneItem[DancesView]):
         painter.setPen(QPen(QColor(lane.session.tokens.accent), 2.0))
         painter.drawLine(QPointF(accent, box.top()), QPointF(accent, box.bottom()))
 
-    def _paint_accents(
-        self, painter: QPainter, box: QRectF, dance: DanceSteps, here: npt.NDArray[np.int64], colour: str
-    ) -> None:
+    def _paint_accents(self, painter: QPainter, box: QRectF, dance: DanceSteps, here: IntArray, colour: str) -> None:
         """A line where the accent of each block is."""
         accents = self.lane.axis.x_px(np.array([dance.steps[at].accent_s for at in here.tolist()]))
         bottom = np.full(len(here), box.bottom())
         draw_lines(painter, accents, bottom - 5.0, accents, bottom, QPen(QColor(colour), 2.0))
 
-    def _paint_figures(
-        self, painter: QPainter, box: QRectF, dance: DanceSteps, here: npt.NDArray[np.int64], colour: str
-    ) -> None:
+    def _paint_figures(self, painter: QPainter, box: QRectF, dance: DanceSteps, here: IntArray, colour: str) -> None:
         from app.performance.dance_steps import figures
 
         assert dance.choreographer is not None
@@ -131,7 +127,7 @@ class DancesItem(LaneItem[DancesView]):
         draw_figures(painter, placed(drawn, middles, box.bottom() - 2.0, height), QColor(colour), 1.5, height)
 
     def _paint_marks(
-        self, painter: QPainter, box: QRectF, dance: DanceSteps, here: npt.NDArray[np.int64], selected: int | None
+        self, painter: QPainter, box: QRectF, dance: DanceSteps, here: IntArray, selected: int | None
     ) -> None:
         tokens, axis = self.lane.session.tokens, self.lane.axis
         for at in here.tolist():

@@ -10,11 +10,12 @@ import numpy as np
 from PySide6.QtGui import QAction, QColor, QIcon
 from PySide6.QtWidgets import QMenu, QWidget
 
+from app.arrays import FloatArray
 from app.editor.session import Session
 from app.project.dance_corrections import DanceCorrection
 from widgets.common.clicks import on_click
 from widgets.common.controls import named
-from widgets.common.dance_figures import ICON_PX, Floats, figure_icon
+from widgets.common.dance_figures import ICON_PX, figure_icon
 from widgets.common.plain import verbatim
 
 if TYPE_CHECKING:
@@ -54,7 +55,7 @@ class DanceMenu(QMenu):
         self._lane, self._dancer_id, self._number = lane, dancer_id, number
         self._dance = lane.dances[dancer_id]
         assert self._dance.choreographer is not None
-        self._figures: Floats = figures(self._dance.choreographer)
+        self._figures: FloatArray = figures(self._dance.choreographer)
         step, pinned = self._dance.steps[number], self._dance.pinned[number]
         motion = step.state + 1
         self._add(

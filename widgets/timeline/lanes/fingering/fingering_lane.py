@@ -5,11 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 from PySide6.QtCore import QPoint, QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QFontMetricsF, QKeyEvent, QPainter, QPen
 from PySide6.QtWidgets import QMenu, QWidget
 
+from app.arrays import BoolArray, FloatArray, IntArray
 from app.editor.selection import Selection
 from app.editor.session import Session
 from app.errors import AppError
@@ -27,8 +27,6 @@ from widgets.timeline.lanes.row_names import RowNames
 from widgets.timeline.model.geometry import Spans
 from widgets.timeline.plot.drawing import draw_mark, draw_path, draw_rects, draw_text, shade, small_font
 from widgets.timeline.plot.time_axis import TimeAxis
-
-Floats = npt.NDArray[np.float64]
 
 LABEL_PX = 16.0
 """Height of the row of labels."""
@@ -48,10 +46,10 @@ class Fingerings:
     """
 
     events: tuple[FingeringEvent, ...]
-    start_s: Floats
-    end_s: Floats
-    pressed: Floats
-    slides: Floats
+    start_s: FloatArray
+    end_s: FloatArray
+    pressed: FloatArray
+    slides: FloatArray
     spans: Spans
 
 
@@ -61,7 +59,7 @@ def fingerings(plan: PlayerPlan, pressable: tuple[Control, ...], slides: tuple[C
     start_s = np.array([event.start_s for event in events], np.float64)
     end_s = np.array([event.end_s for event in events], np.float64)
 
-    def values(controls: tuple[Control, ...]) -> Floats:
+    def values(controls: tuple[Control, ...]) -> FloatArray:
         rows = [[event.controls.get(control.name, control.rest_value) for event in events] for control in controls]
         return np.array(rows, np.float64).reshape(len(controls), len(events))
 
@@ -87,7 +85,7 @@ class _Bars(LaneItem["FingeringLane"]):
         axis, tokens = lane.axis, lane.session.tokens
         painter.setFont(small_font(lane.font()))
         shown = data.spans.between(axis.seconds(exposed.left()), axis.seconds(exposed.right()))
-        left: Floats = axis.x_px(data.start_s[shown])
+        left: FloatArray = axis.x_px(data.start_s[shown])
         width = np.maximum(axis.x_px(data.end_s[shown]) - left - 1.0, 1.0)
         colour = lane.session.colour(player)
         selected = lane.session.selection.notes
@@ -118,7 +116,7 @@ class _Bars(LaneItem["FingeringLane"]):
                 painter.setPen(QPen(QColor(tokens.text), 2.0, style))
                 painter.drawLine(QPointF(left, y), QPointF(right, y))
 
-    def _paint_selection(self, painter: QPainter, left: Floats, width: Floats) -> None:
+    def _paint_selection(self, painter: QPainter, left: FloatArray, width: FloatArray) -> None:
         height = np.full(len(left), self.lane.plot_rect.height())
         draw_rects(painter, left, np.zeros(len(left)), width, height, shade(self.lane.session.tokens.accent, 36))
 
@@ -126,10 +124,10 @@ class _Bars(LaneItem["FingeringLane"]):
         self,
         painter: QPainter,
         exposed: QRectF,
-        left: Floats,
-        width: Floats,
-        value: Floats,
-        chosen: npt.NDArray[np.bool_],
+        left: FloatArray,
+        width: FloatArray,
+        value: FloatArray,
+        chosen: BoolArray,
         colour: str,
     ) -> None:
         lane, tokens = self.lane, self.lane.session.tokens
@@ -153,10 +151,10 @@ class _Bars(LaneItem["FingeringLane"]):
         self,
         painter: QPainter,
         data: Fingerings,
-        shown: npt.NDArray[np.int64],
-        left: Floats,
-        width: Floats,
-        chosen: npt.NDArray[np.bool_],
+        shown: IntArray,
+        left: FloatArray,
+        width: FloatArray,
+        chosen: BoolArray,
     ) -> None:
         lane, tokens = self.lane, self.lane.session.tokens
         top = lane.plot_rect.height() - LABEL_PX

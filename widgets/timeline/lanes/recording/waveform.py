@@ -9,6 +9,7 @@ from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QFontMetricsF, QKeyEvent, QPainter, QPen
 from PySide6.QtWidgets import QMenu, QWidget
 
+from app.arrays import FloatArray
 from app.audio.peaks import Peaks
 from app.editor.session import Session
 from app.errors import Message
@@ -21,7 +22,7 @@ from widgets.common.numbers import number_text
 from widgets.timeline.lane import Lane, LaneItem, LaneMouse
 from widgets.timeline.lanes.number_field import NumberField
 from widgets.timeline.lanes.recording.beat_anchors import Anchors, paint_doubts
-from widgets.timeline.plot.drawing import Floats, draw_lines, draw_text, shade, small_font
+from widgets.timeline.plot.drawing import draw_lines, draw_text, shade, small_font
 from widgets.timeline.plot.time_axis import TimeAxis
 
 DRAG_PX = 3.0
@@ -69,11 +70,11 @@ class _Waveform(LaneItem["WaveformLane"]):
         left, right = int(exposed.left()), int(np.ceil(exposed.right()))
         low, high = peaks.levels(lane.axis.seconds(left) - offset_s, lane.axis.seconds(right) - offset_s, right - left)
         half = lane.plot_rect.height() / 2 - 2.0
-        x: Floats = np.arange(left, right, dtype=np.float64) + 0.5
+        x: FloatArray = np.arange(left, right, dtype=np.float64) + 0.5
         inside = (x >= lane.axis.x_px(offset_s)) & (x <= lane.axis.x_px(offset_s + peaks.duration_s))
         x, low, high = x[inside], low[inside], high[inside]
-        top: Floats = half + 2.0 - high.astype(np.float64) * half
-        bottom: Floats = np.maximum(half + 2.0 - low.astype(np.float64) * half, top + 1.0)
+        top: FloatArray = half + 2.0 - high.astype(np.float64) * half
+        bottom: FloatArray = np.maximum(half + 2.0 - low.astype(np.float64) * half, top + 1.0)
         colour = tokens.accent if lane.dragging_offset else tokens.text_dim
         draw_lines(painter, x, top, x, bottom, QPen(shade(colour, 200), 1.0))
 

@@ -8,8 +8,8 @@ import numpy as np
 from PySide6.QtCore import QLineF, QRectF, Qt
 from PySide6.QtGui import QColor, QPainter, QPen
 
+from app.arrays import FloatArray
 from app.project.model import CompSpan
-from widgets.timeline.model.geometry import Floats
 from widgets.timeline.model.takes.shown_takes import TakesModel
 from widgets.timeline.model.takes.take_rows import TakeRow, owners
 from widgets.timeline.plot.drawing import draw_lines, draw_rects, draw_text, shade, small_font
@@ -154,12 +154,12 @@ class TakesItem(LaneItem[TakesView]):
         ):
             draw_lines(painter, x0, y0, x1, y1, pen)
 
-    def _pitch_px(self, pitches: Floats, box: QRectF) -> tuple[Floats, float]:
+    def _pitch_px(self, pitches: FloatArray, box: QRectF) -> tuple[FloatArray, float]:
         """Tops of notes, and how high they are."""
         low, high = self.lane.model.pitches
         step = (box.height() - 2 * MARGIN_PX) / (high - low + 1)
         height = max(step, LEAST_NOTE_PX)
-        tops: Floats = box.top() + MARGIN_PX + (high - pitches) * step + (step - height) / 2
+        tops: FloatArray = box.top() + MARGIN_PX + (high - pitches) * step + (step - height) / 2
         return tops, height
 
     def _paint_selected(self, painter: QPainter) -> None:

@@ -9,6 +9,7 @@ from typing import Final, Literal, NamedTuple, Protocol
 import msgspec
 import numpy as np
 
+from app.arrays import FloatArray
 from app.errors import FileError
 from app.formats.json_data import decode_json
 from app.plan.by_hand.additive_curve import CHANNELS, AdditiveCurve, CurveKey
@@ -18,7 +19,6 @@ from app.plan.model import CurveSegment
 from app.project.edit.additive import Side, curves_of
 from app.project.model import Project
 from app.score.tempo import TempoMap
-from widgets.timeline.model.geometry import Floats
 from widgets.timeline.model.view import Scale
 
 REACH_PX: Final = 7.0
@@ -89,9 +89,9 @@ class ShownCurve:
     """
 
     curve: AdditiveCurve
-    key_s: Floats
+    key_s: FloatArray
     shape: tuple[CurveSegment, ...]
-    table: Floats
+    table: FloatArray
 
     @classmethod
     def of(cls, curve: AdditiveCurve, clock: TempoMap) -> ShownCurve:
@@ -110,7 +110,7 @@ class ShownCurve:
         """When it is gone."""
         return self.shape[-1].end_s
 
-    def values(self, times_s: Floats) -> Floats:
+    def values(self, times_s: FloatArray) -> FloatArray:
         """Values at ascending times."""
         return sampled_rows(self.table, times_s)
 
@@ -145,7 +145,7 @@ def shown_curves(project: Project, player_id: str, channel: str) -> tuple[ShownC
     return tuple(sorted(found, key=lambda shown: (shown.start_s, shown.curve.name)))
 
 
-def vertical_range(channel: str, curves: Sequence[ShownCurve], generated: Floats | None) -> float:
+def vertical_range(channel: str, curves: Sequence[ShownCurve], generated: FloatArray | None) -> float:
     """How far from 0 a lane shows: all keys and handles, and what is generated."""
     unit = CHANNELS[channel].unit
     most = LEAST_RANGE[unit]

@@ -7,10 +7,11 @@ from typing import NamedTuple
 
 import numpy as np
 
+from app.arrays import FloatArray
 from app.plan.model import SIGNED_KINDS, CueEvent, ExpressionEvent, GestureEvent, PoseEvent, StyleEvent
 from app.project.edit.events import OWN
 from app.score.tempo import TempoMap
-from widgets.timeline.model.geometry import Floats, packed_rows
+from widgets.timeline.model.geometry import packed_rows
 from widgets.timeline.model.regions.shown_event import Region
 
 CONCERT_KINDS = ("nod", "count", "look_about", "settle_grip", "hold_still", "look_up", "bow")
@@ -66,7 +67,7 @@ def packed_group(members: Sequence[Region], clock: TempoMap) -> tuple[list[int],
     return rows, count
 
 
-def entry_near(onset_ticks: Floats, near_tick: float, clock: TempoMap, reach_s: float) -> int | None:
+def entry_near(onset_ticks: FloatArray, near_tick: float, clock: TempoMap, reach_s: float) -> int | None:
     """The onset next to a tick, where it is no further than ``reach_s``."""
     if not len(onset_ticks):
         return None
@@ -135,7 +136,7 @@ def style_region(player_id: str, event: StyleEvent, names: Names) -> Region:
     )  # fmt: skip
 
 
-def strip(regions: Sequence[Region], kind: str) -> tuple[Floats, Floats, Floats]:
+def strip(regions: Sequence[Region], kind: str) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Starts, ends and amounts of what is drawn as a strip; a sway's or a lean's curve takes in changed ones,
     not added ones."""
     chosen = [

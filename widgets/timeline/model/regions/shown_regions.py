@@ -5,10 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import AnyIntArray, IntArray
 from app.editor.selection import EventKey
-from widgets.timeline.model.geometry import Ints
 from widgets.timeline.model.hand import Box, LaneMouse
 from widgets.timeline.model.regions.shown_event import Region, spans_of
 from widgets.timeline.model.view import Scale
@@ -121,7 +120,7 @@ class RegionTable:
                 yield chosen
         yield from preview.values()
 
-    def _distinct(self, found: Ints, scale: Scale) -> npt.NDArray[np.integer]:
+    def _distinct(self, found: IntArray, scale: Scale) -> AnyIntArray:
         """Of the regions to draw those that can be seen: of the narrow ones in a column the strongest.
 
         From far away thousands share a column, and each takes as long to draw as a wide one.

@@ -9,11 +9,9 @@ from operator import attrgetter, is_
 import numpy as np
 import numpy.typing as npt
 
+from app.arrays import BoolArray, FloatArray
 from app.score.model import Part
 from app.score.tempo import TempoMap
-
-Floats = npt.NDArray[np.float64]
-Flags = npt.NDArray[np.bool_]
 
 
 class Sounding:
@@ -24,10 +22,10 @@ class Sounding:
     onset_s, end_s, pitch : array (N,)
     """
 
-    def __init__(self, onset_s: Floats, end_s: Floats, pitch: Floats) -> None:
+    def __init__(self, onset_s: FloatArray, end_s: FloatArray, pitch: FloatArray) -> None:
         self.onset_s, self.end_s, self.pitch = onset_s, end_s, pitch
         # The latest end so far never falls: the first note that reaches into a range is found by bisection.
-        self._latest_end_s: Floats = np.maximum.accumulate(end_s) if len(end_s) else end_s
+        self._latest_end_s: FloatArray = np.maximum.accumulate(end_s) if len(end_s) else end_s
 
     def visible(self, start_s: float, end_s: float) -> slice:
         """The notes from the first to the last that sounds between two times (some between may not)."""
@@ -45,10 +43,10 @@ class NoteTable(Sounding):
         notes = part.notes
         count = len(notes)
         # A loop of Python's would take three times as long, and the first picture needs every player's notes.
-        self.onset_tick: Floats = np.fromiter(map(attrgetter("onset_tick"), notes), np.float64, count)
+        self.onset_tick: FloatArray = np.fromiter(map(attrgetter("onset_tick"), notes), np.float64, count)
         duration = np.fromiter(map(attrgetter("duration_tick"), notes), np.float64, count)
         pitch = np.fromiter(map(attrgetter("pitch"), notes), np.float64, count)
-        self.velocity: Floats = np.fromiter(map(attrgetter("velocity"), notes), np.float64, count)
+        self.velocity: FloatArray = np.fromiter(map(attrgetter("velocity"), notes), np.float64, count)
         super().__init__(tempo.seconds(self.onset_tick), tempo.seconds(self.onset_tick + duration), pitch)
 
     def __len__(self) -> int:
@@ -59,7 +57,7 @@ class NoteTable(Sounding):
         """Place of every note by id."""
         return {note_id: place for place, note_id in enumerate(map(attrgetter("id"), self.part.notes))}
 
-    def flags(self, note_ids: Collection[str]) -> Flags:
+    def flags(self, note_ids: Collection[str]) -> BoolArray:
         """Which notes are among these."""
         result = np.zeros(len(self), np.bool_)
         if self.index.keys().isdisjoint(note_ids):

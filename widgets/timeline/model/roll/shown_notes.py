@@ -6,8 +6,8 @@ from operator import is_
 from typing import Protocol
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import BoolArray, FloatArray, IntArray
 from app.editor.selection import Selection
 from app.editor.timeline_view import Ghosts
 from app.editor.tokens import Tokens
@@ -17,10 +17,8 @@ from app.project.performers import Player
 from app.score.model import Note, Score
 from widgets.timeline.model.gestures import Editing
 from widgets.timeline.model.hand import LaneMouse
-from widgets.timeline.model.roll.note_table import Behind, Flags, Floats, NoteTable, Sounding
+from widgets.timeline.model.roll.note_table import Behind, NoteTable, Sounding
 from widgets.timeline.model.view import Scale
-
-Integers = npt.NDArray[np.int64]
 
 EDGE_PX = 6.0
 """So near to a note's end a press takes hold of the end."""
@@ -65,19 +63,19 @@ def zoomed_pitches(pitches: tuple[float, float], factor: float, at: float) -> tu
     return kept_pitches(at - (at - bottom) / (top - bottom) * rows, rows)
 
 
-def visible(table: Sounding, start_s: float, end_s: float, pitches: tuple[float, float]) -> Integers:
+def visible(table: Sounding, start_s: float, end_s: float, pitches: tuple[float, float]) -> IntArray:
     """Places of the notes that may show in a range of time and pitch."""
     found = table.visible(start_s, end_s)
     bottom, top = pitches
     pitch = table.pitch[found]
     inside = (pitch > bottom - 1) & (pitch < top) & (table.end_s[found] > start_s)
-    rows: Integers = np.flatnonzero(inside) + found.start
+    rows: IntArray = np.flatnonzero(inside) + found.start
     return rows
 
 
 def boxes(
-    table: Sounding, rows: Integers, scale: Scale, highest: float, row_px: float
-) -> tuple[Floats, Floats, Floats, Floats]:
+    table: Sounding, rows: IntArray, scale: Scale, highest: float, row_px: float
+) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
     """Left, top, width and height of notes, in whole pixels so that edges are sharp."""
     left = np.floor(scale.x_px(table.onset_s[rows]))
     right = np.floor(scale.x_px(table.end_s[rows]))
@@ -117,7 +115,7 @@ class RollModel:
         self.ghosts_mode = Ghosts.GHOSTS
         """How the players behind are seen."""
         self._tables: dict[str, NoteTable] = {}
-        self._flags: dict[str, tuple[NoteTable, Selection, Flags]] = {}
+        self._flags: dict[str, tuple[NoteTable, Selection, BoolArray]] = {}
         self._ghosts_of: tuple[tuple[object, ...], Behind] = ((None, None, None, None), NO_GHOSTS)
         """The players behind, and what that was found from: it is asked with every repaint."""
 
@@ -197,7 +195,7 @@ class RollModel:
         notes = front[0].part.notes
         return frozenset(notes[place].id for place in np.flatnonzero(front[0].pitch == pitch).tolist())
 
-    def selected(self, table: NoteTable) -> Flags | None:
+    def selected(self, table: NoteTable) -> BoolArray | None:
         """Which notes of a table are selected; None: none."""
         selection = self._session.selection
         if not selection.notes:

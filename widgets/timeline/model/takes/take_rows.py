@@ -8,8 +8,8 @@ from itertools import pairwise
 from typing import Final
 
 import numpy as np
-import numpy.typing as npt
 
+from app.arrays import FloatArray, IntArray
 from app.identity_cache import IdentityCache
 from app.project.edit.takes import BEFORE, recorded_of, take_cleaned, take_notes
 from app.project.model import CompSpan, PlayerTakes, Project
@@ -17,10 +17,10 @@ from app.score.clean import Cleaned, Fault
 from app.score.model import ControllerCurve, Note
 from app.score.take import Played, Take
 from app.score.tempo import TempoMap
-from widgets.timeline.model.geometry import Floats, Ints, Spans, Steps
+from widgets.timeline.model.geometry import Spans, Steps
 
-_KEPT: Final[IdentityCache[tuple[Spans, Ints, Ints]]] = IdentityCache(128)
-_LEFT_OUT: Final[IdentityCache[tuple[Spans, Ints, tuple[Fault, ...]]]] = IdentityCache(128)
+_KEPT: Final[IdentityCache[tuple[Spans, IntArray, IntArray]]] = IdentityCache(128)
+_LEFT_OUT: Final[IdentityCache[tuple[Spans, IntArray, tuple[Fault, ...]]]] = IdentityCache(128)
 _BREATH: Final[IdentityCache[Steps | None]] = IdentityCache(128)
 
 
@@ -46,10 +46,10 @@ class TakeRow:
 
     take: Take | None
     kept: Spans
-    pitches: Ints
-    onset_ticks: Ints
+    pitches: IntArray
+    onset_ticks: IntArray
     left_out: Spans
-    left_out_pitches: Ints
+    left_out_pitches: IntArray
     faults: tuple[Fault, ...]
     breath: Steps | None
 
@@ -68,7 +68,7 @@ def rows_of(project: Project, player_id: str) -> tuple[TakeRow, ...]:
     return (_before(recorded, clock), *(_row(project, player_id, take, clock) for take in recorded.takes))
 
 
-def owners(comp: Sequence[CompSpan], ticks: Ints) -> npt.NDArray[np.int64]:
+def owners(comp: Sequence[CompSpan], ticks: IntArray) -> IntArray:
     """The index of the span of a comp that each tick lies in; -1: none."""
     if not comp:
         return np.full(len(ticks), -1, np.int64)
@@ -128,18 +128,18 @@ def _row(project: Project, player_id: str, take: Take, clock: TempoMap) -> TakeR
     return TakeRow(take, kept, pitches, ticks, left_out, left_pitches, faults, breath)
 
 
-def _kept(notes: tuple[Note, ...], clock: TempoMap) -> tuple[Spans, Ints, Ints]:
+def _kept(notes: tuple[Note, ...], clock: TempoMap) -> tuple[Spans, IntArray, IntArray]:
     return _KEPT.step(_kept_arrays, notes, clock)
 
 
-def _kept_arrays(notes: tuple[Note, ...], clock: TempoMap) -> tuple[Spans, Ints, Ints]:
+def _kept_arrays(notes: tuple[Note, ...], clock: TempoMap) -> tuple[Spans, IntArray, IntArray]:
     onsets = np.array([note.onset_tick for note in notes], np.int64)
     ends = np.array([note.end_tick for note in notes], np.int64)
     pitches = np.array([note.pitch for note in notes], np.int64)
     return Spans(clock.seconds(onsets), clock.seconds(ends)), pitches, onsets
 
 
-def _left_out(clean: Cleaned, own: TempoMap, clock: TempoMap) -> tuple[Spans, Ints, tuple[Fault, ...]]:
+def _left_out(clean: Cleaned, own: TempoMap, clock: TempoMap) -> tuple[Spans, IntArray, tuple[Fault, ...]]:
     index = [number for number, fault in enumerate(clean.faults) if fault]
     spans = Spans(_moved(clean.onsets_s[index], own, clock), _moved(clean.ends_s[index], own, clock))
     return spans, clean.pitches[index], tuple(clean.faults[number] for number in index)
@@ -154,7 +154,7 @@ def _drawn_breath(curve: ControllerCurve, clock: TempoMap) -> Steps:
     return Steps(clock.seconds(np.array(curve.ticks, np.float64)), np.array(curve.values, np.float64))
 
 
-def _moved(seconds: Floats, own: TempoMap, clock: TempoMap) -> Floats:
+def _moved(seconds: FloatArray, own: TempoMap, clock: TempoMap) -> FloatArray:
     """Times of a take's own clock as times of the piece, whose tempo may have changed since."""
     return clock.seconds(own.ticks(seconds))
 
