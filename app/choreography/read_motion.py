@@ -26,7 +26,6 @@ from app.arrays import FloatArray
 from app.choreography.body import ENDS, FEET, PARENT_OF, SEGMENTS
 from app.choreography.clip import KEPT_FPS, BodyShape, MotionClip
 from app.choreography.flips import Flip, lead_in, mend_flips, mend_steps
-from app.choreography.node_motion import read_fbx_motion, read_gltf_motion
 from app.errors import FileError, Message
 from app.formats.bvh import BvhClip, read_bvh
 from app.formats.motion_limits import require_frames, require_rate
@@ -34,6 +33,7 @@ from app.rig import quaternion
 from app.rig.characters.joint_mapping import JointMapping, map_joints
 from app.rig.characters.t_pose import Rest, facing_ahead, rest_of, turned_figure, turns_to_t_pose, upright
 from app.rig.figure import Figure
+from app.rig.node_motion import read_fbx_motion, read_gltf_motion
 from metadata.model import REQUIRED_JOINTS
 
 UNITS_M: Final = {"cm": 0.01, "m": 1.0, "inch": 0.0254, "CMU": 0.0254 / 0.45}

@@ -10,15 +10,13 @@ from importlib import import_module
 from typing import Any, Final, NoReturn
 
 from app.encoding import shown
+from app.features import FEATURES, SubCommand
 
-_COMMANDS: Final = {
+_OWN: Final = {
     "edit": "open the editor (also without any command)",
     "inspect": "say what a MIDI file holds and what its players will do",
     "export": "write the players and their instruments as FBX, BVH, GLB or USD",
     "film": "draw the players: a film with sound, PNG frames or a contact sheet",
-    "evaluate": "make a questionnaire in which viewers judge the performance against real players",
-    "evaluate results": "what viewers answered",
-    "evaluate measures": "what can be measured of a piece without viewers",
     "midi": "write the piece as a MIDI file",
     "align": "put the notes where a recording of the piece has them",
     "instruments": "list the instrument maps, show the fingerings of one, or check one",
@@ -29,8 +27,20 @@ _COMMANDS: Final = {
     "record": "record from a MIDI device into a MIDI file",
     "stream": "play a piece live to another program (VMC)",
 }
-"""By name: the help. What ``evaluate results`` takes and does is in `app.cli.evaluate_results`."""
+"""By name: the help. The module of a name is in this folder."""
 
+
+def _all_commands() -> dict[str, SubCommand]:
+    found = {name: SubCommand(f"app.cli.{name}", help, after="") for name, help in _OWN.items()}
+    for feature in FEATURES:
+        for name, command in feature.sub_commands.items():
+            names = list(found)
+            names.insert(names.index(command.after) + 1, name)
+            found = {each: found.get(each, command) for each in names}
+    return found
+
+
+_COMMANDS: Final = _all_commands()
 TWO_WORDS: Final = frozenset(name for name in _COMMANDS if " " in name)
 """A piece with such a name is written "./results"."""
 
@@ -71,8 +81,8 @@ class CommandParser(argparse.ArgumentParser):
 def add_commands(top: argparse.ArgumentParser) -> None:
     """Declare all sub-commands by name and help."""
     commands = top.add_subparsers(title="commands", dest="command", metavar="COMMAND", parser_class=CommandParser)
-    for name, help in _COMMANDS.items():
-        commands.add_parser(name, help=help, declare=partial(_add_arguments, name))
+    for name, command in _COMMANDS.items():
+        commands.add_parser(name, help=command.help, declare=partial(_add_arguments, command.module))
 
 
 def _add_arguments(name: str, command: argparse.ArgumentParser) -> None:
@@ -80,7 +90,7 @@ def _add_arguments(name: str, command: argparse.ArgumentParser) -> None:
     collects = gc.isenabled()
     gc.disable()
     try:
-        module = import_module(f"app.cli.{name.replace(' ', '_')}")
+        module = import_module(name)
     finally:
         if collects:
             gc.enable()

@@ -15,10 +15,10 @@ from app.audio.track import RATE_HZ, Block
 from app.errors import raise_if_stopped
 from app.evaluation.imported import ImportedVideo, pictures_of
 from app.evaluation.key import Variant
-from app.evaluation.keyframes import Posed
 from app.evaluation.variants import performance_of
 from app.export.video import video_into
 from app.performance.cast import LeftOut
+from app.performance.chunks import Posed
 from app.performance.ensemble import Performance
 from app.performance.span import FrameSpan
 from app.project.model import Project

@@ -13,10 +13,10 @@ evaluate.keyframes_lacking(file, player, name), evaluate.keyframes_report(file, 
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Final, TypeAlias
+from typing import Final
 
 import msgspec
 import numpy as np
@@ -39,9 +39,6 @@ from app.rig import quaternion
 from app.rig.grip.grip_pose import hand_targets
 from app.rig.model import Character, Skeleton
 from app.rig.skeleton import forward
-
-Posed: TypeAlias = Callable[[str, float, Pose], Pose]
-"""A player's id, a time and the pose of the performance to the pose that is seen."""
 
 SUFFIXES: Final = (".bvh", ".fbx", ".glb", ".gltf")
 HIPS: Final = "hips"
@@ -154,7 +151,7 @@ class Keyframes:
             one.require_covered(excerpt)
 
     def posed(self, player_id: str, time_s: float, pose: Pose) -> Pose:
-        """See `Posed`."""
+        """See `app.performance.chunks.Posed`."""
         found = self.players.get(player_id)
         return pose if found is None else found.posed(time_s, pose)
 
@@ -177,7 +174,7 @@ def read_keyframes(
     Raises
     ------
     FileError
-        Those of this module, of `app.formats.bvh`, `app.formats.motion_limits` and `app.choreography.node_motion`.
+        Those of this module, of `app.formats.bvh`, `app.formats.motion_limits` and `app.rig.node_motion`.
     AppError
         A player cannot be seen.
     """
@@ -244,7 +241,7 @@ def _read(path: Path) -> BvhClip:
         # Nothing here says that a frame time was taken for milliseconds, so it is refused.
         require_rate(clip.fps if clip.milliseconds is None else clip.fps / 1000, str(path))
         return clip
-    from app.choreography.node_motion import read_fbx_motion, read_gltf_motion
+    from app.rig.node_motion import read_fbx_motion, read_gltf_motion
 
     if suffix == ".fbx":
         return read_fbx_motion(path)

@@ -11,16 +11,13 @@ from typing import Final
 
 from app.encoding import shown
 from app.errors import AppError, Message
+from app.features import modules
 from app.messages import (
     audio,
     capture,
     choreography,
     corrections,
     edit,
-    evaluation,
-    evaluation_conclusions,
-    evaluation_page,
-    evaluation_results,
     files,
     formats,
     notes,
@@ -50,10 +47,6 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
     **choreography.WORDINGS,
     **corrections.WORDINGS,
     **edit.WORDINGS,
-    **evaluation.WORDINGS,
-    **evaluation_conclusions.WORDINGS,
-    **evaluation_page.WORDINGS,
-    **evaluation_results.WORDINGS,
     **files.WORDINGS,
     **formats.WORDINGS,
     **notes.WORDINGS,
@@ -71,6 +64,9 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
     **unreal.WORDINGS,
     **work.WORDINGS,
 }
+for _, _module in modules("messages"):
+    WORDINGS.update(_module.WORDINGS)
+
 
 PITCHES: Final[dict[str, tuple[str, ...]]] = {
     "note.pitch_outside": ("pitch", "low", "high"),

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from typing import TypeAlias
 
 import numpy as np
 
@@ -53,6 +54,10 @@ class Pose:
             instrument_position_m=motion.instrument_position_m[frame],
             instrument_rotation=motion.instrument_rotation[frame],
         )
+
+
+Posed: TypeAlias = Callable[[str, float, Pose], Pose]
+"""A player's id, a time and the pose of the performance to the pose that is seen."""
 
 
 @dataclass(frozen=True, eq=False)

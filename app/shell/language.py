@@ -7,6 +7,7 @@ from typing import Final
 
 from PySide6.QtCore import QCoreApplication, QLibraryInfo, QLocale, QObject, QTranslator, Signal
 
+from app.features import modules
 from app.messages import LANGUAGES, WORDINGS
 from app.shell.texts import TEXTS as SHELL
 from widgets.common.texts import TEXTS as COMMON
@@ -20,8 +21,14 @@ from widgets.viewport.texts import TEXTS as VIEWPORT
 
 ROOMS: Final[tuple[Mapping[str, tuple[str, str]], ...]] = (
     *(WORDINGS, SHELL, COMMON, DIALOGS, INSPECTOR, PLAYERS, RECORDING, TIMELINE, TRANSPORT, VIEWPORT),
+    *(module.TEXTS for _, module in modules("texts")),
 )
 """All texts: id -> one for each of `LANGUAGES`, in their order."""
+
+
+def english_text(text_id: str) -> str:
+    """The English text of an id, whatever language is shown."""
+    return next(room[text_id][0] for room in ROOMS if text_id in room)
 
 
 def system_language() -> str:

@@ -54,8 +54,6 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
     "action.file.add_video": ("Import Reference Video...", "参照ビデオを読み込む..."),
     "action.file.add_character": ("Add Character...", "キャラクターを追加..."),
     "action.file.close": ("Close Project", "プロジェクトを閉じる"),
-    "action.file.evaluation": ("Evaluation...", "評価..."),
-    "action.file.evaluation_results": ("Evaluation Results...", "評価の結果..."),
     "action.file.export_midi": ("Export MIDI...", "MIDI を書き出す..."),
     "action.file.import_midi": ("Import MIDI...", "MIDI を読み込む..."),
     "action.file.compare_metadata": ("Compare Acting Metadata...", "演技のメタデータを比較..."),

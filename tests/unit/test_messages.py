@@ -77,7 +77,8 @@ def strings(*folders: str) -> set[str]:
 def action_ids() -> set[str]:
     """What a row of the table of actions begins with: an id of its own kind, no message."""
     ids = set()
-    for path in (ROOT / "app" / "shell" / "commands").glob("*.py"):
+    shell = ROOT / "app" / "shell"
+    for path in (*(shell / "commands").glob("*.py"), *shell.glob("*/actions.py")):
         for node in nodes(path):
             if not isinstance(node, ast.Call) or not isinstance(node.func, ast.Name) or not node.args:
                 continue

@@ -15,10 +15,9 @@ from app.editor.tasks import Progress, StopRequested
 from app.editor.tokens import THEMES, Tokens
 from app.editor.viewport_state import View
 from app.errors import AppError, Cancelled, Message, raise_if_stopped
-from app.evaluation.keyframes import Posed
 from app.export.pictures import Picture
 from app.performance.cast import LeftOut
-from app.performance.chunks import Pose
+from app.performance.chunks import Pose, Posed
 from app.performance.ensemble import Performance
 from app.performance.live import LiveMotion, PlayerFault
 from app.project.performers import Player

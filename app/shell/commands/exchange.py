@@ -3,7 +3,6 @@ out."""
 
 from __future__ import annotations
 
-from functools import partial
 from pathlib import Path
 
 from PySide6.QtCore import Qt
@@ -25,9 +24,6 @@ from app.version import program_version
 from instrument_maps.library import all_maps
 from widgets.common.text import message_text, note_text
 from widgets.inspector.words import correction_title
-
-EVALUATION_WORKER = "app.cli.evaluation_worker"
-"""Run as a program of its own: the window stays alive meanwhile."""
 
 
 def read_again(editor: Editor) -> None:
@@ -170,31 +166,8 @@ def playblast(editor: Editor) -> None:
     dialog.show()
 
 
-def evaluation(editor: Editor) -> None:
-    """Ask what viewers are to judge, and make the clips and the page for them."""
-    session = editor.session
-    from app.evaluation.process import made_by_process
-    from widgets.dialogs.evaluation import EvaluationDialog
-
-    dialog = EvaluationDialog(
-        session,
-        partial(made_by_process, EVALUATION_WORKER),
-        Path(editor.files.folder) / f"{editor.files.stem}-evaluation",
-        session.project.score.title or editor.files.stem,
-        editor.window,
-    )
-    dialog.show()
-
-
-def evaluation_results(editor: Editor) -> None:
-    """Show what viewers answered."""
-    from app.evaluation.gathered import gather
-    from widgets.dialogs.evaluation_results import EvaluationResultsDialog
-
-    EvaluationResultsDialog(gather, Path(editor.files.folder), editor.window).show()
-
-
-def _can_draw(editor: Editor) -> bool:
+def can_draw(editor: Editor) -> bool:
+    """Whether there are players whom a film can show."""
     return _can_export(editor) and editor.window.viewport.has_gl
 
 
@@ -206,15 +179,13 @@ ACTIONS: tuple[EditorAction, ...] = (
     EditorAction("file.reimport", read_again, "file", "Ctrl+Shift+I", enabled=is_open),
     EditorAction("file.reimport_other", read_another, "file", enabled=is_open),
     EditorAction("file.export_midi", export_midi, "file", enabled=_can_export),
-    EditorAction("file.evaluation", evaluation, "file", enabled=_can_draw),
-    EditorAction("file.evaluation_results", evaluation_results, "file"),
     EditorAction("export.files", export_files, "export", "Ctrl+E", enabled=_can_export, icon="export"),
     EditorAction(
         "export.playblast",
         playblast,
         "export",
         "Ctrl+Shift+E",
-        enabled=_can_draw,
+        enabled=can_draw,
         icon="film",
     ),
 )

@@ -13,14 +13,14 @@ from app.evaluation.key import write_key
 from app.evaluation.measures import write_measures
 from tests.support.viewers import key_of, viewers, write_viewers
 from tests.unit.evaluation.test_report import MEASURES
-from widgets.dialogs.evaluation_results import EvaluationResultsDialog
+from widgets.dialogs.evaluation.results import EvaluationResultsDialog
 
 
 def test_files_become_words_a_picture_and_tables(
     qt_app: object, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     opened: list[Path] = []
-    monkeypatch.setattr("widgets.dialogs.evaluation_results.show_folder", opened.append)
+    monkeypatch.setattr("widgets.dialogs.evaluation.results.show_folder", opened.append)
     answers = tmp_path / "answers"
     answers.mkdir()
     files = write_viewers(viewers(key_of(), 8), answers)

@@ -24,7 +24,7 @@ from app.project.model import Project
 from tests.gui.conftest import quartet_project
 from tests.unit.evaluation.test_keyframes import export_bvh
 from widgets.common.paths import PathEdit
-from widgets.dialogs.evaluation import EvaluationDialog, Make
+from widgets.dialogs.evaluation.make import EvaluationDialog, Make
 from widgets.dialogs.texts import TEXTS
 
 
@@ -198,7 +198,7 @@ def test_another_process_makes_it_stops_and_refuses(tmp_path: Path) -> None:
     (tmp_path / "motion").mkdir()
     export_bvh(Performance(project), project.bodies[0].name, tmp_path / "motion")
     shares: list[float] = []
-    module = "app.cli.evaluation_worker"
+    module = "app.cli.evaluation.worker"
     made = made_by_process(module, project, request, lambda share, said: shares.append(share), lambda: False)
     assert (made.clips, made.pairs, made.left_out) == (2, 1, ())
     assert shares == sorted(shares)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 
-from app.cli.evaluate_results import table_lines
+from app.cli.evaluation.results import table_lines
 from app.cli.options import add_file_options, open_project
 from app.cli.terminal import say
 

@@ -14,8 +14,8 @@ from app.audio.decode import decode
 from app.cli import main
 from app.evaluation.key import read_key
 from app.formats.video import video_facts, video_pictures
-from tests.unit.cli.test_evaluate import film_of
 from tests.unit.cli.test_main import QUARTET
+from tests.unit.evaluation.test_command import film_of
 
 SMALL = ("--excerpts", "1", "--seconds", "1", "--fps", "4", "--size", "96x64", "--view", "front", "--player", "Tr*1")
 
@@ -73,7 +73,7 @@ def test_cancelled_it_leaves_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyP
 
         yield stop_requested
 
-    monkeypatch.setattr("app.cli.evaluate.stoppable", stoppable)
+    monkeypatch.setattr("app.cli.evaluation.make.stoppable", stoppable)
     assert main(["evaluate", str(QUARTET), *SMALL, "--to", str(tmp_path / "a" / "made")]) == 130
     assert any(asked)
     assert list(tmp_path.iterdir()) == []

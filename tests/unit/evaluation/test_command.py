@@ -1,5 +1,5 @@
 """What `suisou evaluate` refuses before anything is drawn, and which videos; what it draws is in
-tests/gui/viewport/test_evaluate.py."""
+tests/gui/evaluation/test_command.py."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ def test_what_is_refused(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr("app.cli.evaluate.why_no_display", lambda **asked: "no display here")
+    monkeypatch.setattr("app.cli.evaluation.make.why_no_display", lambda **asked: "no display here")
     (tmp_path / "file").write_text("")
     assert main(["evaluate", str(QUARTET), *options.split()]) == status
     captured = capsys.readouterr()

@@ -1,0 +1,1 @@
+"""``suisou evaluate``: an evaluation made, and its results."""

@@ -1,0 +1,43 @@
+"""Actions about evaluations: clips and a questionnaire for viewers, and what viewers answered."""
+
+from __future__ import annotations
+
+from functools import partial
+from pathlib import Path
+from typing import Final
+
+from app.shell.commands.exchange import can_draw
+from app.shell.editor import Editor, EditorAction
+
+WORKER: Final = "app.cli.evaluation.worker"
+"""Run as a program of its own: the window stays alive meanwhile."""
+
+
+def make(editor: Editor) -> None:
+    """Ask what viewers are to judge, and make the clips and the page for them."""
+    session = editor.session
+    from app.evaluation.process import made_by_process
+    from widgets.dialogs.evaluation.make import EvaluationDialog
+
+    dialog = EvaluationDialog(
+        session,
+        partial(made_by_process, WORKER),
+        Path(editor.files.folder) / f"{editor.files.stem}-evaluation",
+        session.project.score.title or editor.files.stem,
+        editor.window,
+    )
+    dialog.show()
+
+
+def show_results(editor: Editor) -> None:
+    """Show what viewers answered."""
+    from app.evaluation.gathered import gather
+    from widgets.dialogs.evaluation.results import EvaluationResultsDialog
+
+    EvaluationResultsDialog(gather, Path(editor.files.folder), editor.window).show()
+
+
+ACTIONS: Final[tuple[EditorAction, ...]] = (
+    EditorAction("file.evaluation", make, "file", enabled=can_draw),
+    EditorAction("file.evaluation_results", show_results, "file"),
+)

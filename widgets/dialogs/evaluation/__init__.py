@@ -1,0 +1,1 @@
+"""Dialogs of evaluations: what is made, and what viewers answered."""
