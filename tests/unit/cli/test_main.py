@@ -215,7 +215,8 @@ def test_inspect_lists_articulation_bends_and_dynamics(run: Run, tmp_path: Path)
 
 
 def test_reasons_name_notes_by_bar_and_beat(run: Run, tmp_path: Path) -> None:
-    track = mido.MidiTrack([mido.MetaMessage("track_name", name="Trumpet")])
+    names = mido.MetaMessage("track_name", name="Trumpet"), mido.MetaMessage("time_signature", numerator=4)
+    track = mido.MidiTrack(names)
     for place in range(64):
         track.append(mido.Message("note_on", note=67 + place % 3, velocity=90))
         track.append(mido.Message("note_off", note=67 + place % 3, time=480))
