@@ -43,7 +43,9 @@ APART_S = 2.0
 LED_TO_SHARE = 0.4
 """Part of a lungful that there is at least for a held note that other notes lead to."""
 FROM_EDGES_S = 1.0
-"""No one breathes so soon after a held note begins, or before it ends."""
+"""No one breathes so soon after a held note begins, or before it ends, unless the lungs are too small for that."""
+LEAST_STEP_S = 2 * FULL_BREATH_S
+"""However small the lungs are, breaths within a note are so far apart: half of it sounds."""
 TRIED = 17
 """Times that are compared for the breaths in a note."""
 COMPARED = 8
@@ -282,12 +284,14 @@ def _handed_on(
     others' breaths; of such ways the one with the fewest breaths, the nearest to the middle. The first comes at most
     ``begun_s`` after the note begins."""
     length_s, taken_s = last_s - first_s, np.array([*others_s, math.inf])
-    least = max(math.ceil(length_s / lungful_s - EPSILON) - 1, 1)
+    most = max(int(length_s / LEAST_STEP_S), 1)
+    least = min(max(math.ceil(length_s / lungful_s - EPSILON) - 1, 1), most)
     found: list[tuple[tuple[float, float, int, float], list[float]]] = []
-    for count in range(least, least + 3):
+    for count in range(least, min(least + 2, most) + 1):
         for step_s in (length_s / count, length_s / (count + 1)):
             ends_s = length_s - (count - 1) * step_s - FULL_BREATH_S
-            for first in np.linspace(FROM_EDGES_S, ends_s - FROM_EDGES_S, TRIED).tolist():
+            edge_s = min(FROM_EDGES_S, ends_s / 2.0)
+            for first in np.linspace(edge_s, ends_s - edge_s, TRIED).tolist():
                 starts_s = first_s + first + step_s * np.arange(count)
                 longest_s = max(first, ends_s - first, step_s - FULL_BREATH_S if count > 1 else 0.0)
                 apart_s = float(np.abs(starts_s[:, None] - taken_s).min())

@@ -213,6 +213,16 @@ def test_a_long_held_note_is_handed_on(count: int) -> None:
     assert not [problem for plan in made for problem in plan.problems if problem.message.id == "breath.too_long"]
 
 
+@pytest.mark.parametrize("lung_s", [0.3, 0.8, 1.4, 1.6, 2.0, 2.3])
+def test_breaths_of_the_smallest_lungs_are_within_the_held_note(lung_s: float) -> None:
+    for plan in plans(*([(0, 8 * Q, 60), (8 * Q, 20 * Q, 62)] for _ in range(3)), lung_s=lung_s):
+        times = within(plan)
+        held = [time for time in times if time > 3.5]
+        assert held[0] > 4.0
+        assert held[-1] + 0.5 < 14.0
+        assert all(after - before >= 1.0 - 1e-9 for before, after in itertools.pairwise(held))
+
+
 def test_a_held_note_out_of_a_line_without_rests_is_handed_on() -> None:
     line = [*running(0, 8), (8 * Q, 24 * Q, 62), *running(32, 8)]
     made = plans(line, [(onset, length, pitch - 12) for onset, length, pitch in line])
