@@ -9,9 +9,10 @@ from typing import TypeAlias
 from app.editor.selection import EventKey, Selection
 from app.editor.session import Session
 from app.errors import Message
-from app.plan.model import SIGNED_KINDS, PlayerPlan
+from app.plan.kinds import GESTURE_KINDS, GestureKind
+from app.plan.model import PlayerPlan
 from app.project.edit import events as edit
-from app.project.edit.events import Edited, GestureKind
+from app.project.edit.events import Edited
 from app.project.model import Project
 
 Addition: TypeAlias = tuple[PlayerPlan, Callable[[Project], Edited]]
@@ -38,7 +39,7 @@ def add_cues(session: Session, places: Places) -> None:
 
 def add_gestures(session: Session, kind: GestureKind, spans: Spans) -> None:
     """Add a gesture over each span."""
-    amount = 0.5 if kind in SIGNED_KINDS else 1.0
+    amount = 0.5 if GESTURE_KINDS[kind].signed else 1.0
     add = partial(edit.add_gesture, kind=kind, amount=amount)
     made = [
         (plan, partial(add, player_id=plan.player_id, start_tick=start, end_tick=end)) for plan, start, end in spans

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import Final, Generic, Literal, NamedTuple, TypeAlias, TypeVar, get_args
+from typing import Final, Generic, Literal, NamedTuple, TypeAlias, TypeVar
 
 import msgspec
 import numpy as np
@@ -17,6 +17,7 @@ from app.arrays import FloatArray
 from app.errors import Message
 from app.identity_cache import IdentityCache
 from app.plan.acting import Acting
+from app.plan.kinds import GestureKind
 from metadata.gestures import Gesture
 
 E = TypeVar("E")
@@ -178,31 +179,6 @@ class CueEvent(msgspec.Struct, frozen=True, gc=False):
         return self.peak_s + self.beat_s
 
 
-GestureKind: TypeAlias = Literal[
-    "sway",
-    "weight_shift",
-    "bell_height",
-    "lower_instrument",
-    "lean",
-    "accent",
-    "step",
-    "tap",
-    "heel",
-    "nod",
-    "count",
-    "look_about",
-    "settle_grip",
-    "hold_still",
-    "look_up",
-    "bow",
-    "named",
-]
-"""What a body does beside playing."""
-GESTURE_KINDS: Final[tuple[GestureKind, ...]] = get_args(GestureKind)
-OWN_KINDS: Final[tuple[GestureKind, ...]] = tuple(kind for kind in GESTURE_KINDS if kind != "named")
-"""What the program itself makes; the others are named in a table."""
-SIGNED_KINDS: Final[frozenset[GestureKind]] = frozenset(GESTURE_KINDS[:3] + GESTURE_KINDS[4:9])
-"""Gestures that go one way or the other; of all others there is no less than nothing."""
 ACCENT_AT: Final = 0.45
 """Part of an accent's length after which its note begins."""
 

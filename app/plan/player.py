@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from functools import partial
 from itertools import chain
 from typing import Final
@@ -49,6 +49,7 @@ from app.plan.gestures.leans_and_accents import accents, leans, phrases
 from app.plan.gestures.lowered_instrument import lowered_spans
 from app.plan.gestures.named_gestures import undisturbed, with_definitions
 from app.plan.gestures.sways import sways, swings_of
+from app.plan.kinds import GESTURE_KINDS
 from app.plan.lips.embouchure import plan_embouchures
 from app.plan.lips.recorded_lips import plan_traces
 from app.plan.lips.tonguing import plan_tongues
@@ -70,12 +71,9 @@ from app.plan.rules import facts_of, lowered_spans_s, plan_by_rules, with_ruled,
 from app.plan.styles import plan_styles
 from app.score.model import Note
 from app.score.tempo import TempoMap
-from app.steps import StepTable, reading
+from app.steps import Reading, StepTable, reading
 from metadata.acting import names_in
 from metadata.model import Expression
-
-EYES_FOLLOW: Final = ("lower_instrument", "look_about", "look_up")
-"""Kinds of gestures that eyes depend on."""
 
 
 def _seeds(seed: int, own_seed: int, player_id: str, corrections: tuple[Correction, ...]) -> Seeds:
@@ -128,7 +126,7 @@ def _looking(gestures: tuple[GestureEvent, ...]) -> tuple[GestureEvent, ...]:
     return tuple(
         event
         for event in gestures
-        if event.kind in EYES_FOLLOW or (event.gesture is not None and event.gesture.gaze is not None)
+        if GESTURE_KINDS[event.kind].moves_eyes or (event.gesture is not None and event.gesture.gaze is not None)
     )
 
 
@@ -170,6 +168,20 @@ AMONG_OTHERS: Final = StepTable(
     shared=reading(shared_with, line="shared_line"),
 )
 """What one player's plan depends on of the others'."""
+BY_MUSIC: Final[dict[str, Callable[..., object] | Reading]] = {
+    "sways": sways,
+    "weight_shifts": reading(weight_shifts, times="rhythm"),
+    "leans": reading(leans, found="phrases"),
+    "accents": accents,
+    "bell_heights": bell_heights,
+    "lowered": reading(lowered_spans, times="rhythm", cues="all_cues"),
+    "answering_nods": reading(answering_nods, times="rhythm"),
+    "in_long_rests": reading(in_long_rests, times="rhythm"),
+    "holding_at_end": reading(holding_at_end, times="rhythm"),
+    "after_the_end": _after_the_end,
+    "footwork": reading(footwork, times="rhythm", found="phrases", shifts="weight_shifts"),
+}
+"""The steps of `PLAYER` that make gestures (`app.plan.kinds.GESTURES`) from the music; they may read one another."""
 PLAYER: Final = StepTable(
     clock="piece.clock",
     rhythm="times.rhythm",
@@ -222,35 +234,10 @@ PLAYER: Final = StepTable(
     dynamics=dynamics_of,
     # What the body does.
     all_cues=_joined,
-    lowered=reading(lowered_spans, times="rhythm", cues="all_cues"),
     swings=reading(swings_of, times="rhythm", styles="styles"),
     phrases=reading(phrases, times="rhythm"),
-    weight_shifts=reading(weight_shifts, times="rhythm"),
-    sways=sways,
-    leans=reading(leans, found="phrases"),
-    accents=accents,
-    bell_heights=bell_heights,
-    answering_nods=reading(answering_nods, times="rhythm"),
-    in_long_rests=reading(in_long_rests, times="rhythm"),
-    holding_at_end=reading(holding_at_end, times="rhythm"),
-    after_the_end=_after_the_end,
-    footwork=reading(footwork, times="rhythm", found="phrases", shifts="weight_shifts"),
-    gestures_by_music=reading(
-        in_order,
-        kinds=(
-            "sways",
-            "weight_shifts",
-            "leans",
-            "accents",
-            "bell_heights",
-            "lowered",
-            "answering_nods",
-            "in_long_rests",
-            "holding_at_end",
-            "after_the_end",
-            "footwork",
-        ),
-    ),
+    **BY_MUSIC,
+    gestures_by_music=reading(in_order, kinds=tuple(BY_MUSIC)),
     # What rules make of it.
     own_habits="parameters.habits",
     habits=reading(names_in, text="own_habits"),

@@ -7,7 +7,7 @@ Messages: ``project.style_missing`` (player, name, known).
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import Final, overload
 
 import msgspec
@@ -18,21 +18,9 @@ from app.errors import Message
 from app.identity_cache import IdentityCache
 from app.plan.acting import Acting
 from app.plan.by_hand.corrections import BY_HAND, Correction, PlayStyle
+from app.plan.kinds import GESTURE_KINDS, GESTURES
 from app.plan.model import CueEvent, GestureEvent, Planned, PlayerPlan, Problem, StyleEvent
 from app.score.tempo import TempoMap
-
-LAYER_OF: Final[Mapping[str, str]] = {
-    "sway": "sway",
-    "weight_shift": "weight_shift",
-    "bell_height": "bell_height",
-    "lean": "phrase",
-    "accent": "phrase",
-    "step": "footwork",
-    "tap": "footwork",
-    "heel": "footwork",
-    "nod": "cue",
-}
-"""By kind of gesture the field of `Acting` that says how much of it is shown, where one gesture has one size."""
 
 
 def plan_styles(
@@ -149,8 +137,8 @@ def _shown_gestures(gestures: tuple[GestureEvent, ...], styles: tuple[StyleEvent
     middles_s = np.array([0.5 * (event.start_s + event.end_s) for event in gestures])
     shares = {layer: np.broadcast_to(share_at(styles, layer, middles_s), len(gestures)) for layer in _LAYERS}
     return tuple(
-        msgspec.structs.replace(event, amount=event.amount * float(shares[LAYER_OF[event.kind]][place]))
-        if event.kind in LAYER_OF
+        msgspec.structs.replace(event, amount=event.amount * float(shares[layer][place]))
+        if (layer := GESTURE_KINDS[event.kind].layer)
         else event
         for place, event in enumerate(gestures)
     )
@@ -177,6 +165,6 @@ def _eased(phase: FloatArray | float) -> FloatArray | float:
     return eased
 
 
-_LAYERS: Final = tuple(dict.fromkeys(LAYER_OF.values()))
+_LAYERS: Final = tuple(dict.fromkeys(kind.layer for kind in GESTURES if kind.layer))
 _SHOWN_GESTURES: Final[IdentityCache[tuple[GestureEvent, ...]]] = IdentityCache(64)
 _SHOWN_CUES: Final[IdentityCache[tuple[CueEvent, ...]]] = IdentityCache(64)

@@ -20,6 +20,7 @@ from app.formats.atomic import atomic_write
 from app.formats.toml import header, read_toml, shaped, toml
 from app.plan.by_hand.additive_curve import AdditiveCurve
 from app.plan.by_hand.corrections import Correction, RemoveEvent, kind
+from app.plan.kinds import BREATH_KINDS
 from app.project import limits
 from app.project.check import expression_faults, require_sound
 from app.project.check_corrections import correction_faults
@@ -38,7 +39,7 @@ KINDS: Final = frozenset(
     {"add_gesture", "change_gesture", "add_expression", "change_expression", "pose", "vary", "additive", "play_style"}
 )
 """Tags of the corrections that are acting."""
-_NOT_ACTING: Final = frozenset({"breath", "preparation", "within", "cue"})
+_NOT_ACTING: Final = frozenset({*BREATH_KINDS, "cue"})
 """Removed events of these kinds belong to the playing."""
 
 

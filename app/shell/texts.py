@@ -4,7 +4,10 @@ from __future__ import annotations
 
 from typing import Final
 
+from app.plan.kinds import COMMAND_TEXTS
+
 TEXTS: Final[dict[str, tuple[str, str]]] = {
+    **COMMAND_TEXTS,
     "about_dialog.about_suisou": ("About Suisou", "Suisou について"),
     "about_dialog.faults_are_noted_in": ("Log file: {path}", "ログファイル: {path}"),
     "about_dialog.licences": ("Licences...", "ライセンス..."),
@@ -85,22 +88,6 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
     "action.generate.bars_back": ("Restore First Performance", "最初の演奏に戻す"),
     "action.generate.everyone": ("Regenerate All Players", "全奏者を再生成"),
     "action.generate.players": ("Regenerate Selected Players", "選択した奏者を再生成"),
-    "action.gesture.accent": ("Accent", "アクセント"),
-    "action.gesture.bell_height": ("Bell Height", "ベルの高さ"),
-    "action.gesture.bow": ("Bow", "お辞儀"),
-    "action.gesture.count": ("Count the Bars", "小節を数える"),
-    "action.gesture.hold_still": ("Hold Still", "静止"),
-    "action.gesture.look_about": ("Look About", "周りを見る"),
-    "action.gesture.look_up": ("Look Up", "客席を見る"),
-    "action.gesture.nod": ("Nod", "うなずき"),
-    "action.gesture.settle_grip": ("Settle the Grip", "持ち直す"),
-    "action.gesture.heel": ("Heel Lift", "かかと上げ"),
-    "action.gesture.lean": ("Lean", "前後の傾き"),
-    "action.gesture.lower_instrument": ("Lower Instrument", "楽器を下ろす"),
-    "action.gesture.step": ("Step", "踏み出し"),
-    "action.gesture.sway": ("Sway", "揺れ"),
-    "action.gesture.tap": ("Toe Tap", "つま先タップ"),
-    "action.gesture.weight_shift": ("Weight Shift", "重心移動"),
     "action.language.en": ("English", "English"),
     "action.language.ja": ("日本語", "日本語"),
     "action.lanes.acting": ("Acting Lane", "演技レーン"),

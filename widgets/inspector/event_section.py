@@ -12,7 +12,8 @@ from app.editor.session import Session
 from app.errors import Message
 from app.plan.by_hand.corrections import PoseCorrection, SetBreath, SetCue, kind_of
 from app.plan.cues.cues import LEAD_BEATS
-from app.plan.model import SIGNED_KINDS, CueEvent, ExpressionEvent, GestureEvent, PlayerPlan, PoseEvent, StyleEvent
+from app.plan.kinds import GESTURE_KINDS
+from app.plan.model import CueEvent, ExpressionEvent, GestureEvent, PlayerPlan, PoseEvent, StyleEvent
 from app.project.edit import events as edit
 from app.project.edit.corrections import put
 from app.project.edit.events import Placed
@@ -161,7 +162,7 @@ class EventSection(Retranslated, QWidget):
     def _show_amounts(self, first: Placed, made: Placed | None) -> None:
         field = amount_field(first)
         self._show_number("amount", field, made)
-        low = -1.0 if isinstance(first, GestureEvent) and first.kind in SIGNED_KINDS else 0.0
+        low = -1.0 if isinstance(first, GestureEvent) and GESTURE_KINDS[first.kind].signed else 0.0
         self._numbers["amount"].set_range(low, 1.0)
         if field is not None:
             self._numbers["amount"].set_texts(self._amount_word(field))

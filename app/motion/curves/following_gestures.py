@@ -9,28 +9,28 @@ import numpy as np
 from app.arrays import FloatArray
 from app.motion.curves.curve import Curve, moves_to
 from app.motion.curves.path import Path
-from app.plan.model import GestureEvent, GestureKind
+from app.plan.model import GestureEvent
 
 QUICK_S = 0.6
 """Gestures shorter than this are smaller in proportion: no one leans as far in half the time."""
 
 
-def follow(events: Sequence[GestureEvent], kind: GestureKind, transition_s: float) -> Curve:
+def follow(events: Sequence[GestureEvent], transition_s: float) -> Curve:
     """A value that goes to each gesture's amount within ``transition_s`` of its start, and stays."""
-    return moves_to(*_targets(events, kind, transition_s).T)
+    return moves_to(*_targets(events, transition_s).T)
 
 
-def path(events: Sequence[GestureEvent], kind: GestureKind) -> Path:
+def path(events: Sequence[GestureEvent]) -> Path:
     """A value that goes to each gesture's amount over the whole gesture, and does not stop at what it passes."""
-    return Path.through(_targets(events, kind, None))
+    return Path.through(_targets(events, None))
 
 
-def _targets(events: Sequence[GestureEvent], kind: GestureKind, transition_s: float | None) -> FloatArray:
+def _targets(events: Sequence[GestureEvent], transition_s: float | None) -> FloatArray:
     """Where gestures go and when: ``start_s``, ``end_s`` and value, (S, 3).
 
     It goes back to 0 where the next gesture is more than its own length (at least a second) away.
     """
-    rows = [(event.start_s, event.end_s, event.amount) for event in events if event.kind == kind]
+    rows = [(event.start_s, event.end_s, event.amount) for event in events]
     start_s, end_s, amount = np.array(rows, np.float64).reshape(-1, 3).T
     next_s = np.append(start_s[1:], np.inf)[: len(start_s)]
     end_s = np.minimum(end_s, next_s)

@@ -33,11 +33,11 @@ class Accents:
 
     @classmethod
     def of(cls, events: Sequence[GestureEvent]) -> Accents:
-        """From the accents among a player's gestures."""
+        """From a player's accents."""
         rows = [
             (event.start_s, event.end_s - event.start_s, event.amount)
             for event in events
-            if event.kind == "accent" and event.end_s > event.start_s
+            if event.end_s > event.start_s
         ]
         table = np.array(rows, dtype=np.float64).reshape(-1, 3)
         return cls(table[:, 0], table[:, 1], table[:, 2])

@@ -9,7 +9,7 @@ import numpy as np
 
 from app.arrays import FloatArray
 from app.motion.curves.curve import Envelopes, minimum_jerk, rows_changed_s
-from app.plan.model import GestureEvent, GestureKind
+from app.plan.model import GestureEvent
 from app.score.metre_map import FeltBeats, beat_ticks_at
 from metadata.model import AmplitudeScale, ConcertMotion, at_amplitude
 
@@ -19,8 +19,6 @@ LOOK_UP_S = 0.7
 """The head goes up so slowly, and comes back so."""
 COUNT_EASE = 1.0
 """Counting begins and ends within so many beats."""
-CONCERT_KINDS: tuple[GestureKind, ...] = ("count", "settle_grip", "hold_still", "look_up", "bow")
-"""Gestures of the body beside playing."""
 MOST_BOW_RAD = float(np.deg2rad(36.0))
 """However much of it is asked for, the trunk bends no further."""
 

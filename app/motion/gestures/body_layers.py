@@ -26,7 +26,7 @@ from app.motion.curves.following_gestures import follow, path
 from app.motion.curves.path import Path
 from app.motion.faces.gaze import Look, with_instrument
 from app.motion.gestures.accents import Accents
-from app.motion.gestures.beside_playing import CONCERT_KINDS, Concert, ConcertSamples, beside_playing
+from app.motion.gestures.beside_playing import Concert, ConcertSamples, beside_playing
 from app.motion.gestures.body_lag import Leads, Overlapped
 from app.motion.gestures.feet import Feet, feet_moved
 from app.motion.gestures.hand_gestures import Reaches, Reaching, reached
@@ -37,8 +37,9 @@ from app.motion.gestures.nods import Nods
 from app.motion.gestures.summed_angles import Angles, Part, Sizes, Sum
 from app.plan.acting import Acting
 from app.plan.by_hand.pose_corrections import BELL_LEFT, BELL_UP, NECK_SHARES, TRUNK_SHARES
-from app.plan.gestures.feet import FOOT_KINDS
-from app.plan.model import BreathEvent, GestureEvent, GestureKind, PoseTarget
+from app.plan.kinds import Part as BodyPart
+from app.plan.kinds import answered_by
+from app.plan.model import BreathEvent, GestureEvent, PoseTarget
 from app.plan.parameters import PlayerParameters
 from app.steps import StepTable, reading
 from metadata.model import Body, Posture, at_amplitude
@@ -202,7 +203,9 @@ class Layers:
         return [self.leads.widened(getattr(self, name).changed_s(getattr(other, name))) for name in names]
 
 
-def _of_kinds(gestures: tuple[GestureEvent, ...], kinds: tuple[GestureKind, ...]) -> tuple[GestureEvent, ...]:
+def _of_part(gestures: tuple[GestureEvent, ...], part: BodyPart) -> tuple[GestureEvent, ...]:
+    """Return the gestures that a part of the body's motion answers."""
+    kinds = answered_by(part)
     return tuple(event for event in gestures if event.kind in kinds)
 
 
@@ -214,32 +217,32 @@ LAYERS: Final = StepTable(
     leaning="lung_curves.leaning",
     air=air,
     cues="plan.cues",
-    nodding=partial(_of_kinds, kinds=("nod",)),
+    nodding=partial(_of_part, part="nod"),
     nods=reading(Nods.of, answers="nodding"),
-    swaying=partial(_of_kinds, kinds=("sway",)),
-    sway=reading(partial(path, kind="sway"), events="swaying"),
-    leant=partial(_of_kinds, kinds=("lean",)),
-    lean=reading(partial(path, kind="lean"), events="leant"),
-    accented=partial(_of_kinds, kinds=("accent",)),
+    swaying=partial(_of_part, part="sway"),
+    sway=reading(path, events="swaying"),
+    leant=partial(_of_part, part="lean"),
+    lean=reading(path, events="leant"),
+    accented=partial(_of_part, part="accent"),
     accents=reading(Accents.of, events="accented"),
-    shifting=partial(_of_kinds, kinds=("weight_shift",)),
+    shifting=partial(_of_part, part="weight"),
     shift_s="body.weight_shift.transition_s",
-    weight=reading(partial(follow, kind="weight_shift"), events="shifting", transition_s="shift_s"),
-    carrying=partial(_of_kinds, kinds=("bell_height",)),
-    height=reading(partial(follow, kind="bell_height", transition_s=BELL_S), events="carrying"),
-    putting_down=partial(_of_kinds, kinds=("lower_instrument",)),
+    weight=reading(follow, events="shifting", transition_s="shift_s"),
+    carrying=partial(_of_part, part="bell"),
+    height=reading(partial(follow, transition_s=BELL_S), events="carrying"),
+    putting_down=partial(_of_part, part="lowering"),
     lower_s="body.bell.lower_s",
     raise_s="body.bell.raise_s",
     lowered=reading(lowering, gestures="putting_down"),
     quiet=reading(quiet_breaths, gestures="putting_down"),
-    stepping=partial(_of_kinds, kinds=FOOT_KINDS),
+    stepping=partial(_of_part, part="feet"),
     step_s="body.footwork.step_s",
     feet=reading(Feet.of, events="stepping"),
     posed="plan.poses",
     poses=reading(Poses.of, events="posed"),
     gestured=reading(Gestured.of, events="gestures"),
     reaching=reading(Reaching.of, events="gestures"),
-    beside=partial(_of_kinds, kinds=CONCERT_KINDS),
+    beside=partial(_of_part, part="beside"),
     concert=reading(Concert.of, gestures="beside"),
     still=reading(holds_of, gestures="beside"),
     overlap="body.overlap",

@@ -45,7 +45,7 @@ class Feet:
 
     @classmethod
     def of(cls, events: Sequence[GestureEvent], step_s: float) -> Feet:
-        """From the gestures of a player."""
+        """From what the feet of a player do."""
         rows = [
             (
                 FOOT_KINDS.index(event.kind),
@@ -55,7 +55,7 @@ class Feet:
                 min(abs(event.amount), 1.0),
             )
             for event in events
-            if event.kind in FOOT_KINDS and event.end_s > event.start_s and event.amount != 0.0
+            if event.end_s > event.start_s and event.amount != 0.0
         ]
         kinds, sides, start_s, end_s, size = np.array(rows, dtype=np.float64).reshape(-1, 5).T
         return cls(kinds, sides, start_s, end_s, size, step_s)

@@ -14,7 +14,7 @@ def lowering(gestures: Sequence[GestureEvent], lower_s: float, raise_s: float) -
     Gestures that overlap are one: the instrument stays down from the first to the last, as low as the lowest of them.
     """
     spans: list[tuple[float, float, float]] = []
-    lowerings = (event for event in gestures if event.kind == "lower_instrument" and event.end_s > event.start_s)
+    lowerings = (event for event in gestures if event.end_s > event.start_s)
     for event in sorted(lowerings, key=lambda event: event.start_s):
         if spans and event.start_s < spans[-1][1]:
             start_s, end_s, amount = spans[-1]

@@ -11,20 +11,19 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping
 from itertools import pairwise
-from typing import Final, Literal, TypeAlias, TypeVar
+from typing import Final, TypeAlias, TypeVar
 
 import msgspec
 
 from app.errors import Message
 from app.plan.by_hand.additive_curve import AdditiveCurve
+from app.plan.kinds import BREATH_KINDS, GESTURE_KINDS, BreathKind, GestureKind
 from app.plan.model import (
-    GESTURE_KINDS,
     BreathEvent,
     CueEvent,
     EmbouchureEvent,
     ExpressionEvent,
     GestureEvent,
-    GestureKind,
     Planned,
     PoseTarget,
     Problem,
@@ -66,7 +65,7 @@ class SetBreath(_Correction, frozen=True, tag="set_breath"):
     start_offset_tick: int
     end_offset_tick: int = 0
     depth: float = 1.0
-    kind: Literal["preparation", "breath", "within"] = "breath"
+    kind: BreathKind = "breath"
     added: bool = False
     moved_from: str | None = None
     number: int = 1
@@ -223,7 +222,7 @@ Span = TypeVar("Span", GestureEvent, ExpressionEvent)
 
 WITHIN: Final = "within"
 """The first part of the ids of breaths within a note; from the second of a note on, with a dot and its number."""
-REMOVABLE = ("breath", "preparation", WITHIN, "cue", *GESTURE_KINDS, "expression")
+REMOVABLE = (*BREATH_KINDS, "cue", *GESTURE_KINDS, "expression")
 """Kinds of event a `RemoveEvent` may leave out: see `kind_of`."""
 
 

@@ -16,7 +16,8 @@ import numpy as np
 
 from app.errors import Message
 from app.plan.gestures.lowered_instrument import LOWER_S, RAISE_S
-from app.plan.model import GestureEvent, GestureKind, TimeFrame
+from app.plan.kinds import GestureKind
+from app.plan.model import GestureEvent, TimeFrame
 from app.plan.music.piece import Piece, Rhythm, Seeds
 from app.score.model import Note
 

@@ -18,12 +18,13 @@ from app.arrays import FloatArray
 from app.errors import Message
 from app.plan.gestures.leans_and_accents import Phrase
 from app.plan.gestures.sways import Pulse
-from app.plan.model import GestureEvent, GestureKind, StyleEvent
+from app.plan.kinds import GestureKind, answered_by
+from app.plan.model import GestureEvent, StyleEvent
 from app.plan.music.piece import Rhythm, Seeds
 from app.plan.styles import amount_at
 from app.score.tempo import TempoMap
 
-FOOT_KINDS: Final[tuple[GestureKind, ...]] = ("step", "tap", "heel")
+FOOT_KINDS: Final = answered_by("feet")
 STEP_CHANCE, STEP_LEAST_S = 0.3, 12.0
 """So many ends of phrases have a step, if the last one is so long ago."""
 STAYS_S = 2.5

@@ -228,4 +228,4 @@ def _apart(at_s: FloatArray, scores: FloatArray, loud: BoolArray, beat_s: FloatA
 def _event(
     kind: str, tick: int, end: int, start_s: float, end_s: float, amount: float, reason: Message
 ) -> GestureEvent:
-    return GestureEvent(f"{kind}:@{tick}", kind, tick, max(end, tick + 1), start_s, end_s, round(amount, 4), reason)  # type: ignore[arg-type]
+    return GestureEvent(f"{kind}:@{tick}", kind, tick, max(end, tick + 1), start_s, end_s, round(amount, 4), reason)

@@ -6,7 +6,7 @@ Messages: ``gesture.unknown`` (name, known), ``gesture.not_here`` (name, start),
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Final, NamedTuple
+from typing import NamedTuple
 
 import msgspec
 import numpy as np
@@ -14,6 +14,7 @@ import numpy as np
 from app.errors import Message
 from app.plan.by_hand.pose_corrections import GENTLE_RAD_S2, pose_limits
 from app.plan.gestures.when_possible import Lowered, impossible, may_start
+from app.plan.kinds import GESTURE_KINDS
 from app.plan.model import GestureEvent, Problem
 from app.plan.music.piece import LineTimes
 from app.plan.music.spans import Spans
@@ -21,9 +22,6 @@ from app.plan.parameters import PlayerParameters
 from instrument_maps.model import InstrumentMap
 from metadata.gestures import Gesture, HandTrack, Key, Track
 from metadata.load import load_body
-
-IDLE_KINDS: Final = frozenset({"look_about", "count", "settle_grip"})
-"""What a player does with nothing else to do."""
 
 
 class Defined(NamedTuple):
@@ -117,8 +115,7 @@ def _in_hand(gesture: Gesture, instrument: InstrumentMap) -> Gesture:
 
 
 def undisturbed(events: tuple[GestureEvent, ...]) -> tuple[GestureEvent, ...]:
-    """Events without generated looks about, counts and other grips while a hand is away; the very same tuple where
-    there are none."""
+    """Events without what is generated for idle hands while one is away; the very same tuple where there is none."""
     away = [(one.start_s, one.end_s) for one in events if one.gesture is not None and one.gesture.needs_lowered]
     if not away:
         return events
@@ -126,7 +123,7 @@ def undisturbed(events: tuple[GestureEvent, ...]) -> tuple[GestureEvent, ...]:
     return tuple(
         event
         for event in events
-        if event.corrected or event.kind not in IDLE_KINDS or not busy.meet(event.start_s, event.end_s)
+        if event.corrected or not GESTURE_KINDS[event.kind].idle or not busy.meet(event.start_s, event.end_s)
     )
 
 

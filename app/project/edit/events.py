@@ -33,10 +33,8 @@ from app.plan.by_hand.corrections import (
     Vary,
 )
 from app.plan.cues.cues import LEAD_BEATS
-from app.plan.model import GESTURE_KINDS as GESTURE_KINDS
-from app.plan.model import OWN_KINDS as OWN_KINDS
+from app.plan.kinds import GestureKind
 from app.plan.model import BreathEvent, CueEvent, ExpressionEvent, GestureEvent, PlayerPlan, PoseEvent, StyleEvent
-from app.plan.model import GestureKind as GestureKind
 from app.project.edit.corrections import put, take_back
 from app.project.edit.found_events import OWN as OWN
 from app.project.edit.found_events import Placed as Placed

@@ -7,7 +7,6 @@ from typing import Final, TypeAlias
 
 from app.plan.by_hand.additive_curve import AdditiveCurve
 from app.plan.by_hand.corrections import (
-    WITHIN,
     AddExpression,
     AddGesture,
     Correction,
@@ -21,6 +20,7 @@ from app.plan.by_hand.corrections import (
     breath_id,
     kind_of,
 )
+from app.plan.kinds import BREATH_KINDS
 from app.plan.model import (
     BreathEvent,
     CueEvent,
@@ -38,7 +38,7 @@ Placed: TypeAlias = BreathEvent | CueEvent | GestureEvent | ExpressionEvent | Po
 
 OWN: Final = "own-"
 """How the names of added events begin."""
-_OF_NOTES: Final = ("fingering", "embouchure", "tongue", "breath", "preparation", WITHIN, "cue")
+_OF_NOTES: Final = ("fingering", "embouchure", "tongue", *BREATH_KINDS, "cue")
 """Kinds of events whose id ends with that of a note."""
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import defaultdict
+from typing import Final
 
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QCursor
@@ -21,10 +22,9 @@ from app.editor.additions import (
 from app.editor.selection import EventKey, Selection
 from app.editor.session import Session
 from app.errors import Message
+from app.plan.kinds import GESTURES, Gesturing
 from app.plan.model import PlayerPlan
 from app.project.edit.events import (
-    OWN_KINDS,
-    GestureKind,
     event_id_of,
     give_back,
     give_back_player,
@@ -81,8 +81,8 @@ def _spans(session: Session) -> list[tuple[PlayerPlan, int, int]]:
 def choose_gesture(session: Session) -> None:
     """Show the kinds of gestures where the mouse is, and below them those that are written in tables."""
     menu = _menu()
-    for kind in OWN_KINDS:
-        menu.addAction(session.actions[f"gesture.{kind}"])
+    for action in ADDED:
+        menu.addAction(session.actions[action.id])
     menu.addSeparator()
     for name in sorted(session.performance.metadata.gestures.items, key=gesture_name):
         entry = menu.addAction(verbatim(gesture_name(name)))
@@ -229,15 +229,17 @@ def prepare(session: Session) -> None:
     session.attempt(Message("edit.toggle_preparation"), edit)
 
 
-def _kind(kind: GestureKind) -> Action:
+def _added(kind: Gesturing) -> Action:
     return Action(
-        f"gesture.{kind}",
-        lambda session: add_gestures(session, kind, _spans(session)),
+        f"gesture.{kind.id}",
+        lambda session: add_gestures(session, kind.id, _spans(session)),
         "edit/breaths_and_acting/add_gesture",
         enabled=has_player,
     )
 
 
+ADDED: Final = tuple(_added(kind) for kind in GESTURES if kind.command)
+"""Commands that add a gesture of a kind."""
 ACTIONS: tuple[Action, ...] = (
     Action("edit.delete", delete, "edit", "Delete", "timeline", has_something, icon="delete"),
     Action("events.give_back", return_to_generated, "edit", "Backspace", "timeline", _can_return, icon="reset"),
@@ -277,5 +279,5 @@ ACTIONS: tuple[Action, ...] = (
         icon="expression",
     ),
     Action("events.style", choose_style, "edit/breaths_and_acting", "Y", "timeline", has_player),
-    *map(_kind, OWN_KINDS),
+    *ADDED,
 )

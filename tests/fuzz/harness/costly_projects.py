@@ -28,7 +28,7 @@ from app.plan.by_hand.corrections import (
     SetEmbouchure,
     Vary,
 )
-from app.plan.model import GESTURE_KINDS
+from app.plan.kinds import GESTURES
 from app.project import storage
 from app.project.dance_corrections import DanceCorrection, ForbidState, PinState, UseSegment
 from app.project.model import CompSpan, PlayerTakes, Project, project_from_score
@@ -179,17 +179,15 @@ CORRECTIONS: Final[dict[str, Way]] = {
     "embouchures": _each(lambda at: SetEmbouchure(f"1:{at}", tension=0.5)),
     "pins": _each(lambda at: PinFingering(f"1:{at}", "0")),
     "removals": _each(lambda at: RemoveEvent(f"breath:1:{at}", f"1:{at}")),
-    "gestures at once": _each(
-        lambda at, end: AddGesture(f"g{at}", GESTURE_KINDS[at % len(GESTURE_KINDS)], 0, end, 1.0)
-    ),
+    "gestures at once": _each(lambda at, end: AddGesture(f"g{at}", GESTURES[at % len(GESTURES)].id, 0, end, 1.0)),
     "gestures in turn": _each(
         lambda at, end: AddGesture(
-            f"g{at}", GESTURE_KINDS[at % len(GESTURE_KINDS)], _spread(at, end), _spread(at, end) + 30, 1.0
+            f"g{at}", GESTURES[at % len(GESTURES)].id, _spread(at, end), _spread(at, end) + 30, 1.0
         )
     ),
-    "gestures far": _each(lambda at: AddGesture(f"g{at}", GESTURE_KINDS[at % len(GESTURE_KINDS)], -FAR, FAR, 1.0)),
+    "gestures far": _each(lambda at: AddGesture(f"g{at}", GESTURES[at % len(GESTURES)].id, -FAR, FAR, 1.0)),
     "gestures in hours": _each(
-        lambda at: AddGesture(f"g{at}", GESTURE_KINDS[at % len(GESTURE_KINDS)], FAR - 9 - at, FAR - at, 1.0)
+        lambda at: AddGesture(f"g{at}", GESTURES[at % len(GESTURES)].id, FAR - 9 - at, FAR - at, 1.0)
     ),
     "named gestures at once": _each(lambda at, end: AddGesture(f"g{at}", "named", 0, end, 1.0, "shrug")),
     "named gestures in turn": _each(

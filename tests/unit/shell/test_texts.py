@@ -8,10 +8,14 @@ import string
 from collections import Counter
 from collections.abc import Iterator
 from pathlib import Path
+from typing import get_args
 
 from app.messages import LANGUAGES, WORDINGS
+from app.plan.by_hand.corrections import REMOVABLE
+from app.plan.model import PoseTarget
 from app.shell.language import ROOMS
 from app.shell.rows import rows
+from metadata.load import load_expressions
 
 ROOT = Path(__file__).parents[3]
 TEXTS = {id: wording for room in ROOMS for id, wording in room.items()}
@@ -19,6 +23,11 @@ FUNCTIONS = frozenset(
     {"tr", "Caption", "Button", "Check", "ColumnList", "IconButton", "OkCancel", "PictureButton", "in_form"}
 )
 """What is given ids."""
+KINDS = {*REMOVABLE, "pose", "additive", "vary", "style"}
+"""First parts of the ids of events that a person may select."""
+NAMES = {f"expression_name.{name}" for name in load_expressions()} | {
+    f"pose_name.{target}" for target in get_args(PoseTarget)
+}
 ID = re.compile(r"[a-z_]+\.\w+")
 """Names of objects have no dot."""
 
@@ -69,4 +78,8 @@ def test_what_is_used_is_there_and_what_is_there_is_used() -> None:
     actions |= {f"menu.{part}" for row in rows() for part in row.menu.split("/") if part}
     actions.add("menu.open_recent")  # the window fills it
     assert used | actions <= TEXTS.keys()
-    assert TEXTS.keys() - WORDINGS.keys() <= named | actions
+    assert TEXTS.keys() - WORDINGS.keys() <= named | actions | {f"event.{kind}" for kind in KINDS} | NAMES
+
+
+def test_every_kind_and_bundled_name_is_called_something() -> None:
+    assert {f"event.{kind}" for kind in KINDS} | NAMES <= TEXTS.keys()

@@ -9,6 +9,7 @@ from PySide6.QtWidgets import QMenu, QWidget
 from app.editor.additions import add_breaths
 from app.editor.session import Session
 from app.errors import Message
+from app.plan.kinds import BREATH_KINDS
 from app.plan.model import PlayerPlan
 from app.project.edit.events import toggle_preparation
 from widgets.common.clicks import on_click
@@ -55,7 +56,7 @@ class BreathLane(RegionLane):
             )
             for event in plan.breaths
         ]  # fmt: skip
-        return regions + self.removed_regions(plan, ("breath", "preparation", "within"), lambda kind: 0), 1
+        return regions + self.removed_regions(plan, BREATH_KINDS, lambda kind: 0), 1
 
     def paint_region(self, painter: QPainter, region: Region, box: QRectF, selected: bool) -> None:
         tokens, player = self.session.tokens, self.session.player

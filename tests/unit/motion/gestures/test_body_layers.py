@@ -19,20 +19,20 @@ def gesture(kind: str, start_s: float, end_s: float, amount: float = 1.0) -> Ges
 
 def test_a_sway_is_where_it_goes_at_its_end() -> None:
     swings = [gesture("sway", float(i), float(i + 1), amount) for i, amount in enumerate([0.8, -0.5, 0.3])]
-    values = path(swings, "sway").sample(np.array([-1.0, 0.0, 1.0, 2.0, 3.0, 9.0]))
+    values = path(swings).sample(np.array([-1.0, 0.0, 1.0, 2.0, 3.0, 9.0]))
     np.testing.assert_allclose(values, [0.0, 0.0, 0.8, -0.5, 0.3, 0.0], atol=1e-12)
 
 
 def test_a_weight_shift_goes_over_in_its_transition_and_stays() -> None:
     shifts = [gesture("weight_shift", 1.0, 5.0, 1.0), gesture("weight_shift", 5.0, 9.0, -1.0)]
-    values = follow(shifts, "weight_shift", 1.2).sample(np.array([1.0, 1.6, 2.2, 4.9, 5.0, 5.6, 6.2]))
+    values = follow(shifts, 1.2).sample(np.array([1.0, 1.6, 2.2, 4.9, 5.0, 5.6, 6.2]))
     np.testing.assert_allclose(values, [0.0, 0.5, 1.0, 1.0, 1.0, 0.0, -1.0], atol=1e-12)
 
 
 def test_nothing_planned_is_nothing_done() -> None:
     times_s = np.linspace(0.0, 10.0, 50)
-    assert not path((), "sway").sample(times_s).any()
-    assert not follow((), "weight_shift", 1.0).sample(times_s).any()
+    assert not path(()).sample(times_s).any()
+    assert not follow((), 1.0).sample(times_s).any()
     assert not Accents.of(()).sample(times_s).any()
     assert not Feet.of((), 0.5).sample(times_s)
     assert not air(()).sample(times_s).any()
@@ -57,7 +57,7 @@ def test_lowerings_that_overlap_are_one() -> None:
 def test_sways_that_begin_together_are_the_last_of_them() -> None:
     times_s = np.linspace(0.0, 10.0, 300)
     both = [gesture("sway", 1.0, 4.0, 0.2), gesture("sway", 1.0, 6.0)]
-    np.testing.assert_array_equal(path(both, "sway").sample(times_s), path(both[1:], "sway").sample(times_s))
+    np.testing.assert_array_equal(path(both).sample(times_s), path(both[1:]).sample(times_s))
 
 
 def test_the_lungs_fill_over_a_breath_and_empty_over_the_phrase() -> None:

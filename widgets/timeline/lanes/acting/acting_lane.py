@@ -15,8 +15,9 @@ from app.arrays import FloatArray
 from app.editor.additions import add_cues, add_expressions, add_gestures, add_named_gestures
 from app.editor.session import Session
 from app.errors import Message
+from app.plan.kinds import GESTURE_KINDS, GESTURES
 from app.plan.model import GestureEvent, PlayerPlan
-from app.project.edit.events import GESTURE_KINDS, OWN_KINDS, set_expression
+from app.project.edit.events import set_expression
 from app.project.edit.found_events import event_id_of
 from app.project.edit.generation import variations
 from app.project.model import Project
@@ -33,9 +34,9 @@ from widgets.timeline.lanes.row_names import RowNames
 from widgets.timeline.model.hand import Box, LaneMouse
 from widgets.timeline.model.regions.acting_regions import (
     BASE,
-    CONCERT_KINDS,
     CURVES,
     GROUPS,
+    ROW_OF,
     STRIPS,
     STYLE,
     VARIED,
@@ -98,12 +99,9 @@ class ActingLane(RegionLane):
         """What a group of rows is called, after its first kind."""
         if kind == VARIED:
             return self.tr("acting_lane.anew")
-        names = {
-            "lower_instrument": "acting_lane.pose",
-            "step": "acting_lane.feet",
-            CONCERT_KINDS[0]: "acting_lane.beside",
-        }
-        return self.tr(names[kind]) if kind in names else kind_name(kind)
+        names = {"pose": "acting_lane.pose", "feet": "acting_lane.feet", "beside": "acting_lane.beside"}
+        row = ROW_OF.get(kind, kind)
+        return self.tr(names[row]) if row in names else kind_name(kind)
 
     # Regions
 
@@ -321,9 +319,8 @@ class ActingLane(RegionLane):
             self._expression_entries(menu, lambda name: add_expressions(self.session, name, self._spans(mouse)))
             menu.popup(QPoint(*mouse.screen_px))
         else:
-            for gesture in OWN_KINDS:
-                if gesture == kind:
-                    add_gestures(self.session, gesture, self._spans(mouse))
+            if kind in GESTURE_KINDS:
+                add_gestures(self.session, kind, self._spans(mouse))
 
     def menu_entries(self, menu: QMenu, region: Region | None, mouse: LaneMouse) -> None:
         if region is not None and region.kind == "expression" and not region.removed:
@@ -336,9 +333,10 @@ class ActingLane(RegionLane):
         adding = menu.addMenu(self.tr("acting_lane.add_expression_here"))
         self._expression_entries(adding, lambda name: add_expressions(self.session, name, self._spans(mouse)))
         gestures = menu.addMenu(self.tr("acting_lane.add_gesture_here"))
-        for kind in OWN_KINDS:
-            entry = gestures.addAction(kind_name(kind))
-            on_click(entry, lambda kind: add_gestures(self.session, kind, self._spans(mouse)), kind)
+        for kind in GESTURES:
+            if kind.command:
+                entry = gestures.addAction(kind_name(kind.id))
+                on_click(entry, lambda kind: add_gestures(self.session, kind, self._spans(mouse)), kind.id)
         gestures.addSeparator()
         for name in sorted(self.session.performance.metadata.gestures.items, key=gesture_name):
             entry = gestures.addAction(verbatim(gesture_name(name)))

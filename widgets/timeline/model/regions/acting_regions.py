@@ -2,40 +2,37 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from typing import NamedTuple
+from collections.abc import Callable, Mapping, Sequence
+from typing import Final, NamedTuple
 
 import numpy as np
 
 from app.arrays import FloatArray
-from app.plan.model import SIGNED_KINDS, CueEvent, ExpressionEvent, GestureEvent, PoseEvent, StyleEvent
+from app.plan.kinds import GESTURE_KINDS, GESTURES
+from app.plan.model import CueEvent, ExpressionEvent, GestureEvent, PoseEvent, StyleEvent
 from app.project.edit.events import OWN
 from app.score.tempo import TempoMap
 from widgets.timeline.model.geometry import packed_rows
 from widgets.timeline.model.regions.shown_event import Region
 
-CONCERT_KINDS = ("nod", "count", "look_about", "settle_grip", "hold_still", "look_up", "bow")
-"""What is done beside playing."""
-GROUPS: tuple[tuple[str, ...], ...] = (
-    ("cue",),
-    ("expression",),
-    ("lower_instrument", "pose"),
-    (*CONCERT_KINDS, "named"),
-    ("bell_height",),
-    ("weight_shift",),
-    ("step", "tap", "heel"),
-    ("sway",),
-    ("lean",),
-    ("accent",),
+_ROWS: Final = ("cue", "expression", "pose", "beside", "bell_height", "weight_shift", "feet", "sway", "lean", "accent")
+"""Rows from the top; those of other kinds of gestures are below."""
+ROW_OF: Final[Mapping[str, str]] = {
+    **{kind.id: kind.row or kind.id for kind in GESTURES},
+    **{kind: kind for kind in ("cue", "expression", "pose")},
+}
+"""The rows of every kind."""
+GROUPS: Final = tuple(
+    tuple(kind for kind, row in ROW_OF.items() if row == shared) for shared in dict.fromkeys((*_ROWS, *ROW_OF.values()))
 )
 """Kinds that share rows, from the top."""
 VARIED = "vary"
 """Bars performed anew: not an event, but the user chose it; its row is there only with them, above all others."""
 STYLE = "style"
 """Bars played in another style: their row too is there only with them."""
-STRIPS = ("bell_height", "weight_shift", "sway", "lean", "accent")
+STRIPS: Final = tuple(kind.id for kind in GESTURES if kind.look != "span")
 """Kinds of which there are so many that what is generated is drawn as one calm strip."""
-CURVES = ("sway", "lean")
+CURVES: Final = tuple(kind.id for kind in GESTURES if kind.look == "curve")
 """Kinds of these that go on from where the one before ended."""
 BASE = "expression:neutral"
 """The face beneath all others, as long as the piece: a thin line at the foot of its row."""
@@ -114,7 +111,7 @@ def gesture_region(player_id: str, event: GestureEvent, names: Names) -> Region:
     return Region(
         player_id, event.id, event.kind, event.start_tick, event.end_tick, event.start_s, event.end_s,
         amount=event.amount, label=label, reason=event.reason, by_hand=event.corrected,
-        signed=event.kind in SIGNED_KINDS,
+        signed=GESTURE_KINDS[event.kind].signed,
     )  # fmt: skip
 
 

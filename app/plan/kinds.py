@@ -1,0 +1,128 @@
+"""Kinds of gestures and of breaths: one row for each, which everything that tells kinds apart reads.
+
+A new kind of gesture is a row here and a function among `app.plan.player.BY_MUSIC`; its reason is a message.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Final, Literal, NamedTuple, TypeAlias
+
+Part: TypeAlias = Literal[
+    "sway", "lean", "accent", "weight", "bell", "lowering", "feet", "nod", "beside", "eyes", "tracks"
+]
+"""Of the body's motion, what answers a gesture (`app.motion.gestures.body_layers`)."""
+
+
+class Gesturing(NamedTuple):
+    """A kind of gesture.
+
+    Attributes
+    ----------
+    id : str
+        First part of its events' ids; also in users' files.
+    names : (str, str)
+        Of an event, in English and Japanese.
+    command : str
+        English title of the command that adds one; empty: there is none.
+    part : str
+        The part of the body's motion that answers it.
+    layer : str
+        The field of `app.plan.acting.Acting` that scales its amount in another style, where one gesture has one size.
+    signed : bool
+        It goes one way or the other; of all others there is no less than nothing.
+    row : str
+        Of the timeline's lane; those of the same row share it, and one without has a row of its own.
+    look : {"span", "strip", "curve"}
+        What is generated is drawn one by one, as bars of a calm strip, or as a strip that goes on from where the one
+        before ended.
+    moves_eyes : bool
+        Glances depend on it.
+    idle : bool
+        It is left out where a hand of the player is away.
+    """
+
+    id: str
+    names: tuple[str, str]
+    command: str
+    part: Part
+    layer: str = ""
+    signed: bool = False
+    row: str = ""
+    look: Literal["span", "strip", "curve"] = "span"
+    moves_eyes: bool = False
+    idle: bool = False
+
+
+class Breathing(NamedTuple):
+    """A kind of breath.
+
+    Attributes
+    ----------
+    id : str
+        First part of its events' ids; also in users' files.
+    names : (str, str)
+        Of an event, in English and Japanese.
+    draws : bool
+        Air is drawn; else the motion prepares it.
+    """
+
+    id: str
+    names: tuple[str, str]
+    draws: bool = True
+
+
+GESTURES: Final = (
+    Gesturing("sway", ("Sway", "揺れ"), "Sway", "sway", "sway", signed=True, look="curve"),
+    Gesturing(
+        "weight_shift", ("Weight shift", "重心移動"), "Weight Shift", "weight", "weight_shift", True, look="strip"
+    ),
+    Gesturing("bell_height", ("Bell height", "ベルの高さ"), "Bell Height", "bell", "bell_height", True, look="strip"),
+    Gesturing(
+        "lower_instrument",
+        ("Instrument lowered", "楽器を下ろす"),
+        "Lower Instrument",
+        "lowering",
+        row="pose",
+        moves_eyes=True,
+    ),
+    Gesturing("lean", ("Lean", "前後の傾き"), "Lean", "lean", "phrase", True, look="curve"),
+    Gesturing("accent", ("Accent", "アクセント"), "Accent", "accent", "phrase", True, look="strip"),
+    Gesturing("step", ("Step", "踏み出し"), "Step", "feet", "footwork", True, "feet"),
+    Gesturing("tap", ("Toe tap", "つま先タップ"), "Toe Tap", "feet", "footwork", True, "feet"),
+    Gesturing("heel", ("Heel lift", "かかと上げ"), "Heel Lift", "feet", "footwork", True, "feet"),
+    Gesturing("nod", ("Nod", "うなずき"), "Nod", "nod", "cue", row="beside"),
+    Gesturing("count", ("Counts the bars", "小節を数える"), "Count the Bars", "beside", row="beside", idle=True),
+    Gesturing(
+        "look_about", ("Looks about", "周りを見る"), "Look About", "eyes", row="beside", moves_eyes=True, idle=True
+    ),
+    Gesturing("settle_grip", ("Settles the grip", "持ち直す"), "Settle the Grip", "beside", row="beside", idle=True),
+    Gesturing("hold_still", ("Holds still", "静止"), "Hold Still", "beside", row="beside"),
+    Gesturing("look_up", ("Looks up", "客席を見る"), "Look Up", "beside", row="beside", moves_eyes=True),
+    Gesturing("bow", ("Bow", "お辞儀"), "Bow", "beside", row="beside"),
+    # Of tables (`metadata.gestures`): each has a name of its own.
+    Gesturing("named", ("Gesture", "ジェスチャー"), "", "tracks", row="beside"),
+)
+"""What a body does beside playing, in the order of menus."""
+BREATHS: Final = (
+    Breathing("breath", ("Breath", "ブレス")),
+    Breathing("preparation", ("Breath preparation", "ブレスの準備動作"), draws=False),
+    Breathing("within", ("Breath", "ブレス")),
+)
+GESTURE_KINDS: Final[Mapping[str, Gesturing]] = {kind.id: kind for kind in GESTURES}
+BREATH_KINDS: Final[Mapping[str, Breathing]] = {kind.id: kind for kind in BREATHS}
+if TYPE_CHECKING:
+    GestureKind: TypeAlias = str
+    BreathKind: TypeAlias = str
+else:
+    # Readers of files refuse all others.
+    GestureKind = Literal[tuple(GESTURE_KINDS)]
+    BreathKind = Literal[tuple(BREATH_KINDS)]
+EVENT_TEXTS: Final = {f"event.{kind.id}": kind.names for kind in (*GESTURES, *BREATHS)}
+COMMAND_TEXTS: Final = {f"action.gesture.{kind.id}": (kind.command, kind.names[1]) for kind in GESTURES if kind.command}
+"""Names of events and of the commands that add them, by id, in English and Japanese."""
+
+
+def answered_by(part: Part) -> tuple[str, ...]:
+    """Return the kinds of gestures that a part of the body's motion answers."""
+    return tuple(kind.id for kind in GESTURES if kind.part == part)
