@@ -6,6 +6,7 @@ from collections.abc import Mapping
 
 import msgspec
 
+from app.plan.event_id import EventId
 from app.plan.model import PlayerPlan
 from app.project.edit.events import events_of, is_there
 from app.project.edit.takes import BEFORE
@@ -63,6 +64,6 @@ class Selection(msgspec.Struct, frozen=True):
         events = frozenset(
             key
             for key in self.events
-            if key.event_id in known.get(key.player_id, ()) or key.event_id.startswith(("vary:", "additive:"))
+            if key.event_id in known.get(key.player_id, ()) or EventId.parse(key.event_id).kind in ("vary", "additive")
         )
         return self if events == self.events else msgspec.structs.replace(self, events=events)

@@ -16,6 +16,7 @@ import numpy as np
 
 from app.arrays import BoolArray, FloatArray, IntArray
 from app.errors import Argument, Message
+from app.plan.event_id import EventId
 from app.plan.gestures.when_possible import Lowered, belongs, comes_up, may_start
 from app.plan.lips.embouchure import efforts_of
 from app.plan.model import EmbouchureEvent, ExpressionEvent, GestureEvent, Problem, StyleEvent, TimeFrame
@@ -419,7 +420,7 @@ def without_overruled(events: tuple[E, ...]) -> tuple[E, ...]:
     placed = [event for event in events if event.corrected and ":rule:" not in event.id]
     by_kind: dict[str, list[tuple[float, float]]] = {}
     for event in placed:
-        by_kind.setdefault(event.id.split(":", 1)[0], []).append((event.start_s, event.end_s))
+        by_kind.setdefault(EventId.parse(event.id).kind, []).append((event.start_s, event.end_s))
     if not by_kind:
         return events
     spans = {kind: Spans(placed_s) for kind, placed_s in by_kind.items()}
@@ -428,8 +429,8 @@ def without_overruled(events: tuple[E, ...]) -> tuple[E, ...]:
 
 
 def _is_overruled(event: GestureEvent | ExpressionEvent, spans: Mapping[str, Spans]) -> bool:
-    kind, *rest = event.id.split(":", 2)
-    return rest[:1] == ["rule"] and kind in spans and spans[kind].meet(event.start_s, event.end_s)
+    kind, of, _ = EventId.parse(event.id)
+    return of.partition(":")[0] == "rule" and kind in spans and spans[kind].meet(event.start_s, event.end_s)
 
 
 def lowered_spans_s(gestures: tuple[GestureEvent, ...]) -> tuple[tuple[float, float], ...]:

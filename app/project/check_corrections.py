@@ -10,7 +10,7 @@ from typing import Any, Final
 import msgspec
 
 from app.plan.by_hand.additive_curve import AdditiveCurve
-from app.plan.by_hand.corrections import Correction, kind
+from app.plan.by_hand.corrections import Correction
 from app.project import limits
 from app.project.check_curves import curve_faults
 from app.project.fault import Fault, about, between, id_faults, text_faults
@@ -50,7 +50,7 @@ def correction_faults(correction: Correction, place: str) -> Iterator[Fault]:
 def _place(project: Project, correction: Correction, place: str) -> str:
     """The bar of a fault, and the kind and the name of its correction, for a message."""
     name, score = _name(correction), project.score
-    named = f"{kind(correction)} {name!r}" if name else kind(correction)
+    named = f"{correction.tag} {name!r}" if name else correction.tag
     tick = _tick(project, correction, place)
     if tick is None or not score.metres or score.ticks_per_quarter < 1:
         return named

@@ -8,7 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from app.errors import UsageError
-from app.plan.by_hand.corrections import Correction, kind
+from app.plan.by_hand.corrections import Correction
 from app.project.anchors import moved, note_of
 from app.project.edit.corrections import put, take_back
 from app.project.model import Project
@@ -42,7 +42,7 @@ def reattached(project: Project, player_id: str, correction: Correction, note_id
     one that is about the same there."""
     former = note_of(correction)
     if former is None:
-        raise UsageError("reimport.no_note", kind=kind(correction))
+        raise UsageError("reimport.no_note", kind=correction.tag)
     if note_id not in {note.id for note in project.part(project.player(player_id)).notes}:
         raise UsageError("reimport.not_played", note=note_id)
     if former == note_id:

@@ -19,7 +19,8 @@ from app.errors import MapError, Message
 from app.formats.atomic import atomic_write
 from app.formats.toml import header, read_toml, shaped, toml
 from app.plan.by_hand.additive_curve import AdditiveCurve
-from app.plan.by_hand.corrections import Correction, RemoveEvent, kind
+from app.plan.by_hand.corrections import Correction, RemoveEvent
+from app.plan.event_id import EventId
 from app.plan.kinds import BREATH_KINDS
 from app.project import limits
 from app.project.check import expression_faults, require_sound
@@ -86,8 +87,8 @@ class Difference(NamedTuple):
 def is_acting(correction: Correction) -> bool:
     """Whether a correction is about gestures, expressions or poses."""
     if isinstance(correction, RemoveEvent):
-        return correction.event_id.split(":", 1)[0] not in _NOT_ACTING
-    return kind(correction) in KINDS
+        return EventId.parse(correction.event_id).kind not in _NOT_ACTING
+    return correction.tag in KINDS
 
 
 def metadata_of(project: Project) -> PieceMetadata:
@@ -258,7 +259,7 @@ def _faults(metadata: PieceMetadata) -> Iterator[Fault]:
         for index, correction in enumerate(player.corrections):
             place = f"players.{name}.corrections[{index}]"
             if not is_acting(correction):
-                yield place, f"{kind(correction)!r} is not about acting"
+                yield place, f"{correction.tag!r} is not about acting"
             yield from correction_faults(correction, place)
     yield from unique("expressions", (expression.name for expression in metadata.expressions), "name")
     for index, expression in enumerate(metadata.expressions):

@@ -8,7 +8,7 @@ from widgets.common.instrument_name import language
 
 
 def kind_name(kind: str) -> str:
-    """The name of a kind of event (`app.plan.by_hand.corrections.kind_of`)."""
+    """The name of a kind of event (`app.plan.event_id.EventId`)."""
     return _named("event", kind)
 
 

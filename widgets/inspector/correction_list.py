@@ -102,9 +102,7 @@ class CorrectionList(Retranslated, QWidget):
         known = edit.events_of(plan) if plan is not None else {}
         places = []
         for item in corrections:
-            id = edit.event_id_of(item)
-            moved_from = getattr(item, "moved_from", None)
-            former = f"{id.split(':')[0]}:{moved_from}" if moved_from is not None else id
+            id, former = item.about, item.left_out or item.about
             orphan = (player.id, item) in lost or (
                 plan is not None
                 and hasattr(item, "event_id")
@@ -194,7 +192,7 @@ class CorrectionList(Retranslated, QWidget):
         if isinstance(item, PinFingering | SetEmbouchure):
             self._session.select(Selection(notes=frozenset((item.note_id,))))
         elif isinstance(item, Vary | AdditiveCurve):
-            self._session.select(Selection(events=frozenset((EventKey(key.player_id, edit.event_id_of(item)),))))
+            self._session.select(Selection(events=frozenset((EventKey(key.player_id, item.about),))))
             self._session.reveal(self._session.project.score.tempo_map.seconds(float(item.start_tick)))
         elif key.event is not None:
             self._session.select(Selection(events=frozenset((EventKey(key.player_id, key.event.id),))))

@@ -10,8 +10,9 @@ from PySide6.QtWidgets import QGridLayout, QWidget
 
 from app.editor.session import Session
 from app.errors import Message
-from app.plan.by_hand.corrections import PoseCorrection, SetBreath, SetCue, kind_of
+from app.plan.by_hand.corrections import PoseCorrection
 from app.plan.cues.cues import LEAD_BEATS
+from app.plan.event_id import EventId
 from app.plan.kinds import GESTURE_KINDS
 from app.plan.model import CueEvent, ExpressionEvent, GestureEvent, PlayerPlan, PoseEvent, StyleEvent
 from app.project.edit import events as edit
@@ -124,7 +125,9 @@ class EventSection(Retranslated, QWidget):
         player = self._session.project.player(self._plan.player_id)
         title = event_title(first)
         if len(self._events) > 1:
-            title = self.tr("event_section.text").format(count=len(self._events), what=kind_name(kind_of(first.id)))
+            title = self.tr("event_section.text").format(
+                count=len(self._events), what=kind_name(EventId.parse(first.id).kind)
+            )
         self._section.header.set_texts(title, player.name)
         self._show_places(first, made)
         self._show_amounts(first, made)
@@ -228,10 +231,7 @@ class EventSection(Retranslated, QWidget):
         if bare is None:
             return None
         said = edit.corrections_of(self._session.project, player_id, (event.id,))
-        ids = [event.id]
-        for item in said:
-            if isinstance(item, SetBreath | SetCue) and item.moved_from is not None:
-                ids.insert(0, f"{event.id.split(':')[0]}:{item.moved_from}")
+        ids = [*(item.left_out for item in said if item.left_out is not None), event.id]
         return next(iter(edit.placed_events(bare, ids)), None)
 
     # Editing

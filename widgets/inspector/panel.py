@@ -11,6 +11,7 @@ from PySide6.QtWidgets import QScrollArea, QSplitter, QTabWidget, QWidget
 from app.editor.session import Session
 from app.errors import FileError
 from app.formats.json_data import decode_json
+from app.plan.event_id import EventId
 from app.project.document import Change
 from widgets.common.controls import Retranslated, named, wrapped
 from widgets.common.layouts import STRETCH, in_column, panel
@@ -114,7 +115,7 @@ class InspectorPanel(Retranslated, QWidget):
         """Show the selected notes and events, or the selected take."""
         notes, events, take = self._notes.show_notes(), self._events.show_events(), self._take.show_take()
         self._empty.setVisible(not notes and not events and not take and not self._maker.is_open)
-        varied = any(key.event_id.startswith("vary:") for key in self._session.selection.events)
+        varied = any(EventId.parse(key.event_id).kind == "vary" for key in self._session.selection.events)
         performed, click = "inspector_panel.these_bars_are_performed_anew", "inspector_panel.click_note_in_timeline_to"
         self._empty.setText(self.tr(performed if varied else click))
 

@@ -18,8 +18,8 @@ from app.plan.by_hand.corrections import (
     SetCue,
     SetEmbouchure,
     Vary,
-    kind_of,
 )
+from app.plan.event_id import EventId
 from app.plan.model import (
     BreathEvent,
     CueEvent,
@@ -54,7 +54,7 @@ def event_title(event: Event) -> str:
         return tr("inspector.pose").format(name=pose_name(event.target))
     if isinstance(event, StyleEvent):
         return tr("inspector.style").format(name=style_name(event.style))
-    return kind_name(kind_of(event.id))
+    return kind_name(EventId.parse(event.id).kind)
 
 
 def event_text(score: Score, event: Event | None) -> str:
@@ -99,7 +99,7 @@ def correction_title(item: Correction) -> str:
         case PinFingering():
             return tr("inspector.fingering").format(label=item.label)
         case RemoveEvent():
-            return tr("inspector.removed").format(what=kind_name(kind_of(item.event_id)))
+            return tr("inspector.removed").format(what=kind_name(EventId.parse(item.event_id).kind))
         case SetBreath():
             return kind_name(item.kind)
         case SetCue():
@@ -107,7 +107,7 @@ def correction_title(item: Correction) -> str:
         case SetEmbouchure():
             return tr("inspector.embouchure")
         case ChangeGesture():
-            return kind_name(kind_of(item.event_id))
+            return kind_name(EventId.parse(item.event_id).kind)
         case AddGesture():
             return kind_name(item.kind)
         case ChangeExpression():

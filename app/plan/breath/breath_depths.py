@@ -13,7 +13,8 @@ import numpy as np
 from app.arrays import FloatArray, IntArray
 from app.errors import Message
 from app.plan.breath.lungs import drawn, levels
-from app.plan.by_hand.corrections import WITHIN, kind_of
+from app.plan.by_hand.corrections import WITHIN
+from app.plan.event_id import EventId
 from app.plan.model import BreathEvent, Problem
 from app.plan.music.piece import EPSILON, LineTimes
 from app.score.model import Note
@@ -29,7 +30,7 @@ def with_depths(
     result = []
     for event in events:
         if not event.corrected:
-            index = index_of[event.id.split(":", 1)[1]]
+            index = index_of[EventId.parse(event.id).of]
             until = breaths[bisect_right(breaths, index)]
             # What the rest of a note needs is not known within it: there the time says it.
             need = 1.0 if is_within(event) else (used_s[until] - used_s[index]) / lung_s
@@ -64,4 +65,4 @@ def too_long(
 
 def is_within(event: BreathEvent) -> bool:
     """Whether a breath is taken within a note, not before it."""
-    return kind_of(event.id) == WITHIN
+    return EventId.parse(event.id).kind == WITHIN

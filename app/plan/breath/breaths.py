@@ -38,7 +38,8 @@ from app.plan.breath.lungs import (
 )
 from app.plan.breath.staggered_breaths import Shared, within_held
 from app.plan.breath.which_rests import Decided, RestNeeds, breathed_in, rest_needs, why
-from app.plan.by_hand.corrections import BY_HAND, Correction, SetBreath, breath_id, removed_ids, without_removed
+from app.plan.by_hand.corrections import BY_HAND, Correction, SetBreath, removed_ids, without_removed
+from app.plan.event_id import EventId
 from app.plan.model import BreathEvent, Problem, TimeFrame
 from app.plan.music.breath_controller import BreathEnvelope, Silences, gaps_within, silences
 from app.plan.music.notation import at_score_tempo, heard_rests_s, notated, usual_release
@@ -135,7 +136,7 @@ class _Breather(NamedTuple):
 
     def number_of(self, event: BreathEvent) -> int:
         """The note that a breath is before, or within."""
-        return self.index_of[event.id.split(":", 1)[1]]
+        return self.index_of[EventId.parse(event.id).of]
 
 
 class _Score(NamedTuple):
@@ -273,7 +274,7 @@ def _given(
         generated = rest_breaths(notes, times, piece, parameters, frame, score.rests)
         if not parameters.circular_breathing:
             generated += within_held(notes, times, piece, score.used, score.lung_s, shared)
-    placed = {breath_id(item): item for item in corrections
+    placed = {item.about: item for item in corrections
               if isinstance(item, SetBreath) and item.note_id in line.index_of}  # fmt: skip
     by_hand = tuple(_by_hand(item, times, line.index_of[item.note_id], piece) for item in placed.values())
     removed, hand_ids = removed_ids(corrections), frozenset(event.id for event in by_hand)
@@ -574,7 +575,7 @@ def _by_hand(item: SetBreath, times: LineTimes, index: int, piece: Piece) -> Bre
     onset_tick = int(times.onset_tick[index])
     start_tick, end_tick = onset_tick + item.start_offset_tick, onset_tick + item.end_offset_tick
     return BreathEvent(
-        id=breath_id(item),
+        id=item.about,
         kind="preparation" if item.kind == "preparation" else "breath",
         start_tick=start_tick,
         end_tick=end_tick,

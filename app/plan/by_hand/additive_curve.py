@@ -6,10 +6,12 @@ them. What it says is added to all generated layers before contacts are solved.
 
 from __future__ import annotations
 
-from typing import Final, Literal, NamedTuple, TypeAlias
+from itertools import pairwise
+from typing import ClassVar, Final, Literal, NamedTuple, TypeAlias
 
 import msgspec
 
+from app.plan.by_hand.correction import Own
 from metadata.model import ARKIT_MORPHS
 
 Interpolation: TypeAlias = Literal["bezier", "linear", "constant"]
@@ -94,7 +96,7 @@ class CurveKey(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     leave: Tangent | None = None
 
 
-class AdditiveCurve(msgspec.Struct, frozen=True, forbid_unknown_fields=True, tag_field="correction", tag="additive"):
+class AdditiveCurve(Own, frozen=True, tag="additive"):
     """A curve over a stretch of the score. ``name`` makes its event id unique.
 
     Attributes
@@ -111,7 +113,7 @@ class AdditiveCurve(msgspec.Struct, frozen=True, forbid_unknown_fields=True, tag
         What the user calls it; may be empty.
     """
 
-    name: str
+    event_kind: ClassVar[str] = "additive"
     channel: str
     keys: tuple[CurveKey, ...]
     blend_in_ticks: int = 0
@@ -129,3 +131,8 @@ class AdditiveCurve(msgspec.Struct, frozen=True, forbid_unknown_fields=True, tag
     def end_tick(self) -> int:
         """Of the last key."""
         return self.keys[-1].tick
+
+    @property
+    def is_empty(self) -> bool:
+        """Whether it has no keys, or not one after another."""
+        return not self.keys or any(key.tick >= following.tick for key, following in pairwise(self.keys))

@@ -10,13 +10,14 @@ Messages: ``correction.orphaned``, ``correction.no_such_fingering``, ``breath.in
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping
-from itertools import pairwise
-from typing import Final, TypeAlias, TypeVar
+from typing import ClassVar, Final, TypeAlias, TypeVar
 
 import msgspec
 
 from app.errors import Message
 from app.plan.by_hand.additive_curve import AdditiveCurve
+from app.plan.by_hand.correction import OfEvent, OfNote, Own
+from app.plan.event_id import EventId
 from app.plan.kinds import BREATH_KINDS, GESTURE_KINDS, BreathKind, GestureKind
 from app.plan.model import (
     BreathEvent,
@@ -33,26 +34,31 @@ from app.score.tempo import TempoMap
 BY_HAND = Message("correction.by_hand")
 
 
-class _Correction(msgspec.Struct, frozen=True, forbid_unknown_fields=True, tag_field="correction"):
-    pass
-
-
-class PinFingering(_Correction, frozen=True, tag="pin_fingering"):
+class PinFingering(OfNote, frozen=True, tag="pin_fingering"):
     """Play this note with the fingering of this label; the search solves the notes around it anew."""
 
-    note_id: str
+    event_kind: ClassVar[str] = "fingering"
     label: str
 
 
-class RemoveEvent(_Correction, frozen=True, tag="remove"):
+class RemoveEvent(OfEvent, frozen=True, tag="remove"):
     """Leave out a generated breath, preparation, cue, gesture or expression. ``note_id`` is the note it belongs to,
     where it has one: while that note lives, the removal is in force even if nothing would be generated."""
 
-    event_id: str
     note_id: str | None = None
 
+    @property
+    def left_out(self) -> str:
+        """The id of the event."""
+        return self.event_id
 
-class SetBreath(_Correction, frozen=True, tag="set_breath"):
+    def is_lost(self, note_ids: Collection[str], event_ids: Collection[str]) -> bool:
+        """Whether its note, or else its event, is gone, or is of a kind that is never left out."""
+        known = self.note_id in note_ids if self.note_id is not None else self.event_id in event_ids
+        return not known or EventId.parse(self.event_id).kind not in REMOVABLE
+
+
+class SetBreath(OfNote, frozen=True, tag="set_breath"):
     """Put a breath (or preparation) before a note, or a breath within it: added, or in place of the generated one.
     Ticks are relative to the note's onset, so the breath moves with its note.
 
@@ -61,7 +67,6 @@ class SetBreath(_Correction, frozen=True, tag="set_breath"):
     one note.
     """
 
-    note_id: str
     start_offset_tick: int
     end_offset_tick: int = 0
     depth: float = 1.0
@@ -70,15 +75,25 @@ class SetBreath(_Correction, frozen=True, tag="set_breath"):
     moved_from: str | None = None
     number: int = 1
 
+    @property
+    def about(self) -> str:
+        """The id of the breath."""
+        return str(EventId(self.kind, self.note_id, self.number if self.kind == WITHIN else 1))
 
-class SetCue(_Correction, frozen=True, tag="set_cue"):
+    @property
+    def is_empty(self) -> bool:
+        """Whether it ends before it begins."""
+        return self.start_offset_tick >= self.end_offset_tick
+
+
+class SetCue(OfNote, frozen=True, tag="set_cue"):
     """Let this player give a cue to the entry of a note; ``beats`` is how long before it the preparatory beat is.
 
     ``note_id`` is ``"@"`` and a tick where the player gives an entry without playing in it. ``added`` and
     ``moved_from`` as in `SetBreath`. ``takers`` are ids of the players it brings in; None: who comes in there.
     """
 
-    note_id: str
+    event_kind: ClassVar[str] = "cue"
     beats: float = 1.0
     added: bool = False
     moved_from: str | None = None
@@ -90,42 +105,53 @@ class SetCue(_Correction, frozen=True, tag="set_cue"):
         digits = self.note_id[1:]
         return int(digits) if self.note_id.startswith("@") and digits.lstrip("-").isdecimal() else None
 
+    @property
+    def is_empty(self) -> bool:
+        """Whether its preparatory beat has no length."""
+        return self.beats <= 0.0
 
-class SetEmbouchure(_Correction, frozen=True, tag="set_embouchure"):
+    def is_lost(self, note_ids: Collection[str], event_ids: Collection[str]) -> bool:
+        """Whether its note is gone; one without a note has its place."""
+        return self.tick is None and self.note_id not in note_ids
+
+
+class SetEmbouchure(OfNote, frozen=True, tag="set_embouchure"):
     """Set values of a note's embouchure; None keeps the generated one."""
 
-    note_id: str
+    event_kind: ClassVar[str] = "embouchure"
     tension: float | None = None
     effort: float | None = None
     air: float | None = None
 
 
-class ChangeGesture(_Correction, frozen=True, tag="change_gesture"):
+class ChangeGesture(OfEvent, frozen=True, tag="change_gesture"):
     """Move a generated gesture or change its amount; None keeps what was generated."""
 
-    event_id: str
     start_tick: int | None = None
     end_tick: int | None = None
     amount: float | None = None
 
 
-class AddGesture(_Correction, frozen=True, tag="add_gesture"):
+class AddGesture(Own, frozen=True, tag="add_gesture"):
     """A gesture of the animator's own, at a place of the score. ``name`` makes its event id unique; ``gesture`` is what
     one of the kind ``"named"`` is called in `metadata.gestures`."""
 
-    name: str
     kind: GestureKind
     start_tick: int
     end_tick: int
     amount: float
     gesture: str = ""
 
+    @property
+    def about(self) -> str:
+        """The id of the gesture."""
+        return str(EventId(self.kind, self.name))
 
-class ChangeExpression(_Correction, frozen=True, tag="change_expression"):
+
+class ChangeExpression(OfEvent, frozen=True, tag="change_expression"):
     """Move a generated expression, replace it by another, change its strength or fades; None keeps what was
     generated."""
 
-    event_id: str
     expression: str | None = None
     start_tick: int | None = None
     end_tick: int | None = None
@@ -134,10 +160,10 @@ class ChangeExpression(_Correction, frozen=True, tag="change_expression"):
     fade_out_s: float | None = None
 
 
-class AddExpression(_Correction, frozen=True, tag="add_expression"):
+class AddExpression(Own, frozen=True, tag="add_expression"):
     """An expression of the animator's own, at a place of the score. ``name`` makes its event id unique."""
 
-    name: str
+    event_kind: ClassVar[str] = "expression"
     expression: str
     start_tick: int
     end_tick: int
@@ -146,7 +172,7 @@ class AddExpression(_Correction, frozen=True, tag="add_expression"):
     fade_out_s: float = 0.3
 
 
-class PoseCorrection(_Correction, frozen=True, tag="pose"):
+class PoseCorrection(Own, frozen=True, tag="pose"):
     """Hold bell, head, an elbow or the trunk differently over a span of the score. ``name`` makes its event id unique.
 
     The angles are added to what the generator does, before hands, lips and feet are put where they belong. They are
@@ -166,7 +192,7 @@ class PoseCorrection(_Correction, frozen=True, tag="pose"):
         such angle.
     """
 
-    name: str
+    event_kind: ClassVar[str] = "pose"
     target: PoseTarget
     start_tick: int
     end_tick: int
@@ -177,22 +203,22 @@ class PoseCorrection(_Correction, frozen=True, tag="pose"):
     fade_out_ticks: int = 0
 
 
-class Vary(_Correction, frozen=True, tag="vary"):
+class Vary(Own, frozen=True, tag="vary"):
     """Another random variation of the player between two ticks: another performance of these bars. Where the
     generator leaves nothing to chance nothing changes. ``name`` distinguishes them; of several that overlap the
     last counts."""
 
-    name: str
+    event_kind: ClassVar[str] = "vary"
     start_tick: int
     end_tick: int
     seed: int
 
 
-class PlayStyle(_Correction, frozen=True, tag="play_style"):
+class PlayStyle(Own, frozen=True, tag="play_style"):
     """Play these bars in another style. ``name`` distinguishes them; it comes and goes within the region, in so many
     ticks."""
 
-    name: str
+    event_kind: ClassVar[str] = "style"
     style: str
     start_tick: int
     end_tick: int
@@ -221,24 +247,9 @@ Span = TypeVar("Span", GestureEvent, ExpressionEvent)
 
 
 WITHIN: Final = "within"
-"""The first part of the ids of breaths within a note; from the second of a note on, with a dot and its number."""
+"""The kind of breaths within a note, of which there may be several."""
 REMOVABLE = (*BREATH_KINDS, "cue", *GESTURE_KINDS, "expression")
-"""Kinds of event a `RemoveEvent` may leave out: see `kind_of`."""
-
-
-def within_id(note_id: str, number: int) -> str:
-    """Return the id of a breath within a note."""
-    return f"{WITHIN}:{note_id}" if number == 1 else f"{WITHIN}.{number}:{note_id}"
-
-
-def kind_of(event_id: str) -> str:
-    """Return the kind of an event: the first part of its id, less the number of a breath within a note."""
-    return event_id.partition(":")[0].partition(".")[0]
-
-
-def breath_id(item: SetBreath) -> str:
-    """Return the id of the breath that is set."""
-    return within_id(item.note_id, item.number) if item.kind == WITHIN else f"{item.kind}:{item.note_id}"
+"""Kinds of event a `RemoveEvent` may leave out: see `EventId`."""
 
 
 def sound_corrections(
@@ -261,8 +272,8 @@ def sound_corrections(
             message = Message(
                 "correction.unknown_expression", {"name": str(item.expression), "known": ", ".join(expressions)}
             )
-        elif _is_empty(item):
-            message = Message("correction.empty_span", {"kind": kind(item), "anchor": anchor(item)})
+        elif item.is_empty:
+            message = Message("correction.empty_span", {"kind": item.tag, "anchor": item.anchor})
         else:
             sound.append(item)
             continue
@@ -270,41 +281,9 @@ def sound_corrections(
     return Planned(tuple(sound), tuple(problems))
 
 
-def _is_empty(item: Correction) -> bool:
-    if isinstance(item, SetBreath):
-        return item.start_offset_tick >= item.end_offset_tick
-    if isinstance(item, SetCue):
-        return item.beats <= 0.0
-    if isinstance(item, AdditiveCurve):
-        return not item.keys or any(key.tick >= following.tick for key, following in pairwise(item.keys))
-    if isinstance(
-        item, AddGesture | AddExpression | ChangeGesture | ChangeExpression | PoseCorrection | Vary | PlayStyle
-    ):
-        return item.start_tick is not None and item.end_tick is not None and item.start_tick >= item.end_tick
-    return False
-
-
-def kind(item: Correction) -> str:
-    """The kind of a correction, as in its file."""
-    return str(item.__struct_config__.tag)
-
-
-def anchor(item: Correction) -> str:
-    """What a correction is tied to: a note, an event, or the name the animator gave."""
-    if isinstance(item, PinFingering | SetBreath | SetCue | SetEmbouchure):
-        return item.note_id
-    if isinstance(item, AddGesture | AddExpression | PoseCorrection | AdditiveCurve | Vary | PlayStyle):
-        return item.name
-    return item.event_id
-
-
 def removed_ids(corrections: tuple[Correction, ...]) -> frozenset[str]:
     """Ids of the events that must not appear: removed, or moved to another place."""
-    removed = {item.event_id for item in corrections if isinstance(item, RemoveEvent)}
-    for item in corrections:
-        if isinstance(item, SetBreath | SetCue) and item.moved_from is not None:
-            removed.add(f"{'cue' if isinstance(item, SetCue) else item.kind}:{item.moved_from}")
-    return frozenset(removed)
+    return frozenset(item.left_out for item in corrections if item.left_out is not None)
 
 
 def without_removed(events: tuple[E, ...], removed: frozenset[str]) -> tuple[E, ...]:
@@ -442,18 +421,8 @@ def orphans(
     at_s : float
         Where such a problem is shown: it has no place any more, so the performance's start.
     """
-    problems = []
-    for item in corrections:
-        if isinstance(item, PinFingering | SetBreath | SetCue | SetEmbouchure):
-            alive = item.note_id in note_ids or (isinstance(item, SetCue) and item.tick is not None)
-        elif isinstance(item, RemoveEvent):
-            known = item.note_id in note_ids if item.note_id is not None else item.event_id in event_ids
-            alive = known and kind_of(item.event_id) in REMOVABLE
-        elif isinstance(item, ChangeGesture | ChangeExpression):
-            alive = item.event_id in event_ids
-        else:
-            continue
-        if not alive:
-            message = Message("correction.orphaned", {"kind": kind(item), "anchor": anchor(item)})
-            problems.append(Problem(message, None, at_s, at_s))
-    return tuple(problems)
+    return tuple(
+        Problem(Message("correction.orphaned", {"kind": item.tag, "anchor": item.anchor}), None, at_s, at_s)
+        for item in corrections
+        if item.is_lost(note_ids, event_ids)
+    )

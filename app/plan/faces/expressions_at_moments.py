@@ -11,6 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from app.errors import Message
+from app.plan.event_id import EventId
 from app.plan.model import (
     BreathEvent,
     CueEvent,
@@ -117,7 +118,7 @@ def _taken(
             continue
         rest_s = float(times.onset_s[index] - times.played_end_s[index - 1])
         why = Message("expression.takes_entry", {"rest_s": round(rest_s, 2)})
-        found.append(_Found((breath.start_s, breath.end_s), index, breath.id.split(":", 1)[1], why))
+        found.append(_Found((breath.start_s, breath.end_s), index, EventId.parse(breath.id).of, why))
     return found
 
 

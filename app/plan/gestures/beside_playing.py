@@ -15,6 +15,7 @@ from typing import Final
 import numpy as np
 
 from app.errors import Message
+from app.plan.event_id import EventId
 from app.plan.gestures.lowered_instrument import LOWER_S, RAISE_S
 from app.plan.kinds import GestureKind
 from app.plan.model import GestureEvent, TimeFrame
@@ -65,7 +66,7 @@ def in_long_rests(
     ticks = {note.id: note.onset_tick for note in notes}
     ends_s = {notes[index + 1].id: end_s for index, end_s in enumerate(times.played_end_s[:-1].tolist())}
     for low in lowered:
-        note_id = low.id.split(":", 1)[1]
+        note_id = EventId.parse(low.id).of
         if note_id not in onsets_s:
             continue
         rest_s = onsets_s[note_id] - ends_s.get(note_id, frame.first_frame_s)

@@ -5,14 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import replace
 
-from app.plan.by_hand.corrections import Correction, SetBreath, anchor, kind
+from app.plan.by_hand.corrections import Correction, SetBreath
 from app.project.model import Project
 
 
 def place(correction: Correction) -> tuple[str, ...]:
     """What a correction is about: two of a player about the same place exclude one another."""
     more = (correction.kind,) if isinstance(correction, SetBreath) else ()
-    return (kind(correction), anchor(correction), *more)
+    return (correction.tag, correction.anchor, *more)
 
 
 def put(project: Project, player_id: str, corrections: Iterable[Correction]) -> Project:

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from bisect import bisect_left
 from collections.abc import Collection, Iterable, Mapping, Sequence
-from typing import Literal, NamedTuple, TypeAlias
+from typing import NamedTuple
 
 import msgspec
 
@@ -33,20 +33,19 @@ from app.plan.by_hand.corrections import (
     Vary,
 )
 from app.plan.cues.cues import LEAD_BEATS
-from app.plan.kinds import GestureKind
+from app.plan.event_id import EventId
+from app.plan.kinds import BreathKind, GestureKind
 from app.plan.model import BreathEvent, CueEvent, ExpressionEvent, GestureEvent, PlayerPlan, PoseEvent, StyleEvent
 from app.project.edit.corrections import put, take_back
 from app.project.edit.found_events import OWN as OWN
 from app.project.edit.found_events import Placed as Placed
 from app.project.edit.found_events import corrections_of as corrections_of
-from app.project.edit.found_events import event_id_of as event_id_of
 from app.project.edit.found_events import events_of as events_of
 from app.project.edit.found_events import is_there as is_there
 from app.project.edit.found_events import placed_events as placed_events
 from app.project.model import Project
 from app.score.model import Note
 
-BreathKind: TypeAlias = Literal["preparation", "breath"]
 CATCH_S = 0.3
 """A breath added where notes touch is this long."""
 
@@ -234,7 +233,7 @@ def add_gesture(
     """A gesture custom; ``gesture`` is the name of one of the kind ``"named"``."""
     end_tick = max(end_tick, start_tick + 1)
     added = AddGesture(_new_name(project, player_id), kind, start_tick, end_tick, amount, gesture)
-    return Edited(put(project, player_id, (added,)), (event_id_of(added),))
+    return Edited(put(project, player_id, (added,)), (added.about,))
 
 
 def add_expression(
@@ -257,7 +256,7 @@ def add_expression(
         fade_in_s,
         fade_out_s,
     )
-    return Edited(put(project, player_id, (added,)), (event_id_of(added),))
+    return Edited(put(project, player_id, (added,)), (added.about,))
 
 
 def add_style(project: Project, player_id: str, style: str, start_tick: int, end_tick: int) -> Edited:
@@ -265,7 +264,7 @@ def add_style(project: Project, player_id: str, style: str, start_tick: int, end
     end_tick = max(end_tick, start_tick + 1)
     fade = min(project.metre_map.felt_ticks_at(start_tick), (end_tick - start_tick) // 4)
     added = PlayStyle(_new_name(project, player_id), style, start_tick, end_tick, fade, fade)
-    return Edited(put(project, player_id, (added,)), (event_id_of(added),))
+    return Edited(put(project, player_id, (added,)), (added.about,))
 
 
 # Taking away
@@ -282,13 +281,12 @@ def remove(project: Project, plan: PlayerPlan, event_ids: Iterable[str]) -> Proj
     for event in _current(project, plan, event_ids):
         said = corrections_of(project, player_id, (event.id,))
         project = take_back(project, player_id, said)
-        if any(_is_added(item) for item in said):
+        if any(item.is_added for item in said):
             continue
-        gone = event.id
-        for item in said:
-            if isinstance(item, SetBreath | SetCue) and item.moved_from is not None:
-                gone = f"{event.id.split(':')[0]}:{item.moved_from}"
-        project = put(project, player_id, (RemoveEvent(gone, _note_in(gone, note_ids)),))
+        former = [item.left_out for item in said if item.left_out not in (None, event.id)]
+        gone = former[-1] or event.id if former else event.id
+        note_id = next((place for place in EventId.parse(gone).places if place in note_ids), None)
+        project = put(project, player_id, (RemoveEvent(gone, note_id),))
     return project
 
 
@@ -363,7 +361,7 @@ def _placed(project: Project, plan: PlayerPlan, event_ids: Sequence[str], start_
                 made = [_with(pose, **ends) for pose in _poses(project, player_id, event)]
         fresh += made
         for item in made:
-            new_ids[event.id] = event_id_of(item)
+            new_ids[event.id] = item.about
     project = put(take_back(project, player_id, stale), player_id, fresh)
     return Edited(project, tuple(new_ids.get(event_id, event_id) for event_id in event_ids))
 
@@ -377,32 +375,13 @@ def _notes(project: Project, player_id: str) -> tuple[Note, ...]:
     return project.part(project.player(player_id)).notes
 
 
-def _is_added(item: Correction) -> bool:
-    if isinstance(item, SetBreath | SetCue):
-        return item.added
-    return isinstance(item, AddGesture | AddExpression | PoseCorrection | PlayStyle)
-
-
 def _with(item: Correction, **values: object) -> Correction:
     return msgspec.structs.replace(item, **values)
 
 
-def _note_in(event_id: str, note_ids: frozenset[str]) -> str | None:
-    """The note whose id an event's id ends with: ``breath:1:5``, ``expression:strained:1:5``."""
-    parts = event_id.split(":")
-    for first in range(1, len(parts)):
-        if (rest := ":".join(parts[first:])) in note_ids:
-            return rest
-    return None
-
-
 def _new_name(project: Project, player_id: str) -> str:
     """The first ``own-n`` that no added event of the player has."""
-    taken = {
-        item.name
-        for item in project.corrections.get(player_id, ())
-        if isinstance(item, AddGesture | AddExpression | PoseCorrection | PlayStyle)
-    }
+    taken = {item.anchor for item in project.corrections.get(player_id, ()) if item.is_added}
     number = 1
     while f"{OWN}{number}" in taken:
         number += 1
@@ -437,12 +416,10 @@ def _breath(project: Project, player_id: str, event: BreathEvent) -> SetBreath:
     for item in corrections_of(project, player_id, (event.id,)):
         if isinstance(item, SetBreath):
             return item
-    numbered, note_id = event.id.split(":", 1)
-    kind, _, number = numbered.partition(".")
+    kind, note_id, number = EventId.parse(event.id)
     onset = next(note.onset_tick for note in _notes(project, player_id) if note.id == note_id)
     offsets = event.start_tick - onset, event.end_tick - onset
-    set_kind: Literal["preparation", "breath", "within"] = "within" if kind == WITHIN else event.kind
-    return SetBreath(note_id, *offsets, event.depth, set_kind, number=int(number or 1))
+    return SetBreath(note_id, *offsets, event.depth, kind, number=number)
 
 
 def _breath_at(
@@ -496,7 +473,7 @@ def _moved_from(before: SetBreath | SetCue, note_id: str) -> str | None:
 
 def _cue_at(project: Project, player_id: str, event: CueEvent, start: int, end: int) -> SetCue:
     said = corrections_of(project, player_id, (event.id,))
-    before = next((item for item in said if isinstance(item, SetCue)), SetCue(event.id.split(":", 1)[1]))
+    before = next((item for item in said if isinstance(item, SetCue)), SetCue(EventId.parse(event.id).of))
     note = next((note.id for note in _notes(project, player_id) if note.onset_tick == end), f"@{end}")
     beats = max(round((end - start) / (LEAD_BEATS * project.metre_map.felt_ticks_at(end)), 4), 0.05)
     return msgspec.structs.replace(before, note_id=note, beats=beats, moved_from=_moved_from(before, note))

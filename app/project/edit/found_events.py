@@ -5,21 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from typing import Final, TypeAlias
 
-from app.plan.by_hand.additive_curve import AdditiveCurve
-from app.plan.by_hand.corrections import (
-    AddExpression,
-    AddGesture,
-    Correction,
-    PinFingering,
-    PlayStyle,
-    PoseCorrection,
-    SetBreath,
-    SetCue,
-    SetEmbouchure,
-    Vary,
-    breath_id,
-    kind_of,
-)
+from app.plan.by_hand.corrections import Correction
+from app.plan.event_id import EventId
 from app.plan.kinds import BREATH_KINDS
 from app.plan.model import (
     BreathEvent,
@@ -42,37 +29,10 @@ _OF_NOTES: Final = ("fingering", "embouchure", "tongue", *BREATH_KINDS, "cue")
 """Kinds of events whose id ends with that of a note."""
 
 
-def event_id_of(correction: Correction) -> str:
-    """The id of the event that a correction is about, as a plan has it (or would have it, were it not removed)."""
-    match correction:
-        case PinFingering():
-            return f"fingering:{correction.note_id}"
-        case SetEmbouchure():
-            return f"embouchure:{correction.note_id}"
-        case SetBreath():
-            return breath_id(correction)
-        case SetCue():
-            return f"cue:{correction.note_id}"
-        case AddGesture():
-            return f"{correction.kind}:{correction.name}"
-        case AddExpression():
-            return f"expression:{correction.name}"
-        case PoseCorrection():
-            return f"pose:{correction.name}"
-        case AdditiveCurve():
-            return f"additive:{correction.name}"
-        case PlayStyle():
-            return f"style:{correction.name}"
-        case Vary():
-            return f"vary:{correction.name}"
-        case _:
-            return correction.event_id
-
-
 def corrections_of(project: Project, player_id: str, event_ids: Iterable[str]) -> tuple[Correction, ...]:
     """What the user said about these events."""
     requested = frozenset(event_ids)
-    return tuple(item for item in project.corrections.get(player_id, ()) if event_id_of(item) in requested)
+    return tuple(item for item in project.corrections.get(player_id, ()) if item.about in requested)
 
 
 def events_of(plan: PlayerPlan) -> dict[str, Event]:
@@ -91,7 +51,7 @@ def is_there(project: Project, player_id: str, event_id: str) -> bool:
         player = project.player(player_id)
     except KeyError:
         return False
-    kind, of = kind_of(event_id), event_id.partition(":")[2]
+    kind, of, _ = EventId.parse(event_id)
     if kind in ("pose", "additive", "vary", "style") or of.startswith(OWN):
         return bool(corrections_of(project, player_id, (event_id,)))
     return kind not in _OF_NOTES or of.startswith("@") or of in project.part(player).note_ids

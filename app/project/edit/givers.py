@@ -13,9 +13,10 @@ import msgspec
 from app.errors import AppError
 from app.plan.by_hand.corrections import RemoveEvent, SetCue
 from app.plan.cues.cues import LEAD_BEATS
+from app.plan.event_id import EventId
 from app.plan.model import CueEvent, PlayerPlan
 from app.project.edit.corrections import put, take_back
-from app.project.edit.events import Edited, corrections_of, event_id_of, is_there, move, remove
+from app.project.edit.events import Edited, corrections_of, is_there, move, remove
 from app.project.model import Project
 
 LEAST_BEATS, MOST_BEATS = 0.05, 8.0
@@ -52,11 +53,11 @@ def set_giver(project: Project, plan: PlayerPlan, cue_id: str, giver_id: str, pe
         chosen = tuple(plan.player_id if taker == giver_id else taker for taker in chosen)
     given = SetCue(note, beats, added=True, takers=chosen)
     project = remove(project, plan, (cue_id,))
-    said = corrections_of(project, giver_id, (event_id_of(given),))
+    said = corrections_of(project, giver_id, (given.about,))
     project = take_back(project, giver_id, said)
     if peak_tick is not None or chosen is not None or not any(isinstance(item, RemoveEvent) for item in said):
         project = put(project, giver_id, (given,))
-    return Edited(project, (event_id_of(given),))
+    return Edited(project, (given.about,))
 
 
 def set_takers(project: Project, plan: PlayerPlan, cue_id: str, takers: Collection[str] | None) -> Project:
@@ -105,7 +106,7 @@ def _said(project: Project, player_id: str, cue: CueEvent) -> SetCue:
     """The correction that speaks of a cue already, or one that repeats the generated one."""
     said = corrections_of(project, player_id, (cue.id,))
     found = next((item for item in said if isinstance(item, SetCue)), None)
-    return found or SetCue(cue.id.split(":", 1)[1], _beats_from(project, cue, _peak_tick(project, cue)))
+    return found or SetCue(EventId.parse(cue.id).of, _beats_from(project, cue, _peak_tick(project, cue)))
 
 
 def _peak_tick(project: Project, cue: CueEvent) -> float:

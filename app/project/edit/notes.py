@@ -19,7 +19,8 @@ import msgspec
 
 from app.errors import AppError, FileError
 from app.formats.json_data import decode_json
-from app.plan.by_hand.corrections import Correction, anchor
+from app.plan.by_hand.corrections import Correction
+from app.plan.event_id import EventId
 from app.project.edit.length import with_score
 from app.project.grid import Grid
 from app.project.ids import new_note_ids
@@ -311,8 +312,7 @@ def _checked(note: Note) -> Note:
 
 def _notes_of(item: Correction) -> set[str]:
     """What a correction is about, as a note's id: also of the event that belongs to a note, ``"breath:<note>"``."""
-    about = anchor(item)
-    return {about, about.partition(":")[2], getattr(item, "note_id", None) or about}
+    return {item.anchor, EventId.parse(item.anchor).of, getattr(item, "note_id", None) or item.anchor}
 
 
 def _each(project: Project, note_ids: Iterable[str], edit: Callable[[Note], Note]) -> Project:

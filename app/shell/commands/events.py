@@ -22,10 +22,10 @@ from app.editor.additions import (
 from app.editor.selection import EventKey, Selection
 from app.editor.session import Session
 from app.errors import Message
+from app.plan.event_id import EventId
 from app.plan.kinds import GESTURES, Gesturing
 from app.plan.model import PlayerPlan
 from app.project.edit.events import (
-    event_id_of,
     give_back,
     give_back_player,
     remove,
@@ -106,7 +106,7 @@ def choose_style(session: Session) -> None:
     """Show the styles where the mouse is: of the selected players in the selected range, or from the playhead's bar on;
     with selected regions, another one for them."""
     menu = _menu()
-    regions = any(key.event_id.startswith(f"{STYLE}:") for key in session.selection.events)
+    regions = any(EventId.parse(key.event_id).kind == STYLE for key in session.selection.events)
     for name in sorted(session.performance.metadata.styles.items, key=style_name):
         entry = menu.addAction(verbatim(style_name(name)))
         entry.setObjectName(f"style_{name}")
@@ -174,7 +174,7 @@ def _can_return(session: Session) -> bool:
         return False
     requested = {f"{kind}:{note}" for note in notes for kind in ("fingering", "embouchure")}
     return any(
-        (event_id := event_id_of(item)) in requested or EventKey(player_id, event_id) in events
+        item.about in requested or EventKey(player_id, item.about) in events
         for player_id, corrections in session.project.corrections.items()
         for item in corrections
     )
@@ -198,7 +198,7 @@ def _breathing_notes(session: Session) -> dict[str, list[str]]:
     result: dict[str, list[str]] = defaultdict(list)
     for player_id, ids in events_by_player(session).items():
         for event_id in ids:
-            kind, _, note_id = event_id.partition(":")
+            kind, note_id, _ = EventId.parse(event_id)
             if kind in ("breath", "preparation") and note_id not in result[player_id]:
                 result[player_id].append(note_id)
     if not any(result.values()):

@@ -14,7 +14,7 @@ from PySide6.QtWidgets import QLabel, QPushButton
 
 from app.errors import Message
 from app.plan.by_hand.additive_curve import AdditiveCurve, CurveKey, Tangent
-from app.plan.by_hand.corrections import Correction, PoseCorrection, SetBreath, kind
+from app.plan.by_hand.corrections import Correction, PoseCorrection, SetBreath
 from app.project.check import faults
 from app.project.model import Project
 from app.shell.app import Program
@@ -91,4 +91,4 @@ def test_every_field_that_a_person_can_set_has_a_name() -> None:
         if {int, float} & {field.type, *get_args(field.type)}
     }
     assert numbers - FIELDS.keys() == set()
-    assert {kind(item) for item, *_ in BAD.values()} == {"additive", "pose", "set_breath"}
+    assert {item.tag for item, *_ in BAD.values()} == {"additive", "pose", "set_breath"}

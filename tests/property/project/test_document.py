@@ -40,7 +40,7 @@ from app.project.check import faults
 from app.project.document import Change, Document
 from app.project.edit import dance_corrections, dancers, events, generation, notes, piece, players, takes, tempo
 from app.project.edit.corrections import put, take_back
-from app.project.edit.found_events import event_id_of, events_of
+from app.project.edit.found_events import events_of
 from app.project.model import Project
 from app.project.orphans import orphaned, reattached
 from app.project.reimport import reimport
@@ -566,18 +566,18 @@ class Day(RuleBasedStateMachine):
 
 def is_done(correction: Correction, plan: PlayerPlan, others: tuple[Correction, ...]) -> bool:
     said = {str(value) for problem in plan.problems for value in problem.message.arguments.values()}
-    event = events_of(plan).get(event_id_of(correction))
+    event = events_of(plan).get(correction.about)
     if isinstance(correction, Vary):
         return True
     if isinstance(correction, RemoveEvent):
         # What is put there by hand again is there.
-        by_hand = any(event_id_of(item) == correction.event_id for item in others if item is not correction)
+        by_hand = any(item.about == correction.event_id for item in others if item is not correction)
         return event is None or by_hand
     if event is not None and event.corrected:
         return not isinstance(correction, PinFingering) or event.label == correction.label  # type: ignore[union-attr]
-    taken_out = any(
-        isinstance(item, RemoveEvent) and item.event_id == event_id_of(correction) for item in others
-    ) or any(getattr(item, "moved_from", None) == getattr(correction, "note_id", "") for item in others)
+    taken_out = any(isinstance(item, RemoveEvent) and item.event_id == correction.about for item in others) or any(
+        getattr(item, "moved_from", None) == getattr(correction, "note_id", "") for item in others
+    )
     if isinstance(correction, PinFingering) and correction.label in said:
         return True
     anchors = {

@@ -186,7 +186,7 @@ def test_several_changes_of_one_event_are_one_correction() -> None:
     project = edit.resize(project, plan_of(project), (event_id,), 0, 50)
     (correction,) = project.corrections[player_id()]
     before, after = event(made(), event_id), event(plan_of(project), event_id)
-    assert edit.event_id_of(correction) == event_id
+    assert correction.about == event_id
     assert (after.start_tick, after.end_tick) == (before.start_tick + 100, before.end_tick + 150)  # type: ignore[union-attr]
     assert after.amount == -0.25  # type: ignore[union-attr]
 

@@ -9,6 +9,7 @@ from PySide6.QtWidgets import QMenu, QWidget
 from app.editor.additions import add_breaths
 from app.editor.session import Session
 from app.errors import Message
+from app.plan.event_id import EventId
 from app.plan.kinds import BREATH_KINDS
 from app.plan.model import PlayerPlan
 from app.project.edit.events import toggle_preparation
@@ -108,7 +109,7 @@ class BreathLane(RegionLane):
         on_click(menu.addAction(self.tr("breath_lane.add_breath_here")), lambda: self.add_at(mouse))
         if region is None or (region.removed and region.kind == "breath"):
             return
-        note_id = region.event_id.split(":", 1)[1]
+        note_id = EventId.parse(region.event_id).of
         plan = self.session.plans.get(region.player_id)
         if plan is None:
             return

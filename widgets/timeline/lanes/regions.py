@@ -13,7 +13,8 @@ from PySide6.QtWidgets import QMenu, QWidget
 from app.editor.selection import EventKey, Selection
 from app.editor.session import Session
 from app.errors import Message
-from app.plan.by_hand.corrections import RemoveEvent, kind_of
+from app.plan.by_hand.corrections import RemoveEvent
+from app.plan.event_id import EventId
 from app.plan.model import PlayerPlan
 from app.project.document import Change
 from app.project.edit.events import set_amounts
@@ -228,7 +229,7 @@ class RegionLane(Lane):
         onsets: dict[str, int] = {}
         result = []
         for item in project.corrections.get(plan.player_id, ()):
-            kind = kind_of(item.event_id) if isinstance(item, RemoveEvent) else ""
+            kind = EventId.parse(item.event_id).kind if isinstance(item, RemoveEvent) else ""
             if not isinstance(item, RemoveEvent) or kind not in among:
                 continue
             if not onsets:

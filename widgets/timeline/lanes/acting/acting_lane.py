@@ -18,7 +18,6 @@ from app.errors import Message
 from app.plan.kinds import GESTURE_KINDS, GESTURES
 from app.plan.model import GestureEvent, PlayerPlan
 from app.project.edit.events import set_expression
-from app.project.edit.found_events import event_id_of
 from app.project.edit.generation import variations
 from app.project.model import Project
 from app.score.tempo import TempoMap
@@ -173,7 +172,7 @@ class ActingLane(RegionLane):
         clock = self.session.project.score.tempo_map
         return [
             Region(
-                player_id, event_id_of(item), VARIED, item.start_tick, item.end_tick,
+                player_id, item.about, VARIED, item.start_tick, item.end_tick,
                 clock.seconds(float(item.start_tick)), clock.seconds(float(item.end_tick)),
                 label=kind_name(VARIED), by_hand=True, steady=True, fixed=True,
             )

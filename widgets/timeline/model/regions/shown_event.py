@@ -9,6 +9,7 @@ import numpy as np
 
 from app.editor.selection import EventKey
 from app.errors import Message
+from app.plan.event_id import EventId
 from widgets.timeline.model.geometry import Spans
 
 
@@ -85,9 +86,7 @@ def spans_of(regions: Sequence[Region]) -> Spans:
 
 def place_of(event_id: str, onsets: Mapping[str, int]) -> int | None:
     """The tick in an event's id: of its note, or after an @."""
-    parts = event_id.split(":")
-    for first in range(1, len(parts)):
-        rest = ":".join(parts[first:])
+    for rest in EventId.parse(event_id).places:
         if rest in onsets:
             return onsets[rest]
         if rest.startswith("@") and rest[1:].lstrip("-").isdecimal():

@@ -1,0 +1,45 @@
+"""Ids of events: a kind, and what the event belongs to. They stand in users' files."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Final, NamedTuple
+
+MOST_DIGITS: Final = 10
+
+
+class EventId(NamedTuple):
+    """An id in its parts; its text is ``"<kind>:<of>"``, from the second breath within a note on ``"<kind>.2:<of>"``.
+
+    Attributes
+    ----------
+    kind : str
+    of : str
+        Id of a note, ``"@"`` and a tick, a name; or a rule and one of these.
+    number : int
+        Counts those of one kind that belong to the same.
+    """
+
+    kind: str
+    of: str
+    number: int = 1
+
+    @classmethod
+    def parse(cls, text: str) -> EventId:
+        """Return the parts of an id."""
+        numbered, _, of = text.partition(":")
+        kind, _, number = numbered.partition(".")
+        return cls(kind, of, int(number) if number.isdecimal() and len(number) < MOST_DIGITS else 1)
+
+    def __str__(self) -> str:
+        """Return the id."""
+        return f"{self.kind}:{self.of}" if self.number == 1 else f"{self.kind}.{self.number}:{self.of}"
+
+    @property
+    def places(self) -> Iterator[str]:
+        """What may be the note or the tick: ``of``, and what remains of it behind each colon (``strained:1:5``)."""
+        rest = self.of
+        yield rest
+        while ":" in rest:
+            rest = rest.partition(":")[2]
+            yield rest
