@@ -6,11 +6,13 @@ rest of the program is whole. Nothing else names those modules: whoever can be e
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from importlib import import_module
 from types import ModuleType
-from typing import Final
+from typing import Final, TypeVar
+
+T = TypeVar("T")
 
 
 @dataclass(frozen=True)
@@ -37,18 +39,28 @@ class Feature:
     Attributes
     ----------
     messages, texts : str
-        The modules of its ``WORDINGS`` and of its dialogs' ``TEXTS``.
+        The modules of its ``WORDINGS`` and, for the window, ``TEXTS``; empty, as all others: it has none.
     actions, actions_after : str
-        The module of its ``ACTIONS``, and the action behind which they stand.
+        The module of its ``ACTIONS``, and the id of the action behind which they stand.
+    lanes, lanes_after : str
+        The module of its ``LANES``, and the id of the lane below which they stand.
+    players_section : str
+        The module of its ``SECTION`` in the panel of players: a widget with a signal ``sought``.
+    dances : str
+        The package that makes dances, as `app.performance.dances` asks for them; empty: it makes none.
     sub_commands : mapping
         By name.
     """
 
     id: str
-    messages: str
-    texts: str
-    actions: str
-    actions_after: str
+    messages: str = ""
+    texts: str = ""
+    actions: str = ""
+    actions_after: str = ""
+    lanes: str = ""
+    lanes_after: str = ""
+    players_section: str = ""
+    dances: str = ""
     sub_commands: Mapping[str, SubCommand] = field(default_factory=dict)
 
 
@@ -56,7 +68,7 @@ FEATURES: Final[tuple[Feature, ...]] = (
     Feature(
         id="evaluation",
         messages="app.evaluation.messages",
-        texts="widgets.dialogs.evaluation.texts",
+        texts="app.shell.evaluation.texts",
         actions="app.shell.evaluation.actions",
         actions_after="file.export_midi",
         sub_commands={
@@ -73,10 +85,50 @@ FEATURES: Final[tuple[Feature, ...]] = (
             ),
         },
     ),
+    Feature(
+        id="choreography",
+        messages="app.choreography.messages",
+        texts="app.shell.choreography.texts",
+        actions="app.shell.choreography.actions",
+        actions_after="players.reset",
+        lanes="widgets.timeline.lanes.choreography.dance_lane",
+        lanes_after="curves",
+        players_section="widgets.players.choreography.dancers",
+        sub_commands={
+            "choreography": SubCommand(
+                "app.cli.choreography.command",
+                "learn how dancers move to music, from motion capture, and let them dance",
+                after="characters",
+            ),
+        },
+        dances="app.choreography.performed",
+    ),
 )
 
 
 def modules(column: str) -> Iterator[tuple[Feature, ModuleType]]:
     """The modules that a column of the table names, loaded, with their rows."""
     for feature in FEATURES:
-        yield feature, import_module(getattr(feature, column))
+        name: str = getattr(feature, column)
+        if name:
+            yield feature, import_module(name)
+
+
+def extended(own: Iterable[T], column: str, id_of: Callable[[T], str]) -> list[T]:
+    """A table with what features add to it: behind the row that each names.
+
+    Parameters
+    ----------
+    own : iterable
+        The table without features.
+    column : str
+        ``"actions"`` or ``"lanes"``; the modules have the rows under this name in capitals.
+    id_of : callable
+        The id of a row.
+    """
+    found = list(own)
+    for feature, module in modules(column):
+        behind: str = getattr(feature, f"{column}_after")
+        at = next(number for number, row in enumerate(found, 1) if id_of(row) == behind)
+        found[at:at] = getattr(module, column.upper())
+    return found

@@ -20,10 +20,9 @@ import numpy as np
 from app.arrays import IntArray
 from app.audio.rendering import rendered, soundfont
 from app.audio.track import RATE_HZ, Piece, Samples
-from app.choreography.percussion import SAME_SOUND
 from app.performance.loudness import sounding_curve
 from app.score.bend_range import USUAL_SEMITONES, range_controls, range_for, wheel
-from app.score.model import CurveKind, Note, Part, PercussionHit
+from app.score.model import SAME_SOUND, CurveKind, Note, Part, PercussionHit
 from app.score.sound_module import DRUM_CHANNEL
 from app.score.tempo import TempoMap
 from instrument_maps.model import InstrumentMap

@@ -15,13 +15,13 @@ import numpy as np
 from scipy.ndimage import gaussian_filter1d
 
 from app.arrays import FloatArray
-from app.choreography.retarget import SIDES
 from app.motion.by_hand.pose_corrections import within
 from app.motion.gestures.dance_layer import CHANNELS, BodyLayer
 from app.motion.model import Motion
 from app.rig import quaternion
 from app.rig.model import Character
 from app.rig.skeleton import forward
+from app.rig.sole import SIDES
 
 FPS: Final = Fraction(30)
 """What a layer is sampled at: what is left of the motion is below 4 Hz."""

@@ -15,13 +15,13 @@ from app.choreography.clip import MotionClip
 from app.choreography.contacts import tips_m
 from app.choreography.limbs import bend
 from app.rig import quaternion
-from app.rig.ik import Side, leg
+from app.rig.ik import leg
 from app.rig.skeleton import JointTransforms
+from app.rig.sole import SIDES
 
 LEG: Final = ("UpperLeg", "LowerLeg", "Foot")
 AHEAD: Final = (0.0, 0.0, 1.0)
 """Where a knee points, of a thigh."""
-SIDES: Final[tuple[Side, Side]] = ("left", "right")
 BRIDGED_S: Final = 0.06
 """A foot that leaves the floor for less has not left it."""
 LEAST_S: Final = 0.1

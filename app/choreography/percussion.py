@@ -11,18 +11,13 @@ Rules, none of which invents a symbol:
 
 from __future__ import annotations
 
-from typing import Final
-
 import numpy as np
 
 from app.arrays import FloatArray, IntArray
 from app.choreography.rhythm import SYMBOLS, Rhythm
 from app.score.felt_beat import felt_beats
 from app.score.metre_map import beat_ticks_at
-from app.score.model import Score
-
-SAME_SOUND: Final = {22: 42, 26: 46}
-"""Of notes outside the 47 sounds, the sound that they are the edge of."""
+from app.score.model import SAME_SOUND, Score
 
 
 def score_rhythm(score: Score) -> Rhythm:

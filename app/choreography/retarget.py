@@ -22,8 +22,8 @@ from app.rig import quaternion
 from app.rig.ik import Side, leg, solve_limb
 from app.rig.model import Character, Skeleton
 from app.rig.skeleton import rest_positions
+from app.rig.sole import SIDES, TIP_PART, foot_tip_m, sole_way_m
 
-SIDES: Final[tuple[Side, Side]] = ("left", "right")
 TRUNK: Final[tuple[str, ...]] = ("spine", "chest", "upperChest")
 COLLAR_SHARE: Final = 0.25
 """Of an arm's rise above the horizontal, the part that the collar bone takes before the shoulder joint (of the rise of
@@ -37,10 +37,6 @@ FINGER_GROWS: Final = {"Index": 0.8, "Middle": 1.0, "Ring": 1.15, "Little": 1.3}
 THUMB_BEND_RAD: Final = {"ThumbMetacarpal": 0.10, "ThumbProximal": 0.15, "ThumbDistal": 0.20}
 HEEL_PART: Final = 0.3
 """The heel is behind the ankle by this part of the way from the ankle to the toes."""
-TIP_PART: Final = 0.4
-"""The tip of the foot is beyond the joint of the toes by this part of the same way."""
-FOOT_PART: Final = 1.6
-"""The joint of the toes is ahead of the ankle by so much of the ankle's height, where a skeleton has none."""
 FLOOR_SOFT_M: Final = 0.002
 """Over this height a foot that comes down is stopped by the floor."""
 REACH_SHARE: Final = 0.992
@@ -184,20 +180,6 @@ def _ankle_path(
     return np.asarray(scale * path - quaternion.rotate(segments[foot], foot_tip_m(skeleton, side)))
 
 
-def foot_tip_m(skeleton: Skeleton, side: Side) -> FloatArray:
-    """(3,) the tip of a foot's sole, from the ankle, in the T-pose."""
-    way, ankle_m = _sole_way_m(skeleton, side)
-    return np.array([(1.0 + TIP_PART) * way[0], -ankle_m, (1.0 + TIP_PART) * way[2]])
-
-
-def _sole_way_m(skeleton: Skeleton, side: Side) -> tuple[FloatArray, float]:
-    """(3,) from the ankle to the joint of the toes in the T-pose, and the height of the ankle."""
-    rest = rest_positions(skeleton)
-    ankle, toes = rest[skeleton.index(f"{side}Foot")], f"{side}Toes"
-    way = rest[skeleton.index(toes)] - ankle if toes in skeleton.names else np.array([0.0, 0.0, FOOT_PART * ankle[1]])
-    return way, float(ankle[1])
-
-
 def _floor_m(
     skeleton: Skeleton, segments: dict[str, FloatArray], ankles_m: dict[Side, FloatArray], fps: float
 ) -> FloatArray:
@@ -263,7 +245,7 @@ def _over_the_floor(
 ) -> tuple[FloatArray, FloatArray]:
     """Place of the ankle (F, 3) and turn of the foot (F, 4): the tip is lifted to the floor; a heel that would be
     below it is raised about the tip, which stays."""
-    tip, (way, height_m) = foot_tip_m(skeleton, side), _sole_way_m(skeleton, side)
+    tip, (way, height_m) = foot_tip_m(skeleton, side), sole_way_m(skeleton, side)
     heel = np.array([-HEEL_PART * way[0], -height_m, -HEEL_PART * way[2]])
     tip_m = ankle_m + quaternion.rotate(foot, tip)
     tip_m[:, 1] += _lift_m(tip_m[:, 1])
@@ -289,7 +271,7 @@ def _clip_ankle_height_m(shape: BodyShape, side: Side) -> float:
 
 def _sole_m(skeleton: Skeleton, side: Side, foot: FloatArray, ankle_m: FloatArray) -> FloatArray:
     """(F,) height of the lowest point of a sole: heel, ball or tip."""
-    way, height_m = _sole_way_m(skeleton, side)
+    way, height_m = sole_way_m(skeleton, side)
     sole = [np.array([part * way[0], -height_m, part * way[2]]) for part in (-HEEL_PART, 1.0, 1.0 + TIP_PART)]
     lowest: FloatArray = np.min([ankle_m[:, 1] + quaternion.rotate(foot, point)[:, 1] for point in sole], axis=0)
     return lowest

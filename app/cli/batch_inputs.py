@@ -12,10 +12,10 @@ from importlib.resources import files
 from pathlib import Path
 from typing import Any, Final
 
-from app.choreography.library import choreography_path, is_bundled_name
 from app.errors import AppError, FileError
 from app.formats.files import files_in, open_file
 from app.formats.user_folder import UserFolder
+from app.project.choreography_files import choreography_path, is_bundled_name
 from app.project.model import Project
 from app.project.storage import is_project_file, load
 from app.rig.characters.character_library import LIBRARY as CHARACTERS

@@ -22,7 +22,6 @@ _OWN: Final = {
     "instruments": "list the instrument maps, show the fingerings of one, or check one",
     "metadata": "list styles, habits, expressions, gestures and rules; save, load and compare those of a piece",
     "characters": "list the characters, check whether a file's figure can play, add one",
-    "choreography": "learn how dancers move to music, from motion capture, and let them dance",
     "ports": "list the MIDI devices that are there",
     "record": "record from a MIDI device into a MIDI file",
     "stream": "play a piece live to another program (VMC)",

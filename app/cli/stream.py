@@ -35,7 +35,7 @@ from app.stream.sender import (
 if TYPE_CHECKING:
     from app.motion.model import Motion
     from app.performance.cast import Performer
-    from app.performance.dancers import Dancing
+    from app.performance.dances import Dancing
     from app.performance.ensemble import Performance
     from app.performance.span import FrameSpan
     from app.project.casting import StagePosition

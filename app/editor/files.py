@@ -12,7 +12,6 @@ from typing import Final
 
 from PySide6.QtCore import QObject, Qt, QTimer, Signal
 
-from app.choreography.library import bundled_choreographies
 from app.editor.questions import Questions
 from app.editor.session import Session, Severity
 from app.editor.settings import Settings
@@ -23,6 +22,7 @@ from app.formats.other_computers import agree
 from app.formats.video import SUFFIXES
 from app.project import storage
 from app.project.autosave import Autosave, Writing, Written
+from app.project.choreography_files import bundled_choreographies
 from app.project.document import Change
 from app.project.edit.dancers import add_dancer, change_dancers
 from app.project.edit.piece import new_piece, relocate, set_audio, set_video

@@ -8,8 +8,6 @@ from pathlib import Path
 import numpy as np
 
 from app.arrays import BoolArray, FloatArray
-from app.choreography.feet import SIDES
-from app.choreography.retarget import foot_tip_m
 from app.export.attachment import without_place
 from app.export.character import character_scene
 from app.export.file_names import figure_stems, file_names
@@ -23,18 +21,10 @@ from app.export.request import ExportCast, Request
 from app.export.target import TargetSkeleton
 from app.formats.fbx.read import read_scene
 from app.formats.scene import Scene
-from app.performance.dancers import Dancing
-from app.performance.span import FrameSpan
+from app.performance.dances import Dancing
 from app.rig import quaternion
 from app.rig.model import Character
-
-
-def standing_frames(dancing: Dancing, span: FrameSpan) -> BoolArray:
-    """(F, 2) in which frames of a span the left and the right foot stand."""
-    result = np.zeros((span.first + span.count, 2), bool)
-    for stand in dancing.dance(span.fps).standing:
-        result[stand.start : stand.stop, stand.foot] = True
-    return result[span.first :]
+from app.rig.sole import SIDES, foot_tip_m
 
 
 def measure_dancer(scene: Scene, character: Character, target: TargetSkeleton, standing: BoolArray) -> DancerMeasures:
@@ -88,17 +78,16 @@ def export_dancer(
     measures = None
     if "fbx" in request.formats:
         read = read_scene(folder / files["character_fbx"])
-        standing = standing_frames(dancing, span)
+        standing = dancing.standing(span.fps, span.first, span.count)
         measures = measure_dancer(without_place(read, target.place), character, target, standing)
     reported(1.0)
-    starts_s = [step.start_s for step in dancing.dance(span.fps).steps]
     return DancerReport(
         name=dancer.name,
-        choreography=dancing.choreographer.model.name,
+        choreography=dancing.choreography_name,
         character=dancer.character_id,
         files=files,
         stage=stage_place(dancer.stage),
-        steps=sum(span.first_frame_s <= start_s < span.end_s for start_s in starts_s),
+        steps=sum(span.first_frame_s <= start_s < span.end_s for start_s in dancing.starts_s(span.fps)),
         skeleton=skeleton_report(request, checked),
         measures=measures,
         keys=key_count(scene),

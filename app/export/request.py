@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from app.errors import FileError, Message
 from app.export.formats import FILE_FORMATS, Format
@@ -19,13 +18,11 @@ from app.export.target import SkeletonChoice
 from app.export.targets import CheckedTarget, checked_targets, spoilt
 from app.formats.keys import KeyChoice
 from app.performance.cast import LeftOut, Performer, dancings_of, performers_of, require_players
+from app.performance.dances import Dancing
 from app.performance.ensemble import Performance
 from app.performance.span import FrameSpan
 from app.project.performers import Dancer, Player
 from app.rig.characters.read_figure import read_figure
-
-if TYPE_CHECKING:
-    from app.performance.dancers import Dancing
 
 MOST_FRAMES = 432_000
 """Two hours at 60 frames/s: a player's motion and its file are in memory as a whole."""

@@ -15,7 +15,6 @@ from app.features import modules
 from app.messages import (
     audio,
     capture,
-    choreography,
     corrections,
     edit,
     files,
@@ -44,7 +43,6 @@ LANGUAGES: Final = {"en": "English", "ja": "日本語"}
 WORDINGS: Final[dict[str, tuple[str, str]]] = {
     **audio.WORDINGS,
     **capture.WORDINGS,
-    **choreography.WORDINGS,
     **corrections.WORDINGS,
     **edit.WORDINGS,
     **files.WORDINGS,

@@ -191,6 +191,10 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         "the habit {name!r} of {player} is not installed and changes nothing; choose among: {known}",
         "{player} の癖 {name!r} がインストールされていないため、何も変わりません。使えるもの: {known}",
     ),
+    "project.no_dances": (
+        "{dancer} cannot dance: this installation of Suisou does not make dances",
+        "{dancer} は踊れません。この Suisou にはダンスの生成機能が含まれていません",
+    ),
     "project.choreography_missing": (
         (
             "the choreography {name!r} of {dancer} is not included in this version of Suisou; choose a "

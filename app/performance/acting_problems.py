@@ -1,11 +1,16 @@
-"""What is wrong with how a player is to act: styles and habits that are not there.
+"""What is wrong with how a player is to act and to dance: styles, habits and choreographies that are not there.
 
-Messages: ``project.style_missing``, ``project.habit_missing`` (player, name, known).
+Messages: ``project.style_missing``, ``project.habit_missing`` (player, name, known); ``project.no_dances`` (dancer), or
+what the maker of dances reports of a choreography.
 """
 
 from __future__ import annotations
 
+from typing import Protocol, cast
+
 from app.errors import Message
+from app.features import modules
+from app.plan.model import TimeFrame
 from app.project.performers import Player
 from metadata.acting import names_in
 from metadata.library import MetadataLibrary
@@ -23,3 +28,20 @@ def unknown_acting(player: Player, library: MetadataLibrary) -> tuple[Message, .
             known = ", ".join(sorted(habits))
             found.append(Message("project.habit_missing", {"player": player.name, "name": name, "known": known}))
     return tuple(found)
+
+
+class JudgeOfChoreographies(Protocol):
+    """Of the package that makes dances (`app.performance.dances`), what is asked before there is a performance."""
+
+    def unfit_choreography(self, player: Player, frame: TimeFrame) -> Message | None:
+        """Why a player cannot dance what was selected; None where nothing was, or nothing is wrong with it."""
+
+
+def unfit_choreography(player: Player, frame: TimeFrame) -> tuple[Message, ...]:
+    """What to report about a choreography that a player cannot dance. Makers of dances are loaded for it."""
+    if not player.parameters.choreography:
+        return ()
+    for _, module in modules("dances"):
+        unfit = cast(JudgeOfChoreographies, module).unfit_choreography(player, frame)
+        return () if unfit is None else (unfit,)
+    return (Message("project.no_dances", {"dancer": player.name}),)

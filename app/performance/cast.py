@@ -8,21 +8,19 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Generic, TypeVar
+from typing import Generic, TypeVar
 
 import msgspec
 
 from app.errors import AppError, Cancelled, FileError, Message, raise_if_stopped
 from app.performance.bodies import body_of, character_of, hold_of, model_of
+from app.performance.dances import Dancing, dancing_of
 from app.performance.ensemble import Performance
 from app.project.performers import Dancer, Player
 from app.rig.grip.grip_pose import GripPose
 from app.rig.model import Character, InstrumentModel
 from instrument_maps.model import InstrumentMap
 from metadata.model import Body
-
-if TYPE_CHECKING:
-    from app.performance.dancers import Dancing
 
 T = TypeVar("T")
 P = TypeVar("P", bound="Player | Dancer")
@@ -126,15 +124,8 @@ def performers_of(
 def dancings_of(
     performance: Performance, dancers: Iterable[Dancer], stop_requested: Callable[[], bool] = lambda: False
 ) -> Attempt[Dancing]:
-    """`app.performance.dancers.dancing_of` each dancer."""
-
-    def make(dancer: Dancer) -> Dancing:
-        # The modules of dances are loaded only for pieces with dancers.
-        from app.performance.dancers import dancing_of
-
-        return dancing_of(performance, dancer)
-
-    return attempt(dancers, make, stop_requested)
+    """`app.performance.dances.dancing_of` each dancer."""
+    return attempt(dancers, lambda dancer: dancing_of(performance, dancer), stop_requested)
 
 
 def require_players(left_out: Sequence[LeftOut], file: str, wording: Wording) -> None:

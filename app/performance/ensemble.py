@@ -19,7 +19,7 @@ import msgspec
 
 from app.contacts.breaks import by_time
 from app.errors import AppError, Cancelled, MapError, Message, raise_if_stopped
-from app.performance.acting_problems import unknown_acting
+from app.performance.acting_problems import unfit_choreography, unknown_acting
 from app.performance.bodies import hold_now, is_held, suited_to
 from app.performance.body_problems import body_problems
 from app.performance.loudness import controller_input, note_loudness, note_marks, piece_reading, velocities_of
@@ -297,7 +297,7 @@ class Performance:
             known = None if self._before is None else self._before._reach.get(player.id)
             instrument, waiting = self.instrument(player), player.id in self.waiting
             found = body_problems(player, instrument, plan.fingerings, waiting, known)
-            lacking, unreached = found.lacking + _not_danced(player, self.time_frame), found.unreached
+            lacking, unreached = found.lacking + unfit_choreography(player, self.time_frame), found.unreached
             if found.unseen is not None:
                 self.unseen[player.id] = found.unseen
             if found.reach is not None:
@@ -425,17 +425,6 @@ def changes_of(performance: Performance, played: Sequence[Player]) -> tuple[str,
     """For a musician who plays several instruments: which is in the hands first, and when they change."""
     plans = {player.id: performance.plan(player) for player in played}
     return first_played(plans), changes(plans)
-
-
-def _not_danced(player: Player, frame: TimeFrame) -> tuple[Message, ...]:
-    """What to report about a choreography that the player cannot dance."""
-    if not player.parameters.choreography:
-        return ()
-    # The modules of dances are loaded only for pieces with dancers.
-    from app.performance.choreographers import unfit_choreography
-
-    unfit = unfit_choreography(player, frame)
-    return () if unfit is None else (unfit,)
 
 
 def _work(line: MonophonicPart, before: MonophonicPart | None) -> int:

@@ -13,7 +13,6 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from threading import Lock
-from typing import TYPE_CHECKING
 
 from app.arrays import FloatArray
 from app.contacts.breaks import Break, contact_problems
@@ -23,13 +22,11 @@ from app.motion.model import Motion
 from app.motion.perform import PerformanceCurves
 from app.performance.cast import Performer, performers_of
 from app.performance.chunks import Chunk, Grid, Pose, poses_of
+from app.performance.dances import Dancing, dancing_of, layer_is_made
 from app.performance.ensemble import Performance
 from app.performance.motion import playing_of
 from app.plan.model import PlayerPlan, Problem, no_events
 from app.project.performers import Dancer, Player
-
-if TYPE_CHECKING:
-    from app.performance.dancers import Dancing
 
 StopRequested = Callable[[], bool]
 
@@ -490,9 +487,6 @@ class LiveMotion:
         return track.prepared
 
     def _dancing(self, shown: _Shown, track: _Track, dancer: Dancer) -> Dancing | None:
-        # The modules of dances are loaded only for pieces with dancers.
-        from app.performance.dancers import dancing_of
-
         try:
             made = dancing_of(shown.performance, dancer)
         except AppError as error:
@@ -587,8 +581,6 @@ def _soon_made(shown: _Shown, track: _Track) -> bool:
     """Whether a player's motion is made from what there is."""
     if track.playing is not None or not isinstance(track.player, Player) or not track.player.parameters.choreography:
         return True
-    from app.performance.body_dance import layer_is_made
-
     return layer_is_made(shown.performance, track.player)
 
 

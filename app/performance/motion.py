@@ -15,6 +15,7 @@ from app.motion.gestures.dance_layer import BodyLayer
 from app.motion.model import Motion, joined
 from app.motion.perform import PerformanceCurves, prepare
 from app.performance.cast import Performer, performers_of
+from app.performance.dances import layer_of
 from app.performance.ensemble import Performance
 from app.performance.motion_copies import made_by_copies, shares
 from app.performance.span import FrameSpan
@@ -70,12 +71,7 @@ def _alone(
     """A player's plan made ready to be seen, as if the musician played nothing else."""
     player, plan = performer.player, performance.plan(performer.player)
     instrument, character, hold, body = performer.instrument, performer.character, performer.hold, performer.body
-    dance = None
-    if danced and player.parameters.choreography:
-        # The modules of dances are loaded only for pieces with dancers.
-        from app.performance.body_dance import layer_of
-
-        dance = layer_of(performance, player)
+    dance = layer_of(performance, player) if danced and player.parameters.choreography else None
     parameters = performance.parameters(player)
     felt_beats, expressions = _same(performance.piece.metre_map.felt_beats), performance.expressions
     return _PLAYING.helped(

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from app.choreography.library import SUFFIX, is_choreography
 from app.project import limits
+from app.project.choreography_files import SUFFIX, is_choreography
 from app.project.dance_corrections import DanceCorrection, ForbidState, PinState
 from app.project.fault import Fault, about, between, id_faults, look_faults, path_faults, text_faults, unique
 from app.project.model import DANCER_PARAMETERS, Project

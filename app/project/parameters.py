@@ -15,10 +15,10 @@ from typing import Final
 
 import msgspec
 
-from app.choreography.library import SUFFIX, bundled_choreographies, is_choreography
 from app.errors import UsageError
 from app.plan.parameters import AUTOMATIC, PARAMETERS, PlayerParameters, Value
 from app.project import limits
+from app.project.choreography_files import SUFFIX, bundled_choreographies, is_choreography
 from metadata.acting import as_text, names_in
 from metadata.library import HABITS, STYLES
 

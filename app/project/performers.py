@@ -53,7 +53,7 @@ class Dancer(msgspec.Struct, frozen=True):
         Unique among players and dancers, also where case does not count.
     choreography : str
         Absolute path of a ``.choreography`` file as this machine knows it, or the name of a bundled one (see
-        `app.choreography.library`); a project's file keeps a path relative to itself.
+        `app.project.choreography_files`); a project's file keeps a path relative to itself.
     stage : StagePosition
         Where the dance begins, and which way the dancer faces.
     delay_beats : float

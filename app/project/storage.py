@@ -19,7 +19,6 @@ from typing import Any, Final, TypeVar
 
 import msgspec
 
-from app.choreography.library import bundled_choreographies, choreography_path, is_bundled_name
 from app.encoding import PREFIX, restored, shown, stored
 from app.errors import FileError, Message, shortened
 from app.formats.atomic import atomic_write
@@ -30,6 +29,7 @@ from app.plan.by_hand.corrections import Correction
 from app.project.casting import ConductorPlace
 from app.project.check import faults
 from app.project.check_stored import plain_number
+from app.project.choreography_files import bundled_choreographies, choreography_path, is_bundled_name
 from app.project.dance_corrections import DanceCorrection
 from app.project.frame_rate import stored_rate
 from app.project.ids import is_made_here

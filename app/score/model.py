@@ -87,6 +87,10 @@ class Marker(msgspec.Struct, frozen=True):
     text: str
 
 
+SAME_SOUND: Final = {22: 42, 26: 46}
+"""Of notes outside the 47 sounds of a General MIDI drum kit, the sound that they are the edge of."""
+
+
 class PercussionHit(msgspec.Struct, frozen=True, gc=False):
     """A note of a percussion track: no player plays it, but dancers move to it.
 

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from typing import Any, Final
 
-from app.features import modules
+from app.features import extended
 from app.shell.action import Row
 from app.shell.commands import (
     application,
     beat,
     characters,
-    dancers,
     edit,
     events,
     exchange,
@@ -59,13 +58,11 @@ FILE_ORDER: Final = (
 def rows() -> tuple[Row[Any], ...]:
     """Every row of the table."""
     place = {action_id: number for number, action_id in enumerate(FILE_ORDER)}
-    found: list[Row[Any]] = [
+    own: tuple[Row[Any], ...] = (
         *(*file.ACTIONS, *exchange.ACTIONS, *stream.ACTIONS, *edit.ACTIONS, *notes.ACTIONS, *fingerings.ACTIONS),
-        *(*events.ACTIONS, *beat.ACTIONS, *players.ACTIONS, *dancers.ACTIONS, *timeline.ACTIONS, *viewport.ACTIONS),
+        *(*events.ACTIONS, *beat.ACTIONS, *players.ACTIONS, *timeline.ACTIONS, *viewport.ACTIONS),
         *(*video.ACTIONS, *playback.ACTIONS, *record.ACTIONS, *takes.ACTIONS, *generate.ACTIONS, *problems.ACTIONS),
         *(*characters.ACTIONS, *piece_metadata.ACTIONS, *application.ACTIONS),
-    ]
-    for feature, module in modules("actions"):
-        at = next(number for number, row in enumerate(found, 1) if row.id == feature.actions_after)
-        found[at:at] = module.ACTIONS
+    )
+    found = extended(own, "actions", lambda row: row.id)
     return tuple(sorted(found, key=lambda row: place.get(row.id, len(place))))

@@ -285,11 +285,6 @@ class Window(Retranslated, QMainWindow):
         self.show_panel("players", True)
         self.players.list.rename_current()
 
-    def rename_dancer(self) -> None:
-        """Open the field for the name of the selected dancer."""
-        self.show_panel("players", True)
-        self.players.dancers.rename_selected()
-
     def _fill_recent(self) -> None:
         menu = self.menus.menu("file/open_recent")
         menu.clear()

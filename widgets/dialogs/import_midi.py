@@ -23,12 +23,12 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from app.choreography.library import bundled_choreographies
 from app.editor.questions import ReadAgain
 from app.editor.tasks import Progress, StopRequested, Tasks
 from app.editor.tokens import LEAST_TARGET_PX, Tokens
 from app.errors import AppError, Message
 from app.messages.pitches import pitch_name
+from app.project.choreography_files import bundled_choreographies
 from app.project.importing import (
     ImportRequest,
     ImportRow,

@@ -8,10 +8,10 @@ from pathlib import Path
 
 from PySide6.QtWidgets import QWidget
 
-from app.choreography.library import SUFFIX, bundled_choreographies
 from app.editor.session import Session
 from app.encoding import shown
 from app.plan.parameters import PARAMETERS
+from app.project.choreography_files import SUFFIX, bundled_choreographies
 from app.project.edit import body_dance as edit
 from app.project.edit.players import parameter_edit, reset_parameters, set_parameters
 from app.project.model import Project

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import partial
-from typing import Literal
+from typing import Any, Literal
 
 from PySide6.QtCore import Qt, QTimer
 from PySide6.QtGui import QContextMenuEvent, QResizeEvent
@@ -12,6 +12,7 @@ from PySide6.QtWidgets import QScrollArea, QSplitter, QWidget
 
 from app.editor.session import Session
 from app.errors import Message
+from app.features import modules
 from app.project.document import Change
 from app.project.edit import players as edit
 from app.project.edit.generation import vary_players
@@ -25,7 +26,6 @@ from widgets.common.number_slider import NumberSlider
 from widgets.common.plain import Label, verbatim
 from widgets.common.section import Section
 from widgets.common.text import sentence
-from widgets.players.dancers import DancersSection
 from widgets.players.newcomers import (
     add_player,
     duplicate_players,
@@ -81,7 +81,10 @@ class PlayersPanel(Retranslated, QWidget):
         self._parameters = ParameterSections(session)
         self._stage = StageSection(session)
         self._presets = PresetSection(session)
-        self.dancers = DancersSection(session)
+        self.sections: dict[str, Any] = {
+            feature.id: module.SECTION(session) for feature, module in modules("players_section")
+        }
+        """What features add below, by their ids."""
         self._variety = Section(session, "players_variety")
         self._spread = named(NumberSlider(session, 0.0, 1.0, default=session.variety, step=0.05), "spread")
         throw = (
@@ -110,7 +113,7 @@ class PlayersPanel(Retranslated, QWidget):
         buttons = in_row((self._throw, 1), (self._reset, 1), spacing=4)
         self._variety.body.addWidget(self._spread)
         self._variety.body.addLayout(buttons)
-        parts = (self._parameters, self._stage, self._variety, self._presets, self.dancers)
+        parts = (self._parameters, self._stage, self._variety, self._presets, *self.sections.values())
         lower = panel(in_column(*parts, STRETCH, margins=0, spacing=0))
         scroll = QScrollArea()
         scroll.setWidgetResizable(True)
@@ -134,7 +137,8 @@ class PlayersPanel(Retranslated, QWidget):
         session.problems_changed.connect(self._show_list)
         session.players_changed.connect(self._players_changed)
         session.theme_changed.connect(self._show_list)
-        session.dancer_changed.connect(self._show_dancers)
+        for section in self.sections.values():
+            section.sought.connect(partial(self._scroll_to, section))
         self.list.chosen.connect(session.set_players)
         self.list.mute_clicked.connect(partial(self._toggle, "muted"))
         self.list.arm_clicked.connect(self._arm)
@@ -243,10 +247,9 @@ class PlayersPanel(Retranslated, QWidget):
         whom = self.tr("players_panel.selected_players") if len(chosen) > 1 else self.tr("players_panel.all_players")
         self._variety.header.set_texts(self.tr("players_panel.variety"), whom)
 
-    def _show_dancers(self) -> None:
-        """Scroll to what the selected dancer dances, once the section has its new height."""
-        if self._session.dancer is not None:
-            QTimer.singleShot(0, self, lambda: self._scroll.verticalScrollBar().setValue(self.dancers.y()))
+    def _scroll_to(self, section: QWidget) -> None:
+        """Scroll to a section once it has its new height."""
+        QTimer.singleShot(0, self, lambda: self._scroll.verticalScrollBar().setValue(section.y()))
 
     # Editing
 

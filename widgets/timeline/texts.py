@@ -94,45 +94,6 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
     "curves_lane.lip_tension": ("Lip tension", "唇の緊張"),
     "curves_lane.pitch_bend": ("Pitch bend", "ピッチベンド"),
     "curves_lane.volume": ("Volume", "ボリューム"),
-    "dance_lane.basic_motion_is_not_danced": (
-        "Basic motion {number} disabled here",
-        "ここでは基本動作 {number} を禁止",
-    ),
-    "dance_lane.basic_motion_s": ("Basic motion {number}, {seconds:.2f} s", "基本動作 {number}、{seconds:.2f} 秒"),
-    "dance_lane.dance": ("Dance", "ダンス"),
-    "dance_lane.from_s": ("From {source}, {start:.2f} s", "{source} の {start:.2f} 秒から"),
-    "dance_lane.no_beat_of_music_is": ("No beats were found in the music.", "曲に拍が見つかりません。"),
-    "dance_lane.no_dancers_yet_add_one": (
-        "No dancers. Add one in the Players panel.",
-        "ダンサーがいません。「奏者」パネルで追加してください。",
-    ),
-    "dance_lane.pinned_backspace_returns_it_to": (
-        "Pinned. Press Backspace to revert to generated.",
-        "固定済み。Backspace で自動生成に戻します。",
-    ),
-    "dance_lane.what_each_dancer_dances_click": (
-        (
-            "Dance of each dancer. Click a motion to select it, drag it to another beat, drag up or down for "
-            "another motion, right-click for more. Press Backspace to revert to generated."
-        ),
-        (
-            "各ダンサーのダンス。動作をクリックで選択、ドラッグで別の拍へ移動、上下のドラッグで別の動作に変更、"
-            "右クリックでその他の操作、Backspace で自動生成に戻します。"
-        ),
-    ),
-    "dance_menu.allow_basic_motion_again": ("Allow Basic Motion {number}", "基本動作 {number} の禁止を解除"),
-    "dance_menu.basic_motion": ("Basic Motion {number}", "基本動作 {number}"),
-    "dance_menu.do_not_dance_basic_motion": ("Disable Basic Motion {number} Here", "ここで基本動作 {number} を禁止"),
-    "dance_menu.do_not_dance_basic_motion_in_this_piece": (
-        "Disable Basic Motion {number} in This Piece",
-        "この曲で基本動作 {number} を禁止",
-    ),
-    "dance_menu.other_basic_motion": ("Change Basic Motion", "基本動作を変更"),
-    "dance_menu.other_segment_of_this_motion": ("Change Segment", "セグメントを変更"),
-    "dance_menu.pin_basic_motion_here": ("Pin Basic Motion {number} Here", "ここで基本動作 {number} に固定"),
-    "dance_menu.return_to_generator": ("Revert to Generated", "自動生成に戻す"),
-    "dance_menu.return_whole_dance_to_generator": ("Revert Whole Dance to Generated", "ダンス全体を自動生成に戻す"),
-    "dance_menu.s": ("{source}, {start:.2f} s", "{source}、{start:.2f} 秒"),
     "fingering_lane.click_note_to_see_its": (
         "Click a note for alternate fingerings; type a fingering to pin it",
         "音符をクリックすると替え指を表示します。運指を入力すると固定されます",

@@ -279,7 +279,7 @@ def _figures(
 def _dancers(request: Request, cast: ExportCast) -> tuple[tuple[Dancer, str], ...]:
     """The dancers who are exported, as the project has them, with the names of their choreographies."""
     dancers = {dancer.id: dancer for dancer in request.dancers}
-    return tuple((dancers[dancing.dancer.id], dancing.choreographer.model.name) for dancing in cast.dances)
+    return tuple((dancers[dancing.dancer.id], dancing.choreography_name) for dancing in cast.dances)
 
 
 def _bodies(request: Request, cast: ExportCast, layout: Layout) -> dict[str, tuple[str, str]]:

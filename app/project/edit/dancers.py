@@ -14,11 +14,11 @@ from typing import Any, Final
 
 import msgspec
 
-from app.choreography.library import is_bundled_name, is_choreography
 from app.encoding import shown
 from app.errors import AppError, Message
 from app.project import limits
 from app.project.casting import DANCER_ROOM_M, ELBOW_M, StagePosition
+from app.project.choreography_files import is_bundled_name, is_choreography
 from app.project.edit.players import free_name, instrument_of, moved_before, visible_name
 from app.project.footprint import footprint
 from app.project.ids import fresh_dancer_ids

@@ -9,6 +9,7 @@ from app.editor.session import Session, TimeDisplay
 from app.editor.timeline_view import Ghosts, TimelineView
 from app.shell.action import Action
 from app.shell.commands.chosen import on_timeline
+from widgets.timeline.lanes import LANES as BELOW
 
 
 def _has_view(session: Session) -> bool:
@@ -36,7 +37,7 @@ def _counted(display: TimeDisplay) -> Action:
     )
 
 
-LANES: Final = ("audio", "roll", "takes", "fingering", "breath", "acting", "curves", "dance", "problems", "additive")
+LANES: Final = (BELOW[0].id, "roll", *(kind.id for kind in BELOW[1:]))
 """As they stand in a new window."""
 
 

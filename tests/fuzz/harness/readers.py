@@ -129,7 +129,7 @@ _SEEN_FRAMES, _SEEN_PERFORMERS, _SEEN_DANCERS = 30, 3, 1
 
 def danced(path: Path, folder: Path) -> None:
     """Load a project with dancers, and see the first of them for a moment."""
-    from app.performance.dancers import dancing_of
+    from app.choreography.performed.dancers import dancing_of
     from app.performance.ensemble import Performance
     from app.project import storage
 

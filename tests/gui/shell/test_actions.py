@@ -15,13 +15,15 @@ from app.project.edit.piece import set_title
 from app.shell.action import without_dots, without_key
 from app.shell.actions import CONTEXTS, ActionTable, sequences
 from app.shell.app import Program
+from app.shell.language import ROOMS
 from app.shell.menus import menu_with_keys
 from app.shell.rows import rows
-from app.shell.texts import TEXTS
 from app.shell.window import Window
 from tests.gui.shell.conftest import trigger
 from tests.support.windows import show_in_front
-from widgets.players.dancers import MENU
+from widgets.players.choreography.dancers import MENU, DancersSection
+
+TEXTS = {id: text for room in ROOMS for id, text in room.items()}
 
 
 def test_the_table_is_sound() -> None:
@@ -268,7 +270,7 @@ def test_keys_in_the_dancers_are_for_dancers_and_beside_them_for_players(program
         assert focused is not None
         qtbot.keyClick(focused, key, modifier)
 
-    window.players.dancers.list.setFocus()
+    window.players.findChild(DancersSection).list.setFocus()
     press(Qt.Key.Key_D, Qt.KeyboardModifier.ControlModifier)
     assert len(session.project.dancers) == 3
     press(Qt.Key.Key_Delete)
@@ -285,7 +287,7 @@ def test_keys_in_the_dancers_are_for_dancers_and_beside_them_for_players(program
 def test_the_menu_of_a_dancer_is_that_of_the_table(program: Program, qtbot: QtBot) -> None:
     trigger(program, "dancers.add")
     QApplication.processEvents()
-    dancers = program.window.players.dancers
+    dancers = program.window.players.findChild(DancersSection)
     at = dancers.list.visualRect(dancers.list.rows.index(0, 0)).center()
     event = QContextMenuEvent(QContextMenuEvent.Reason.Mouse, at, dancers.list.viewport().mapToGlobal(at))
     QApplication.sendEvent(dancers.list.viewport(), event)

@@ -23,8 +23,8 @@ from PySide6.QtWidgets import (
 )
 from pytestqt.qtbot import QtBot
 
-from app.choreography.library import bundled_choreographies
 from app.editor.settings import Settings
+from app.project.choreography_files import bundled_choreographies
 from app.shell.app import Program
 from app.shell.language import ROOMS
 from app.shell.preferences import show_preferences

@@ -9,8 +9,8 @@ import pytest
 from PySide6.QtWidgets import QPushButton
 
 from app.choreography.model_file import write_model
+from app.choreography.performed.dancers import dancing_of
 from app.errors import Message
-from app.performance.dancers import dancing_of
 from app.performance.ensemble import Performance
 from app.project.edit.dancers import add_dancer
 from tests.gui.conftest import QUARTET, delete_now
@@ -18,8 +18,8 @@ from tests.gui.shell.conftest import Studio, trigger
 from tests.support.dances import model
 from tests.support.windows import wait_until
 from widgets.common.combo import Combo
-from widgets.dialogs.learn_choreography import LearnDialog
-from widgets.players.dancers import DancersSection
+from widgets.dialogs.choreography.learn import LearnDialog
+from widgets.players.choreography.dancers import DancersSection
 
 
 @pytest.fixture

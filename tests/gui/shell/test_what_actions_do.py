@@ -47,6 +47,7 @@ from tests.support.desk import (
 )
 from tests.support.tasks import ImmediateTasks
 from tests.support.windows import show_in_front, wait_until
+from widgets.players.choreography.dancers import DancersSection
 
 Right = Callable[[Desk], bool]
 
@@ -863,7 +864,7 @@ def focus(desk: Desk, context: str) -> QWidget:
         canvas = desk.viewport.canvas_widget()
         target = canvas if canvas is not None else desk.viewport
     elif context == "dancers":
-        target = window.players.dancers.list
+        target = window.players.findChild(DancersSection).list
     elif context in window.panels:
         panel = window.panels[context]
         target = next(

@@ -13,9 +13,9 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QMenu, QPushButton
 from pytestqt.qtbot import QtBot
 
+from app.choreography.performed.dancers import dancing_of
 from app.editor.settings import Settings
 from app.errors import Message
-from app.performance.dancers import dancing_of
 from app.project.edit.piece import set_title
 from app.project.storage import load
 from app.shell.app import Program

@@ -16,9 +16,9 @@ from PySide6.QtWidgets import QApplication, QMenu
 from pytestqt.qtbot import QtBot
 
 from app.choreography.model_file import write_model
+from app.choreography.performed.dancers import dancing_of
 from app.editor.session import Session
 from app.errors import Message
-from app.performance.dancers import dancing_of
 from app.project.casting import StagePosition
 from app.project.dance_corrections import ForbidState, PinState, UseSegment
 from app.project.edit.dancers import set_choreography
@@ -31,7 +31,7 @@ from tests.gui.timeline.lane_hands import LEFT, SHIFT, click, planned
 from tests.support.dances import model
 from tests.support.tasks import ImmediateTasks
 from tests.support.windows import show_in_front
-from widgets.timeline.lanes.dance.dance_lane import DanceLane
+from widgets.timeline.lanes.choreography.dance_lane import DanceLane
 from widgets.timeline.panel import TimelinePanel
 
 MARY, NINA = "dancer:1", "dancer:2"

@@ -26,9 +26,9 @@ from app.choreography.cuts_by_hand import (
     removed_bound,
 )
 from app.choreography.learn import learn
-from app.choreography.library import choreography_path
 from app.choreography.model_file import decode_model, encode_model, read_model
 from app.errors import FileError, UsageError
+from app.project.choreography_files import choreography_path
 from tests.unit.choreography.test_learn import SWINGS
 
 FRAMES = 60

@@ -34,7 +34,7 @@ def test_a_curve_of_many_peaks_is_gone_through_once() -> None:
     np.testing.assert_array_equal(prominences, found["prominences"])
 
 
-@pytest.mark.parametrize("module", ["app.performance.dancers", "app.choreography.music_offset"])
+@pytest.mark.parametrize("module", ["app.choreography.performed.dancers", "app.choreography.music_offset"])
 def test_a_dance_needs_no_signal_processing(module: str) -> None:
     code = (
         f"import sys, numpy as np, {module}; from app.choreography.music_offset import speed_minima;"

@@ -13,9 +13,9 @@ import msgspec
 import numpy as np
 import pytest
 
+from app.choreography.performed.dancers import dancing_of
 from app.cli import main
 from app.cli.status import BAD_INPUT, BAD_USE, DONE, PARTIAL
-from app.performance.dancers import dancing_of
 from app.performance.ensemble import Performance
 from app.performance.span import whole_span
 from app.project.storage import save

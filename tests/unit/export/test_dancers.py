@@ -12,22 +12,22 @@ import numpy as np
 import pytest
 
 from app.choreography.model_file import write_model
+from app.choreography.performed.dancers import dancing_of
 from app.choreography.read_motion import read_motion
-from app.export.dancers import measure_dancer, standing_frames
+from app.export.dancers import measure_dancer
 from app.export.report import Report
 from app.export.request import Request
 from app.export.run import export
 from app.export.targets import target_skeleton
 from app.formats.fbx.read import read_scene, read_scenes
 from app.messages import text
-from app.performance.dancers import dancing_of
 from app.performance.ensemble import Performance
 from app.performance.span import whole_span
 from app.project.casting import StagePosition
 from app.project.model import Project
 from app.project.performers import Dancer
 from tests.support.dances import model
-from tests.unit.performance.test_dancers import played
+from tests.unit.choreography.performed.test_dancers import played
 
 FPS = Fraction(60)
 
@@ -86,7 +86,8 @@ def test_a_foot_that_sinks_into_the_floor_is_measured_whichever_it_is(written: t
         target_skeleton(dancing.character, "suisou"),
     )
     assert scene.clip is not None
-    standing = standing_frames(dancing, whole_span(Performance(project).time_frame, FPS))
+    span = whole_span(Performance(project).time_frame, FPS)
+    standing = dancing.standing(FPS, span.first, span.count)
     for foot, side in enumerate(("left", "right")):
         # Three centimetres down its leg, in one frame.
         bone = next(number for number, bone in enumerate(scene.bones) if bone.name == f"{side}Foot")

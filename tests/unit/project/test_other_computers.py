@@ -6,10 +6,10 @@ from pathlib import Path
 
 import pytest
 
+from app.choreography.performed.choreographers import choreographer_of
 from app.cli import main
 from app.errors import AppError
 from app.formats.other_computers import agree
-from app.performance.choreographers import choreographer_of
 from app.performance.ensemble import Performance
 from app.project.midi_out import export_midi
 from app.project.storage import elsewhere, load, missing, missing_media, save

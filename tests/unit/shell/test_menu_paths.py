@@ -13,8 +13,8 @@ from app.shell.action import without_dots, without_key
 from app.shell.language import ROOMS
 from app.shell.menus import BAR
 from app.shell.rows import rows
-from app.shell.texts import TEXTS
 
+TEXTS = {id: text for room in ROOMS for id, text in room.items()}
 ROOT = Path(__file__).parents[3]
 SHOWN = 40
 """So much of a path that is wrong is shown."""

@@ -16,11 +16,11 @@ import numpy as np
 import pytest
 
 from app.arrays import FloatArray
+from app.choreography.performed.dancers import dancing_of
 from app.editor.streaming import Streaming
 from app.messages import error_text
 from app.performance.bodies import character_of
 from app.performance.chunks import Pose
-from app.performance.dancers import dancing_of
 from app.performance.ensemble import Performance
 from app.performance.live import LiveMotion
 from app.project.casting import StagePosition

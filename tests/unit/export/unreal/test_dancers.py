@@ -11,6 +11,7 @@ import msgspec
 import numpy as np
 import pytest
 
+from app.choreography.performed.dancers import dancing_of
 from app.errors import FileError
 from app.export.playback import Playback
 from app.export.unreal import run
@@ -18,7 +19,6 @@ from app.export.unreal.layout import layout_of
 from app.export.unreal.project import UnrealProject
 from app.export.unreal.run import plan_export
 from app.formats.fbx.read import read_scene
-from app.performance.dancers import dancing_of
 from app.project.model import Project
 from app.rig.skeleton import forward
 from tests.unit.export.unreal.conftest import Export, quartet, renamed, request_of, tree_of, with_dancers

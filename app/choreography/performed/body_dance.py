@@ -1,0 +1,81 @@
+"""What players dance while they play: the layer of their bodies, from the dance that a dancer of the same choreography
+and variation dances to the piece (`app.choreography.performed.dancers`), or from one of the player's own.
+
+A player whose choreography is not there or damaged moves as generated, and the plan reports why. Messages: those of
+`app.project.storage.choreography_missing` and of `app.choreography.model_file`.
+"""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from typing import TypeAlias
+
+from app.chance import performed_seed, seed_of
+from app.choreography.body_layer import FPS, body_layer
+from app.choreography.generate import Choreographer
+from app.choreography.performed.choreographers import choreographer_of, unfit_choreography
+from app.choreography.performed.dancers import Dancing, dance_frame, rhythm_of
+from app.choreography.rhythm import Rhythm
+from app.identity_cache import IdentityCache
+from app.motion.gestures.dance_layer import BodyLayer
+from app.motion.perform import frame_count
+from app.performance.bodies import character_of
+from app.performance.ensemble import Performance
+from app.plan.model import TimeFrame
+from app.project.casting import StagePosition
+from app.project.performers import Dancer, Player
+from app.rig.model import Character
+from app.score.tempo import TempoMap
+
+_Inputs: TypeAlias = tuple[Dancer, Choreographer, Rhythm, TempoMap, Character, TimeFrame]
+_LAYERS: IdentityCache[BodyLayer] = IdentityCache(64)
+
+
+def layer_of(performance: Performance, player: Player) -> BodyLayer | None:
+    """What a player dances; None where nothing was selected, nothing is to be seen of it, or it cannot be read. Made
+    once for all players of one body who dance alike; making it may take seconds."""
+    inputs = _inputs(performance, player)
+    return None if inputs is None else _LAYERS.step(_layer, *inputs)
+
+
+def layer_is_made(performance: Performance, player: Player) -> bool:
+    """Whether asking for a player's layer takes no time."""
+    inputs = _inputs(performance, player)
+    return inputs is None or _LAYERS.has(*inputs)
+
+
+def _layer(
+    dancer: Dancer,
+    choreographer: Choreographer,
+    rhythm: Rhythm,
+    tempo_map: TempoMap,
+    character: Character,
+    frame: TimeFrame,
+) -> BodyLayer:
+    dancing = Dancing(dancer, choreographer, rhythm, (), tempo_map, character, frame)
+    return body_layer(dancing.motion(FPS, 0, frame_count(frame, FPS)), character)
+
+
+def _inputs(performance: Performance, player: Player) -> _Inputs | None:
+    """What a layer is made from, each the same object as long as it is the same."""
+    parameters = player.parameters
+    if not parameters.choreography or parameters.dance_amount == 0.0:
+        return None
+    if unfit_choreography(player, performance.time_frame) is not None:
+        return None
+    variation = parameters.dance_variation or seed_of("dance", parameters.seed, player.id)
+    seed = performed_seed(variation, performance.project.seed)
+    return (
+        _dancer(parameters.choreography, player.character_id, seed),
+        choreographer_of(parameters.choreography),
+        rhythm_of(performance),
+        performance.project.score.tempo_map,
+        character_of(player),
+        dance_frame(performance),
+    )
+
+
+@lru_cache(maxsize=256)
+def _dancer(choreography: str, character_id: str, seed: int) -> Dancer:
+    """Who would dance that on a stage; one object for players who dance alike."""
+    return Dancer("", "", choreography, character_id, StagePosition(0.0, 0.0, 0.0), seed)

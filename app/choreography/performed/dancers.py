@@ -1,0 +1,381 @@
+"""How the dancers of a project move: generated from their choreographies to its music, on their characters.
+
+A dance is generated for the whole performance at once, whatever frames are asked for: where a dancer goes depends on
+everything before. It is made once for each frame rate and kept while nothing changes that it is made from.
+
+Messages: those of `app.choreography.model_file`; ``project.character_missing``; those of
+`app.project.storage.choreography_missing`; and of corrections that a dance does
+not hold, with basic motions and segments counted from 1: ``dance.state_not_held`` (number), ``dance.segment_not_held``
+(number), ``dance.state_not_avoided`` (number); and of what is seen of a dance, ``dance.seam_shows`` (before, after:
+basic motions), ``dance.foot_slides`` (side).
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Sequence
+from dataclasses import replace
+from fractions import Fraction
+from functools import lru_cache
+from threading import Lock
+from typing import Final, NamedTuple
+
+import msgspec
+import numpy as np
+
+from app.arrays import BoolArray, FloatArray
+from app.chance import chance, performed_seed
+from app.choreography.dance import Dance, Manner, Step
+from app.choreography.derived_rhythm import audible_rhythm
+from app.choreography.generate import Choreographer
+from app.choreography.judge import jerking_seams, sliding_stands
+from app.choreography.performed.choreographers import choreographer_of, too_long_to_dance
+from app.choreography.performed.forgetting import Remembered
+from app.choreography.retarget import retarget
+from app.choreography.rhythm import Rhythm, delayed
+from app.choreography.sequence import Constraints, Grid, grid_of
+from app.errors import AppError, Message
+from app.identity_cache import IdentityCache
+from app.motion.curves.curve import Envelopes
+from app.motion.model import Motion
+from app.motion.perform import frame_count
+from app.performance.ensemble import Performance
+from app.plan.model import Problem, TimeFrame
+from app.project.casting import StagePosition
+from app.project.dance_corrections import DanceCorrection, ForbidState, PinState, UseSegment
+from app.project.performers import Dancer
+from app.project.storage import choreography_missing
+from app.rig.characters.character_library import character_library, character_named
+from app.rig.model import Character
+from app.score.model import Score
+from app.score.tempo import TempoMap
+
+BLINK_S: Final = (0.08, 0.05, 0.16)
+"""Closing, shut and opening."""
+BLINKS_EVERY_S: Final = (1.8, 6.0)
+
+_DANCING: IdentityCache[Dancing] = IdentityCache(64)
+_REMEMBERED: Final = Remembered(2**30)
+"""Generated dances: a dozen of a quarter of an hour, or two hundred of a minute, take so many bytes."""
+_RHYTHMS: IdentityCache[Rhythm] = IdentityCache(8)
+_recent_rhythms: deque[Rhythm] = deque(maxlen=4)
+_recent_rhythms_lock = Lock()
+
+
+class Dancing:
+    """One dancer's dance to a piece. It is kept for dancers who dance alike: ask the project what they are called and
+    where they stand.
+
+    Parameters
+    ----------
+    dancer : Dancer
+        The seed is the dancer's and the project's together.
+    rhythm : Rhythm
+        As the dancer follows it.
+    tempo_map : TempoMap
+        Of the piece: when the corrections' ticks are.
+    """
+
+    def __init__(
+        self,
+        dancer: Dancer,
+        choreographer: Choreographer,
+        rhythm: Rhythm,
+        corrections: Sequence[DanceCorrection],
+        tempo_map: TempoMap,
+        character: Character,
+        time_frame: TimeFrame,
+    ) -> None:
+        self.dancer, self.choreographer, self.rhythm, self.character = dancer, choreographer, rhythm, character
+        self.time_frame = time_frame
+        self._corrections, self._tempo_map = corrections, tempo_map
+        self._problems: tuple[Problem, ...] = ()
+        self._made: _Made | None = None
+        self._steps: tuple[Step, ...] | None = None
+        self._lock = Lock()
+
+    def steps(self) -> tuple[Step, ...]:
+        """Which segments are danced when, at every frame rate."""
+        with self._lock:
+            if self._steps is None:
+                made = self._made
+                self._steps = made.dance.steps if made is not None else self._chosen()
+            return self._steps
+
+    def _chosen(self) -> tuple[Step, ...]:
+        constraints = self._constraints(grid_of(self.rhythm))
+        return self.choreographer.steps(self.rhythm, self._manner, constraints=constraints)
+
+    def _constraints(self, grid: Grid) -> Constraints:
+        return assignments_of(self._corrections, grid, self._tempo_map, self.choreographer.model.states)
+
+    @property
+    def _manner(self) -> Manner:
+        return manner_of(self.dancer, len(self.choreographer.model.sources))
+
+    def dance(self, fps: Fraction) -> Dance:
+        """The dance, from the first frame of the performance to its last."""
+        return self._whole(fps).dance
+
+    def motion(self, fps: Fraction, first: int, count: int) -> Motion:
+        """Some frames of the performance. The same frames are the same bits in every span."""
+        whole = self._whole(fps).motion
+        here = slice(first, first + count)
+        return replace(
+            whole,
+            first_frame_s=whole.first_frame_s + first * fps.denominator / fps.numerator,
+            rotations=whole.rotations[here],
+            hips_m=whole.hips_m[here],
+            morphs={name: weights[here] for name, weights in whole.morphs.items()},
+            instrument_position_m=whole.instrument_position_m[here],
+            instrument_rotation=whole.instrument_rotation[here],
+        )
+
+    def changed_s(self, before: object) -> FloatArray:
+        """Spans (K, 2) in which this is other motion than another: one change may alter all that follows."""
+        frame = self.time_frame
+        return np.zeros((0, 2)) if self is before else np.array([[frame.first_frame_s, frame.end_s]])
+
+    @property
+    def choreography_name(self) -> str:
+        """The name that the choreography bears."""
+        return self.choreographer.model.name
+
+    def standing(self, fps: Fraction, first: int, count: int) -> BoolArray:
+        """(count, 2) in which frames the left and the right foot stand."""
+        result = np.zeros((first + count, 2), bool)
+        for stand in self.dance(fps).standing:
+            result[stand.start : stand.stop, stand.foot] = True
+        return result[first:]
+
+    def starts_s(self, fps: Fraction) -> tuple[float, ...]:
+        """When basic motions begin."""
+        return tuple(step.start_s for step in self.dance(fps).steps)
+
+    @property
+    def problems(self) -> tuple[Problem, ...]:
+        """Corrections that the dance does not hold, joins that show and feet that slide; none before it is
+        generated."""
+        return self._problems
+
+    def forget(self) -> None:
+        """Give back the memory of what was generated; it is generated again when it is asked for."""
+        self._made = None
+
+    def _whole(self, fps: Fraction) -> _Made:
+        with self._lock:
+            made = self._made
+            if made is None or made.fps != fps:
+                made = self._made = self._generated(fps)
+        _REMEMBERED.use(self, made.size_bytes)
+        return made
+
+    def _generated(self, fps: Fraction) -> _Made:
+        frame = self.time_frame
+        count = frame_count(frame, fps)
+        grid = grid_of(self.rhythm)
+        dance = self.choreographer.dance(
+            self.rhythm,
+            self._manner,
+            fps,
+            constraints=self._constraints(grid),
+            first_s=frame.first_frame_s,
+            # Half a frame less: rounding must not add one.
+            end_s=frame.first_frame_s + (count - 0.5) * fps.denominator / fps.numerator,
+        )
+        held = not_held(self._corrections, dance.steps, grid, self._tempo_map)
+        seen = visible_faults(dance, self.choreographer.usual_change_rad_s(fps))
+        self._problems = tuple(sorted(held + seen, key=lambda problem: problem.start_s))
+        motion = retarget(dance.clip, self.character, frame.first_frame_s)
+        times_s = frame.first_frame_s + np.arange(count) * fps.denominator / fps.numerator
+        shut = _blinks(self.dancer, frame).sample(times_s).astype(np.float32)
+        return _Made(fps, dance, replace(motion, morphs={"eyeBlinkLeft": shut, "eyeBlinkRight": shut}))
+
+
+class _Made(NamedTuple):
+    """A generated dance at a frame rate, and the motion of its dancer's character."""
+
+    fps: Fraction
+    dance: Dance
+    motion: Motion
+
+    @property
+    def size_bytes(self) -> int:
+        """Memory of its frames."""
+        clip, motion = self.dance.clip, self.motion
+        held = (clip.rotations, clip.hips_m, motion.rotations, motion.hips_m)
+        instrument = (motion.instrument_position_m, motion.instrument_rotation)
+        morphs = sum(one.nbytes for one in motion.morphs.values())
+        return sum(one.nbytes for one in held) + sum(one.nbytes for one in instrument) + morphs
+
+
+def manner_of(dancer: Dancer, sources: int) -> Manner:
+    """How a dancer dances; a source that the choreography does not have is none."""
+    source = dancer.source if 0 <= dancer.source < sources else None
+    return Manner(dancer.seed, source, dancer.size, dancer.weight, dancer.mirrored)
+
+
+def dancing_of(performance: Performance, dancer: Dancer) -> Dancing:
+    """A dancer's dance; made ready, not generated yet.
+
+    Raises
+    ------
+    AppError
+        The choreography or the character is missing or damaged, or the performance is too long for a dance.
+    """
+    if dancer.character_id not in character_library().sources:
+        raise AppError("project.character_missing", player=dancer.name, id=dancer.character_id)
+    for message in choreography_missing(dancer.name, dancer.choreography):
+        raise AppError(message.id, **message.arguments)
+    choreographer, character = choreographer_of(dancer.choreography), character_named(dancer.character_id)
+    project = performance.project
+    # Another seed of the piece is another performance by everyone.
+    dancer = msgspec.structs.replace(dancer, seed=performed_seed(dancer.seed, project.seed))
+    rhythm = delayed(rhythm_of(performance), dancer.delay_beats) if dancer.delay_beats else rhythm_of(performance)
+    rhythm = _same_rhythm(rhythm)
+    corrections = project.dance_corrections.get(dancer.id, ())
+    tempo_map, frame = project.score.tempo_map, dance_frame(performance)
+    return _DANCING.step(Dancing, _same_dancer(dancer), choreographer, rhythm, corrections, tempo_map, character, frame)
+
+
+def rhythm_of(performance: Performance) -> Rhythm:
+    """The rhythm of the piece that all dancers follow."""
+    return _RHYTHMS.step(_audible_rhythm, performance.project.score)
+
+
+def _audible_rhythm(score: Score) -> Rhythm:
+    return _same_rhythm(audible_rhythm(score))
+
+
+def dance_frame(performance: Performance) -> TimeFrame:
+    """The span that all dances cover; one object as long as it is the same. Raises AppError (``dance.too_long``)."""
+    long = too_long_to_dance(performance.time_frame)
+    if long is not None:
+        raise AppError(long.id, **long.arguments)
+    return _same_frame(performance.time_frame.first_frame_s, performance.time_frame.end_s)
+
+
+def assignments_of(
+    corrections: Sequence[DanceCorrection], grid: Grid, tempo_map: TempoMap, states: int | None = None
+) -> Constraints:
+    """Corrections, which hold for ticks, on the nearest places of a grid; of several for one place the last counts.
+
+    ``states``, where it is given, is the number of basic motions: others need not be forbidden.
+    """
+    if not len(grid.times_s):
+        return Constraints()
+    pinned, segments, forbidden = dict[int, int](), dict[int, int](), dict[int, set[int]]()
+    for item in corrections:
+        match item:
+            case PinState():
+                pinned[place_of(item.tick, grid, tempo_map)] = item.state
+            case UseSegment():
+                segments[place_of(item.tick, grid, tempo_map)] = item.segment
+            case ForbidState() if states is None or item.state < states:
+                forbidden.setdefault(item.state, set()).update(_places(item, grid, tempo_map))
+    return Constraints(pinned, segments, frozenset((at, state) for state, places in forbidden.items() for at in places))
+
+
+def not_held(
+    corrections: Sequence[DanceCorrection], steps: Sequence[Step], grid: Grid, tempo_map: TempoMap
+) -> tuple[Problem, ...]:
+    """A problem for every correction that these steps do not hold: there is no such basic motion or segment, or other
+    corrections are against it. The corrections stay."""
+    there = {step.place: step for step in steps}
+    pins = [item for item in corrections if not isinstance(item, ForbidState)]
+    pinned = {place_of(item.tick, grid, tempo_map) for item in pins} if len(grid.times_s) else set[int]()
+    found = []
+    for item in corrections:
+        if isinstance(item, ForbidState):
+            places = _places(item, grid, tempo_map)
+            # What is pinned counts.
+            danced = [
+                step for step in steps if step.place in places and step.state == item.state and step.place not in pinned
+            ]
+            if danced:
+                message = Message("dance.state_not_avoided", {"number": item.state + 1})
+                found.append(Problem(message, None, danced[0].start_s, danced[-1].end_s))
+            continue
+        step = there.get(place_of(item.tick, grid, tempo_map)) if len(grid.times_s) else None
+        if isinstance(item, PinState):
+            held = step is not None and step.state == item.state
+            message = Message("dance.state_not_held", {"number": item.state + 1})
+        else:
+            held = step is not None and step.segment == item.segment
+            message = Message("dance.segment_not_held", {"number": item.segment + 1})
+        if not held:
+            time_s = tempo_map.seconds(float(item.tick))
+            found.append(Problem(message, None, time_s, time_s))
+    return tuple(found)
+
+
+def visible_faults(dance: Dance, usual_rad_s: float) -> tuple[Problem, ...]:
+    """A problem for every join that shows, and for every standing foot that slides (`app.choreography.judge`)."""
+    fps = float(dance.clip.fps)
+    found = []
+    for seam in jerking_seams(dance.clip, dance.seams, usual_rad_s):
+        time_s = dance.first_s + seam / fps
+        before, after = (
+            next((step.state + 1 for step in dance.steps if step.end_s > at_s), dance.steps[-1].state + 1)
+            for at_s in (time_s - 1.5 / fps, time_s + 0.5 / fps)
+        )
+        message = Message("dance.seam_shows", {"before": before, "after": after})
+        found.append(Problem(message, None, time_s, time_s))
+    for stand in sliding_stands(dance.clip, dance.standing):
+        side = ("left", "right")[stand.foot]
+        start_s, end_s = (dance.first_s + frame / fps for frame in (stand.start, stand.stop))
+        found.append(Problem(Message("dance.foot_slides", {"side": side}), None, start_s, end_s))
+    return tuple(found)
+
+
+def place_of(tick: int, grid: Grid, tempo_map: TempoMap) -> int:
+    """The place of a grid that is nearest to a tick."""
+    return int(np.abs(grid.times_s - tempo_map.seconds(float(tick))).argmin())
+
+
+def _places(item: ForbidState, grid: Grid, tempo_map: TempoMap) -> range:
+    """The places of a grid in a span of ticks."""
+    start_s, end_s = (tempo_map.seconds(float(tick)) for tick in (item.start_tick, item.end_tick))
+    first, stop = np.searchsorted(grid.times_s, (start_s - 1e-6, end_s - 1e-6))
+    return range(int(first), int(stop))
+
+
+def _blinks(dancer: Dancer, frame: TimeFrame) -> Envelopes:
+    rows, number = list[tuple[float, float, float, float, float]](), 0
+    least_s, most_s = BLINKS_EVERY_S
+    time_s = frame.first_frame_s
+    while True:
+        time_s += least_s + (most_s - least_s) * chance("blink", dancer.seed, dancer.id, number) ** 1.5
+        number += 1
+        if time_s >= frame.end_s:
+            return Envelopes.of(rows)
+        shut_s = time_s + BLINK_S[0]
+        rows.append((time_s, shut_s, shut_s + BLINK_S[1], shut_s + BLINK_S[1] + BLINK_S[2], 1.0))
+
+
+@lru_cache(maxsize=64)
+def _same_frame(first_frame_s: float, end_s: float) -> TimeFrame:
+    return TimeFrame(first_frame_s, end_s)
+
+
+def _same_dancer(dancer: Dancer) -> Dancer:
+    """One object for dancers who dance alike, wherever they stand and whatever they are called."""
+    return _interned(msgspec.structs.replace(dancer, name="", colour="", stage=StagePosition(0.0, 0.0, 0.0)))
+
+
+@lru_cache(maxsize=256)
+def _interned(dancer: Dancer) -> Dancer:
+    return dancer
+
+
+def _same_rhythm(rhythm: Rhythm) -> Rhythm:
+    """One object for equal rhythms: an edit of notes seldom changes the rhythm."""
+    with _recent_rhythms_lock:
+        for known in _recent_rhythms:
+            if all(np.array_equal(getattr(known, name), getattr(rhythm, name)) for name in _RHYTHM_FIELDS):
+                return known
+        _recent_rhythms.append(rhythm)
+        return rhythm
+
+
+_RHYTHM_FIELDS: Final = ("beats_s", "bar_beats", "hits_s", "symbols", "strengths")

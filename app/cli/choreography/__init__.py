@@ -1,0 +1,1 @@
+"""``suisou choreography``: learning choreographies, and dancing them."""

@@ -1,0 +1,350 @@
+"""``suisou choreography``: learn how dancers move to music, and let them dance to a piece."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Final
+
+from app.cli.options import frame_rate, seconds, whole_number, within
+from app.cli.progress import Progress
+from app.cli.summary import columns
+from app.cli.terminal import say, warn
+from app.encoding import shown
+from app.errors import UsageError
+from app.messages import text
+
+if TYPE_CHECKING:
+    from app.choreography.dance import Dance
+    from app.choreography.model import ChoreographyModel
+
+    Actions = argparse._SubParsersAction[argparse.ArgumentParser]
+
+MOST_STATES: Final = 1000
+MOST_DANCERS: Final = 32
+
+
+def add_arguments(command: argparse.ArgumentParser) -> None:
+    """Declare the sub-command."""
+    command.description = (
+        "Learns choreographies: basic motions of dancers, which of them follow each other and to what "
+        "percussion; and generates dances to other pieces from them."
+    )
+    actions = command.add_subparsers(title="actions", metavar="ACTION", required=True)
+    _add_learn(actions)
+    _add_generate(actions)
+
+
+# -------------------------------------------------------------------------------------------------------------- learn
+
+
+@dataclass(frozen=True)
+class PairFiles:
+    """What is typed of a pair."""
+
+    motion: Path
+    music: Path
+    offset_s: float | None = None
+    fps: Fraction | None = None
+    credits: Path | None = None
+    cuts: Path | None = None
+
+
+class _AddPair(argparse.Action):
+    """``--pair MOTION PIECE``."""
+
+    def __call__(
+        self, parser: argparse.ArgumentParser, namespace: argparse.Namespace, values: Any, option: str | None = None
+    ) -> None:
+        namespace.pairs = (*namespace.pairs, PairFiles(*values))
+
+
+class _OfPair(argparse.Action):
+    """An option of the pair before it."""
+
+    def __call__(
+        self, parser: argparse.ArgumentParser, namespace: argparse.Namespace, values: Any, option: str | None = None
+    ) -> None:
+        if not namespace.pairs:
+            raise argparse.ArgumentError(self, "it belongs to a pair: write it behind a --pair")
+        *before, pair = namespace.pairs
+        if getattr(pair, self.dest) is not None:
+            raise argparse.ArgumentError(self, f"the pair of {pair.motion.name} has it twice")
+        namespace.pairs = (*before, replace(pair, **{self.dest: values}))
+
+
+def _add_learn(actions: Actions) -> None:
+    command = actions.add_parser(
+        "learn",
+        help="learn a choreography from motion capture and its music",
+        description="Learns basic motions and their grammar from pairs of a motion (a BVH, FBX or GLB file of a human "
+        "body) and the MIDI file with the percussion that it was danced to, and writes them, with the motion and its "
+        "credits, into one file. Options of a pair are written behind it.",
+    )
+    command.add_argument(
+        "--pair",
+        dest="pairs",
+        action=_AddPair,
+        nargs=2,
+        type=Path,
+        default=(),
+        required=True,
+        metavar=("MOTION", "PIECE"),
+        help="a .bvh, .fbx or .glb file and a MIDI file; repeatable",
+    )
+    of_pair = command.add_argument_group("options of the pair before them")
+
+    def add(option: str, help: str, **more: Any) -> None:
+        of_pair.add_argument(option, action=_OfPair, default=argparse.SUPPRESS, help=help, **more)
+
+    add(
+        "--offset",
+        "time of the motion at which the music begins; without it, it is found from the beats of both, with a "
+        "confidence from 0 to 1",
+        dest="offset_s",
+        type=seconds,
+        metavar="SECONDS",
+    )
+    add("--fps", "the motion's true frame rate, where its file says a wrong one", type=frame_rate, metavar="RATE")
+    add(
+        "--credits",
+        "a text file with the origin and the licence of the motion (default: the .txt file beside the motion that has "
+        "its name)",
+        type=Path,
+        metavar="FILE",
+    )
+    add(
+        "--cuts",
+        "a text file with the times of the motion, in seconds, at which it is cut, one in each line; an empty line is "
+        "a rest between motions; without it the cuts are found",
+        type=Path,
+        metavar="FILE",
+    )
+    command.add_argument(
+        "--states",
+        type=within(1, MOST_STATES, "a number of basic motions", int),
+        metavar="K",
+        help="number of basic motions (default: as many as are needed for those of one kind to look alike)",
+    )
+    command.add_argument("--seed", type=whole_number, default=0, metavar="N", help="of the classification (default: 0)")
+    command.add_argument(
+        "--to", type=Path, required=True, metavar="NAME.choreography", help="the file; one there is replaced"
+    )
+    command.set_defaults(run=learn)
+
+
+def learn(arguments: argparse.Namespace) -> None:
+    """Learn from the pairs, write the file and print what it holds."""
+    from app.choreography.learn import learn as learned
+    from app.choreography.model_file import write_model
+    from app.choreography.read_motion import guesses
+    from app.choreography.read_pair import read_pair
+    from app.project.choreography_files import SUFFIX
+
+    files: Sequence[PairFiles] = arguments.pairs
+    target: Path = arguments.to if arguments.to.suffix == SUFFIX else Path(f"{arguments.to}{SUFFIX}")
+    progress = Progress(sys.stderr)
+    try:
+        read = []
+        for number, one in enumerate(files):
+            progress(0.5 * number / len(files), one.motion.name)
+            read.append(
+                read_pair(one.motion, one.music, offset_s=one.offset_s, fps=one.fps, credits=one.credits, cuts=one.cuts)
+            )
+        model = learned(
+            [one.pair for one in read],
+            states=arguments.states,
+            seed=arguments.seed,
+            name=shown(target.stem),
+            progress=lambda share, label: progress(0.5 + 0.5 * share, label),
+        )
+        write_model(target, model)
+    finally:
+        progress.clear()
+    say(*learned_table(model, target, [one.motion.start_s for one in read]))
+    notes = [
+        f"  {one.pair.motion_name}: {', '.join(map(text, found))}" for one in read if (found := guesses(one.motion))
+    ]
+    if notes:
+        say("", "to look at:", *notes)
+    for source in model.sources:
+        if not source.credits:
+            warn(f"{source.motion_name}: no credits; say with --credits where the motion is from and on what terms")
+
+
+def learned_table(model: ChoreographyModel, file: Path, starts_s: Sequence[float]) -> list[str]:
+    """What was learned, and of each pair how much it gave, and its offset.
+
+    Offsets are printed as they are given: as times of the files, in which the clips of the model start later.
+    """
+    from app.choreography.learn import summary
+    from app.choreography.music_offset import CONFIDENT
+
+    rows = [("motion", "music", "seconds", "segments", "states", "offset s", "confidence")]
+    for number, (source, clip, start_s) in enumerate(zip(model.sources, model.clips, starts_s, strict=True)):
+        states = [one.state for one in model.segments if one.clip == number]
+        confidence = source.offset_confidence
+        rows.append(
+            (
+                source.motion_name,
+                source.music_name,
+                f"{clip.length_s:.1f}",
+                str(len(states)),
+                str(len(set(states))),
+                f"{source.offset_s + start_s:.2f}",
+                "given" if confidence is None else f"{confidence:.2f}{'' if confidence >= CONFIDENT else '*'}",
+            )
+        )
+    lines = [text(summary(model, file)), "", *columns(rows)]
+    if any(source.offset_confidence is not None and source.offset_confidence < CONFIDENT for source in model.sources):
+        lines.append(
+            "(* another offset would fit nearly as well: if the music begins elsewhere, say where with --offset)"
+        )
+    return lines
+
+
+# ----------------------------------------------------------------------------------------------------------- generate
+
+
+def _add_generate(actions: Actions) -> None:
+    command = actions.add_parser(
+        "generate",
+        help="let dancers of a choreography dance to a piece",
+        description="Generates dances to a MIDI file from a choreography, and writes each dancer's motion as a BVH "
+        "file of the body that was captured. Of a piece without percussion, melody, bass and accents are taken for it.",
+    )
+    command.add_argument("choreography", metavar="NAME.choreography", help="a file that was learned, or a bundled one")
+    command.add_argument("piece", type=Path, metavar="PIECE", help="a MIDI file")
+    command.add_argument(
+        "--to",
+        type=Path,
+        required=True,
+        metavar="OUT.bvh",
+        help="the file; those of several dancers have their number behind the name: OUT_1.bvh, OUT_2.bvh",
+    )
+    command.add_argument(
+        "--dancers",
+        type=within(1, MOST_DANCERS, "a number of dancers", int),
+        default=1,
+        metavar="N",
+        help="in a row, from the audience's left (default: 1)",
+    )
+    command.add_argument(
+        "--formation",
+        type=_formation,
+        default="unison",
+        metavar="NAME",
+        help="unison: all dance the same; canon: the same, one after the other; mirror: the same, every other one "
+        "mirrored; individual: each its own (default: %(default)s)",
+    )
+    command.add_argument("--seed", type=whole_number, default=0, metavar="N", help="of the dance (default: 0)")
+    command.add_argument(
+        "--prefer", metavar="MOTION", help="the source whose motion is preferred, by the name of its file"
+    )
+    command.add_argument(
+        "--size",
+        type=within(0.0, 1.5, "a size", float),
+        default=1.0,
+        metavar="FACTOR",
+        help="of the motion of trunk and arms (default: 1, as captured)",
+    )
+    command.add_argument(
+        "--weight",
+        type=within(-1.0, 1.0, "a weight", float),
+        default=0.0,
+        metavar="WEIGHT",
+        help="from -1, light, to 1, heavy: how deep knees bend (default: 0, as captured)",
+    )
+    command.add_argument(
+        "--fps", type=frame_rate, default=Fraction(60), metavar="RATE", help="frames per second (default: 60)"
+    )
+    command.set_defaults(run=generate)
+
+
+def _formation(name: str) -> str:
+    """A formation, whose module is imported only when one is typed."""
+    from app.choreography.formation import FORMATIONS
+
+    if name not in FORMATIONS:
+        raise argparse.ArgumentTypeError(f"{name!r} is not one of {', '.join(FORMATIONS)}")
+    return name
+
+
+def generate(arguments: argparse.Namespace) -> None:
+    """Generate the dances, write the files and print what is danced."""
+    from app.choreography.dance import Manner
+    from app.choreography.derived_rhythm import audible_rhythm
+    from app.choreography.formation import dance_together, roles
+    from app.choreography.generate import Choreographer
+    from app.choreography.model_file import read_model
+    from app.choreography.write_motion import write_motion
+    from app.project.choreography_files import bundled_choreographies, choreography_path
+    from app.score.read import read_contents, uncast_score
+
+    name: str = arguments.choreography
+    model = read_model(choreography_path(name) if name in bundled_choreographies() else Path(name))
+    rhythm = audible_rhythm(uncast_score(read_contents(arguments.piece)))
+    manner = Manner(arguments.seed, _source(model, arguments.prefer), arguments.size, arguments.weight)
+    cast = roles(arguments.formation, arguments.dancers, manner, len(model.sources))
+    progress = Progress(sys.stderr)
+    try:
+        progress(0.0, shown(arguments.piece.name))
+        dances = dance_together(Choreographer(model), rhythm, cast, arguments.fps)
+        files = _dancers_files(arguments.to, len(dances))
+        for number, (file, dance) in enumerate(zip(files, dances, strict=True)):
+            progress((number + 1) / (len(dances) + 1), shown(file.name))
+            write_motion(file, dance.clip)
+    finally:
+        progress.clear()
+    say(*generated_table(model, files, dances))
+    if rhythm.derived:
+        say("", "The piece has no percussion: melody, bass and accents were taken for it.")
+
+
+def generated_table(model: ChoreographyModel, files: Sequence[Path], dances: Sequence[Dance]) -> list[str]:
+    """What each dancer dances, and how much slower and faster than captured."""
+    import numpy as np
+
+    rows = [("file", "seconds", "motions", "states", "of its segments", "joins", "speed")]
+    for file, dance in zip(files, dances, strict=True):
+        used = {step.segment for step in dance.steps}
+        times_s = dance.first_s + np.arange(len(dance.clip)) / float(dance.clip.fps)
+        danced = (
+            (times_s >= dance.steps[0].start_s) & (times_s <= dance.steps[-1].end_s) if dance.steps else times_s < 0
+        )
+        slow, fast = np.percentile(dance.speeds[danced], (1.0, 99.0)) if danced.any() else (1.0, 1.0)
+        rows.append(
+            (
+                shown(str(file)),
+                f"{dance.clip.length_s:.1f}",
+                str(len(dance.steps)),
+                str(len({step.state for step in dance.steps})),
+                f"{100.0 * len(used) / len(model.segments):.0f} %",
+                str(len(dance.seams)),
+                f"{slow:.2f} to {fast:.2f}",
+            )
+        )
+    return columns(rows)
+
+
+def _source(model: ChoreographyModel, name: str | None) -> int | None:
+    """The number of a source by its motion's name."""
+    if name is None:
+        return None
+    names = [source.motion_name for source in model.sources]
+    if name not in names:
+        raise UsageError("generate.no_source", source=name, sources=", ".join(names))
+    return names.index(name)
+
+
+def _dancers_files(target: Path, dancers: int) -> list[Path]:
+    """The file of each dancer."""
+    if target.suffix.lower() != ".bvh":
+        target = Path(f"{target}.bvh")
+    if dancers == 1:
+        return [target]
+    return [target.with_name(f"{target.stem}_{number}{target.suffix}") for number in range(1, dancers + 1)]

@@ -1,0 +1,86 @@
+"""Dances, as far as a performance, its exports and its streams know them; `app.features` names who makes them.
+
+Without a maker of dances, dancers are excluded and players who were to dance move as generated, both with the reason.
+
+Messages: ``project.no_dances`` (dancer).
+"""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from typing import Protocol, cast
+
+from app.arrays import BoolArray, FloatArray
+from app.errors import AppError
+from app.features import modules
+from app.motion.gestures.dance_layer import BodyLayer
+from app.motion.model import Motion
+from app.performance.ensemble import Performance
+from app.plan.model import Problem
+from app.project.performers import Dancer, Player
+from app.rig.model import Character
+
+
+class Dancing(Protocol):
+    """One dancer's dance, made ready; it is generated when frames of it are asked for."""
+
+    dancer: Dancer
+    character: Character
+
+    @property
+    def choreography_name(self) -> str:
+        """The name that the choreography bears."""
+
+    @property
+    def problems(self) -> tuple[Problem, ...]:
+        """What is wrong with the dance, once it is generated."""
+
+    def motion(self, fps: Fraction, first: int, count: int) -> Motion:
+        """Some frames of the performance. The same frames are the same bits in every span."""
+
+    def changed_s(self, before: object) -> FloatArray:
+        """Spans (K, 2) in which this is other motion than another."""
+
+    def standing(self, fps: Fraction, first: int, count: int) -> BoolArray:
+        """(count, 2) in which frames the left and the right foot stand."""
+
+    def starts_s(self, fps: Fraction) -> tuple[float, ...]:
+        """When basic motions begin."""
+
+
+class MakerOfDances(Protocol):
+    """Functions of the module that the table of features names."""
+
+    def dancing_of(self, performance: Performance, dancer: Dancer) -> Dancing:
+        """A dancer's dance. Raises AppError where the dancer lacks something."""
+
+    def layer_of(self, performance: Performance, player: Player) -> BodyLayer | None:
+        """What a player dances while playing; None: nothing."""
+
+    def layer_is_made(self, performance: Performance, player: Player) -> bool:
+        """Whether asking for a player's layer takes no time."""
+
+
+def maker_of_dances() -> MakerOfDances | None:
+    """Who makes dances, loaded; ask only for pieces with dances, for it takes time. None: no one."""
+    return next((cast(MakerOfDances, module) for _, module in modules("dances")), None)
+
+
+def dancing_of(performance: Performance, dancer: Dancer) -> Dancing:
+    """A dancer's dance. Raises AppError where the dancer lacks something."""
+    maker = maker_of_dances()
+    if maker is None:
+        raise AppError("project.no_dances", dancer=dancer.name)
+    return maker.dancing_of(performance, dancer)
+
+
+def layer_of(performance: Performance, player: Player) -> BodyLayer | None:
+    """What a player dances while playing; None: nothing. Making it may take seconds."""
+    maker = maker_of_dances()
+    return None if maker is None else maker.layer_of(performance, player)
+
+
+def layer_is_made(performance: Performance, player: Player) -> bool:
+    """Whether asking for a player's layer takes no time."""
+    maker = maker_of_dances()
+    return maker is None or maker.layer_is_made(performance, player)

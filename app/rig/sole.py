@@ -1,0 +1,32 @@
+"""The sole of a foot in the T-pose, by the skeleton alone."""
+
+from __future__ import annotations
+
+from typing import Final
+
+import numpy as np
+
+from app.arrays import FloatArray
+from app.rig.ik import Side
+from app.rig.model import Skeleton
+from app.rig.skeleton import rest_positions
+
+SIDES: Final[tuple[Side, Side]] = ("left", "right")
+TIP_PART: Final = 0.4
+"""The tip of the foot is beyond the joint of the toes by this part of the way from the ankle to the toes."""
+FOOT_PART: Final = 1.6
+"""The joint of the toes is ahead of the ankle by so much of the ankle's height, where a skeleton has none."""
+
+
+def foot_tip_m(skeleton: Skeleton, side: Side) -> FloatArray:
+    """(3,) the tip of a foot's sole, from the ankle, in the T-pose."""
+    way, ankle_m = sole_way_m(skeleton, side)
+    return np.array([(1.0 + TIP_PART) * way[0], -ankle_m, (1.0 + TIP_PART) * way[2]])
+
+
+def sole_way_m(skeleton: Skeleton, side: Side) -> tuple[FloatArray, float]:
+    """(3,) from the ankle to the joint of the toes in the T-pose, and the height of the ankle."""
+    rest = rest_positions(skeleton)
+    ankle, toes = rest[skeleton.index(f"{side}Foot")], f"{side}Toes"
+    way = rest[skeleton.index(toes)] - ankle if toes in skeleton.names else np.array([0.0, 0.0, FOOT_PART * ankle[1]])
+    return way, float(ankle[1])

@@ -1,0 +1,1 @@
+"""Dances as they are drawn in several panels."""

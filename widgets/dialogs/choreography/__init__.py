@@ -1,0 +1,1 @@
+"""Dialogs of choreographies: what one has learned, and how one is learned."""

@@ -1,0 +1,163 @@
+"""Where the motion of a pair is cut: seen over its acceleration, and set by hand."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from fractions import Fraction
+
+import numpy as np
+from PySide6.QtCore import Signal
+from PySide6.QtGui import QKeySequence, QShortcut
+from PySide6.QtWidgets import QWidget
+
+from app.choreography.cuts_by_hand import Cuts
+from app.editor.session import Session
+from widgets.common.controls import Button, Caption, Check, IconButton, Retranslated
+from widgets.common.layouts import STRETCH, in_column, in_row
+from widgets.common.plain import Label
+from widgets.dialogs.choreography.cut_figure import PoseFigure, pose_of
+from widgets.dialogs.choreography.cut_plot import CutPlot
+from widgets.dialogs.choreography.learn_draft import Found, PairDraft
+
+_EMPTY = np.zeros(0), Fraction(60), 0.0, np.zeros(0)
+
+
+@dataclass(eq=False)
+class CutHistory:
+    """Cuts that were set before and after those of a pair; None stands for found cuts."""
+
+    done: list[Cuts | None] = field(default_factory=list)
+    undone: list[Cuts | None] = field(default_factory=list)
+    token: object = None
+
+    def push(self, before: Cuts | None, token: object) -> None:
+        """Cuts are replaced; those of one gesture as one step."""
+        if token is None or token is not self.token:
+            self.done.append(before)
+        self.undone.clear()
+        self.token = token
+
+    def undo(self, now: Cuts | None) -> Cuts | None:
+        """The cuts before; there are some."""
+        self.undone.append(now)
+        self.token = None
+        return self.done.pop()
+
+    def redo(self, now: Cuts | None) -> Cuts | None:
+        """The cuts that were undone last; there are some."""
+        self.done.append(now)
+        self.token = None
+        return self.undone.pop()
+
+
+class CutPanel(Retranslated, QWidget):
+    """The plot, the figure and the tools.
+
+    Signals
+    -------
+    changed(tuple of Cut or None)
+        The user set other cuts; None: found ones again.
+    """
+
+    changed = Signal(object)
+
+    def __init__(self, session: Session, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._session = session
+        self._draft, self._found, self._history = PairDraft(), Found(), CutHistory()
+        self.plot, self.figure = CutPlot(session), PoseFigure(session)
+        self._title, self._place, self._hint = Label(), Label(), Caption("cut_panel.angular_acceleration_rad_s_over")
+        self._place.setObjectName("cut_place")
+        self._hint.setObjectName("cut_hint")
+        self._hint.setWordWrap(True)
+        self._buttons = {
+            "undo": IconButton(session, "undo", "cut_panel.undo_ctrl_z", self.undo, "cut_undo"),
+            "redo": IconButton(session, "redo", "cut_panel.redo_ctrl_shift_z", self.redo, "cut_redo"),
+            "fit": IconButton(session, "fit", "cut_panel.whole_motion_f", self.plot.fit, "cut_fit"),
+        }
+        self._snap = Check("cut_panel.snap")
+        self._reset = Button("cut_panel.reset_to_automatic", lambda: self._edit(None, None), "cut_reset")
+        self._snap.setObjectName("cut_snap")
+        self._snap.setChecked(True)
+        tools = in_row(self._title, STRETCH, self._place, 14, *self._buttons.values(), self._snap, self._reset)
+        pictures = in_row((self.plot, 1), self.figure)
+        in_column(tools, (pictures, 1), self._hint, of=self, margins=0)
+        self.plot.edited.connect(self._edit)
+        self.plot.pointed.connect(self._point)
+        self._snap.toggled.connect(self._set_snaps)
+        for key, step in ((QKeySequence.StandardKey.Undo, self.undo), (QKeySequence.StandardKey.Redo, self.redo)):
+            QShortcut(QKeySequence(key), self).activated.connect(step)
+        self.retranslate()
+
+    def show_pair(self, draft: PairDraft, found: Found, history: CutHistory) -> None:
+        """Show the cuts of a pair."""
+        before, read, analysis = self._found, found.read, found.analysis
+        self._draft, self._found, self._history = draft, found, history
+        if read is None or analysis is None:
+            self.plot.setEnabled(False)
+            self.figure.show_pose(None)
+            self._place.setText("")
+            if before.analysis is not None:
+                self.plot.show_motion(*_EMPTY)
+        else:
+            start_s = read.motion.start_s
+            music_s = analysis.offset.offset_s + start_s if draft.offset_s is None else draft.offset_s
+            hits_s = read.pair.rhythm.hits_s + music_s
+            if before.analysis is not analysis:
+                self.plot.show_motion(analysis.segmentation.curve_rad_s2, analysis.clip.fps, start_s, hits_s)
+                self._point(0)
+            else:
+                self.plot.show_hits(hits_s)
+            self.plot.setEnabled(True)
+            self.plot.show_cuts(analysis.segmentation.cuts if draft.cuts is None else draft.cuts)
+        self._show_tools()
+
+    def undo(self) -> None:
+        """Undo the last change of this pair's cuts."""
+        if self._history.done and self.plot.isEnabled():
+            self.changed.emit(self._history.undo(self._draft.cuts))
+
+    def redo(self) -> None:
+        """Redo what was undone last."""
+        if self._history.undone and self.plot.isEnabled():
+            self.changed.emit(self._history.redo(self._draft.cuts))
+
+    def _edit(self, cuts: Cuts | None, token: object) -> None:
+        if cuts != self._draft.cuts:
+            self._history.push(self._draft.cuts, token)
+            self.changed.emit(cuts)
+
+    def _point(self, frame: int) -> None:
+        analysis = self._found.analysis
+        if analysis is not None:
+            self.figure.show_pose(pose_of(analysis.clip, frame))
+            time_s = float(self.plot.time_s(frame))
+            self._place.setText(
+                self.tr("cut_panel.s_rad_s").format(
+                    time=f"{time_s:.3f}", acceleration=f"{analysis.segmentation.curve_rad_s2[frame]:.1f}"
+                )
+            )
+
+    def _set_snaps(self, snaps: bool) -> None:
+        self.plot.snaps = snaps
+
+    def _show_tools(self) -> None:
+        free = self.plot.isEnabled()
+        self._buttons["undo"].setEnabled(free and bool(self._history.done))
+        self._buttons["redo"].setEnabled(free and bool(self._history.undone))
+        self._buttons["fit"].setEnabled(free)
+        self._reset.setEnabled(free and self._draft.cuts is not None)
+        count = len(self.plot.cuts)
+        self._title.setText(
+            ""
+            if self._found.analysis is None
+            else self.tr("cut_panel.segments_found").format(n=count)
+            if self._draft.cuts is None
+            else self.tr("cut_panel.segments_set_by_hand").format(n=count)
+        )
+
+    def retranslate(self) -> None:
+        """Set every text in the language of the editor."""
+        self.plot.plot.setAccessibleName(self.tr("cut_panel.cuts_of_motion"))
+        self._snap.setToolTip(self.tr("cut_panel.cuts_stop_at_minima_accents"))
+        self._show_tools()

@@ -1,0 +1,506 @@
+"""Learn Choreography: pairs of motion and music become a ``.choreography`` file."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import Final
+
+import msgspec
+from PySide6.QtCore import QSize, Qt, QTimer, Signal
+from PySide6.QtGui import QColor, QDragEnterEvent, QDropEvent, QKeyEvent
+from PySide6.QtWidgets import QPushButton, QSpinBox, QTreeWidgetItem, QWidget
+
+from app.choreography.cuts_by_hand import Cuts
+from app.choreography.learn import Pair, analyse, learn, summary
+from app.choreography.model import ChoreographyModel
+from app.choreography.model_file import write_model
+from app.choreography.music_offset import CONFIDENT
+from app.choreography.read_pair import CREDITS_SUFFIX, read_pair
+from app.editor.session import Session
+from app.editor.tasks import Progress, StopRequested
+from app.encoding import shown
+from app.errors import AppError, Cancelled, Message
+from app.project.choreography_files import SUFFIX
+from widgets.common.clicks import on_click
+from widgets.common.controls import Button, Caption, ColumnList, named, selectable
+from widgets.common.layouts import STRETCH, begin_with_size, in_column, in_form, in_row, panel
+from widgets.common.paths import PathEdit, ask_for_files, ask_where_to_save, dropped_paths
+from widgets.common.plain import Label
+from widgets.common.text import message_text, sentence
+from widgets.dialogs.automatic_number import TEXT_MARGIN_PX, AutomaticNumber
+from widgets.dialogs.choreography.cut_panel import CutHistory, CutPanel
+from widgets.dialogs.choreography.learn_draft import MIDI_SUFFIXES, MOTION_SUFFIXES, Found, PairDraft, with_files
+from widgets.dialogs.choreography.learn_pair import PairForm, file_name
+from widgets.dialogs.working import WorkingDialog
+
+MOST_STATES: Final = 1000
+MOST_SEED: Final = 2**31 - 1
+_COLUMNS: Final = {
+    "motion": "learn_dialog.motion",
+    "music": "learn_dialog.music",
+    "length": "learn_dialog.seconds",
+    "segments": "learn_dialog.segments",
+    "states": "learn_dialog.states",
+    "offset": "learn_dialog.offset_s",
+    "confidence": "learn_dialog.confidence",
+}
+"""The list's columns, and the ids of their headings."""
+_POLL_MS: Final = 100
+_FORM_PX: Final = 420
+_SIZE: Final = QSize(1180, 840)
+_LEAST_PX: Final = 900
+_RIGHT: Final = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
+
+
+@dataclass(eq=False)
+class _Row:
+    """A pair of the list.
+
+    Attributes
+    ----------
+    history : CutHistory
+        Of the cuts of the draft.
+    reading : int
+        Number of the reading whose result is awaited; 0: none.
+    states : int or None
+        Basic motions of it in what was learned last, from what the list says now.
+    """
+
+    draft: PairDraft
+    found: Found = field(default_factory=Found)
+    history: CutHistory = field(default_factory=CutHistory)
+    reading: int = 0
+    states: int | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class _Read:
+    """What came of reading a pair's files."""
+
+    number: int
+    found: Found
+
+
+@dataclass(frozen=True, eq=False)
+class _Learned:
+    path: Path
+    model: ChoreographyModel
+    rows: tuple[_Row, ...]
+
+
+class LearnDialog(WorkingDialog):
+    """Learns a choreography. Not modal.
+
+    Signals
+    -------
+    used(Path)
+        The user assigns it to a dancer.
+
+    Parameters
+    ----------
+    folder : Path
+        Where files are looked for, and where the choreography is saved unless the user says otherwise.
+    """
+
+    used = Signal(object)
+
+    def __init__(self, session: Session, folder: Path, parent: QWidget | None = None) -> None:
+        super().__init__("learn_choreography", "learn", parent)
+        self.setAcceptDrops(True)
+        self._session, self._folder = session, folder
+        self._rows: list[_Row] = []
+        self._readings = 0
+        self._share: list[float] = [0.0]
+        """How far the learning is; its thread writes it."""
+        self._result: _Learned | None = None
+        self._failure: Message | None = None
+        self._unknown: tuple[Path, ...] = ()
+
+        self.list = ColumnList("learn_pairs", *_COLUMNS.values(), stretches=(0, 1))
+        self.form, self.cuts = PairForm(), CutPanel(session)
+        self._add = Button("learn_dialog.add", self._ask_for_files, "learn_add")
+        self._remove = Button("learn_dialog.remove", self._remove_pair, "learn_remove")
+        self._states = AutomaticNumber("learn_states", 1, MOST_STATES, step=1, decimals=0)
+        self._seed = named(QSpinBox(), "learn_seed")
+        self._file = named(PathEdit(folder / f"choreography{SUFFIX}"), "learn_file")
+        self._choose = Button("learn_dialog.choose", self._ask_where, "learn_file_choose")
+        self._state = selectable(named(Label(), "learn_state"))
+        self._use = named(QPushButton(), "learn_use")
+        self._learn = Button("learn_dialog.learn", self.start, "learn_start")
+        self.fields = (self.list, self._add, self._states, self._seed, self._file, self._choose)
+        self._timer = QTimer(self, interval=_POLL_MS)
+        self._build()
+        self._connect()
+        self.retranslate()
+        self.setMinimumWidth(_LEAST_PX)
+        begin_with_size(self, _SIZE)
+
+    def _build(self) -> None:
+        for button in (self._use, self._close):
+            button.setAutoDefault(False)
+        for column in range(2, len(_COLUMNS)):
+            self.list.headerItem().setTextAlignment(column, _RIGHT)
+        self._seed.setRange(0, MOST_SEED)
+        self._seed.lineEdit().setTextMargins(TEXT_MARGIN_PX, 0, 0, 0)
+        # Files that are dropped are the dialog's, not text of a field.
+        for edit in (self._file, self._seed.lineEdit()):
+            edit.setAcceptDrops(False)
+        self._state.setWordWrap(True)
+        self._state.setMinimumHeight(40)
+        self._use.hide()
+
+        tools = in_row(self._add, self._remove, STRETCH)
+        left = in_column((self.list, 1), tools)
+        self._top = panel(in_row((left, 1), self.form, margins=0, spacing=14))
+        self.form.setFixedWidth(_FORM_PX)
+        numbers = in_row(self._states, 14, Caption("learn_dialog.seed", self._seed), self._seed, STRETCH)
+        file = in_row((self._file, 1), self._choose)
+        form = in_form({"learn_dialog.states": numbers, "learn_dialog.save_to": file})
+        bottom = in_row((self._progress, 20), STRETCH, self._use, self._learn, self._close)
+        in_column((self._top, 2), (self.cuts, 3), form, self._state, bottom, of=self, margins=14, spacing=10)
+
+    def _connect(self) -> None:
+        session = self._session
+        self.list.currentItemChanged.connect(lambda *_: self._show_pair())
+        self.form.changed.connect(self._change_pair)
+        self.cuts.changed.connect(self._set_cuts)
+        self._states.changed.connect(self._edited)
+        self._seed.valueChanged.connect(lambda _: self._edited())
+        self._file.textChanged.connect(lambda _: self._edited())
+        on_click(self._use, self._use_it)
+        self._timer.timeout.connect(lambda: self._show_share(self._share[0]))
+        # A method: a function would outlive the dialog.
+        session.changed.connect(self._show_use)
+        session.dancer_changed.connect(self._show_use)
+        session.theme_changed.connect(self._show_list)
+
+    # Pairs
+
+    @property
+    def drafts(self) -> tuple[PairDraft, ...]:
+        """What is filled in of the pairs."""
+        return tuple(row.draft for row in self._rows)
+
+    @property
+    def _row(self) -> _Row | None:
+        """The selected pair."""
+        item = self.list.currentItem()
+        at = -1 if item is None else self.list.indexOfTopLevelItem(item)
+        return self._rows[at] if 0 <= at < len(self._rows) else None
+
+    def add_files(self, paths: list[Path]) -> None:
+        """Add motions, pieces and credits, as pairs; see `with_files`."""
+        drafts, unknown = with_files(self.drafts, paths)
+        before = len(self._rows)
+        self._rows += [_Row(PairDraft()) for _ in drafts[before:]]
+        for row, draft in zip(self._rows, drafts, strict=True):
+            if draft != row.draft:
+                row.draft = draft
+                self._read(row)
+        self._edited(unknown)
+        if len(self._rows) > before or self._row is None:
+            self._select(before if len(self._rows) > before else 0)
+
+    def _ask_for_files(self) -> None:
+        suffixes = (*MOTION_SUFFIXES, *MIDI_SUFFIXES, CREDITS_SUFFIX)
+        filters = f"{self.tr('learn_dialog.motion_and_midi_files')} ({' '.join(f'*{suffix}' for suffix in suffixes)})"
+        paths = ask_for_files(self, self.tr("learn_dialog.add_motion_and_music"), self._folder, filters)
+        if paths:
+            self._folder = paths[0].parent
+            self.add_files(paths)
+
+    def _remove_pair(self) -> None:
+        row = self._row
+        if row is not None and not self._running:
+            at = self._rows.index(row)
+            self._rows.remove(row)
+            self._edited()
+            self._select(min(at, len(self._rows) - 1))
+
+    def _change_pair(self, draft: PairDraft) -> None:
+        row = self._row
+        if row is not None:
+            before = row.draft
+            if (draft.motion, draft.fps) != (before.motion, before.fps):
+                # Its frames are others.
+                draft, row.history = msgspec.structs.replace(draft, cuts=None), CutHistory()
+            row.draft = draft
+            if draft.files != before.files:
+                self._read(row)
+            self._edited()
+
+    def _set_cuts(self, cuts: Cuts | None) -> None:
+        row = self._row
+        if row is not None:
+            row.draft = msgspec.structs.replace(row.draft, cuts=cuts)
+            self._edited()
+
+    def _read(self, row: _Row) -> None:
+        """Read the files of a pair beside the window; what was found before is of others."""
+        self._readings += 1
+        draft, number = row.draft, self._readings
+        row.found, row.reading = Found(), 0
+        if draft.motion is None or draft.music is None:
+            return
+        row.reading = number
+        motion, music = draft.motion, draft.music
+
+        def work(progress: Progress, stop_requested: StopRequested) -> _Read:
+            try:
+                read = read_pair(motion, music, fps=draft.fps, credits=draft.credits)
+                return _Read(number, Found(read, analyse(read.pair)))
+            except Cancelled:
+                raise
+            except AppError as error:
+                return _Read(number, Found(error=error.message))
+
+        self._session.tasks.run(Message("work.read_motion", {"file": motion.name}), work, self._was_read)
+
+    def _was_read(self, result: _Read) -> None:
+        for row in self._rows:
+            if row.reading == result.number:
+                row.reading, row.found = 0, result.found
+                self._show_list()
+                self._show_state()
+                if row is self._row:
+                    self._show_pair()
+
+    def _select(self, at: int) -> None:
+        item = self.list.topLevelItem(at)
+        if item is not None:
+            self.list.setCurrentItem(item)
+        self._show_pair()
+
+    # Learning
+
+    def start(self) -> None:
+        """Learn from the pairs."""
+        path = self._target
+        if self._running or path is None or self._missing():
+            return
+        pairs = [pair for row in self._rows if (pair := _pair(row)) is not None]
+        rows = tuple(self._rows)
+        states, seed = self._states.value, self._seed.value()
+        self._result, self._failure = None, None
+        self._set_running(True)
+        # The thread gets what it needs, not the dialog.
+        self._share = written = [0.0]
+        stop = self._stop
+
+        def work(progress: Progress, stop_requested: StopRequested) -> _Learned:
+            def went(share: float, label: str) -> None:
+                if stop.is_set() or stop_requested():
+                    raise Cancelled("work.stopped")
+                written[0] = share
+                progress(share)
+
+            whole = None if states is None else round(states)
+            model = learn(pairs, states=whole, seed=seed, name=shown(path.stem), progress=went)
+            went(1.0, "")
+            write_model(path, model)
+            return _Learned(path, model, rows)
+
+        self._timer.start()
+        self._session.tasks.run(
+            Message("work.learn", {"file": path.name}), work, self._done, self._failed, ended=self._ended
+        )
+
+    def _ended(self) -> None:
+        self._timer.stop()
+        if self._stop.is_set():
+            self._failure = Message("work.stopped")
+        self._set_running(False)
+
+    def _done(self, result: _Learned) -> None:
+        self._result = result
+        for at, row in enumerate(result.rows):
+            row.states = len({one.state for one in result.model.segments if one.clip == at})
+        self._show_all()
+        self._session.choreographies_changed.emit()
+
+    def _failed(self, error: AppError) -> None:
+        self._failure = error.message
+        self._show_state()
+
+    def _use_it(self) -> None:
+        if self._result is not None:
+            self.used.emit(self._result.path)
+
+    @property
+    def _target(self) -> Path | None:
+        path = self._file.path
+        return _with_suffix(path) if path is not None and path.name else None
+
+    def _missing(self) -> str:
+        """What is to be done before anything can be learned; empty: nothing."""
+        if not self._rows:
+            return self.tr("learn_dialog.add_motion_files_and_midi")
+        for at, row in enumerate(self._rows):
+            if row.draft.motion is None:
+                return self.tr("learn_dialog.pair_choose_its_motion").format(n=at + 1)
+            if row.draft.music is None:
+                return self.tr("learn_dialog.pair_choose_its_music").format(n=at + 1)
+            if row.found.error is not None:
+                return self.tr("learn_dialog.pair").format(n=at + 1, error=message_text(row.found.error))
+        if any(row.reading for row in self._rows):
+            return self.tr("learn_dialog.reading_files")
+        if self._target is None:
+            return self.tr("learn_dialog.choose_where_to_save_choreography")
+        return ""
+
+    def _ask_where(self) -> None:
+        proposal = self._target or self._folder / f"choreography{SUFFIX}"
+        kinds = f"{self.tr('learn_dialog.choreographies')} (*{SUFFIX})"
+        path = ask_where_to_save(self, self.tr("learn_dialog.save_choreography"), proposal, kinds)
+        if path is not None:
+            self._file.set_path(_with_suffix(path))
+
+    # Showing
+
+    def _edited(self, unknown: tuple[Path, ...] = ()) -> None:
+        """What was learned is not of this any more; these files were added and are of no kind that is."""
+        self._result, self._failure, self._unknown = None, None, unknown
+        for row in self._rows:
+            row.states = None
+        self._show_all()
+
+    def _show_all(self) -> None:
+        self._show_list()
+        self._show_pair()
+        self._show_state()
+
+    def _show_list(self) -> None:
+        tokens = self._session.tokens
+        self.list.blockSignals(True)
+        while self.list.topLevelItemCount() > len(self._rows):
+            self.list.takeTopLevelItem(self.list.topLevelItemCount() - 1)
+        while self.list.topLevelItemCount() < len(self._rows):
+            self.list.addTopLevelItem(QTreeWidgetItem())
+        for at, row in enumerate(self._rows):
+            item = self.list.topLevelItem(at)
+            assert item is not None, "one for each pair"
+            for column, text in enumerate(_cells(row)):
+                item.setText(column, text)
+                if column > 1:
+                    item.setTextAlignment(column, _RIGHT)
+            wrong = row.found.error is not None
+            doubtful = row.draft.offset_s is None and _confidence(row) < CONFIDENT
+            for column, name in enumerate(_COLUMNS):
+                colour = tokens.error if wrong else tokens.text
+                if name in ("offset", "confidence") and doubtful:
+                    colour = tokens.warning
+                item.setForeground(column, QColor(colour))
+                path = getattr(row.draft, name, None)
+                item.setToolTip(column, shown(str(path)) if isinstance(path, Path) else "")
+        self.list.blockSignals(False)
+        self._remove.setEnabled(self._row is not None and not self._running)
+
+    def _show_pair(self) -> None:
+        row = self._row
+        for widget in (self.form, self.cuts):
+            widget.setEnabled(row is not None and not self._running)
+        self._remove.setEnabled(row is not None and not self._running)
+        if row is None:
+            self.form.show_pair(PairDraft(), Found(), busy=False)
+            self.cuts.show_pair(PairDraft(), Found(), CutHistory())
+        else:
+            self.form.show_pair(row.draft, row.found, bool(row.reading))
+            self.cuts.show_pair(row.draft, row.found, row.history)
+
+    def _show_state(self) -> None:
+        missing, path, result = self._missing(), self._target, self._result
+        self._learn.setEnabled(not missing and not self._running)
+        if self._running:
+            text = ""
+        elif self._failure is not None:
+            text = sentence(self._failure)
+        elif result is not None:
+            text = message_text(summary(result.model, result.path))
+        elif self._unknown:
+            names = ", ".join(shown(path.name) for path in self._unknown)
+            text = "\n".join(
+                filter(None, (self.tr("learn_dialog.neither_motion_nor_midi").format(files=names), missing))
+            )
+        elif missing:
+            text = missing
+        elif path is not None and os.path.isfile(path):
+            text = self.tr("learn_dialog.this_file_is_there_and")
+        else:
+            text = ""
+        self._state.setText(text)
+        self._show_use()
+
+    def _show_use(self, *_changes: object) -> None:
+        dancer = self._session.dancer
+        self._use.setVisible(self._result is not None)
+        self._use.setText(
+            self.tr("learn_dialog.add_dancer_with_it")
+            if dancer is None
+            else self.tr("learn_dialog.use_for").format(dancer=dancer.name.replace("&", "&&"))
+        )
+
+    def retranslate(self) -> None:
+        """Set every text in the language of the editor."""
+        self.setWindowTitle(self.tr("learn_dialog.learn_choreography"))
+        self.list.setAccessibleName(self.tr("learn_dialog.pairs_of_motion_and_music"))
+        super().retranslate()
+        self._states.check.setText(self.tr("learn_dialog.automatic"))
+        self._states.setToolTip(self.tr("learn_dialog.number_of_basic_motions_automatic"))
+        self._seed.setToolTip(self.tr("learn_dialog.of_classification_same_pairs_and"))
+        self._show_all()
+
+    # Qt's own names
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        if event.key() == Qt.Key.Key_Delete and self.list.hasFocus():
+            self._remove_pair()
+        else:
+            super().keyPressEvent(event)
+
+    def dragEnterEvent(self, event: QDragEnterEvent) -> None:
+        if not self._running and dropped_paths(event):
+            event.acceptProposedAction()
+
+    def dropEvent(self, event: QDropEvent) -> None:
+        paths = dropped_paths(event)
+        if paths and not self._running:
+            event.acceptProposedAction()
+            self.add_files(paths)
+
+
+def _with_suffix(path: Path) -> Path:
+    return path if path.suffix.lower() == SUFFIX else path.with_name(f"{path.name}{SUFFIX}")
+
+
+def _pair(row: _Row) -> Pair | None:
+    """What is learned from, as it is filled in; None before the files are read."""
+    read = row.found.read
+    if read is None:
+        return None
+    offset_s = row.draft.offset_s
+    # Typed is a time of the file, of which the clip may be a later part.
+    of_clip_s = None if offset_s is None else offset_s - read.motion.start_s
+    return replace(read.pair, offset_s=of_clip_s, cuts=row.draft.cuts)
+
+
+def _confidence(row: _Row) -> float:
+    return 1.0 if row.found.analysis is None else row.found.analysis.offset.confidence
+
+
+def _cells(row: _Row) -> tuple[str, ...]:
+    """The texts of a row, by `_COLUMNS`."""
+    read, analysis, draft = row.found.read, row.found.analysis, row.draft
+    names = file_name(draft.motion), file_name(draft.music)
+    if read is None or analysis is None:
+        return *names, *("…" if row.reading else "–" for _ in range(2, len(_COLUMNS)))
+    found_s = analysis.offset.offset_s + read.motion.start_s
+    return (
+        *names,
+        f"{analysis.clip.length_s:.1f}",
+        str(len(analysis.segmentation.cuts if draft.cuts is None else draft.cuts)),
+        "–" if row.states is None else str(row.states),
+        f"{found_s if draft.offset_s is None else draft.offset_s:.2f}",
+        f"{analysis.offset.confidence:.2f}" if draft.offset_s is None else "–",
+    )

@@ -1,0 +1,183 @@
+"""What is filled in of one pair of motion and music, and what was found in its files."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import msgspec
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtWidgets import QGridLayout, QPushButton, QScrollArea, QWidget
+
+from app.choreography.music_offset import CONFIDENT
+from app.choreography.read_motion import guesses
+from app.choreography.read_pair import CREDITS_SUFFIX
+from app.encoding import shown
+from app.formats.rates import exact_rate
+from widgets.common.clicks import on_click
+from widgets.common.controls import Retranslated, named, wrapped
+from widgets.common.paths import PathEdit, ask_for_file
+from widgets.common.plain import Label
+from widgets.common.text import message_text, sentence
+from widgets.dialogs.automatic_number import AutomaticNumber
+from widgets.dialogs.choreography.learn_draft import MIDI_SUFFIXES, MOTION_SUFFIXES, Found, PairDraft
+
+_FILES = {"motion": MOTION_SUFFIXES, "music": MIDI_SUFFIXES, "credits": (CREDITS_SUFFIX,)}
+_LONGEST_S = 24 * 3600.0
+_NOTES_PX = 54
+"""Room for three lines; of more the rest is scrolled to."""
+
+
+class PairForm(Retranslated, QWidget):
+    """The fields of a pair.
+
+    Signals
+    -------
+    changed(PairDraft)
+        The user filled in something else.
+    """
+
+    changed = Signal(object)
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._draft, self._found, self._busy = PairDraft(), Found(), False
+        self._labels = {name: Label() for name in (*_FILES, "offset", "fps")}
+        self._paths = {name: PathEdit() for name in _FILES}
+        self._choose = {name: QPushButton() for name in _FILES}
+        self._offset = AutomaticNumber("learn_offset", -_LONGEST_S, _LONGEST_S, step=0.01, decimals=3)
+        self._fps = AutomaticNumber("learn_fps", 1.0, 1000.0, step=1.0, decimals=3)
+        self._notes = wrapped(named(Label(), "learn_pair_notes"))
+        self._notes.setAlignment(Qt.AlignmentFlag.AlignTop)
+        room = QScrollArea()
+        room.setFrameShape(QScrollArea.Shape.NoFrame)
+        room.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        room.setWidgetResizable(True)
+        room.setMinimumHeight(_NOTES_PX)
+        room.setWidget(self._notes)
+        grid = QGridLayout(self)
+        grid.setContentsMargins(0, 0, 0, 0)
+        grid.setColumnStretch(1, 1)
+        for row, name in enumerate(_FILES):
+            path, button = self._paths[name], self._choose[name]
+            path.setObjectName(f"learn_{name}")
+            path.setAcceptDrops(False)
+            button.setObjectName(f"learn_{name}_choose")
+            button.setAutoDefault(False)
+            self._labels[name].setBuddy(path)
+            grid.addWidget(self._labels[name], row, 0)
+            grid.addWidget(path, row, 1)
+            grid.addWidget(button, row, 2)
+            path.editingFinished.connect(lambda name=name: self._typed(name))
+            on_click(button, self._ask, name)
+        for row, (name, field) in enumerate({"offset": self._offset, "fps": self._fps}.items(), start=len(_FILES)):
+            self._labels[name].setBuddy(field)
+            grid.addWidget(self._labels[name], row, 0)
+            grid.addWidget(field, row, 1, 1, 2)
+            field.changed.connect(self._number_changed)
+        grid.addWidget(room, len(_FILES) + 2, 0, 1, 3)
+        grid.setRowStretch(len(_FILES) + 2, 1)
+        self.retranslate()
+
+    def show_pair(self, draft: PairDraft, found: Found, busy: bool) -> None:
+        """Show a pair, and what its files hold; ``busy`` while they are read."""
+        self._draft, self._found, self._busy = draft, found, busy
+        for name, edit in self._paths.items():
+            path: Path | None = getattr(draft, name)
+            if edit.path != path:
+                edit.set_path(path)
+        self._show_numbers()
+        self._show_notes()
+
+    def _show_numbers(self) -> None:
+        read, analysis = self._found.read, self._found.analysis
+        start_s = 0.0 if read is None else read.motion.start_s
+        self._offset.show_value(self._draft.offset_s, None if analysis is None else analysis.offset.offset_s + start_s)
+        fps = self._draft.fps
+        self._fps.show_value(None if fps is None else float(fps), None if read is None else float(read.motion.file_fps))
+
+    def _show_notes(self) -> None:
+        read, analysis = self._found.read, self._found.analysis
+        notes = []
+        if self._found.error is not None:
+            notes.append(sentence(self._found.error))
+        elif self._busy:
+            notes.append(self.tr("pair_form.reading_files"))
+        elif self._draft.motion is None or self._draft.music is None:
+            notes.append(self.tr("pair_form.pair_is_motion_and_midi"))
+        elif read is not None and analysis is not None:
+            if self._draft.offset_s is None:
+                confidence = f"{analysis.offset.confidence:.2f}"
+                notes.append(
+                    self.tr("pair_form.offset_found_with_confidence").format(confidence=confidence)
+                    if analysis.offset.confidence >= CONFIDENT
+                    else self.tr("pair_form.offset_found_with_confidence_another").format(confidence=confidence)
+                )
+            guessed = [message_text(message) for message in guesses(read.motion)]
+            if guessed:
+                notes.append(self.tr("pair_form.to_check").format(notes="; ".join(guessed)))
+            if not read.pair.credits:
+                notes.append(self.tr("pair_form.no_credits_say_where_motion"))
+        self._notes.setText("\n".join(notes))
+
+    def _typed(self, name: str) -> None:
+        self._change(**{name: self._paths[name].path})
+
+    def _ask(self, name: str) -> None:
+        draft = self._draft
+        near = getattr(draft, name) or draft.motion or draft.music
+        filters = f"{self._kind(name)} ({' '.join(f'*{suffix}' for suffix in _FILES[name])})"
+        path = ask_for_file(self, self._labels[name].text(), near.parent if near is not None else None, filters)
+        if path is not None:
+            self._change(**{name: path})
+
+    def _number_changed(self) -> None:
+        fps = self._fps.value
+        rate = self._draft.fps
+        # Three decimals are shown.
+        if fps is None:
+            rate = None
+        elif rate is None or round(float(rate), 3) != fps:
+            rate = exact_rate(fps, 0.0005 / fps)
+        self._change(offset_s=self._offset.value, fps=rate)
+
+    def _change(self, **fields: object) -> None:
+        draft = msgspec.structs.replace(self._draft, **fields)
+        if draft != self._draft:
+            self._draft = draft
+            self.changed.emit(draft)
+
+    def _kind(self, name: str) -> str:
+        return {
+            "motion": self.tr("pair_form.motion_files"),
+            "music": self.tr("pair_form.midi_files"),
+            "credits": self.tr("pair_form.text_files"),
+        }[name]
+
+    def retranslate(self) -> None:
+        """Set every text in the language of the editor."""
+        texts = {
+            "motion": self.tr("pair_form.motion"),
+            "music": self.tr("pair_form.music"),
+            "credits": self.tr("pair_form.credits"),
+            "offset": self.tr("pair_form.offset"),
+            "fps": self.tr("pair_form.frame_rate"),
+        }
+        for name, text in texts.items():
+            self._labels[name].setText(text)
+        for button in self._choose.values():
+            button.setText(self.tr("pair_form.choose"))
+        self._paths["motion"].setPlaceholderText(self.tr("pair_form.bvh_fbx_or_glb"))
+        self._paths["music"].setPlaceholderText(self.tr("pair_form.midi_with_percussion"))
+        self._paths["credits"].setPlaceholderText(self.tr("pair_form.txt_file_beside_motion"))
+        self._offset.check.setText(self.tr("pair_form.automatic"))
+        self._offset.setToolTip(self.tr("pair_form.time_of_motion_at_which"))
+        self._offset.number.setSuffix(self.tr("pair_form.seconds"))
+        self._fps.check.setText(self.tr("pair_form.as_in_file"))
+        self._fps.setToolTip(self.tr("pair_form.true_frame_rate_of_motion"))
+        self._fps.number.setSuffix(self.tr("pair_form.frames_s"))
+        self._show_notes()
+
+
+def file_name(path: Path | None) -> str:
+    """The name of a file without folders; a dash where there is none."""
+    return "–" if path is None else shown(path.name)

@@ -1,0 +1,1 @@
+"""The section of the dancers in the panel of the players."""

@@ -1,0 +1,44 @@
+"""A step of a dance that is being dragged."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from app.score.tempo import TempoMap
+from widgets.timeline.model.gestures import DRAG_PX, Gesture, along
+from widgets.timeline.model.hand import LaneMouse
+from widgets.timeline.model.view import Scale
+
+if TYPE_CHECKING:
+    # The modules of dances are loaded only for pieces with dancers.
+    from app.choreography.performed.dance_steps import DanceSteps
+
+
+class MoveStep(Gesture):
+    """The accent of a step goes as far as the mouse does, to the nearest place where one can be.
+
+    Attributes
+    ----------
+    dancer_id : str
+    number : int
+        Of the step.
+    tick : int or None
+        Place of its accent if it is released now; None before the mouse has moved far enough.
+    """
+
+    def __init__(self, at: LaneMouse, dance: DanceSteps, number: int, scale: Scale, clock: TempoMap) -> None:
+        super().__init__(at, along(DRAG_PX))
+        self.dancer_id, self.number = dance.dancer.id, number
+        self.tick: int | None = None
+        self._dance, self._scale, self._clock = dance, scale, clock
+
+    def follow(self, mouse: LaneMouse) -> None:
+        accent_px = self._scale.x_px(self._dance.steps[self.number].accent_s) + mouse.x_px - self.at.x_px
+        tick = self._clock.ticks(self._scale.seconds(accent_px))
+        self.tick = min(self._dance.places, key=lambda place: abs(place - tick))
+
+
+def state_beside(dance: DanceSteps, state: int, by: int) -> int:
+    """The next basic motion that has segments."""
+    used = sorted({one.state for one in dance.model.segments})
+    return used[(used.index(state) + by) % len(used)]
