@@ -31,7 +31,7 @@ from app.plan.model import (
     StyleEvent,
 )
 from app.plan.model import FingeringEvent as Fingered
-from app.project.edit.events import Placed
+from app.project.edit.events import AMOUNTS, Placed
 from app.score.model import Score
 from widgets.common.channel_names import channel_name
 from widgets.common.event_names import expression_name, kind_name, pose_name, style_name
@@ -39,11 +39,8 @@ from widgets.common.event_names import expression_name, kind_name, pose_name, st
 
 def amount_field(event: Placed) -> str | None:
     """What of an event says how much of it there is."""
-    if isinstance(event, BreathEvent):
-        return "depth"
-    if isinstance(event, GestureEvent):
-        return "amount"
-    return "strength" if isinstance(event, ExpressionEvent) else None
+    field, _ = AMOUNTS.get(type(event), (None, 0.0))
+    return field
 
 
 def event_title(event: Event) -> str:

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from bisect import bisect_left
 from collections.abc import Collection, Iterable, Mapping, Sequence
-from typing import NamedTuple
+from typing import Final, NamedTuple
 
 import msgspec
 
@@ -35,7 +35,16 @@ from app.plan.by_hand.corrections import (
 from app.plan.cues.cues import LEAD_BEATS
 from app.plan.event_id import EventId
 from app.plan.kinds import BreathKind, GestureKind
-from app.plan.model import BreathEvent, CueEvent, ExpressionEvent, GestureEvent, PlayerPlan, PoseEvent, StyleEvent
+from app.plan.model import (
+    BreathEvent,
+    CueEvent,
+    Event,
+    ExpressionEvent,
+    GestureEvent,
+    PlayerPlan,
+    PoseEvent,
+    StyleEvent,
+)
 from app.project.edit.corrections import put, take_back
 from app.project.edit.found_events import OWN as OWN
 from app.project.edit.found_events import Placed as Placed
@@ -48,6 +57,19 @@ from app.score.model import Note
 
 CATCH_S = 0.3
 """A breath added where notes touch is this long."""
+AMOUNTS: Final[Mapping[type[Event], tuple[str, float]]] = {
+    BreathEvent: ("depth", 0.0),
+    GestureEvent: ("amount", -1.0),
+    ExpressionEvent: ("strength", 0.0),
+}
+"""What of an event says how much of it there is, and the least it may be."""
+_SPOKEN_OF: Final[Mapping[type[Event], tuple[type[Correction], ...]]] = {
+    GestureEvent: (AddGesture, ChangeGesture),
+    ExpressionEvent: (AddExpression, ChangeExpression),
+    PoseEvent: (PoseCorrection,),
+    StyleEvent: (PlayStyle,),
+}
+"""The corrections that speak of events."""
 
 
 class Edited(NamedTuple):
@@ -78,14 +100,9 @@ def set_amounts(project: Project, plan: PlayerPlan, amounts: Mapping[str, float]
     there is."""
     corrections: list[Correction] = []
     for event in _current(project, plan, amounts):
-        amount = round(amounts[event.id], 4)
-        if isinstance(event, BreathEvent):
-            depth = min(max(amount, 0.0), 1.0)
-            corrections.append(msgspec.structs.replace(_breath(project, plan.player_id, event), depth=depth))
-        elif isinstance(event, GestureEvent):
-            corrections.append(_with(_gesture(project, plan.player_id, event), amount=min(max(amount, -1.0), 1.0)))
-        elif isinstance(event, ExpressionEvent):
-            corrections.append(_with(_expression(project, plan.player_id, event), strength=min(max(amount, 0.0), 1.0)))
+        if type(event) in AMOUNTS:
+            field, least = AMOUNTS[type(event)]
+            corrections += _changed(project, plan, event, **{field: min(max(round(amounts[event.id], 4), least), 1.0)})
     return put(project, plan.player_id, corrections)
 
 
@@ -97,55 +114,36 @@ def set_fades(
     fade_out_s: float | None = None,
 ) -> Project:
     """How long expressions, poses and styles take to come and to go, seconds; None leaves it."""
-    clock = project.score.tempo_map
+    ticks = project.score.tempo_map.ticks
     corrections: list[Correction] = []
     for event in _current(project, plan, event_ids):
+        fades: dict[str, float] = {}
         if isinstance(event, ExpressionEvent):
-            fades = {"fade_in_s": fade_in_s, "fade_out_s": fade_out_s}
-            given = {name: round(max(value, 0.0), 4) for name, value in fades.items() if value is not None}
-            corrections.append(_with(_expression(project, plan.player_id, event), **given))
-        elif isinstance(event, PoseEvent):
-            ticks = {}
+            given = {"fade_in_s": fade_in_s, "fade_out_s": fade_out_s}
+            fades = {name: round(max(value, 0.0), 4) for name, value in given.items() if value is not None}
+        elif isinstance(event, PoseEvent | StyleEvent):
+            # Those of poses lie outside of their span, those of styles within.
+            side = -1 if isinstance(event, PoseEvent) else 1
             if fade_in_s is not None:
-                ticks["fade_in_ticks"] = event.start_tick - round(clock.ticks(event.start_s - max(fade_in_s, 0.0)))
+                in_s = event.start_s + side * max(fade_in_s, 0.0)
+                fades["fade_in_ticks"] = side * (round(ticks(in_s)) - event.start_tick)
             if fade_out_s is not None:
-                ticks["fade_out_ticks"] = round(clock.ticks(event.end_s + max(fade_out_s, 0.0))) - event.end_tick
-            corrections += [_with(pose, **ticks) for pose in _poses(project, plan.player_id, event)]
-        elif isinstance(event, StyleEvent):
-            ticks = {}
-            if fade_in_s is not None:
-                ticks["fade_in_ticks"] = round(clock.ticks(event.start_s + max(fade_in_s, 0.0))) - event.start_tick
-            if fade_out_s is not None:
-                ticks["fade_out_ticks"] = event.end_tick - round(clock.ticks(event.end_s - max(fade_out_s, 0.0)))
-            corrections += [_with(item, **ticks) for item in _styles(project, plan.player_id, event)]
+                out_s = event.end_s - side * max(fade_out_s, 0.0)
+                fades["fade_out_ticks"] = side * (event.end_tick - round(ticks(out_s)))
+        else:
+            continue
+        corrections += _changed(project, plan, event, **fades)
     return put(project, plan.player_id, corrections)
 
 
 def set_expression(project: Project, plan: PlayerPlan, event_ids: Iterable[str], expression: str) -> Project:
     """Show another face there."""
-    return put(
-        project,
-        plan.player_id,
-        [
-            _with(_expression(project, plan.player_id, event), expression=expression)
-            for event in _current(project, plan, event_ids)
-            if isinstance(event, ExpressionEvent)
-        ],
-    )
+    return _all_changed(project, plan, event_ids, ExpressionEvent, expression=expression)
 
 
 def set_style(project: Project, plan: PlayerPlan, event_ids: Iterable[str], style: str) -> Project:
     """Play in another style there."""
-    return put(
-        project,
-        plan.player_id,
-        [
-            _with(item, style=style)
-            for event in _current(project, plan, event_ids)
-            if isinstance(event, StyleEvent)
-            for item in _styles(project, plan.player_id, event)
-        ],
-    )
+    return _all_changed(project, plan, event_ids, StyleEvent, style=style)
 
 
 def set_embouchure(project: Project, player_id: str, note_ids: Iterable[str], **values: float) -> Project:
@@ -351,14 +349,7 @@ def _placed(project: Project, plan: PlayerPlan, event_ids: Sequence[str], start_
                 ends["start_tick"] = start
             if end != event.end_tick:
                 ends["end_tick"] = end
-            if isinstance(event, GestureEvent):
-                made = (_with(_gesture(project, player_id, event), **ends),)
-            elif isinstance(event, ExpressionEvent):
-                made = (_with(_expression(project, player_id, event), **ends),)
-            elif isinstance(event, StyleEvent):
-                made = [_with(item, **ends) for item in _styles(project, player_id, event)]
-            else:
-                made = [_with(pose, **ends) for pose in _poses(project, player_id, event)]
+            made = _changed(project, plan, event, **ends)
         fresh += made
         for item in made:
             new_ids[event.id] = item.about
@@ -375,40 +366,32 @@ def _notes(project: Project, player_id: str) -> tuple[Note, ...]:
     return project.part(project.player(player_id)).notes
 
 
-def _with(item: Correction, **values: object) -> Correction:
-    return msgspec.structs.replace(item, **values)
-
-
 def _new_name(project: Project, player_id: str) -> str:
     """The first ``own-n`` that no added event of the player has."""
-    taken = {item.anchor for item in project.corrections.get(player_id, ()) if item.is_added}
+    said, kinds = project.corrections.get(player_id, ()), AddGesture | AddExpression | PoseCorrection | PlayStyle
+    taken = {item.name for item in said if isinstance(item, kinds)}
     number = 1
     while f"{OWN}{number}" in taken:
         number += 1
     return f"{OWN}{number}"
 
 
-def _gesture(project: Project, player_id: str, event: GestureEvent) -> Correction:
-    """The correction that already speaks of a gesture, or one that changes nothing yet."""
-    said = corrections_of(project, player_id, (event.id,))
-    return next((item for item in said if isinstance(item, AddGesture | ChangeGesture)), ChangeGesture(event.id))
+def _changed(project: Project, plan: PlayerPlan, event: Placed, **values: object) -> list[Correction]:
+    """The correction that speaks of an event with other values: the one there is, or one of what was generated."""
+    if isinstance(event, BreathEvent):
+        return [msgspec.structs.replace(_breath(project, plan.player_id, event), **values)]
+    kinds = _SPOKEN_OF[type(event)]
+    said = [item for item in corrections_of(project, plan.player_id, (event.id,)) if isinstance(item, kinds)]
+    said = said or [kind(event.id) for kind in kinds if issubclass(kind, ChangeGesture | ChangeExpression)]
+    return [msgspec.structs.replace(item, **values) for item in said[:1]]
 
 
-def _expression(project: Project, player_id: str, event: ExpressionEvent) -> Correction:
-    said = corrections_of(project, player_id, (event.id,))
-    return next(
-        (item for item in said if isinstance(item, AddExpression | ChangeExpression)), ChangeExpression(event.id)
-    )
-
-
-def _poses(project: Project, player_id: str, event: PoseEvent) -> list[Correction]:
-    said = corrections_of(project, player_id, (event.id,))
-    return [item for item in said if isinstance(item, PoseCorrection)]
-
-
-def _styles(project: Project, player_id: str, event: StyleEvent) -> list[Correction]:
-    said = corrections_of(project, player_id, (event.id,))
-    return [item for item in said if isinstance(item, PlayStyle)]
+def _all_changed(
+    project: Project, plan: PlayerPlan, event_ids: Iterable[str], kind: type[Placed], **values: object
+) -> Project:
+    """With the events of a kind changed."""
+    chosen = [event for event in _current(project, plan, event_ids) if isinstance(event, kind)]
+    return put(project, plan.player_id, [item for one in chosen for item in _changed(project, plan, one, **values)])
 
 
 def _breath(project: Project, player_id: str, event: BreathEvent) -> SetBreath:
