@@ -48,6 +48,10 @@ class FileFormat:
         Writes several such scenes, each with a name and a place, into one file; None: it can hold one only.
     reduces_keys : bool
         Whether it can have fewer keys than one on every frame.
+    bones_by_name : bool
+        Whether bones may get other names in it (`WriteOptions.bone_names`).
+    package : str
+        What `refuse` finds missing.
     refuse : callable
         Raises UsageError where what writes this kind of file is not installed.
     """
@@ -59,6 +63,8 @@ class FileFormat:
     write_stage: Callable[[Path, Iterable[Scene], WriteOptions], None] | None = None
     refuse: Callable[[], None] = lambda: None
     reduces_keys: bool = True
+    bones_by_name: bool = False
+    package: str = ""
 
 
 # The writers are loaded when something is written: the command line names the formats in its help.
@@ -113,9 +119,11 @@ def _usd_sound(beside: WriteOptions) -> Sound | None:
 
 FILE_FORMATS: Final[Mapping[Format, FileFormat]] = {
     "fbx": FileFormat(".fbx", ("character", "instrument"), 3.0, _fbx, _fbx_stage),
-    "bvh": FileFormat(".bvh", ("character",), 1.0, _bvh, reduces_keys=False),
+    "bvh": FileFormat(".bvh", ("character",), 1.0, _bvh, reduces_keys=False, bones_by_name=True),
     "glb": FileFormat(".glb", ("character", "instrument"), 2.0, _glb, _glb_stage),
-    "usd": FileFormat(".usdc", ("character", "instrument"), 6.0, _usd, _usd_stage, refuse_without_usd),
+    "usd": FileFormat(
+        ".usdc", ("character", "instrument"), 6.0, _usd, _usd_stage, refuse_without_usd, package="usd-core"
+    ),
 }
 """In the order in which they are written and listed."""
 

@@ -290,7 +290,8 @@ class ExportDialog(WorkingDialog):
     def _show_outcome(self) -> None:
         into_folder = self._place.destination == "folder"
         self._form.setRowVisible(self._formats, into_folder)
-        self._form.setRowVisible(self._bvh_names, into_folder and "bvh" in self._formats.formats)
+        renames = any(FILE_FORMATS[name].bones_by_name for name in self._formats.formats)
+        self._form.setRowVisible(self._bvh_names, into_folder and renames)
         reduces = any(FILE_FORMATS[name].reduces_keys for name in self._formats.formats)
         self._form.setRowVisible(self._keys, into_folder and reduces)
         problem = ""

@@ -70,13 +70,12 @@ class FormatChooser(Retranslated, QWidget):
 
     def retranslate(self) -> None:
         """Set every text anew."""
-        self._boxes["fbx"].setText(self.tr("format_chooser.fbx_characters_and_instruments"))
-        self._boxes["bvh"].setText(self.tr("format_chooser.bvh_body_motion"))
-        self._boxes["glb"].setText(self.tr("format_chooser.glb_characters_and_instruments"))
-        self._boxes["usd"].setText(
-            self.tr("format_chooser.usd_package_usd_core_is")
-            if "usd" in self._missing
-            else self.tr("format_chooser.usd_characters_and_instruments")
-        )
+        characters, body = self.tr("format_chooser.characters_and_instruments"), self.tr("format_chooser.body_motion")
+        for name, box in self._boxes.items():
+            kind = FILE_FORMATS[name]
+            text = characters if "instrument" in kind.holds else body
+            if name in self._missing:
+                text = self.tr("format_chooser.requires_package")
+            box.setText(text.format(format=name.upper(), package=kind.package))
         for name, message in self._missing.items():
             self._boxes[name].setToolTip(message_text(message))

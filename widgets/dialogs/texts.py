@@ -155,16 +155,17 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
         "なし。このキャラクターではこの表情は表示されません。",
     ),
     "face_map_page.take_this_morph_out": ("Remove this morph", "このモーフを削除"),
-    "format_chooser.bvh_body_motion": ("BVH (body motion)", "BVH（体の動き）"),
-    "format_chooser.fbx_characters_and_instruments": ("FBX (characters and instruments)", "FBX（キャラクターと楽器）"),
-    "format_chooser.glb_characters_and_instruments": ("GLB (characters and instruments)", "GLB（キャラクターと楽器）"),
+    "format_chooser.body_motion": ("{format} (body motion)", "{format}（体の動き）"),
+    "format_chooser.characters_and_instruments": (
+        "{format} (characters and instruments)",
+        "{format}（キャラクターと楽器）",
+    ),
+    "format_chooser.requires_package": (
+        "{format} (requires the {package} package)",
+        "{format}（パッケージ {package} が必要です）",
+    ),
     "format_chooser.sound_wav": ("Audio (WAV)", "オーディオ（WAV）"),
     "format_chooser.whole_stage_in_one_file": ("Whole stage in one file", "ステージ全体を 1 ファイルに"),
-    "format_chooser.usd_characters_and_instruments": ("USD (characters and instruments)", "USD（キャラクターと楽器）"),
-    "format_chooser.usd_package_usd_core_is": (
-        "USD (requires the usd-core package)",
-        "USD（パッケージ usd-core が必要です）",
-    ),
     "follow_dialog.beats_lie_where_they_sound": (
         "Every beat is put where the recording has it. Pinned beats stay.",
         "すべての拍を音源で鳴る位置に合わせます。固定した拍は動きません。",
