@@ -40,11 +40,10 @@ class AboutDialog(Retranslated, QDialog):
         licences = Button("about_dialog.licences", self._show_licences, "about_licences")
         buttons.addButton(licences, QDialogButtonBox.ButtonRole.HelpRole)
         in_column(sized(Label("Suisou"), 20.0), self._text, buttons, of=self, margins=(24, 20, 24, 16), spacing=12)
+        self.texted(self, title="about_dialog.about_suisou")
         self.retranslate()
 
     def retranslate(self) -> None:
-        """Set the texts."""
-        self.setWindowTitle(self.tr("about_dialog.about_suisou"))
         versions = f"Python {platform.python_version()}, Qt {qVersion()}, PySide6 {PySide6.__version__}"
         self._text.setText(
             "\n\n".join(

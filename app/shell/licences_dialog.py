@@ -23,7 +23,15 @@ class LicencesDialog(Retranslated, QDialog):
         self.setObjectName("licences")
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         self._text = wrapped(named(Label(), "licences_text"))
-        self._list = named(QTreeWidget(), "licences_list")
+        self._list = self.texted(
+            named(QTreeWidget(), "licences_list"),
+            columns=(
+                "licences_dialog.work",
+                "licences_dialog.version",
+                "licences_dialog.licence",
+                "licences_dialog.source",
+            ),
+        )
         self._list.setColumnCount(4)
         self._list.setTextElideMode(Qt.TextElideMode.ElideRight)
         try:
@@ -45,11 +53,10 @@ class LicencesDialog(Retranslated, QDialog):
         buttons.rejected.connect(self.reject)
         in_column(self._text, (self._list, 1), buttons, of=self)
         self.resize(*_SIZE)
+        self.texted(self, title="licences_dialog.licences")
         self.retranslate()
 
     def retranslate(self) -> None:
-        """Set the texts."""
-        self.setWindowTitle(self.tr("licences_dialog.licences"))
         self._text.setText(
             "\n\n".join(
                 (
@@ -58,14 +65,6 @@ class LicencesDialog(Retranslated, QDialog):
                     self.tr("licences_dialog.ffmpeg_is_under_gpl_separate"),
                 )
             )
-        )
-        self._list.setHeaderLabels(
-            [
-                self.tr("licences_dialog.work"),
-                self.tr("licences_dialog.version"),
-                self.tr("licences_dialog.licence"),
-                self.tr("licences_dialog.source"),
-            ]
         )
         self._data.setText(0, self.tr("licences_dialog.suisous_own_files"))
 

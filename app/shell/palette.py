@@ -22,9 +22,8 @@ from app.shell.action import without_dots
 from app.shell.actions import ActionTable, sequences
 from app.shell.fuzzy import fitness
 from app.shell.language import english_text
-from widgets.common.controls import Retranslated, named
+from widgets.common.controls import Caption, Retranslated, named
 from widgets.common.layouts import in_column
-from widgets.common.plain import Label
 
 WIDTH_PX, ROW_PX, MOST_ROWS = 560, 30, 14
 _ID = int(Qt.ItemDataRole.UserRole)
@@ -40,12 +39,16 @@ class Palette(Retranslated, QFrame):
         self.setFrameShape(QFrame.Shape.StyledPanel)
         self._session, self._table = session, table
         self._ran: list[str] = []
-        self.field = named(QLineEdit(), "palette_field")
+        self.field = self.texted(
+            named(QLineEdit(), "palette_field"),
+            placeholder="palette.what_do_you_want_to",
+            name="palette.search_commands",
+        )
         self.field.setClearButtonEnabled(True)
         self.field.textChanged.connect(self._search)
         self.field.installEventFilter(self)
         self.model = QStandardItemModel(self)
-        self.list = named(QListView(), "palette_list")
+        self.list = self.texted(named(QListView(), "palette_list"), name="palette.commands")
         self.list.setModel(self.model)
         self.list.setItemDelegate(_Row(session, self.list))
         self.list.setEditTriggers(QListView.EditTrigger.NoEditTriggers)
@@ -54,18 +57,10 @@ class Palette(Retranslated, QFrame):
         self.list.setFrameShape(QFrame.Shape.NoFrame)
         self.list.setMouseTracking(True)
         self.list.clicked.connect(self._run)
-        self.nothing = named(Label(), "palette_nothing")
+        self.nothing = named(Caption("palette.no_command_is_called_that"), "palette_nothing")
         self.nothing.setFixedHeight(ROW_PX)
         self.nothing.setIndent(8)
         in_column(self.field, self.list, self.nothing, of=self, margins=6, spacing=6)
-        self.retranslate()
-
-    def retranslate(self) -> None:
-        """Set the texts."""
-        self.field.setPlaceholderText(self.tr("palette.what_do_you_want_to"))
-        self.field.setAccessibleName(self.tr("palette.search_commands"))
-        self.list.setAccessibleName(self.tr("palette.commands"))
-        self.nothing.setText(self.tr("palette.no_command_is_called_that"))
 
     def open_at(self, corner: QPoint) -> None:
         """Show it with its top right corner here (of the screen)."""

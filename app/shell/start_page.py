@@ -36,7 +36,8 @@ class StartPage(Retranslated, QScrollArea):
         self.setWidgetResizable(True)
         self._session, self._files, self._settings = session, files, settings
         self._offers: tuple[Recoverable, ...] = ()
-        self._title, self._about = _label("start_title", 26), _label("start_about", 11)
+        self._title = self.texted(_label("start_title", 26), text="Suisou")
+        self._about = self.texted(_label("start_about", 11), text="start_page.performance_of_wind_ensemble_from")
         self._recovery, self._recent = in_column(spacing=6), in_column(spacing=2)
         self._buttons = {
             "file.open": _row_button("start_open"),
@@ -46,10 +47,18 @@ class StartPage(Retranslated, QScrollArea):
         }
         for action_id, button in self._buttons.items():
             on_click(button, self._trigger, action_id)
-        self._lessons = [wrapped(_label(f"start_lesson_{number}", 9.5)) for number in range(3)]
-        self._begin_heading = _label("start_begin", 10)
-        self._teaching_heading = _label("start_teaching_heading", 10)
-        self._recent_heading = _label("start_recent", 10)
+        lesson_ids = (
+            "start_page.1_open_midi_of_piece",
+            "start_page.2_change_what_you_would",
+            "start_page.3_export_players_and_instruments",
+        )
+        self._lessons = [
+            self.texted(wrapped(_label(f"start_lesson_{number}", 9.5)), text=text_id)
+            for number, text_id in enumerate(lesson_ids)
+        ]
+        self._begin_heading = self.texted(_label("start_begin", 10), text="start_page.begin")
+        self._teaching_heading = self.texted(_label("start_teaching_heading", 10), text="start_page.how_it_works")
+        self._recent_heading = self.texted(_label("start_recent", 10), text="start_page.recent_files")
         lessons = (self._teaching_heading, *self._lessons)
         begin = in_column(self._begin_heading, *self._buttons.values(), 18, *lessons, STRETCH, spacing=6)
         recent = in_column(self._recent_heading, self._recent, STRETCH, spacing=2)
@@ -72,15 +81,9 @@ class StartPage(Retranslated, QScrollArea):
         self._fill_recovery()
 
     def retranslate(self) -> None:
-        """Set all texts, and what depends on them."""
         tokens = self._session.tokens
         dim = f"color: {tokens.text_dim};"
-        self._title.setText("Suisou")
-        self._about.setText(self.tr("start_page.performance_of_wind_ensemble_from"))
         self._about.setStyleSheet(dim)
-        self._begin_heading.setText(self.tr("start_page.begin"))
-        self._teaching_heading.setText(self.tr("start_page.how_it_works"))
-        self._recent_heading.setText(self.tr("start_page.recent_files"))
         for heading in (self._begin_heading, self._teaching_heading, self._recent_heading):
             heading.setStyleSheet(f"{dim} font-weight: 600;")
         for action_id, text, drawing in (
@@ -91,16 +94,6 @@ class StartPage(Retranslated, QScrollArea):
         ):
             self._buttons[action_id].setText(f"  {text}")
             self._buttons[action_id].setIcon(icon(drawing, tokens))
-        for lesson, text in zip(
-            self._lessons,
-            (
-                self.tr("start_page.1_open_midi_of_piece"),
-                self.tr("start_page.2_change_what_you_would"),
-                self.tr("start_page.3_export_players_and_instruments"),
-            ),
-            strict=True,
-        ):
-            lesson.setText(text)
         self._fill_recovery()
         self._fill_recent()
 

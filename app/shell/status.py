@@ -77,7 +77,9 @@ class StatusLine(Retranslated, QStatusBar):
         self._instruments = _flat("instrument_problems", partial(self._do, "application.instruments"))
         self._device = _flat("midi_device", partial(self._do, "record.devices"))
         self._stream = _flat("stream_state", partial(self._do, "stream.settings"))
-        self._problems = _flat("problems", partial(self._do, "problems.next"))
+        self._problems = self.texted(
+            _flat("problems", partial(self._do, "problems.next")), tip="status_line.go_to_next_problem"
+        )
         self._saved, self._rate = named(Label(), "saved"), named(Label(), "frame_rate")
         self._motion, self._motion_bar = named(Label(), "motion"), named(QProgressBar(), "motion_ready")
         self._motion_bar.setTextVisible(False)
@@ -97,6 +99,7 @@ class StatusLine(Retranslated, QStatusBar):
         self._age.timeout.connect(self._report_saved)
         self._age.start(AGE_MS)
         self._listen()
+        self.texted(self._motion, tip="status_line.how_much_of_players_motion")
         self.retranslate()
 
     def _listen(self) -> None:
@@ -340,8 +343,6 @@ class StatusLine(Retranslated, QStatusBar):
         tokens = self._session.tokens
         for label in (self._saved, self._rate, self._motion):
             label.setStyleSheet(f"color: {tokens.text_dim}; padding: 0 4px;")
-        self._problems.setToolTip(self.tr("status_line.go_to_next_problem"))
-        self._motion.setToolTip(self.tr("status_line.how_much_of_players_motion"))
         if not self._notice.isHidden():
             self._show_notice()
         self._report_instruments()

@@ -127,7 +127,7 @@ class Window(Retranslated, QMainWindow):
         self.status = StatusLine(self.session, self._files, tasks if isinstance(tasks, ThreadTasks) else None, self)
         self.menus = Menus(self.menuBar(), self._table)
         self.workspace_switch = WorkspaceSwitch(self._table)
-        self.palette_field = named(QPushButton(), "palette_button")
+        self.palette_field = self.texted(named(QPushButton(), "palette_button"), name="window.search_commands")
         self.palette_popup = Palette(self.session, self._table, self)
         self._build()
         self._connect(generator)
@@ -394,7 +394,6 @@ class Window(Retranslated, QMainWindow):
         )
 
     def retranslate(self) -> None:
-        """Set all texts."""
         titles = {
             "players": self.tr("window.players"),
             "inspector": self.tr("window.inspector"),
@@ -404,7 +403,6 @@ class Window(Retranslated, QMainWindow):
         for name, dock in self.docks.items():
             dock.setWindowTitle(titles[name])
             dock.set_tip(self.tr("dock.drag_with_ctrl"))
-        self.palette_field.setAccessibleName(self.tr("window.search_commands"))
         # Qt names it after the window, which is to have room for what it says now.
         self.workspace_switch.retranslate()
         self._fit_corner()

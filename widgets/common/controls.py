@@ -2,15 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import TYPE_CHECKING, TypeVar
+from collections.abc import Callable, Sequence
+from functools import partial
+from typing import TYPE_CHECKING, Any, Final, TypeVar
 
-from PySide6.QtCore import QEvent, Qt
+from PySide6.QtCore import QEvent, QObject, Qt
 from PySide6.QtGui import QIcon
-from PySide6.QtWidgets import QCheckBox, QDialogButtonBox, QHeaderView, QPushButton, QToolButton, QTreeWidget, QWidget
+from PySide6.QtWidgets import (
+    QCheckBox,
+    QDialogButtonBox,
+    QHeaderView,
+    QPushButton,
+    QTableWidget,
+    QToolButton,
+    QTreeWidget,
+    QWidget,
+)
 
 from app.editor.session import Session
 from app.editor.tokens import LEAST_TARGET_PX
+from app.editor.translated import tr
 from widgets.common.clicks import on_click
 from widgets.common.icons import icon
 from widgets.common.plain import Label
@@ -22,6 +33,7 @@ else:
 
 AnyWidget = TypeVar("AnyWidget", bound=QWidget)
 AnyLabel = TypeVar("AnyLabel", bound=Label)
+AnyTexted = TypeVar("AnyTexted", bound=QObject)
 
 
 def named(widget: AnyWidget, name: str) -> AnyWidget:
@@ -56,17 +68,71 @@ def small(button: AnyWidget) -> AnyWidget:
     return button
 
 
+_SETTERS: Final[dict[str, Callable[[Any], Callable[..., object]]]] = {
+    "text": lambda widget: widget.setText,
+    "tip": lambda widget: widget.setToolTip,
+    "name": lambda widget: widget.setAccessibleName,
+    "placeholder": lambda widget: widget.setPlaceholderText,
+    "title": lambda window: window.setWindowTitle,
+    "heading": lambda group: group.setTitle,
+    "suffix": lambda number: number.setSuffix,
+    "words": lambda number: lambda *words: number.set_texts(*words),
+    "columns": lambda view: lambda *titles: _header(view)(titles),
+    "items": lambda box: partial(_set_each, box.setItemText),
+    "tabs": lambda tabs: partial(_set_each, tabs.setTabText),
+}
+"""What takes the text or texts of a widget, by the word for them in `Retranslated.texted`."""
+
+
+def _header(view: QTreeWidget | QTableWidget) -> Callable[[Sequence[str]], None]:
+    return view.setHeaderLabels if isinstance(view, QTreeWidget) else view.setHorizontalHeaderLabels
+
+
+def _set_each(set_text: Callable[[int, str], object], *texts: str) -> None:
+    for index, text in enumerate(texts):
+        set_text(index, text)
+
+
 class Retranslated(_Mixin):
-    """Stands before Qt's class among the bases of a widget, and calls `retranslate` when the language changes."""
+    """Stands before Qt's class among the bases of a widget: its texts follow the language.
+
+    Texts of fixed ids are bound to their widgets by `texted`; `retranslate` sets those that are formatted or chosen.
+    """
+
+    _bound: tuple[tuple[Callable[..., object], tuple[str, ...]], ...] = ()
+
+    def texted(self, widget: AnyTexted, **text_ids: str | Sequence[str]) -> AnyTexted:
+        """The widget, with the texts of these ids, also after a change of the language.
+
+        Parameters
+        ----------
+        widget : QObject
+            What has the texts: this widget, or a part of it that lives as long.
+        **text_ids : str or sequence of str
+            By what they are: ``text``, ``tip``, ``name`` (the accessible name), ``placeholder``, ``title`` (of a
+            window), ``heading`` (of a group), ``suffix``, ``words`` (label, unit and tip of a number, or the title
+            of a section); lists: ``columns`` (headings of a table or tree), ``items`` (of a box), ``tabs``. What is
+            no id, as ``"%"``, stands for itself.
+        """
+        for what, ids in text_ids.items():
+            bound = _SETTERS[what](widget), (ids,) if isinstance(ids, str) else tuple(ids)
+            self._bound += (bound,)
+            _set(*bound)
+        return widget
 
     def retranslate(self) -> None:
-        """Set every text in the language of the editor."""
-        raise NotImplementedError
+        """Set what else depends on the language of the editor."""
 
     def changeEvent(self, event: QEvent) -> None:
         if event.type() == QEvent.Type.LanguageChange:
+            for bound in self._bound:
+                _set(*bound)
             self.retranslate()
         super().changeEvent(event)
+
+
+def _set(take_texts: Callable[..., object], ids: tuple[str, ...]) -> None:
+    take_texts(*(tr(text_id) if text_id else "" for text_id in ids))
 
 
 class Caption(Retranslated, Label):
@@ -74,16 +140,10 @@ class Caption(Retranslated, Label):
 
     def __init__(self, text_id: str, field: QWidget | None = None) -> None:
         super().__init__()
-        self._text_id = text_id
+        self.texted(self, text=text_id)
         if field is not None:
             self.setBuddy(field)
-        self.retranslate()
-
-    def retranslate(self) -> None:
-        self.setText(self.tr(self._text_id))
-        field = self.buddy()
-        if field is not None:
-            field.setAccessibleName(self.text())
+            self.texted(field, name=text_id)
 
 
 class Button(Retranslated, QPushButton):
@@ -101,16 +161,10 @@ class Button(Retranslated, QPushButton):
 
     def __init__(self, text_id: str, run: Callable[[], object], name: str = "", tip_id: str = "") -> None:
         super().__init__()
-        self._text_id, self._tip_id = text_id, tip_id
         self.setObjectName(name)
         self.setAutoDefault(False)
         on_click(self, run)
-        self.retranslate()
-
-    def retranslate(self) -> None:
-        self.setText(self.tr(self._text_id))
-        if self._tip_id:
-            self.setToolTip(self.tr(self._tip_id))
+        self.texted(self, text=text_id, tip=tip_id)
 
 
 class PictureButton(Button):
@@ -158,20 +212,16 @@ class IconButton(Retranslated, QToolButton):
         self, session: Session, picture: str, tip_id: str, run: Callable[[], object], name: str, dim: bool = False
     ) -> None:
         super().__init__()
-        self._session, self._picture, self._tip_id, self._dim = session, picture, tip_id, dim
+        self._session, self._picture, self._dim = session, picture, dim
         self.setObjectName(name)
         on_click(self, run)
         session.theme_changed.connect(self._draw)
         self._draw()
-        self.retranslate()
+        self.texted(self, tip=tip_id, name=tip_id)
 
     def _draw(self) -> None:
         tokens = self._session.tokens
         self.setIcon(icon(self._picture, tokens, tokens.text_dim if self._dim else None))
-
-    def retranslate(self) -> None:
-        self.setToolTip(self.tr(self._tip_id))
-        self.setAccessibleName(self.toolTip())
 
 
 class OkCancel(Retranslated, QDialogButtonBox):
@@ -184,15 +234,10 @@ class OkCancel(Retranslated, QDialogButtonBox):
 
     def __init__(self, ok_id: str, cancel_id: str) -> None:
         super().__init__(QDialogButtonBox.StandardButton.Ok | QDialogButtonBox.StandardButton.Cancel)
-        self._ok_id, self._cancel_id = ok_id, cancel_id
-        self.ok = self.button(QDialogButtonBox.StandardButton.Ok)
+        self.ok = self.texted(self.button(QDialogButtonBox.StandardButton.Ok), text=ok_id)
+        self.texted(self.button(QDialogButtonBox.StandardButton.Cancel), text=cancel_id)
         for button in self.buttons():
             button.setIcon(QIcon())
-        self.retranslate()
-
-    def retranslate(self) -> None:
-        self.ok.setText(self.tr(self._ok_id))
-        self.button(QDialogButtonBox.StandardButton.Cancel).setText(self.tr(self._cancel_id))
 
 
 class Check(Retranslated, QCheckBox):
@@ -200,11 +245,7 @@ class Check(Retranslated, QCheckBox):
 
     def __init__(self, text_id: str) -> None:
         super().__init__()
-        self._text_id = text_id
-        self.retranslate()
-
-    def retranslate(self) -> None:
-        self.setText(self.tr(self._text_id))
+        self.texted(self, text=text_id)
 
 
 class ColumnList(Retranslated, QTreeWidget):
@@ -222,7 +263,6 @@ class ColumnList(Retranslated, QTreeWidget):
 
     def __init__(self, name: str, *text_ids: str, stretches: tuple[int, ...] = (0,)) -> None:
         super().__init__()
-        self._text_ids = text_ids
         self.setObjectName(name)
         self.setColumnCount(len(text_ids))
         self.setRootIsDecorated(False)
@@ -232,7 +272,4 @@ class ColumnList(Retranslated, QTreeWidget):
         header.setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
         for column in stretches:
             header.setSectionResizeMode(column, QHeaderView.ResizeMode.Stretch)
-        self.retranslate()
-
-    def retranslate(self) -> None:
-        self.setHeaderLabels([self.tr(text_id) for text_id in self._text_ids])
+        self.texted(self, columns=text_ids)

@@ -80,7 +80,7 @@ class CharacterDialog(Retranslated, QDialog):
         self._source, self._picture = selectable(wrapped(Label())), named(Label(), "character_picture")
         self._reported = named(wrapped(Label()), "character_status")
         self._legend = [(Label(sign), Label()) for sign in ("●", "◉", "○")]
-        self.body = BodyMap(session, self._joint_text)
+        self.body = self.texted(BodyMap(session, self._joint_text), name="character_dialog.joints_of_body")
         self.rows = ColumnList("joint_list", "character_dialog.joint", "character_dialog.bone", stretches=(1,))
         self._items = {joint: QTreeWidgetItem() for joint in joints()}
         self.bones = BoneTree(session, figure)
@@ -99,6 +99,7 @@ class CharacterDialog(Retranslated, QDialog):
         self._soon.timeout.connect(self._draw)
         self._build()
         self._connect()
+        self.texted(self.bones.search, placeholder="character_dialog.search_bones")
         self.retranslate()
         self.resize(1300, 760)
         self._choose_first()
@@ -126,6 +127,7 @@ class CharacterDialog(Retranslated, QDialog):
         body_page = panel(in_row((drawn, 5), (self.rows, 4), (choice, 5), margins=(0, 8, 0, 0)))
         self.tabs.addTab(body_page, "")
         self.tabs.addTab(self.faces, "")
+        self.texted(self.tabs, tabs=("character_dialog.body", "character_dialog.face"))
         words = QScrollArea()
         words.setWidget(self._reported)
         words.setWidgetResizable(True)
@@ -331,18 +333,13 @@ class CharacterDialog(Retranslated, QDialog):
     # Words
 
     def retranslate(self) -> None:
-        """Set all texts."""
         self.setWindowTitle(verbatim_title(self.tr("character_dialog.character").format(file=shown(self._path.name))))
         self._source.setText(
             self.tr("character_dialog.bones_morphs").format(
                 file=shown(self._path.name), bones=len(self._figure.bone_names), morphs=len(self._figure.morph_names)
             )
         )
-        self.tabs.setTabText(0, self.tr("character_dialog.body"))
-        self.tabs.setTabText(1, self.tr("character_dialog.face"))
         self.bones.set_headers([self.tr("character_dialog.bone_of_file"), self.tr("character_dialog.joint")])
-        self.bones.search.setPlaceholderText(self.tr("character_dialog.search_bones"))
-        self.body.setAccessibleName(self.tr("character_dialog.joints_of_body"))
         self.give.setText(verbatim(self.tr("character_dialog.give_it_to").format(players=self._offered)))
         self.give.setVisible(bool(self._offered))
         self.faces.retranslate()

@@ -67,6 +67,7 @@ class CharactersDialog(Retranslated, QDialog):
         self.list.currentItemChanged.connect(self._enable)
         session.characters_changed.connect(self.refresh)
         session.theme_changed.connect(self.refresh)
+        self.texted(self, title="characters_dialog.characters")
         self.retranslate()
         self.resize(520, 460)
 
@@ -130,8 +131,6 @@ class CharactersDialog(Retranslated, QDialog):
         self._wrong.setVisible(bool(wrong))
 
     def retranslate(self) -> None:
-        """Set all texts."""
-        self.setWindowTitle(self.tr("characters_dialog.characters"))
         self.refresh()
 
     # Qt's own names

@@ -25,6 +25,7 @@ class EncodingChoice(Retranslated, ComboBox):
         self.setObjectName("import_encoding")
         self._encoding: str | None = None
         self.currentIndexChanged.connect(lambda: self.chosen.emit(self.currentData()))
+        self.texted(self, tip="import_dialog.encoding_tip")
         self.retranslate()
 
     def show_encoding(self, encoding: str | None) -> None:
@@ -59,5 +60,4 @@ class EncodingChoice(Retranslated, ComboBox):
             self.addItem(self.tr("import_dialog.automatic"), None)
             for encoding in ENCODINGS:
                 self.addItem(titles.get(encoding, encoding.upper()), encoding)
-        self.setToolTip(self.tr("import_dialog.encoding_tip"))
         self.show_encoding(self._encoding)

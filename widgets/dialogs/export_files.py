@@ -102,12 +102,12 @@ class ExportDialog(WorkingDialog):
         self._bvh_names.addItem("", "")
         for profile, table in load_bone_names().items():
             self._bvh_names.addItem(table.title, profile)
-        self._keys = named(ComboBox(), "export_keys")
+        self._keys = self.texted(named(ComboBox(), "export_keys"), tip="export_dialog.reduced_keys_tip")
         for choice in KEY_CHOICES:
             self._keys.addItem("", choice)
         self._keys.setCurrentIndex(KEY_CHOICES.index(keys))
         self._range = RangeChooser(session, self._project.score)
-        self._preroll = named(QDoubleSpinBox(), "export_preroll")
+        self._preroll = self.texted(named(QDoubleSpinBox(), "export_preroll"), suffix="export_dialog.beats")
         self._preroll.lineEdit().setTextMargins(TEXT_MARGIN_PX, 0, 0, 0)
         self._preroll.setRange(0.0, 64.0)
         self._preroll.setSingleStep(1.0)
@@ -137,6 +137,7 @@ class ExportDialog(WorkingDialog):
         for chooser in (self._skeleton, self._place, self._range, self._formats):
             chooser.changed.connect(self._show_outcome)
         self._players.itemChanged.connect(self._show_players)
+        self.texted(self, title="export_dialog.export")
         self.retranslate()
 
     def _list_players(self) -> None:
@@ -338,13 +339,9 @@ class ExportDialog(WorkingDialog):
         return "\n".join(lines)
 
     def retranslate(self) -> None:
-        """Set every text anew."""
-        self.setWindowTitle(self.tr("export_dialog.export"))
         self._bvh_names.setItemText(0, self.tr("export_dialog.those_of_skeleton"))
         self._keys.setItemText(0, self.tr("export_dialog.key_on_every_frame"))
         self._keys.setItemText(1, self.tr("export_dialog.reduced_keys"))
-        self._keys.setToolTip(self.tr("export_dialog.reduced_keys_tip"))
-        self._preroll.setSuffix(self.tr("export_dialog.beats"))
         self._range.retranslate()
         super().retranslate()
         if not self._running and not self._show.isVisible():

@@ -69,7 +69,6 @@ class FormatChooser(Retranslated, QWidget):
         self.changed.emit()
 
     def retranslate(self) -> None:
-        """Set every text anew."""
         characters, body = self.tr("format_chooser.characters_and_instruments"), self.tr("format_chooser.body_motion")
         for name, box in self._boxes.items():
             kind = FILE_FORMATS[name]

@@ -40,6 +40,7 @@ class PlaceChooser(Retranslated, QWidget):
         self._box = named(ComboBox(), "export_destination")
         for choice in _DESTINATIONS:
             self._box.addItem("", choice)
+        self.texted(self._box, items=("place_chooser.folder_of_files", "place_chooser.unreal_project_2"))
         self._box.setCurrentIndex(_DESTINATIONS.index(destination))
         self._path = named(PathEdit(folder if destination == "folder" else unreal), "export_folder")
         self._choose = Button("place_chooser.choose", self._choose_path)
@@ -90,9 +91,7 @@ class PlaceChooser(Retranslated, QWidget):
             self._path.set_path(chosen)
 
     def retranslate(self) -> None:
-        """Set every text anew."""
-        self._box.setItemText(0, self.tr("place_chooser.folder_of_files"))
-        self._box.setItemText(1, self.tr("place_chooser.unreal_project_2"))
+        """Say what the path is of."""
         unreal = self.destination == "unreal"
         self._path.setPlaceholderText(
             self.tr("place_chooser.uproject_file") if unreal else self.tr("place_chooser.folder")

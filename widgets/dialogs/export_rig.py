@@ -24,7 +24,22 @@ class RigChooser(Retranslated, QWidget):
         layout.setContentsMargins(0, 0, 0, 0)
         for index, field in enumerate((self._instrument, self._root_bone, self._rest_pose, self._twist_bones)):
             layout.addWidget(field, *divmod(index, 2))
-        self.retranslate()
+        self.texted(
+            self._instrument,
+            items=(
+                "rig_chooser.instrument_free",
+                "rig_chooser.instrument_on_socket",
+                "rig_chooser.instrument_on_ik_target",
+            ),
+        )
+        self.texted(
+            self._root_bone,
+            items=("rig_chooser.root_at_origin", "rig_chooser.root_at_place", "rig_chooser.root_in_motion"),
+        )
+        self.texted(
+            self._rest_pose,
+            items=("rig_chooser.rest_as_modelled", "rig_chooser.rest_t_pose", "rig_chooser.rest_a_pose"),
+        )
 
     @property
     def options(self) -> RigOptions:
@@ -35,33 +50,6 @@ class RigChooser(Retranslated, QWidget):
             REST_POSES[self._rest_pose.currentIndex()],
             self._twist_bones.isChecked(),
         )
-
-    def retranslate(self) -> None:
-        """Set every text anew."""
-        for index, text in enumerate(
-            (
-                self.tr("rig_chooser.instrument_free"),
-                self.tr("rig_chooser.instrument_on_socket"),
-                self.tr("rig_chooser.instrument_on_ik_target"),
-            )
-        ):
-            self._instrument.setItemText(index, text)
-        for index, text in enumerate(
-            (
-                self.tr("rig_chooser.root_at_origin"),
-                self.tr("rig_chooser.root_at_place"),
-                self.tr("rig_chooser.root_in_motion"),
-            )
-        ):
-            self._root_bone.setItemText(index, text)
-        for index, text in enumerate(
-            (
-                self.tr("rig_chooser.rest_as_modelled"),
-                self.tr("rig_chooser.rest_t_pose"),
-                self.tr("rig_chooser.rest_a_pose"),
-            )
-        ):
-            self._rest_pose.setItemText(index, text)
 
 
 def _box(name: str, choices: Sequence[str]) -> ComboBox:

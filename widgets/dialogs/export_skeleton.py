@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Callable
 from pathlib import Path
-from typing import TypeAlias
+from typing import Final, TypeAlias
 
 from PySide6.QtCore import QSize, Signal
 from PySide6.QtGui import QResizeEvent
@@ -37,6 +37,12 @@ CHOICES: tuple[SkeletonChoice, ...] = ("own", "ue5", "suisou")
 MOST_LINES = 5
 _KEY = "compare_skeleton"
 
+_CHOICES: Final[dict[SkeletonChoice, str]] = {
+    "own": "skeleton_chooser.of_characters_own_file",
+    "ue5": "skeleton_chooser.unreal_engine_5_mannequin",
+    "suisou": "skeleton_chooser.suisou_vrm_1_0",
+}
+
 
 class SkeletonChooser(Retranslated, QWidget):
     """A choice of skeleton and an optional file of the asset; says beside the window's work what differs.
@@ -67,7 +73,10 @@ class SkeletonChooser(Retranslated, QWidget):
         self._box = named(ComboBox(), "export_skeleton")
         for choice in CHOICES:
             self._box.addItem("", choice)
-        self._asset = named(PathEdit(), "export_asset")
+        self.texted(self._box, items=[_CHOICES[choice] for choice in CHOICES])
+        self._asset = self.texted(
+            named(PathEdit(), "export_asset"), placeholder="skeleton_chooser.fbx_of_asset_to_compare"
+        )
         self._asset.setClearButtonEnabled(True)
         self._choose = Button("skeleton_chooser.choose", self._choose_asset)
         self._reported = wrapped(named(Label(), "export_differences"))
@@ -177,15 +186,6 @@ class SkeletonChooser(Retranslated, QWidget):
             self._asset.set_path(chosen)
 
     def retranslate(self) -> None:
-        """Set every text anew."""
-        texts: dict[SkeletonChoice, str] = {
-            "own": self.tr("skeleton_chooser.of_characters_own_file"),
-            "ue5": self.tr("skeleton_chooser.unreal_engine_5_mannequin"),
-            "suisou": self.tr("skeleton_chooser.suisou_vrm_1_0"),
-        }
-        for index, choice in enumerate(CHOICES):
-            self._box.setItemText(index, texts[choice])
-        self._asset.setPlaceholderText(self.tr("skeleton_chooser.fbx_of_asset_to_compare"))
         self._show()
 
     def sizeHint(self) -> QSize:

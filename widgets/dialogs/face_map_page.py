@@ -141,7 +141,6 @@ class FaceMapPage(QWidget):
             self._column.addWidget(row)
 
     def retranslate(self) -> None:
-        """Set all texts."""
         self._none.setText(
             self.tr("face_map_page.nothing_character_does_not_do")
             if self._morphs

@@ -52,6 +52,7 @@ class FollowRecordingDialog(Retranslated, QDialog):
             self._explained, self._notes, self._dynamics, self._about_stems, (self._room, 1), self._buttons, of=self
         )
         self.resize(_SIZE)
+        self.texted(self, title="follow_dialog.follow_recording")
         self.retranslate()
         self._show()
 
@@ -105,8 +106,6 @@ class FollowRecordingDialog(Retranslated, QDialog):
             self._clear[player_id].setEnabled(path is not None)
 
     def retranslate(self) -> None:
-        """Set every text anew."""
-        self.setWindowTitle(self.tr("follow_dialog.follow_recording"))
         self._show()
 
     def accept(self) -> None:

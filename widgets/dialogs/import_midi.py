@@ -125,7 +125,20 @@ class ImportDialog(Retranslated, QDialog):
         self._end_tick = max((max(stream.end_ticks) for stream in contents.streams), default=1)
 
         self._heading = named(Label(), "heading")
-        self._table = named(QTableWidget(0, 9), "import_tracks")
+        self._table = self.texted(
+            named(QTableWidget(0, 9), "import_tracks"),
+            columns=(
+                "import_dialog.play",
+                "import_dialog.name",
+                "import_dialog.notes",
+                "import_dialog.number_range",
+                "import_dialog.notes_together",
+                "import_dialog.instrument",
+                "import_dialog.pitches",
+                "import_dialog.character",
+                "import_dialog.clean_take",
+            ),
+        )
         self._table.verticalHeader().hide()
         self._table.verticalHeader().setDefaultSectionSize(ROW_PX)
         self._table.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
@@ -142,7 +155,10 @@ class ImportDialog(Retranslated, QDialog):
             "import_dialog.take_apart", self.separate_selected, "separate", "import_dialog.make_part_of_each_merged"
         )
         self._find_percussion()
-        self._dancer = named(Check("import_dialog.add_dancer"), "import_dancer")
+        self._dancer = self.texted(
+            named(Check("import_dialog.add_dancer"), "import_dancer"),
+            tip="import_dialog.dancer_who_moves_to_percussion",
+        )
         self._encodings = EncodingChoice()
         self._encoding_title = Caption("import_dialog.encoding", self._encodings)
         self._encodings.chosen.connect(self._choose_encoding)
@@ -164,6 +180,7 @@ class ImportDialog(Retranslated, QDialog):
         self._table.itemSelectionChanged.connect(self._show_tools)
         # Rows are there once it is known what the file says.
         self._encodings.setEnabled(False)
+        self.texted(self, title="import_dialog.import_midi")
         self.retranslate()
         begin_with_size(self, _SIZE)
         self._work_out(None)
@@ -196,8 +213,6 @@ class ImportDialog(Retranslated, QDialog):
         self._work_out(self._rows)
 
     def retranslate(self) -> None:
-        """Set every text anew."""
-        self.setWindowTitle(self.tr("import_dialog.import_midi"))
         contents = self._contents
         length_s, metrics = contents.tempo_map.seconds(float(self._end_tick)), self._heading.fontMetrics()
         self._heading.setText(
@@ -209,20 +224,6 @@ class ImportDialog(Retranslated, QDialog):
                 metre=f"{contents.metres[0].numerator}/{contents.metres[0].denominator}",
             )
         )
-        self._table.setHorizontalHeaderLabels(
-            [
-                self.tr("import_dialog.play"),
-                self.tr("import_dialog.name"),
-                self.tr("import_dialog.notes"),
-                self.tr("import_dialog.number_range"),
-                self.tr("import_dialog.notes_together"),
-                self.tr("import_dialog.instrument"),
-                self.tr("import_dialog.pitches"),
-                self.tr("import_dialog.character"),
-                self.tr("import_dialog.clean_take"),
-            ]
-        )
-        self._dancer.setToolTip(self.tr("import_dialog.dancer_who_moves_to_percussion"))
         self._fill()
 
     def _choose_encoding(self, encoding: str | None) -> None:

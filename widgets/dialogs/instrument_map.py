@@ -72,7 +72,17 @@ class InstrumentsDialog(Retranslated, QDialog):
         self._file, self._problem = wrapped(Label()), wrapped(named(Label(), "instruments_problem"))
         self._title, self._id = named(Label(), "instruments_title"), Label()
         self._title.setStyleSheet("font-weight: bold;")
-        self._table = named(QTableWidget(0, 6), "instruments_fingerings")
+        self._table = self.texted(
+            named(QTableWidget(0, 6), "instruments_fingerings"),
+            columns=(
+                "instruments_dialog.written",
+                "instruments_dialog.sounds",
+                "instruments_dialog.choice",
+                "instruments_dialog.fingering",
+                "instruments_dialog.cents",
+                "instruments_dialog.for",
+            ),
+        )
         self._diagram = named(FingeringDiagram(session), "instruments_diagram")
         self._diagram.set_editable(True)
         self._hint = wrapped(Caption("instruments_dialog.click_keys_to_change_fingering"))
@@ -95,6 +105,7 @@ class InstrumentsDialog(Retranslated, QDialog):
         }
         self._build()
         self._connect()
+        self.texted(self, title="instruments_dialog.instruments")
         self.retranslate()
         front = session.player
         self._fill_list(front.instrument_id if front is not None else "")
@@ -471,18 +482,6 @@ class InstrumentsDialog(Retranslated, QDialog):
     # Words
 
     def retranslate(self) -> None:
-        """Set every text."""
-        self.setWindowTitle(self.tr("instruments_dialog.instruments"))
-        self._table.setHorizontalHeaderLabels(
-            [
-                self.tr("instruments_dialog.written"),
-                self.tr("instruments_dialog.sounds"),
-                self.tr("instruments_dialog.choice"),
-                self.tr("instruments_dialog.fingering"),
-                self.tr("instruments_dialog.cents"),
-                self.tr("instruments_dialog.for"),
-            ]
-        )
         if self._list.count():
             self._show()
 

@@ -71,7 +71,11 @@ class LatencyDialog(Retranslated, QDialog):
         )
         self._reported.setObjectName("latency_status")
         self.chart = HitChart(session)
-        self.value = named(QDoubleSpinBox(), "latency_value")
+        self.value = self.texted(
+            named(QDoubleSpinBox(), "latency_value"),
+            name="latency_dialog.latency",
+            tip="latency_dialog.taken_off_time_of_everything",
+        )
         self.value.setRange(-500.0, 1000.0)
         self.value.setDecimals(0)
         self.value.setSingleStep(1.0)
@@ -90,6 +94,7 @@ class LatencyDialog(Retranslated, QDialog):
         session.theme_changed.connect(self._show)
         self._port = ""
         self._changed()
+        self.texted(self, title="latency_dialog.latency")
         self.retranslate()
         self.resize(600, 400)
 
@@ -239,12 +244,7 @@ class LatencyDialog(Retranslated, QDialog):
         return reported, "good"
 
     def retranslate(self) -> None:
-        """Set every text anew."""
-        self.setWindowTitle(self.tr("latency_dialog.latency"))
-        self.value.setAccessibleName(self.tr("latency_dialog.latency"))
         self.value.setSuffix(" " + self.tr("latency_dialog.ms"))
-        self.value.setToolTip(self.tr("latency_dialog.taken_off_time_of_everything"))
-        self.chart.retranslate()
         self._show()
 
     # Qt's own names
@@ -256,7 +256,7 @@ class LatencyDialog(Retranslated, QDialog):
         super().keyPressEvent(event)
 
 
-class HitChart(QWidget):
+class HitChart(Retranslated, QWidget):
     """How late every hit came, click by click, and a light."""
 
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
@@ -265,6 +265,7 @@ class HitChart(QWidget):
         self._session = session
         self.found: Measured | None = None
         self._click, self._flashes = -1, False
+        self.texted(self, name="hit_chart.how_late_every_hit_came")
 
     def show_click(self, number: int, flashes: bool) -> None:
         """The counted click of this number was the last; the light shines."""
@@ -279,8 +280,6 @@ class HitChart(QWidget):
             self.update()
 
     def retranslate(self) -> None:
-        """Set the texts."""
-        self.setAccessibleName(self.tr("hit_chart.how_late_every_hit_came"))
         self.update()
 
     def sizeHint(self) -> QSize:

@@ -40,7 +40,6 @@ class MetadataDifferencesDialog(Retranslated, QDialog):
         self.retranslate()
 
     def retranslate(self) -> None:
-        """Set every text in the language of the editor."""
         title = self.tr("metadata_differences_dialog.metadata_of_piece_and_file")
         self.setWindowTitle(title.format(file=self._file))
 

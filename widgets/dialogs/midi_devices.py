@@ -70,7 +70,10 @@ class MidiDevicesDialog(Retranslated, QDialog):
         """The breath that was found, and from what, while the bite is looked for."""
         self._left_s = 0
         self._listed: tuple[object, ...] = ()
-        self._list = ColumnList("midi_device_list", "midi_devices_dialog.device", "midi_devices_dialog.state")
+        self._list = self.texted(
+            ColumnList("midi_device_list", "midi_devices_dialog.device", "midi_devices_dialog.state"),
+            name="midi_devices_dialog.devices",
+        )
         self._hint = named(wrapped(Label()), "midi_hint")
         self._reported = named(wrapped(Label()), "midi_learned")
         self._audio_status = named(wrapped(Label()), "midi_beep_status")
@@ -90,6 +93,9 @@ class MidiDevicesDialog(Retranslated, QDialog):
         self._second.timeout.connect(self._count_down)
         self._build()
         self._connect()
+        self.texted(self, title="midi_devices_dialog.midi_devices")
+        self.texted(self._device, heading="midi_devices_dialog.chosen_device")
+        self.texted(self._incoming, heading="midi_devices_dialog.what_comes_in")
         self.retranslate()
         self.resize(820, 560)
 
@@ -325,11 +331,6 @@ class MidiDevicesDialog(Retranslated, QDialog):
         self._device.setEnabled(bool(recording.port))
 
     def retranslate(self) -> None:
-        """Set every text anew."""
-        self.setWindowTitle(self.tr("midi_devices_dialog.midi_devices"))
-        self._list.setAccessibleName(self.tr("midi_devices_dialog.devices"))
-        self._device.setTitle(self.tr("midi_devices_dialog.chosen_device"))
-        self._incoming.setTitle(self.tr("midi_devices_dialog.what_comes_in"))
         self._learn.setToolTip(self.tr("midi_devices_dialog.finds_with_what_breath_and").format(count=LEARN_S))
         self._show()
 

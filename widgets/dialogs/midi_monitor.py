@@ -43,11 +43,14 @@ class MidiMonitor(Retranslated, QWidget):
         self._note.setAlignment(Qt.AlignmentFlag.AlignCenter)
         self._breath, self._bite = _meter("midi_breath"), _meter("midi_bite")
         self._names = {meter: Label() for meter in (self._breath, self._bite)}
-        self._list = named(QListWidget(), "midi_messages")
+        self._list = self.texted(named(QListWidget(), "midi_messages"), name="midi_monitor.last_messages")
         self._list.setUniformItemSizes(True)
         self._list.setSelectionMode(QListWidget.SelectionMode.NoSelection)
         meters = QGridLayout()
         meters.setColumnStretch(1, 1)
+        for meter, text_id in ((self._breath, "midi_monitor.breath"), (self._bite, "midi_monitor.bite")):
+            self.texted(self._names[meter], text=text_id)
+            self.texted(meter, name=text_id)
         for row, (meter, name) in enumerate(self._names.items()):
             meters.addWidget(name, row, 0)
             meters.addWidget(meter, row, 1, Qt.AlignmentFlag.AlignVCenter)
@@ -147,11 +150,6 @@ class MidiMonitor(Retranslated, QWidget):
         return self.tr("midi_monitor.channel_2").format(text=text, number=line.channel)
 
     def retranslate(self) -> None:
-        """Set every text anew."""
-        for meter, text in ((self._breath, self.tr("midi_monitor.breath")), (self._bite, self.tr("midi_monitor.bite"))):
-            self._names[meter].setText(text)
-            meter.setAccessibleName(text)
-        self._list.setAccessibleName(self.tr("midi_monitor.last_messages"))
         self._show()
 
 

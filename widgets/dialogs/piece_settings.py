@@ -50,12 +50,12 @@ class PieceSettingsDialog(Retranslated, QDialog):
         # It would make 120 of 12.
         self._rate.setCompleter(None)  # type: ignore[arg-type]
         self._rate.addItems([frame_rate_text(rate) for rate in USUAL_RATES])
-        self._preroll = named(_Beats(), "piece_preroll")
+        self._preroll = self.texted(named(_Beats(), "piece_preroll"), suffix="piece_settings_dialog.beats")
         self._preroll.setRange(*limits.PREROLL_BEATS)
         self._preroll.setDecimals(3)
         self._preroll.lineEdit().setTextMargins(TEXT_MARGIN_PX, 0, 0, 0)
         self._felt = named(ComboBox(), "piece_felt_beat")
-        self._intensity = named(_Beats(), "piece_section_intensity")
+        self._intensity = self.texted(named(_Beats(), "piece_section_intensity"), suffix="piece_settings_dialog.times")
         self._intensity.setRange(*limits.SECTION_INTENSITY)
         self._intensity.setDecimals(2)
         self._intensity.setSingleStep(0.05)
@@ -87,6 +87,7 @@ class PieceSettingsDialog(Retranslated, QDialog):
         self._show(self._before)
         for signal in (self._rate.editTextChanged, self._seed.textChanged):
             signal.connect(self._judge)
+        self.texted(self, title="piece_settings_dialog.piece_settings")
         self.retranslate()
         self._title.setFocus()
 
@@ -228,8 +229,6 @@ class PieceSettingsDialog(Retranslated, QDialog):
         return names
 
     def retranslate(self) -> None:
-        """Set every text anew."""
-        self.setWindowTitle(self.tr("piece_settings_dialog.piece_settings"))
         tips: dict[QWidget, str] = {
             self._title: self.tr("piece_settings_dialog.names_piece_in_midi_file"),
             self._rate: self.tr("piece_settings_dialog.of_ruler_and_of_steps"),
@@ -245,8 +244,6 @@ class PieceSettingsDialog(Retranslated, QDialog):
             field.setToolTip(tip)
         for caption in self.findChildren(Caption):
             caption.setToolTip(caption.buddy().toolTip())
-        self._preroll.setSuffix(self.tr("piece_settings_dialog.beats"))
-        self._intensity.setSuffix(self.tr("piece_settings_dialog.times"))
         for index, text in enumerate(self._beat_names().values()):
             self._felt.setItemText(index, text)
         self._randomise.setIcon(icon("dice", self._session.tokens))

@@ -105,6 +105,7 @@ class PlayblastDialog(WorkingDialog):
         self.fields = (self._size, self._rate, self._range, self._view, self._with_sound, self._file, self._choose)
         buttons = self._box("playblast_dialog.make_film", self.start, self._show_folder)
         in_column(form, (self._state, 1), self._progress, buttons, of=self)
+        self.texted(self, title="playblast_dialog.playblast")
         self.retranslate()
 
     def start(self) -> None:
@@ -209,8 +210,6 @@ class PlayblastDialog(WorkingDialog):
         self._state.setText(self.tr("playblast_dialog.this_file_is_there_and") if exists else "")
 
     def retranslate(self) -> None:
-        """Set every text anew."""
-        self.setWindowTitle(self.tr("playblast_dialog.playblast"))
         super().retranslate()
         ranges = [(self.tr("playblast_dialog.whole_piece"), _WHOLE)]
         if self._session.loop_s is not None:

@@ -111,10 +111,14 @@ class PreferencesDialog(Retranslated, QDialog):
         self.shortcuts.chosen.connect(self.shortcut_chosen)
         self.tabs.addTab(self.shortcuts, "")
         self.tabs.addTab(self._instruments_page(), "")
+        titles = "preferences_dialog.general", "preferences_dialog.keyboard_shortcuts", "preferences_dialog.instruments"
+        self.texted(self.tabs, tabs=titles)
         self._buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Close)
         self._buttons.rejected.connect(self.reject)
         in_column((self.tabs, 1), self._buttons, of=self, margins=(10, 8, 10, 10))
         session.instruments_changed.connect(self.refresh)
+        self.texted(self, title="preferences_dialog.preferences")
+        self.texted(self._open, text="preferences_dialog.show_folder")
         self.retranslate()
         self.refresh()
 
@@ -179,12 +183,6 @@ class PreferencesDialog(Retranslated, QDialog):
         self._show_instruments()
 
     def retranslate(self) -> None:
-        """Set the texts."""
-        self.setWindowTitle(self.tr("preferences_dialog.preferences"))
-        self.tabs.setTabText(0, self.tr("preferences_dialog.general"))
-        self.tabs.setTabText(1, self.tr("preferences_dialog.keyboard_shortcuts"))
-        self.tabs.setTabText(2, self.tr("preferences_dialog.instruments"))
-        self._open.setText(self.tr("preferences_dialog.show_folder"))
         for choice in self._choices:
             self._labels[choice.name].setText(tr(choice.label))
             for index, (_, word) in enumerate(choice.options):

@@ -109,12 +109,11 @@ class ReimportDialog(Retranslated, QDialog):
             self._buttons,
             of=self,
         )
+        self.texted(self, title="reimport_dialog.re_import_midi")
         self.retranslate()
 
     def retranslate(self) -> None:
-        """Set every text anew."""
         outcome = self._outcome
-        self.setWindowTitle(self.tr("reimport_dialog.re_import_midi"))
         if outcome.project is self._before:
             text = self.tr("reimport_dialog.says_nothing_new")
         elif replace(outcome.project, source=self._before.source) == self._before:

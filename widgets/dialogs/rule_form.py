@@ -64,7 +64,7 @@ class RuleForm(Retranslated, QWidget):
             named(Several(f"rule_{name}"), f"rule_{name}")
             for name in ("place", "styles", "not_styles", "habits", "grows_with")
         )
-        self._chance = self._number("chance", 0.0, 100.0, 5.0)
+        self._chance = self.texted(self._number("chance", 0.0, 100.0, 5.0), suffix="rules_dialog.unit_percent")
         self._strength = self._number("strength", 0.0, 1.0, 0.05)
         self._grows_from = self._number("grows_from", 0.0, 1.0, 0.05)
         self._start_s = self._number("start_s", -60.0, 60.0, 0.1)
@@ -80,6 +80,8 @@ class RuleForm(Retranslated, QWidget):
             several.changed.connect(self._edited)
         self._when, self._do = QGroupBox(), QGroupBox()
         self._lay_out()
+        self.texted(self._when, heading="rules_dialog.when")
+        self.texted(self._do, heading="rules_dialog.do")
         self.retranslate()
 
     def _number(self, name: str, low: float, high: float, step: float) -> Number:
@@ -244,14 +246,10 @@ class RuleForm(Retranslated, QWidget):
         return {id: self.tr(text) for id, text in ids.items()}
 
     def retranslate(self) -> None:
-        """Set every text anew."""
-        self._when.setTitle(self.tr("rules_dialog.when"))
-        self._do.setTitle(self.tr("rules_dialog.do"))
         for asked in (*self._asked, self._end, self._fade_in, self._fade_out):
             asked.retranslate()
         for number in (self._start_s, self._spread, self._stays, self._apart):
             number.setSuffix(self.tr("rules_dialog.unit_s"))
-        self._chance.setSuffix(self.tr("rules_dialog.unit_percent"))
         tips = {
             self._apart: self.tr("rules_dialog.apart_tip"),
             self._growth: self.tr("rules_dialog.grows_with_tip"),

@@ -67,7 +67,7 @@ class RulesDialog(Retranslated, QDialog):
         self._session, self._shelf = session, RULES.now()
         self._draft: Draft = listed(self._shelf.items, self._shelf.files)
         self._saved = self._draft
-        self._list = named(_Rules(), "rules_list")
+        self._list = self.texted(named(_Rules(), "rules_list"), name="rules_dialog.rules", tip="rules_dialog.list_tip")
         self._form = RuleForm(session, metadata_library())
         self._problem = selectable(named(wrapped(Label()), "rules_problem"))
         self._problem.setMinimumHeight(PROBLEM_PX)
@@ -79,7 +79,9 @@ class RulesDialog(Retranslated, QDialog):
         self._remove = named(QPushButton(), "rules_remove")
         self._remove.setAutoDefault(False)
         on_click(self._remove, self._remove_rule)
-        self._preview = named(Check("rules_dialog.preview"), "rules_preview")
+        self._preview = self.texted(
+            named(Check("rules_dialog.preview"), "rules_preview"), tip="rules_dialog.preview_tip"
+        )
         self._save = Button("rules_dialog.save", self._write, "rules_save", "rules_dialog.save_tip")
         self._cancel = Button("rules_dialog.cancel", self.reject, "rules_cancel")
         self._timer = QTimer(self, interval=PREVIEW_MS, singleShot=True)
@@ -95,6 +97,7 @@ class RulesDialog(Retranslated, QDialog):
             QKeySequence("Ctrl+D"): self._duplicate,
         }
         self._fill(0)
+        self.texted(self, title="rules_dialog.rules")
         self.retranslate()
         begin_with_size(self, _SIZE)
         self._list.setFocus()
@@ -256,11 +259,6 @@ class RulesDialog(Retranslated, QDialog):
         super().done(result)
 
     def retranslate(self) -> None:
-        """Set every text anew."""
-        self.setWindowTitle(self.tr("rules_dialog.rules"))
-        self._preview.setToolTip(self.tr("rules_dialog.preview_tip"))
-        self._list.setAccessibleName(self.tr("rules_dialog.rules"))
-        self._list.setToolTip(self.tr("rules_dialog.list_tip"))
         for index in range(self._list.count()):
             self._word(index)
         self._show_current()

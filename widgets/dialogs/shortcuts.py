@@ -70,7 +70,9 @@ class ShortcutsPage(Retranslated, QWidget):
         self._session, self._rows_now, self._conflicts = session, rows, conflicts
         self._menu_of = menu_of
         self._rows: dict[str, ShortcutRow] = {}
-        self.search = named(QLineEdit(), "shortcut_search")
+        self.search = self.texted(
+            named(QLineEdit(), "shortcut_search"), placeholder="shortcuts_page.search_actions_or_keys"
+        )
         self.search.setClearButtonEnabled(True)
         self.search.textChanged.connect(self._filter)
         columns = ("shortcuts_page.action", "shortcuts_page.menu", "shortcuts_page.keys", "shortcuts_page.works")
@@ -78,7 +80,7 @@ class ShortcutsPage(Retranslated, QWidget):
         self.list.setSelectionMode(QAbstractItemView.SelectionMode.SingleSelection)
         self.list.currentItemChanged.connect(self._choose)
         self._label = Caption("shortcuts_page.new_keys")
-        self.edit = named(QKeySequenceEdit(), "shortcut_edit")
+        self.edit = self.texted(named(QKeySequenceEdit(), "shortcut_edit"), name="shortcuts_page.new_keys")
         self.edit.setClearButtonEnabled(True)
         self.edit.setMaximumSequenceLength(1)
         self.edit.keySequenceChanged.connect(self._changed)
@@ -94,8 +96,6 @@ class ShortcutsPage(Retranslated, QWidget):
 
     def retranslate(self) -> None:
         """Set the texts and the rows anew."""
-        self.search.setPlaceholderText(self.tr("shortcuts_page.search_actions_or_keys"))
-        self.edit.setAccessibleName(self.tr("shortcuts_page.new_keys"))
         self._fill()
 
     def _fill(self) -> None:

@@ -58,6 +58,7 @@ class StreamDialog(Retranslated, QDialog):
         session.dancer_changed.connect(self._show)
         session.performance_changed.connect(self._show)
         session.theme_changed.connect(self._show)
+        self.texted(self, title="stream_dialog.live_stream")
         self.retranslate()
         self.resize(620, 560)
 
@@ -135,8 +136,6 @@ class StreamDialog(Retranslated, QDialog):
                 self._list.addTopLevelItem(item)
 
     def retranslate(self) -> None:
-        """Set all texts."""
-        self.setWindowTitle(self.tr("stream_dialog.live_stream"))
         self._who.set_options(
             [
                 Option("front", self.tr("stream_dialog.selected_player_in_middle")),

@@ -71,7 +71,6 @@ class WorkingDialog(Retranslated, QDialog):
         self._progress.setValue(round(_PARTS * share))
 
     def retranslate(self) -> None:
-        """Set every text anew."""
         self._close.setText(self.tr("working_dialog.cancel") if self._running else self.tr("working_dialog.close"))
 
     def reject(self) -> None:

@@ -235,7 +235,6 @@ class CorrectionList(Retranslated, QWidget):
     # Words
 
     def retranslate(self) -> None:
-        """Set every text in the language of the editor."""
         self.show_corrections()
 
     # Qt's own names

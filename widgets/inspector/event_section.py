@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Final
 
 import msgspec
 from PySide6.QtCore import Qt
@@ -34,6 +35,28 @@ from widgets.inspector.words import amount_field, event_text, event_title
 
 EARLIEST, LATEST = -(2.0**31), 2.0**31
 ANGLES = ("up_deg", "left_deg", "roll_deg")
+_WORDS: Final = {
+    "start_tick": ("event_section.start", "", "event_section.bar_beat_ticks"),
+    "end_tick": ("event_section.end", "", "event_section.bar_beat_ticks"),
+    "start_s": ("", "event_section.seconds", "event_section.start_in_seconds_of_performance"),
+    "end_s": ("", "event_section.seconds", "event_section.end_in_seconds_of_performance"),
+    "amount": ("event_section.amount", "", ""),
+    "beats": (
+        "event_section.preparatory_beat",
+        "event_section.beats",
+        "event_section.how_long_before_entry_cues",
+    ),
+    "up_deg": ("event_section.up", "°", "event_section.raised_leaning_back_or_elbow"),
+    "left_deg": ("event_section.left", "°", "event_section.turned_to_players_left"),
+    "roll_deg": ("event_section.roll", "°", "event_section.leaning_to_players_left"),
+    "fade_in_s": ("event_section.fade_in", "event_section.seconds", "event_section.how_long_it_takes_to"),
+    "fade_out_s": (
+        "event_section.fade_out",
+        "event_section.seconds",
+        "event_section.how_long_it_takes_to_go",
+    ),
+}
+"""Label, unit and tip of each number."""
 
 
 class EventSection(Retranslated, QWidget):
@@ -46,7 +69,7 @@ class EventSection(Retranslated, QWidget):
         self._events: tuple[Placed, ...] = ()
         self._section = Section(session, "inspector_event", self)
         self._numbers: dict[str, NumberSlider] = {}
-        self._expression = named(Combo(), "event_expression")
+        self._expression = self.texted(named(Combo(), "event_expression"), tip="event_section.face_that_is_shown")
         self._length, self._why = Label(), Label()
         self._by_hand = named(ByHandLine(session), "event_by_hand")
         self._build()
@@ -66,7 +89,7 @@ class EventSection(Retranslated, QWidget):
         slider = NumberSlider(self._session, low, high, step=step, decimals=decimals, slides=slides, fills=fills)
         slider.setObjectName(f"event_{name}")
         slider.released.connect(self._session.document.end_gesture)
-        self._numbers[name] = slider
+        self._numbers[name] = self.texted(slider, words=_WORDS[name])
         return slider
 
     def _build(self) -> None:
@@ -321,32 +344,6 @@ class EventSection(Retranslated, QWidget):
             label.setStyleSheet(f"color: {self._session.tokens.text_dim};")
 
     def retranslate(self) -> None:
-        """Set every text in the language of the editor."""
-        seconds, degrees = self.tr("event_section.seconds"), "°"
-        texts = {
-            "start_tick": (self.tr("event_section.start"), "", self.tr("event_section.bar_beat_ticks")),
-            "end_tick": (self.tr("event_section.end"), "", self.tr("event_section.bar_beat_ticks")),
-            "start_s": ("", seconds, self.tr("event_section.start_in_seconds_of_performance")),
-            "end_s": ("", seconds, self.tr("event_section.end_in_seconds_of_performance")),
-            "amount": (self.tr("event_section.amount"), "", ""),
-            "beats": (
-                self.tr("event_section.preparatory_beat"),
-                self.tr("event_section.beats"),
-                self.tr("event_section.how_long_before_entry_cues"),
-            ),
-            "up_deg": (self.tr("event_section.up"), degrees, self.tr("event_section.raised_leaning_back_or_elbow")),
-            "left_deg": (self.tr("event_section.left"), degrees, self.tr("event_section.turned_to_players_left")),
-            "roll_deg": (self.tr("event_section.roll"), degrees, self.tr("event_section.leaning_to_players_left")),
-            "fade_in_s": (self.tr("event_section.fade_in"), seconds, self.tr("event_section.how_long_it_takes_to")),
-            "fade_out_s": (
-                self.tr("event_section.fade_out"),
-                seconds,
-                self.tr("event_section.how_long_it_takes_to_go"),
-            ),
-        }
-        for name, (label, unit, tip) in texts.items():
-            self._numbers[name].set_texts(label, unit, tip)
-        self._expression.setToolTip(self.tr("event_section.face_that_is_shown"))
         self.show_events()
 
 

@@ -70,8 +70,11 @@ class ExpressionMaker(Retranslated, QWidget):
         self._section = Section(session, "inspector_expressions", self, folded=True, remembers=False)
         self._choice = named(Combo(), "expression_choice")
         self._tools = {name: QToolButton() for name, _ in _TOOLS}
-        self._title = named(QLineEdit(), "expression_name")
-        self._playing = named(Check("expression_maker.may_show_while_playing"), "expression_while_playing")
+        self._title = self.texted(named(QLineEdit(), "expression_name"), placeholder="expression_maker.name")
+        self._playing = self.texted(
+            named(Check("expression_maker.may_show_while_playing"), "expression_while_playing"),
+            tip="expression_maker.what_moves_lips_must_not",
+        )
         self._hint = Label()
         self._picture = FacePicture(session)
         self._fades = {
@@ -83,6 +86,7 @@ class ExpressionMaker(Retranslated, QWidget):
         self._build()
         self._connect()
         self._apply_theme()
+        self.texted(self._section.header, words=("expression_maker.expressions",))
         self.retranslate()
 
     def _build(self) -> None:
@@ -351,8 +355,6 @@ class ExpressionMaker(Retranslated, QWidget):
         self._hint.setStyleSheet(f"color: {tokens.text_dim};")
 
     def retranslate(self) -> None:
-        """Set every text in the language of the editor."""
-        self._section.header.set_texts(self.tr("expression_maker.expressions"))
         tips = {
             "duplicate": self.tr("expression_maker.make_one_of_your_own"),
             "keep": self.tr("expression_maker.keep_it_for_other_projects"),
@@ -361,8 +363,6 @@ class ExpressionMaker(Retranslated, QWidget):
         }
         for name, tip in tips.items():
             self._tools[name].setToolTip(tip)
-        self._title.setPlaceholderText(self.tr("expression_maker.name"))
-        self._playing.setToolTip(self.tr("expression_maker.what_moves_lips_must_not"))
         self._fades["fade_in_s"].set_texts(self.tr("expression_maker.fade_in"), self.tr("expression_maker.seconds"))
         self._fades["fade_out_s"].set_texts(self.tr("expression_maker.fade_out"), self.tr("expression_maker.seconds"))
         self._name_sliders()

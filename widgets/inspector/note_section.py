@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Final
+
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QGridLayout, QWidget
 
@@ -35,6 +37,20 @@ from widgets.inspector.selected import NoteFinder, SelectedNotes, fingering_of, 
 
 LATEST_TICK = float(2**31 - 1)
 EMBOUCHURE = ("tension", "effort", "air")
+_WORDS: Final = {
+    "pitch": ("note_section.pitch", "", "note_section.name_or_midi_number_several"),
+    "onset": ("note_section.bar", "", "note_section.bar_beat_ticks_several_notes"),
+    "length": (
+        "note_section.length",
+        "note_section.beats",
+        "note_section.in_beats_of_metre",
+    ),
+    "velocity": ("note_section.velocity", "", "note_section.how_hard_note_is_struck"),
+    "tension": ("note_section.tension", "", "note_section.lips_0_relaxed_for_low"),
+    "effort": ("note_section.effort", "", "note_section.how_much_face_works_height"),
+    "air": ("note_section.air", "", "note_section.how_much_air_flows"),
+}
+"""Label, unit and tip of each number."""
 
 
 class NoteSection(Retranslated, QWidget):
@@ -53,7 +69,11 @@ class NoteSection(Retranslated, QWidget):
             "velocity": NumberSlider(session, 1, 127, decimals=0, step=1, resets=False),
         }
         self._lips = {name: named(NumberSlider(session, 0, 1, step=0.05), f"embouchure_{name}") for name in EMBOUCHURE}
-        self._diagram = named(FingeringDiagram(session), "fingering_diagram")
+        for name, number in (self._numbers | self._lips).items():
+            self.texted(number, words=_WORDS[name])
+        self._diagram = self.texted(
+            named(FingeringDiagram(session), "fingering_diagram"), name="note_section.fingering_diagram"
+        )
         self._chips = FlowLayout()
         self._chip_labels: tuple[tuple[str, str], ...] = ()
         self._chip_of: dict[str, Chip] = {}
@@ -344,27 +364,6 @@ class NoteSection(Retranslated, QWidget):
             label.setStyleSheet(f"color: {tokens.text_dim};")
 
     def retranslate(self) -> None:
-        """Set every text in the language of the editor."""
-        texts = {
-            "pitch": (self.tr("note_section.pitch"), "", self.tr("note_section.name_or_midi_number_several")),
-            "onset": (self.tr("note_section.bar"), "", self.tr("note_section.bar_beat_ticks_several_notes")),
-            "length": (
-                self.tr("note_section.length"),
-                self.tr("note_section.beats"),
-                self.tr("note_section.in_beats_of_metre"),
-            ),
-            "velocity": (self.tr("note_section.velocity"), "", self.tr("note_section.how_hard_note_is_struck")),
-        }
-        for name, (label, unit, tip) in texts.items():
-            self._numbers[name].set_texts(label, unit, tip)
-        lips = {
-            "tension": (self.tr("note_section.tension"), self.tr("note_section.lips_0_relaxed_for_low")),
-            "effort": (self.tr("note_section.effort"), self.tr("note_section.how_much_face_works_height")),
-            "air": (self.tr("note_section.air"), self.tr("note_section.how_much_air_flows")),
-        }
-        for name, (label, tip) in lips.items():
-            self._lips[name].set_texts(label, "", tip)
-        self._diagram.setAccessibleName(self.tr("note_section.fingering_diagram"))
         self.show_notes()
 
 

@@ -155,7 +155,6 @@ class InspectorPanel(Retranslated, QWidget):
         self._empty.setStyleSheet(f"color: {self._session.tokens.text_dim};")
 
     def retranslate(self) -> None:
-        """Set every text in the language of the editor."""
         self._show_tab_texts()
         self.show_selection()
 

@@ -68,6 +68,8 @@ class ProblemList(Retranslated, QWidget):
         session.players_changed.connect(self._players_changed)
         session.theme_changed.connect(self._say_anew)
         session.pitch_display.changed.connect(self._say_anew)
+        self.texted(self._who, name="problem_list.whose_problems")
+        self.texted(self._kind, name="problem_list.problems_of_which_kind")
         self.retranslate()
 
     def show_problems(self) -> None:
@@ -138,9 +140,6 @@ class ProblemList(Retranslated, QWidget):
         self._session.reveal(problem.start_s)
 
     def retranslate(self) -> None:
-        """Set every text in the language of the editor."""
-        self._who.setAccessibleName(self.tr("problem_list.whose_problems"))
-        self._kind.setAccessibleName(self.tr("problem_list.problems_of_which_kind"))
         for combo in (self._who, self._kind):
             combo.setToolTip(combo.accessibleName())
         who, kind = self._who.shown or EVERYONE, self._kind.shown or ALL

@@ -88,17 +88,26 @@ class TakeSection(Retranslated, QWidget):
         self._take: Take | None = None
         self._section = Section(session, "inspector_take", self)
         self._cleaning = Section(session, "inspector_cleaning", self)
-        self._name = named(QLineEdit(), "take_name")
-        self._swatch = named(ColourSwatch(session), "take_swatch")
+        self._name = self.texted(named(QLineEdit(), "take_name"), name="take_section.name_of_take")
+        self._swatch = self.texted(
+            named(ColourSwatch(session), "take_swatch"),
+            name="take_section.colour_of_take",
+            tip="take_section.colour_of_take",
+        )
         self._about, self._counts = wrapped(Label()), wrapped(Label())
         self._buttons = {id: QToolButton() for id in BUTTONS}
         self._sliders: dict[str, NumberSlider] = {}
-        self._grid = named(Combo(), "take_grid_quarters")
+        self._grid = self.texted(
+            named(Combo(), "take_grid_quarters"),
+            name="take_section.grid_of_quantising",
+            tip="take_section.grid_of_quantising",
+        )
         usual_tip, beats_tip = "take_section.clean_this_take_as_every", "take_section.for_take_without_click_piece"
         self._usual = Button("take_section.as_usual", self._clean_as_usual, "take_usual", usual_tip)
         self._beats = Button("take_section.find_beats", self._find_beats, "take_beats", beats_tip)
         self._build()
         self._connect()
+        self.texted(self._cleaning.header, words=("take_section.cleaning",))
         self.retranslate()
         self.hide()
 
@@ -130,7 +139,8 @@ class TakeSection(Retranslated, QWidget):
                 ),
                 f"take_{number.field}",
             )
-            self._sliders[number.field] = slider
+            unit = "take_section.milliseconds" if number.field.endswith("_s") else "%"
+            self._sliders[number.field] = self.texted(slider, words=(number.text_id, unit, number.tip_id))
             body.addWidget(slider)
             if number.field == "quantise":
                 body.addWidget(self._grid)
@@ -258,14 +268,4 @@ class TakeSection(Retranslated, QWidget):
             label.setStyleSheet(f"color: {self._session.tokens.text_dim};")
 
     def retranslate(self) -> None:
-        """Set every text in the language of the editor."""
-        self._name.setAccessibleName(self.tr("take_section.name_of_take"))
-        self._swatch.setAccessibleName(self.tr("take_section.colour_of_take"))
-        self._swatch.setToolTip(self.tr("take_section.colour_of_take"))
-        self._cleaning.header.set_texts(self.tr("take_section.cleaning"))
-        for number in NUMBERS:
-            unit = self.tr("take_section.milliseconds") if number.field.endswith("_s") else "%"
-            self._sliders[number.field].set_texts(self.tr(number.text_id), unit, self.tr(number.tip_id))
-        self._grid.setAccessibleName(self.tr("take_section.grid_of_quantising"))
-        self._grid.setToolTip(self.tr("take_section.grid_of_quantising"))
         self.show_take()

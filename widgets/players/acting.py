@@ -112,7 +112,6 @@ class ActingRows(Retranslated, QWidget):
     # Words
 
     def retranslate(self) -> None:
-        """Set every text in the language of the editor."""
         self._style_label.setText(parameter_text(_STYLE.label))
         self._habit_label.setText(parameter_text(_HABITS.label))
         self._habits.setToolTip(parameter_text(_HABITS.tip))

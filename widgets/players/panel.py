@@ -86,7 +86,10 @@ class PlayersPanel(Retranslated, QWidget):
         }
         """What features add below, by their ids."""
         self._variety = Section(session, "players_variety")
-        self._spread = named(NumberSlider(session, 0.0, 1.0, default=session.variety, step=0.05), "spread")
+        self._spread = self.texted(
+            named(NumberSlider(session, 0.0, 1.0, default=session.variety, step=0.05), "spread"),
+            words=("players_panel.spread", "", "players_panel.how_far_apart_players_become"),
+        )
         throw = (
             "players_panel.randomise",
             partial(randomise_players, session),
@@ -295,10 +298,6 @@ class PlayersPanel(Retranslated, QWidget):
     # Words
 
     def retranslate(self) -> None:
-        """Set every text in the language of the editor."""
-        self._spread.set_texts(
-            self.tr("players_panel.spread"), "", self.tr("players_panel.how_far_apart_players_become")
-        )
         self._spread.show_value(self._session.variety)
         self._show_all()
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from contextlib import suppress
+from typing import Final
 
 import shiboken6
 from PySide6.QtCore import QSize, Qt, QTimer, Signal
@@ -22,7 +23,7 @@ from app.rig.characters.character_library import bundled_characters, characters
 from instrument_maps.library import library
 from metadata.acting import AMOUNTS
 from widgets.common.combo import Combo, Option
-from widgets.common.controls import IconButton, Retranslated
+from widgets.common.controls import Caption, IconButton, Retranslated
 from widgets.common.instrument_name import character_name, instrument_name
 from widgets.common.layouts import in_column, in_row
 from widgets.common.plain import Label
@@ -42,6 +43,19 @@ _SECTIONS = ("motion", "acting", "breath", "face", "player")
 """What is changed most stands first."""
 _FOLDED = frozenset({"acting"})
 _POSTURE = "posture"
+_TITLES: Final = (
+    "parameter_sections.motion",
+    "parameter_sections.acting",
+    "parameter_sections.breath",
+    "parameter_sections.face",
+    "parameter_sections.player",
+)
+_LABELS: Final = {
+    "part": "parameter_sections.part",
+    "instrument": "parameter_sections.instrument",
+    "character": "parameter_sections.character",
+    "colour": "parameter_sections.colour",
+}
 
 
 class ParameterSections(Retranslated, QWidget):
@@ -68,7 +82,8 @@ class ParameterSections(Retranslated, QWidget):
         dice_tip = "parameter_sections.another_seed_for_each"
         self._dice = IconButton(session, "dice", dice_tip, self.dice_thrown.emit, "seed_dice")
         outer = in_column(of=self, margins=0, spacing=0)
-        for section in self._sections.values():
+        for section, text_id in zip(self._sections.values(), _TITLES, strict=True):
+            self.texted(section.header, words=(text_id,))
             outer.addWidget(section)
         self._portraits: dict[str, QIcon] = {}
         self._asked = False
@@ -76,6 +91,7 @@ class ParameterSections(Retranslated, QWidget):
         for name in _SECTIONS[:-1]:
             for parameter in rows_of(name):
                 self._make_row(parameter)
+        self.texted(self._colour, tip="parameter_sections.colour_of_player_in_timeline")
         self.retranslate()
         session.instruments_changed.connect(self._instruments_changed)
         session.characters_changed.connect(self._characters_changed)
@@ -83,7 +99,7 @@ class ParameterSections(Retranslated, QWidget):
     # Building
 
     def _make_player_rows(self) -> None:
-        self._labels = {name: Label() for name in ("part", "instrument", "character", "colour")}
+        self._labels = {name: Caption(text_id) for name, text_id in _LABELS.items()}
         self._part, self._instrument, self._character = Combo(), Combo(), Combo()
         self._colour = ColourSwatch(self._session)
         controls: dict[str, QWidget] = {
@@ -95,7 +111,7 @@ class ParameterSections(Retranslated, QWidget):
         for name, control in controls.items():
             control.setObjectName(f"player_{name}")
             self._labels[name].setBuddy(control)
-        rows = [(self._labels[name], control) for name, control in controls.items()]
+        rows: list[tuple[Label, QWidget]] = [(self._labels[name], control) for name, control in controls.items()]
         choices = [self._make_choice(parameter) for parameter in rows_of("player")]
         rows[-1:-1] = [(choice.label, choice) for choice in choices]
         self._character.setIconSize(QSize(PORTRAIT_PX, PORTRAIT_PX))
@@ -264,27 +280,8 @@ class ParameterSections(Retranslated, QWidget):
     # Words
 
     def retranslate(self) -> None:
-        """Set every text in the language of the editor."""
-        titles = (
-            self.tr("parameter_sections.motion"),
-            self.tr("parameter_sections.acting"),
-            self.tr("parameter_sections.breath"),
-            self.tr("parameter_sections.face"),
-            self.tr("parameter_sections.player"),
-        )
-        for section, title in zip(self._sections.values(), titles, strict=True):
-            section.header.set_texts(title)
-        texts = {
-            "part": self.tr("parameter_sections.part"),
-            "instrument": self.tr("parameter_sections.instrument"),
-            "character": self.tr("parameter_sections.character"),
-            "colour": self.tr("parameter_sections.colour"),
-        }
-        for name, text in texts.items():
-            self._labels[name].setText(text)
         self._show_instruments()
         self._show_characters()
-        self._colour.setToolTip(self.tr("parameter_sections.colour_of_player_in_timeline"))
         for slider in self._sliders.values():
             slider.retranslate()
         for choice in self._choices.values():

@@ -22,8 +22,8 @@ class PresetSection(Retranslated, QWidget):
         self._session = session
         self._found: dict[str, presets.Preset] = {}
         self._section = Section(session, "players_presets", self, folded=True)
-        self._choice = named(Combo(), "preset_choice")
-        self._name = named(QLineEdit(), "preset_name")
+        self._choice = self.texted(named(Combo(), "preset_choice"), placeholder="preset_section.no_presets_yet")
+        self._name = self.texted(named(QLineEdit(), "preset_name"), placeholder="preset_section.name_for_new_preset")
         self._tools = {
             "apply": IconButton(
                 session, "check", "preset_section.apply_to_selected_players", self._apply, "preset_apply"
@@ -44,6 +44,7 @@ class PresetSection(Retranslated, QWidget):
         self._name.textChanged.connect(lambda _: self._show_buttons())
         self._name.returnPressed.connect(self._save)
         session.players_changed.connect(self._show_buttons)
+        self.texted(self._section.header, words=("preset_section.presets",))
         self.retranslate()
         if self._section.is_open:
             self.show_presets()
@@ -102,8 +103,4 @@ class PresetSection(Retranslated, QWidget):
         self.show_presets()
 
     def retranslate(self) -> None:
-        """Set every text in the language of the editor."""
-        self._section.header.set_texts(self.tr("preset_section.presets"))
-        self._choice.setPlaceholderText(self.tr("preset_section.no_presets_yet"))
-        self._name.setPlaceholderText(self.tr("preset_section.name_for_new_preset"))
         self._show_buttons()

@@ -23,7 +23,7 @@ class StageSection(Retranslated, QWidget):
         super().__init__(parent)
         self._session = session
         self._section = Section(session, "players_stage", self)
-        self.view = named(StageView(session), "stage")
+        self.view = self.texted(named(StageView(session), "stage"), name="stage_section.stage_from_above")
         self._snap = IconButton(session, "snap", "stage_section.snap_to_0_1_m", self._set_snap, "stage_snap")
         arc_tip = "stage_section.automatic_arc_everyone_in_order"
         self._arc = IconButton(session, "stage", arc_tip, self._arrange, "stage_arc")
@@ -44,6 +44,7 @@ class StageSection(Retranslated, QWidget):
         self.view.released.connect(session.document.end_gesture)
         self.view.chosen.connect(session.set_players)
         session.dancer_changed.connect(self.view.update)
+        self.texted(self._section.header, words=("stage_section.stage",))
         self.retranslate()
 
     def show_places(self) -> None:
@@ -82,8 +83,5 @@ class StageSection(Retranslated, QWidget):
         self._session.attempt(Message("edit.arrange_players"), edit.arrange)
 
     def retranslate(self) -> None:
-        """Set every text in the language of the editor."""
-        self._section.header.set_texts(self.tr("stage_section.stage"))
-        self.view.setAccessibleName(self.tr("stage_section.stage_from_above"))
         name_places(self._numbers)
         self.view.update()

@@ -161,7 +161,6 @@ class RecordingPanel(Retranslated, QWidget):
     # Words
 
     def retranslate(self) -> None:
-        """Set every text in the language of the editor."""
         tip = self.tr("recording_panel.breath_and_note")
         self._meter.setToolTip(tip)
         self._meter.setAccessibleName(tip)

@@ -14,6 +14,7 @@ from app.editor.selection import Selection
 from app.editor.session import Session
 from app.project.document import Change
 from widgets.common.clicks import on_click
+from widgets.common.controls import Retranslated
 from widgets.timeline.lane_header import GUTTER_PX, LaneHeader
 from widgets.timeline.model.hand import LaneMouse
 from widgets.timeline.model.lines import Lines
@@ -29,7 +30,7 @@ AUTOSCROLL_SHARE = 0.02
 """Of the visible span, for each tick of the timer while a drag is held past the edge."""
 
 
-class Lane(QWidget):
+class Lane(Retranslated, QWidget):
     """A lane of the timeline.
 
     Parameters
@@ -109,10 +110,6 @@ class Lane(QWidget):
         self._axis_changed()
 
     # What a lane overrides
-
-    def retranslate(self) -> None:
-        """Set every text anew; called when the language changes. Set ``self.title`` here, and call it at the end of
-        the constructor."""
 
     def project_changed(self, change: Change) -> None:
         """The project is another value: compare what is shown by identity."""
@@ -385,13 +382,12 @@ class Lane(QWidget):
     # Qt overrides
 
     def changeEvent(self, event: QEvent) -> None:
+        super().changeEvent(event)
         if event.type() == QEvent.Type.LanguageChange:
-            self.retranslate()
             self.header.name_fold(self._folded)
         elif event.type() == QEvent.Type.FontChange:
             # The plot's own font may be another, and stay.
             self.update_items()
-        super().changeEvent(event)
 
     def sizeHint(self) -> QSize:
         return QSize(800, FOLDED_PX if self._folded else self.preferred_height_px)

@@ -117,7 +117,7 @@ class TimelinePanel(Retranslated, QWidget):
         self._set_limits()
         self.axis.fit()
         self._theme_set()
-        self.retranslate()
+        self.texted(self.lanes_button, text="timeline_panel.lanes", tip="timeline_panel.which_lanes_are_shown_and")
         session.timeline_view = self
 
     def _make_foot(self) -> QHBoxLayout:
@@ -140,11 +140,6 @@ class TimelinePanel(Retranslated, QWidget):
             button.setFixedSize(QSize(26, 24))
         zoom_bar = self.zoom_buttons.values()
         return in_row(self.lanes_button, (self.time_bar, 1), *zoom_bar, margins=(2, 1, 2, 1), spacing=2)
-
-    def retranslate(self) -> None:
-        """Set every text anew."""
-        self.lanes_button.setText(self.tr("timeline_panel.lanes"))
-        self.lanes_button.setToolTip(self.tr("timeline_panel.which_lanes_are_shown_and"))
 
     # What commands ask for
 

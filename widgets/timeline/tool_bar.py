@@ -42,7 +42,7 @@ class ToolBar(Retranslated, QWidget):
             row.addWidget(button)
         group.buttonClicked.connect(self._choose_tool)
         row.addSpacing(8)
-        self.player_box = named(ComboBox(self), "front_player")
+        self.player_box = self.texted(named(ComboBox(self), "front_player"), tip="tool_bar.player_in_front")
         self.player_box.setSizePolicy(QSizePolicy.Policy.Maximum, QSizePolicy.Policy.Fixed)
         self.player_box.setMinimumWidth(150)
         self.player_box.setMaximumWidth(280)
@@ -50,7 +50,7 @@ class ToolBar(Retranslated, QWidget):
         self.player_box.setFocusPolicy(Qt.FocusPolicy.TabFocus)
         self.player_box.activated.connect(self._choose_player)
         row.addWidget(self.player_box)
-        self.ghosts_button = self._button("ghosts_mode")
+        self.ghosts_button = self.texted(self._button("ghosts_mode"), tip="tool_bar.how_other_players_notes_are")
         self.ghosts_button.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
         self.ghosts_button.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
         self.ghosts_button.setMaximumWidth(16777215)
@@ -89,7 +89,6 @@ class ToolBar(Retranslated, QWidget):
         return menu
 
     def retranslate(self) -> None:
-        """Set every text anew."""
         tips = {
             Tool.SELECT: self.tr("tool_bar.select_click_drag_frame_drag"),
             Tool.DRAW: self.tr("tool_bar.draw_drag_out_new_note"),
@@ -108,8 +107,6 @@ class ToolBar(Retranslated, QWidget):
         }
         for mode, action in self._modes.items():
             action.setText(texts[mode])
-        self.ghosts_button.setToolTip(self.tr("tool_bar.how_other_players_notes_are"))
-        self.player_box.setToolTip(self.tr("tool_bar.player_in_front"))
         self._fill_players()
         self.show_state()
 

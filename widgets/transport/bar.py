@@ -60,11 +60,17 @@ class TransportBar(Retranslated, QWidget):
         self.buttons = {id: self._button(id) for id, _ in (*BUTTONS, *TOGGLES)}
         self.snap_button = self._tool("snap_on")
         self.bars, self.clock, self.frames = BarsField(session), ClockField(session), FramesField(session)
-        self.tempo = Label()
-        self.speed = NumberSlider(
-            session, 100 * LEAST_SPEED, 100 * MOST_SPEED, default=100.0, step=5.0, decimals=0, parent=self
+        self.tempo = self.texted(Label(), tip="transport_bar.tempo_and_metre_at_playhead")
+        self.speed = self.texted(
+            NumberSlider(
+                session, 100 * LEAST_SPEED, 100 * MOST_SPEED, default=100.0, step=5.0, decimals=0, parent=self
+            ),
+            words=("transport_bar.speed", "%", "transport_bar.speed_pitch_stays_double_click"),
         )
-        self.volume = NumberSlider(session, 0.0, 100.0, default=80.0, step=5.0, decimals=0, parent=self)
+        self.volume = self.texted(
+            NumberSlider(session, 0.0, 100.0, default=80.0, step=5.0, decimals=0, parent=self),
+            words=("transport_bar.volume", "%", "transport_bar.volume_double_click_80"),
+        )
         self.source, self.snap = Combo(), Combo()
         self.silent_sign, self.silent_text = Label(), Caption("transport_bar.no_audio_device_silent")
         self.beat = BeatLight(session)
@@ -74,6 +80,19 @@ class TransportBar(Retranslated, QWidget):
         self._build()
         self._connect()
         self._apply_theme()
+        self.texted(
+            self.bars, words=("", "", "transport_bar.bar_beat_ticks_click_to"), name="transport_bar.bar_beat_ticks"
+        )
+        self.texted(
+            self.clock, words=("", "", "transport_bar.minutes_and_seconds_click_to"), name="transport_bar.seconds"
+        )
+        self.texted(
+            self.frames,
+            words=("transport_bar.frame", "", "transport_bar.frame_click_to_type_drag"),
+            name="transport_bar.frame_2",
+        )
+        self.texted(self.source, tip="transport_bar.playback_source", name="transport_bar.playback_source")
+        self.texted(self.snap, tip="transport_bar.step_of_grid_note_values", name="transport_bar.step_of_grid")
         self.retranslate()
         self._show_playhead(session.playhead_s)
         self._show_state()
@@ -288,7 +307,6 @@ class TransportBar(Retranslated, QWidget):
         self._show_state()
 
     def retranslate(self) -> None:
-        """Set every text anew."""
         tips = {
             "play.to_start": self.tr("transport_bar.to_start"),
             "play.toggle": self.tr("transport_bar.play_or_stop_here"),
@@ -300,22 +318,9 @@ class TransportBar(Retranslated, QWidget):
         }
         for id, tip in tips.items():
             self._tip(self.buttons[id], tip, self._session.actions.get(id))
-        self.bars.set_texts("", "", self.tr("transport_bar.bar_beat_ticks_click_to"))
-        self.bars.setAccessibleName(self.tr("transport_bar.bar_beat_ticks"))
-        self.clock.set_texts("", "", self.tr("transport_bar.minutes_and_seconds_click_to"))
-        self.clock.setAccessibleName(self.tr("transport_bar.seconds"))
-        self.frames.set_texts(self.tr("transport_bar.frame"), "", self.tr("transport_bar.frame_click_to_type_drag"))
-        self.frames.setAccessibleName(self.tr("transport_bar.frame_2"))
-        self.tempo.setToolTip(self.tr("transport_bar.tempo_and_metre_at_playhead"))
-        self.volume.set_texts(self.tr("transport_bar.volume"), "%", self.tr("transport_bar.volume_double_click_80"))
-        self.speed.set_texts(
-            self.tr("transport_bar.speed"), "%", self.tr("transport_bar.speed_pitch_stays_double_click")
-        )
         for slider in (self.volume, self.speed):
             # A slider without its name is not found.
             slider.setMinimumWidth(min(slider.sizeHint().width(), slider.maximumWidth()))
-        self.source.setToolTip(self.tr("transport_bar.playback_source"))
-        self.source.setAccessibleName(self.tr("transport_bar.playback_source"))
         self.source.set_options(
             (
                 Option("recording", self.tr("transport_bar.recording")),
@@ -326,8 +331,6 @@ class TransportBar(Retranslated, QWidget):
         snap_tip = self.tr("transport_bar.edits_snap_to_grid_alt")
         self.snap_button.setToolTip(snap_tip)
         self.snap_button.setAccessibleName(snap_tip)
-        self.snap.setToolTip(self.tr("transport_bar.step_of_grid_note_values"))
-        self.snap.setAccessibleName(self.tr("transport_bar.step_of_grid"))
         self.snap.set_options([Option(name, name) for name in GRIDS])
         hint = self.tr("transport_bar.there_is_no_audio_device")
         for label in (self.silent_sign, self.silent_text):

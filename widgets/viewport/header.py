@@ -71,7 +71,7 @@ class Header(Retranslated, QWidget):
             on_click(row, session.viewport.set_view, view)
             rows.addAction(row)
             self._view_rows[view] = row
-        self._folded = self._button("viewport_view", "camera")
+        self._folded = self.texted(self._button("viewport_view", "camera"), tip="header.view")
         self._folded.setMenu(self._view_menu)
         self._folded.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
         self._folded.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
@@ -80,7 +80,7 @@ class Header(Retranslated, QWidget):
         self._note = named(Label(parent=self), "viewport_note")
         self._note.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
         self._note.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
-        self._pose = self._button("viewport_pose", "pose", checkable=True)
+        self._pose = self.texted(self._button("viewport_pose", "pose", checkable=True), text="header.pose")
         self._pose.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
         on_switch(self._pose, session.viewport.set_posing)
         self._frame = self._button("viewport_frame", "frame")
@@ -92,7 +92,7 @@ class Header(Retranslated, QWidget):
             row.setCheckable(True)
             on_switch(row, partial(session.viewport.show, what))
             self._show_rows[what] = row
-        self._show = self._button("viewport_show", "eye")
+        self._show = self.texted(self._button("viewport_show", "eye"), tip="header.show_beside_players")
         self._show.setMenu(self._show_menu)
         self._show.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
         self._full = self._button("viewport_full_screen", "full_screen")
@@ -132,21 +132,17 @@ class Header(Retranslated, QWidget):
             row.setChecked(state.shows(what))
 
     def retranslate(self) -> None:
-        """Set all texts again."""
         for view, button in self._views.items():
             text_id, tip_id = _VIEWS[view]
             text = self.tr(text_id)
             button.setText(text)
             button.setToolTip(self._tip(self.tr(tip_id), f"viewport.{view}"))
             self._view_rows[view].setText(text)
-        self._folded.setToolTip(self.tr("header.view"))
         self._folded.setText(self._view_rows[self._session.viewport.view].text())
         for what, row in self._show_rows.items():
             row.setText(self.tr(_SHOWN[what][0]))
-        self._pose.setText(self.tr("header.pose"))
         self._pose.setToolTip(self._tip(self.tr("header.hold_bell_head_elbows_or"), "viewport.pose"))
         self._frame.setToolTip(self._tip(self.tr("header.frame_selected_players"), "viewport.frame"))
-        self._show.setToolTip(self.tr("header.show_beside_players"))
         self._full.setToolTip(self._tip(self.tr("header.viewport_alone_on_whole_screen"), FULL_SCREEN))
         for control in (self._pose, self._frame, self._show, self._full, self._folded):
             control.setAccessibleName(control.toolTip())

@@ -104,6 +104,7 @@ class ViewportPanel(Retranslated, QWidget):
         self._live.timeout.connect(self._show_live)
         self._listen()
         self._apply_theme()
+        self.texted(self, title="viewport_panel.viewport", name="viewport_panel.viewport")
         self.retranslate()
         if self._canvas is not None:
             self.scene.load()
@@ -556,9 +557,6 @@ class ViewportPanel(Retranslated, QWidget):
         self.header.set_note(note)
 
     def retranslate(self) -> None:
-        """Set all texts again."""
-        self.setWindowTitle(self.tr("viewport_panel.viewport"))
-        self.setAccessibleName(self.tr("viewport_panel.viewport"))
         if self._failure is not None:
             self._reason.setText(self.tr("viewport_panel.players_cannot_be_drawn_here").format(reason=self._failure))
         self._show_note()

@@ -58,11 +58,10 @@ class VideoView(Retranslated, QWidget):
         session.video.pictured.connect(self.update)
         session.video.changed.connect(self.update)
         session.theme_changed.connect(self.update)
+        self.texted(self, name="video_view.reference_video")
         self.retranslate()
 
     def retranslate(self) -> None:
-        """Set all texts again."""
-        self.setAccessibleName(self.tr("video_view.reference_video"))
         self.update()
 
     def paintEvent(self, event: QPaintEvent) -> None:
@@ -139,7 +138,7 @@ class VideoStrip(Retranslated, QWidget):
         super().__init__(parent)
         self.setObjectName("video_strip")
         self._session = session
-        self._title = Label(parent=self)
+        self._title = self.texted(Label(parent=self), text="video_view.reference_video")
         self._placements = QButtonGroup(self)
         self._buttons: dict[Placement, QToolButton] = {}
         for placement in _BUTTONS:
@@ -147,21 +146,30 @@ class VideoStrip(Retranslated, QWidget):
             button.setCheckable(True)
             on_click(button, partial(session.video.set, placement=placement))
             self._placements.addButton(button)
-            self._buttons[placement] = button
-        self._opacity = named(NumberSlider(session, default=DEFAULT_OPACITY, parent=self), "video_opacity")
+            text_id, tip_id = _BUTTONS[placement]
+            self._buttons[placement] = self.texted(button, text=text_id, tip=tip_id)
+        self._opacity = self.texted(
+            named(NumberSlider(session, default=DEFAULT_OPACITY, parent=self), "video_opacity"),
+            words=("video_strip.opacity", "", "video_strip.opacity_behind"),
+        )
         self._opacity.changed.connect(lambda value, _: session.video.set(opacity=value))
-        self._offset = named(
-            NumberSlider(session, *OFFSET_S, step=0.01, decimals=DECIMALS, slides=False, resets=False, parent=self),
-            "video_offset",
+        self._offset = self.texted(
+            named(
+                NumberSlider(session, *OFFSET_S, step=0.01, decimals=DECIMALS, slides=False, resets=False, parent=self),
+                "video_offset",
+            ),
+            words=("video_strip.offset", "s", "video_strip.where_it_begins"),
         )
         self._offset.changed.connect(self._move)
         self._offset.released.connect(session.document.end_gesture)
         for slider in (self._opacity, self._offset):
             slider.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Fixed)
             slider.setFixedWidth(150)
-        self._estimate = self._button("video_estimate")
+        self._estimate = self.texted(
+            self._button("video_estimate"), text="video_strip.find_by_sound", tip="video_strip.place_by_sound"
+        )
         on_click(self._estimate, lambda: session.actions["video.estimate_offset"].trigger())
-        self._hide = self._button("video_hide")
+        self._hide = self.texted(self._button("video_hide"), tip="video_strip.hide", name="video_strip.hide")
         on_click(self._hide, partial(session.video.set, placement="hidden"))
         # What the viewport has no room for comes into a second line, with its whole text.
         parts = FlowLayout()
@@ -187,20 +195,6 @@ class VideoStrip(Retranslated, QWidget):
         self._opacity.setVisible(state.placement == "behind")
         self._opacity.show_value(state.opacity)
         self._offset.show_value(video.offset_s)
-
-    def retranslate(self) -> None:
-        """Set all texts again."""
-        self._title.setText(self.tr("video_view.reference_video"))
-        for placement, button in self._buttons.items():
-            text_id, tip_id = _BUTTONS[placement]
-            button.setText(self.tr(text_id))
-            button.setToolTip(self.tr(tip_id))
-        self._opacity.set_texts(self.tr("video_strip.opacity"), "", self.tr("video_strip.opacity_behind"))
-        self._offset.set_texts(self.tr("video_strip.offset"), "s", self.tr("video_strip.where_it_begins"))
-        self._estimate.setText(self.tr("video_strip.find_by_sound"))
-        self._estimate.setToolTip(self.tr("video_strip.place_by_sound"))
-        self._hide.setToolTip(self.tr("video_strip.hide"))
-        self._hide.setAccessibleName(self.tr("video_strip.hide"))
 
     def _move(self, offset_s: float, token: object) -> None:
         offset_s = round(offset_s, DECIMALS)

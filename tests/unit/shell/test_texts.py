@@ -22,7 +22,7 @@ TEXTS = {id: wording for room in ROOMS for id, wording in room.items()}
 FUNCTIONS = frozenset(
     {"tr", "Caption", "Button", "Check", "ColumnList", "IconButton", "OkCancel", "PictureButton", "in_form"}
 )
-"""What is given ids."""
+"""What is given ids as positional arguments; `texted` has them by keyword."""
 KINDS = {*REMOVABLE, "pose", "additive", "vary", "style"}
 """First parts of the ids of events that a person may select."""
 NAMES = {f"expression_name.{name}" for name in load_expressions()} | {
@@ -69,9 +69,10 @@ def test_what_is_used_is_there_and_what_is_there_is_used() -> None:
         if not isinstance(node, ast.Call) or not node.args:
             continue
         name = node.func.attr if isinstance(node.func, ast.Attribute) else getattr(node.func, "id", "")
-        if name in FUNCTIONS:
+        if name in FUNCTIONS or name == "texted":
+            given = [keyword.value for keyword in node.keywords] if name == "texted" else node.args
             strings = (
-                part.value for argument in node.args for part in ast.walk(argument) if isinstance(part, ast.Constant)
+                part.value for argument in given for part in ast.walk(argument) if isinstance(part, ast.Constant)
             )
             used.update(text for text in strings if isinstance(text, str) and ID.fullmatch(text))
     actions = {f"action.{row.id}" for row in rows()}

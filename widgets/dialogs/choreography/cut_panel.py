@@ -75,7 +75,7 @@ class CutPanel(Retranslated, QWidget):
             "redo": IconButton(session, "redo", "cut_panel.redo_ctrl_shift_z", self.redo, "cut_redo"),
             "fit": IconButton(session, "fit", "cut_panel.whole_motion_f", self.plot.fit, "cut_fit"),
         }
-        self._snap = Check("cut_panel.snap")
+        self._snap = self.texted(Check("cut_panel.snap"), tip="cut_panel.cuts_stop_at_minima_accents")
         self._reset = Button("cut_panel.reset_to_automatic", lambda: self._edit(None, None), "cut_reset")
         self._snap.setObjectName("cut_snap")
         self._snap.setChecked(True)
@@ -87,6 +87,7 @@ class CutPanel(Retranslated, QWidget):
         self._snap.toggled.connect(self._set_snaps)
         for key, step in ((QKeySequence.StandardKey.Undo, self.undo), (QKeySequence.StandardKey.Redo, self.redo)):
             QShortcut(QKeySequence(key), self).activated.connect(step)
+        self.texted(self.plot.plot, name="cut_panel.cuts_of_motion")
         self.retranslate()
 
     def show_pair(self, draft: PairDraft, found: Found, history: CutHistory) -> None:
@@ -157,7 +158,4 @@ class CutPanel(Retranslated, QWidget):
         )
 
     def retranslate(self) -> None:
-        """Set every text in the language of the editor."""
-        self.plot.plot.setAccessibleName(self.tr("cut_panel.cuts_of_motion"))
-        self._snap.setToolTip(self.tr("cut_panel.cuts_stop_at_minima_accents"))
         self._show_tools()

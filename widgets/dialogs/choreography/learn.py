@@ -118,12 +118,18 @@ class LearnDialog(WorkingDialog):
         self._failure: Message | None = None
         self._unknown: tuple[Path, ...] = ()
 
-        self.list = ColumnList("learn_pairs", *_COLUMNS.values(), stretches=(0, 1))
+        self.list = self.texted(
+            ColumnList("learn_pairs", *_COLUMNS.values(), stretches=(0, 1)),
+            name="learn_dialog.pairs_of_motion_and_music",
+        )
         self.form, self.cuts = PairForm(), CutPanel(session)
         self._add = Button("learn_dialog.add", self._ask_for_files, "learn_add")
         self._remove = Button("learn_dialog.remove", self._remove_pair, "learn_remove")
-        self._states = AutomaticNumber("learn_states", 1, MOST_STATES, step=1, decimals=0)
-        self._seed = named(QSpinBox(), "learn_seed")
+        self._states = self.texted(
+            AutomaticNumber("learn_states", 1, MOST_STATES, step=1, decimals=0),
+            tip="learn_dialog.number_of_basic_motions_automatic",
+        )
+        self._seed = self.texted(named(QSpinBox(), "learn_seed"), tip="learn_dialog.of_classification_same_pairs_and")
         self._file = named(PathEdit(folder / f"choreography{SUFFIX}"), "learn_file")
         self._choose = Button("learn_dialog.choose", self._ask_where, "learn_file_choose")
         self._state = selectable(named(Label(), "learn_state"))
@@ -133,6 +139,8 @@ class LearnDialog(WorkingDialog):
         self._timer = QTimer(self, interval=_POLL_MS)
         self._build()
         self._connect()
+        self.texted(self, title="learn_dialog.learn_choreography")
+        self.texted(self._states.check, text="learn_dialog.automatic")
         self.retranslate()
         self.setMinimumWidth(_LEAST_PX)
         begin_with_size(self, _SIZE)
@@ -442,13 +450,7 @@ class LearnDialog(WorkingDialog):
         )
 
     def retranslate(self) -> None:
-        """Set every text in the language of the editor."""
-        self.setWindowTitle(self.tr("learn_dialog.learn_choreography"))
-        self.list.setAccessibleName(self.tr("learn_dialog.pairs_of_motion_and_music"))
         super().retranslate()
-        self._states.check.setText(self.tr("learn_dialog.automatic"))
-        self._states.setToolTip(self.tr("learn_dialog.number_of_basic_motions_automatic"))
-        self._seed.setToolTip(self.tr("learn_dialog.of_classification_same_pairs_and"))
         self._show_all()
 
     # Qt's own names

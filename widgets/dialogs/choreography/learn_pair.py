@@ -2,19 +2,20 @@
 
 from __future__ import annotations
 
+from functools import partial
 from pathlib import Path
+from typing import Final
 
 import msgspec
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QGridLayout, QPushButton, QScrollArea, QWidget
+from PySide6.QtWidgets import QGridLayout, QScrollArea, QWidget
 
 from app.choreography.music_offset import CONFIDENT
 from app.choreography.read_motion import guesses
 from app.choreography.read_pair import CREDITS_SUFFIX
 from app.encoding import shown
 from app.formats.rates import exact_rate
-from widgets.common.clicks import on_click
-from widgets.common.controls import Retranslated, named, wrapped
+from widgets.common.controls import Button, Caption, Retranslated, named, wrapped
 from widgets.common.paths import PathEdit, ask_for_file
 from widgets.common.plain import Label
 from widgets.common.text import message_text, sentence
@@ -22,6 +23,18 @@ from widgets.dialogs.automatic_number import AutomaticNumber
 from widgets.dialogs.choreography.learn_draft import MIDI_SUFFIXES, MOTION_SUFFIXES, Found, PairDraft
 
 _FILES = {"motion": MOTION_SUFFIXES, "music": MIDI_SUFFIXES, "credits": (CREDITS_SUFFIX,)}
+_LABELS: Final = {
+    "motion": "pair_form.motion",
+    "music": "pair_form.music",
+    "credits": "pair_form.credits",
+    "offset": "pair_form.offset",
+    "fps": "pair_form.frame_rate",
+}
+_PLACEHOLDERS: Final = {
+    "motion": "pair_form.bvh_fbx_or_glb",
+    "music": "pair_form.midi_with_percussion",
+    "credits": "pair_form.txt_file_beside_motion",
+}
 _LONGEST_S = 24 * 3600.0
 _NOTES_PX = 54
 """Room for three lines; of more the rest is scrolled to."""
@@ -41,11 +54,15 @@ class PairForm(Retranslated, QWidget):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._draft, self._found, self._busy = PairDraft(), Found(), False
-        self._labels = {name: Label() for name in (*_FILES, "offset", "fps")}
-        self._paths = {name: PathEdit() for name in _FILES}
-        self._choose = {name: QPushButton() for name in _FILES}
-        self._offset = AutomaticNumber("learn_offset", -_LONGEST_S, _LONGEST_S, step=0.01, decimals=3)
-        self._fps = AutomaticNumber("learn_fps", 1.0, 1000.0, step=1.0, decimals=3)
+        self._labels = {name: Caption(text_id) for name, text_id in _LABELS.items()}
+        self._paths = {name: self.texted(PathEdit(), placeholder=text_id) for name, text_id in _PLACEHOLDERS.items()}
+        self._offset = self.texted(
+            AutomaticNumber("learn_offset", -_LONGEST_S, _LONGEST_S, step=0.01, decimals=3),
+            tip="pair_form.time_of_motion_at_which",
+        )
+        self._fps = self.texted(
+            AutomaticNumber("learn_fps", 1.0, 1000.0, step=1.0, decimals=3), tip="pair_form.true_frame_rate_of_motion"
+        )
         self._notes = wrapped(named(Label(), "learn_pair_notes"))
         self._notes.setAlignment(Qt.AlignmentFlag.AlignTop)
         room = QScrollArea()
@@ -58,17 +75,15 @@ class PairForm(Retranslated, QWidget):
         grid.setContentsMargins(0, 0, 0, 0)
         grid.setColumnStretch(1, 1)
         for row, name in enumerate(_FILES):
-            path, button = self._paths[name], self._choose[name]
+            path = self._paths[name]
+            button = Button("pair_form.choose", partial(self._ask, name), f"learn_{name}_choose")
             path.setObjectName(f"learn_{name}")
             path.setAcceptDrops(False)
-            button.setObjectName(f"learn_{name}_choose")
-            button.setAutoDefault(False)
             self._labels[name].setBuddy(path)
             grid.addWidget(self._labels[name], row, 0)
             grid.addWidget(path, row, 1)
             grid.addWidget(button, row, 2)
             path.editingFinished.connect(lambda name=name: self._typed(name))
-            on_click(button, self._ask, name)
         for row, (name, field) in enumerate({"offset": self._offset, "fps": self._fps}.items(), start=len(_FILES)):
             self._labels[name].setBuddy(field)
             grid.addWidget(self._labels[name], row, 0)
@@ -76,6 +91,10 @@ class PairForm(Retranslated, QWidget):
             field.changed.connect(self._number_changed)
         grid.addWidget(room, len(_FILES) + 2, 0, 1, 3)
         grid.setRowStretch(len(_FILES) + 2, 1)
+        self.texted(self._offset.check, text="pair_form.automatic")
+        self.texted(self._offset.number, suffix="pair_form.seconds")
+        self.texted(self._fps.check, text="pair_form.as_in_file")
+        self.texted(self._fps.number, suffix="pair_form.frames_s")
         self.retranslate()
 
     def show_pair(self, draft: PairDraft, found: Found, busy: bool) -> None:
@@ -154,27 +173,6 @@ class PairForm(Retranslated, QWidget):
         }[name]
 
     def retranslate(self) -> None:
-        """Set every text in the language of the editor."""
-        texts = {
-            "motion": self.tr("pair_form.motion"),
-            "music": self.tr("pair_form.music"),
-            "credits": self.tr("pair_form.credits"),
-            "offset": self.tr("pair_form.offset"),
-            "fps": self.tr("pair_form.frame_rate"),
-        }
-        for name, text in texts.items():
-            self._labels[name].setText(text)
-        for button in self._choose.values():
-            button.setText(self.tr("pair_form.choose"))
-        self._paths["motion"].setPlaceholderText(self.tr("pair_form.bvh_fbx_or_glb"))
-        self._paths["music"].setPlaceholderText(self.tr("pair_form.midi_with_percussion"))
-        self._paths["credits"].setPlaceholderText(self.tr("pair_form.txt_file_beside_motion"))
-        self._offset.check.setText(self.tr("pair_form.automatic"))
-        self._offset.setToolTip(self.tr("pair_form.time_of_motion_at_which"))
-        self._offset.number.setSuffix(self.tr("pair_form.seconds"))
-        self._fps.check.setText(self.tr("pair_form.as_in_file"))
-        self._fps.setToolTip(self.tr("pair_form.true_frame_rate_of_motion"))
-        self._fps.number.setSuffix(self.tr("pair_form.frames_s"))
         self._show_notes()
 
 

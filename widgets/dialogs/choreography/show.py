@@ -116,6 +116,19 @@ class ChoreographyDialog(Retranslated, QDialog):
         self.credits.setReadOnly(True)
         self.credits.setTabChangesFocus(True)
         self.tabs.addTab(panel(in_column(self.credits, margins=(0, 10, 0, 0))), "")
+        titles = (
+            "choreography_dialog.basic_motions",
+            "choreography_dialog.transitions",
+            "choreography_dialog.graph",
+            "choreography_dialog.percussion",
+            "choreography_dialog.credits",
+        )
+        self.texted(self.tabs, tabs=titles)
+        for view, title in zip((*views, self.credits), titles, strict=True):
+            self.texted(view, name=title)
+        self.texted(self._hints["motions"], text="choreography_dialog.most_typical_segment_of_each")
+        self.texted(self._hints["transitions"], text="choreography_dialog.what_follows_what_in_percent")
+        self.texted(self._hints["graph"], text="choreography_dialog.arrow_for_each_transition_that")
         bottom = in_row(STRETCH, self._close)
         in_column(self._heading, self._use, (self.tabs, 1), bottom, of=self, margins=14, spacing=8)
 
@@ -262,22 +275,6 @@ class ChoreographyDialog(Retranslated, QDialog):
     # Words
 
     def retranslate(self) -> None:
-        """Set every text in the language of the editor."""
-        titles = (
-            self.tr("choreography_dialog.basic_motions"),
-            self.tr("choreography_dialog.transitions"),
-            self.tr("choreography_dialog.graph"),
-            self.tr("choreography_dialog.percussion"),
-            self.tr("choreography_dialog.credits"),
-        )
-        for number, title in enumerate(titles):
-            self.tabs.setTabText(number, title)
-        views: tuple[QWidget, ...] = (self.gallery, self.transitions, self.graph, self.percussion, self.credits)
-        for view, title in zip(views, titles, strict=True):
-            view.setAccessibleName(title)
-        self._hints["motions"].setText(self.tr("choreography_dialog.most_typical_segment_of_each"))
-        self._hints["transitions"].setText(self.tr("choreography_dialog.what_follows_what_in_percent"))
-        self._hints["graph"].setText(self.tr("choreography_dialog.arrow_for_each_transition_that"))
         self._hints["percussion"].setText(self._percussion_hint(self._shown is not None and self._shown.derived))
         self._show()
 

@@ -129,6 +129,7 @@ class EvaluationDialog(WorkingDialog):
         self._place.currentIndexChanged.connect(self._show_state)
         self._keyframes_place.currentIndexChanged.connect(self._show_state)
         self._bars.changed.connect(self._show_state)
+        self.texted(self, title="evaluation_dialog.title")
         self.retranslate()
 
     def _lay_out(self) -> None:
@@ -317,8 +318,6 @@ class EvaluationDialog(WorkingDialog):
         self._state.setText(message_text(message))
 
     def retranslate(self) -> None:
-        """Set every text anew."""
-        self.setWindowTitle(self.tr("evaluation_dialog.title"))
         super().retranslate()
         for number in (self._length, self._offset, self._keyframes_offset):
             number.setSuffix(self.tr("evaluation_dialog.seconds"))

@@ -89,6 +89,7 @@ class EvaluationResultsDialog(Retranslated, QDialog):
         self._copy = Button("results_dialog.copy", self.copy, "results_copy")
         self._save = Button("results_dialog.save", self._ask_folder, "results_save")
         self._lay_out()
+        self.texted(self, title="results_dialog.title")
         self.retranslate()
         self.resize(_SIZE)
 
@@ -228,8 +229,6 @@ class EvaluationResultsDialog(Retranslated, QDialog):
         self._evaluate()
 
     def retranslate(self) -> None:
-        """Set every text anew."""
-        self.setWindowTitle(self.tr("results_dialog.title"))
         self._show_files()
         self._show_results()
 

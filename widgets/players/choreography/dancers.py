@@ -70,11 +70,13 @@ class DancersSection(Retranslated, QWidget):
             "duplicate": self._tool("duplicate", "dancers_section.duplicate_another_one_dances_same", duplicate),
             "remove": self._tool("delete", "dancers_section.remove_selected_dancer", remove),
         }
-        self.list = named(DancerList(session), "dancer_list")
+        self.list = self.texted(named(DancerList(session), "dancer_list"), name="dancers_section.dancers")
         self._form = QWidget()
         self._labels = {name: Label() for name in ("choreography", "character", "source")}
         self._choreography, self._character, self._source = Combo(), Combo(), Combo()
-        self._mirrored = named(Check("dancers_section.mirrored"), "dancer_mirrored")
+        self._mirrored = self.texted(
+            named(Check("dancers_section.mirrored"), "dancer_mirrored"), tip="dancers_section.left_and_right_exchanged"
+        )
         look_tip, dice_tip = (
             "dancers_section.show_what_choreography_has_learned",
             "dancers_section.another_dance_to_same_music",
@@ -316,8 +318,6 @@ class DancersSection(Retranslated, QWidget):
     # Words
 
     def retranslate(self) -> None:
-        """Set every text in the language of the editor."""
-        self.list.setAccessibleName(self.tr("dancers_section.dancers"))
         texts = {
             "choreography": self.tr("dancers_section.choreography"),
             "character": self.tr("dancers_section.character"),
@@ -326,7 +326,6 @@ class DancersSection(Retranslated, QWidget):
         for name, text in texts.items():
             self._labels[name].setText(text)
         self._source.setToolTip(parameter_text(_SOURCE.tip))
-        self._mirrored.setToolTip(self.tr("dancers_section.left_and_right_exchanged"))
         name_places(self._places)
         for number in self._numbers.values():
             number.retranslate()

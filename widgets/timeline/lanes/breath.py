@@ -40,11 +40,7 @@ class BreathLane(RegionLane):
     def __init__(self, session: Session, axis: TimeAxis, parent: QWidget | None = None) -> None:
         super().__init__(session, axis, parent)
         self.problem_marks = ProblemMarks(self, ("breath",))
-        self.retranslate()
-
-    def retranslate(self) -> None:
-        self.title.setText(self.tr("breath_lane.breath"))
-        self.title.setToolTip(self.tr("breath_lane.drag_to_move_up_and"))
+        self.texted(self.title, text="breath_lane.breath", tip="breath_lane.drag_to_move_up_and")
 
     def kind_name(self, kind: str) -> str:
         return kind_name(kind)

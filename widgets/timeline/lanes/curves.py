@@ -124,20 +124,21 @@ class CurvesLane(Lane):
         self._plan: PlayerPlan | None = None
         self._part: Part | None = None
         self._drag: DragCurve | DragController | None = None
-        self.choice = named(ComboBox(self.header), "curve_choice")
+        self.choice = self.texted(
+            named(ComboBox(self.header), "curve_choice"),
+            tip="curves_lane.curve_that_is_edited_or",
+            name="curves_lane.curve",
+        )
         self.choice.setSizeAdjustPolicy(ComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
         self.choice.activated.connect(self._chosen)
         self.controls.addWidget(self.choice)
         self.item = _Curves(self)
         self.number = NumberField(self)
         self.refresh()
+        self.texted(self.title, text="curves_lane.curves", tip="curves_lane.drag_notes_value_up_or")
         self.retranslate()
 
     def retranslate(self) -> None:
-        self.title.setText(self.tr("curves_lane.curves"))
-        self.title.setToolTip(self.tr("curves_lane.drag_notes_value_up_or"))
-        self.choice.setToolTip(self.tr("curves_lane.curve_that_is_edited_or"))
-        self.choice.setAccessibleName(self.tr("curves_lane.curve"))
         self._fill_choice()
 
     def curve_name(self, curve: str) -> str:

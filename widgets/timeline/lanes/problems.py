@@ -116,11 +116,7 @@ class ProblemsLane(Lane):
         self.title_row.addWidget(self.count)
         self.marks = _Marks(self)
         self.refresh()
-        self.retranslate()
-
-    def retranslate(self) -> None:
-        self.title.setText(self.tr("problems_lane.problems"))
-        self.title.setToolTip(self.tr("problems_lane.what_player_in_front_cannot"))
+        self.texted(self.title, text="problems_lane.problems", tip="problems_lane.what_player_in_front_cannot")
 
     def refresh(self) -> None:
         """Show the problems of the player in front."""

@@ -90,6 +90,7 @@ class PianoRoll(Lane):
         session.pitch_display.changed.connect(self.keyboard.update)
         session.problems_changed.connect(self.performance_changed)
         self.fit_pitch()
+        self.texted(self.title, text="piano_roll.notes", tip="piano_roll.notes_of_player_in_front")
         self.retranslate()
 
     # What is shown
@@ -420,8 +421,6 @@ class PianoRoll(Lane):
         self.keyboard.update()
 
     def retranslate(self) -> None:
-        self.title.setText(self.tr("piano_roll.notes"))
-        self.title.setToolTip(self.tr("piano_roll.notes_of_player_in_front"))
         self.keyboard.update()
 
     def _redraw(self, item: LaneItem[Any]) -> None:

@@ -44,15 +44,18 @@ class QuantisePopover(Retranslated, QFrame):
         self._ours = self._base
         self._kept = False
         self._percent = 100.0
-        self.grid_label = Label(parent=self)
+        self.grid_label = self.texted(Label(parent=self), text="quantise_popover.grid")
         self.grid_box = ComboBox(self)
         for name, quarters in GRIDS:
             self.grid_box.addItem(name, quarters)
-        self.strength = NumberSlider(session, 0.0, 100.0, default=100.0, step=5.0, decimals=0, parent=self)
+        self.strength = self.texted(
+            NumberSlider(session, 0.0, 100.0, default=100.0, step=5.0, decimals=0, parent=self),
+            words=("quantise_popover.strength", "%"),
+        )
         self.strength.setMinimumWidth(180)
         self.onsets, self.ends = QCheckBox(self), QCheckBox(self)
         self.onsets.setChecked(True)
-        self.keep_button = QPushButton(self)
+        self.keep_button = self.texted(QPushButton(self), text="quantise_popover.quantise")
         self.keep_button.setDefault(True)
         grid = QGridLayout(self)
         grid.setContentsMargins(10, 8, 10, 8)
@@ -66,15 +69,8 @@ class QuantisePopover(Retranslated, QFrame):
         self.onsets.toggled.connect(self._show)
         self.ends.toggled.connect(self._show)
         on_click(self.keep_button, self._keep)
-        self.retranslate()
-
-    def retranslate(self) -> None:
-        """Set every text anew."""
-        self.grid_label.setText(self.tr("quantise_popover.grid"))
-        self.strength.set_texts(self.tr("quantise_popover.strength"), "%")
-        self.onsets.setText(self.tr("quantise_popover.beginnings"))
-        self.ends.setText(self.tr("quantise_popover.ends"))
-        self.keep_button.setText(self.tr("quantise_popover.quantise"))
+        self.texted(self.onsets, text="quantise_popover.beginnings")
+        self.texted(self.ends, text="quantise_popover.ends")
 
     def open_over(self, widget: QWidget) -> None:
         """Open in the middle of a widget, with the grid that edits snap to."""

@@ -2,17 +2,24 @@
 
 from __future__ import annotations
 
-from typing import get_args
+from typing import Final, get_args
 
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QAction, QActionGroup
 from PySide6.QtWidgets import QMenu, QToolButton, QWidget
 
 from app.editor.session import Session, TimeDisplay
+from widgets.common.controls import Retranslated
 from widgets.common.icons import icon
 
+_UNITS: Final[dict[TimeDisplay, str]] = {
+    "bars": "unit_button.bars",
+    "seconds": "unit_button.seconds",
+    "frames": "unit_button.frames",
+}
 
-class UnitButton(QToolButton):
+
+class UnitButton(Retranslated, QToolButton):
     """Bars, seconds or frames."""
 
     def __init__(self, session: Session, parent: QWidget) -> None:
@@ -26,7 +33,7 @@ class UnitButton(QToolButton):
         menu = QMenu(self)
         group = QActionGroup(menu)
         for display in get_args(TimeDisplay):
-            action = menu.addAction("")
+            action = self.texted(menu.addAction(""), text=_UNITS[display])
             action.setCheckable(True)
             action.setData(display)
             group.addAction(action)
@@ -35,19 +42,11 @@ class UnitButton(QToolButton):
         self.setMenu(menu)
         session.time_display_changed.connect(self._show_unit)
         session.theme_changed.connect(self._show_icon)
-        self.retranslate()
+        self.texted(self, tip="unit_button.what_ruler_counts")
+        self._show_unit()
         self._show_icon()
 
     def retranslate(self) -> None:
-        """Set every text anew."""
-        texts: dict[TimeDisplay, str] = {
-            "bars": self.tr("unit_button.bars"),
-            "seconds": self.tr("unit_button.seconds"),
-            "frames": self.tr("unit_button.frames"),
-        }
-        for display, action in self._units.items():
-            action.setText(texts[display])
-        self.setToolTip(self.tr("unit_button.what_ruler_counts"))
         self._show_unit()
 
     def _show_unit(self) -> None:

@@ -91,8 +91,6 @@ class Ruler(Retranslated, Strip):
         self.redraw()
 
     def retranslate(self) -> None:
-        """Set every text anew."""
-        self.unit_button.retranslate()
         self.redraw()
 
     # Places

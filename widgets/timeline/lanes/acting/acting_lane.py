@@ -83,11 +83,10 @@ class ActingLane(RegionLane):
         self._painter = ActingPainter(self)
         super().__init__(session, axis, parent)
         self._names = RowNames(self, self.row_names)
+        self.texted(self.title, text="acting_lane.acting", tip="acting_lane.drag_to_move_up_and")
         self.retranslate()
 
     def retranslate(self) -> None:
-        self.title.setText(self.tr("acting_lane.acting"))
-        self.title.setToolTip(self.tr("acting_lane.drag_to_move_up_and"))
         self._made_for, self._known = (), {}
         self.refresh()
 

@@ -55,7 +55,9 @@ class AdditiveLane(CurveEditing):
         self.limits = (-180.0, 180.0)
         self._generated_of: tuple[PlayerPlan, str, PlayerParameters] | None = None
         self._gesture: Gesture | None = None
-        self.choice = named(QToolButton(self.header), "channel_choice")
+        self.choice = self.texted(
+            named(QToolButton(self.header), "channel_choice"), tip="additive_lane.channel", name="additive_lane.channel"
+        )
         self.choice.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
         self.choice.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextOnly)
         self.choice.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
@@ -65,14 +67,11 @@ class AdditiveLane(CurveEditing):
         self.controls.addWidget(self.choice)
         self.item = CurvesItem(self)
         self.fold_changed.connect(self.refresh)
+        self.texted(self.title, text="additive_lane.title", tip="additive_lane.what_to_do")
         self.retranslate()
         self.refresh()
 
     def retranslate(self) -> None:
-        self.title.setText(self.tr("additive_lane.title"))
-        self.title.setToolTip(self.tr("additive_lane.what_to_do"))
-        self.choice.setToolTip(self.tr("additive_lane.channel"))
-        self.choice.setAccessibleName(self.tr("additive_lane.channel"))
         self.choice.setText(verbatim(channel_name(self.channel)))
         self.update_items()
 

@@ -60,13 +60,12 @@ class DanceLane(RowLane):
             self, lambda: [(dancer.name, self.row_rect(at).center().y()) for at, dancer in enumerate(self.dancers)]
         )
         DancesItem(self)
+        self.texted(self.title, text="dance_lane.dance", tip="dance_lane.what_each_dancer_dances_click")
         self.retranslate()
         self._rows_changed()
         self.performance_changed()
 
     def retranslate(self) -> None:
-        self.title.setText(self.tr("dance_lane.dance"))
-        self.title.setToolTip(self.tr("dance_lane.what_each_dancer_dances_click"))
         self.update_items()
 
     @property

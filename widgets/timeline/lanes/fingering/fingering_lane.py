@@ -198,11 +198,7 @@ class FingeringLane(Lane):
         self.alternates = Alternates(session, self)
         self._names = RowNames(self, self.row_names)
         self.refresh()
-        self.retranslate()
-
-    def retranslate(self) -> None:
-        self.title.setText(self.tr("fingering_lane.fingering"))
-        self.title.setToolTip(self.tr("fingering_lane.click_note_to_see_its"))
+        self.texted(self.title, text="fingering_lane.fingering", tip="fingering_lane.click_note_to_see_its")
 
     # What is shown
 

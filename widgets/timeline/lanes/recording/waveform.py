@@ -94,6 +94,7 @@ class WaveformLane(Lane):
         self.editor = NumberField(self)
         session.listening.waveform_changed.connect(self.update_items)
         self._ask_room()
+        self.texted(self.title, text="waveform_lane.recording", tip="waveform_lane.drag_to_move_it_against")
         self.retranslate()
 
     def _ask_room(self) -> None:
@@ -102,8 +103,6 @@ class WaveformLane(Lane):
         self.ask_height(EMPTY_PX if empty else PREFERRED_PX, EMPTY_PX if empty else LEAST_PX)
 
     def retranslate(self) -> None:
-        self.title.setText(self.tr("waveform_lane.recording"))
-        self.title.setToolTip(self.tr("waveform_lane.drag_to_move_it_against"))
         self.update_items()
 
     def empty_text(self) -> str:

@@ -21,7 +21,7 @@ from PySide6.QtGui import (
 from PySide6.QtWidgets import QLineEdit, QMenu, QToolTip, QWidget
 
 from app.project.edit.takes import BEFORE
-from widgets.common.controls import named
+from widgets.common.controls import Retranslated, named
 from widgets.common.icons import icon
 from widgets.common.take_times import clock_text, when_text
 from widgets.timeline.lanes.takes.take_drawing import STRIP_PX, TakesView
@@ -49,7 +49,7 @@ class Headed(TakesView, Protocol):
     def wheeled(self, event: QWheelEvent) -> None: ...
 
 
-class TakeHeads(QWidget):
+class TakeHeads(Retranslated, QWidget):
     """Beside the rows, in the lane's header.
 
     Attributes
@@ -68,12 +68,11 @@ class TakeHeads(QWidget):
         self._field: QLineEdit | None = None
         self._typed_id = BEFORE
         self.setMouseTracking(True)
+        self.texted(self, name="take_heads.takes")
         lane.header.installEventFilter(self)
         self._place()
 
     def retranslate(self) -> None:
-        """Set the texts anew."""
-        self.setAccessibleName(self.tr("take_heads.takes"))
         self.update()
 
     def name_of(self, row: TakeRow) -> str:

@@ -49,12 +49,11 @@ class TakesLane(RowLane):
         self.item = TakesItem(self)
         session.listening.changed.connect(self.heads.update)
         self.refresh()
+        self.texted(self.title, tip="takes_lane.what_was_recorded_of_player")
         self.retranslate()
 
     def retranslate(self) -> None:
         self._show_title()
-        self.title.setToolTip(self.tr("takes_lane.what_was_recorded_of_player"))
-        self.heads.retranslate()
         self.update_items()
 
     def _show_title(self) -> None:
