@@ -10,6 +10,8 @@ import pytest
 from app.cli import main
 from tests.support.judge import faults
 
+pytestmark = pytest.mark.slow
+
 ROOT = Path(__file__).parents[3]
 FILES = [
     *sorted((ROOT / "tests" / "data" / "midi" / "ensemble").glob("*.mid")),

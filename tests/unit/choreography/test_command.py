@@ -22,6 +22,8 @@ from app.rig import quaternion
 from tests.support.dances import model
 from tests.unit.choreography.test_cuts import arm_swings
 
+pytestmark = pytest.mark.slow
+
 
 def write_clip(path: Path, clip: MotionClip) -> Path:
     """The clip as a BVH file, with the segments' names."""

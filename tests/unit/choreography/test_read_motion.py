@@ -17,6 +17,8 @@ from app.errors import FileError
 from app.rig import quaternion
 from tests.support.dance_measures import SHARED
 
+pytestmark = pytest.mark.slow
+
 CLIPS = SHARED / "mocap"
 LIMBS = {"UpperArm": 0, "LowerArm": 1, "Hand": 2, "UpperLeg": 3, "LowerLeg": 4, "Foot": 5}
 POSER = ("Shldr", "ForeArm", "Hand", "Thigh", "Shin", "Foot")

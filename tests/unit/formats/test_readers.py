@@ -31,6 +31,8 @@ from tests.support.readers import (
 )
 from tests.unit.formats import scenes
 
+pytestmark = pytest.mark.slow
+
 RATES = [Fraction(24), Fraction(25), Fraction(30000, 1001), Fraction(30), Fraction(60)]
 ODD_RATES = [Fraction(24000, 1001), Fraction(50), Fraction(60000, 1001), Fraction(120), Fraction(37, 2)]
 

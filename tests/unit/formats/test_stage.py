@@ -27,6 +27,8 @@ from tests.support.readers import QUICK_FBX, QUICK_GLB, QUICK_USD, SLOW_FBX, SLO
 from tests.unit.export.scenes import slow_positions_m
 from tests.unit.formats import scenes
 
+pytestmark = pytest.mark.slow
+
 FPS = Fraction(30)
 FRAMES = 13
 WRITERS: dict[str, Callable[[Path, tuple[Scene, ...]], None]] = {

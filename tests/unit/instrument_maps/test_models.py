@@ -21,6 +21,8 @@ from instrument_maps.surface import nearest_point
 from resources.build import build_instruments
 from resources.build.instrument_glb import MATERIALS
 
+pytestmark = pytest.mark.slow
+
 MAPS = [pytest.param(instrument, id=name) for name, instrument in bundled_maps().items()]
 
 

@@ -13,6 +13,8 @@ from instrument_maps import load
 from instrument_maps.library import find_map
 from instrument_maps.load import bundled_maps, check_map, load_map, model_path, named_map, parse_map
 
+pytestmark = pytest.mark.slow
+
 BUNDLED = sorted(path for path in load.FOLDER.glob("*.toml") if path.name not in load.NOT_MAPS)
 TRUMPET = (load.FOLDER / "trumpet_Bb.toml").read_text("utf-8")
 TROMBONE = (load.FOLDER / "trombone_tenor_F_attachment.toml").read_text("utf-8")

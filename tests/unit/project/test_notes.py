@@ -21,6 +21,8 @@ from app.project.performers import Player
 from app.score.model import Note, Part, Score
 from app.score.tempo import TempoMap
 
+pytestmark = pytest.mark.slow
+
 TPQ = 480
 Row = tuple[str, str, int, int, int, int]
 """Part, id, onset, end, pitch, velocity."""

@@ -30,6 +30,8 @@ from instrument_maps.load import bundled_maps
 from tests.support.performed import in_seventh, player_motion, playing_of
 from tests.unit.choreography.performed.test_dancers import played
 
+pytestmark = pytest.mark.slow
+
 ENSEMBLES = Path(__file__).parents[3] / "data" / "midi" / "ensemble"
 LUTKIN = "brass_quartet_lutkin_2tpt_tbn_tuba"
 MARCH = "concert_band_hall_tenth_regiment_march"

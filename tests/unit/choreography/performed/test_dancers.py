@@ -30,6 +30,8 @@ from app.rig import quaternion
 from tests.support.dances import beaten, model
 from tests.unit.project.pieces import small_project
 
+pytestmark = pytest.mark.slow
+
 FPS = Fraction(30)
 
 

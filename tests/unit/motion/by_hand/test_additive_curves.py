@@ -16,6 +16,8 @@ from app.rig.grip.grip_pose import hand_targets
 from tests.support.plan import PlainClock
 from tests.unit.motion.test_perform import BODY, CHARACTER, FPS, HOLD, made, piece, times, world
 
+pytestmark = pytest.mark.slow
+
 CLOCK = PlainClock(((0, 120.0),))
 LIMITS = {
     "bell.up": (-12.0, 12.0),

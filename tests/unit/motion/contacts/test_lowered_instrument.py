@@ -29,6 +29,8 @@ from metadata.load import load_body, load_skeleton
 from tests.support.deformed import deform
 from tests.support.models import bundled_instrument
 
+pytestmark = pytest.mark.slow
+
 CASES = [
     (instrument.id, posture, character)
     for instrument in bundled_maps().values()

@@ -22,6 +22,8 @@ from instrument_maps.library import find_map
 from tests.bench.performance.large import large_project
 from tests.unit.motion.test_perform import BODY, CHARACTER, HOLD, MAP, piece
 
+pytestmark = pytest.mark.slow
+
 BEAT_TICKS = 480
 NOTES = 300
 
