@@ -9,7 +9,7 @@ Messages: ``correction.orphaned``, ``correction.no_such_fingering``, ``breath.in
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
 from typing import ClassVar, Final, TypeAlias, TypeVar
 
 import msgspec
@@ -147,6 +147,12 @@ class AddGesture(Own, frozen=True, tag="add_gesture"):
         """The id of the gesture."""
         return str(EventId(self.kind, self.name))
 
+    def event(self, clock: TempoMap) -> GestureEvent:
+        """The gesture."""
+        start, end = self.start_tick, self.end_tick
+        start_s, end_s = clock.seconds(float(start)), clock.seconds(float(end))
+        return GestureEvent(self.about, self.kind, start, end, start_s, end_s, self.amount, BY_HAND, True, self.gesture)
+
 
 class ChangeExpression(OfEvent, frozen=True, tag="change_expression"):
     """Move a generated expression, replace it by another, change its strength or fades; None keeps what was
@@ -170,6 +176,13 @@ class AddExpression(Own, frozen=True, tag="add_expression"):
     strength: float = 1.0
     fade_in_s: float = 0.2
     fade_out_s: float = 0.3
+
+    def event(self, clock: TempoMap) -> ExpressionEvent:
+        """The expression."""
+        start, end = self.start_tick, self.end_tick
+        start_s, end_s = clock.seconds(float(start)), clock.seconds(float(end))
+        shown = self.strength, self.fade_in_s, self.fade_out_s
+        return ExpressionEvent(self.about, self.expression, start, end, start_s, end_s, *shown, BY_HAND, True)
 
 
 class PoseCorrection(Own, frozen=True, tag="pose"):
@@ -322,74 +335,39 @@ def correct_gestures(
     events: tuple[GestureEvent, ...], corrections: tuple[Correction, ...], clock: TempoMap
 ) -> tuple[GestureEvent, ...]:
     """Gestures without the removed ones, with the changed and the added ones, ordered by start."""
+    added = [item.event(clock) for item in corrections if isinstance(item, AddGesture)]
     changes = {item.event_id: item for item in corrections if isinstance(item, ChangeGesture)}
-    added = tuple(
-        GestureEvent(
-            id=f"{item.kind}:{item.name}",
-            kind=item.kind,
-            start_tick=item.start_tick,
-            end_tick=item.end_tick,
-            start_s=clock.seconds(float(item.start_tick)),
-            end_s=clock.seconds(float(item.end_tick)),
-            amount=item.amount,
-            reason=BY_HAND,
-            corrected=True,
-            name=item.gesture,
-        )
-        for item in corrections
-        if isinstance(item, AddGesture)
-    )
-    return _corrected_spans(events, corrections, changes, added, ("amount",), clock)
+    return _corrected_spans(events, corrections, changes, added, clock)
 
 
 def correct_expressions(
     events: tuple[ExpressionEvent, ...], corrections: tuple[Correction, ...], clock: TempoMap
 ) -> tuple[ExpressionEvent, ...]:
     """Expressions without the removed ones, with the changed and the added ones, ordered by start."""
+    added = [item.event(clock) for item in corrections if isinstance(item, AddExpression)]
     changes = {item.event_id: item for item in corrections if isinstance(item, ChangeExpression)}
-    added = tuple(
-        ExpressionEvent(
-            id=f"expression:{item.name}",
-            expression=item.expression,
-            start_tick=item.start_tick,
-            end_tick=item.end_tick,
-            start_s=clock.seconds(float(item.start_tick)),
-            end_s=clock.seconds(float(item.end_tick)),
-            strength=item.strength,
-            fade_in_s=item.fade_in_s,
-            fade_out_s=item.fade_out_s,
-            reason=BY_HAND,
-            corrected=True,
-        )
-        for item in corrections
-        if isinstance(item, AddExpression)
-    )
-    fields = ("expression", "strength", "fade_in_s", "fade_out_s")
-    return _corrected_spans(events, corrections, changes, added, fields, clock)
+    return _corrected_spans(events, corrections, changes, added, clock)
 
 
 def _corrected_spans(
     events: tuple[Span, ...],
     corrections: tuple[Correction, ...],
     changes: Mapping[str, ChangeGesture | ChangeExpression],
-    added: tuple[Span, ...],
-    fields: tuple[str, ...],
+    added: Sequence[Span],
     clock: TempoMap,
 ) -> tuple[Span, ...]:
-    """``fields`` of a change that are not None take the place of the event's."""
     removed = removed_ids(corrections)
     kept: list[Span] = [event for event in events if event.id not in removed]
     if not changes and not added:
         return tuple(kept)
-    result = [_changed(event, changes.get(event.id), fields, clock) for event in kept]
+    result = [_changed(event, changes.get(event.id), clock) for event in kept]
     result.extend(added)
     result.sort(key=lambda event: event.start_s)
     return tuple(result)
 
 
-def _changed(
-    event: Span, change: ChangeGesture | ChangeExpression | None, fields: tuple[str, ...], clock: TempoMap
-) -> Span:
+def _changed(event: Span, change: ChangeGesture | ChangeExpression | None, clock: TempoMap) -> Span:
+    """The event with what of a change is not None."""
     if change is None:
         return event
     start = event.start_tick if change.start_tick is None else change.start_tick
@@ -397,15 +375,16 @@ def _changed(
     if start >= end:
         # Only one end was set, and the generated other end has since moved past it: a correction wins.
         start, end = (start, start + 1) if change.end_tick is None else (end - 1, end)
+    said = {name: value for name, value in msgspec.structs.asdict(change).items() if value is not None}
+    said |= {"start_tick": start, "end_tick": end}
+    del said["event_id"]
     return msgspec.structs.replace(
         event,
-        start_tick=start,
-        end_tick=end,
         start_s=event.start_s if start == event.start_tick else clock.seconds(float(start)),
         end_s=event.end_s if end == event.end_tick else clock.seconds(float(end)),
         reason=BY_HAND,
         corrected=True,
-        **{name: value for name in fields if (value := getattr(change, name)) is not None},
+        **said,
     )
 
 
