@@ -14,7 +14,7 @@ from app.chance import performed_seed, seed_of
 from app.choreography.body_layer import FPS, body_layer
 from app.choreography.generate import Choreographer
 from app.choreography.performed.choreographers import choreographer_of, unfit_choreography
-from app.choreography.performed.dancers import Dancing, dance_frame, rhythm_of
+from app.choreography.performed.dancers import GeneratedDance, dance_frame, rhythm_of
 from app.choreography.rhythm import Rhythm
 from app.identity_cache import IdentityCache
 from app.motion.gestures.dance_layer import BodyLayer
@@ -52,7 +52,7 @@ def _layer(
     character: Character,
     frame: TimeFrame,
 ) -> BodyLayer:
-    dancing = Dancing(dancer, choreographer, rhythm, (), tempo_map, character, frame)
+    dancing = GeneratedDance(dancer, choreographer, rhythm, (), tempo_map, character, frame)
     return body_layer(dancing.motion(FPS, 0, frame_count(frame, FPS)), character)
 
 

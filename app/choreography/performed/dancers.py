@@ -54,7 +54,7 @@ BLINK_S: Final = (0.08, 0.05, 0.16)
 """Closing, shut and opening."""
 BLINKS_EVERY_S: Final = (1.8, 6.0)
 
-_DANCING: IdentityCache[Dancing] = IdentityCache(64)
+_DANCING: IdentityCache[GeneratedDance] = IdentityCache(64)
 _REMEMBERED: Final = Remembered(2**30)
 """Generated dances: a dozen of a quarter of an hour, or two hundred of a minute, take so many bytes."""
 _RHYTHMS: IdentityCache[Rhythm] = IdentityCache(8)
@@ -62,7 +62,7 @@ _recent_rhythms: deque[Rhythm] = deque(maxlen=4)
 _recent_rhythms_lock = Lock()
 
 
-class Dancing:
+class GeneratedDance:
     """One dancer's dance to a piece. It is kept for dancers who dance alike: ask the project what they are called and
     where they stand.
 
@@ -215,7 +215,7 @@ def manner_of(dancer: Dancer, sources: int) -> Manner:
     return Manner(dancer.seed, source, dancer.size, dancer.weight, dancer.mirrored)
 
 
-def dancing_of(performance: Performance, dancer: Dancer) -> Dancing:
+def dancing_of(performance: Performance, dancer: Dancer) -> GeneratedDance:
     """A dancer's dance; made ready, not generated yet.
 
     Raises
@@ -235,7 +235,9 @@ def dancing_of(performance: Performance, dancer: Dancer) -> Dancing:
     rhythm = _same_rhythm(rhythm)
     corrections = project.dance_corrections.get(dancer.id, ())
     tempo_map, frame = project.score.tempo_map, dance_frame(performance)
-    return _DANCING.step(Dancing, _same_dancer(dancer), choreographer, rhythm, corrections, tempo_map, character, frame)
+    return _DANCING.step(
+        GeneratedDance, _same_dancer(dancer), choreographer, rhythm, corrections, tempo_map, character, frame
+    )
 
 
 def rhythm_of(performance: Performance) -> Rhythm:
