@@ -19,7 +19,7 @@ import numpy as np
 from app.arrays import AnyFloatArray, BoolArray, FloatArray, IndexArray, SingleArray
 from app.contacts.alike import alike
 from app.contacts.distance_field import DistanceField
-from app.contacts.hand_poses import Carried, Parts, Placed, Poses, carried, joints_in_node, moving_parts_m, steadiest
+from app.contacts.hand_poses import Parts, Placed, Poses, carried, joints_in_node, moving_parts_m, steadiest
 from app.rig.skinning import Skin
 from instrument_maps.model import Proxy
 
@@ -105,7 +105,8 @@ class HandDepths:
         weights = {name: np.asarray(morphs[name], np.float32)[order] for name in self._hand.morphs if name in morphs}
         nodes = [world_from_node[node][order] for node in self._nodes]
         poses = Poses(self._hand, local[:, :, order], weights)
-        search = _Search(self._hand, self._groups, self._field, poses, joints[order], weights, nodes, base)
+        parts = Parts(nodes, base, self._field.reaches_m)
+        search = _Search(self._groups, self._field, poses, joints[order], weights, nodes, parts)
         search.begin(sizes[0], depths_m.reshape(-1, sizes[0]))
         found_m = np.empty(frames)
         for size in sizes:
@@ -168,7 +169,6 @@ class _Search:
 
     Parameters
     ----------
-    hand : Carried
     groups : _Groups
     field : DistanceField
     poses : Poses
@@ -178,25 +178,24 @@ class _Search:
         Weights.
     world_from_node : list of (F, 4, 4) float64
         By node.
-    base : int
-        The node on which the hand is steadiest: in its frame all that moves is judged.
+    parts : Parts
+        The instrument's in the frame of the node on which the hand is steadiest: in it all that moves is judged.
     """
 
     def __init__(
         self,
-        hand: Carried,
         groups: _Groups,
         field: DistanceField,
         poses: Poses,
         world_from_joint: SingleArray,
         morphs: Mapping[str, SingleArray],
         world_from_node: list[FloatArray],
-        base: int,
+        parts: Parts,
     ) -> None:
-        self._hand, self._groups, self._field = hand, groups, field
+        self._groups, self._field = groups, field
         self._world_from_joint, self._morphs, self._world_from_node = world_from_joint, morphs, world_from_node
         self._poses = poses
-        self._parts = Parts(world_from_node, base, field.reaches_m)
+        self._parts = parts
         self._moved = self._parts.moves(1)
         self._grouped = self._single = _NONE
 
@@ -257,7 +256,7 @@ class _Search:
             frames, at = np.unique(blocks[rows], return_inverse=True)
             local = joints_in_node(self._world_from_node[node][frames], self._world_from_joint[frames])
             morphs = {name: curve[frames] for name, curve in self._morphs.items()}
-            places_m[:, rows] = Poses(self._hand, local, morphs).places_m(at, vertices[rows])
+            places_m[:, rows] = Poses(self._poses.hand, local, morphs).places_m(at, vertices[rows])
         return places_m
 
     def _placed(self, pairs: _Pairs, vertices: IndexArray) -> Placed:

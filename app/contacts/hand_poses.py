@@ -106,11 +106,11 @@ class Poses:
     """
 
     def __init__(self, hand: Carried, node_from_joint: SingleArray, morphs: Mapping[str, SingleArray]) -> None:
-        self._hand, self._node_from_joint, self._morphs = hand, node_from_joint, morphs
+        self.hand, self._node_from_joint, self._morphs = hand, node_from_joint, morphs
 
     def places_m(self, frames: IndexArray, vertices: IndexArray) -> SingleArray:
         """Where vertices (N,) are at frames (N,): (3, N)."""
-        hand = self._hand
+        hand = self.hand
         result = np.zeros((3, len(frames)), dtype=np.float32)
         matrices = self._node_from_joint.reshape(3, 4, -1)
         for carrier in range(hand.carriers.shape[1]):
@@ -138,7 +138,7 @@ class Poses:
         moved = placed - placed[:, :, :, size // 2, None]
         curves = {name: curve.reshape(-1, size)[blocks] for name, curve in self._morphs.items()}
         return Moves(
-            hand=self._hand,
+            hand=self.hand,
             chords=_chords(moved).max(axis=1),
             shifts_m=_lengths(moved[:, 3]).max(axis=1),
             greatest={name: np.abs(curve).max(axis=1) for name, curve in curves.items()},

@@ -23,7 +23,8 @@ from app.motion.contacts.hand_in_bell import STOPPING, stopping
 from app.motion.contacts.instrument_put_aside import Aside
 from app.motion.contacts.instrument_tipping import with_bell_room
 from app.motion.contacts.limited_amounts import settled, shown_by
-from app.motion.contacts.solve import Curves, Player, padding, solve
+from app.motion.contacts.solve import PlayerBody, padding, solve
+from app.motion.contacts.still_player import ContactCurves
 from app.motion.contacts.trunk_and_legs import SIDES, Side, footing, hips_path, stance, torso_forward, trunk
 from app.motion.contacts.wrists import wrists_of
 from app.motion.curves.curve import EVERYWHERE, Curve, Envelopes, frame_times, moves
@@ -56,7 +57,7 @@ from metadata.model import Body, Embouchure, Expression, Posture
 
 NOT_SHOWN = Envelopes.of(())
 _CURVED: IdentityCache[GripPose] = IdentityCache(128)
-_PLAYERS: IdentityCache[Player] = IdentityCache(128)
+_PLAYERS: IdentityCache[PlayerBody] = IdentityCache(128)
 """Holds with curved fingers, and what of players does not change with time: a player goes on with the very same."""
 
 
@@ -126,7 +127,7 @@ class PerformanceCurves:
         With head and trunk turned to the instrument.
     expressions : dict of str to Expression
         Those the plan names.
-    player : Player
+    player : PlayerBody
         What does not change with time.
     controls : dict of str to Curve
         By the instrument's control.
@@ -156,7 +157,7 @@ class PerformanceCurves:
     posture: Posture
     body: Body
     expressions: dict[str, Expression]
-    player: Player
+    player: PlayerBody
     layers: Layers
     face: Face
     gaze: Gaze
@@ -210,7 +211,7 @@ class PerformanceCurves:
             return None
         return giving_way(self.dance.sample(times_s), self.inhaling.sample(times_s))
 
-    def curves(self, frames: Frames) -> Curves:
+    def curves(self, frames: Frames) -> ContactCurves:
         """What the contacts are solved from, of frames wherever they come from."""
         levels = self._breathing(replace(frames.levels, push=frames.face.push), frames.times_s)
         added = frames.added
@@ -232,7 +233,6 @@ class PerformanceCurves:
         styles = self.plan.styles
         morphs = face_morphs(
             frames.face,
-            self.body.embouchure[self.instrument_map.embouchure.kind],
             self.player.hold.lips,
             self.expressions,
             frames.look,
@@ -244,7 +244,7 @@ class PerformanceCurves:
         morphs |= widened(air, levels.push, self.body.breath, self.acting.breath)
         if added:
             morphs = with_added_morphs(morphs, added, frames.face.at_lips)
-        return Curves(
+        return ContactCurves(
             moved, frames.controls, morphs, frames.face.mouth_open, frames.placed, frames.raised, frames.stowed
         )
 
@@ -461,20 +461,22 @@ def _curved(hold: GripPose, skeleton: Skeleton) -> GripPose:
 
 def _player(
     parameters: PlayerParameters, instrument_map: InstrumentMap, character: Character, hold: GripPose, body: Body
-) -> Player:
+) -> PlayerBody:
     """What does not change with time: the very same for the same body in the same posture, which knows already how far
     its hands come and its instrument tips."""
     curved = _CURVED.step(_curved, hold, character.skeleton)
     return _PLAYERS.step(_made, sys.intern(parameters.posture), instrument_map, character.skeleton, curved, body)
 
 
-def _made(posture_name: str, instrument_map: InstrumentMap, skeleton: Skeleton, hold: GripPose, body: Body) -> Player:
+def _made(
+    posture_name: str, instrument_map: InstrumentMap, skeleton: Skeleton, hold: GripPose, body: Body
+) -> PlayerBody:
     named = cast(PostureName, posture_name)
     carriage = instrument_map.hold.carriage(named)
     posture = carrying(body, instrument_map.hold.possible(named), carriage)
     place = stance(skeleton, posture)
     still = BodyMotion.still(posture)
-    made = Player(
+    made = PlayerBody(
         skeleton=skeleton,
         hold=hold,
         place=place,
@@ -543,12 +545,12 @@ FINGERS: Final = StepTable(
 """The steps of the fingers, and of the animator's own curves."""
 
 
-def _steps(player: Player) -> bool:
+def _steps(player: PlayerBody) -> bool:
     """Whether feet leave their place: not beside an instrument that stands on its pin."""
     return player.stand is None
 
 
-def _stands_free(player: Player) -> bool:
+def _stands_free(player: PlayerBody) -> bool:
     """Whether the hips may leave their place: not on a seat, nor over an instrument that stands on its pin."""
     return not player.place.seated and player.stand is None
 

@@ -18,7 +18,8 @@ from app.arrays import SingleArray
 from app.motion.by_hand.additive_curves import Additive
 from app.motion.by_hand.pose_corrections import Poses
 from app.motion.contacts.help_for_far_hands import Help
-from app.motion.contacts.solve import Curves, helped, needs, poses
+from app.motion.contacts.solve import helped, needs, poses
+from app.motion.contacts.still_player import ContactCurves
 from app.motion.doubling import Doubling
 from app.motion.perform import Frames, PerformanceCurves
 from app.performance.chunks import Pose
@@ -210,7 +211,7 @@ class PlayAlong:
             self._solved(now_s)
             self._hands.carry(now_s, self._help.carries_s)
 
-    def _solved(self, now_s: float) -> tuple[Curves, Help]:
+    def _solved(self, now_s: float) -> tuple[ContactCurves, Help]:
         """What contacts are solved from, now and (further frames) on the way to where the hands are going, and the help
         that far hands are given now."""
         hands, breathing, look = self._hands.at(now_s), self._breath.at(now_s), self._look.at(now_s)

@@ -2,27 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
 
-from app.arrays import FloatArray, IndexArray
+from app.arrays import FloatArray
 from app.motion.body_motion import BodyMotion
-from app.motion.contacts.carried_instrument import Carried
 from app.motion.contacts.hands_away import Away
 from app.motion.contacts.help_for_far_hands import clavicle_of, forwards_axis
+from app.motion.contacts.instrument_put_aside import HANGS_RAD
+from app.motion.contacts.still_player import ContactCurves, StillPlayer
 from app.motion.contacts.trunk_and_legs import Side, Trunk, exact_target
+from app.motion.contacts.upper_body import UpperBody
 from app.motion.contacts.wrists import Wrist
 from app.rig import quaternion
-from app.rig.grip.grip_pose import GripPose, HandHold, Placed, hand_targets
+from app.rig.grip.grip_pose import HandHold, hand_targets
 from app.rig.ik import Limb, LimbPose, arm, end_of, solve_limb, swivelled
 from app.rig.model import Skeleton
 
 Z_AXIS = np.array([0.0, 0.0, 1.0])
 
-HANGS_RAD = 1.25
-"""How far an arm that holds nothing is down from the T-pose."""
 ELBOW_OUT = 1.8
 """The elbow goes out by this multiple of the angle its shoulder comes forwards, so that the wrist stays straighter."""
 
@@ -60,48 +59,41 @@ def shoulder(skeleton: Skeleton, side: Side, body: Trunk, motion: BodyMotion) ->
 
 
 def solve_arms(
-    skeleton: Skeleton,
-    hold: GripPose,
-    body: Trunk,
-    base: Trunk,
-    motion: BodyMotion,
-    carried: Carried,
-    controls: Mapping[str, FloatArray],
-    placed: Mapping[str, Placed],
-    wrists: Mapping[Side, Wrist],
+    player: StillPlayer,
+    curves: ContactCurves,
+    upper: UpperBody,
     swung: FloatArray | None = None,
     away: Away | None = None,
 ) -> dict[int, FloatArray]:
     """Rotations of clavicles, arms and hands, by joint; ``swung`` (F, 4) is how far elbows go with arms that swing."""
     rotations: dict[int, FloatArray] = {}
-    with_chest = quaternion.multiply(body.chest, quaternion.conjugate(base.chest))
-    for hand in hold.hands:
-        targets = hand_targets(hand, carried.position_m, carried.rotation, controls, placed)
+    body, carried = upper.trunk, upper.carried
+    with_chest = quaternion.multiply(body.chest, quaternion.conjugate(player.base.chest))
+    for hand in player.hold.hands:
+        target = hand_targets(hand, carried.position_m, carried.rotation, curves.controls, curves.placed)
         turned = with_chest if swung is None else quaternion.multiply(swung, with_chest)
         freely = None
         if away is not None:
-            targets, freely = away.targets(hand.side, *targets), away.elbows.get(hand.side)
-        rotations |= _solve_arm(skeleton, hand, body, turned, motion, *targets, wrists[hand.side], freely)
+            target, freely = away.targets(hand.side, *target), away.elbows.get(hand.side)
+        rotations |= _solve_arm(player, hand, body, turned, curves.body, target, freely)
     for side, sign in (("left", -1.0), ("right", 1.0)):
-        if all(hand.side != side for hand in hold.hands):
+        if all(hand.side != side for hand in player.hold.hands):
             hangs = quaternion.from_axis_angle(np.array([0.0, 0.0, 1.0]), sign * HANGS_RAD)
-            rotations[skeleton.index(f"{side}UpperArm")] = np.tile(hangs, (len(with_chest), 1))
+            rotations[player.skeleton.index(f"{side}UpperArm")] = np.tile(hangs, (len(with_chest), 1))
     return rotations
 
 
 def _solve_arm(
-    skeleton: Skeleton,
+    player: StillPlayer,
     hand: HandHold,
     body: Trunk,
     with_chest: FloatArray,
     motion: BodyMotion,
-    target_m: FloatArray,
-    target_rotation: FloatArray,
-    wrist: Wrist,
+    target: tuple[FloatArray, FloatArray],
     freely: tuple[FloatArray, FloatArray] | None = None,
 ) -> dict[int, FloatArray]:
-    side = hand.side
-    limb = arm(skeleton, side)
+    side, skeleton = hand.side, player.skeleton
+    limb, (target_m, target_rotation) = arm(skeleton, side), target
     sign = 1.0 if side == "left" else -1.0
     held = shoulder(skeleton, side, body, motion)
     root_m = held.joint_m
@@ -118,26 +110,20 @@ def _solve_arm(
     if hand.motion is not None:
         target_m = exact_target(limb, root_m, target_m)
     pose = solve_limb(limb, root_m, held.clavicle, target_m, target_rotation, pole)
-    aside_rad = wrist.aside_rad(pose.end)
-    beyond_rad = wrist.beyond_rad(aside_rad)
-    bent = np.flatnonzero(beyond_rad)
-    if len(bent):
-        _relieve(wrist, limb, pose, bent, (aside_rad, beyond_rad), line, held.clavicle, target_rotation)
+    _relieve(player.wrists[side], limb, pose, line, held.clavicle, target_rotation)
     joint, _ = clavicle_of(skeleton, side)
     return {joint: held.moved, limb.upper: pose.upper, limb.lower: pose.lower, limb.end: pose.end}
 
 
 def _relieve(
-    wrist: Wrist,
-    limb: Limb,
-    pose: LimbPose,
-    bent: IndexArray,
-    angles_rad: tuple[FloatArray, FloatArray],
-    line: FloatArray,
-    clavicle: FloatArray,
-    target_rotation: FloatArray,
+    wrist: Wrist, limb: Limb, pose: LimbPose, line: FloatArray, clavicle: FloatArray, target_rotation: FloatArray
 ) -> None:
-    """Turn the arms of a pose in which a wrist is ``bent`` too far about the line from shoulder to hand."""
+    """Turn the arms of a pose about the line from shoulder to hand where a wrist is bent too far."""
+    aside_rad = wrist.aside_rad(pose.end)
+    beyond_rad = wrist.beyond_rad(aside_rad)
+    bent = np.flatnonzero(beyond_rad)
+    if not len(bent):
+        return
     bones = pose.bones[0][bent], pose.bones[1][bent]
     there = LimbPose(pose.upper[bent], pose.lower[bent], pose.end[bent], pose.miss_m[bent], bones)
     axis, target = line[bent], target_rotation[bent]
@@ -146,7 +132,6 @@ def _relieve(
         turned = quaternion.multiply(quaternion.from_axis_angle(axis, turn_rad), there.bones[1])
         return wrist.aside_rad(end_of(limb, turned, target))
 
-    aside_rad, beyond_rad = angles_rad
     turn_rad = wrist.relief_rad(aside_rad[bent], beyond_rad[bent], aside_at)
     turn = quaternion.from_axis_angle(axis, turn_rad)
     relieved = swivelled(limb, there, turn, clavicle[bent], target)

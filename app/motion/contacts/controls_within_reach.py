@@ -13,15 +13,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from app.arrays import FloatArray
-from app.motion.body_motion import BodyMotion
 from app.motion.contacts.arms import shoulder
 from app.motion.contacts.carried_instrument import Carried
-from app.motion.contacts.trunk_and_legs import Trunk
+from app.motion.contacts.still_player import ContactCurves, StillPlayer
+from app.motion.contacts.upper_body import UpperBody
 from app.motion.curves.soft_bounds import softly_capped
 from app.rig import quaternion
-from app.rig.grip.grip_pose import GripPose, HandHold, Placed, hand_targets
+from app.rig.grip.grip_pose import HandHold, Placed, hand_targets
 from app.rig.ik import arm
-from app.rig.model import Skeleton
 
 LONGEST = 0.997
 """Share of its length an arm is stretched at most for a hand that is carried: the elbow is 9 degrees from straight."""
@@ -59,25 +58,17 @@ class _Seen:
         return low
 
 
-def stopped(
-    skeleton: Skeleton,
-    hold: GripPose,
-    body: Trunk,
-    motion: BodyMotion,
-    carried: Carried,
-    controls: Mapping[str, FloatArray],
-    placed: Mapping[str, Placed],
-) -> dict[str, FloatArray]:
+def stopped(player: StillPlayer, curves: ContactCurves, upper: UpperBody) -> dict[str, FloatArray]:
     """The controls, those that carry a hand no farther out than it comes.
 
     Where a hand comes everywhere they are the very arrays given.
     """
-    result = dict(controls)
-    for hand in hold.hands:
+    skeleton, carried, placed, result = player.skeleton, upper.carried, curves.placed, dict(curves.controls)
+    for hand in player.hold.hands:
         if hand.motion is None or hand.motion.control not in result:
             continue
         asked = np.clip(np.asarray(result[hand.motion.control], dtype=np.float64), 0.0, 1.0)
-        shoulder_m = shoulder(skeleton, hand.side, body, motion).joint_m
+        shoulder_m = shoulder(skeleton, hand.side, upper.trunk, curves.body).joint_m
         distance_m = _Seen(hand, shoulder_m, carried, placed).distance_m(asked)
         length_m = arm(skeleton, hand.side).length_m
         far = np.flatnonzero(distance_m > (LONGEST - EASE) * length_m)

@@ -12,7 +12,6 @@ import numpy as np
 
 from app.arrays import FloatArray
 from app.motion.body_motion import BodyMotion
-from app.motion.contacts.arms import HANGS_RAD
 from app.motion.contacts.carried_instrument import Y_AXIS, Z_AXIS, Carried
 from app.motion.contacts.help_for_far_hands import clavicle_of
 from app.motion.contacts.trunk_and_legs import Side, Trunk
@@ -31,6 +30,8 @@ DOWN_RAD = float(np.deg2rad(10.0))
 """The arm comes down by so much; more would bring the bells of two instruments together below the shoulder."""
 OUT_M, LONGEST = 0.04, 0.93
 """It goes out by so much, clear of the body, as far as the arm comes with this share of its length."""
+HANGS_RAD = 1.25
+"""How far an arm that holds nothing is down from the T-pose."""
 LOOKS_RAD = {"neck": 0.16, "head": 0.2}
 LOOKS_DOWN_RAD = {"neck": 0.06, "head": 0.16}
 TURNS = {"spine": 0.09, "chest": 0.16, "upperChest": 0.12}

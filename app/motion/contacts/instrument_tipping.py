@@ -7,10 +7,13 @@ from dataclasses import replace
 import numpy as np
 
 from app.arrays import FloatArray
-from app.motion.contacts.carried_instrument import BellRoom, tips_freely
+from app.motion.contacts.arms import solve_arms
+from app.motion.contacts.carried_instrument import tips_freely
 from app.motion.contacts.help_for_far_hands import clavicle_of
-from app.motion.contacts.solve import Curves, Player, arms_of, helped, needs, upper_body
-from app.motion.contacts.wrists import LOST_RAD
+from app.motion.contacts.solve import PlayerBody, helped, needs
+from app.motion.contacts.still_player import ContactCurves
+from app.motion.contacts.upper_body import upper_body
+from app.motion.contacts.wrists import LOST_RAD, BellRoom
 from app.rig import quaternion
 from app.rig.grip.grip_pose import Placed, giving_for
 from app.rig.ik import arm
@@ -23,7 +26,7 @@ RAISED_RAD = float(np.deg2rad(12.0))
 """... and an elbow may rise by so much: no player flaps the arms for a nod."""
 
 
-def with_bell_room(player: Player) -> Player:
+def with_bell_room(player: PlayerBody) -> PlayerBody:
     """The player with an instrument that tips no further than both wrists and elbows follow."""
     if player.stand is not None or not tips_freely(player.carriage):
         return player
@@ -45,15 +48,14 @@ def with_bell_room(player: Player) -> Player:
 
 
 def _wrists_and_elbows(
-    player: Player, tipped_rad: FloatArray, placed: dict[str, Placed]
+    player: PlayerBody, tipped_rad: FloatArray, placed: dict[str, Placed]
 ) -> tuple[FloatArray, FloatArray]:
     """How far the worse wrist of a still body is out of its range, and how high the higher elbow is as seen from its
     shoulder, (F,) each; the bell is down by so much (F,)."""
     still = replace(player.still.for_frames(len(tipped_rad)), bell_down_rad=tipped_rad)
-    curves = Curves(still, {}, {}, np.zeros(len(tipped_rad)), placed)
-    body = helped(player, still, needs(player, curves))
-    upper = upper_body(player, replace(curves, body=body))
-    arms = arms_of(player, upper.trunk, body, upper.carried, {}, placed)
+    curves = ContactCurves(still, {}, {}, np.zeros(len(tipped_rad)), placed)
+    curves = replace(curves, body=helped(player, still, needs(player, curves)))
+    arms = solve_arms(player, curves, upper_body(player, curves))
     bent, raised = np.zeros(len(tipped_rad)), np.full(len(tipped_rad), -np.inf)
     for hand in player.hold.hands:
         limb = arm(player.skeleton, hand.side)

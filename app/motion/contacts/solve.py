@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field, replace
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
 
@@ -13,25 +13,23 @@ import numpy as np
 from app.arrays import FloatArray
 from app.motion.body_motion import BodyMotion
 from app.motion.contacts.arms import solve_arms
-from app.motion.contacts.carried_instrument import ANYWHERE, BellRoom, Carried, carry
+from app.motion.contacts.carried_instrument import Carried
 from app.motion.contacts.controls_within_reach import stopped
 from app.motion.contacts.endpin import Stand
-from app.motion.contacts.hand_destinations import away, with_shapes
+from app.motion.contacts.hand_destinations import with_shapes
 from app.motion.contacts.hand_in_bell import STOPPING, with_fingers_kept
-from app.motion.contacts.hands_away import Away
 from app.motion.contacts.help_for_far_hands import TURN_RAD, Help, needed_help, shoulder_distance_m
-from app.motion.contacts.instrument_put_aside import Aside, Place
+from app.motion.contacts.instrument_put_aside import Place
 from app.motion.contacts.shares_of_help import HELP_EASE_S, drawn, spread, turned, with_room
-from app.motion.contacts.trunk_and_legs import Side, Stance, Trunk, hips_path, solve_legs, trunk
-from app.motion.contacts.upper_body import UpperBody, joined
-from app.motion.contacts.wrists import Wrist
+from app.motion.contacts.still_player import ContactCurves, StillPlayer
+from app.motion.contacts.trunk_and_legs import hips_path, solve_legs, trunk
+from app.motion.contacts.upper_body import UpperBody, joined, upper_body
 from app.motion.curves.soft_bounds import softly_capped
 from app.motion.model import Motion
 from app.rig import quaternion
 from app.rig.grip.finger_poses import finger_rotations
-from app.rig.grip.grip_pose import GripPose, Placed, hand_targets
-from app.rig.model import Skeleton
-from instrument_maps.model import Carriage, Endpin, Lowered, Stopped, Water
+from app.rig.grip.grip_pose import hand_targets
+from instrument_maps.model import Endpin
 
 CHUNK = 4096
 """Frames solved at once: few enough to stay in the processor's cache."""
@@ -42,41 +40,14 @@ LEAST_LEANT_M = 0.005
 
 
 @dataclass(frozen=True)
-class Player:
-    """Everything about a player that does not change with time.
+class PlayerBody(StillPlayer):
+    """A player, with what is solved once for all times."""
 
-    ``still`` is the posture before any motion and ``base`` its trunk, one frame; ``grip_of_lips_m`` (3,) is how far
-    playing lips bring the mouthpiece from where one lip alone would carry it, in the head's frame. ``stand`` is there
-    where the instrument stands on the floor, ``aside`` where the musician plays others too. ``water`` says where it is
-    let out, ``stopped`` how a hand closes the bell.
-    """
-
-    skeleton: Skeleton
-    hold: GripPose
-    place: Stance
-    carriage: Carriage
-    lowered: Lowered
-    still: BodyMotion
-    base: Trunk
-    grip_of_lips_m: FloatArray
-    wrists: Mapping[Side, Wrist]
-    stand: Stand | None = None
-    aside: Aside | None = None
-    bell_room: BellRoom = ANYWHERE
-    water: Water | None = None
-    stopped: Stopped | None = None
-
-    def away(self, motion: BodyMotion, carried: Carried) -> Away | None:
-        """Where hands are that leave the instrument; None where all stay."""
-        if not motion.hands:
-            return None
-        return away(self.skeleton, self.base, motion.hands, carried, self.water, self.stopped)
-
-    def standing_on(self, endpin: Endpin | None) -> Player:
+    def standing_on(self, endpin: Endpin | None) -> PlayerBody:
         """The player with the instrument on its endpin, where it usually is low enough for that."""
         if endpin is None:
             return self
-        usual = upper_body(self, Curves(self.still, {}, {}, np.zeros(1))).carried
+        usual = upper_body(self, ContactCurves(self.still, {}, {}, np.zeros(1))).carried
         return replace(self, stand=Stand.of(endpin, self.carriage, usual))
 
     @cached_property
@@ -85,7 +56,7 @@ class Player:
         if self.aside is None:
             return None
         low = replace(self.still, lowered=np.ones(1))
-        carried = upper_body(replace(self, aside=None, stand=None), Curves(low, {}, {}, np.zeros(1))).carried
+        carried = upper_body(replace(self, aside=None, stand=None), ContactCurves(low, {}, {}, np.zeros(1))).carried
         return Place.of(self.aside, self.skeleton, self.hold, self.base, carried)
 
     @cached_property
@@ -106,57 +77,17 @@ class Player:
         return _farthest(self)
 
 
-@dataclass(frozen=True)
-class Curves:
-    """What the solvers start from, all sampled at the same frames.
-
-    Attributes
-    ----------
-    controls, morphs : dict of str to (F,) float64
-    mouth_open : (F,) float64
-        How far the mouth is open for a breath.
-    placed : dict of str to Placed
-        Where the fingers are that leave their home.
-    raised : (F,) float64 or float
-        How high fingers wait over their keys, 0..1.
-    stowed : (F,) float64 or None
-        How far the instrument is put aside, 0..1; None: not at all.
-    """
-
-    body: BodyMotion
-    controls: dict[str, FloatArray]
-    morphs: dict[str, FloatArray]
-    mouth_open: FloatArray
-    placed: dict[str, Placed] = field(default_factory=dict)
-    raised: FloatArray | float = 0.0
-    stowed: FloatArray | None = None
-
-    def __len__(self) -> int:
-        return len(self.mouth_open)
-
-    def __getitem__(self, frames: slice) -> Curves:
-        return Curves(
-            self.body[frames],
-            {name: values[frames] for name, values in self.controls.items()},
-            {name: values[frames] for name, values in self.morphs.items()},
-            self.mouth_open[frames],
-            {finger: Placed(*(values[frames] for values in where)) for finger, where in self.placed.items()},
-            self.raised if isinstance(self.raised, float) else self.raised[frames],
-            None if self.stowed is None else self.stowed[frames],
-        )
-
-
 def padding(fps: Fraction) -> int:
     """Frames before and after the requested ones that `solve` needs to look ahead and back."""
     return 2 * math.ceil(HELP_EASE_S * fps)
 
 
-def solve(player: Player, curves: Curves, fps: Fraction, first_frame_s: float, every: int = 1) -> Motion:
+def solve(player: PlayerBody, curves: ContactCurves, fps: Fraction, first_frame_s: float, every: int = 1) -> Motion:
     """Solve all poses.
 
     Parameters
     ----------
-    curves : Curves
+    curves : ContactCurves
         With `padding` frames more at both ends than are requested.
     first_frame_s : float
         Time of the first requested frame.
@@ -174,7 +105,7 @@ def solve(player: Player, curves: Curves, fps: Fraction, first_frame_s: float, e
 
 
 def poses(
-    player: Player, curves: Curves, fps: Fraction, first_frame_s: float, upper: UpperBody | None = None
+    player: PlayerBody, curves: ContactCurves, fps: Fraction, first_frame_s: float, upper: UpperBody | None = None
 ) -> Motion:
     """The poses of a body that is helped already: frame by frame, none of them needs its neighbours.
 
@@ -226,37 +157,15 @@ def _parts(frames: int) -> Iterator[slice]:
         yield slice(start, min(start + CHUNK, frames))
 
 
-def upper_body(player: Player, curves: Curves) -> UpperBody:
-    """What the contacts are solved on."""
-    hips_m, hips = hips_path(player.place, player.skeleton, curves.body)
-    upper = trunk(player.skeleton, hips_m, hips, curves.body)
-    carried = carry(
-        player.hold,
-        player.carriage,
-        player.lowered,
-        upper,
-        player.base,
-        curves.body,
-        curves.morphs,
-        curves.mouth_open,
-        player.grip_of_lips_m,
-        player.bell_room,
-    )
-    if player.stand is not None:
-        carried = player.stand.stood(carried, curves.body)
-    return UpperBody(hips_m, hips, upper, carried)
-
-
 def _pose(
-    player: Player, curves: Curves, known: UpperBody
+    player: PlayerBody, curves: ContactCurves, known: UpperBody
 ) -> tuple[FloatArray, dict[int, FloatArray], Carried, dict[str, FloatArray]]:
     """Hips, local rotations by joint (fingers apart), instrument, and the controls as far as hands carry them."""
     skeleton, motion = player.skeleton, curves.body
-    hips_m, hips, upper, carried = known.hips_m, known.hips, known.trunk, known.carried
-    local = {skeleton.index("hips"): hips} | upper.local
-    controls = stopped(skeleton, player.hold, upper, motion, carried, curves.controls, curves.placed)
-    late, free = _late(motion), player.away(motion, carried)
-    arms = arms_of(player, upper, motion, carried, controls, curves.placed, late, free)
+    local = {skeleton.index("hips"): known.hips} | known.trunk.local
+    curves = replace(curves, controls=stopped(player, curves, known))
+    late, carried = _late(motion), known.carried
+    arms = solve_arms(player, curves, known, late, player.away(motion, carried))
     if player.put_aside is not None and curves.stowed is not None and np.any(curves.stowed):
         # The other hand lets go where the instrument was lowered, and does not follow it.
         letting_go = player.put_aside.let_go(skeleton, player.hold, arms, curves.stowed)
@@ -264,30 +173,14 @@ def _pose(
         swung = player.put_aside.turned(curves.stowed)
         if late is not None:
             swung = quaternion.multiply(swung, late)
-        arms = arms_of(player, upper, motion, carried, controls, curves.placed, swung)
-        arms |= letting_go
+        arms = solve_arms(player, curves, replace(known, carried=carried), swung) | letting_go
     local |= arms
-    local |= solve_legs(player.place, skeleton, hips_m, hips, motion.feet)
+    local |= solve_legs(player.place, skeleton, known.hips_m, known.hips, motion.feet)
     looking = quaternion.columns(motion.eyes_pitch_rad, motion.eyes_yaw_rad, 0.0)
     for name in ("leftEye", "rightEye"):
         if name in skeleton.names:
             local[skeleton.index(name)] = quaternion.from_rotation_vector(looking)
-    return hips_m, local, carried, controls
-
-
-def arms_of(
-    player: Player,
-    upper: Trunk,
-    motion: BodyMotion,
-    carried: Carried,
-    controls: dict[str, FloatArray],
-    placed: dict[str, Placed],
-    swung: FloatArray | None = None,
-    away: Away | None = None,
-) -> dict[int, FloatArray]:
-    """Rotations of clavicles, arms and hands, by joint; as of `app.motion.contacts.arms.solve_arms`."""
-    base, wrists = player.base, player.wrists
-    return solve_arms(player.skeleton, player.hold, upper, base, motion, carried, controls, placed, wrists, swung, away)
+    return known.hips_m, local, carried, curves.controls
 
 
 def _late(motion: BodyMotion) -> FloatArray | None:
@@ -298,12 +191,12 @@ def _late(motion: BodyMotion) -> FloatArray | None:
     return quaternion.from_rotation_vector(quaternion.columns(late["forward"], late["turn"], -late["left"]))
 
 
-def needs(player: Player, curves: Curves) -> Help:
+def needs(player: PlayerBody, curves: ContactCurves) -> Help:
     """What trunk and shoulders must add for far hands, frame by frame."""
     return _needs(player, curves, upper_body(player, curves))
 
 
-def _needs(player: Player, curves: Curves, upper: UpperBody) -> Help:
+def _needs(player: PlayerBody, curves: ContactCurves, upper: UpperBody) -> Help:
     free = player.away(curves.body, upper.carried)
     needed = needed_help(player.skeleton, player.hold, upper.trunk, upper.carried, curves.controls, curves.placed, free)
     # The chest carries a lowered instrument: turning would take it along and bring no hand nearer.
@@ -311,7 +204,7 @@ def _needs(player: Player, curves: Curves, upper: UpperBody) -> Help:
     return replace(needed, turn_rad=needed.turn_rad * turning, short_m=needed.short_m * turning)
 
 
-def helped(player: Player, motion: BodyMotion, help_given: Help) -> BodyMotion:
+def helped(player: PlayerBody, motion: BodyMotion, help_given: Help) -> BodyMotion:
     """The body with trunk and shoulders brought towards far hands; neck and head turn back, so that the lips stay
     where they are."""
     asked, most, short_m = help_given.turn_rad, help_given.most_turn_rad, help_given.short_m
@@ -331,7 +224,7 @@ def helped(player: Player, motion: BodyMotion, help_given: Help) -> BodyMotion:
     return replace(motion, protraction_rad=protraction)
 
 
-def _drawn_m(player: Player) -> float:
+def _drawn_m(player: PlayerBody) -> float:
     """How much nearer to its turned shoulder the far hand comes when head and instrument give way as far as they do."""
     one, nothing = np.ones(1), np.zeros(1)
     nearer = []
@@ -344,7 +237,7 @@ def _drawn_m(player: Player) -> float:
         distances_m = []
         for draw in (0.0, 1.0):
             motion = drawn(far, draw * one, right * one)
-            upper = upper_body(player, Curves(motion, farthest, {}, nothing))
+            upper = upper_body(player, ContactCurves(motion, farthest, {}, nothing))
             carried = upper.carried
             target_m, _ = hand_targets(hand, carried.position_m, carried.rotation, farthest)
             distances_m.append(shoulder_distance_m(player.skeleton, hand.side, upper.trunk, target_m))
@@ -352,7 +245,7 @@ def _drawn_m(player: Player) -> float:
     return max([*nearer, LEAST_DRAWN_M])
 
 
-def _aside_per_turn(player: Player) -> float:
+def _aside_per_turn(player: PlayerBody) -> float:
     """From where a body that keeps still has its head after a small turn, and after a small lean of the trunk."""
     still, small = replace(player.still, steadied=np.ones(1)), np.array([0.1])
     without, leaning = turned(still, small, 0.0), turned(still, small, 1.0)
@@ -363,15 +256,14 @@ def _aside_per_turn(player: Player) -> float:
     return (at_m[1] - at_m[0]) / max(at_m[1] - at_m[2], LEAST_LEANT_M)
 
 
-def _farthest(player: Player) -> dict[str, float]:
+def _farthest(player: PlayerBody) -> dict[str, float]:
     one = np.ones(1)
     result: dict[str, float] = {}
     for hand in player.hold.hands:
         if hand.motion is None:
             continue
-        curves = Curves(player.still, {hand.motion.control: one}, {}, np.zeros(1))
-        body = helped(player, player.still, needs(player, curves))
-        upper = upper_body(player, replace(curves, body=body))
-        reached = stopped(player.skeleton, player.hold, upper.trunk, body, upper.carried, curves.controls, {})
+        curves = ContactCurves(player.still, {hand.motion.control: one}, {}, np.zeros(1))
+        curves = replace(curves, body=helped(player, player.still, needs(player, curves)))
+        reached = stopped(player, curves, upper_body(player, curves))
         result[hand.motion.control] = float(reached[hand.motion.control][0])
     return result

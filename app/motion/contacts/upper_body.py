@@ -8,8 +8,17 @@ from dataclasses import dataclass
 import numpy as np
 
 from app.arrays import FloatArray
-from app.motion.contacts.carried_instrument import Carried
-from app.motion.contacts.trunk_and_legs import Trunk
+from app.motion.by_hand.pose_corrections import within
+from app.motion.contacts.carried_instrument import Z_AXIS, Carried, attitude, bell_pitch, going_along, held_angles
+from app.motion.contacts.still_player import ContactCurves, StillPlayer
+from app.motion.contacts.trunk_and_legs import Trunk, hips_path, trunk
+from app.rig import quaternion
+
+CLEAR_M = 0.035
+"""On its way down and up the instrument swings ahead by this much, clear of the chin ..."""
+CHIN_M = 0.06
+"""... and by less where it goes less far down than from the lips to below the chin: one that stays has nothing to
+pass."""
 
 
 @dataclass(frozen=True)
@@ -53,3 +62,78 @@ def joined(parts: Sequence[UpperBody]) -> UpperBody:
         ),
         Carried(whole(lambda part: part.carried.position_m), whole(lambda part: part.carried.rotation)),
     )
+
+
+def upper_body(player: StillPlayer, curves: ContactCurves) -> UpperBody:
+    """What the contacts are solved on."""
+    hips_m, hips = hips_path(player.place, player.skeleton, curves.body)
+    upper = trunk(player.skeleton, hips_m, hips, curves.body)
+    carried = _carry(player, curves, upper)
+    if player.stand is not None:
+        carried = player.stand.stood(carried, curves.body)
+    return UpperBody(hips_m, hips, upper, carried)
+
+
+def _carry(player: StillPlayer, curves: ContactCurves, body: Trunk) -> Carried:
+    """Place the instrument: at the lips, or lowered before the body.
+
+    What head and melody tip beyond the room of the bell, the instrument tips back in the lips; not what the animator
+    does.
+    """
+    played = _played(player, curves, body)
+    lowering = curves.body.lowered
+    return _lowered(player, played, body, lowering) if np.any(lowering) else played
+
+
+def _at_lips(player: StillPlayer, curves: ContactCurves, body: Trunk) -> FloatArray:
+    """Where lips have the mouthpiece (F, 3); in a breath one of them alone carries it, and keeps its playing place."""
+    lips, frames = player.hold.lips, len(curves)
+    lips_m = lips.contact_m(curves.morphs, frames)
+    # The jaw is far enough down to have left the rim long before the mouth is fully open.
+    on_one = 1.0 - (1.0 - curves.mouth_open) ** 4
+    breathing = np.flatnonzero(on_one)
+    if len(breathing):
+        contact_m = lips_m[breathing]
+        morphs = {name: weight[breathing] for name, weight in curves.morphs.items()}
+        one_m = lips.carried_m(morphs, len(breathing)) + player.grip_of_lips_m
+        lips_m[breathing] = contact_m + (one_m - contact_m) * on_one[breathing, None]
+    return body.head_m + quaternion.rotate(body.head, lips_m)
+
+
+def _played(player: StillPlayer, curves: ContactCurves, body: Trunk) -> Carried:
+    """The instrument at the lips."""
+    carriage, base, motion = player.carriage, player.base, curves.body
+    pitch, yaw, roll = held_angles(carriage, motion)
+    with_head = quaternion.multiply(body.head, quaternion.conjugate(base.head))
+    with_chest = quaternion.multiply(body.chest, quaternion.conjugate(base.chest))
+    low_rad, _, high_rad = np.deg2rad(carriage.pitch_down_deg)
+    going = going_along(with_head, carriage)
+    cued = within(-motion.bell_cue_rad, high_rad - pitch, pitch - low_rad)
+    bowed = quaternion.to_rotation_vector(quaternion.multiply(quaternion.conjugate(with_chest), going))[:, 0]
+    played = bell_pitch(carriage, motion.bell_rad) + cued
+    back = within(player.bell_room.back_rad(played + bowed), high_rad - played, played - low_rad)
+    pitch = pitch + cued + back + motion.bell_down_rad
+    turned = attitude(pitch, yaw - motion.bell_right_rad, roll)
+    rotation = quaternion.multiply(going, turned)
+    return Carried(_at_lips(player, curves, body), rotation)
+
+
+def _lowered(player: StillPlayer, played: Carried, body: Trunk, lowering: FloatArray) -> Carried:
+    """The instrument on its way before the body, where the chest carries it."""
+    base, lowered = player.base, player.lowered
+    with_chest = quaternion.multiply(body.chest, quaternion.conjugate(base.chest))
+    base_lips_m = base.head_m + quaternion.rotate(base.head, player.hold.lips.usual_m)
+    low_m = body.chest_m + quaternion.rotate(with_chest, base_lips_m + np.array(lowered.offset_m) - base.chest_m)
+    low = quaternion.multiply(
+        with_chest,
+        attitude(
+            np.array([np.deg2rad(lowered.pitch_down_deg)]),
+            np.array([np.deg2rad(lowered.yaw_left_deg)]),
+            float(np.deg2rad(lowered.roll_left_deg)),
+        ),
+    )
+    share = lowering[:, None]
+    clear_m = CLEAR_M * min(1.0, max(0.0, -lowered.offset_m[1]) / CHIN_M)
+    swing = 4.0 * share * (1.0 - share) * clear_m * Z_AXIS
+    position_m = played.position_m + (low_m - played.position_m) * share + swing
+    return Carried(position_m, quaternion.slerp(played.rotation, low, lowering))

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from app.arrays import FloatArray
+from app.arrays import BoolArray, FloatArray
 from app.motion.contacts.trunk_and_legs import SIDES, Side
 from app.motion.curves.soft_bounds import softly_capped, softly_over
 from app.rig import quaternion
@@ -114,3 +114,32 @@ def wrists_of(body: Body, profile: SkeletonProfile) -> dict[Side, Wrist]:
         low_rad, high_rad = np.deg2rad([limits.flexion_deg, limits.sideways_deg]).T
         found[side] = Wrist(np.array([axes.flexion, axes.sideways]), np.array(axes.twist), low_rad, high_rad)
     return found
+
+
+@dataclass(frozen=True)
+class BellRoom:
+    """How far an instrument tips from the chest while both wrists stay within their range: down is positive."""
+
+    low_rad: float = -np.inf
+    high_rad: float = np.inf
+
+    @classmethod
+    def within(cls, down_rad: FloatArray, fits: BoolArray) -> BellRoom:
+        """From ascending angles (T,), the middle one of which is where it is played, and whether the wrists follow."""
+        usual, misses = len(down_rad) // 2, np.flatnonzero(~fits)
+        low, high = misses[misses < usual], misses[misses > usual]
+        return cls(
+            low_rad=float(down_rad[low[-1] + 1]) if len(low) else -np.inf,
+            high_rad=float(down_rad[high[0] - 1]) if len(high) else np.inf,
+        )
+
+    def back_rad(self, down_rad: FloatArray) -> FloatArray:
+        """What brings angles (F,) back into it; 0 where they are well within."""
+        back: FloatArray = softly_over(self.low_rad - down_rad, ROOM_EASE_RAD)
+        return back - softly_over(down_rad - self.high_rad, ROOM_EASE_RAD)
+
+
+ROOM_EASE_RAD = float(np.deg2rad(2.0))
+"""The ends of that room are approached so softly."""
+
+ANYWHERE = BellRoom()

@@ -39,12 +39,15 @@ class FaceSizes:
 
     Attributes
     ----------
+    embouchure : Embouchure
+        Weights of the instrument's kind of embouchure.
     upper, lips, vibrato : float or (F,) float64
         Size of what is above the mouth, of what the lips do within notes, and of a full vibrato.
     """
 
     own: OwnFace
     motion: FaceMotion
+    embouchure: Embouchure
     upper: FloatArray | float
     lips: FloatArray | float
     vibrato: FloatArray | float
@@ -74,11 +77,12 @@ def face_sizes(
     recorded : bool
         Whether a controller says what the lips do.
     """
-    motion, amplitude = body.face, parameters.amplitude
+    motion, embouchure, amplitude = body.face, body.embouchure[kind], parameters.amplitude
     lips = acting.lips * at_amplitude(motion.lips_size, amplitude)
     return FaceSizes(
-        own=face_of_player(player_id, parameters.seed, motion, body.embouchure[kind]),
+        own=face_of_player(player_id, parameters.seed, motion, embouchure),
         motion=motion,
+        embouchure=embouchure,
         upper=acting.face * at_amplitude(motion.size, amplitude),
         lips=RECORDED_LIPS * lips if recorded else lips,
         vibrato=acting.lips * vibrato,
@@ -87,7 +91,6 @@ def face_sizes(
 
 def face_morphs(
     face: Drivers,
-    embouchure: Embouchure,
     lips: Lips,
     expressions: Mapping[str, Expression],
     look: Look,
@@ -99,8 +102,6 @@ def face_morphs(
 
     Parameters
     ----------
-    embouchure : Embouchure
-        Weights of the instrument's kind of embouchure.
     lips : Lips
         Of the character, with the instrument.
     expressions : mapping of str to Expression
@@ -110,7 +111,7 @@ def face_morphs(
     lowered : (F,) float64
         0 with the instrument at the lips, 1 with it lowered.
     """
-    inhaling, at_lips = face.mouth_open, face.at_lips
+    inhaling, at_lips, embouchure = face.mouth_open, face.at_lips, sizes.embouchure
     formed = at_lips * (1.0 - 0.9 * inhaling)
     around = formed
     if lips.apart_m > 0.0:
@@ -119,7 +120,7 @@ def face_morphs(
         around = share * share * (3.0 - 2.0 * share)
     resting = np.maximum(around - at_lips, 0.0) * (1.0 - 0.9 * inhaling)
     wandering = sizes.own.wandering(times_s)
-    drivers = _lips(face, embouchure, formed, resting, sizes, wandering, times_s)
+    drivers = _lips(face, formed, resting, sizes, wandering, times_s)
     drivers += [(face.tongue, embouchure.tongue_stroke), (face.tongue_back, embouchure.tongue_back)]
     drivers.append((inhaling, embouchure.inhale))
     down_rad = look.pitch_rad
@@ -137,7 +138,6 @@ def face_morphs(
 
 def _lips(
     face: Drivers,
-    embouchure: Embouchure,
     formed: FloatArray,
     resting: FloatArray,
     sizes: FaceSizes,
@@ -145,6 +145,7 @@ def _lips(
     times_s: FloatArray,
 ) -> list[Driver]:
     """The embouchure, and what it does within notes."""
+    embouchure = sizes.embouchure
     # In a breath the upper lip stays where the mouthpiece is.
     alive = sizes.lips * formed * np.square(1.0 - face.mouth_open)
     wanders = 1.0 + TIRED_WANDERS * face.exertion.tired

@@ -77,7 +77,9 @@ def fit_hold(
     fitted = []
     for number, seed in enumerate(instrument_map.hands):
         part = _part(progress, number / len(instrument_map.hands), (number + 1) / len(instrument_map.hands))
-        fitted.append(_fit_hand(character, model, instrument_map, body, seed, stand, size, part))
+        problem, carrier = grip_problem(character, model, instrument_map, body, seed, stand)
+        scene = GripScene(model, instrument_map, carrier, np.zeros((1, 3)), np.eye(3)[None])
+        fitted.append(_fit_hand(problem, scene, seed, stand, size, part))
     return GripPose(character.id, instrument_map.id, tuple(sized(hand, size) for hand in fitted), lips)
 
 
@@ -87,30 +89,27 @@ def _part(progress: Progress, first: float, last: float) -> Progress:
 
 
 def _fit_hand(
-    character: Character,
-    model: InstrumentModel,
-    instrument_map: InstrumentMap,
-    body: Body,
-    seed: HandSeed,
-    stand: Upright,
-    size: float,
-    progress: Progress,
+    problem: Problem, scene: GripScene, seed: HandSeed, stand: Upright, size: float, progress: Progress
 ) -> HandHold:
-    """Fit one hand. Where the best start does not end well, the next ones are tried; the best end counts."""
-    problem, carrier = grip_problem(character, model, instrument_map, body, seed, stand)
-    if carrier is not None:
-        knots, holds = search_knots(problem, model, instrument_map, carrier, _part(progress, 0.0, 0.55))
+    """Fit one hand; the wrist of the scene is not solved.
+
+    Where the best start does not end well, the next ones are tried; the best end counts.
+    """
+    if scene.carrier is not None:
+        knots, holds = search_knots(
+            problem, scene.model, scene.instrument_map, scene.carrier, _part(progress, 0.0, 0.55)
+        )
         from scipy.interpolate import PchipInterpolator  # heavy; holds are fitted seldom
 
         # A wrist between knots follows a smooth curve; the fingers are then solved for it.
         path = PchipInterpolator(knots, holds)(MOVED_VALUES)
-        return _held(problem, model, instrument_map, carrier, holds[0], path, seed, stand, _part(progress, 0.55, 1.0))
+        return _held(problem, scene, holds[0], path, seed, stand, _part(progress, 0.55, 1.0))
     best: HandHold | None = None
     for number, start in enumerate(starts(problem, _part(progress, 0.0, 0.4))):
         part = _part(progress, 0.4 + 0.2 * number, 0.6 + 0.2 * number)
         part(0.0)
         whole = finished(problem, start)
-        found = _held(problem, model, instrument_map, None, whole, whole[None], seed, stand, part)
+        found = _held(problem, scene, whole, whole[None], seed, stand, part)
         if best is None or _missed(found, size) < _missed(best, size):
             best = found
         if _missed(best, size) <= 1.0:
@@ -128,9 +127,7 @@ def _missed(hold: HandHold, size: float) -> float:
 
 def _held(
     problem: Problem,
-    model: InstrumentModel,
-    instrument_map: InstrumentMap,
-    carrier: Control | None,
+    scene: GripScene,
     best: FloatArray,
     path: FloatArray,
     seed: HandSeed,
@@ -141,10 +138,10 @@ def _held(
 
     ``best`` (n,) are the parameters that were found, ``path`` (S, n) those along what carries the hand.
     """
-    hand = problem.hand
+    hand, carrier = problem.hand, scene.carrier
     values = MOVED_VALUES if carrier is not None or problem.worked else STILL_VALUES
     position, turn = wrist_transform(problem, path)
-    scene = GripScene(model, instrument_map, carrier, position, quaternion.to_matrix(turn))
+    scene = replace(scene, position_m=position, basis=quaternion.to_matrix(turn))
     solved = solve_tables(problem, scene, joint_angles(problem, path), best, _part(progress, 0.0, 0.3))
     leant = leanings(problem, scene, best, solved, _part(progress, 0.3, 0.9))
     leans = tuple(lean_of(problem, scene, one) for one in leant)
@@ -172,7 +169,7 @@ def _held(
     )
     if leans:
         whole = [touch.positions[0] for touch in problem.touches if touch.contact.part in whole_hand(hand.side)]
-        more = leans_beside(hold, np.reshape(whole, (-1, 3)), asked_together(instrument_map))
+        more = leans_beside(hold, np.reshape(whole, (-1, 3)), asked_together(scene.instrument_map))
         hold = replace(hold, leans=leans + more)
     return hold
 

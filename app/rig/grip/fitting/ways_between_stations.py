@@ -82,7 +82,7 @@ def _lifted(
     back = _unit(out - BACK * _unit(np.asarray(palm)) - FROM_NEXT * off)
     found, best = there, _Height(0.0, np.inf)
     for away, waits in ((_unit(out + off), off), (back, back)):
-        lifted, height = _lifted_along(problem, scene, table, number, index, place, wrist, away, waits)
+        lifted, height = _lifted_along(problem, (scene, wrist), table, (number, index), away, waits)
         if height.betters(best):
             found, best = lifted, height
         if best.near:
@@ -96,17 +96,15 @@ def _unit(vector: FloatArray) -> FloatArray:
 
 def _lifted_along(
     problem: Problem,
-    scene: GripScene,
+    scenes: tuple[GripScene, GripScene],
     table: FingerTable,
-    number: int,
-    index: int,
-    place: Station,
-    wrist: GripScene,
+    which: tuple[int, int],
     away: FloatArray,
     off: FloatArray,
 ) -> tuple[StationTable, _Height]:
     """A station that a finger goes to lifted towards ``away``, and waits at towards ``off``, in the instrument's
-    frame; and how high."""
+    frame; and how high. ``scenes`` are at home and there, ``which`` are the numbers of finger and station."""
+    (scene, wrist), (number, index) = scenes, which
     home, there = table.stations[0], table.stations[index]
     away, off = away @ scene.basis[0], off @ scene.basis[0]
     near, come = _waiting(home), _waiting(there)
@@ -129,6 +127,7 @@ def _lifted_along(
 
     least, _ = _least_lift(problem, scene, number, waiting, LIFTS_M[: len(LIFTS_M) // 2 + 1])
     # Where the way to there is not clear at any height, it is to a finger that waits higher; but not too far off.
+    place = problem.stations[number][index]
     most = max(least, MOST_HOVER_M - HOVER_MORE * hover_m(place, scene.instrument_map))
     found, best = _Height(0.0, np.inf), least
     for height in (one for one in LIFTS_M.tolist() if least <= one <= most):

@@ -10,8 +10,11 @@ import pytest
 
 from app.errors import Message
 from app.export.joints import anatomical_angles
-from app.motion.contacts.solve import Curves, arms_of, helped, needs, upper_body
+from app.motion.contacts.arms import solve_arms
+from app.motion.contacts.solve import helped, needs
+from app.motion.contacts.still_player import ContactCurves
 from app.motion.contacts.trunk_and_legs import Side
+from app.motion.contacts.upper_body import upper_body
 from app.motion.contacts.wrists import wrists_of
 from app.motion.model import Motion
 from app.motion.perform import PerformanceCurves, prepare
@@ -101,10 +104,9 @@ def test_a_wrist_well_within_its_range_is_left_alone(side: Side) -> None:
 def test_seated_players_rest_with_wrists_within_their_range(instrument_id: str, character_id: str) -> None:
     curves, _ = _shown(instrument_id, character_id, "seated")
     player = curves.player
-    usual = Curves(player.still, {}, {}, np.zeros(1))
-    body = helped(player, player.still, needs(player, usual))
-    upper = upper_body(player, replace(usual, body=body))
-    arms = arms_of(player, upper.trunk, body, upper.carried, {}, {})
+    usual = ContactCurves(player.still, {}, {}, np.zeros(1))
+    helped_curves = replace(usual, body=helped(player, player.still, needs(player, usual)))
+    arms = solve_arms(player, helped_curves, upper_body(player, helped_curves))
     for side, wrist in player.wrists.items():
         assert wrist.outside_rad(arms[arm(player.skeleton, side).end]).max() < np.deg2rad(0.5), side
 

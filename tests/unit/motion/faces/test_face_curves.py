@@ -47,7 +47,7 @@ def face(
     shown = curves(made, settings.embouchure_tension).sample(times_s)
     look = GAZE.begin(plan=made, watching=Watching()).of(plan_gaze).sample(times_s)
     up = np.zeros(len(times_s))
-    return face_morphs(shown, body.embouchure["cup"], LIPS, load_expressions(), look, up, sizes, times_s)
+    return face_morphs(shown, LIPS, load_expressions(), look, up, sizes, times_s)
 
 
 def embouchure(tension: float, effort: float = 0.0, air: float = 0.0) -> tuple[EmbouchureEvent, ...]:

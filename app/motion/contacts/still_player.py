@@ -1,0 +1,91 @@
+"""The values that contacts are solved from: a player who keeps still, and curves sampled at some frames."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from app.arrays import FloatArray
+from app.motion.body_motion import BodyMotion
+from app.motion.contacts.carried_instrument import Carried
+from app.motion.contacts.endpin import Stand
+from app.motion.contacts.hand_destinations import away
+from app.motion.contacts.hands_away import Away
+from app.motion.contacts.instrument_put_aside import Aside
+from app.motion.contacts.trunk_and_legs import Side, Stance, Trunk
+from app.motion.contacts.wrists import ANYWHERE, BellRoom, Wrist
+from app.rig.grip.grip_pose import GripPose, Placed
+from app.rig.model import Skeleton
+from instrument_maps.model import Carriage, Lowered, Stopped, Water
+
+
+@dataclass(frozen=True)
+class StillPlayer:
+    """Everything about a player that does not change with time, before any contact is solved.
+
+    ``still`` is the posture before any motion and ``base`` its trunk, one frame; ``grip_of_lips_m`` (3,) is how far
+    playing lips bring the mouthpiece from where one lip alone would carry it, in the head's frame. ``stand`` is there
+    where the instrument stands on the floor, ``aside`` where the musician plays others too. ``water`` says where it is
+    let out, ``stopped`` how a hand closes the bell.
+    """
+
+    skeleton: Skeleton
+    hold: GripPose
+    place: Stance
+    carriage: Carriage
+    lowered: Lowered
+    still: BodyMotion
+    base: Trunk
+    grip_of_lips_m: FloatArray
+    wrists: Mapping[Side, Wrist]
+    stand: Stand | None = None
+    aside: Aside | None = None
+    bell_room: BellRoom = ANYWHERE
+    water: Water | None = None
+    stopped: Stopped | None = None
+
+    def away(self, motion: BodyMotion, carried: Carried) -> Away | None:
+        """Where hands are that leave the instrument; None where all stay."""
+        if not motion.hands:
+            return None
+        return away(self.skeleton, self.base, motion.hands, carried, self.water, self.stopped)
+
+
+@dataclass(frozen=True)
+class ContactCurves:
+    """What the solvers start from, all sampled at the same frames.
+
+    Attributes
+    ----------
+    controls, morphs : dict of str to (F,) float64
+    mouth_open : (F,) float64
+        How far the mouth is open for a breath.
+    placed : dict of str to Placed
+        Where the fingers are that leave their home.
+    raised : (F,) float64 or float
+        How high fingers wait over their keys, 0..1.
+    stowed : (F,) float64 or None
+        How far the instrument is put aside, 0..1; None: not at all.
+    """
+
+    body: BodyMotion
+    controls: dict[str, FloatArray]
+    morphs: dict[str, FloatArray]
+    mouth_open: FloatArray
+    placed: dict[str, Placed] = field(default_factory=dict)
+    raised: FloatArray | float = 0.0
+    stowed: FloatArray | None = None
+
+    def __len__(self) -> int:
+        return len(self.mouth_open)
+
+    def __getitem__(self, frames: slice) -> ContactCurves:
+        return ContactCurves(
+            self.body[frames],
+            {name: values[frames] for name, values in self.controls.items()},
+            {name: values[frames] for name, values in self.morphs.items()},
+            self.mouth_open[frames],
+            {finger: Placed(*(values[frames] for values in where)) for finger, where in self.placed.items()},
+            self.raised if isinstance(self.raised, float) else self.raised[frames],
+            None if self.stowed is None else self.stowed[frames],
+        )
