@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, fields
+from dataclasses import MISSING, dataclass, field, fields
 from typing import Any
 
 import numpy as np
@@ -13,9 +13,6 @@ from app.plan.by_hand.pose_corrections import NECK_SHARES, TRUNK_SHARES
 from metadata.model import Posture
 
 TRUNK = (*TRUNK_SHARES, *NECK_SHARES)
-_NONE_AT_REST = (
-    *("protraction_rad", "elbow_held_rad", "bell_held_rad", "hips_danced", "elbows_late_rad", "feet", "hands"),
-)
 
 
 @dataclass(frozen=True)
@@ -77,19 +74,19 @@ class BodyMotion:
     bell_cue_rad: FloatArray
     bell_down_rad: FloatArray
     bell_right_rad: FloatArray
-    bell_held_rad: dict[str, FloatArray]
     shoulders_rad: FloatArray
     elbows_rad: FloatArray
     eyes_yaw_rad: FloatArray
     eyes_pitch_rad: FloatArray
     lowered: FloatArray
     steadied: FloatArray
-    protraction_rad: dict[str, FloatArray]
-    elbow_held_rad: dict[str, FloatArray]
-    hips_danced: dict[str, FloatArray]
-    elbows_late_rad: dict[str, FloatArray]
-    feet: dict[str, FloatArray]
-    hands: dict[str, FloatArray]
+    bell_held_rad: dict[str, FloatArray] = field(default_factory=dict)
+    protraction_rad: dict[str, FloatArray] = field(default_factory=dict)
+    elbow_held_rad: dict[str, FloatArray] = field(default_factory=dict)
+    hips_danced: dict[str, FloatArray] = field(default_factory=dict)
+    elbows_late_rad: dict[str, FloatArray] = field(default_factory=dict)
+    feet: dict[str, FloatArray] = field(default_factory=dict)
+    hands: dict[str, FloatArray] = field(default_factory=dict)
 
     def __getitem__(self, frames: slice) -> BodyMotion:
         """The same motion in some of its frames."""
@@ -117,6 +114,5 @@ class BodyMotion:
             {joint: np.array([np.deg2rad(angles.get(joint, 0.0))]) for joint in TRUNK}
             for angles in (posture.spine_deg, posture.spine_left_deg, posture.spine_turn_deg)
         )
-        rest: dict[str, Any] = {member.name: zero for member in fields(cls)}
-        empty: dict[str, Any] = {name: {} for name in _NONE_AT_REST}
-        return cls(**(rest | {"forward_rad": held, "left_rad": left, "turn_rad": turned} | empty))
+        rest: dict[str, Any] = {member.name: zero for member in fields(cls) if member.default_factory is MISSING}
+        return cls(**(rest | {"forward_rad": held, "left_rad": left, "turn_rad": turned}))

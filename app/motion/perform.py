@@ -35,10 +35,12 @@ from app.motion.faces.morph_weights import FaceSizes, face_morphs, face_sizes, u
 from app.motion.fingering.changed_stretch import changed_stretch, spliced
 from app.motion.fingering.control_curves import control_curves
 from app.motion.fingering.finger_curves import raised_curve, sampled, station_curves
-from app.motion.gestures.body_layers import LAYERS, QUIET_AIR, Layers, LayerSamples, body_motion
+from app.motion.gestures.body_layers import QUIET_AIR, body_motion
 from app.motion.gestures.dance_layer import BodyLayer, giving_way, inhaling, with_dance
 from app.motion.gestures.feet import feet_moved
 from app.motion.gestures.held_still import with_holds
+from app.motion.gestures.layers import LAYERS, Layers, LayerSamples
+from app.motion.gestures.summed_angles import Sizes
 from app.motion.model import Motion
 from app.plan.acting import Acting, acting_of
 from app.plan.model import FingeringEvent, PlayerPlan, TimeFrame
@@ -253,11 +255,7 @@ class PerformanceCurves:
         styles = self.plan.styles
         return body_motion(
             levels,
-            self.player_id,
-            self.parameters,
-            self.acting,
-            self.body,
-            self.posture,
+            Sizes(self.body, self.parameters, self.player_id, self.acting, self.posture),
             look,
             times_s,
             steps=_steps(self.player),

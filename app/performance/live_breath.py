@@ -9,13 +9,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from app.arrays import FloatArray
+from app.motion.breath.air_in_trunk import EXHALE_S
 from app.motion.curves.live_values import Reach, Spring
 from app.motion.curves.seeded_chance import generator
 from app.motion.faces.exertion import LIGHT, Exertion
 from app.motion.faces.face_curves import FORM_S, HOLD_S, SHALLOWEST, Drivers
 from app.motion.faces.gaze import BLINK_DOWN_S, BLINK_SHUT_S, BLINK_UP_S, HEAD_TURN_S, MUSIC_PITCH_RAD, SACCADE_S, Look
 from app.motion.gestures.body_lag import Overlapped
-from app.motion.gestures.body_layers import EXHALE_S, LayerSamples
+from app.motion.gestures.layers import LayerSamples
 from app.motion.perform import PerformanceCurves
 from app.performance.live_hands import FRAMES
 from app.plan.breath.lungs import FULL_BREATH_S, air_rate, lungful_s

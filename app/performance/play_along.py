@@ -70,7 +70,7 @@ class PlayAlong:
         self._breath = LiveBreath(playing, known, rules)
         self._look = LiveLook(playing)
         self._help = LiveHelp()
-        self._poses, self._at_s = playing.layers.poses, -math.inf
+        self._poses, self._at_s = playing.layers.held, -math.inf
         self._additive = playing.additive
         self._held: dict[int, int] = {}
         """Pitches that are held with their velocities, in the order they began."""

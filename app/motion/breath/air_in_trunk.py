@@ -1,15 +1,17 @@
-"""Air in the trunk: how full it is, and the shapes of ribs and belly that show it."""
+"""Breath in the trunk: how full lungs and trunk are, in play and in rests, and the shapes of ribs and belly."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from itertools import zip_longest
+from typing import Final, NamedTuple
 
 import numpy as np
 
 from app.arrays import FloatArray
+from app.chance import chance
 from app.motion.curves.curve import Curve, moves
-from app.plan.model import BreathEvent
+from app.plan.model import BreathEvent, GestureEvent
 from metadata.model import BREATH_MORPHS, BreathMotion
 
 LEAD_S = 0.03
@@ -24,6 +26,57 @@ FLAT = 0.12
 """Level before the first breath."""
 BELLY_LEADS = 0.85
 """The belly widens ahead of the ribs: it is this power of how full the trunk is."""
+
+
+EXHALE_S = 3.0
+FULLEST = 1.4
+LEAST_DRAWN = 0.4
+"""However soon breaths follow each other, each has this much room: no breath goes unseen, also where a bell sinks."""
+BREATH_LEAD_S = 0.03
+"""The inhalation is complete this long before the breath's end."""
+RESTS_S: Final = 6.0
+"""In a shorter rest no quiet breath is seen."""
+QUIET_FROM_S, QUIET_UNTIL_S = 1.8, 1.6
+"""It begins so long after the instrument goes down, and ends so long before it is up again."""
+QUIET_WAYS = ((1.3, 1.8), (1.6, 2.3), (0.3, 1.1), (0.6, 1.0))
+"""Bounds of the seconds in, out and of the pause, and of the depth."""
+MOST_QUIET: Final = 60
+"""No rest has more of them, however long it is."""
+
+
+class LungCurves(NamedTuple):
+    """How full the lungs look, and how far a preparation leans, 0..1."""
+
+    full: Curve
+    leaning: Curve
+
+
+def lungs(breaths: Sequence[BreathEvent]) -> LungCurves:
+    """How full the lungs are (up over each breath, down over the phrase), and the preparation's lean 0..1."""
+    full: list[tuple[float, float, float]] = []
+    lean: list[tuple[float, float, float]] = []
+    level = 0.0
+    drawn = sorted((breath for breath in breaths if breath.kind == "breath"), key=lambda breath: breath.start_s)
+    for breath, following in zip_longest(drawn, drawn[1:]):
+        # Breaths that were moved onto each other by hand: the later one goes on from where the one before is full.
+        start_s = max(breath.start_s, full[-1][1]) if full else breath.start_s
+        if breath.end_s <= start_s:
+            continue
+        top_s = max(breath.end_s - BREATH_LEAD_S, 0.5 * (start_s + breath.end_s))
+        rise = 0.5 + 0.5 * breath.depth
+        level = min(FULLEST, level + rise)
+        full.append((start_s, top_s, level))
+        until_s = breath.end_s + EXHALE_S if following is None else min(breath.end_s + EXHALE_S, following.start_s)
+        if until_s > breath.end_s:
+            level = min(level * (1.0 - min(1.0, (until_s - breath.end_s) / 1.5)), FULLEST - LEAST_DRAWN)
+            full.append((breath.end_s, until_s, level))
+    free_s = -np.inf
+    for breath in breaths:
+        if breath.kind == "preparation" and breath.end_s > max(breath.start_s, free_s):
+            start_s = max(breath.start_s, free_s)
+            free_s = breath.end_s + 0.6 * (breath.end_s - start_s)
+            lean += [(start_s, breath.end_s, 1.0), (breath.end_s, free_s, 0.0)]
+    return LungCurves(moves(full), moves(lean))
 
 
 def air(breaths: Sequence[BreathEvent]) -> Curve:
@@ -55,3 +108,25 @@ def widened(level: FloatArray, push: FloatArray | float, breath: BreathMotion, a
         chest: breath.chest_share * full,
         belly: breath.belly_share * np.power(full, BELLY_LEADS) * (1.0 - breath.push_share * push),
     }
+
+
+def quiet_breaths(gestures: Sequence[GestureEvent]) -> Curve:
+    """How much of a quiet breath is in, 0..1, from a player's gestures: small and slow, while the instrument is lowered
+    for long."""
+    rows: list[tuple[float, float, float]] = []
+    free_s = -float("inf")
+    for event in sorted(gestures, key=lambda event: event.start_s):
+        if event.kind != "lower_instrument" or event.end_s - event.start_s < RESTS_S:
+            continue
+        at_s = max(event.start_s + QUIET_FROM_S, free_s)
+        for number in range(MOST_QUIET):
+            place = ("quiet breath", event.id, round(1000.0 * event.start_s), number)
+            in_s, out_s, pause_s, deep = (
+                low + (high - low) * chance(*place, index) for index, (low, high) in enumerate(QUIET_WAYS)
+            )
+            if at_s + in_s + out_s > event.end_s - QUIET_UNTIL_S:
+                break
+            rows += [(at_s, at_s + in_s, deep), (at_s + in_s, at_s + in_s + out_s, 0.0)]
+            at_s += in_s + out_s + pause_s
+        free_s = at_s
+    return moves(rows)

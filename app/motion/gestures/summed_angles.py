@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import lru_cache
-from typing import NamedTuple
 
 import numpy as np
 
@@ -14,9 +13,11 @@ from app.motion.body_motion import TRUNK
 from app.motion.curves.curve import Noise
 from app.motion.curves.seeded_chance import generator
 from app.motion.gestures.body_lag import Leads, Overlapped
+from app.motion.gestures.layers import LayerSamples
+from app.plan.acting import Acting
 from app.plan.by_hand.pose_corrections import NECK_SHARES, TRUNK_SHARES
 from app.plan.parameters import PlayerParameters
-from metadata.model import AmplitudeScale, Body, at_amplitude
+from metadata.model import AmplitudeScale, Body, Posture, at_amplitude
 
 RESIDUE_SHARE = 0.6
 """RMS of the wandering that is always there, as a share of the sizes at amplitude 0."""
@@ -41,11 +42,18 @@ SEATED_ROLL = 0.5
 
 @dataclass(frozen=True)
 class Sizes:
-    """The body's sizes at one player's amplitude, and the noise of that player."""
+    """The body's sizes at one player's amplitude, what of its layers is shown, and the noise of that player."""
 
     body: Body
     parameters: PlayerParameters
     player_id: str
+    acting: Acting
+    posture: Posture
+
+    @property
+    def seated(self) -> bool:
+        """True of a posture on a seat."""
+        return self.posture.seat_height_shank > 0.0
 
     def of(self, scale: AmplitudeScale) -> float:
         """A size."""
@@ -118,13 +126,6 @@ class Sum:
             joints[joint] = joints.get(joint, 0.0) + share * values
 
 
-class Part(NamedTuple):
-    """A layer, and how much of it is shown."""
-
-    level: Overlapped
-    amount: float
-
-
 @dataclass(frozen=True)
 class Angles:
     """What overlaps of one player, as angles of hips, chest, head and elbows in the world.
@@ -148,48 +149,39 @@ class Angles:
     seated: bool
 
     @classmethod
-    def of(
-        cls,
-        sway: Part,
-        lean: Part,
-        accent: Part,
-        weight: Part,
-        sizes: Sizes,
-        seated: bool,
-        leads: Leads,
-        times_s: FloatArray,
-        wandering: FloatArray | float,
-    ) -> Angles:
+    def of(cls, levels: LayerSamples, sizes: Sizes, times_s: FloatArray, wandering: FloatArray | float) -> Angles:
         """In the sizes of a player; ``wandering`` is how much is shown of what is not planned."""
-        swings, phrase, rad = sizes.body.sway, sizes.body.phrase, sizes.rad
-        at = leads.at(times_s)
+        swings, phrase, acting, rad, seated = sizes.body.sway, sizes.body.phrase, sizes.acting, sizes.rad, sizes.seated
+        at = Leads.of(sizes.body.overlap).at(times_s)
         share = phrase.seated_share if seated else 1.0
 
         def waving(layer: str, scale: AmplitudeScale, size: float) -> Overlapped:
             return Overlapped(
                 *(
                     size * level + np.deg2rad(sizes.wander(layer, scale, moment, wandering))
-                    for level, moment in zip(sway.level, at, strict=True)
+                    for level, moment in zip(levels.sway, at, strict=True)
                 )
             )
 
-        chest = (share * lean.amount * rad(phrase.lean_deg), share * accent.amount * rad(phrase.accent_deg))
-        head = (share * lean.amount * rad(phrase.head_deg), share * accent.amount * rad(phrase.accent_head_deg))
+        chest = (share * acting.phrase * rad(phrase.lean_deg), share * acting.phrase * rad(phrase.accent_deg))
+        head = (share * acting.phrase * rad(phrase.head_deg), share * acting.phrase * rad(phrase.accent_head_deg))
         pelvis = (phrase.seated_pelvis if seated else 1.0) * rad(phrase.pelvis_deg)
         bowed = [
             leant * own[0]
             + dipped * own[1]
             + np.deg2rad(sizes.wander("forward", swings.forward_deg, moment, wandering))
             for leant, dipped, own, moment in zip(
-                lean.level, accent.level, (chest, chest, head, chest), at, strict=True
+                levels.lean, levels.accent, (chest, chest, head, chest), at, strict=True
             )
         ]
         return cls(
-            side=waving("side", swings.side_deg, sway.amount * rad(swings.side_deg)),
-            twist=waving("turn", swings.turn_deg, -sway.amount * rad(swings.turn_deg)),
+            side=waving("side", swings.side_deg, acting.sway * rad(swings.side_deg)),
+            twist=waving("turn", swings.turn_deg, -acting.sway * rad(swings.turn_deg)),
             bowed=Overlapped(*bowed),
-            pelvis=pelvis * (lean.amount * lean.level.hips + ACCENT_IN_HIPS * accent.amount * accent.level.hips),
-            roll=Overlapped(*(weight.amount * rad(sizes.body.weight_shift.roll_deg) * part for part in weight.level)),
+            pelvis=pelvis * (acting.phrase * levels.lean.hips + ACCENT_IN_HIPS * acting.phrase * levels.accent.hips),
+            roll=Overlapped(
+                *(acting.weight_shift * rad(sizes.body.weight_shift.roll_deg) * part for part in levels.weight)
+            ),
             seated=seated,
         )
 

@@ -12,6 +12,7 @@ from scipy.spatial.transform import Rotation
 
 from app.motion.gestures.summed_angles import RESIDUE_SHARE, Sizes
 from app.performance.ensemble import Performance
+from app.plan.acting import Acting
 from app.plan.parameters import PlayerParameters
 from app.project.edit.players import set_parameters
 from app.project.model import map_choices, project_from_score
@@ -61,7 +62,7 @@ def test_the_chest_follows_the_hips_and_the_head_the_chest(weight_shift: float) 
 
 def test_a_player_who_shows_less_wanders_less() -> None:
     body, times_s = load_body(), np.arange(0.0, 60.0, 0.1)
-    sizes = Sizes(body, PlayerParameters(), "player")
+    sizes = Sizes(body, PlayerParameters(), "player", Acting(), body.postures["standing"])
     usual, reserved, none = (sizes.wander("side", body.sway.side_deg, times_s, shown) for shown in (1.0, 0.4, 0.0))
     assert 0.4 * usual.std() < reserved.std() < 0.6 * usual.std()
     assert none.std() == pytest.approx(RESIDUE_SHARE * body.sway.side_deg[0], rel=0.2)

@@ -12,7 +12,7 @@ import pytest
 
 from app.motion import perform
 from app.motion.faces import face_curves, gaze
-from app.motion.gestures import body_layers
+from app.motion.gestures import layers
 from app.performance import body_problems, ensemble
 from app.plan import generate, player
 from app.steps import StepTable
@@ -29,7 +29,7 @@ TABLES = {
     "held": ensemble.HELD,
     "reach": body_problems.REACH,
     "face": face_curves.FACE,
-    "layers": body_layers.LAYERS,
+    "layers": layers.LAYERS,
     "gaze": gaze.GAZE,
     "fingers": perform.FINGERS,
 }

@@ -2,12 +2,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from app.motion.breath.air_in_trunk import air
+from app.motion.breath.air_in_trunk import air, lungs
 from app.motion.curves.following_gestures import follow, path
 from app.motion.gestures.accents import Accents
-from app.motion.gestures.body_layers import lungs
 from app.motion.gestures.feet import Feet
-from app.motion.gestures.lowered_instrument import lowering
+from app.motion.gestures.layers import lowering
 from app.plan.model import GestureEvent
 from tests.unit.motion.events import REASON, TICKS, breath
 

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from app.motion.gestures.body_layers import LAYERS, Layers
+from app.motion.gestures.layers import LAYERS, Layers
 from app.plan.generate import MonophonicPart, make_plans, time_frame
 from app.plan.gestures.gestures import ARCH, RELEASE
 from app.plan.model import PlayerPlan

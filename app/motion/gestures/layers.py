@@ -1,0 +1,197 @@
+"""Layers of one player's body as curves of time, each made from the events of its kind."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, fields
+from functools import partial
+from typing import Any, Final
+
+import numpy as np
+
+from app.arrays import FloatArray
+from app.motion.breath.air_in_trunk import air, lungs, quiet_breaths
+from app.motion.by_hand.pose_corrections import Offset, Poses
+from app.motion.curves.curve import Curve, Envelopes, moves
+from app.motion.curves.following_gestures import follow, path
+from app.motion.curves.path import Path
+from app.motion.gestures.accents import Accents
+from app.motion.gestures.beside_playing import Concert, ConcertSamples
+from app.motion.gestures.body_lag import Leads, Overlapped
+from app.motion.gestures.feet import Feet
+from app.motion.gestures.hand_gestures import Reaches, Reaching
+from app.motion.gestures.held_still import held_still, holds_of
+from app.motion.gestures.named_gestures import Gestured, Sums
+from app.motion.gestures.nods import Nods
+from app.plan.kinds import Part, answered_by
+from app.plan.model import GestureEvent, PoseTarget
+from app.steps import StepTable, reading
+
+BELL_S: Final = 0.5
+"""The bell goes to another height within this time."""
+
+
+@dataclass(frozen=True)
+class LayerSamples:
+    """The layers at some frames, before the player's sizes: members as of `Layers`, each (F,) float64.
+
+    ``dip`` and ``lift`` are of the nods, ``giving`` is 1 half way between two places of the weight, ``held`` what the
+    animator holds differently, ``gestured`` the keyed gestures, ``feet`` as of `Feet.sample`, ``concert`` what is done
+    beside playing (None: nothing), ``reached`` the hands that leave the instrument, ``further`` how much fuller the
+    lungs look to the trunk where a breath would not show (`app.motion.breath.breaths_that_show`), ``push`` how hard the
+    breath pushes an attack (`app.motion.faces.tongue_strokes`).
+    """
+
+    full: FloatArray
+    leaning: FloatArray
+    air: FloatArray
+    dip: FloatArray
+    lift: FloatArray
+    sway: Overlapped
+    lean: Overlapped
+    accent: Overlapped
+    weight: Overlapped
+    giving: FloatArray
+    height: FloatArray
+    lowered: FloatArray
+    feet: dict[str, FloatArray]
+    held: dict[PoseTarget, Offset]
+    gestured: Sums | None = None
+    concert: ConcertSamples | None = None
+    reached: Reaches | None = None
+    quiet: FloatArray | float = 0.0
+    further: FloatArray | float = 0.0
+    push: FloatArray | float = 0.0
+
+
+@dataclass(frozen=True)
+class Layers:
+    """What one player's plan asks of the body, as curves of time; each is sampled with the sizes of the player.
+
+    Attributes
+    ----------
+    full, leaning : Curve
+        How full the lungs look, and the lean that prepares a breath.
+    air : Curve
+        How much air is in them.
+    sway, lean : Path
+        Where the trunk goes aside and forward, -1..1.
+    weight, height : Curve
+        Where weight and bell go, -1..1.
+    leads : Leads
+        How the parts of the body follow one another.
+    """
+
+    full: Curve
+    leaning: Curve
+    air: Curve
+    nods: Nods
+    sway: Path
+    lean: Path
+    accent: Accents
+    weight: Curve
+    height: Curve
+    lowered: Curve
+    quiet: Curve
+    feet: Feet
+    held: Poses
+    gestured: Gestured
+    reached: Reaching
+    concert: Concert
+    still: Envelopes
+    leads: Leads
+
+    def sample(self, times_s: FloatArray) -> LayerSamples:
+        """The layers at ascending times."""
+        return held_still(self._moving(times_s), self.still, times_s, self._moving)
+
+    def _moving(self, times_s: FloatArray) -> LayerSamples:
+        """The layers of a body that holds still nowhere."""
+        dip, lift = self.nods.sample(times_s)
+        before, after, share = self.weight.between(self.leads.at(times_s).hips)
+        values: dict[str, Any] = {name: getattr(self, name).sample(times_s) for name in ALIKE}
+        values |= {name: self.leads.sample(getattr(self, name), times_s) for name in OVERLAPPED}
+        return LayerSamples(dip=dip, lift=lift, giving=2.0 * share * (1.0 - share) * np.abs(after - before), **values)
+
+    def changed_s(self, other: Layers) -> list[FloatArray]:
+        """Spans (K, 2) outside of which both have the very same values."""
+        names = [member.name for member in fields(self) if member.name != "leads"]
+        return [self.leads.widened(getattr(self, name).changed_s(getattr(other, name))) for name in names]
+
+
+OVERLAPPED: Final = ("sway", "lean", "accent", "weight")
+"""What the parts of the body have one after another ..."""
+ALIKE: Final = tuple(
+    member.name for member in fields(LayerSamples) if member.name in Layers.__dataclass_fields__.keys() - {*OVERLAPPED}
+)
+"""... and what they have at once."""
+
+
+def lowering(gestures: Sequence[GestureEvent], lower_s: float, raise_s: float) -> Curve:
+    """0 with the instrument at the lips, 1 with it lowered; it is up again when the gesture ends.
+
+    Gestures that overlap are one: the instrument stays down from the first to the last, as low as the lowest of them.
+    """
+    spans: list[tuple[float, float, float]] = []
+    lowerings = (event for event in gestures if event.end_s > event.start_s)
+    for event in sorted(lowerings, key=lambda event: event.start_s):
+        if spans and event.start_s < spans[-1][1]:
+            start_s, end_s, amount = spans[-1]
+            spans[-1] = (start_s, max(end_s, event.end_s), max(amount, event.amount))
+        else:
+            spans.append((event.start_s, event.end_s, event.amount))
+    segments: list[tuple[float, float, float]] = []
+    for start_s, end_s, amount in spans:
+        share = min(1.0, (end_s - start_s) / (lower_s + raise_s))
+        segments.append((start_s, start_s + share * lower_s, amount))
+        segments.append((end_s - share * raise_s, end_s, 0.0))
+    return moves(segments)
+
+
+def _of_part(gestures: tuple[GestureEvent, ...], part: Part) -> tuple[GestureEvent, ...]:
+    """Return the gestures that a part of the body's motion answers."""
+    kinds = answered_by(part)
+    return tuple(event for event in gestures if event.kind in kinds)
+
+
+LAYERS: Final = StepTable(
+    breaths="plan.breaths",
+    gestures="plan.gestures",
+    lung_curves=lungs,
+    full="lung_curves.full",
+    leaning="lung_curves.leaning",
+    air=air,
+    cues="plan.cues",
+    nodding=partial(_of_part, part="nod"),
+    nods=reading(Nods.of, answers="nodding"),
+    swaying=partial(_of_part, part="sway"),
+    sway=reading(path, events="swaying"),
+    leant=partial(_of_part, part="lean"),
+    lean=reading(path, events="leant"),
+    accented=partial(_of_part, part="accent"),
+    accent=reading(Accents.of, events="accented"),
+    shifting=partial(_of_part, part="weight"),
+    shift_s="body.weight_shift.transition_s",
+    weight=reading(follow, events="shifting", transition_s="shift_s"),
+    carrying=partial(_of_part, part="bell"),
+    height=reading(partial(follow, transition_s=BELL_S), events="carrying"),
+    putting_down=partial(_of_part, part="lowering"),
+    lower_s="body.bell.lower_s",
+    raise_s="body.bell.raise_s",
+    lowered=reading(lowering, gestures="putting_down"),
+    quiet=reading(quiet_breaths, gestures="putting_down"),
+    stepping=partial(_of_part, part="feet"),
+    step_s="body.footwork.step_s",
+    feet=reading(Feet.of, events="stepping"),
+    posed="plan.poses",
+    held=reading(Poses.of, events="posed"),
+    gestured=reading(Gestured.of, events="gestures"),
+    reached=reading(Reaching.of, events="gestures"),
+    beside=partial(_of_part, part="beside"),
+    concert=reading(Concert.of, gestures="beside"),
+    still=reading(holds_of, gestures="beside"),
+    overlap="body.overlap",
+    leads=reading(Leads.of, overlap="overlap"),
+    layers=Layers,
+)
+"""The steps of a body's layers; given are the plan, the body and the felt beats."""
