@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
@@ -9,6 +10,7 @@ from fractions import Fraction
 import numpy as np
 
 from app.arrays import SingleArray
+from app.plan.model import TimeFrame
 
 
 @dataclass(frozen=True)
@@ -65,3 +67,9 @@ def joined(pieces: Sequence[Motion]) -> Motion:
         instrument_position_m=np.concatenate([piece.instrument_position_m for piece in pieces]),
         instrument_rotation=np.concatenate([piece.instrument_rotation for piece in pieces]),
     )
+
+
+def frame_count(time_frame: TimeFrame, fps: Fraction) -> int:
+    """Number of frames of a performance: those in ``[first_frame_s, end_s)``."""
+    exact = (time_frame.end_s - time_frame.first_frame_s) * fps.numerator / fps.denominator
+    return max(1, math.ceil(exact - 1e-9))

@@ -2,39 +2,32 @@
 
 from __future__ import annotations
 
-import math
-import sys
 from collections.abc import Mapping
-from dataclasses import dataclass, field, fields, replace
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
-from typing import Final, NamedTuple, cast
+from typing import Final, NamedTuple
 
 import numpy as np
 
 from app.arrays import FloatArray
-from app.identity_cache import IdentityCache
 from app.motion.body_motion import BodyMotion
 from app.motion.breath.air_in_trunk import widened
 from app.motion.breath.breaths_that_show import leaning_further
-from app.motion.by_hand.additive_curves import NOTHING, Added, Additive, with_added, with_added_morphs, with_held
-from app.motion.contacts.carried_instrument import Carried
+from app.motion.by_hand.additive_curves import NOTHING, Additive, with_added, with_added_morphs, with_held
+from app.motion.contacts.carried_instrument import settled, shown_by
 from app.motion.contacts.hand_in_bell import STOPPING, stopping
-from app.motion.contacts.instrument_put_aside import Aside
-from app.motion.contacts.instrument_tipping import with_bell_room
-from app.motion.contacts.limited_amounts import settled, shown_by
+from app.motion.contacts.ready_player import player_body
 from app.motion.contacts.solve import PlayerBody, padding, solve
 from app.motion.contacts.still_player import ContactCurves
-from app.motion.contacts.trunk_and_legs import SIDES, Side, footing, hips_path, stance, torso_forward, trunk
-from app.motion.contacts.wrists import wrists_of
-from app.motion.curves.curve import EVERYWHERE, Curve, Envelopes, frame_times, moves
+from app.motion.contacts.trunk_and_legs import SIDES, Side, footing, hips_path, torso_forward
+from app.motion.curves.curve import EVERYWHERE, Curve, Envelopes, frame_times
 from app.motion.faces.exertion import Lungs
-from app.motion.faces.face_curves import FACE, Drivers, Face
+from app.motion.faces.face_curves import FACE, Face
 from app.motion.faces.gaze import GAZE, Gaze, Look, Watching, plan_gaze
-from app.motion.faces.morph_weights import FaceSizes, face_morphs, face_sizes, usual_morphs
-from app.motion.fingering.changed_stretch import changed_stretch, spliced
-from app.motion.fingering.control_curves import control_curves
-from app.motion.fingering.finger_curves import raised_curve, sampled, station_curves
+from app.motion.faces.morph_weights import FaceSizes, face_morphs, face_sizes
+from app.motion.fingering.finger_curves import sampled
+from app.motion.fingering.fingers import FINGERS, fingers_of
 from app.motion.gestures.body_layers import QUIET_AIR, body_motion
 from app.motion.gestures.dance_layer import BodyLayer, giving_way, inhaling, with_dance
 from app.motion.gestures.feet import feet_moved
@@ -42,67 +35,23 @@ from app.motion.gestures.held_still import with_holds
 from app.motion.gestures.layers import LAYERS, Layers, LayerSamples
 from app.motion.gestures.summed_angles import Sizes
 from app.motion.model import Motion
+from app.motion.played_frames import PlayedFrames
 from app.plan.acting import Acting, acting_of
-from app.plan.model import FingeringEvent, PlayerPlan, TimeFrame
+from app.plan.model import PlayerPlan
 from app.plan.parameters import PlayerParameters, deciding
-from app.plan.styles import differing_s, most_shown, share_at, shown_in_style
+from app.plan.styles import differing_s, most_shown, share_at
 from app.rig.grip.carriage import carrying
-from app.rig.grip.grip_pose import GripPose, Lips, Placed, giving_for
-from app.rig.grip.lifted_fingers import with_curved_fingers
-from app.rig.model import Character, Skeleton
+from app.rig.grip.grip_pose import GripPose, Placed, giving_for
+from app.rig.model import Character
 from app.score.metre_map import FeltBeats
-from app.steps import Results, StepTable, reading
+from app.steps import Results
 from instrument_maps.model import InstrumentMap
-from instrument_maps.model import Posture as PostureName
-from metadata.load import load_expressions, load_skeleton
-from metadata.model import Body, Embouchure, Expression, Posture
+from metadata.load import load_expressions
+from metadata.model import Body, Expression, Posture
 
 NOT_SHOWN = Envelopes.of(())
-_CURVED: IdentityCache[GripPose] = IdentityCache(128)
-_PLAYERS: IdentityCache[PlayerBody] = IdentityCache(128)
-"""Holds with curved fingers, and what of players does not change with time: a player goes on with the very same."""
-
-
-def frame_count(time_frame: TimeFrame, fps: Fraction) -> int:
-    """Number of frames of a performance: those in ``[first_frame_s, end_s)``."""
-    exact = (time_frame.end_s - time_frame.first_frame_s) * fps.numerator / fps.denominator
-    return max(1, math.ceil(exact - 1e-9))
-
-
-@dataclass(frozen=True)
-class Frames:
-    """What a player does at some frames, before any contact is solved.
-
-    Attributes
-    ----------
-    times_s : (F,) float64
-        Ascending.
-    levels, look, face
-        Body, eyes and face.
-    controls : dict of str to (F,) float64
-    raised : (F,) float64
-        As the curves of `PerformanceCurves`.
-    danced : (F, 12) float64 or None
-        Of its layer; None: nothing is danced.
-    stowed : (F,) float64 or None
-        How far the instrument is put aside.
-    added : dict of str to Added
-        What the animator's curves add, by channel.
-    stopping : (F,) float64 or None
-        How far a hand closes the bell; None: no note of the player is stopped.
-    """
-
-    times_s: FloatArray
-    levels: LayerSamples
-    look: Look
-    face: Drivers
-    controls: dict[str, FloatArray]
-    placed: dict[str, Placed]
-    raised: FloatArray
-    danced: FloatArray | None = None
-    stowed: FloatArray | None = None
-    added: Mapping[str, Added] = field(default_factory=dict)
-    stopping: FloatArray | None = None
+OWN: Final = ("raised", "inhaling", "stopping", "_further", "additive")
+"""Curves of `PerformanceCurves` that stand alone."""
 
 
 class CurveSteps(NamedTuple):
@@ -112,6 +61,12 @@ class CurveSteps(NamedTuple):
     layers: Results
     gaze: Results
     fingers: Results
+
+    @classmethod
+    def begin(cls, before: CurveSteps | None, **given: object) -> CurveSteps:
+        """Make a run of them all, after the run before."""
+        tables = (FACE, LAYERS, GAZE, FINGERS)
+        return cls(*(table.begin(one, **given) for table, one in zip(tables, before or (None,) * 4, strict=True)))
 
 
 @dataclass(frozen=True, eq=False)
@@ -191,10 +146,10 @@ class PerformanceCurves:
         curves = self.curves(self.frames(times_s))
         return solve(self.player, curves, fps, float(frame_times(self.start_s, fps, first_frame, 1)[0]), every)
 
-    def frames(self, times_s: FloatArray) -> Frames:
+    def frames(self, times_s: FloatArray) -> PlayedFrames:
         """What the player does at ascending times."""
         levels = replace(self.layers.sample(times_s), further=self._further.sample(times_s))
-        return Frames(
+        return PlayedFrames(
             times_s=times_s,
             levels=levels,
             look=self.gaze.sample(times_s),
@@ -213,7 +168,7 @@ class PerformanceCurves:
             return None
         return giving_way(self.dance.sample(times_s), self.inhaling.sample(times_s))
 
-    def curves(self, frames: Frames) -> ContactCurves:
+    def curves(self, frames: PlayedFrames) -> ContactCurves:
         """What the contacts are solved from, of frames wherever they come from."""
         levels = self._breathing(replace(frames.levels, push=frames.face.push), frames.times_s)
         added = frames.added
@@ -221,7 +176,7 @@ class PerformanceCurves:
             levels = replace(levels, held=with_held(levels.held, added))
         moved = self._moved(levels, frames.look, frames.times_s)
         if frames.danced is not None:
-            amount, free = self.parameters.dance_amount, _stands_free(self.player)
+            amount, free = self.parameters.dance_amount, self.player.stands_free
             moved = with_dance(moved, frames.danced, amount, self.body, legs=free)
         if added:
             moved = with_added(moved, added, self.body, self.player.place.knee_rad)
@@ -258,7 +213,7 @@ class PerformanceCurves:
             Sizes(self.body, self.parameters, self.player_id, self.acting, self.posture),
             look,
             times_s,
-            steps=_steps(self.player),
+            steps=self.player.steps,
             beside=share_at(styles, "gestures", times_s),
             swaying=share_at(styles, "sway", times_s),
             shifting=share_at(styles, "weight_shift", times_s),
@@ -298,7 +253,7 @@ class PerformanceCurves:
     def ankles_m(self, times_s: FloatArray) -> dict[Side, FloatArray]:
         """Where both ankles (F, 3) are meant to be at ascending times."""
         levels, amplitude = self.layers.feet.sample(times_s), self.parameters.amplitude
-        moved = feet_moved(levels, self.body, amplitude, self.acting.footwork, steps=_steps(self.player))
+        moved = feet_moved(levels, self.body, amplitude, self.acting.footwork, steps=self.player.steps)
         return {side: footing(self.player.place, side, moved, len(times_s)).ankle_m for side in SIDES}
 
     def changed_s(self, other: PerformanceCurves) -> FloatArray:
@@ -308,22 +263,19 @@ class PerformanceCurves:
             return EVERYWHERE
         if self.controls.keys() != other.controls.keys() or self.stations.keys() != other.stations.keys():
             return EVERYWHERE
-        spans = [curve.changed_s(other.controls[name]) for name, curve in self.controls.items()]
-        spans += [curve.changed_s(other.stations[name]) for name, curve in self.stations.items()]
-        spans.append(self.raised.changed_s(other.raised))
-        spans.append(self.inhaling.changed_s(other.inhaling))
-        spans.append(self.stopping.changed_s(other.stopping))
-        spans.append(self._further.changed_s(other._further))
-        spans.append(self.additive.changed_s(other.additive))
+        pairs = [(self.controls, other.controls), (self.stations, other.stations)]
+        pairs += [({name: getattr(one, name) for name in OWN} for one in (self, other))]
+        pairs += [(vars(mine), vars(theirs)) for mine, theirs in ((self.face, other.face), (self.gaze, other.gaze))]
+        spans = [
+            curve.changed_s(others[name])
+            for own, others in pairs
+            for name, curve in own.items()
+            if not isinstance(curve, dict)
+        ]
         spans.append(differing_s(self.plan.styles, other.plan.styles))
         if self.stowed is not None and other.stowed is not None:
             spans.append(self.stowed.changed_s(other.stowed))
         spans += self.layers.changed_s(other.layers)
-        for ours, theirs in ((self.face, other.face), (self.gaze, other.gaze)):
-            for member in fields(ours):
-                value = getattr(ours, member.name)
-                if not isinstance(value, dict):
-                    spans.append(value.changed_s(getattr(theirs, member.name)))
         for name in self.face.expressions.keys() | other.face.expressions.keys():
             shown = self.face.expressions.get(name, NOT_SHOWN)
             others_shown = other.face.expressions.get(name, NOT_SHOWN)
@@ -389,26 +341,18 @@ def prepare(
     acting = shown_by(parameters, carriage, most, dancing=dance is not None)
     parameters = settled(parameters, carriage)
     posture = carrying(body, instrument_map.hold.possible(parameters.posture), carriage)
-    player = _player(parameters, instrument_map, character, hold, body)
-    former = None if before is None else before.steps
-    lungs = Lungs.of(parameters, instrument_map.air)
-    steps = CurveSteps(
-        FACE.begin(
-            former and former.face,
-            plan=plan,
-            embouchure_tension=parameters.embouchure_tension,
-            face_motion=body.face,
-            lungs=lungs,
-        ),
-        LAYERS.begin(former and former.layers, plan=shown_in_style(plan), body=body, felt_beats=felt_beats),
-        GAZE.begin(former and former.gaze, plan=plan, watching=Watching(parameters.seed, acting.gaze, acting.blink)),
-        FINGERS.begin(
-            former and former.fingers,
-            plan=plan,
-            instrument=instrument_map,
-            felt_beats=felt_beats,
-            farthest=player.farthest,
-        ),
+    player = player_body(parameters, instrument_map, character, hold, body)
+    steps = CurveSteps.begin(
+        None if before is None else before.steps,
+        plan=plan,
+        embouchure_tension=parameters.embouchure_tension,
+        face_motion=body.face,
+        lungs=Lungs.of(parameters, instrument_map.air),
+        body=body,
+        felt_beats=felt_beats,
+        watching=Watching(parameters.seed, acting.gaze, acting.blink),
+        instrument=instrument_map,
+        farthest=player.farthest,
     )
     face, fingers = steps.face.of(Face), steps.fingers.of(fingers_of)
     made = PerformanceCurves(
@@ -436,125 +380,3 @@ def prepare(
     for results in steps:
         results.close()
     return made
-
-
-def lying(
-    parameters: PlayerParameters,
-    instrument_map: InstrumentMap,
-    character: Character,
-    hold: GripPose,
-    body: Body,
-    number: int,
-) -> Carried:
-    """Where an instrument lies while its player has another in the hands, one frame; ``number`` as of `Aside`."""
-    still = _player(parameters, instrument_map, character, hold, body)
-    place = replace(still, aside=Aside(instrument_map.hold.support_hand, number)).put_aside
-    assert place is not None
-    return place.rest
-
-
-def _curved(hold: GripPose, skeleton: Skeleton) -> GripPose:
-    return with_curved_fingers(hold, skeleton, load_skeleton())
-
-
-def _player(
-    parameters: PlayerParameters, instrument_map: InstrumentMap, character: Character, hold: GripPose, body: Body
-) -> PlayerBody:
-    """What does not change with time: the very same for the same body in the same posture, which knows already how far
-    its hands come and its instrument tips."""
-    curved = _CURVED.step(_curved, hold, character.skeleton)
-    return _PLAYERS.step(_made, sys.intern(parameters.posture), instrument_map, character.skeleton, curved, body)
-
-
-def _made(
-    posture_name: str, instrument_map: InstrumentMap, skeleton: Skeleton, hold: GripPose, body: Body
-) -> PlayerBody:
-    named = cast(PostureName, posture_name)
-    carriage = instrument_map.hold.carriage(named)
-    posture = carrying(body, instrument_map.hold.possible(named), carriage)
-    place = stance(skeleton, posture)
-    still = BodyMotion.still(posture)
-    made = PlayerBody(
-        skeleton=skeleton,
-        hold=hold,
-        place=place,
-        carriage=carriage,
-        lowered=instrument_map.hold.lowered(named),
-        still=still,
-        base=trunk(skeleton, *hips_path(place, skeleton, still), still),
-        grip_of_lips_m=_grip_of_lips(hold.lips, body.embouchure[instrument_map.embouchure.kind]),
-        water=instrument_map.water,
-        stopped=instrument_map.stopped,
-        wrists=wrists_of(body, load_skeleton()),
-    )
-    return with_bell_room(made.standing_on(instrument_map.endpin))
-
-
-class Fingers(NamedTuple):
-    """What fingers do.
-
-    Attributes
-    ----------
-    grips : tuple of FingeringEvent
-    made_for : tuple
-        What else the curves depend on.
-    controls, stations, raised
-        As of `PerformanceCurves`.
-    """
-
-    grips: tuple[FingeringEvent, ...]
-    made_for: tuple[object, ...]
-    controls: dict[str, Curve]
-    stations: dict[str, Curve]
-    raised: Curve
-
-
-def fingers_of(
-    grips: tuple[FingeringEvent, ...],
-    instrument: InstrumentMap,
-    felt_beats: FeltBeats,
-    farthest: Mapping[str, float],
-    before: Fingers | None,
-) -> Fingers:
-    """Make the curves of the controls, of the places of the fingers and of how high they wait; around an edit only."""
-    made_for = (instrument, felt_beats, farthest)
-    stretch = controls = stations = None
-    if before is not None and before.made_for == made_for:
-        stretch = changed_stretch(before.grips, grips, felt_beats)
-    if before is not None and stretch is not None:
-        own = stretch.notes(grips)
-        controls = spliced(before.controls, control_curves(own, instrument.controls, felt_beats, farthest), stretch)
-        if controls is not None:
-            stations = spliced(before.stations, station_curves(own, instrument, controls), stretch)
-    if controls is None:
-        controls = control_curves(grips, instrument.controls, felt_beats, farthest)
-    if stations is None:
-        stations = station_curves(grips, instrument, controls)
-    hovers = any(control.hover_m for control in instrument.controls)
-    return Fingers(grips, made_for, controls, stations, raised_curve(grips) if hovers else moves(()))
-
-
-FINGERS: Final = StepTable(
-    grips="plan.grips",
-    fingers=fingers_of,
-    curves="plan.additive",
-    additive=reading(Additive.of, events="curves"),
-)
-"""The steps of the fingers, and of the animator's own curves."""
-
-
-def _steps(player: PlayerBody) -> bool:
-    """Whether feet leave their place: not beside an instrument that stands on its pin."""
-    return player.stand is None
-
-
-def _stands_free(player: PlayerBody) -> bool:
-    """Whether the hips may leave their place: not on a seat, nor over an instrument that stands on its pin."""
-    return not player.place.seated and player.stand is None
-
-
-def _grip_of_lips(lips: Lips, embouchure: Embouchure) -> FloatArray:
-    """From where one lip alone would carry the mouthpiece to where it is played, at a middling embouchure (3,)."""
-    morphs = {name: np.array([weight]) for name, weight in usual_morphs(embouchure, lips).items()}
-    grip_m: FloatArray = (lips.contact_m(morphs, 1) - lips.carried_m(morphs, 1))[0]
-    return grip_m

@@ -13,7 +13,7 @@ from functools import cache, lru_cache
 from app.arrays import FloatArray
 from app.errors import FileError, MapError, UsageError, shortened
 from app.identity_cache import IdentityCache
-from app.motion.perform import lying
+from app.motion.contacts.ready_player import lying
 from app.project.performers import Player
 from app.rig.characters.character_library import bundled_characters, character_named, character_revision
 from app.rig.grip.body_size import leg_size, sized_body, sized_model

@@ -12,8 +12,7 @@ import numpy as np
 
 from app.arrays import FloatArray, IndexArray, SingleArray
 from app.motion.contacts.solve import padding
-from app.motion.model import Motion
-from app.motion.perform import frame_count
+from app.motion.model import Motion, frame_count
 from app.plan.model import TimeFrame
 
 CHUNK_S = 4.0

@@ -21,7 +21,8 @@ from app.motion.contacts.help_for_far_hands import Help
 from app.motion.contacts.solve import helped, needs, poses
 from app.motion.contacts.still_player import ContactCurves
 from app.motion.doubling import Doubling
-from app.motion.perform import Frames, PerformanceCurves
+from app.motion.perform import PerformanceCurves
+from app.motion.played_frames import PlayedFrames
 from app.performance.chunks import Pose
 from app.performance.live_breath import LiveBreath, LiveLook
 from app.performance.live_hands import FRAMES, LiveHands
@@ -220,7 +221,7 @@ class PlayAlong:
         levels = replace(breathing.levels, held=self._poses.sample(here_s))
         added = self._additive.sample(here_s)
         curves = self._playing.curves(
-            Frames(times_s, levels, look, breathing.face, hands.controls, hands.placed, hands.raised, added=added)
+            PlayedFrames(times_s, levels, look, breathing.face, hands.controls, hands.placed, hands.raised, added=added)
         )
         return curves, self._help.at(now_s, hands.arrived_s, needs(self._playing.player, curves))
 

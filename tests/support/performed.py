@@ -5,8 +5,8 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import Any
 
-from app.motion.model import Motion
-from app.motion.perform import PerformanceCurves, frame_count, prepare
+from app.motion.model import Motion, frame_count
+from app.motion.perform import PerformanceCurves, prepare
 from app.performance import motion
 from app.performance.cast import performer_of
 from app.performance.ensemble import Performance

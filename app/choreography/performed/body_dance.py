@@ -18,7 +18,7 @@ from app.choreography.performed.dancers import GeneratedDance, dance_frame, rhyt
 from app.choreography.rhythm import Rhythm
 from app.identity_cache import IdentityCache
 from app.motion.gestures.dance_layer import BodyLayer
-from app.motion.perform import frame_count
+from app.motion.model import frame_count
 from app.performance.bodies import character_of
 from app.performance.ensemble import Performance
 from app.plan.model import TimeFrame

@@ -37,8 +37,7 @@ from app.choreography.sequence import Constraints, Grid, grid_of
 from app.errors import AppError, Message
 from app.identity_cache import IdentityCache
 from app.motion.curves.curve import Envelopes
-from app.motion.model import Motion
-from app.motion.perform import frame_count
+from app.motion.model import Motion, frame_count
 from app.performance.ensemble import Performance
 from app.plan.model import Problem, TimeFrame
 from app.project.casting import StagePosition

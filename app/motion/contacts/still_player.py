@@ -44,6 +44,16 @@ class StillPlayer:
     water: Water | None = None
     stopped: Stopped | None = None
 
+    @property
+    def steps(self) -> bool:
+        """Feet leave their place: not beside an instrument that stands on its pin."""
+        return self.stand is None
+
+    @property
+    def stands_free(self) -> bool:
+        """Hips may leave their place: not on a seat, nor over an instrument that stands on its pin."""
+        return not self.place.seated and self.stand is None
+
     def away(self, motion: BodyMotion, carried: Carried) -> Away | None:
         """Where hands are that leave the instrument; None where all stay."""
         if not motion.hands:

@@ -25,6 +25,7 @@ from app.motion.gestures.named_gestures import Gestured, Sums
 from app.motion.gestures.nods import Nods
 from app.plan.kinds import Part, answered_by
 from app.plan.model import GestureEvent, PoseTarget
+from app.plan.styles import shown_in_style
 from app.steps import StepTable, reading
 
 BELL_S: Final = 0.5
@@ -155,13 +156,14 @@ def _of_part(gestures: tuple[GestureEvent, ...], part: Part) -> tuple[GestureEve
 
 
 LAYERS: Final = StepTable(
-    breaths="plan.breaths",
-    gestures="plan.gestures",
+    styled=shown_in_style,
+    breaths="styled.breaths",
+    gestures="styled.gestures",
     lung_curves=lungs,
     full="lung_curves.full",
     leaning="lung_curves.leaning",
     air=air,
-    cues="plan.cues",
+    cues="styled.cues",
     nodding=partial(_of_part, part="nod"),
     nods=reading(Nods.of, answers="nodding"),
     swaying=partial(_of_part, part="sway"),
@@ -183,7 +185,7 @@ LAYERS: Final = StepTable(
     stepping=partial(_of_part, part="feet"),
     step_s="body.footwork.step_s",
     feet=reading(Feet.of, events="stepping"),
-    posed="plan.poses",
+    posed="styled.poses",
     held=reading(Poses.of, events="posed"),
     gestured=reading(Gestured.of, events="gestures"),
     reached=reading(Reaching.of, events="gestures"),

@@ -11,8 +11,7 @@ import numpy as np
 import pytest
 
 from app.motion.contacts.trunk_and_legs import SIT_BONES_M
-from app.motion.model import Motion
-from app.motion.perform import frame_count
+from app.motion.model import Motion, frame_count
 from app.plan.gestures.feet import lifted_s
 from app.plan.model import GestureEvent, PlayerPlan, TimeFrame
 from app.plan.parameters import PlayerParameters

@@ -10,7 +10,7 @@ import msgspec
 import numpy as np
 import pytest
 
-from app.motion.perform import frame_count
+from app.motion.model import frame_count
 from app.performance.ensemble import Performance
 from app.project.edit.piece import set_section_intensity
 from app.project.edit.players import randomise, set_habit, set_parameters

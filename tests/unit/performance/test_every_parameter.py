@@ -11,8 +11,8 @@ import pytest
 
 from app.motion.contacts.solve import padding
 from app.motion.curves.curve import frame_times
-from app.motion.model import Motion
-from app.motion.perform import PerformanceCurves, frame_count
+from app.motion.model import Motion, frame_count
+from app.motion.perform import PerformanceCurves
 from app.performance.ensemble import Performance
 from app.plan.by_hand.corrections import PoseCorrection
 from app.plan.parameters import PARAMETERS, Parameter

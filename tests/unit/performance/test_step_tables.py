@@ -10,8 +10,8 @@ from typing import Any, Union, get_args, get_origin, get_type_hints
 
 import pytest
 
-from app.motion import perform
 from app.motion.faces import face_curves, gaze
+from app.motion.fingering import fingers
 from app.motion.gestures import layers
 from app.performance import body_problems, ensemble
 from app.plan import generate, player
@@ -31,7 +31,7 @@ TABLES = {
     "face": face_curves.FACE,
     "layers": layers.LAYERS,
     "gaze": gaze.GAZE,
-    "fingers": perform.FINGERS,
+    "fingers": fingers.FINGERS,
 }
 ABSTRACT = (collections.abc.Sequence, collections.abc.Mapping, collections.abc.Collection, collections.abc.Iterable)
 

@@ -10,7 +10,8 @@ import msgspec
 import numpy as np
 import pytest
 
-from app.motion.perform import PerformanceCurves, frame_count
+from app.motion.model import frame_count
+from app.motion.perform import PerformanceCurves
 from app.performance.ensemble import Performance
 from app.plan.acting import LAYERS, acting_of
 from app.plan.by_hand.corrections import PlayStyle

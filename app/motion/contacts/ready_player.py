@@ -1,0 +1,92 @@
+"""Bodies ready to play: a character in its posture with a fitted instrument, made once for all of its motion."""
+
+from __future__ import annotations
+
+import sys
+from dataclasses import replace
+from typing import cast
+
+import numpy as np
+
+from app.arrays import FloatArray
+from app.identity_cache import IdentityCache
+from app.motion.body_motion import BodyMotion
+from app.motion.contacts.carried_instrument import Carried
+from app.motion.contacts.instrument_put_aside import Aside
+from app.motion.contacts.instrument_tipping import with_bell_room
+from app.motion.contacts.solve import PlayerBody
+from app.motion.contacts.trunk_and_legs import hips_path, stance, trunk
+from app.motion.contacts.wrists import wrists_of
+from app.motion.faces.morph_weights import usual_morphs
+from app.plan.parameters import PlayerParameters
+from app.rig.grip.carriage import carrying
+from app.rig.grip.grip_pose import GripPose, Lips
+from app.rig.grip.lifted_fingers import with_curved_fingers
+from app.rig.model import Character, Skeleton
+from instrument_maps.model import InstrumentMap
+from instrument_maps.model import Posture as PostureName
+from metadata.load import load_skeleton
+from metadata.model import Body, Embouchure
+
+_CURVED: IdentityCache[GripPose] = IdentityCache(128)
+_PLAYERS: IdentityCache[PlayerBody] = IdentityCache(128)
+"""Holds with curved fingers, and what of players does not change with time: a player goes on with the very same."""
+
+
+def lying(
+    parameters: PlayerParameters,
+    instrument_map: InstrumentMap,
+    character: Character,
+    hold: GripPose,
+    body: Body,
+    number: int,
+) -> Carried:
+    """Where an instrument lies while its player has another in the hands, one frame; ``number`` as of `Aside`."""
+    still = player_body(parameters, instrument_map, character, hold, body)
+    place = replace(still, aside=Aside(instrument_map.hold.support_hand, number)).put_aside
+    assert place is not None
+    return place.rest
+
+
+def _curved(hold: GripPose, skeleton: Skeleton) -> GripPose:
+    return with_curved_fingers(hold, skeleton, load_skeleton())
+
+
+def player_body(
+    parameters: PlayerParameters, instrument_map: InstrumentMap, character: Character, hold: GripPose, body: Body
+) -> PlayerBody:
+    """Return what does not change with time: the same object for the same body in the same posture, which knows already
+    how far its hands come and its instrument tips."""
+    curved = _CURVED.step(_curved, hold, character.skeleton)
+    return _PLAYERS.step(_made, sys.intern(parameters.posture), instrument_map, character.skeleton, curved, body)
+
+
+def _made(
+    posture_name: str, instrument_map: InstrumentMap, skeleton: Skeleton, hold: GripPose, body: Body
+) -> PlayerBody:
+    named = cast(PostureName, posture_name)
+    carriage = instrument_map.hold.carriage(named)
+    posture = carrying(body, instrument_map.hold.possible(named), carriage)
+    place = stance(skeleton, posture)
+    still = BodyMotion.still(posture)
+    made = PlayerBody(
+        skeleton=skeleton,
+        hold=hold,
+        place=place,
+        carriage=carriage,
+        lowered=instrument_map.hold.lowered(named),
+        still=still,
+        base=trunk(skeleton, *hips_path(place, skeleton, still), still),
+        grip_of_lips_m=_grip_of_lips(hold.lips, body.embouchure[instrument_map.embouchure.kind]),
+        water=instrument_map.water,
+        stopped=instrument_map.stopped,
+        wrists=wrists_of(body, load_skeleton()),
+    )
+    return with_bell_room(made.standing_on(instrument_map.endpin))
+
+
+def _grip_of_lips(lips: Lips, embouchure: Embouchure) -> FloatArray:
+    """From where one lip alone would carry the mouthpiece to where it is played, at a middling embouchure (3,)."""
+    morphs = {name: np.array([weight]) for name, weight in usual_morphs(embouchure, lips).items()}
+    grip_m: FloatArray = (lips.contact_m(morphs, 1) - lips.carried_m(morphs, 1))[0]
+    return grip_m

@@ -1,0 +1,69 @@
+"""Curves of fingers: of the controls they work, of the places they are at, and of how high they wait."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Final, NamedTuple
+
+from app.motion.by_hand.additive_curves import Additive
+from app.motion.curves.curve import Curve, moves
+from app.motion.fingering.changed_stretch import changed_stretch, spliced
+from app.motion.fingering.control_curves import control_curves
+from app.motion.fingering.finger_curves import raised_curve, station_curves
+from app.plan.model import FingeringEvent
+from app.score.metre_map import FeltBeats
+from app.steps import StepTable, reading
+from instrument_maps.model import InstrumentMap
+
+
+class Fingers(NamedTuple):
+    """What fingers do.
+
+    Attributes
+    ----------
+    grips : tuple of FingeringEvent
+    made_for : tuple
+        What else the curves depend on.
+    controls, stations, raised
+        As of `PerformanceCurves`.
+    """
+
+    grips: tuple[FingeringEvent, ...]
+    made_for: tuple[object, ...]
+    controls: dict[str, Curve]
+    stations: dict[str, Curve]
+    raised: Curve
+
+
+def fingers_of(
+    grips: tuple[FingeringEvent, ...],
+    instrument: InstrumentMap,
+    felt_beats: FeltBeats,
+    farthest: Mapping[str, float],
+    before: Fingers | None,
+) -> Fingers:
+    """Make the curves of the controls, of the places of the fingers and of how high they wait; around an edit only."""
+    made_for = (instrument, felt_beats, farthest)
+    stretch = controls = stations = None
+    if before is not None and before.made_for == made_for:
+        stretch = changed_stretch(before.grips, grips, felt_beats)
+    if before is not None and stretch is not None:
+        own = stretch.notes(grips)
+        controls = spliced(before.controls, control_curves(own, instrument.controls, felt_beats, farthest), stretch)
+        if controls is not None:
+            stations = spliced(before.stations, station_curves(own, instrument, controls), stretch)
+    if controls is None:
+        controls = control_curves(grips, instrument.controls, felt_beats, farthest)
+    if stations is None:
+        stations = station_curves(grips, instrument, controls)
+    hovers = any(control.hover_m for control in instrument.controls)
+    return Fingers(grips, made_for, controls, stations, raised_curve(grips) if hovers else moves(()))
+
+
+FINGERS: Final = StepTable(
+    grips="plan.grips",
+    fingers=fingers_of,
+    curves="plan.additive",
+    additive=reading(Additive.of, events="curves"),
+)
+"""The steps of the fingers, and of the animator's own curves."""

@@ -1,0 +1,49 @@
+"""What a player does at some frames, sampled from curves or played live: what poses are solved from."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from app.arrays import FloatArray
+from app.motion.by_hand.additive_curves import Added
+from app.motion.faces.face_curves import Drivers
+from app.motion.faces.gaze import Look
+from app.motion.gestures.layers import LayerSamples
+from app.rig.grip.grip_pose import Placed
+
+
+@dataclass(frozen=True)
+class PlayedFrames:
+    """What a player does at some frames, before any contact is solved.
+
+    Attributes
+    ----------
+    times_s : (F,) float64
+        Ascending.
+    levels, look, face
+        Body, eyes and face.
+    controls : dict of str to (F,) float64
+    raised : (F,) float64
+        As the curves of `PerformanceCurves`.
+    danced : (F, 12) float64 or None
+        Of its layer; None: nothing is danced.
+    stowed : (F,) float64 or None
+        How far the instrument is put aside.
+    added : dict of str to Added
+        What the animator's curves add, by channel.
+    stopping : (F,) float64 or None
+        How far a hand closes the bell; None: no note of the player is stopped.
+    """
+
+    times_s: FloatArray
+    levels: LayerSamples
+    look: Look
+    face: Drivers
+    controls: dict[str, FloatArray]
+    placed: dict[str, Placed]
+    raised: FloatArray
+    danced: FloatArray | None = None
+    stowed: FloatArray | None = None
+    added: Mapping[str, Added] = field(default_factory=dict)
+    stopping: FloatArray | None = None
