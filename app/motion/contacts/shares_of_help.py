@@ -9,7 +9,6 @@ import numpy as np
 from app.arrays import FloatArray
 from app.motion.body_motion import BodyMotion
 from app.motion.contacts.help_for_far_hands import Help
-from app.motion.curves.running_extremes import greatest_within, least_within
 from app.motion.curves.soft_bounds import softly_capped
 from app.plan.by_hand.pose_corrections import NECK_SHARES, TRUNK_SHARES
 
@@ -100,3 +99,27 @@ def _eased(needed: FloatArray, half: int) -> FloatArray:
     weights = np.hanning(2 * half + 3)
     eased: FloatArray = np.convolve(held, weights / weights.sum(), mode="same")
     return eased
+
+
+def greatest_within(values: FloatArray, half: int) -> FloatArray:
+    """The greatest value (F,) within ``half`` of each; beyond the ends the values go back: as
+    `scipy.ndimage` finds them, without loading it."""
+    found, window, width = _symmetric(values, half), 2 * half + 1, 1
+    while width < window:
+        # Of twice as many each time, the last time of as many as are left.
+        step = min(width, window - width)
+        found = np.maximum(found[:-step], found[step:])
+        width += step
+    return found
+
+
+def _symmetric(values: FloatArray, half: int) -> FloatArray:
+    """The values, and ``half`` more at each end, which go back as in a mirror."""
+    if half > len(values):
+        return np.pad(values, half, mode="symmetric")
+    return np.concatenate((values[:half][::-1], values, values[len(values) - half :][::-1]))
+
+
+def least_within(values: FloatArray, half: int) -> FloatArray:
+    """The least value (F,) within ``half`` of each, in the same way."""
+    return -greatest_within(-values, half)

@@ -8,15 +8,12 @@ shapes of the fingers (what is left is how they hold). Where the places are the 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from typing import Final, NamedTuple, TypeAlias, get_args
 
 import numpy as np
 
 from app.arrays import FloatArray
-from app.motion.curves.curve import rows_changed_s
-from app.motion.gestures.named_gestures import Gestured, keyed
-from app.plan.model import GestureEvent
+from app.motion.gestures.named_gestures import KeyedGestures, keyed
 from app.rig.grip.grip_pose import Side
 from metadata.gestures import Gesture, HandPlace, HandShape
 from metadata.model import AmplitudeScale, at_amplitude
@@ -28,7 +25,7 @@ LEAST_SIZE: Final = 0.05
 """A gesture that is asked for as small as this is not done by a hand."""
 
 
-class Reached(NamedTuple):
+class ReachingHands(NamedTuple):
     """How hands are on their way at some frames, of what grows alike with the amplitude; empty: they are not.
 
     Attributes
@@ -43,53 +40,27 @@ class Reached(NamedTuple):
     offsets_m: dict[Side, FloatArray]
 
 
-Reaches: TypeAlias = dict[AmplitudeScale, Reached]
+Reaches: TypeAlias = dict[AmplitudeScale, ReachingHands]
 
 
-@dataclass(frozen=True, eq=False)
-class Reaching:
-    """All gestures of a player in which a hand leaves the instrument, or it comes up.
+class Reaching(KeyedGestures):
+    """All gestures of a player in which a hand leaves the instrument, or it comes up."""
 
-    Attributes
-    ----------
-    rows : (N, 4) float64
-        When each begins and ends, how large it is, and which it is.
-    gestures : tuple of Gesture
-        What is done, by that number; each once.
-    """
-
-    rows: FloatArray
-    gestures: tuple[Gesture, ...]
-
-    @classmethod
-    def of(cls, events: Sequence[GestureEvent]) -> Reaching:
-        """From a plan's gestures."""
-        found = Gestured.of([one for one in events if one.gesture is not None and one.gesture.needs_lowered])
-        return cls(found.rows, found.gestures)
+    @staticmethod
+    def takes(gesture: Gesture) -> bool:
+        """Only what hands do."""
+        return gesture.needs_lowered
 
     def sample(self, times_s: FloatArray) -> Reaches:
         """Where hands are on their way at ascending times."""
         found: Reaches = {}
-        first = np.searchsorted(times_s, self.rows[:, 0])
-        last = np.searchsorted(times_s, self.rows[:, 1])
-        for index in np.flatnonzero(last > first).tolist():
-            here = slice(first[index], last[index])
-            start_s, end_s, amount, number = self.rows[index].tolist()
-            gesture = self.gestures[int(number)]
-            if amount < LEAST_SIZE:
-                continue
-            reached = found.setdefault(gesture.amplitude, Reached({}, {}))
-            _add(reached, gesture, (times_s[here] - start_s) / (end_s - start_s), here, len(times_s))
+        for gesture, amount, phase, here in self.done(times_s):
+            if amount >= LEAST_SIZE:
+                _add(found.setdefault(gesture.amplitude, ReachingHands({}, {})), gesture, phase, here, len(times_s))
         return found
 
-    def changed_s(self, other: Reaching) -> FloatArray:
-        """Spans (K, 2) outside of which both have the very same values."""
-        if self.gestures != other.gestures:
-            return np.concatenate((self.rows[:, :2], other.rows[:, :2]))
-        return rows_changed_s(self.rows, other.rows, self.rows[:, :2], other.rows[:, :2])
 
-
-def _add(reached: Reached, gesture: Gesture, phase: FloatArray, here: slice, frames: int) -> None:
+def _add(reached: ReachingHands, gesture: Gesture, phase: FloatArray, here: slice, frames: int) -> None:
     def share(name: str, at: FloatArray, values: Sequence[float]) -> None:
         if any(values):
             total = reached.shares.setdefault(name, np.zeros(frames))
@@ -113,7 +84,7 @@ def _add(reached: Reached, gesture: Gesture, phase: FloatArray, here: slice, fra
 def reached(reaches: Reaches, amplitude: float, amount: float) -> tuple[dict[str, FloatArray], FloatArray | None]:
     """What hands do of it at a player's amplitude and amount, and how far (F,) the instrument comes up (None: not).
 
-    A hand goes all the way, or does not leave the instrument. Keys are as of `Reached`; offsets are there as
+    A hand goes all the way, or does not leave the instrument. Keys are as of `ReachingHands`; offsets are there as
     ``"left.m"`` and ``"right.m"``, (F, 3).
     """
     hands: dict[str, FloatArray] = {}

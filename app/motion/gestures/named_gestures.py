@@ -6,9 +6,9 @@ minimum-jerk move, as all others of the body.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import TypeAlias
+from typing import Self, TypeAlias
 
 import numpy as np
 
@@ -69,8 +69,8 @@ def _between(at: FloatArray, values: FloatArray, slopes: FloatArray, phase: Floa
 
 
 @dataclass(frozen=True, eq=False)
-class Gestured:
-    """All keyed gestures of a player.
+class KeyedGestures:
+    """Keyed gestures of a player.
 
     Attributes
     ----------
@@ -84,17 +84,41 @@ class Gestured:
     gestures: tuple[Gesture, ...]
 
     @classmethod
-    def of(cls, events: Sequence[GestureEvent]) -> Gestured:
+    def of(cls, events: Sequence[GestureEvent]) -> Self:
         """From a plan's gestures."""
-        chosen = [event for event in events if event.gesture is not None and event.end_s > event.start_s]
         gestures: list[Gesture] = []
         rows = []
-        for event in chosen:
-            assert event.gesture is not None
+        for event in events:
+            if event.gesture is None or not cls.takes(event.gesture) or event.end_s <= event.start_s:
+                continue
             if event.gesture not in gestures:
                 gestures.append(event.gesture)
             rows.append((event.start_s, event.end_s, event.amount, float(gestures.index(event.gesture))))
         return cls(np.array(rows, dtype=np.float64).reshape(-1, 4), tuple(gestures))
+
+    @staticmethod
+    def takes(gesture: Gesture) -> bool:
+        """True of the gestures that belong to these."""
+        return True
+
+    def done(self, times_s: FloatArray) -> Iterator[tuple[Gesture, float, FloatArray, slice]]:
+        """Yield every gesture that is done at some of ascending times, its amount, and its phases at these."""
+        first = np.searchsorted(times_s, self.rows[:, 0])
+        last = np.searchsorted(times_s, self.rows[:, 1])
+        for index in np.flatnonzero(last > first).tolist():
+            here = slice(first[index], last[index])
+            start_s, end_s, amount, number = self.rows[index].tolist()
+            yield self.gestures[int(number)], amount, (times_s[here] - start_s) / (end_s - start_s), here
+
+    def changed_s(self, other: Self) -> FloatArray:
+        """Spans (K, 2) outside of which both have the same values."""
+        if self.gestures != other.gestures:
+            return np.concatenate((self.rows[:, :2], other.rows[:, :2]))
+        return rows_changed_s(self.rows, other.rows, self.rows[:, :2], other.rows[:, :2])
+
+
+class Gestured(KeyedGestures):
+    """All keyed gestures of a player, as offsets."""
 
     def sample(self, times_s: FloatArray) -> Sums:
         """What they sum to at ascending times, before the player's amplitude."""
@@ -104,23 +128,11 @@ class Gestured:
             alike = sums.setdefault(gesture.amplitude, {})
             for track in gesture.tracks:
                 alike.setdefault(track.target, np.zeros((3, len(times_s))))
-        first = np.searchsorted(times_s, self.rows[:, 0])
-        last = np.searchsorted(times_s, self.rows[:, 1])
-        for index in np.flatnonzero(last > first).tolist():
-            here = slice(first[index], last[index])
-            start_s, end_s, amount, number = self.rows[index].tolist()
-            gesture = self.gestures[int(number)]
-            phase = (times_s[here] - start_s) / (end_s - start_s)
+        for gesture, amount, phase, here in self.done(times_s):
             for track in gesture.tracks:
                 total = sums[gesture.amplitude][track.target]
                 total[_TURNS.index(track.turn), here] += np.deg2rad(amount * angles_deg(track, phase))
         return sums
-
-    def changed_s(self, other: Gestured) -> FloatArray:
-        """Spans (K, 2) outside of which both have the very same values."""
-        if self.gestures != other.gestures:
-            return np.concatenate((self.rows[:, :2], other.rows[:, :2]))
-        return rows_changed_s(self.rows, other.rows, self.rows[:, :2], other.rows[:, :2])
 
 
 def with_gestures(

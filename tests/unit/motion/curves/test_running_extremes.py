@@ -9,7 +9,7 @@ from hypothesis.extra.numpy import arrays
 from scipy.ndimage import maximum_filter1d, minimum_filter1d
 
 from app.arrays import FloatArray
-from app.motion.curves.running_extremes import greatest_within, least_within
+from app.motion.contacts.shares_of_help import greatest_within, least_within
 
 finite = st.floats(-10.0, 10.0)
 
