@@ -19,10 +19,9 @@ from app.rig.grip.grip_pose import (
     WristOffset,
     come_to,
     given_way,
-    interpolated,
-    mixed,
     wrist_given,
 )
+from app.rig.quaternion import interpolated, mixed
 
 Controls = Mapping[str, AnyFloatArray]
 

@@ -24,6 +24,7 @@ import numpy as np
 
 from app.arrays import AnyFloatArray, FloatArray
 from app.rig import quaternion
+from app.rig.quaternion import interpolated
 
 Side = Literal["left", "right"]
 
@@ -379,36 +380,6 @@ def wrist_given(hand: HandHold, given: Sequence[tuple[WristOffset, FloatArray]])
     moved = np.sum([np.multiply.outer(weight, lean.moved_m) for lean, weight in given], axis=0)
     turned = np.sum([np.multiply.outer(weight, lean.turned) for lean, weight in given], axis=0)
     return place + moved, quaternion.multiply(quaternion.from_rotation_vector(turned), turn)
-
-
-MANY = 64
-"""Of so many frames it is worth to look for those in which nothing moves."""
-
-
-def interpolated(values: FloatArray, rotations: FloatArray, value: FloatArray) -> FloatArray:
-    """Interpolate rotations (S, n, 4), given at ascending values (S,), at ``value`` (F,): (F, n, 4)."""
-    if len(values) == 1:
-        return np.broadcast_to(rotations[0], (len(value), *rotations.shape[1:]))
-    starts = np.flatnonzero(np.concatenate(([True], value[1:] != value[:-1]))) if len(value) > MANY else value
-    if 2 * len(starts) < len(value):
-        # It rests most of the time.
-        resting = np.repeat(np.arange(len(starts)), np.diff(starts, append=len(value)))
-        few = np.ascontiguousarray(interpolated(values, rotations, value[starts]).transpose(1, 2, 0))
-        return few.take(resting, axis=2).transpose(2, 0, 1)
-    place = np.interp(value, values, np.arange(len(values), dtype=np.float64))
-    low = np.minimum(place.astype(np.intp), len(values) - 2)
-    share = (place - low)[:, None, None]
-    components = np.ascontiguousarray(rotations.transpose(1, 2, 0))
-    near, far = (components.take(index, axis=2).transpose(2, 0, 1) for index in (low, low + 1))
-    return mixed(near, far, share)
-
-
-def mixed(near: FloatArray, far: FloatArray, share: FloatArray) -> FloatArray:
-    """Rotations between near (share 0) and far ones (share 1), the shorter way."""
-    sign = np.where(quaternion.dot(near, far) < 0.0, -1.0, 1.0)[..., None]
-    mixed: FloatArray = near * (1.0 - share) + far * (sign * share)
-    mixed /= np.sqrt(quaternion.dot(mixed, mixed))[..., None]
-    return mixed
 
 
 def _weighted(

@@ -6,7 +6,7 @@ import collections.abc
 import inspect
 from functools import partial
 from types import NoneType, UnionType
-from typing import Any, Union, get_args, get_origin, get_type_hints
+from typing import Any, Self, Union, get_args, get_origin, get_type_hints
 
 import pytest
 
@@ -42,7 +42,8 @@ def hints(function: Any) -> dict[str, Any]:
         return hints(function.func)
     if inspect.isclass(function):
         return {**get_type_hints(function), "return": function}
-    return get_type_hints(function)
+    found = get_type_hints(function)
+    return found | {"return": function.__self__} if found.get("return") is Self else found
 
 
 def made_by(table: StepTable, name: str) -> Any:

@@ -6,10 +6,14 @@ Messages: ``character.landmarks_missing``.
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass, replace
 
+import numpy as np
+
+from app.arrays import FloatArray, IndexArray
 from app.errors import UsageError
-from app.rig.model import Character
-from instrument_maps.model import InstrumentMap
+from app.rig.model import Character, InstrumentModel
+from instrument_maps.model import Control, InstrumentMap
 
 TOUCH_M, GRIP_M, INSIDE_M = 0.002, 0.003, 0.003
 """A hold ends well where what works a control is off by no more than this, what carries the instrument by no more than
@@ -36,3 +40,30 @@ def require_landmarks(character: Character, instrument_map: InstrumentMap) -> No
     missing = sorted(needed - set(character.landmarks))
     if missing:
         raise UsageError("character.landmarks_missing", id=character.id, missing=", ".join(missing))
+
+
+@dataclass(frozen=True, eq=False)
+class GripScene:
+    """A solved wrist on its instrument."""
+
+    model: InstrumentModel
+    instrument_map: InstrumentMap
+    carrier: Control | None
+    position_m: FloatArray
+    basis: FloatArray
+
+    def placed(self, points: FloatArray) -> FloatArray:
+        """Take points (..., S, V, 3) of the wrist's frame to the instrument's, sample by sample."""
+        return points @ self.basis.transpose(0, 2, 1) + self.position_m[:, None]
+
+    def turned(self, vectors: FloatArray) -> FloatArray:
+        """Likewise for directions."""
+        return vectors @ self.basis.transpose(0, 2, 1)
+
+    def only(self, which: IndexArray) -> GripScene:
+        """The scene at some of its samples."""
+        return replace(self, position_m=self.position_m[which], basis=self.basis[which])
+
+    def over(self, values: FloatArray) -> GripScene:
+        """The scene at some values of what a finger works: a wrist that nothing carries is the same at all of them."""
+        return self if len(self.position_m) == len(values) else self.only(np.zeros(len(values), dtype=np.intp))

@@ -8,7 +8,7 @@ with the controls of their home stations fully worked, and those of every finger
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -18,6 +18,7 @@ from app.rig import quaternion
 from app.rig.grip.carriage import Upright
 from app.rig.grip.finger_stations import MOST_HOVER_M, Station, aside_m, height_share, stations
 from app.rig.grip.fitting.hand_model import FINGERS, HandModel, hand_model, rest_landmark
+from app.rig.grip.grip_pose import Side
 from app.rig.grip.instrument_proxy import Bodies, bodies, near
 from app.rig.instrument import node_transforms, part_transform, part_values
 from app.rig.model import Character, InstrumentModel
@@ -148,26 +149,15 @@ def grip_problem(
     worked = tuple(number for number, found in enumerate(of_finger) if found and found[0].controls)
     home = home_controls(of_finger)
     touches = []
-    for index, contact in enumerate(instrument_map.contacts):
-        if not contact.part.startswith(f"{side}."):
-            continue
-        finger = contact.part.split(".")[1]
-        number = FINGERS.index(finger) if finger in FINGERS else -1
-        if number >= 0 and index not in of_finger[number][0].contacts:
-            continue
+    for contact, number in _contacts_at_home(instrument_map, side, of_finger):
         touch = touch_at(model, instrument_map, contact, home, carrier, np.array([0.0, 1.0]))
         touches.append(replace(touch, active=touch.active & np.array([True, number in worked])))
     palm = rest_landmark(hand, f"{side}.palm")
     outward = -1.0 if side == "left" else 1.0
     turn = seed_turn(seed)
-    seed_place = model.node_positions_m[names.index(seed.node)] + seed.palm_position_m
-    seed_m = seed_place - quaternion.rotate(turn, palm)
+    seed_m = model.node_positions_m[names.index(seed.node)] + seed.palm_position_m - quaternion.rotate(turn, palm)
     back = quaternion.conjugate(stand.instrument_rotation)
-    joint = [character.skeleton.index(f"{side}{part}") for part in ("UpperArm", "LowerArm", "Hand")]
-    shoulder = quaternion.rotate(back, stand.joints_m[joint[0]] - stand.instrument_m)
-    chest = stand.joints_m[character.skeleton.parents[character.skeleton.index(f"{side}Shoulder")]]
-    help_turn = quaternion.from_axis_angle([0.0, 1.0, 0.0], outward * HELP_RAD)
-    helped = chest + quaternion.rotate(help_turn, stand.joints_m[joint[0]] - chest)
+    shoulder_m, helped_m = _shoulders(character, side, stand)
     # The elbow hangs: its swivel is counted from straight down towards the outside.
     down = quaternion.rotate(back, [0.0, -1.0, 0.0])
     aside = quaternion.rotate(back, [-outward, 0.0, 0.0])
@@ -191,21 +181,44 @@ def grip_problem(
         node_place=place,
         node_turn=node_turn,
         proxies=near_hand,
-        shoulder_m=shoulder,
-        upper_m=float(np.linalg.norm(character.skeleton.offsets_m[joint[1]])),
-        lower_m=float(np.linalg.norm(character.skeleton.offsets_m[joint[2]])),
+        shoulder_m=shoulder_m,
+        upper_m=float(np.linalg.norm(character.skeleton.offsets_m[character.skeleton.index(f"{side}LowerArm")])),
+        lower_m=float(np.linalg.norm(character.skeleton.offsets_m[character.skeleton.index(f"{side}Hand")])),
         swivel_frame=np.stack([down, aside]),
         swivel_usual=usual,
         swivel_range=SWIVEL_RANGE_RAD if off_ribs_deg is None else about,
         reference_shift_m=np.zeros(3),
         helped=False,
-        helped_m=quaternion.rotate(back, helped - stand.instrument_m),
+        helped_m=helped_m,
         configs=2 if worked else 1,
         wrist_limits=hand.limits[0] * (LIMIT_SHARE if carrier is None else CARRIED_LIMIT_SHARE),
     )
     problem = replace(problem, elsewhere=_elsewhere(problem, model, instrument_map, carrier))
     low, high = _bounds(problem)
     return replace(problem, low=low, high=high), carrier
+
+
+def _contacts_at_home(
+    instrument_map: InstrumentMap, side: Side, stations: tuple[tuple[Station, ...], ...]
+) -> Iterator[tuple[Contact, int]]:
+    """Yield what a hand touches with its fingers at home, each with the finger's number, -1 for the palm."""
+    for index, contact in enumerate(instrument_map.contacts):
+        if contact.part.startswith(f"{side}."):
+            finger = contact.part.split(".")[1]
+            number = FINGERS.index(finger) if finger in FINGERS else -1
+            if number < 0 or index in stations[number][0].contacts:
+                yield contact, number
+
+
+def _shoulders(character: Character, side: Side, stand: Upright) -> tuple[FloatArray, FloatArray]:
+    """Place the shoulder joint in the instrument's frame, by itself and with the trunk's help (3,)."""
+    skeleton, back = character.skeleton, quaternion.conjugate(stand.instrument_rotation)
+    joint_m = stand.joints_m[skeleton.index(f"{side}UpperArm")]
+    chest = stand.joints_m[skeleton.parents[skeleton.index(f"{side}Shoulder")]]
+    help_turn = quaternion.from_axis_angle([0.0, 1.0, 0.0], (-1.0 if side == "left" else 1.0) * HELP_RAD)
+    helped_m = chest + quaternion.rotate(help_turn, joint_m - chest)
+    own_m, with_help_m = (quaternion.rotate(back, one_m - stand.instrument_m) for one_m in (joint_m, helped_m))
+    return own_m, with_help_m
 
 
 def seed_turn(seed: HandSeed) -> FloatArray:

@@ -9,6 +9,7 @@ import numpy as np
 
 from app.arrays import FloatArray
 from app.rig import quaternion
+from app.rig.grip.fitting.fit_terms import GripScene
 from app.rig.grip.fitting.hand_model import (
     ball_centres,
     flesh_radius,
@@ -19,8 +20,8 @@ from app.rig.grip.fitting.hand_model import (
 )
 from app.rig.grip.fitting.hand_problem import Problem, contact_at, counts, home_controls, nodes_at
 from app.rig.grip.fitting.residuals import inside_proxy
-from app.rig.grip.fitting.solved_fingers import GripScene
-from app.rig.grip.grip_pose import ContactFit, FingerTable, StationTable, interpolated
+from app.rig.grip.grip_pose import ContactFit, FingerTable, StationTable
+from app.rig.quaternion import interpolated
 
 
 def judge(

@@ -14,6 +14,7 @@ import numpy as np
 from app.arrays import FloatArray
 from app.rig import quaternion
 from app.rig.grip.finger_stations import Station
+from app.rig.grip.fitting.fit_terms import GripScene
 from app.rig.grip.fitting.hand_model import FINGERS
 from app.rig.grip.fitting.hand_problem import (
     Problem,
@@ -28,7 +29,7 @@ from app.rig.grip.fitting.hand_problem import (
 )
 from app.rig.grip.fitting.residuals import Residuals
 from app.rig.grip.fitting.search import solve
-from app.rig.grip.fitting.solved_fingers import GripScene, Solved, followed_table, missed_m, solved_about
+from app.rig.grip.fitting.solved_fingers import Solved, followed_table, missed_m, solved_about
 from app.rig.grip.grip_pose import WristOffset
 
 LEAN_FROM_M = 0.0015

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from copy import copy
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
 from app.arrays import FloatArray, IndexArray
 from app.rig.grip.finger_stations import Station, hover_m
+from app.rig.grip.fitting.fit_terms import GripScene
 from app.rig.grip.fitting.hand_model import (
     FINGERS,
     ball_centres,
@@ -23,8 +24,6 @@ from app.rig.grip.fitting.hand_model import (
 from app.rig.grip.fitting.hand_problem import COUPLING_RAD, Problem, Touch, contact_at, finger_dofs, nodes_at, touch_at
 from app.rig.grip.fitting.residuals import PENETRATION_M, STEP, WORKED_RAD, inside_proxy, pressed
 from app.rig.grip.grip_pose import Chain, FingerTable, StationTable
-from app.rig.model import InstrumentModel
-from instrument_maps.model import Control, InstrumentMap
 
 EXACTER = 0.3
 """With the wrist held, touches are met this much more exactly than in the search."""
@@ -48,33 +47,6 @@ MOVED_VALUES = np.linspace(0.0, 1.0, 17)
 HOVER_VALUES = np.linspace(0.0, 1.0, 9)
 """... and of one that it waits over; keys go a short way."""
 STILL_VALUES = np.zeros(1)
-
-
-@dataclass(frozen=True, eq=False)
-class GripScene:
-    """A solved wrist on its instrument."""
-
-    model: InstrumentModel
-    instrument_map: InstrumentMap
-    carrier: Control | None
-    position_m: FloatArray
-    basis: FloatArray
-
-    def placed(self, points: FloatArray) -> FloatArray:
-        """Take points (..., S, V, 3) of the wrist's frame to the instrument's, sample by sample."""
-        return points @ self.basis.transpose(0, 2, 1) + self.position_m[:, None]
-
-    def turned(self, vectors: FloatArray) -> FloatArray:
-        """Likewise for directions."""
-        return vectors @ self.basis.transpose(0, 2, 1)
-
-    def only(self, which: IndexArray) -> GripScene:
-        """The scene at some of its samples."""
-        return replace(self, position_m=self.position_m[which], basis=self.basis[which])
-
-    def over(self, values: FloatArray) -> GripScene:
-        """The scene at some values of what a finger works: a wrist that nothing carries is the same at all of them."""
-        return self if len(self.position_m) == len(values) else self.only(np.zeros(len(values), dtype=np.intp))
 
 
 @dataclass(frozen=True, eq=False)

@@ -11,11 +11,12 @@ from app.arrays import FloatArray
 from app.rig import quaternion
 from app.rig.grip.finger_poses import LOW_HOVER, raised_way, solved_pose, with_wrist
 from app.rig.grip.finger_stations import MOST_HOVER_M, Station, hover_m
+from app.rig.grip.fitting.fit_terms import GripScene
 from app.rig.grip.fitting.hand_model import skinned, wrist_from_joint, wrist_from_mesh
 from app.rig.grip.fitting.hand_problem import HOVER_MORE, Problem, nodes_at
 from app.rig.grip.fitting.residuals import inside_proxy
-from app.rig.grip.fitting.solved_fingers import GripScene
-from app.rig.grip.grip_pose import FingerTable, StationTable, interpolated, mixed
+from app.rig.grip.grip_pose import FingerTable, StationTable
+from app.rig.quaternion import interpolated, mixed
 
 WAYS = np.arange(1, 16) / 16.0
 """Places on a way that are looked at: a finger passes a narrow tube in a tenth of it."""
