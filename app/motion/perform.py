@@ -28,7 +28,7 @@ from app.motion.faces.gaze import GAZE, Gaze, Look, Watching, plan_gaze
 from app.motion.faces.morph_weights import FaceSizes, face_morphs, face_sizes
 from app.motion.fingering.finger_curves import sampled
 from app.motion.fingering.fingers import FINGERS, fingers_of
-from app.motion.gestures.body_layers import QUIET_AIR, body_motion
+from app.motion.gestures.body_layers import QUIET_AIR, StyleShares, body_motion
 from app.motion.gestures.dance_layer import BodyLayer, giving_way, inhaling, with_dance
 from app.motion.gestures.feet import feet_moved
 from app.motion.gestures.held_still import with_holds
@@ -207,16 +207,13 @@ class PerformanceCurves:
 
     def _moved(self, levels: LayerSamples, look: Look, times_s: FloatArray) -> BodyMotion:
         """The body without dance and the animator's curves, with the instrument in the hands."""
-        styles = self.plan.styles
         return body_motion(
             levels,
             Sizes(self.body, self.parameters, self.player_id, self.acting, self.posture),
             look,
             times_s,
-            steps=self.player.steps,
-            beside=share_at(styles, "gestures", times_s),
-            swaying=share_at(styles, "sway", times_s),
-            shifting=share_at(styles, "weight_shift", times_s),
+            StyleShares(*(share_at(self.plan.styles, layer, times_s) for layer in StyleShares._fields)),
+            self.player.steps,
         )
 
     @cached_property

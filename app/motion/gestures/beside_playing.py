@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, fields
+from typing import Final
 
 import numpy as np
 
@@ -25,12 +26,15 @@ MOST_BOW_RAD = float(np.deg2rad(36.0))
 
 @dataclass(frozen=True)
 class ConcertSamples:
-    """How much of each is done at some frames, 0..1, each (F,) float64."""
+    """How much of each is done at some frames, 0..1, each (F,) float64; 0: nothing."""
 
-    bow: FloatArray
-    up: FloatArray
-    settle: FloatArray
-    count: FloatArray
+    bow: FloatArray | float = 0.0
+    up: FloatArray | float = 0.0
+    settle: FloatArray | float = 0.0
+    count: FloatArray | float = 0.0
+
+
+NOTHING_BESIDE: Final = ConcertSamples()
 
 
 @dataclass(frozen=True)
@@ -38,13 +42,13 @@ class Beside:
     """What is added to the body, each (F,) float64: hips, trunk and neck forwards, hips back, shoulders up, elbows out,
     and how much of the lowered instrument's way it comes up."""
 
-    hips_rad: FloatArray
-    back_m: FloatArray
-    trunk_rad: FloatArray
-    neck_rad: FloatArray
-    shoulders_rad: FloatArray
-    elbows_rad: FloatArray
-    up_share: FloatArray
+    hips_rad: FloatArray | float
+    back_m: FloatArray | float
+    trunk_rad: FloatArray | float
+    neck_rad: FloatArray | float
+    shoulders_rad: FloatArray | float
+    elbows_rad: FloatArray | float
+    up_share: FloatArray | float
 
 
 def beside_playing(

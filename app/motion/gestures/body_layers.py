@@ -8,7 +8,7 @@ solved afterwards and are never broken by them. Sizes come from `metadata` at th
 
 from __future__ import annotations
 
-from typing import Final
+from typing import Final, NamedTuple
 
 import numpy as np
 
@@ -38,53 +38,47 @@ STEP_IN_HIPS = 0.3
 """Hips go along with a foot that is put ahead."""
 
 
+class StyleShares(NamedTuple):
+    """Shares of some layers that regions of a style show: of gestures, and of what wanders with sway and weight."""
+
+    gestures: FloatArray | float = 1.0
+    sway: FloatArray | float = 1.0
+    weight_shift: FloatArray | float = 1.0
+
+
 def body_motion(
     levels: LayerSamples,
     sizes: Sizes,
     look: Look,
     times_s: FloatArray,
-    *,
-    steps: bool = True,
-    beside: FloatArray | float = 1.0,
-    swaying: FloatArray | float = 1.0,
-    shifting: FloatArray | float = 1.0,
+    shares: StyleShares,
+    steps: bool,
 ) -> BodyMotion:
-    """Sum of all layers at ascending ``times_s`` (F,), on top of the posture's own angles; without ``steps`` feet only
-    tap.
-
-    ``beside`` is the share that is shown of keyed gestures and of what is done beside playing, ``swaying`` and
-    ``shifting`` of what wanders by itself with the sway and with the weight.
-    """
+    """Sum all layers at ascending ``times_s`` (F,) on top of the posture; without ``steps`` feet only tap."""
     body, acting, amplitude = sizes.body, sizes.acting, sizes.parameters.amplitude
-    shown, wandering, uneasy = acting.gestures * beside, swaying * acting.sway, shifting * acting.weight_shift
-    frames, lowered = len(times_s), levels.lowered
+    shown, wandering = acting.gestures * shares.gestures, shares.sway * acting.sway
+    uneasy, frames = shares.weight_shift * acting.weight_shift, len(times_s)
     hands, raised = reached(levels.reached or {}, amplitude, acting.gestures)
-    if raised is not None:
-        lowered = lowered * (1.0 - raised)
+    lowered = levels.lowered if raised is None else levels.lowered * (1.0 - raised)
     look, total = with_instrument(look, lowered), Sum(frames)
     aside_rad = _hold_posture(total, sizes.posture, lowered)
     angles = Angles.of(levels, sizes, times_s, wandering)
     angles.add_to(total)
-    total.left(NECK_SHARES, np.deg2rad(sizes.wander("head_side", body.sway.head_deg, times_s, wandering)))
-    total.turn(NECK_SHARES, np.deg2rad(sizes.wander("head_turn", body.sway.head_deg, times_s, wandering)))
+    for add, name in ((total.left, "head_side"), (total.turn, "head_turn")):
+        add(NECK_SHARES, np.deg2rad(sizes.wander(name, body.sway.head_deg, times_s, wandering)))
     shoulders, elbows = _breathe(total, levels, sizes)
     bell_cue_rad = _give_cue(total, levels, sizes)
     bell_up = _raise_bell(total, levels, sizes)
     total.turn(NECK_SHARES, 0.5 * look.head_yaw_rad)
     total.forward(NECK_SHARES, 0.5 * look.head_pitch_rad)
     total.forward(TRUNK_SHARES, np.deg2rad(body.bell.lowered_trunk_deg) * lowered)
+    done = beside_playing(levels.concert, body.concert, amplitude, shown, sizes.seated or not steps)
+    total.forward(TRUNK_SHARES, done.trunk_rad)
+    total.forward(NECK_SHARES, done.neck_rad)
+    total.turn(TRUNK_SHARES, body.concert.look_trunk_share * lowered * 0.5 * look.head_yaw_rad)
     feet = feet_moved(levels.feet, body, amplitude, acting.footwork, steps=steps)
-    hips_forward_rad, hips_ahead_m = angles.pelvis, _ahead_m(levels, sizes, feet, times_s, uneasy)
-    if levels.concert is not None:
-        done = beside_playing(levels.concert, body.concert, amplitude, shown, sizes.seated or not steps)
-        total.forward(TRUNK_SHARES, done.trunk_rad)
-        total.forward(NECK_SHARES, done.neck_rad)
-        total.turn(TRUNK_SHARES, body.concert.look_trunk_share * lowered * 0.5 * look.head_yaw_rad)
-        lowered = lowered * (1.0 - done.up_share)
-        hips_forward_rad, hips_ahead_m = hips_forward_rad + done.hips_rad, hips_ahead_m - done.back_m
-        shoulders, elbows = shoulders + done.shoulders_rad, elbows + done.elbows_rad
-    forward_rad, left_rad, turn_rad = total.all()
     held = with_gestures(levels.held, levels.gestured, amplitude, shown)
+    forward_rad, left_rad, turn_rad = total.all()
     hold_body(held, body, forward_rad, left_rad, turn_rad)
     down = acting.phrase * levels.accent.hips
     return BodyMotion(
@@ -92,22 +86,22 @@ def body_motion(
         left_rad=left_rad,
         turn_rad=turn_rad,
         hips_side_m=_aside_m(levels, sizes, steps, times_s, uneasy),
-        hips_ahead_m=hips_ahead_m,
+        hips_ahead_m=_ahead_m(levels, sizes, feet, times_s, uneasy) - done.back_m,
         hips_bob_m=np.maximum(down, 0.0) * sizes.of(body.sway.bob_m),
         hips_roll_rad=angles.hips_roll_rad,
         hips_turn_rad=angles.hips_turn_rad,
-        hips_forward_rad=hips_forward_rad,
+        hips_forward_rad=angles.pelvis + done.hips_rad,
         knee_rad=_bent_rad(levels, sizes, down),
         bell_rad=0.5 * bell_up,
         bell_cue_rad=bell_cue_rad,
         bell_down_rad=np.zeros(frames),
         bell_right_rad=np.zeros(frames),
         bell_held_rad=_turned_bell(held),
-        shoulders_rad=shoulders,
-        elbows_rad=elbows,
+        shoulders_rad=shoulders + done.shoulders_rad,
+        elbows_rad=elbows + done.elbows_rad,
         eyes_yaw_rad=look.yaw_rad - 0.5 * look.head_yaw_rad - EYES_BACK * aside_rad,
         eyes_pitch_rad=look.pitch_rad - 0.5 * look.head_pitch_rad,
-        lowered=lowered,
+        lowered=lowered * (1.0 - done.up_share),
         steadied=np.full(frames, max(0.0, 1.0 - amplitude / FREE_AMPLITUDE)),
         elbow_held_rad={side: held[elbow].up for side, elbow in ELBOWS.items() if elbow in held},
         elbows_late_rad=angles.elbows_late(),

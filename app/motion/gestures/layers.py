@@ -16,7 +16,7 @@ from app.motion.curves.curve import Curve, Envelopes, moves
 from app.motion.curves.following_gestures import follow, path
 from app.motion.curves.path import Path
 from app.motion.gestures.accents import Accents
-from app.motion.gestures.beside_playing import Concert, ConcertSamples
+from app.motion.gestures.beside_playing import NOTHING_BESIDE, Concert, ConcertSamples
 from app.motion.gestures.body_lag import Leads, Overlapped
 from app.motion.gestures.feet import Feet
 from app.motion.gestures.hand_gestures import Reaches, Reaching
@@ -38,7 +38,7 @@ class LayerSamples:
 
     ``dip`` and ``lift`` are of the nods, ``giving`` is 1 half way between two places of the weight, ``held`` what the
     animator holds differently, ``gestured`` the keyed gestures, ``feet`` as of `Feet.sample`, ``concert`` what is done
-    beside playing (None: nothing), ``reached`` the hands that leave the instrument, ``further`` how much fuller the
+    beside playing, ``reached`` the hands that leave the instrument, ``further`` how much fuller the
     lungs look to the trunk where a breath would not show (`app.motion.breath.breaths_that_show`), ``push`` how hard the
     breath pushes an attack (`app.motion.faces.tongue_strokes`).
     """
@@ -58,7 +58,7 @@ class LayerSamples:
     feet: dict[str, FloatArray]
     held: dict[PoseTarget, Offset]
     gestured: Sums | None = None
-    concert: ConcertSamples | None = None
+    concert: ConcertSamples = NOTHING_BESIDE
     reached: Reaches | None = None
     quiet: FloatArray | float = 0.0
     further: FloatArray | float = 0.0

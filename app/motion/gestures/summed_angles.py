@@ -102,15 +102,15 @@ class Sum:
         default_factory=lambda: ({}, {}, {})
     )
 
-    def forward(self, shares: Mapping[str, float], values: FloatArray) -> None:
+    def forward(self, shares: Mapping[str, float], values: FloatArray | float) -> None:
         """Flexion."""
         self._add(0, shares, values)
 
-    def left(self, shares: Mapping[str, float], values: FloatArray) -> None:
+    def left(self, shares: Mapping[str, float], values: FloatArray | float) -> None:
         """Sideways lean."""
         self._add(1, shares, values)
 
-    def turn(self, shares: Mapping[str, float], values: FloatArray) -> None:
+    def turn(self, shares: Mapping[str, float], values: FloatArray | float) -> None:
         """Twist."""
         self._add(2, shares, values)
 
@@ -120,7 +120,7 @@ class Sum:
         forward, left, turn = ({joint: one.get(joint, nothing) for joint in TRUNK} for one in self.angles)
         return forward, left, turn
 
-    def _add(self, angle: int, shares: Mapping[str, float], values: FloatArray) -> None:
+    def _add(self, angle: int, shares: Mapping[str, float], values: FloatArray | float) -> None:
         joints = self.angles[angle]
         for joint, share in shares.items():
             joints[joint] = joints.get(joint, 0.0) + share * values
