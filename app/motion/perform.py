@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
-from typing import Final, NamedTuple
+from typing import Any, Final, NamedTuple
 
 import numpy as np
 
@@ -260,8 +260,12 @@ class PerformanceCurves:
             return EVERYWHERE
         if self.controls.keys() != other.controls.keys() or self.stations.keys() != other.stations.keys():
             return EVERYWHERE
-        pairs = [(self.controls, other.controls), (self.stations, other.stations)]
-        pairs += [({name: getattr(one, name) for name in OWN} for one in (self, other))]
+        alone, others_alone = ({name: getattr(one, name) for name in OWN} for one in (self, other))
+        pairs: list[tuple[Mapping[str, Any], Mapping[str, Any]]] = [
+            (self.controls, other.controls),
+            (self.stations, other.stations),
+            (alone, others_alone),
+        ]
         pairs += [(vars(mine), vars(theirs)) for mine, theirs in ((self.face, other.face), (self.gaze, other.gaze))]
         spans = [
             curve.changed_s(others[name])

@@ -123,7 +123,7 @@ class Sum:
     def _add(self, angle: int, shares: Mapping[str, float], values: FloatArray | float) -> None:
         joints = self.angles[angle]
         for joint, share in shares.items():
-            joints[joint] = joints.get(joint, 0.0) + share * values
+            joints[joint] = joints.get(joint, 0.0) + np.multiply(share, values)
 
 
 @dataclass(frozen=True)
