@@ -99,7 +99,8 @@ class Retranslated(_Mixin):
     Texts of fixed ids are bound to their widgets by `texted`; `retranslate` sets those that are formatted or chosen.
     """
 
-    _bound: tuple[tuple[Callable[..., object], tuple[str, ...]], ...] = ()
+    _bound: tuple[tuple[QObject | None, str, tuple[str, ...]], ...] = ()
+    """Widgets, what is set, and ids; None for this widget, which would keep itself alive."""
 
     def texted(self, widget: AnyTexted, **text_ids: str | Sequence[str]) -> AnyTexted:
         """The widget, with the texts of these ids, also after a change of the language.
@@ -115,9 +116,9 @@ class Retranslated(_Mixin):
             no id, as ``"%"``, stands for itself.
         """
         for what, ids in text_ids.items():
-            bound = _SETTERS[what](widget), (ids,) if isinstance(ids, str) else tuple(ids)
-            self._bound += (bound,)
-            _set(*bound)
+            bound = (ids,) if isinstance(ids, str) else tuple(ids)
+            self._bound += ((None if widget is self else widget, what, bound),)
+            _set(widget, what, bound)
         return widget
 
     def retranslate(self) -> None:
@@ -125,14 +126,14 @@ class Retranslated(_Mixin):
 
     def changeEvent(self, event: QEvent) -> None:
         if event.type() == QEvent.Type.LanguageChange:
-            for bound in self._bound:
-                _set(*bound)
+            for widget, what, ids in self._bound:
+                _set(self if widget is None else widget, what, ids)
             self.retranslate()
         super().changeEvent(event)
 
 
-def _set(take_texts: Callable[..., object], ids: tuple[str, ...]) -> None:
-    take_texts(*(tr(text_id) if text_id else "" for text_id in ids))
+def _set(widget: QObject, what: str, ids: tuple[str, ...]) -> None:
+    _SETTERS[what](widget)(*(tr(text_id) if text_id else "" for text_id in ids))
 
 
 class Caption(Retranslated, Label):

@@ -95,7 +95,7 @@ def kinds(base: type[QDialog]) -> set[type[QDialog]]:
 
 def test_no_dialog_is_missing_here() -> None:
     for package in (widgets.dialogs, app.shell):
-        for module in pkgutil.iter_modules(package.__path__, f"{package.__name__}."):
+        for module in pkgutil.walk_packages(package.__path__, f"{package.__name__}."):
             importlib.import_module(module.name)
     ours = {
         each.__name__
