@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Final, Literal
 
 import numpy as np
@@ -12,6 +13,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QImage
 
 from app.arrays import FloatArray, IndexArray, IntArray
+from app.rig.characters.character_library import character_named
 from app.rig.mesh import Mesh
 from app.rig.model import Character
 from app.rig.skeleton import rest_positions
@@ -247,3 +249,13 @@ def _by_edges(placed: FloatArray) -> tuple[FloatArray, IndexArray]:
     turned = placed[np.arange(len(placed))[:, None], (first[:, None] + np.arange(3)) % 3]
     lengths = np.linalg.norm((turned[:, 1:] - turned[:, :1])[:, :, :2], axis=2)
     return turned, np.clip(np.ceil(np.log2(np.maximum(_CLOSE * lengths, 1.0))), 0, 12).astype(np.intp)
+
+
+def portrait_of(character_id: str, size_px: int) -> QImage:
+    """The portrait of a character; drawn once. May be drawn in any thread."""
+    return _portrait(character_named(character_id), size_px)
+
+
+@lru_cache(maxsize=32)
+def _portrait(character: Character, size_px: int) -> QImage:
+    return picture(seen(character), size_px, size_px, "head")

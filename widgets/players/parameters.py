@@ -22,6 +22,7 @@ from app.project.performers import Player
 from app.rig.characters.character_library import bundled_characters, characters
 from instrument_maps.library import library
 from metadata.acting import AMOUNTS
+from widgets.common.character_picture import portrait_of
 from widgets.common.combo import Combo, Option
 from widgets.common.controls import Caption, IconButton, Retranslated
 from widgets.common.instrument_name import character_name, instrument_name
@@ -34,7 +35,6 @@ from widgets.players.acting import ActingRows
 from widgets.players.body_dance import BodyDanceRows
 from widgets.players.layer_switch import LayerSwitch
 from widgets.players.parameter_rows import ParameterChoice, ParameterSlider, rows_of
-from widgets.players.portrait import portrait_of
 
 LABEL_PX = 88
 PORTRAIT_PX = 28
