@@ -1,15 +1,12 @@
 """Phrases rendered by a process of their own: the synthesiser lets no other Python run, and would stop the window.
 
-The child is this module, run as a program: it reads MIDI files from its input, writes their sound to its output, both
-with their lengths before them, and ends when its input does, so that it never outlives the editor.
+The child is this module, run as a program: it receives MIDI files and sends their sound.
 """
 
 from __future__ import annotations
 
 import contextlib
 import os
-import subprocess
-import sys
 import weakref
 from threading import Lock
 from typing import Final
@@ -18,8 +15,7 @@ import numpy as np
 
 from app.audio.rendering import rendered
 from app.audio.track import Samples
-from app.child_limits import confine_this_process
-from app.own_process import own_process, receive, send
+from app.child import Channel, StartedChild, channel_to_parent
 
 _NICENESS: Final = 5
 """The window has priority where the processor is busy."""
@@ -34,7 +30,7 @@ class RenderProcess:
 
     def __init__(self) -> None:
         self._lock = Lock()
-        self._child: subprocess.Popen[bytes] | None = None
+        self._child: StartedChild[bytes] | None = None
         self._has_child = True
 
     def __call__(self, midi: bytes) -> Samples:
@@ -49,41 +45,20 @@ class RenderProcess:
 
     def _asked(self, midi: bytes) -> Samples:
         if self._child is None:
-            self._child = _started()
-            weakref.finalize(self, _end, self._child)
-        to, back = self._child.stdin, self._child.stdout
-        assert to is not None
-        assert back is not None
-        send(to, midi)
-        return np.frombuffer(receive(back), np.int16)
-
-
-def _started() -> subprocess.Popen[bytes]:
-    return subprocess.Popen(stdin=subprocess.PIPE, stdout=subprocess.PIPE, **own_process(__name__))
-
-
-def _end(child: subprocess.Popen[bytes]) -> None:
-    assert child.stdin is not None
-    assert child.stdout is not None
-    # It may have been killed with something unsaid; the stream is closed all the same.
-    with contextlib.suppress(OSError):
-        child.stdin.close()
-    # Who still reads from it, in a thread, is reported first that nothing comes.
-    child.wait()
-    child.stdout.close()
+            self._child = StartedChild[bytes](bytes, __name__)
+            weakref.finalize(self, self._child.ended)
+        self._child.send(midi)
+        return np.frombuffer(self._child.receive(), np.int16)
 
 
 def main() -> None:
     """Render whatever is asked for."""
-    confine_this_process("render")
+    channel: Channel[bytes] = channel_to_parent(bytes, "render")
     if hasattr(os, "nice"):
         os.nice(_NICENESS)
-    while True:
-        try:
-            midi = receive(sys.stdin.buffer)
-            send(sys.stdout.buffer, rendered(midi).tobytes())
-        except BrokenPipeError:
-            return
+    with contextlib.suppress(BrokenPipeError):
+        while True:
+            channel.send(rendered(channel.receive()).tobytes())
 
 
 if __name__ == "__main__":

@@ -18,7 +18,6 @@ import msgspec
 
 from app.capture.journal import Header
 from app.capture.protocol import (
-    NEWS,
     Back,
     Command,
     Finished,
@@ -36,12 +35,10 @@ from app.capture.protocol import (
     Stop,
     Sync,
     SystemEnded,
-    framed,
-    read_framed,
 )
 from app.capture.recorder import SYSTEM_VARIABLE
+from app.child import StartedChild, own_process
 from app.errors import Message
-from app.own_process import own_process
 
 _MOST_DEATHS: Final = 3
 _DEATHS_WITHIN_S: Final = 10.0
@@ -67,7 +64,7 @@ class RecorderLink:
         self._news: deque[News] = deque()
         self._is_called = False
         self._lock = threading.Lock()
-        self._child: subprocess.Popen[bytes] | None = None
+        self._child: StartedChild[News] | None = None
         self._is_leaving = False
         self._is_closed = False
         self._open: Open | None = None
@@ -161,14 +158,14 @@ class RecorderLink:
         with self._lock:
             self._is_closed = True
             if self._child is not None:
-                _hang_up(self._child)
+                self._child.hang_up()
                 self._end_surely()
         self._thread.join()
 
     def _end_surely(self) -> None:
         """Kill the recorder, which was requested to end, if a driver holds it up. The lock is held."""
         assert self._child is not None
-        self._ending = threading.Timer(_END_WITHIN_S, self._child.kill)
+        self._ending = threading.Timer(_END_WITHIN_S, self._child.process.kill)
         self._ending.daemon = True
         self._ending.start()
 
@@ -176,10 +173,8 @@ class RecorderLink:
         """Whether the recorder was notified; what matters of the rest is sent to the next. The lock is held."""
         if self._child is None or self._is_leaving:
             return False
-        assert self._child.stdin is not None
         try:
-            self._child.stdin.write(framed(command))
-            self._child.stdin.flush()
+            self._child.send(command)
         except (OSError, ValueError):
             return False
         return True
@@ -201,7 +196,7 @@ class RecorderLink:
                 self._is_leaving = False
                 self._child = None
                 refused, self._opening = self._opening, ""
-            status = _ended(child)
+            status = child.ended(_END_WITHIN_S)
             if self._ending is not None:
                 self._ending.cancel()
             if planned:
@@ -214,7 +209,7 @@ class RecorderLink:
             else:
                 self._put(Restarted(Message("capture.recorder_ended")))
 
-    def _started(self, resumed_ns: int | None) -> subprocess.Popen[bytes] | None:
+    def _started(self, resumed_ns: int | None) -> StartedChild[News] | None:
         """A new recorder that goes on where the last one ended; None after the link was closed."""
         with self._lock:
             if self._is_closed:
@@ -256,11 +251,10 @@ class RecorderLink:
         self._deaths_s = [at_s for at_s in self._deaths_s if now_s - at_s < _DEATHS_WITHIN_S] + [now_s]
         return len(self._deaths_s) <= _MOST_DEATHS
 
-    def _read(self, child: subprocess.Popen[bytes]) -> None:
-        assert child.stdout is not None
-        with contextlib.suppress(EOFError, OSError, msgspec.MsgspecError):
+    def _read(self, child: StartedChild[News]) -> None:
+        with contextlib.suppress(OSError, msgspec.MsgspecError):
             while True:
-                reported = read_framed(child.stdout, NEWS)
+                reported = child.receive()
                 if isinstance(reported, SystemEnded):
                     with self._lock:
                         self._is_leaving = True
@@ -304,34 +298,15 @@ class RecorderLink:
             self._on_news()
 
 
-def _started(system: str) -> subprocess.Popen[bytes]:
+def _started(system: str) -> StartedChild[News]:
     options = own_process("app.capture.recorder")
     if system:
         options["env"][SYSTEM_VARIABLE] = system
     if sys.platform == "win32":
         # Elsewhere see `app.capture.recorder.take_precedence`.
         options["creationflags"] |= subprocess.HIGH_PRIORITY_CLASS
-    return subprocess.Popen(stdin=subprocess.PIPE, stdout=subprocess.PIPE, **options)
+    return StartedChild(News, "app.capture.recorder", **options)
 
 
 def _is_refusal(reported: News) -> bool:
     return isinstance(reported, Refused) and reported.reason.id == "capture.port_refused"
-
-
-def _hang_up(child: subprocess.Popen[bytes]) -> None:
-    assert child.stdin is not None
-    # It may have been killed with something unsaid; the stream is closed all the same.
-    with contextlib.suppress(OSError):
-        child.stdin.close()
-
-
-def _ended(child: subprocess.Popen[bytes]) -> int:
-    _hang_up(child)
-    try:
-        status = child.wait(_END_WITHIN_S)
-    except subprocess.TimeoutExpired:
-        child.kill()
-        status = child.wait()
-    assert child.stdout is not None
-    child.stdout.close()
-    return status

@@ -1,17 +1,13 @@
-"""What the editor and its recorder send one another: commands one way, news the other, each after its length."""
+"""What the editor and its recorder send one another: commands one way, news the other."""
 
 from __future__ import annotations
 
-import struct
-from typing import IO, Final, TypeAlias, TypeVar
+from typing import TypeAlias
 
 import msgspec
 
 from app.capture.journal import Header
 from app.errors import Message
-
-_LENGTH: Final = struct.Struct("<I")
-T = TypeVar("T")
 
 
 class _Report(msgspec.Struct, frozen=True, tag=True, array_like=True, gc=False):
@@ -157,26 +153,3 @@ News: TypeAlias = (
     | Finished
     | SystemEnded
 )
-
-COMMANDS: Final = msgspec.msgpack.Decoder(Command)
-NEWS: Final = msgspec.msgpack.Decoder(News)
-_ENCODER: Final = msgspec.msgpack.Encoder()
-
-
-def framed(reported: Command | News) -> bytes:
-    """A command or news as bytes with their length before them."""
-    data = _ENCODER.encode(reported)
-    return _LENGTH.pack(len(data)) + data
-
-
-def read_framed(stream: IO[bytes], decoder: msgspec.msgpack.Decoder[T]) -> T:
-    """The next command or news. Raises EOFError where the other side has ended."""
-    (length,) = _LENGTH.unpack(_exactly(stream, _LENGTH.size))
-    return decoder.decode(_exactly(stream, length))
-
-
-def _exactly(stream: IO[bytes], count: int) -> bytes:
-    data = stream.read(count)
-    if len(data) < count:
-        raise EOFError
-    return data

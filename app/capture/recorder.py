@@ -33,7 +33,6 @@ from app.capture.midi_library import OpenInput
 from app.capture.port_names import Port
 from app.capture.ports import MidiSystem, PortError
 from app.capture.protocol import (
-    COMMANDS,
     Back,
     Command,
     Events,
@@ -53,9 +52,8 @@ from app.capture.protocol import (
     Sync,
     SystemEnded,
     Written,
-    framed,
-    read_framed,
 )
+from app.child import Channel
 from app.child_limits import confine_this_process
 from app.errors import FileError, Message
 
@@ -372,7 +370,7 @@ class JournalKeeper:
         self._news.put(Refused(Message(id, {"file": writer.path, "reason": error.strerror or str(error)})))
 
 
-def send_news(queue: NewsQueue, stream: IO[bytes]) -> None:
+def send_news(queue: NewsQueue, channel: Channel[Command]) -> None:
     """Send what comes into a queue, events that have gathered together; None ends it, and that no one reads."""
     with contextlib.suppress(OSError):
         while True:
@@ -385,19 +383,19 @@ def send_news(queue: NewsQueue, stream: IO[bytes]) -> None:
                     received = [item for item in group if isinstance(item, tuple) and is_whole(item[1])]
                     if received:
                         times_ns, messages = zip(*received, strict=True)
-                        stream.write(framed(Events(times_ns, messages)))
+                        channel.put(Events(times_ns, messages))
                     continue
                 for item in group:
                     if item is None:
-                        stream.flush()
+                        channel.outgoing.flush()
                         return
                     if isinstance(item, threading.Event):
-                        stream.flush()
+                        channel.outgoing.flush()
                         item.set()
                         continue
                     assert not isinstance(item, tuple)
-                    stream.write(framed(item))
-            stream.flush()
+                    channel.put(item)
+            channel.outgoing.flush()
 
 
 def wait_until_sent(queue: NewsQueue) -> None:
@@ -407,10 +405,10 @@ def wait_until_sent(queue: NewsQueue) -> None:
     sent.wait(_SENT_WITHIN_S)
 
 
-def _read_commands(queue: SimpleQueue[Command | None]) -> None:
-    with contextlib.suppress(EOFError):
+def _read_commands(queue: SimpleQueue[Command | None], channel: Channel[Command]) -> None:
+    with contextlib.suppress(BrokenPipeError):
         while True:
-            queue.put(read_framed(sys.stdin.buffer, COMMANDS))
+            queue.put(channel.receive())
     queue.put(None)
 
 
@@ -460,13 +458,13 @@ def main() -> None:
     sys.setswitchinterval(_SWITCH_S)
     # What is loaded stays: no stamp waits until all of it was looked through for garbage.
     gc.freeze()
-    output = _private_output()
+    channel = Channel[Command](Command, sys.stdin.buffer, _private_output())
     news: NewsQueue = SimpleQueue()
     journal: SimpleQueue[Any] = SimpleQueue()
     commands: SimpleQueue[Command | None] = SimpleQueue()
     writing = threading.Thread(target=JournalKeeper(journal, news).run, name="journal")
-    sending = threading.Thread(target=send_news, args=(news, output), name="news")
-    reading = threading.Thread(target=_read_commands, args=(commands,), name="commands", daemon=True)
+    sending = threading.Thread(target=send_news, args=(news, channel), name="news")
+    reading = threading.Thread(target=_read_commands, args=(commands, channel), name="commands", daemon=True)
     for thread in (writing, sending, reading):
         thread.start()
     requested = os.environ.get(SYSTEM_VARIABLE, "")

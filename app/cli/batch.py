@@ -22,6 +22,7 @@ from typing import Any, Final
 
 import msgspec
 
+from app.child import core_count, own_process
 from app.cli.batch_inputs import own_digests, piece_digest
 from app.cli.progress import Progress
 from app.cli.status import BAD_INPUT, DONE, PARTIAL, STOPPED
@@ -34,7 +35,6 @@ from app.formats.atomic import atomic_write
 from app.formats.files import cannot_write, read_file
 from app.formats.json_data import decode_json
 from app.messages import filled, text
-from app.own_process import core_count, own_process
 
 NOTES: Final = "exported.json"
 SUFFIXES: Final = (".mid", ".midi", ".suisou")

@@ -10,25 +10,21 @@ evaluate.ended(detail): the process has ended without an answer.
 
 from __future__ import annotations
 
-import contextlib
-import subprocess
-import threading
 from collections.abc import Callable
 from pathlib import Path
-from typing import IO, Final, TypeAlias
+from typing import Final, TypeAlias
 
 import msgspec
 
+from app.child import StartedChild, complaint, ended_on_request
 from app.errors import AppError, Cancelled, Message, shortened
 from app.evaluation.request import Request
 from app.formats.scratch import scratch_folder
-from app.own_process import own_process, receive, send
 from app.project.model import Project
 from app.project.storage import decode, encode
 
 _BESIDE: Final = "project"
 """A project's paths are relative to its file."""
-_LOOK_S: Final = 0.1
 Report: TypeAlias = Callable[[float, Message], None]
 
 
@@ -94,60 +90,25 @@ def made_by_process(
         As `app.evaluation.make.make_evaluation`; ``evaluate.ended``.
     Cancelled
     """
-    with scratch_folder() as folder, (folder / "complaint.txt").open("w+b") as complaint:
+    with scratch_folder() as folder, (folder / "complaint.txt").open("w+b") as printed:
         job = Job(encode(project, folder / _BESIDE), str(folder), request)
         try:
-            process = subprocess.Popen(
-                stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=complaint, **own_process(module)
-            )
+            child = StartedChild[Answer](Answer, module, stderr=printed)
         except OSError as error:
             raise AppError("evaluate.ended", detail=str(error)) from error
-        assert process.stdin is not None
-        assert process.stdout is not None
-        watcher = threading.Thread(target=_stop, args=(process, stop_requested), daemon=True)
-        watcher.start()
-        try:
-            send(process.stdin, msgspec.msgpack.encode(job))
-            answer = _last(process.stdout, report)
-        except BrokenPipeError as error:
-            if stop_requested():
-                raise Cancelled("work.stopped") from error
-            process.wait()
-            complaint.seek(0)
-            lines = complaint.read().decode(errors="replace").strip().splitlines()
-            detail = lines[-1] if lines else f"status {process.returncode}"
-            raise AppError("evaluate.ended", detail=shortened(detail)) from error
-        finally:
-            _close(process.stdin)
-            process.wait()
-            watcher.join()
-            process.stdout.close()
+        with ended_on_request(child.process, stop_requested, child.hang_up):
+            try:
+                child.send(job)
+                while isinstance(answer := child.receive(), Reported):
+                    report(answer.share, answer.message)
+            except BrokenPipeError as error:
+                if stop_requested():
+                    raise Cancelled("work.stopped") from error
+                raise AppError("evaluate.ended", detail=shortened(complaint(printed, child.ended())[-1])) from error
+            finally:
+                child.ended()
     if isinstance(answer, Refused):
         if stop_requested() or answer.message.id == "work.stopped":
             raise Cancelled("work.stopped")
         raise AppError(answer.message.id, **answer.message.arguments)
     return answer
-
-
-def _last(stream: IO[bytes], report: Report) -> Refused | Finished:
-    decoder: msgspec.msgpack.Decoder[Answer] = msgspec.msgpack.Decoder(Answer)
-    while True:
-        answer = decoder.decode(receive(stream))
-        if not isinstance(answer, Reported):
-            return answer
-        report(answer.share, answer.message)
-
-
-def _stop(process: subprocess.Popen[bytes], stop_requested: Callable[[], bool]) -> None:
-    """End the input of the process once that is requested."""
-    while process.poll() is None:
-        if stop_requested():
-            assert process.stdin is not None
-            _close(process.stdin)
-        with contextlib.suppress(subprocess.TimeoutExpired):
-            process.wait(_LOOK_S)
-
-
-def _close(stream: IO[bytes]) -> None:
-    with contextlib.suppress(OSError):
-        stream.close()

@@ -14,10 +14,10 @@ from threading import Lock, Thread
 
 import msgspec
 
+from app.child import Child, ForkedChild, StartedChild, can_fork, core_count
 from app.export.player import ExportedPlayer, export_player
 from app.export.request import ExportCast, Request
 from app.export.worker import Answer, Exported, job_of, serve
-from app.own_process import Child, ForkedChild, StartedChild, can_fork, core_count, receive, send
 from app.performance.cast import Performer
 
 WORTH_FRAMES, WORTH_COPY_FRAMES = 6000, 1000
@@ -97,19 +97,18 @@ def export_players(
     return finished
 
 
-def _children(request: Request, cast: ExportCast, folder: Path, count: int) -> list[Child]:
+def _children(request: Request, cast: ExportCast, folder: Path, count: int) -> list[Child[Answer]]:
     """Processes that export the musicians whose ids are sent; fewer where no more can be started."""
-    children: list[Child] = []
+    children: list[Child[Answer]] = []
     copies = can_fork()
-    job = b"" if copies or not count else msgspec.msgpack.encode(job_of(request, folder))
     with contextlib.suppress(OSError):
         for _ in range(count):
             if copies:
-                children.append(ForkedChild(partial(serve, request, cast, folder), tuple(children)))
+                children.append(ForkedChild(Answer, partial(serve, request, cast, folder), tuple(children), str))
                 continue
-            children.append(StartedChild("app.export.worker"))
+            children.append(StartedChild(Answer, "app.export.worker"))
             with contextlib.suppress(BrokenPipeError):
-                send(children[-1].to, job)
+                children[-1].send(job_of(request, folder))
     return children
 
 
@@ -171,7 +170,7 @@ class _Helper(Thread):
 
     def __init__(
         self,
-        child: Child,
+        child: Child[Answer],
         waiting: Waiting,
         finished: dict[str, ExportedPlayer],
         shares: dict[str, float],
@@ -181,14 +180,12 @@ class _Helper(Thread):
         self.start()
 
     def run(self) -> None:
-        to, back = self._child.to, self._child.back
-        decoder = msgspec.msgpack.Decoder(Answer)
         performer: Performer | None = None
         while (performer := self._waiting.take(performer)) is not None:
             player_id = performer.player.id
             try:
-                send(to, player_id.encode())
-                while not isinstance(answer := decoder.decode(receive(back)), Exported):
+                self._child.send(player_id)
+                while not isinstance(answer := self._child.receive(), Exported):
                     self._shares[player_id] = answer.done
             except (OSError, msgspec.MsgspecError):
                 self._shares.pop(player_id, None)

@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from typing import Final
 
-from app.own_process import core_count
+from app.child import core_count
 
 _MOST: Final = 4
 

@@ -14,11 +14,11 @@ import sys
 from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
-from typing import IO
+from typing import Any
 
 import msgspec
 
-from app.child_limits import confine_this_process
+from app.child import Channel, channel_to_parent
 from app.errors import AppError
 from app.export.formats import Format
 from app.export.player import ExportedPlayer, export_player
@@ -27,7 +27,6 @@ from app.export.rig_options import RigOptions
 from app.export.target import SkeletonChoice
 from app.formats.keys import KeyChoice
 from app.messages import text
-from app.own_process import receive, send
 from app.performance.cast import Performer
 from app.performance.ensemble import Performance
 from app.performance.span import FrameSpan
@@ -111,7 +110,7 @@ def _request(job: Job) -> Request:
     )
 
 
-def serve(request: Request, cast: ExportCast, folder: Path, ids: IO[bytes], answers: IO[bytes]) -> None:
+def serve(request: Request, cast: ExportCast, folder: Path, channel: Channel[str]) -> None:
     """Export the musicians of a cast whose ids are read, until there are no more.
 
     Parameters
@@ -120,33 +119,31 @@ def serve(request: Request, cast: ExportCast, folder: Path, ids: IO[bytes], answ
     cast : ExportCast
     folder : path
         To write into.
-    ids, answers : binary stream
-        Those of the process.
+    channel : Channel
+        To the process that started this one.
     """
     performers = {performer.player.id: performer for performer in cast.performers}
     # The process that was copied does again what fails, and reports what is wrong.
     with contextlib.suppress(BrokenPipeError, AppError):
         while True:
-            _export(request, cast, performers[receive(ids).decode()], folder, answers)
+            _export(request, cast, performers[channel.receive()], folder, channel)
 
 
-def _export(request: Request, cast: ExportCast, performer: Performer, folder: Path, answers: IO[bytes]) -> None:
-    encode = msgspec.msgpack.Encoder().encode
-    exported = export_player(request, cast, performer, folder, lambda share: send(answers, encode(Share(share))))
-    send(answers, encode(Exported(exported)))
+def _export(request: Request, cast: ExportCast, performer: Performer, folder: Path, channel: Channel[Any]) -> None:
+    exported = export_player(request, cast, performer, folder, lambda share: channel.send(Share(share)))
+    channel.send(Exported(exported))
 
 
 def main() -> None:
     """Export the musicians whose ids are sent."""
-    confine_this_process("export")
-    ids, answers = sys.stdin.buffer, sys.stdout.buffer
+    channel: Channel[Any] = channel_to_parent(Job | str, "export")
     try:
-        request = _request(msgspec.msgpack.decode(receive(ids), type=Job))
+        request = _request(channel.receive())
         while True:
-            player = request.performance.project.player(receive(ids).decode())
+            player = request.performance.project.player(channel.receive())
             cast = cast_of(replace(request, players=(player,)), text)
             (performer,) = cast.performers
-            _export(request, cast, performer, request.folder, answers)
+            _export(request, cast, performer, request.folder, channel)
     except BrokenPipeError:
         return
     except AppError:

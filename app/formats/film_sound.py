@@ -12,9 +12,7 @@ video.sound_times(file): by its time stamps much of the sound would be heard at 
 
 from __future__ import annotations
 
-import contextlib
 import re
-import subprocess
 from collections import deque
 from collections.abc import Callable
 from threading import Thread
@@ -23,6 +21,7 @@ from typing import IO, Final
 import numpy as np
 import numpy.typing as npt
 
+from app.child import ended_on_request
 from app.errors import FileError, raise_if_stopped
 from app.formats.ffmpeg import ffmpeg_on, kinds_in, refusal
 
@@ -32,8 +31,6 @@ _FRAME: Final = re.compile(rb"\] n: *\d+ pts: *\S+ pts_time: *(\S+) .*?rate: *(\
 _LONGEST_LINE: Final = 1 << 12
 _KEPT_LINES: Final = 200
 """Lines of a report that are kept: the streams are among the first, the reason of a failure among the last."""
-_LOOK_S: Final = 0.1
-"""Between two looks whether to stop."""
 _MOST_LEFT_OUT: Final = 0.25
 """Most of the sound, 0..1, that may be left out for overlaps; more shows wrong time stamps."""
 _JUMP_S: Final = 0.02
@@ -136,18 +133,17 @@ def film_sound(
         assert process.stdout is not None
         assert process.stderr is not None
         timing = _Timing(process.stderr)
-        watcher = Thread(target=_end_if_stopped, args=(process, stop_requested), name="ffmpeg stop", daemon=True)
-        watcher.start()
-        try:
-            while block := process.stdout.read(_BLOCK):
-                made += block
-                check(max(len(made) / (4 * rate_hz), timing.reached_s))
-            status = process.wait()
-        finally:
-            # The threads end with the process, and before its streams are closed.
-            process.kill()
-            timing.thread.join()
-            watcher.join()
+        # Even while it reads without decoding.
+        with ended_on_request(process, stop_requested, process.kill):
+            try:
+                while block := process.stdout.read(_BLOCK):
+                    made += block
+                    check(max(len(made) / (4 * rate_hz), timing.reached_s))
+                status = process.wait()
+            finally:
+                # The threads end with the process, and before its streams are closed.
+                process.kill()
+                timing.thread.join()
     raise_if_stopped(stop_requested)
     check(max(len(made) / (4 * rate_hz), timing.reached_s))
     report = timing.report()
@@ -162,15 +158,6 @@ def film_sound(
     if left_out > _MOST_LEFT_OUT * len(sound):
         raise FileError("video.sound_times", file=path)
     return placed[round(late_s * rate_hz) :]
-
-
-def _end_if_stopped(process: subprocess.Popen[bytes], stop_requested: Callable[[], bool]) -> None:
-    """End ffmpeg once that is requested, even while it reads without decoding."""
-    while process.poll() is None:
-        if stop_requested():
-            process.kill()
-        with contextlib.suppress(subprocess.TimeoutExpired):
-            process.wait(_LOOK_S)
 
 
 def _placed(sound: Samples, stretches: list[tuple[float, float]], rate_hz: int) -> tuple[Samples, int]:

@@ -8,14 +8,14 @@ from contextlib import contextmanager
 from fractions import Fraction
 from functools import partial
 from itertools import pairwise
-from typing import IO, Final
+from typing import Final
 
 import msgspec
 import numpy as np
 
+from app.child import Channel, ForkedChild, can_fork
 from app.errors import AppError
 from app.motion.model import Motion
-from app.own_process import ForkedChild, can_fork, receive, send
 
 _WORTH_FRAMES: Final = 4096
 """Frames for which a copy is worth the time it takes to make it."""
@@ -38,13 +38,13 @@ def made_by_copies(make: Callable[[range], Motion], parts: Sequence[range]) -> I
     callable
         Waits for them. What a copy does not finish is made here.
     """
-    children: list[ForkedChild] = []
+    children: list[ForkedChild[_Sent]] = []
 
     def results() -> list[Motion]:
         found = []
         for number, part in enumerate(parts):
             try:
-                found.append(_decoded(receive(children[number].back)))
+                found.append(_received(children[number].receive()))
             except (BrokenPipeError, IndexError):
                 found.append(make(part))
         return found
@@ -52,17 +52,17 @@ def made_by_copies(make: Callable[[range], Motion], parts: Sequence[range]) -> I
     try:
         with contextlib.suppress(OSError):  # where no process can be started, this one does all
             for part in parts:
-                children.append(ForkedChild(partial(_make, make, part), tuple(children)))
+                children.append(ForkedChild(_Sent, partial(_make, make, part), tuple(children)))
         yield results
     finally:
         for child in children:
             child.end()
 
 
-def _make(make: Callable[[range], Motion], part: range, asked: IO[bytes], answers: IO[bytes]) -> None:
+def _make(make: Callable[[range], Motion], part: range, channel: Channel[None]) -> None:
     # The process that was copied does again what fails, and reports what is wrong.
     with contextlib.suppress(BrokenPipeError, AppError):
-        send(answers, _encoded(make(part)))
+        channel.send(_sent(make(part)))
 
 
 _Array = tuple[str, list[int], bytes]
@@ -80,19 +80,17 @@ class _Sent(msgspec.Struct, frozen=True):
 
 
 _ARRAYS: Final = ("rotations", "hips_m", "instrument_position_m", "instrument_rotation")
-_decoder: Final = msgspec.msgpack.Decoder(_Sent)
 
 
-def _encoded(motion: Motion) -> bytes:
+def _sent(motion: Motion) -> _Sent:
     arrays, morphs, controls = (
         {name: (values.dtype.str, list(values.shape), values.tobytes()) for name, values in group.items()}
         for group in ({name: getattr(motion, name) for name in _ARRAYS}, motion.morphs, motion.controls)
     )
-    return msgspec.msgpack.encode(_Sent(motion.fps.as_integer_ratio(), motion.first_frame_s, arrays, morphs, controls))
+    return _Sent(motion.fps.as_integer_ratio(), motion.first_frame_s, arrays, morphs, controls)
 
 
-def _decoded(data: bytes) -> Motion:
-    sent = _decoder.decode(data)
+def _received(sent: _Sent) -> Motion:
     arrays, morphs, controls = (
         {name: np.frombuffer(values, kind).reshape(shape) for name, (kind, shape, values) in group.items()}
         for group in (sent.arrays, sent.morphs, sent.controls)

@@ -2,41 +2,34 @@
 
 from __future__ import annotations
 
-import os
-import sys
 import threading
-from typing import IO
 
-import msgspec
-
+from app.child import Channel, channel_to_parent
 from app.errors import AppError, Message
 from app.evaluation.make import make_evaluation
 from app.evaluation.process import Answer, Finished, Job, Refused, Reported
 from app.messages import text
-from app.own_process import receive, send
 
 
 def main() -> None:
     """Make the evaluation that is asked for."""
-    # What libraries print would be taken for an answer.
-    answers = os.fdopen(os.dup(sys.stdout.fileno()), "wb")
-    os.dup2(sys.stderr.fileno(), sys.stdout.fileno())
-    job = msgspec.msgpack.decode(receive(sys.stdin.buffer), type=Job)
+    channel: Channel[Job] = channel_to_parent(Job, "evaluation")
+    job = channel.receive()
     stopped = threading.Event()
-    threading.Thread(target=_until_closed, args=(sys.stdin.buffer, stopped), daemon=True).start()
+    threading.Thread(target=_until_closed, args=(channel, stopped), daemon=True).start()
     try:
-        answer = _made(job, answers, stopped)
+        answer = _made(job, channel, stopped)
     except AppError as error:
         answer = Refused(error.message)
-    _answer(answers, answer)
+    channel.send(answer)
 
 
-def _made(job: Job, answers: IO[bytes], stopped: threading.Event) -> Answer:
+def _made(job: Job, channel: Channel[Job], stopped: threading.Event) -> Answer:
     # All of Qt.
     from widgets.viewport.offscreen import offscreen
 
     def report(share: float, message: Message) -> None:
-        _answer(answers, Reported(share, message))
+        channel.send(Reported(share, message))
 
     made = make_evaluation(job.opened(), job.request, offscreen, text, report, stopped.is_set)
     video = made.video
@@ -49,13 +42,9 @@ def _made(job: Job, answers: IO[bytes], stopped: threading.Event) -> Answer:
     )
 
 
-def _answer(answers: IO[bytes], answer: Answer) -> None:
-    send(answers, msgspec.msgpack.encode(answer))
-
-
-def _until_closed(stream: IO[bytes], stopped: threading.Event) -> None:
+def _until_closed(channel: Channel[Job], stopped: threading.Event) -> None:
     """Wait until who asked closes the input, or has ended."""
-    while stream.read(1):
+    while channel.incoming.read(1):
         pass
     stopped.set()
 

@@ -27,11 +27,11 @@ import numpy as np
 import numpy.typing as npt
 
 from app.arrays import FloatArray, IntArray
+from app.child import own_process
 from app.child_limits import LIMITS, confine
 from app.errors import FileError
 from app.formats.files import read_file
 from app.formats.rates import exact_rate
-from app.own_process import own_process
 
 T = TypeVar("T")
 

@@ -211,7 +211,7 @@ def test_what_a_killed_recorder_loses(tmp_path: Path) -> None:
         child = link._child
         assert child is not None
         killed_ns = time.perf_counter_ns()
-        child.send_signal(signal.SIGKILL)
+        child.process.send_signal(signal.SIGKILL)
         ear.wait(Restarted)
         ear.wait(Opened, after=len(ear.reported) - 1)
         back_ns = time.perf_counter_ns()

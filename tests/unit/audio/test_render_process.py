@@ -56,8 +56,8 @@ def test_a_killed_child_is_not_missed() -> None:
     process = RenderProcess()
     process(LONG[0].midi)
     assert process._child is not None
-    process._child.kill()
-    process._child.wait()
+    process._child.process.kill()
+    process._child.process.wait()
     assert np.array_equal(process(LONG[0].midi), rendered(LONG[0].midi))
 
 
@@ -71,10 +71,10 @@ def test_the_child_ends_with_its_owner() -> None:
     process(LONG[0].midi)
     child = process._child
     assert child is not None
-    assert child.poll() is None
+    assert child.process.poll() is None
     del process
     gc.collect()
-    assert child.poll() == 0
+    assert child.process.poll() == 0
 
 
 def test_the_child_ends_when_its_input_does() -> None:
@@ -82,6 +82,5 @@ def test_the_child_ends_when_its_input_does() -> None:
     process(LONG[0].midi)
     child = process._child
     assert child is not None
-    assert child.stdin is not None
-    child.stdin.close()
-    assert child.wait(10.0) == 0
+    child.hang_up()
+    assert child.process.wait(10.0) == 0

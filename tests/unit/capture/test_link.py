@@ -196,7 +196,7 @@ def test_a_killed_recorder_is_started_again_and_goes_on(ear: Ear, tmp_path: Path
         place = len(ear.reported)
         child = ear.link._child
         assert child is not None
-        child.kill()
+        child.process.kill()
         assert ear.wait(Restarted).reason.id == "capture.recorder_ended"
         assert ear.wait(Opened, after=place).port == player.name
         player.play(PHRASE)
@@ -214,7 +214,7 @@ def test_a_recorder_that_does_not_live_is_given_up(ear: Ear) -> None:
     while not ear.of(Refused) and time.monotonic() < end_s:
         child = ear.link._child
         if child is not None:
-            child.kill()
+            child.process.kill()
         ear.look()
         time.sleep(0.02)
     (refused,) = ear.of(Refused)
@@ -238,7 +238,7 @@ wait(Opened)
 link.start(path, Header("p", "player", name, "ewi_usb", 0.0, ""))
 link.sync(time.perf_counter_ns(), 0.0)
 wait(Written)
-print(link._child.pid, flush=True)
+print(link._child.process.pid, flush=True)
 while True:
     for news in link.poll():
         if isinstance(news, Events):
@@ -360,7 +360,7 @@ def test_the_recorder_has_precedence_where_the_system_permits_it(ear: Ear) -> No
         assert child is not None
 
         def ordinary() -> list[bool]:
-            tasks = [int(path.name) for path in Path(f"/proc/{child.pid}/task").iterdir()]
+            tasks = [int(path.name) for path in Path(f"/proc/{child.process.pid}/task").iterdir()]
             return [os.sched_getscheduler(task) == os.SCHED_OTHER for task in tasks]
 
         end_s = time.monotonic() + 10.0
@@ -376,11 +376,10 @@ def test_a_recorder_in_which_something_fails_is_started_again(capfd: pytest.Capt
         ear.wait(Ports)
         child = link._child
         assert child is not None
-        assert child.stdin is not None
-        child.stdin.write(b"\x01\x00\x00\x00\xc1")
-        child.stdin.flush()
+        child.outgoing.write(b"\x01\x00\x00\x00\xc1")
+        child.outgoing.flush()
         ear.wait(Restarted)
-        assert child.poll() == 1
+        assert child.process.poll() == 1
     assert "DecodeError" in capfd.readouterr().err
 
 
@@ -406,7 +405,7 @@ def test_a_journal_that_is_there_is_not_gone_on_with(monkeypatch: pytest.MonkeyP
         monkeypatch.setattr(link, "_report", report)
         child = link._child
         assert child is not None
-        child.kill()
+        child.process.kill()
         assert ear.wait(NotStarted).reason.id == "journal.exists"
     assert path.read_text() == "precious"
 
@@ -419,5 +418,5 @@ def test_a_recorder_that_a_driver_holds_up_does_not_hold_up_the_editor(
         Ear(link).wait(Ports)
         child = link._child
         assert child is not None
-        child.send_signal(signal.SIGSTOP)
-    assert child.poll() == -signal.SIGKILL
+        child.process.send_signal(signal.SIGSTOP)
+    assert child.process.poll() == -signal.SIGKILL

@@ -17,7 +17,6 @@ from app.capture.journal import Header, read_journal
 from app.capture.port_names import Port
 from app.capture.ports import PortError
 from app.capture.protocol import (
-    NEWS,
     Back,
     Events,
     Finished,
@@ -32,9 +31,9 @@ from app.capture.protocol import (
     Start,
     Stop,
     SystemEnded,
-    read_framed,
 )
 from app.capture.recorder import JournalKeeper, Recorder, send_news
+from app.child import Channel
 
 
 class Device:
@@ -233,9 +232,10 @@ def test_events_that_gathered_are_sent_together_and_in_order() -> None:
     for item in ((1, b"\x90\x3c\x40"), (2, b"\xf8"), (3, b"\x80\x3c\x40"), Lost("EWI", 4), (5, b"\xb0\x02\x01"), None):
         queue.put(item)
     stream = io.BytesIO()
-    send_news(queue, stream)
+    channel: Channel[Any] = Channel(News, stream, stream)
+    send_news(queue, channel)
     stream.seek(0)
-    found = [read_framed(stream, NEWS) for _ in range(3)]
+    found = [channel.receive() for _ in range(3)]
     assert not stream.read()
     assert found == [
         Events((1, 3), (b"\x90\x3c\x40", b"\x80\x3c\x40")),

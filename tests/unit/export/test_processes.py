@@ -14,7 +14,7 @@ from typing import Any
 import msgspec
 import pytest
 
-from app import own_process
+from app import child
 from app.errors import Cancelled, FileError
 from app.export import processes, worker
 from app.export.processes import Waiting, process_count
@@ -77,7 +77,7 @@ def no_copies(monkeypatch: pytest.MonkeyPatch) -> None:
 
 def export_by_copies(folder: Path) -> None:
     """Export by copies of this process that work, that are killed, that fail and that report what is wrong."""
-    assert own_process.can_fork()
+    assert child.can_fork()
     open_before = len(list(Path("/proc/self/fd").iterdir()))
 
     def killed(*_: Any) -> None:
@@ -133,7 +133,7 @@ def test_processes_write_what_one_writes(tmp_path: Path, alone: dict[str, bytes]
 def test_what_a_process_does_not_finish_is_done_here(
     code: str, tmp_path: Path, alone: dict[str, bytes], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(own_process, "own_process", ending(code))
+    monkeypatch.setattr(child, "own_process", ending(code))
     export(request(tmp_path, quartet(), 2), text)
     assert files(tmp_path) == alone
 
@@ -142,7 +142,7 @@ def test_what_a_process_does_not_finish_is_done_here(
 def test_where_no_process_can_be_started_one_does_all(
     tmp_path: Path, alone: dict[str, bytes], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(own_process, "own_process", lambda module: {"args": [str(tmp_path / "absent")]})
+    monkeypatch.setattr(child, "own_process", lambda module: {"args": [str(tmp_path / "absent")]})
     export(request(tmp_path, quartet(), 2), text)
     assert files(tmp_path) == alone
 

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from app.own_process import own_process
+from app.child import own_process
 
 
 def test_what_lies_where_it_is_started_is_not_run(tmp_path: Path) -> None:
