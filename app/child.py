@@ -86,7 +86,9 @@ def channel_to_parent(kind: Any, limits: str) -> Channel[Any]:
     """
     confine_this_process(limits)
     answers = os.fdopen(os.dup(sys.stdout.fileno()), "wb")
-    os.dup2(sys.stderr.fileno(), sys.stdout.fileno())
+    # On Windows a program without a console has no standard error.
+    elsewhere = os.open(os.devnull, os.O_WRONLY) if sys.stderr is None else sys.stderr.fileno()
+    os.dup2(elsewhere, sys.stdout.fileno())
     return Channel(kind, sys.stdin.buffer, answers)
 
 
@@ -161,15 +163,6 @@ def ended_on_request(
         yield
     finally:
         watcher.join()
-
-
-def complaint(printed: bytes | IO[bytes], status: int) -> list[str]:
-    """Lines that a process printed to standard error; where there are none, its status."""
-    if not isinstance(printed, bytes):
-        printed.seek(0)
-        printed = printed.read()
-    lines = [line for line in printed.decode(errors="replace").splitlines() if line.strip()]
-    return lines or [f"status {status}"]
 
 
 class ForkedChild(Child[T]):

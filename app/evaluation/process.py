@@ -16,7 +16,7 @@ from typing import Final, TypeAlias
 
 import msgspec
 
-from app.child import StartedChild, complaint, ended_on_request
+from app.child import StartedChild, ended_on_request
 from app.errors import AppError, Cancelled, Message, shortened
 from app.evaluation.request import Request
 from app.formats.scratch import scratch_folder
@@ -104,7 +104,11 @@ def made_by_process(
             except BrokenPipeError as error:
                 if stop_requested():
                     raise Cancelled("work.stopped") from error
-                raise AppError("evaluate.ended", detail=shortened(complaint(printed, child.ended())[-1])) from error
+                status = child.ended()
+                printed.seek(0)
+                lines = printed.read().decode(errors="replace").strip().splitlines()
+                detail = lines[-1] if lines else f"status {status}"
+                raise AppError("evaluate.ended", detail=shortened(detail)) from error
             finally:
                 child.ended()
     if isinstance(answer, Refused):

@@ -101,6 +101,7 @@ def _children(request: Request, cast: ExportCast, folder: Path, count: int) -> l
     """Processes that export the musicians whose ids are sent; fewer where no more can be started."""
     children: list[Child[Answer]] = []
     copies = can_fork()
+    job = None if copies or not count else job_of(request, folder)
     with contextlib.suppress(OSError):
         for _ in range(count):
             if copies:
@@ -108,7 +109,7 @@ def _children(request: Request, cast: ExportCast, folder: Path, count: int) -> l
                 continue
             children.append(StartedChild(Answer, "app.export.worker"))
             with contextlib.suppress(BrokenPipeError):
-                children[-1].send(job_of(request, folder))
+                children[-1].send(job)
     return children
 
 
