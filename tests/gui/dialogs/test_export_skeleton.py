@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QEvent, Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QCheckBox, QComboBox, QLabel, QLineEdit, QPushButton
 from pytestqt.qtbot import QtBot
@@ -146,7 +146,7 @@ def test_both_languages(dialog: ExportDialog, qt_app: QApplication) -> None:
     japanese = Texts("ja")
     qt_app.installTranslator(japanese)
     try:
-        dialog._skeleton.retranslate()
+        qt_app.sendEvent(dialog._skeleton, QEvent(QEvent.Type.LanguageChange))
         assert box.itemText(1) == "Unreal Engine 5 マネキン"
     finally:
         qt_app.removeTranslator(japanese)
