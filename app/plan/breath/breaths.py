@@ -37,14 +37,14 @@ from app.plan.breath.lungs import (
     with_circular_breathing,
 )
 from app.plan.breath.staggered_breaths import Shared, within_held
-from app.plan.breath.which_rests import Decided, RestNeeds, breathed_in, rest_needs, why
+from app.plan.breath.which_rests import ALWAYS_S, Decided, RestNeeds, breathed_in, rest_needs, why
 from app.plan.by_hand.corrections import BY_HAND, Correction, SetBreath, removed_ids, without_removed
 from app.plan.event_id import EventId
 from app.plan.model import BreathEvent, Problem, TimeFrame
 from app.plan.music.breath_controller import BreathEnvelope, Silences, gaps_within, silences
 from app.plan.music.notation import at_score_tempo, heard_rests_s, notated, usual_release
 from app.plan.music.piece import EPSILON, LineTimes, Piece, Seeds, gaps_s
-from app.plan.music.rests import ALWAYS_S, Rests, are_audible, rest_ticks
+from app.plan.music.rests import Rests, are_audible, rest_ticks
 from app.plan.parameters import PlayerParameters
 from app.score.model import Note
 from instrument_maps.model import Air

@@ -15,12 +15,13 @@ import numpy as np
 from app.arrays import BoolArray, FloatArray
 from app.errors import Argument
 from app.plan.music.piece import EPSILON
-from app.plan.music.rests import ALWAYS_S
 from app.plan.parameters import PARAMETERS
 
 USUAL_NEED: Final = float(PARAMETERS["breath_need"].default)
 """The need that gives the figures below; a smaller one scales them down to 0, a greater one up to whole lungs."""
 
+ALWAYS_S: Final = 1.5
+"""Length of rests that are breathed in at every need."""
 LONG_S: Final = 0.75
 """Length of rests that are breathed in after `LONG_PLAYED_S`, and that count however few beats they have."""
 MIDDLE_S: Final = 0.5

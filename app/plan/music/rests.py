@@ -1,15 +1,14 @@
 """Which silences between the notes of a line are rests of the score.
 
 A MIDI file has no rests: a note that stops early may be followed by one, or may be played detached. A silence of a beat
-is a rest, and so is one that lasts, or that is audible after a long note, whatever the notes around do; but for those
-of a long row of short notes, all equal: that is slow staccato. Of the other notes those are detached that stand in a
-run of equal steps with equal gates, and those that sound for the part of their step for which most notes of the line
-do.
+is a rest, and so is one that lasts, or that is audible after a long note, whatever the notes around do. Of the other
+notes those are detached that stand in a run of equal steps with equal gates, and those that sound for the part of their
+step for which most notes of the line do.
 """
 
 from __future__ import annotations
 
-from typing import Final, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -21,11 +20,7 @@ AUDIBLE_S = 0.3
 LONG_NOTE_S = 0.8
 """Sounding time of a long note: no one plays it staccato."""
 SILENT_S = 0.75
-"""Length of a silence that is a rest after any note, unless it is one of many: `_in_a_row`."""
-ALWAYS_S: Final = 1.5
-"""Length of a silence that is a rest anywhere, and breathed in."""
-STACCATO_GATE = 0.25
-"""Part of its step for which a staccato note sounds at least: shorter ones have rests."""
+"""Length of a silence that is a rest after any note: no staccato is as slow."""
 LEAST_BEATS = 0.1
 """Felt beats of silence below which a score has no rest: the end of a note before a grace note."""
 SAME_STEP = 0.05
@@ -36,8 +31,8 @@ RUN_NOTES = 3
 """Number of notes in a row that show an articulation; a pair may be two notes with a rest each."""
 SLOW_S = 0.5
 """Length of silences between which ..."""
-SLOW_RUN_NOTES = 7
-"""... more notes are needed for a run, the last one apart, which may have a rest: a few may have a rest each."""
+SLOW_RUN_NOTES = 8
+"""... more notes are needed for a run: a few may have a rest each."""
 HABIT_SHARE = 0.5
 """Part of a line's notes that makes what they do its habit."""
 HABIT_NOTES = 6
@@ -78,7 +73,7 @@ def rest_ticks(times: LineTimes, beat_ticks: IntArray) -> IntArray:
     if len(rests) > 1:
         gap = rests[1:]
         silence_s = times.onset_s[1:] - times.played_end_s[:-1]
-        is_rest = are_audible(times)[1:] | ((gap >= beat_ticks[1:]) & ~_in_a_row(times, silence_s))
+        is_rest = are_audible(times)[1:] | (gap >= beat_ticks[1:])
         gap[(_detached(times, silence_s) & ~is_rest) | (gap < LEAST_BEATS * beat_ticks[1:])] = 0
     return rests
 
@@ -95,31 +90,13 @@ def are_audible(times: LineTimes, released: float = 0.0) -> BoolArray:
     silence_s = times.onset_s[1:] - times.played_end_s[:-1]
     audible = (times.duration_s[:-1] >= LONG_NOTE_S - EPSILON) & (silence_s >= AUDIBLE_S - EPSILON)
     audible &= silence_s >= released * np.diff(times.onset_s)
-    lasting = silence_s >= SILENT_S - EPSILON
-    if lasting.any():
-        audible |= lasting & ~_in_a_row(times, silence_s)
-    return np.insert(audible, 0, False)
-
-
-def _in_a_row(times: LineTimes, silence_s: FloatArray) -> BoolArray:
-    """(N-1,): whether the silence after each note but the last is that of a long row of short, equal notes."""
-    steps, gates = _steps_and_gates(times)
-    short = (times.duration_s[:-1] < LONG_NOTE_S - EPSILON) & (silence_s < ALWAYS_S - EPSILON)
-    staccato = short & (times.silence_tick[1:] > 0) & (gates >= STACCATO_GATE - EPSILON)
-    if np.count_nonzero(staccato) < SLOW_RUN_NOTES:
-        return np.zeros(len(steps), dtype=bool)
-    return np.asarray(staccato & _in_a_run(steps, gates, SLOW_RUN_NOTES))
-
-
-def _steps_and_gates(times: LineTimes) -> tuple[FloatArray, FloatArray]:
-    """(N-1,) each: ticks from each note to the next one, and the part of them that sounds."""
-    steps = np.maximum(np.diff(times.onset_tick), 1).astype(np.float64)
-    return steps, 1.0 - times.silence_tick[1:] / steps
+    return np.insert(audible | (silence_s >= SILENT_S - EPSILON), 0, False)
 
 
 def _detached(times: LineTimes, silence_s: FloatArray) -> BoolArray:
     """(N-1,): whether the silence after each note but the last is its articulation."""
-    steps, gates = _steps_and_gates(times)
+    steps = np.maximum(np.diff(times.onset_tick), 1).astype(np.float64)
+    gates = 1.0 - times.silence_tick[1:] / steps
     silent = times.silence_tick[1:] > 0
     slow = silence_s >= SLOW_S - EPSILON
     in_a_run = np.where(slow, _in_a_run(steps, gates, SLOW_RUN_NOTES), _in_a_run(steps, gates, RUN_NOTES))

@@ -271,25 +271,3 @@ def test_small_lungs_make_no_one_gasp_after_every_note() -> None:
     found = breathed(planned(notes, 60.0, tuba, breath_min_beats=0.25))
     assert found
     assert all(later - earlier >= 2 for earlier, later in itertools.pairwise([1, *found]))
-
-
-@pytest.mark.parametrize("need", [0.0, 0.35, 1.0])
-@pytest.mark.parametrize(("gate", "bpm"), [(0.3, 80.0), (0.5, 60.0), (0.3, 60.0), (0.5, 40.0)])
-@pytest.mark.parametrize("count", [8, 16])
-def test_no_one_breathes_in_a_slow_staccato_row_while_the_air_lasts(
-    gate: float, bpm: float, count: int, need: float
-) -> None:
-    row = [(gate, 1.0 - gate)] * (count - 1)
-    found = breathed(planned(line(*row, (gate, 4), *row, (gate, 0)), bpm, breath_need=need))
-    assert count + 1 in found
-    assert len(found) == 1 or gate * count * 60.0 / bpm > LUNG_S
-
-
-@pytest.mark.parametrize("gate", [0.3, 0.5])
-@pytest.mark.parametrize("bpm", [40.0, 60.0, 80.0])
-def test_the_air_lasts_in_an_endless_staccato_row(gate: float, bpm: float) -> None:
-    count = 120
-    plan = planned(line(*[(gate, 1.0 - gate)] * count), bpm)
-    played_s = gate * count * 60.0 / bpm
-    assert not [problem for problem in plan.problems if problem.message.id == "breath.too_long"]
-    assert played_s / LUNG_S - 1.0 <= len(breathed(plan)) <= 1.5 * played_s / LUNG_S + 1.0

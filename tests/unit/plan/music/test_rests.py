@@ -69,21 +69,6 @@ def test_a_staccato_run_at_one_gate_has_no_rests(steps: tuple[float, ...], gate:
         assert not any(rests(line(*[(1, 0)] * 40, *run, (1, 0)), bpm))
 
 
-@pytest.mark.parametrize("count", [8, 12, 16])
-@pytest.mark.parametrize("gate", [0.3, 0.4, 0.5])
-@pytest.mark.parametrize(("step", "bpm"), [(1, 80.0), (1, 60.0), (1, 48.0), (2, 120.0), (2, 96.0), (0.5, 30.0)])
-def test_a_slow_row_at_one_spacing_and_one_gate_has_no_rests(step: float, bpm: float, gate: float, count: int) -> None:
-    """Silences of up to 1.2 s, or of a beat and more, each: the rest after the last note is one."""
-    row = [(gate * step, (1.0 - gate) * step)] * (count - 1)
-    found = rests(line((2, 0), *row, (gate * step, 2 * step), (1, 0)), bpm)
-    assert found == [0] * count + [2 * step * Q]
-
-
-@pytest.mark.parametrize("silence", [1.5, 2.0])
-def test_a_row_of_long_silences_has_rests(silence: float) -> None:
-    assert rests(line(*[(0.7, silence)] * 12, (1, 0)), bpm=60.0) == [round(silence * Q)] * 12
-
-
 @pytest.mark.parametrize(("count", "found"), [(4, True), (5, True), (12, False)])
 def test_a_few_slow_notes_with_half_a_second_of_rest_each_are_no_staccato_run(count: int, found: bool) -> None:
     assert rests(line((2, 0), *[(0.5, 0.5)] * count, (2, 0)), bpm=60.0) == [0, *[found * Q // 2] * count]
