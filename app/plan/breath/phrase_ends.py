@@ -170,10 +170,8 @@ def _phrase_end(times: LineTimes, places: _Places, rests: IntArray, at: IntArray
     shorter = np.clip(np.log2(steps[at - 1] / steps[at]), -2.0, 2.0)
     moves = np.diff(times.pitch)[at - 1]
     again = _begins_again(steps, times.pitch, rests)
-    # Out of running notes a breath comes after the note on the beat; and where a long note ends a phrase, the short one
-    # after it leads to the bar line.
-    upbeats = _upbeats(rests, places, at)
-    square = _squareness(rests, places.onsets, at - runs + upbeats[at], places.bars) * ~upbeats[at - 1]
+    # Out of running notes a breath comes after the note on the beat.
+    square = _squareness(rests, places.onsets, at - runs, places.bars)
     good: FloatArray = LONG_NOTE * places.long
     good += SHORTER * np.maximum(shorter, 0.0) + LONGER * np.maximum(-shorter, 0.0)
     good += AMONG_RUNNING * runs + FALL * ~runs * np.maximum(falls, 0)
@@ -182,15 +180,6 @@ def _phrase_end(times: LineTimes, places: _Places, rests: IntArray, at: IntArray
     good += LIKE_ENTRIES * places.like + AGAIN * again[at] * (1.0 - again.mean())
     good += TWO_BARS * (square >= 1) + FOUR_BARS * (square >= 2)
     return good
-
-
-def _upbeats(rests: IntArray, places: _Places, at: IntArray) -> BoolArray:
-    """(N,): whether each note is a short one between a long one and a bar line."""
-    steps = places.steps
-    result = np.zeros(len(steps), dtype=bool)
-    leads = np.append(places.strength[1:] == BAR_STRENGTH, False)[at]
-    result[at] = (places.long >= 1.0) & (steps[at] <= places.beat) & leads & (rests[at] == 0)
-    return result
 
 
 def _against(times: LineTimes, places: _Places, rests: IntArray, at: IntArray, quarter_ticks: int) -> FloatArray:
