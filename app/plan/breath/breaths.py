@@ -447,12 +447,13 @@ def _catches(line: _Breather, score: _Score, stock: _Stock, may: BoolArray, shar
     free_s = (line.parameters.breath_need or 1.0) * score.lung_s
     catches = between(score.steady, stock.steady_used, given, free_s)
     if score.steady is score.written:
-        return sorted((*first, *catches))
+        return stock.room.apart(sorted((*first, *catches)))
     filled = given.copy()
     filled[catches] = np.minimum(stock.room.lasts_s[catches] / FULL_BREATH_S, 1.0)
     again = where_short(stock.used, score.lung_s, given, filled)
     filled[again] = given[again]
-    return sorted({*first, *catches} - {*again.tolist()} | {*between(score.written, stock.used, filled, np.inf)})
+    more = between(score.written, stock.used, filled, np.inf)
+    return stock.room.apart(sorted({*first, *catches} - {*again.tolist()} | {*more}))
 
 
 def _caught(

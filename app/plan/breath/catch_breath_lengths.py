@@ -55,6 +55,11 @@ class Room:
         dropping = [index for index in catches if self.length_s[index] == 0.0]
         return tuple(note for index in dropping for note in range(index - int(self.dropped[index]), index))
 
+    def apart(self, catches: Sequence[int]) -> list[int]:
+        """Keep those catch breaths that are not taken before a note that is itself left out for the next."""
+        gone = set(self.left_out(catches))
+        return [index for index in catches if index not in gone]
+
 
 def catch_lengths_s(score: LineTimes, times: LineTimes, rests: IntArray) -> FloatArray:
     """(N,): how long a catch breath before each note may be: the rest there, else also a part of the note before.
