@@ -9,12 +9,12 @@ import numpy.typing as npt
 
 FloatArray: TypeAlias = npt.NDArray[np.float64]
 AnyFloatArray: TypeAlias = npt.NDArray[np.floating]
-"""Of whatever precision."""
+"""Any precision."""
 SingleArray: TypeAlias = npt.NDArray[np.float32]
 IntArray: TypeAlias = npt.NDArray[np.int64]
 IndexArray: TypeAlias = npt.NDArray[np.intp]
 """Places in another array, as NumPy itself makes them."""
 AnyIntArray: TypeAlias = npt.NDArray[np.integer]
-"""Of whatever size."""
+"""Any size."""
 BoolArray: TypeAlias = npt.NDArray[np.bool_]
 ComplexArray: TypeAlias = npt.NDArray[np.complex128]

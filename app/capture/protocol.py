@@ -1,4 +1,4 @@
-"""What the editor and its recorder send one another: commands one way, news the other."""
+"""Messages between the editor and its recorder: commands one way, news the other."""
 
 from __future__ import annotations
 

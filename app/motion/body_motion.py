@@ -1,4 +1,4 @@
-"""What the layers of a body sum to: the value that contacts are solved on."""
+"""The sum of the layers of a body: the value that contacts are solved on."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ TRUNK = (*TRUNK_SHARES, *NECK_SHARES)
 
 @dataclass(frozen=True)
 class BodyMotion:
-    """What the layers sum to; every array is (F,) float64.
+    """The sum of the layers; every array is (F,) float64.
 
     Attributes
     ----------

@@ -45,7 +45,7 @@ class Dancing(Protocol):
         """(count, 2) in which frames the left and the right foot stand."""
 
     def starts_s(self, fps: Fraction) -> tuple[float, ...]:
-        """When basic motions begin."""
+        """Seconds at which basic motions begin."""
 
 
 class MakerOfDances(Protocol):

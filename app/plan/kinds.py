@@ -1,4 +1,4 @@
-"""Kinds of gestures and of breaths: one row for each, which everything that tells kinds apart reads.
+"""Kinds of gestures and of breaths: one row for each, read wherever kinds differ.
 
 A new kind of gesture is a row here and a function among `app.plan.player.BY_MUSIC`; its reason is a message.
 """
@@ -63,13 +63,10 @@ class Breathing(NamedTuple):
         First part of its events' ids; also in users' files.
     names : (str, str)
         Of an event, in English and Japanese.
-    draws : bool
-        Air is drawn; else the motion prepares it.
     """
 
     id: str
     names: tuple[str, str]
-    draws: bool = True
 
 
 GESTURES: Final = (
@@ -106,7 +103,7 @@ GESTURES: Final = (
 """What a body does beside playing, in the order of menus."""
 BREATHS: Final = (
     Breathing("breath", ("Breath", "ブレス")),
-    Breathing("preparation", ("Breath preparation", "ブレスの準備動作"), draws=False),
+    Breathing("preparation", ("Breath preparation", "ブレスの準備動作")),
     Breathing("within", ("Breath", "ブレス")),
 )
 GESTURE_KINDS: Final[Mapping[str, Gesturing]] = {kind.id: kind for kind in GESTURES}

@@ -148,7 +148,7 @@ class GeneratedDance:
         return result[first:]
 
     def starts_s(self, fps: Fraction) -> tuple[float, ...]:
-        """When basic motions begin."""
+        """Seconds at which basic motions begin."""
         return tuple(step.start_s for step in self.dance(fps).steps)
 
     @property

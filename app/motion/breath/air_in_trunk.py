@@ -45,14 +45,14 @@ MOST_QUIET: Final = 60
 
 
 class LungCurves(NamedTuple):
-    """How full the lungs look, and how far a preparation leans, 0..1."""
+    """Curves of the lungs' fullness and of the lean of a preparation, 0..1."""
 
     full: Curve
     leaning: Curve
 
 
 def lungs(breaths: Sequence[BreathEvent]) -> LungCurves:
-    """How full the lungs are (up over each breath, down over the phrase), and the preparation's lean 0..1."""
+    """Return how full the lungs are (up over each breath, down over the phrase), and the preparation's lean 0..1."""
     full: list[tuple[float, float, float]] = []
     lean: list[tuple[float, float, float]] = []
     level = 0.0
@@ -80,7 +80,7 @@ def lungs(breaths: Sequence[BreathEvent]) -> LungCurves:
 
 
 def air(breaths: Sequence[BreathEvent]) -> Curve:
-    """How much air there is, 0..1: up over each breath, down through the whole phrase after it."""
+    """Return how much air there is, 0..1: up over each breath, down through the whole phrase after it."""
     drawn = sorted((breath for breath in breaths if breath.kind == "breath"), key=lambda breath: breath.start_s)
     rows: list[tuple[float, float, float]] = []
     level = FLAT

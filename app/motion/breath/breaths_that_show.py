@@ -28,7 +28,7 @@ LEAST_BACK_S: Final = 0.15
 def leaning_further(
     breaths: Sequence[BreathEvent], full: Curve, torso_rad: Callable[[FloatArray], tuple[FloatArray, FloatArray]]
 ) -> Envelopes:
-    """How much fuller the lungs look to the trunk, so that each breath shows; in units of ``full``.
+    """Return how much fuller the lungs look to the trunk, so that each breath shows; in units of ``full``.
 
     Parameters
     ----------
