@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Final
 
 import numpy as np
 
@@ -12,9 +11,6 @@ from app.arrays import FloatArray
 from app.choreography.body import body_skeleton
 from app.rig.model import Skeleton
 from app.rig.skeleton import JointTransforms, forward
-
-KEPT_FPS: Final = Fraction(60)
-"""Frame rate of the motions that a model is learned from and keeps."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -18,7 +18,7 @@ import numpy as np
 
 from app.arrays import IntArray
 from app.choreography.basic_motions import classify
-from app.choreography.clip import KEPT_FPS, MotionClip
+from app.choreography.clip import MotionClip
 from app.choreography.cuts import Cut, Segmentation, segment
 from app.choreography.cuts_by_hand import check_cuts
 from app.choreography.features import features
@@ -29,6 +29,7 @@ from app.choreography.resample import resampled
 from app.choreography.rhythm import Rhythm
 from app.encoding import shown
 from app.errors import Message, UsageError
+from app.formats.motion_limits import KEPT_FPS
 
 FPS: Final = KEPT_FPS
 """Of the motion in a model."""

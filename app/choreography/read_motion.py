@@ -24,7 +24,7 @@ from scipy.spatial.transform import Rotation
 
 from app.arrays import FloatArray
 from app.choreography.body import ENDS, FEET, PARENT_OF, SEGMENTS
-from app.choreography.clip import KEPT_FPS, BodyShape, MotionClip
+from app.choreography.clip import BodyShape, MotionClip
 from app.choreography.flips import Flip, lead_in, mend_flips, mend_steps
 from app.errors import FileError, Message
 from app.formats.bvh import BvhClip, read_bvh
@@ -124,7 +124,7 @@ def read_motion(path: str | os.PathLike[str], fps: Fraction | None = None) -> Re
     rate = fps or bvh.fps
     require_rate(rate, str(file))
     seconds = (len(bvh.rotations_xyzw) - 1) / float(rate)
-    require_frames(str(file), seconds, float(max(rate, KEPT_FPS)), len(SEGMENTS), file.stat().st_size)
+    require_frames(str(file), seconds, float(rate), len(SEGMENTS), file.stat().st_size)
     return motion_of(bvh, str(file), fps)
 
 

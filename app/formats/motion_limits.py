@@ -12,6 +12,8 @@ from app.errors import FileError
 
 FPS: Final = (1, 1000)
 """Frame rates that motion is captured, animated or played at."""
+KEPT_FPS: Final = Fraction(60)
+"""Lowest frame rate that a motion is kept at, and the one of the motions that a model is learned from."""
 FREE_FRAMES, FRAMES_PER_KB = 54_000, 50
 """Frames of any file, a quarter of an hour at 60 frames per second, and more for its size. A frame of a body that is
 written out takes more than a hundred bytes in every format, so only what is sampled between keys meets this bound."""
@@ -19,6 +21,13 @@ FREE_TRANSFORMS, TRANSFORMS_PER_KB = 2**20, 512
 """The same of frames times nodes."""
 MOST_TRANSFORMS: Final = 2**23
 """Frames times nodes of a file of any size: a quarter of an hour of 150 nodes at 60 frames per second."""
+
+
+def longest_motion_s(fps: float, nodes: int, size_bytes: int) -> float:
+    """Return how long a motion of a file of this size may be, sampled at a rate and kept at no less than `KEPT_FPS`."""
+    most_frames = FREE_FRAMES + FRAMES_PER_KB * size_bytes // 1000
+    most_transforms = min(MOST_TRANSFORMS, FREE_TRANSFORMS + TRANSFORMS_PER_KB * size_bytes // 1000)
+    return min((most_frames - 1) / max(fps, float(KEPT_FPS)), (most_transforms // max(nodes, 1) - 1) / fps)
 
 
 def require_frames(file: str, seconds: float, fps: float, nodes: int, size_bytes: int) -> None:
@@ -38,12 +47,10 @@ def require_frames(file: str, seconds: float, fps: float, nodes: int, size_bytes
     FileError
         ``motion.too_long``.
     """
-    frames = seconds * fps + 1.0
-    most_transforms = min(MOST_TRANSFORMS, FREE_TRANSFORMS + TRANSFORMS_PER_KB * size_bytes // 1000)
-    most = min(FREE_FRAMES + FRAMES_PER_KB * size_bytes // 1000, most_transforms // max(nodes, 1))
+    most_s = longest_motion_s(fps, nodes, size_bytes)
     # A comparison that a NaN fails.
-    if not frames <= most:
-        said = {"seconds": round(float(seconds), 1), "most": round(most / float(fps), 1)}
+    if not seconds <= most_s:
+        said = {"seconds": round(float(seconds), 1), "most": round(most_s, 1)}
         raise FileError("motion.too_long", file=file, nodes=nodes, **said)
 
 

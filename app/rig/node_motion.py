@@ -66,11 +66,9 @@ class _Nodes:
 def read_fbx_motion(path: Path) -> BvhClip:
     """The longest animation of an FBX file. Raises FileError."""
     content = read_foreign_motion(path)
+    require_frames(str(path), content.length_s, float(content.fps), len(content.nodes), path.stat().st_size)
     if len(content.transforms) < 2:
         raise FileError("motion.no_animation", file=str(path))
-    frames, nodes = content.transforms.shape[:2]
-    seconds = float((frames - 1) / content.fps)
-    require_frames(str(path), seconds, float(content.fps), nodes, path.stat().st_size)
     parents = [node.parent for node in content.nodes]
     posed = np.array([node.world_from_node for node in content.nodes])
     bound = {node: world for node, world in content.bound if abs(np.linalg.det(world)) > SINGULAR}

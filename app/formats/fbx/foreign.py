@@ -155,13 +155,17 @@ class FbxMotion:
         As in `FbxContent`.
     bound : tuple of (int, (4, 4) float64)
         Nodes, and where each was when a mesh was bound to it.
+    length_s : float
+        Duration of the animation.
     transforms : (F, N, 10) float64
-        Of each node on its parent: translation in metres, rotation xyzw, scale. No frames: the file has no animation.
+        Of each node on its parent: translation in metres, rotation xyzw, scale. No frames: the file has no animation,
+        or a longer one than `app.formats.motion_limits.longest_motion_s` allows.
     """
 
     nodes: tuple[FbxNode, ...]
     bound: tuple[tuple[int, FloatArray], ...]
     fps: Fraction
+    length_s: float
     transforms: FloatArray
 
 

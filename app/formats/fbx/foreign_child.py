@@ -18,6 +18,7 @@ import numpy as np
 import numpy.typing as npt
 
 from app.child_limits import confine_this_process
+from app.formats.motion_limits import longest_motion_s
 
 NO_READER: Final = 5
 """Status at the end: the library is not there, or cannot be loaded. There is no wheel for some Pythons."""
@@ -247,14 +248,14 @@ def read_motion(data: bytes) -> tuple[dict[str, Any], dict[str, npt.NDArray[Any]
     ]
     fps = float(_keep(scene.settings).frames_per_second)
     fps = fps if USUAL_FPS[0] <= fps <= USUAL_FPS[1] else OTHERWISE_FPS
-    content = {"nodes": nodes, "bound": bound, "fps": fps}
-    stacks = _every(scene.anim_stacks)
-    if not stacks:
-        return {**content, "transforms": written.add(np.empty((0, len(nodes), TRANSFORM)))}, written.arrays
-    stack = max(stacks, key=lambda one: float(one.time_end) - float(one.time_begin))
-    length_s = float(stack.time_end) - float(stack.time_begin)
+    stack = max(_every(scene.anim_stacks), key=_length_s, default=None)
+    length_s = 0.0 if stack is None else _length_s(stack)
     if not 0.0 <= length_s < MOST_S:
         raise MemoryError
+    content = {"nodes": nodes, "bound": bound, "fps": fps, "length_s": length_s}
+    if stack is None or length_s > longest_motion_s(fps, len(nodes), len(data)):
+        # An animation of this length is refused by whoever asked; its frames would cost seconds.
+        return {**content, "transforms": written.add(np.empty((0, len(nodes), TRANSFORM)))}, written.arrays
     frames = round(length_s * fps) + 1
     written.take(TRANSFORM * frames * len(nodes))
     anim = _keep(stack.anim)
@@ -265,6 +266,11 @@ def read_motion(data: bytes) -> tuple[dict[str, Any], dict[str, npt.NDArray[Any]
             moved, turned, scaled = ufbx.evaluate_transform(anim, node, float(stack.time_begin) + frame / fps)
             values[frame, at] = (*moved, *turned, *scaled)
     return {**content, "transforms": written.add(values)}, written.arrays
+
+
+def _length_s(stack: Any) -> float:
+    """Return the duration of an animation stack."""
+    return float(stack.time_end) - float(stack.time_begin)
 
 
 def main() -> None:

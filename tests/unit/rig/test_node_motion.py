@@ -16,8 +16,10 @@ from app.choreography.clip import MotionClip
 from app.choreography.read_motion import read_motion
 from app.errors import FileError
 from app.formats import motion_limits
+from app.formats.fbx.foreign import read_foreign_motion
 from app.formats.scene import Bone, Clip, Scene
 from app.rig import quaternion
+from tests.fuzz.harness.costly_motion import fbx_take
 from tests.support.encoded import encode_glb, encode_scene
 from tests.unit.choreography.test_features import random_clip
 
@@ -155,3 +157,12 @@ def test_scaled_armatures_are_multiplied_out(tmp_path: Path) -> None:
     read = read_motion(tmp_path / "a.glb", Fraction(60))
     assert relative_m(read.clip) == pytest.approx(relative_m(CLIP), abs=2e-4)
     assert read.clip.hips_m - read.clip.hips_m[0] == pytest.approx(CLIP.hips_m - CLIP.hips_m[0], abs=2e-4)
+
+
+@pytest.mark.parametrize(("seconds", "frames"), [(2.0, 49), (2000.0, 0)])
+def test_an_animation_that_is_too_long_is_not_sampled(tmp_path: Path, seconds: float, frames: int) -> None:
+    path = tmp_path / "take.fbx"
+    path.write_bytes(fbx_take(seconds))
+    motion = read_foreign_motion(path)
+    assert len(motion.transforms) == frames
+    assert motion.length_s == pytest.approx(seconds)
