@@ -38,6 +38,7 @@ from app.project.model import PlayerTakes, Project
 from app.project.parameters import is_possible, range_text
 from app.project.performers import Player
 from app.score.limits import too_long
+from app.score.marks import Mark
 from app.score.metre_map import Metre
 from app.score.model import ControllerCurve, Marker, Note, Part, PercussionHit, Score, value_range
 from app.score.take import Take, is_message
@@ -231,8 +232,19 @@ def _part_faults(part: Part, place: str) -> Iterator[Fault]:
         if spans != tuple(sorted(spans)):
             yield f"{place}.{name}", "spans must be ordered by start"
     yield from _note_faults(part.notes, f"{place}.notes")
+    for index, mark in enumerate(part.marks):
+        yield from within(f"{place}.marks[{index}]", _mark_faults(mark))
     for index, curve in enumerate(part.curves):
         yield from _curve_faults(curve, f"{place}.curves[{index}]")
+
+
+def _mark_faults(mark: Mark) -> Iterator[Fault]:
+    yield from id_faults("note_id", mark.note_id, least=0)
+    yield from id_faults("last_note_id", mark.last_note_id, least=0)
+    yield from between("tick", mark.tick, (0, limits.LAST_TICK))
+    if mark.end_tick:
+        yield from between("end_tick", mark.end_tick, (mark.tick, limits.LAST_TICK))
+    yield from text_faults("text", mark.text, limits.MOST_NAME)
 
 
 def _note_faults(notes: Sequence[Note], place: str) -> Iterator[Fault]:

@@ -20,6 +20,7 @@ from app.project.imported import Place
 from app.project.model import Project
 from app.project.moved_ticks import place_map
 from app.project.part_matching import matched_parts
+from app.score.marks import renamed_marks
 from app.score.model import Note, Part, Score
 from app.score.parts import transposed
 
@@ -279,7 +280,8 @@ def _renamed(part: Part, part_id: str, note_ids: Sequence[str]) -> Part:
         note if note.id == id else Note(id, note.onset_tick, note.duration_tick, note.pitch, note.velocity)
         for note, id in zip(part.notes, note_ids, strict=True)
     )
-    return msgspec.structs.replace(part, id=part_id, notes=notes)
+    ids = {note.id: id for note, id in zip(part.notes, note_ids, strict=True)}
+    return msgspec.structs.replace(part, id=part_id, notes=notes, marks=renamed_marks(part.marks, ids))
 
 
 def _drawn(

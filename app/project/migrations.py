@@ -78,9 +78,10 @@ def _with_parameters(raw: Raw, version: int) -> Raw:
 
 
 def _with_stopped(raw: Raw) -> Raw:
-    """14 to 15: where the hand stops the bell is kept; a piece that was read before has it when it is read again.
+    """14 to 15: where the hand stops the bell is kept, and what is written over the notes; a piece that was read before
+    has both when it is read again.
     Rows of earlier imports do not follow words about who of several players plays, and clean no takes."""
-    parts = [{**part, "stopped": []} for part in raw["score"]["parts"]]
+    parts = [{**part, "stopped": [], "marks": [], "source": "sound"} for part in raw["score"]["parts"]]
     imported = raw["imported"]
     if imported is not None:
         imported = {**imported, "rows": [{**row, "solos": False, "clean": False} for row in imported["rows"]]}

@@ -48,6 +48,7 @@ from app.project.moved_ticks import place_map
 from app.project.orphans import Orphan, orphaned
 from app.project.recording import with_places
 from app.project.rereading import Reading, characters_of, read_as_decided
+from app.score.marks import moved_marks
 from app.score.model import Part, Score, UnplayedPart
 from app.score.read import Assumed, read_contents
 from instrument_maps.model import InstrumentMap
@@ -235,7 +236,8 @@ def _moved_part(part: Part, id: str, place: Callable[[int], int], scale: Fractio
         tuple(sorted((max(place(start), 0), max(place(end), 0)) for start, end in spans))
         for spans in (part.muted, part.stopped)
     )
-    return msgspec.structs.replace(part, id=id, notes=ordered, curves=curves, muted=muted, stopped=stopped)
+    marks = moved_marks(part.marks, place)
+    return msgspec.structs.replace(part, id=id, notes=ordered, curves=curves, muted=muted, stopped=stopped, marks=marks)
 
 
 def _with_players(

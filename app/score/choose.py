@@ -16,6 +16,7 @@ from typing import Final, Literal
 import msgspec
 
 from app.errors import Argument, Message, UsageError
+from app.score.marks import Mark, Source
 from app.score.model import ControllerCurve, Note
 from app.score.sound_module import KIT_PROGRAMS, Use
 from instrument_maps.vocabulary import Instrument, vocabulary
@@ -110,6 +111,8 @@ class TrackChannel(msgspec.Struct, frozen=True):
         Of a rhythm part: the sounds of its notes as General MIDI numbers them; empty where they are its pitches.
     line : int
         The first of the tracks over which its line is spread (`app.score.spread`); -1: it has the line to itself.
+    marks, source
+        As those of a `Part`; marks are of the ids that `notes` gives.
     """
 
     track: int
@@ -135,6 +138,8 @@ class TrackChannel(msgspec.Struct, frozen=True):
     certain: bool = False
     struck: list[int] = []
     line: int = -1
+    marks: tuple[Mark, ...] = ()
+    source: Source = "sound"
 
     @property
     def place(self) -> tuple[int, int, int]:

@@ -10,6 +10,7 @@ import msgspec
 
 from app.arrays import IntArray
 from app.errors import Message
+from app.score.marks import Mark, Source
 from app.score.metre_map import Metre, MetreMap
 from app.score.tempo import TempoMap
 
@@ -139,6 +140,10 @@ class Part(msgspec.Struct, frozen=True, dict=True):
         Spans of ticks, by start, in which it is played with a mute.
     stopped : tuple of (start, end)
         Those of them in which the hand stops the bell; no older file has any.
+    marks : tuple of Mark
+        What is written over its notes; no older file has any, nor has what was read from MIDI.
+    source : {"sound", "score"}
+        What it was read from: of a score, what has no mark has none; of a MIDI file, it is not known.
     """
 
     id: str
@@ -154,6 +159,8 @@ class Part(msgspec.Struct, frozen=True, dict=True):
     transposed_semitones: int = 0
     muted: tuple[tuple[int, int], ...] = ()
     stopped: tuple[tuple[int, int], ...] = ()
+    marks: tuple[Mark, ...] = ()
+    source: Source = "sound"
 
     @property
     def place(self) -> tuple[int, int, int]:

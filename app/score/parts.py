@@ -103,6 +103,7 @@ from app.score.choose import (
 )
 from app.score.clean import Fault
 from app.score.limits import MOST_PARTS, most_parts
+from app.score.marks import Mark, marks_of_player
 from app.score.model import MOST_VOICES, Note, Part, Score, UnplayedPart, sounding_spans
 from app.score.regions import are_one_line, groups, is_spread, joined
 from app.score.solos import solo_notes, with_solos
@@ -488,6 +489,7 @@ def _parts(
     """A part for every voice."""
     parts = []
     instrument = found.instrument
+    onsets = {file_id(note.id): note.onset_tick for notes in voices for note in notes} if stream.marks else {}
     for voice, notes in enumerate(voices, stream.change * MOST_VOICES):
         chosen = found.best([note.pitch for note in notes], written)
         shift = -chosen.transposition_semitones if written else 0
@@ -506,9 +508,20 @@ def _parts(
                 transposed_semitones=shift,
                 muted=stream.muted,
                 stopped=stream.stopped,
+                marks=_marks(stream.marks, onsets, notes),
+                source=stream.source,
             )
         )
     return parts
+
+
+def _marks(marks: Sequence[Mark], onsets: Mapping[str, int], notes: Sequence[Note]) -> tuple[Mark, ...]:
+    """The marks of a stream that are about a voice of it."""
+    return (
+        marks_of_player(marks, onsets, [(note.onset_tick, file_id(note.id), note.id) for note in notes])
+        if marks
+        else ()
+    )
 
 
 def transposed(notes: tuple[Note, ...], semitones: int) -> tuple[Note, ...]:

@@ -75,7 +75,7 @@ def follow_one_another(streams: Sequence[TrackChannel]) -> bool:
 
 
 def joined(streams: Sequence[TrackChannel]) -> TrackChannel:
-    """The first of some streams, with the curves and the muted spans of all.
+    """The first of some streams, with the curves, the muted spans and the marks of all.
 
     Where the streams do not follow one another the curves are those of the first that has any.
     """
@@ -84,7 +84,8 @@ def joined(streams: Sequence[TrackChannel]) -> TrackChannel:
         curves = _curves(streams)
     muted = tuple(sorted({span for stream in streams for span in stream.muted}))
     stopped = tuple(sorted({span for stream in streams for span in stream.stopped}))
-    return msgspec.structs.replace(streams[0], curves=curves, muted=muted, stopped=stopped)
+    marks = tuple(dict.fromkeys(mark for stream in streams for mark in stream.marks))
+    return msgspec.structs.replace(streams[0], curves=curves, muted=muted, stopped=stopped, marks=marks)
 
 
 def _curves(streams: Sequence[TrackChannel]) -> tuple[ControllerCurve, ...]:

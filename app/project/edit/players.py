@@ -32,6 +32,7 @@ from app.project.model import Project, characters_for
 from app.project.names import clean_name
 from app.project.performers import Dancer, Player
 from app.score.choose import require_map
+from app.score.marks import renamed_marks
 from app.score.model import Part
 from app.score.sound_module import DRUM_CHANNEL
 from instrument_maps.library import all_maps, find_map
@@ -277,9 +278,10 @@ def duplicate_players(project: Project, player_ids: Sequence[str]) -> tuple[Proj
         )
         part = project.part(player)
         notes = tuple(msgspec.structs.replace(note, id=next(note_ids)) for note in part.notes)
-        parts.append(msgspec.structs.replace(part, id=part_id, name=name, notes=notes))
+        copied = {one.id: other.id for one, other in zip(part.notes, notes, strict=True)}
+        marks = renamed_marks(part.marks, copied)
+        parts.append(msgspec.structs.replace(part, id=part_id, name=name, notes=notes, marks=marks))
         if player.id in corrections:
-            copied = {one.id: other.id for one, other in zip(part.notes, notes, strict=True)}
             corrections[new_id] = tuple(moved(correction, copied) for correction in corrections[player.id])
     score = msgspec.structs.replace(project.score, parts=(*project.score.parts, *parts))
     result = with_newcomers(replace(project, score=score, corrections=corrections), tuple(copies.values()))

@@ -30,6 +30,7 @@ from app.project.model import CompSpan, PlayerTakes, Project
 from app.project.performers import Dancer, Player
 from app.project.recording import AudioTrack, BeatPin, Doubt
 from app.project.video import VideoTrack
+from app.score.marks import Mark
 from app.score.metre_map import Metre
 from app.score.model import ControllerCurve, Marker, Note, Part, PercussionHit, Score, UnplayedPart
 from app.score.take import Cleaning, ControllerMapping, Take
@@ -76,6 +77,12 @@ def full_project(folder: str = "/music") -> Project:
             **{f: getattr(score.parts[0], f) for f in Part.__struct_fields__},
             "curves": (curve,),
             "transposed_semitones": -2,
+            "marks": (
+                Mark("slur", "1:1", "1:3"),
+                Mark("dynamic", tick=480, text="sfz"),
+                Mark("crescendo", "", "", 0, 480),
+            ),
+            "source": "score",
         }
     )
     full_score = Score(

@@ -1,0 +1,162 @@
+"""Marks that a composer wrote for a player: slurs, articulations, breaths, dynamics. One row for each kind.
+
+A mark is anchored to notes by their ids, or to ticks of the piece. One whose notes a player does not have does nothing.
+"""
+
+from __future__ import annotations
+
+from bisect import bisect_left, bisect_right
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from typing import TYPE_CHECKING, Final, Literal, NamedTuple, TypeAlias
+
+import msgspec
+
+Source: TypeAlias = Literal["sound", "score"]
+"""What a part was read from. Of a score the absence of marks means something: what is not slurred is tongued."""
+
+
+class Marking(NamedTuple):
+    """A kind of mark.
+
+    Attributes
+    ----------
+    id : str
+        Also in users' files.
+    names : (str, str)
+        In English and Japanese.
+    anchor : {"note", "notes", "place", "span"}
+        One note (an ornament that was written out: its first and its last), the first and the last of several, a tick,
+        or ticks from and to which it holds.
+    has_text : bool
+        Its text says more: the dynamic, the valves of a fingering, the number of a slide position.
+    """
+
+    id: str
+    names: tuple[str, str]
+    anchor: Literal["note", "notes", "place", "span"] = "note"
+    has_text: bool = False
+
+
+MARKINGS: Final = (
+    Marking("slur", ("Slur", "スラー"), "notes"),
+    Marking("staccato", ("Staccato", "スタッカート")),
+    Marking("staccatissimo", ("Staccatissimo", "スタッカーティッシモ")),
+    Marking("tenuto", ("Tenuto", "テヌート")),
+    Marking("accent", ("Accent", "アクセント")),
+    Marking("marcato", ("Marcato", "マルカート")),
+    Marking("breath", ("Breath mark", "ブレス記号")),
+    Marking("caesura", ("Caesura", "カエスーラ")),
+    Marking("fermata", ("Fermata", "フェルマータ")),
+    Marking("dynamic", ("Dynamic", "強弱記号"), "place", has_text=True),
+    Marking("crescendo", ("Crescendo", "クレッシェンド"), "span"),
+    Marking("diminuendo", ("Diminuendo", "ディミヌエンド"), "span"),
+    Marking("double_tongue", ("Double tongue", "ダブルタンギング")),
+    Marking("triple_tongue", ("Triple tongue", "トリプルタンギング")),
+    Marking("flutter_tongue", ("Flutter tongue", "フラッタータンギング")),
+    Marking("grace", ("Grace note", "装飾音")),
+    Marking("trill", ("Trill", "トリル")),
+    Marking("mordent", ("Mordent", "モルデント")),
+    Marking("turn", ("Turn", "ターン")),
+    Marking("tremolo", ("Tremolo", "トレモロ")),
+    Marking("scoop", ("Scoop", "スクープ")),
+    Marking("plop", ("Plop", "プロップ")),
+    Marking("doit", ("Doit", "ドイト")),
+    Marking("fall", ("Fall", "フォール")),
+    Marking("glissando", ("Glissando", "グリッサンド")),
+    Marking("stopped", ("Stopped", "ゲシュトップ")),
+    Marking("open", ("Open", "オープン")),
+    Marking("fingering", ("Written fingering", "指定の運指"), has_text=True),
+    Marking("position", ("Written slide position", "指定のスライドポジション"), has_text=True),
+)
+MARK_KINDS: Final[Mapping[str, Marking]] = {kind.id: kind for kind in MARKINGS}
+if TYPE_CHECKING:
+    MarkKind: TypeAlias = str
+else:
+    # Readers of files refuse all others.
+    MarkKind = Literal[tuple(MARK_KINDS)]
+MARK_TEXTS: Final = {f"mark.{kind.id}": kind.names for kind in MARKINGS}
+"""Names of marks by id, in English and Japanese."""
+
+
+class Mark(msgspec.Struct, frozen=True, gc=False, omit_defaults=True):
+    """A mark in the music.
+
+    Attributes
+    ----------
+    note_id : str
+        The note it stands at, or the first of several; empty for one anchored to ticks.
+    last_note_id : str
+        The last of several notes: of a slur, or of those that a trill or a tremolo was written out in, which has none
+        where it is one note.
+    tick, end_tick : int
+        Of one anchored to ticks; the end is 0 where it stands at one place.
+    text : str
+        ``"mf"``, ``"sfz"`` of a dynamic; ``"1-2"``, ``"0"`` of a fingering; ``"4"`` of a position.
+    """
+
+    kind: MarkKind
+    note_id: str = ""
+    last_note_id: str = ""
+    tick: int = 0
+    end_tick: int = 0
+    text: str = ""
+
+
+def renamed_marks(marks: Iterable[Mark], ids: Mapping[str, str]) -> tuple[Mark, ...]:
+    """The marks with other ids for their notes; those of notes without a new id keep theirs."""
+    return tuple(
+        msgspec.structs.replace(
+            mark,
+            note_id=ids.get(mark.note_id, mark.note_id),
+            last_note_id=ids.get(mark.last_note_id, mark.last_note_id),
+        )
+        if mark.note_id
+        else mark
+        for mark in marks
+    )
+
+
+def marks_of_player(
+    marks: Sequence[Mark], all_notes: Mapping[str, int], own_notes: Sequence[tuple[int, str, str]]
+) -> tuple[Mark, ...]:
+    """The marks that one of the players of a staff has.
+
+    A slur that begins or ends at another player's note holds for what this one has of it, where that is two notes.
+
+    Parameters
+    ----------
+    all_notes : mapping of note id to tick
+        Onsets of the notes of the staff.
+    own_notes : sequence of (tick, note id, note id)
+        Onset, id in the staff and id with the player, by onset.
+    """
+    ids = {id: own for _, id, own in own_notes}
+    onsets = [onset for onset, _, _ in own_notes]
+    found = []
+    for mark in marks:
+        if not mark.note_id:
+            found.append(mark)
+            continue
+        first, last = ids.get(mark.note_id), ids.get(mark.last_note_id)
+        if mark.last_note_id and (first is None) != (last is None):
+            start, end = all_notes.get(mark.note_id), all_notes.get(mark.last_note_id)
+            if start is not None and first is None and (place := bisect_left(onsets, start)) < len(onsets):
+                first = own_notes[place][2]
+            if end is not None and last is None and (place := bisect_right(onsets, end)):
+                last = own_notes[place - 1][2]
+        if first is None or (mark.last_note_id and (last is None or last == first)):
+            continue
+        found.append(msgspec.structs.replace(mark, note_id=first, last_note_id=last or ""))
+    return tuple(dict.fromkeys(found))
+
+
+def moved_marks(marks: Iterable[Mark], place: Callable[[int], int]) -> tuple[Mark, ...]:
+    """The marks with those anchored to ticks elsewhere."""
+    return tuple(
+        mark
+        if mark.note_id
+        else msgspec.structs.replace(
+            mark, tick=max(place(mark.tick), 0), end_tick=max(place(mark.end_tick), 0) if mark.end_tick else 0
+        )
+        for mark in marks
+    )
