@@ -32,8 +32,6 @@ from app.project.model import Project
 from app.project.performers import Dancer, Player
 
 if TYPE_CHECKING:
-    from PySide6.QtGui import QAction
-
     from app.audio.playback import Playback
 
 TimeDisplay = Literal["bars", "seconds", "frames"]
@@ -139,8 +137,6 @@ class Session(QObject):
         self.streaming = Streaming()
         self.playback: Playback | None = None
         """Plays the performance; None without sound, as in a picture made without a window."""
-        self.actions: Mapping[str, QAction] = {}
-        """Every action of the table by id; filled by the shell before any panel shows a menu."""
         self.timeline_view: TimelineView | None = None
         """The timeline, for commands that mean it; the panel sets it."""
         self._performance = Performance(project)

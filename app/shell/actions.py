@@ -121,7 +121,7 @@ class ActionTable(QObject):
     Parameters
     ----------
     session : Session
-        Gets the actions by id.
+        Is the table's parent: `widgets.common.actions` finds the actions there.
     settings : Settings
         Knows the user's own shortcuts.
     rows : sequence of Row
@@ -143,7 +143,6 @@ class ActionTable(QObject):
         self.rows = {row.id: row for row in rows}
         self._context = "window"
         self.actions = {row.id: RowAction(row, self) for row in rows}
-        session.actions = self.actions
         self._soon = QTimer(self, singleShot=True, interval=0)
         self._soon.timeout.connect(self.refresh)
         for signal in (

@@ -48,6 +48,7 @@ from app.shell.theme import apply_theme, unstyled
 from app.shell.window import Window
 from instrument_maps.library import begin
 from metadata.library import begin_metadata
+from widgets.common.actions import actions
 from widgets.common.font import apply_font
 
 STOP_S = 3.0
@@ -220,7 +221,7 @@ def run(start: Start) -> int:
 
 def _assignment(program: Program, start: Start) -> None:
     if start.theme:
-        program.session.actions[f"theme.{start.theme}"].trigger()
+        actions(program.session)[f"theme.{start.theme}"].trigger()
     if start.language:
         program.editor.speak(start.language)
 

@@ -15,6 +15,7 @@ from app.editor.settings import Settings
 from app.encoding import shown
 from app.formats.other_computers import is_file, may_touch
 from app.project.recovery import Recoverable
+from widgets.common.actions import actions
 from widgets.common.clicks import on_click
 from widgets.common.controls import IconButton, Retranslated, named, sized, wrapped
 from widgets.common.icons import icon
@@ -162,7 +163,7 @@ class StartPage(Retranslated, QScrollArea):
         self.refresh()
 
     def _trigger(self, action_id: str) -> None:
-        self._session.actions[action_id].trigger()
+        actions(self._session)[action_id].trigger()
 
 
 def _label(name: str, size_pt: float) -> Label:

@@ -18,6 +18,7 @@ from app.editor.tasks import Task, ThreadTasks
 from app.errors import Message
 from app.shell.notices import NoticeList, severity_colour
 from instrument_maps.library import library
+from widgets.common.actions import actions
 from widgets.common.clicks import on_click
 from widgets.common.controls import IconButton, Retranslated, named, small
 from widgets.common.icons import icon
@@ -118,7 +119,7 @@ class StatusLine(Retranslated, QStatusBar):
             self._tasks.changed.connect(self._tasks_changed)
 
     def _do(self, action_id: str) -> None:
-        self._session.actions[action_id].trigger()
+        actions(self._session)[action_id].trigger()
 
     # Work
 

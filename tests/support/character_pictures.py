@@ -25,6 +25,7 @@ from app.editor.tasks import ThreadTasks
 from app.rig.characters.character_library import FOLDER_VARIABLE, character_library
 from app.shell.app import Program, make_application
 from app.shell.characters import bring_character
+from widgets.common.actions import actions
 from widgets.dialogs.character import CharacterDialog
 from widgets.dialogs.characters import CharactersDialog
 
@@ -140,7 +141,7 @@ def draw(target: Path, language: str, theme: str) -> None:
         studio.settle()
         studio.wait(2.0)
         save(studio.window, target / f"character-plays{suffix}.png")
-        program.session.actions["application.characters"].trigger()
+        actions(program.session)["application.characters"].trigger()
         studio.settle()
         shelf = studio.window.findChild(CharactersDialog)
         assert isinstance(shelf, CharactersDialog)

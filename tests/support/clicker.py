@@ -16,6 +16,7 @@ from app.shell.app import Program
 from tests.support import mouse
 from tests.support.click_table import expected
 from tests.support.window_state import Watcher, Widgets, changed, names_of
+from widgets.common.actions import actions
 from widgets.common.section import SectionHeader
 
 Path = tuple[str, ...]
@@ -243,7 +244,7 @@ class Clicker:
             self._note(name, found, where or menu_name)
 
     def _full_name(self, menu_name: str, path: Path) -> str:
-        return path[-1] if path[-1] in self._program.session.actions else f"{menu_name} > {' > '.join(path)}"
+        return path[-1] if path[-1] in actions(self._program.session) else f"{menu_name} > {' > '.join(path)}"
 
     def _has_acted(self, name: str) -> bool:
         """Return whether a click has already changed what the table says."""
@@ -339,7 +340,7 @@ class Clicker:
     def _is_tried_again(self, spot: str, path: Path, tries: int) -> bool:
         name = self._full_name(spot, path)
         if self._has_acted(name):
-            return tries == 0 and name in self._program.session.actions
+            return tries == 0 and name in actions(self._program.session)
         return tries < TRIES
 
 

@@ -30,6 +30,7 @@ from app.shell.app import Program
 from tests.gui.conftest import QUARTET
 from tests.support.films import written
 from tests.support.takes import take_of
+from widgets.common.actions import actions
 from widgets.timeline.panel import TimelinePanel
 from widgets.viewport.panel import ViewportPanel
 
@@ -124,7 +125,7 @@ def onset_s(desk: Desk, index: int) -> float:
 
 
 def dancing(desk: Desk) -> None:
-    desk.session.actions["dancers.add"].trigger()
+    actions(desk.session)["dancers.add"].trigger()
 
 
 def has_recording(desk: Desk) -> None:

@@ -32,6 +32,7 @@ from app.shell.commands.exchange import reimport_from
 from app.shell.garbage import Garbage
 from tests.bench.performance.large import large_project
 from tests.support.windows import LOOK_AGAIN_MS, pause
+from widgets.common.actions import actions
 from widgets.dialogs.reimport_midi import ReimportDialog
 
 QUARTET = Path(__file__).parents[2] / "resources" / "examples" / "quartet.mid"
@@ -225,8 +226,8 @@ class LongDay:
     def trigger(self, action_id: str) -> None:
         """Do what an action does, if it makes sense now."""
         self.program.editor.table.refresh()
-        if self.session.actions[action_id].isEnabled():
-            self.session.actions[action_id].trigger()
+        if actions(self.session)[action_id].isEnabled():
+            actions(self.session)[action_id].trigger()
 
     def wait(self, seconds: float) -> None:
         """Let the window work."""

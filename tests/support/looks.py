@@ -58,6 +58,7 @@ from tests.support.real_work import LUTKIN
 from tests.support.takes import take_of
 from tests.support.tasks import ImmediateTasks
 from tests.support.windows import pause
+from widgets.common.actions import actions
 from widgets.dialogs.import_midi import ImportDialog
 from widgets.viewport import figures
 
@@ -200,7 +201,7 @@ class Look:
     def do(self, action_id: str) -> None:
         """Choose an action."""
         self.program.editor.table.refresh()
-        self.session.actions[action_id].trigger()
+        actions(self.session)[action_id].trigger()
 
     def shut(self) -> None:
         """Close dialogs."""

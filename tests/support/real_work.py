@@ -32,6 +32,7 @@ from tests.gui.shell.conftest import Answers
 from tests.gui.timeline.hand import Hand
 from tests.gui.timeline.lane_hands import drag, middle
 from tests.support.windows import LOOK_AGAIN_MS, pause
+from widgets.common.actions import actions
 from widgets.common.number_slider import NumberSlider
 from widgets.timeline.lanes.regions import RegionLane
 from widgets.timeline.panel import TimelinePanel
@@ -92,7 +93,7 @@ class Work:
     def do(self, action_id: str) -> None:
         """Choose an action."""
         self.program.editor.table.refresh()
-        action = self.session.actions[action_id]
+        action = actions(self.session)[action_id]
         assert action.isEnabled(), action_id
         action.trigger()
         self.application.processEvents()

@@ -35,6 +35,7 @@ from app.shell.app import Program, make_application
 from tests.gui.timeline.lane_hands import drag
 from tests.support.jack import QUICK_FRAMES, jack_server
 from tests.support.wind_player import Played, WindPlayer
+from widgets.common.actions import actions
 from widgets.dialogs.latency import CLICKS_S, LEAD, LatencyDialog
 from widgets.dialogs.midi_devices import MidiDevicesDialog
 
@@ -177,7 +178,7 @@ def open_piece(film: Film) -> None:
 
 def devices(film: Film) -> None:
     """The device is chosen, and something comes in."""
-    film.session.actions["record.devices"].trigger()
+    actions(film.session)["record.devices"].trigger()
     dialog = child(film.window, MidiDevicesDialog, "midi_devices")
     tree = child(dialog, QTreeWidget, "midi_device_list")
     film.wait(lambda: tree.topLevelItemCount() > 1)
@@ -207,7 +208,7 @@ def devices(film: Film) -> None:
 
 def latency(film: Film) -> None:
     """Someone blows on the clicks."""
-    film.session.actions["record.latency"].trigger()
+    actions(film.session)["record.latency"].trigger()
     dialog = child(film.window, LatencyDialog, "latency")
     film.rest(0.5)
     QTest.mouseClick(child(dialog, QPushButton, "latency_start"), Qt.MouseButton.LeftButton)
@@ -242,7 +243,7 @@ def record(film: Film) -> None:
         film.window.timeline.axis.show(start_s - 4.0, end_s + 2.0)
         film.rest(0.5)
         played = film.part_played(number)
-        session.actions["record.toggle"].trigger()
+        actions(session)["record.toggle"].trigger()
         film.wait(lambda: session.recording.running and playback.position_s() > session.recording.counted_from_s)
         film.play(played, playback.position_s)
         if number == 0:
@@ -251,7 +252,7 @@ def record(film: Film) -> None:
             film.wait(lambda: session.playhead_s >= (start_s + end_s) / 2)
             film.picture("recording", film.window, (0.0, 0.0, 0.8, 0.72))
         film.wait(lambda: session.playhead_s >= end_s)
-        session.actions["record.toggle"].trigger()
+        actions(session)["record.toggle"].trigger()
         count = number + 1
         film.wait(lambda count=count: len(_takes(film, player)) == count)  # type: ignore[misc]
     session.set_playhead(start_s)

@@ -34,6 +34,7 @@ from app.project.storage import load, save
 from app.shell.app import Program
 from tests.support.takes import take_of
 from tests.support.windows import pause
+from widgets.common.actions import actions
 
 QUARTET = Path(__file__).parents[2] / "resources" / "examples" / "quartet.mid"
 
@@ -280,8 +281,8 @@ class Restless:
             QTest.keyClick(target, first.key(), first.keyboardModifiers())
             return
         table.refresh()
-        if self.session.actions[action_id].isEnabled():
-            self.session.actions[action_id].trigger()
+        if actions(self.session)[action_id].isEnabled():
+            actions(self.session)[action_id].trigger()
 
     def context_menu(self) -> None:
         """Ask for the menu of something."""

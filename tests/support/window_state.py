@@ -20,6 +20,7 @@ from PySide6.QtWidgets import (
 
 from app.shell.app import Program
 from tests.support.tasks import ImmediateTasks
+from widgets.common.actions import actions
 from widgets.common.section import Section
 from widgets.players.stage import StageView
 
@@ -113,7 +114,7 @@ class Watcher:
             "loop": session.loop_s,
             "grid": session.grid,
             "theme": session.tokens.name,
-            "language": session.actions["file.save"].text(),
+            "language": actions(session)["file.save"].text(),
             "time": session.time_display,
             "pitch": (
                 session.pitch_display.written,

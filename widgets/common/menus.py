@@ -8,6 +8,7 @@ from PySide6.QtCore import QPoint, Qt
 from PySide6.QtWidgets import QMenu, QWidget
 
 from app.editor.session import Session
+from widgets.common.actions import actions
 from widgets.common.controls import named
 
 
@@ -20,15 +21,17 @@ def passing_menu(parent: QWidget, name: str = "") -> QMenu:
 
 def add_actions(menu: QMenu, session: Session, ids: Iterable[str]) -> None:
     """Add these actions, as far as there are any; an empty id is a line."""
+    table = actions(session)
     for id in ids:
-        if id in session.actions:
-            menu.addAction(session.actions[id])
+        if id in table:
+            menu.addAction(table[id])
         elif not id:
             menu.addSeparator()
 
 
 def offer_actions(session: Session, ids: Iterable[str], parent: QWidget, name: str, at: QPoint) -> None:
-    """Open a menu of these actions at a place of the screen; see `add_actions`."""
-    menu = passing_menu(parent, name)
-    add_actions(menu, session, ids)
-    menu.popup(at)
+    """Open a menu of these actions at a place of the screen, if there are any; see `add_actions`."""
+    if actions(session):
+        menu = passing_menu(parent, name)
+        add_actions(menu, session, ids)
+        menu.popup(at)

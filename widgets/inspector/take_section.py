@@ -19,6 +19,7 @@ from app.project.edit.takes import colour_take, rename_take, set_cleaning, take_
 from app.project.limits import CLEANING
 from app.project.performers import Player
 from app.score.take import Cleaning, Take
+from widgets.common.actions import actions
 from widgets.common.combo import Combo, Option
 from widgets.common.controls import Button, Retranslated, named, wrapped
 from widgets.common.layouts import STRETCH, in_column, in_row
@@ -163,10 +164,10 @@ class TakeSection(Retranslated, QWidget):
         self._apply_theme()
 
     def _clean_as_usual(self) -> None:
-        self._session.actions["takes.usual_cleaning"].trigger()
+        actions(self._session)["takes.usual_cleaning"].trigger()
 
     def _find_beats(self) -> None:
-        self._session.actions["takes.find_beats"].trigger()
+        actions(self._session)["takes.find_beats"].trigger()
 
     # Showing
 
@@ -185,8 +186,9 @@ class TakeSection(Retranslated, QWidget):
             self._name.setText(take.name)
         self._swatch.show_colours((take.colour or self._session.colour(player),))
         self._about.setText(self._about_text(take))
+        table = actions(self._session)
         for id, button in self._buttons.items():
-            action = self._session.actions.get(id)
+            action = table.get(id)
             if action is not None and button.defaultAction() is not action:
                 button.setDefaultAction(action)
         self._show_cleaning(take, has_score=bool(recorded.before_notes))

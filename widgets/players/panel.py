@@ -309,5 +309,5 @@ class PlayersPanel(Retranslated, QWidget):
 
     def contextMenuEvent(self, event: QContextMenuEvent) -> None:
         inside = self.list.rect().contains(self.list.mapFromGlobal(event.globalPos()))
-        if inside and self._session.actions:
+        if inside:
             offer_actions(self._session, MENU, self, "players_menu", event.globalPos())

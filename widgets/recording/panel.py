@@ -13,6 +13,7 @@ from app.editor.session import Session
 from app.editor.tokens import LEAST_TARGET_PX
 from app.project.performers import Player
 from instrument_maps.library import all_maps
+from widgets.common.actions import actions
 from widgets.common.combo import Combo, Option
 from widgets.common.controls import Retranslated, named
 from widgets.common.icons import pixmap
@@ -101,7 +102,7 @@ class RecordingPanel(Retranslated, QWidget):
         session.players_changed.connect(self._show)
         session.theme_changed.connect(self._show)
         session.pitch_display.changed.connect(self._show_played)
-        self._count_in.chosen.connect(lambda id: self._session.actions[id].trigger())
+        self._count_in.chosen.connect(lambda id: actions(self._session)[id].trigger())
 
     # What is shown
 
@@ -164,11 +165,11 @@ class RecordingPanel(Retranslated, QWidget):
         tip = self.tr("recording_panel.breath_and_note")
         self._meter.setToolTip(tip)
         self._meter.setAccessibleName(tip)
-        actions = self._session.actions
+        table = actions(self._session)
         for id, button in self._buttons.items():
-            if id in actions:
-                button.setDefaultAction(actions[id])
-        self._count_in.set_options([Option(id, actions[id].iconText()) for id in COUNT_INS if id in actions])
+            if id in table:
+                button.setDefaultAction(table[id])
+        self._count_in.set_options([Option(id, table[id].iconText()) for id in COUNT_INS if id in table])
         self._show()
 
     # Qt overrides

@@ -9,6 +9,7 @@ from PySide6.QtWidgets import QButtonGroup, QHBoxLayout, QMenu, QSizePolicy, QTo
 from app.editor.session import Session
 from app.editor.timeline_view import Ghosts, Tool
 from app.project.document import Change
+from widgets.common.actions import actions
 from widgets.common.controls import Retranslated, named
 from widgets.common.icons import icon
 from widgets.common.plain import ComboBox, Label
@@ -95,8 +96,9 @@ class ToolBar(Retranslated, QWidget):
             Tool.ERASE: self.tr("tool_bar.erase_drag_over_notes"),
             Tool.SPLIT: self.tr("tool_bar.split_click_where_note_shall"),
         }
+        table = actions(self._session)
         for tool, button in self.tools.items():
-            action = self._session.actions.get(f"notes.tool_{tool.value}")
+            action = table.get(f"notes.tool_{tool.value}")
             keys = action.shortcut().toString() if action is not None else ""
             button.setToolTip(f"{tips[tool]} ({keys})" if keys else tips[tool])
             button.setAccessibleName(tips[tool])

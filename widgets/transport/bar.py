@@ -14,11 +14,13 @@ from app.editor.session import Session
 from app.editor.tokens import LEAST_TARGET_PX
 from app.project.document import Change
 from app.project.grid import Grid
+from widgets.common.actions import actions
 from widgets.common.clicks import on_click, on_switch
 from widgets.common.combo import Combo, Option
 from widgets.common.controls import Caption, Retranslated, named
 from widgets.common.icons import icon, pixmap
 from widgets.common.layouts import STRETCH, in_row
+from widgets.common.menus import add_actions
 from widgets.common.number_slider import NumberSlider
 from widgets.common.plain import Label
 from widgets.transport.beat_light import BeatLight
@@ -35,11 +37,11 @@ BUTTONS = (
 TOGGLES = (("play.click", "metronome"), ("play.follow", "follow"))
 
 RECORD_MENU = (
-    ("record.count_in_0", "record.count_in_1", "record.count_in_2"),
-    ("record.punch", "record.arm"),
-    ("record.devices", "record.latency"),
+    *("record.count_in_0", "record.count_in_1", "record.count_in_2", ""),
+    *("record.punch", "record.arm", ""),
+    *("record.devices", "record.latency"),
 )
-"""What the record button's menu offers."""
+"""What the record button's menu offers, with lines between groups."""
 
 _SPACING_PX = 3
 
@@ -179,7 +181,7 @@ class TransportBar(Retranslated, QWidget):
     # What the user does
 
     def _trigger(self, action_id: str) -> None:
-        action = self._session.actions.get(action_id)
+        action = actions(self._session).get(action_id)
         if action is not None:
             action.trigger()
         # A toggle that did nothing must not look as if it had.
@@ -187,9 +189,7 @@ class TransportBar(Retranslated, QWidget):
 
     def _fill_record_menu(self, menu: QMenu) -> None:
         menu.clear()
-        for group in RECORD_MENU:
-            menu.addSeparator()
-            menu.addActions([action for id in group if (action := self._session.actions.get(id)) is not None])
+        add_actions(menu, self._session, RECORD_MENU)
 
     def _go(self, time_s: float) -> None:
         self._session.set_playhead(time_s)
@@ -316,8 +316,9 @@ class TransportBar(Retranslated, QWidget):
             "play.click": self.tr("transport_bar.metronome"),
             "play.follow": self.tr("transport_bar.timeline_follows_playhead"),
         }
+        table = actions(self._session)
         for id, tip in tips.items():
-            self._tip(self.buttons[id], tip, self._session.actions.get(id))
+            self._tip(self.buttons[id], tip, table.get(id))
         for slider in (self.volume, self.speed):
             # A slider without its name is not found.
             slider.setMinimumWidth(min(slider.sizeHint().width(), slider.maximumWidth()))

@@ -12,6 +12,7 @@ from PySide6.QtWidgets import QButtonGroup, QMenu, QSizePolicy, QToolButton, QWi
 from app.editor.session import Session
 from app.editor.tokens import LEAST_TARGET_PX
 from app.editor.viewport_state import SHOWN, VIEWS, Shown, View
+from widgets.common.actions import actions
 from widgets.common.clicks import on_click, on_switch
 from widgets.common.controls import Retranslated, named
 from widgets.common.icons import icon
@@ -150,12 +151,12 @@ class Header(Retranslated, QWidget):
 
     def _tip(self, text: str, action_id: str) -> str:
         """A tool tip with the action's shortcut, where it has one."""
-        action = self._session.actions.get(action_id)
+        action = actions(self._session).get(action_id)
         shortcut = action.shortcut().toString() if action is not None else ""
         return f"{text} ({shortcut})" if shortcut else text
 
     def _toggle_full_screen(self) -> None:
-        self._session.actions[FULL_SCREEN].trigger()
+        actions(self._session)[FULL_SCREEN].trigger()
 
     def _button(self, name: str, picture: str = "", checkable: bool = False) -> QToolButton:
         button = named(QToolButton(self), name)
@@ -195,7 +196,7 @@ class Header(Retranslated, QWidget):
 
     def showEvent(self, event: QShowEvent) -> None:
         """The shell's actions are known by now: their shortcuts are reported, and the screen can be filled."""
-        self._full.setVisible(FULL_SCREEN in self._session.actions)
+        self._full.setVisible(FULL_SCREEN in actions(self._session))
         self.retranslate()
         super().showEvent(event)
 

@@ -9,7 +9,7 @@ from time import perf_counter
 
 import numpy as np
 import numpy.typing as npt
-from PySide6.QtCore import QEvent, QObject, QPoint, QPointF, QRectF, QSize, Qt, QTimer
+from PySide6.QtCore import QEvent, QObject, QPointF, QRectF, QSize, Qt, QTimer
 from PySide6.QtGui import QColor, QImage, QPainter
 from PySide6.QtWidgets import QStackedWidget, QWidget
 
@@ -21,7 +21,7 @@ from app.errors import AppError
 from app.project.document import Change
 from widgets.common.controls import Retranslated, named, wrapped
 from widgets.common.layouts import in_column
-from widgets.common.menus import passing_menu
+from widgets.common.menus import offer_actions
 from widgets.common.plain import Label
 from widgets.viewport.camera import Camera, frame
 from widgets.viewport.canvas import Canvas, Picture, pixels, why_no_gl
@@ -52,12 +52,13 @@ SETTLED_S = 4.0
 """After an edit poses may still change for this long."""
 LEAST_SIZE = QSize(160, 120)
 MENU = (
-    ("viewport.frame", "viewport.frame_all"),
-    tuple(f"viewport.{view}" for view in VIEWS),
-    tuple(f"viewport.{what}" for what in SHOWN),
-    ("viewport.pose", "application.full_screen"),
+    *("viewport.frame", "viewport.frame_all", ""),
+    *(f"viewport.{view}" for view in VIEWS),
+    "",
+    *(f"viewport.{what}" for what in SHOWN),
+    *("", "viewport.pose", "application.full_screen"),
 )
-"""The menu under the right button: groups of actions."""
+"""The menu under the right button: actions, and lines between groups."""
 
 
 class ViewportPanel(Retranslated, QWidget):
@@ -135,7 +136,7 @@ class ViewportPanel(Retranslated, QWidget):
             self._pointer.moved.connect(self._update)
             self._pointer.posed.connect(self.refresh)
             self._pointer.released.connect(self.refresh)
-            self._pointer.menu_asked.connect(self._show_menu)
+            self._pointer.menu_asked.connect(lambda at: offer_actions(session, MENU, self, "viewport_menu", at))
             self._pointer.framed.connect(lambda row: self._frame([row]))
 
     # What others ask
@@ -529,19 +530,6 @@ class ViewportPanel(Retranslated, QWidget):
         self._eye.choose("ensemble")
         self._eye.touched = True
         self._go(frame(self._eye.destination, *bounds(stage, rows), widget.width() / max(widget.height(), 1)))
-
-    def _show_menu(self, at: QPoint) -> None:
-        """What can be done here, from the table of actions."""
-        menu = passing_menu(self, "viewport_menu")
-        for group in MENU:
-            rows = [self._session.actions[name] for name in group if name in self._session.actions]
-            if rows:
-                menu.addActions(rows)
-                menu.addSeparator()
-        if menu.actions():
-            menu.popup(at)
-        else:
-            menu.deleteLater()
 
     # Looks and language
 

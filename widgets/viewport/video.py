@@ -17,6 +17,7 @@ from app.formats.video import Picture
 from app.project.document import Change
 from app.project.edit.piece import set_video_offset
 from app.project.limits import OFFSET_S
+from widgets.common.actions import actions
 from widgets.common.clicks import on_click
 from widgets.common.controls import Retranslated, named
 from widgets.common.flow import FlowLayout
@@ -168,7 +169,7 @@ class VideoStrip(Retranslated, QWidget):
         self._estimate = self.texted(
             self._button("video_estimate"), text="video_strip.find_by_sound", tip="video_strip.place_by_sound"
         )
-        on_click(self._estimate, lambda: session.actions["video.estimate_offset"].trigger())
+        on_click(self._estimate, lambda: actions(session)["video.estimate_offset"].trigger())
         self._hide = self.texted(self._button("video_hide"), tip="video_strip.hide", name="video_strip.hide")
         on_click(self._hide, partial(session.video.set, placement="hidden"))
         # What the viewport has no room for comes into a second line, with its whole text.

@@ -35,6 +35,7 @@ from app.project.edit.notes import erase
 from app.project.model import Project
 from app.shell.action import Action
 from app.shell.commands.chosen import events_by_player, has_player, has_something, notes_by_player
+from widgets.common.actions import actions
 from widgets.common.clicks import on_click
 from widgets.common.controls import named
 from widgets.common.event_names import expression_name, gesture_name, style_name
@@ -82,7 +83,7 @@ def choose_gesture(session: Session) -> None:
     """Show the kinds of gestures where the mouse is, and below them those that are written in tables."""
     menu = _menu()
     for action in ADDED:
-        menu.addAction(session.actions[action.id])
+        menu.addAction(actions(session)[action.id])
     menu.addSeparator()
     for name in sorted(session.performance.metadata.gestures.items, key=gesture_name):
         entry = menu.addAction(verbatim(gesture_name(name)))

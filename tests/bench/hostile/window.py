@@ -38,6 +38,7 @@ from tests.fuzz.harness.child import forget_peak, status_kb
 from tests.fuzz.harness.readers import KINDS
 from tests.gui.shell.conftest import Answers
 from tests.support.restless import QUARTET
+from widgets.common.actions import actions
 
 PATIENCE_S: Final = 60.0
 LOOK_S: Final = float(os.environ.get("SUISOU_LOOK_S", "1.5"))
@@ -177,8 +178,8 @@ class WatchedWindow:
 
     def _trigger(self, action_id: str) -> None:
         self.program.editor.table.refresh()
-        if self.session.actions[action_id].isEnabled():
-            self.session.actions[action_id].trigger()
+        if actions(self.session)[action_id].isEnabled():
+            actions(self.session)[action_id].trigger()
 
     def _reported(self, outcome: str, error: BaseException) -> dict[str, Any]:
         detail = "".join(traceback.format_exception(error))

@@ -23,6 +23,7 @@ from app.shell.commands import edit, takes
 from tests.gui.inspector.hands import child, click, drag, number, type_into
 from tests.support.takes import take_of
 from tests.support.windows import pause
+from widgets.common.actions import actions
 from widgets.common.combo import Combo
 from widgets.inspector.panel import InspectorPanel
 
@@ -157,7 +158,7 @@ def test_few_notes_have_no_beats(panel: InspectorPanel, taken: Session) -> None:
 
 
 def test_it_goes_with_the_take(panel: InspectorPanel, taken: Session, qtbot: QtBot) -> None:
-    taken.actions["takes.remove"].trigger()
+    actions(taken)["takes.remove"].trigger()
     assert not [field for field in panel.findChildren(QLineEdit, "take_name") if field.isVisible()]
     assert "Click a note" in words(panel)
     taken.select(Selection(take=""))

@@ -31,6 +31,7 @@ from tests.support.recorder import EWI, Clock, RunningClock, SpokenFor
 from tests.support.studio import Studio
 from tests.support.tasks import ImmediateTasks
 from tests.support.windows import draw_coarsely, show_in_front
+from widgets.common.actions import actions
 from widgets.viewport.canvas import Canvas
 
 
@@ -134,8 +135,8 @@ def start(qtbot: QtBot, qt_app: QApplication, settings: Settings, answers: Answe
 def trigger(program: Program, action_id: str) -> None:
     """Do what an action does, if it makes sense now."""
     program.editor.table.refresh()
-    assert program.session.actions[action_id].isEnabled(), action_id
-    program.session.actions[action_id].trigger()
+    assert actions(program.session)[action_id].isEnabled(), action_id
+    actions(program.session)[action_id].trigger()
 
 
 @pytest.fixture
@@ -185,7 +186,7 @@ def studio(
     result = Studio(program, tmp_path, clock)
     result.links = made
     program.editor.files.begin()
-    program.session.actions["players.add"].trigger()
+    actions(program.session)["players.add"].trigger()
     program.recorder.begin_where_remembered()
     result.wait(lambda: program.session.recording.connection == "open")
     yield result

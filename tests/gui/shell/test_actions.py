@@ -21,6 +21,7 @@ from app.shell.rows import rows
 from app.shell.window import Window
 from tests.gui.shell.conftest import trigger
 from tests.support.windows import show_in_front
+from widgets.common.actions import actions
 from widgets.players.choreography.dancers import MENU, DancersSection
 
 TEXTS = {id: text for room in ROOMS for id, text in room.items()}
@@ -73,12 +74,12 @@ def test_menus_show_a_command_with_one_shortcut(program: Program) -> None:
 
 
 def test_tool_tips_name_the_shortcut(program: Program) -> None:
-    assert program.session.actions["file.save"].toolTip() == "Save (Ctrl+S)"
+    assert actions(program.session)["file.save"].toolTip() == "Save (Ctrl+S)"
 
 
 def test_undo_names_the_step_and_takes_it_back(program: Program, qtbot: QtBot) -> None:
     session = program.session
-    undo, redo = session.actions["edit.undo"], session.actions["edit.redo"]
+    undo, redo = actions(session)["edit.undo"], actions(session)["edit.redo"]
     qtbot.waitUntil(lambda: not undo.isEnabled())
     before = session.project
     session.attempt(Message("edit.set_tempo"), lambda project: set_title(project, "Another"))
@@ -135,7 +136,7 @@ def test_a_shortcut_of_ones_own_works_and_is_remembered(program: Program, settin
     table.set_keys("theme.light", "Ctrl+Alt+J")
     qtbot.keyClick(program.window, Qt.Key.Key_J, Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.AltModifier)
     assert program.session.tokens.name == "light"
-    assert "Ctrl+Alt+J" in program.session.actions["theme.light"].toolTip()
+    assert "Ctrl+Alt+J" in actions(program.session)["theme.light"].toolTip()
     settings.sync()
     again = ActionTable(program.session, Settings(settings.path), rows())
     assert again.keys("theme.light") == "Ctrl+Alt+J"

@@ -25,6 +25,7 @@ from app.shell.recording_dialogs import show_latency
 from tests.gui.conftest import QUARTET, delete_now
 from tests.gui.shell.conftest import Studio, trigger
 from tests.unit.cli.test_main import ROOT
+from widgets.common.actions import actions
 from widgets.dialogs.character_draft import Draft
 from widgets.dialogs.follow_recording import FollowRecordingDialog
 from widgets.dialogs.instrument_map import InstrumentsDialog
@@ -70,7 +71,7 @@ OPENED: dict[str, Open] = {
     "EvaluationResultsDialog": command("file.evaluation_results"),
     "ChoreographyDialog": show_choreography,
     "LearnDialog": command("dancers.learn"),
-    "StreamDialog": lambda program: program.session.actions["stream.settings"].trigger(),
+    "StreamDialog": lambda program: actions(program.session)["stream.settings"].trigger(),
     "MidiDevicesDialog": command("record.devices"),
     "LatencyDialog": lambda program: show_latency(program.editor),
     "ReimportDialog": lambda program: reimport_from(program.editor, QUARTET),

@@ -39,6 +39,7 @@ from tests.support.desk import (
     recorded,
 )
 from tests.support.window_state import Watcher
+from widgets.common.actions import actions
 from widgets.common.number_slider import NumberSlider
 from widgets.common.section import SectionHeader
 from widgets.inspector.correction_list import CorrectionList
@@ -48,11 +49,11 @@ from widgets.viewport.panel import ViewportPanel
 
 
 def command(action_id: str) -> Deed:
-    return lambda desk: desk.session.actions[action_id].trigger()
+    return lambda desk: actions(desk.session)[action_id].trigger()
 
 
 def muted_light_japanese(desk: Desk) -> None:
-    desk.session.actions["players.mute"].trigger()
+    actions(desk.session)["players.mute"].trigger()
     desk.session.set_tokens(LIGHT)
     desk.program.editor.speak("ja")
 
@@ -60,8 +61,8 @@ def muted_light_japanese(desk: Desk) -> None:
 def by_hand(desk: Desk) -> None:
     """A player stands elsewhere and moves otherwise than it was cast, a note has another fingering."""
     there = {desk.player.id: StagePosition(0.3, 1.2, 0.25)}
-    desk.session.actions["players.randomise"].trigger()
-    desk.session.actions["fingering.cycle"].trigger()
+    actions(desk.session)["players.randomise"].trigger()
+    actions(desk.session)["fingering.cycle"].trigger()
     tabs, corrections = desk.program.window.findChild(QTabWidget), desk.program.window.findChild(CorrectionList)
     assert isinstance(tabs, QTabWidget)
     assert isinstance(corrections, CorrectionList)
@@ -84,7 +85,7 @@ def typing_fingerings(desk: Desk) -> None:
     assert {*"1234567", "T1"} <= set(notes)
     desk.session.set_players((player.id,))
     desk.session.select(Selection(frozenset(notes.values())))
-    desk.session.actions["fingering.type_1"].trigger()
+    actions(desk.session)["fingering.type_1"].trigger()
 
 
 def takes_of_a_part(desk: Desk) -> None:

@@ -37,6 +37,7 @@ from tests.support.canary import WATCHES, Canary, canary
 from tests.support.foreign_text import CHARACTER, Judge, Spoken, hostile_score, with_more, write_library
 from tests.support.tasks import ImmediateTasks
 from tests.support.windows import show
+from widgets.common.actions import actions
 from widgets.common.section import SectionHeader
 from widgets.dialogs.character import CharacterDialog
 from widgets.dialogs.character_draft import Draft
@@ -203,7 +204,7 @@ def notices(program: Program, judge: Judge) -> None:
 def dialogs(program: Program, judge: Judge) -> None:
     for action_id in DIALOGS:
         program.editor.table.refresh()
-        program.session.actions[action_id].trigger()
+        actions(program.session)[action_id].trigger()
         shown = [widget for widget in QApplication.topLevelWidgets() if widget.isVisible()]
         assert len(shown) > 1, action_id
         judge.look(action_id, program.window)

@@ -29,6 +29,7 @@ from app.shell.app import Program
 from app.shell.language import ROOMS
 from app.shell.preferences import show_preferences
 from tests.gui.shell.conftest import trigger
+from widgets.common.actions import actions
 from widgets.common.font import JAPANESE_FAMILIES
 
 KEPT = (
@@ -83,7 +84,7 @@ def left_overs(program: Program) -> list[str]:
         words = english(text, tuple(filter(None, names)))
         if words:
             found.append(f"{where}: {text!r}")
-    for action in program.session.actions.values():
+    for action in actions(program.session).values():
         for text in (action.text(), action.toolTip()):
             if english(text, tuple(names)):
                 found.append(f"action {action.objectName()}: {text!r}")
@@ -132,7 +133,7 @@ def test_the_language_is_remembered(program: Program, settings: Settings) -> Non
     trigger(program, "language.ja")
     settings.sync()
     assert Settings(settings.path).language == "ja"
-    assert program.session.actions["language.ja"].text() == "日本語"
+    assert actions(program.session)["language.ja"].text() == "日本語"
 
 
 def test_every_japanese_sign_can_be_drawn(program: Program) -> None:
@@ -154,4 +155,4 @@ def test_actions_have_texts_in_japanese(program: Program) -> None:
     program.editor.speak("ja")
     missing = [row.id for row in program.editor.table.rows.values() if english(row.text, ())]
     assert missing == []
-    assert isinstance(program.session.actions["file.save"], QAction)
+    assert isinstance(actions(program.session)["file.save"], QAction)

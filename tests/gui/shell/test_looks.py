@@ -16,6 +16,7 @@ from tests.gui.conftest import QUARTET
 from tests.gui.shell.conftest import Start
 from tests.support.looks import faults
 from tests.support.windows import show
+from widgets.common.actions import actions
 
 ROOT = Path(__file__).parents[3]
 SCREENS = ("1:dark:1366:768", "1.25:light:1093:614", "1.5:light:1280:720", "2:dark:1280:800")
@@ -100,7 +101,7 @@ def test_a_banner_pushes_no_panel_aside(program: Program, qtbot: QtBot) -> None:
 def test_paths_can_be_copied_from_banners_and_dialogs(program: Program) -> None:
     program.window._ask_to_save_over(Path("project.suisou"), None)
     for action in ("file.rules", "application.characters"):
-        program.session.actions[action].trigger()
+        actions(program.session)[action].trigger()
     labels = {label.objectName(): label for top in QApplication.topLevelWidgets() for label in top.findChildren(QLabel)}
     for name in ("banner_text", "rules_folder", "rules_problem", "characters_wrong"):
         assert labels[name].textInteractionFlags() & Qt.TextInteractionFlag.TextSelectableByMouse, name

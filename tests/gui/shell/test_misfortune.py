@@ -30,6 +30,7 @@ from app.shell.app import Program
 from tests.gui.conftest import quartet_project
 from tests.gui.shell.conftest import Answers, Start, trigger
 from tests.support.tasks import ImmediateTasks
+from widgets.common.actions import actions
 from widgets.common.text import message_text
 
 
@@ -436,7 +437,7 @@ def test_a_piece_that_no_one_would_write(
         trigger(program, f"timeline.count_{display}")
         QApplication.processEvents()
     program.editor.table.refresh()
-    assert session.actions["export.files"].isEnabled() == bool(project.players)
+    assert actions(session)["export.files"].isEnabled() == bool(project.players)
     if project.players:
         qtbot.waitUntil(lambda: session.performance.project is session.project)
         fresh = Performance(session.project)
@@ -444,8 +445,8 @@ def test_a_piece_that_no_one_would_write(
             assert session.performance.plan(player) == fresh.plan(player)
         for action in ("notes.select_all", "notes.up", "events.breath", "events.cue", "players.randomise"):
             program.editor.table.refresh()
-            if session.actions[action].isEnabled():
-                session.actions[action].trigger()
+            if actions(session)[action].isEnabled():
+                actions(session)[action].trigger()
                 QApplication.processEvents()
         while session.document.undo() is not None:
             pass

@@ -15,6 +15,7 @@ from app.editor.live_player import REST_S
 from app.errors import Message
 from tests.support.recorder import EWI
 from tests.support.studio import Studio
+from widgets.common.actions import actions
 from widgets.dialogs.midi_devices import MidiDevicesDialog
 
 
@@ -49,7 +50,7 @@ def test_what_is_played_becomes_a_take_and_the_part(studio: Studio) -> None:
 
 
 def test_a_take_is_counted_in(studio: Studio) -> None:
-    studio.session.actions["record.count_in_1"].trigger()
+    actions(studio.session)["record.count_in_1"].trigger()
     studio.session.recording.set(count_in_bars=1)
     studio.press(Qt.Key.Key_R)
     assert studio.session.recording.counted_from_s == -2.0
@@ -133,7 +134,7 @@ def test_a_held_note_is_played_as_long_as_it_is_held(studio: Studio) -> None:
 def test_stopping_the_transport_ends_the_take(studio: Studio) -> None:
     studio.press(Qt.Key.Key_R)
     studio.blow(60, 0.2)
-    studio.session.actions["play.stop"].trigger()
+    actions(studio.session)["play.stop"].trigger()
     studio.wait(lambda: bool(studio.session.project.takes))
 
 

@@ -30,6 +30,7 @@ from metadata.load import load_controllers
 from tests.gui.japanese import english_in, texts_of
 from tests.support.recorder import EWI
 from tests.support.studio import Studio
+from widgets.common.actions import actions
 from widgets.dialogs.latency import CLICKS_S, LEAD, LatencyDialog
 from widgets.dialogs.midi_devices import MidiDevicesDialog
 
@@ -38,7 +39,7 @@ USB = "EWI-USB"
 
 
 def devices(studio: Studio) -> MidiDevicesDialog:
-    studio.session.actions["record.devices"].trigger()
+    actions(studio.session)["record.devices"].trigger()
     dialog = studio.program.window.findChild(MidiDevicesDialog)
     assert dialog is not None
     assert QTest.qWaitForWindowActive(dialog, 10_000)
@@ -340,7 +341,7 @@ def test_the_dialogs_speak_japanese(studio: Studio) -> None:
 
 
 def latency(studio: Studio) -> LatencyDialog:
-    studio.session.actions["record.latency"].trigger()
+    actions(studio.session)["record.latency"].trigger()
     dialog = studio.program.window.findChild(LatencyDialog)
     assert dialog is not None
     assert QTest.qWaitForWindowActive(dialog, 10_000)

@@ -14,6 +14,7 @@ from app.shell.app import Program
 from app.shell.rows import rows
 from tests.gui.shell.conftest import trigger
 from tests.support.takes import take_of
+from widgets.common.actions import actions
 
 COMMANDS = [
     row.id
@@ -80,7 +81,7 @@ def test_undo(program: Program, lag: bool, qtbot: QtBot, monkeypatch: pytest.Mon
             for id in COMMANDS if lag else ():
                 session.select(made)
                 program.editor.table.refresh()
-                session.actions[id].trigger()  # what raises in a slot fails the test
+                actions(session)[id].trigger()  # what raises in a slot fails the test
                 while len(session.document.done) > steps:
                     session.document.undo()
             assert session.project is before

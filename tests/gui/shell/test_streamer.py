@@ -29,6 +29,7 @@ from tests.support.bad_players import with_instrument
 from tests.support.osc import Frame, Receiver
 from tests.support.performed import playing_of
 from tests.unit.export.unreal.conftest import with_dancers
+from widgets.common.actions import actions
 from widgets.dialogs.stream import StreamDialog
 from widgets.players.player_list import PlayerList
 
@@ -64,7 +65,7 @@ def test_nothing_is_sent_until_it_is_asked_for_and_no_more_afterwards(program: P
         assert not receiver.packets
         trigger(program, "stream.toggle")
         received(receiver, qtbot, 3)
-        assert program.session.actions["stream.toggle"].isChecked()
+        assert actions(program.session)["stream.toggle"].isChecked()
         trigger(program, "stream.toggle")
         qtbot.wait(50)
         count = len(receiver.packets)
@@ -338,7 +339,7 @@ def test_a_fault_of_sending_is_reported_and_the_stream_is_off(
         program.session.set_playhead(2.0)
         qtbot.waitUntil(lambda: program.session.streaming.state == "off")
         assert [str(fault) for _, fault, _ in caught] == ["a bug"]
-        assert not program.session.actions["stream.toggle"].isChecked()
+        assert not actions(program.session)["stream.toggle"].isChecked()
         # Asked again, it sends again.
         monkeypatch.undo()
         trigger(program, "stream.toggle")

@@ -47,6 +47,7 @@ from tests.support.desk import (
 )
 from tests.support.tasks import ImmediateTasks
 from tests.support.windows import show_in_front, wait_until
+from widgets.common.actions import actions
 from widgets.players.choreography.dancers import DancersSection
 
 Right = Callable[[Desk], bool]
@@ -157,10 +158,10 @@ def gesture_case(kind: str) -> Case:
 
 def pinned(desk: Desk) -> None:
     ids = sorted(desk.session.selection.notes)
-    desk.session.actions["fingering.cycle"].trigger()
+    actions(desk.session)["fingering.cycle"].trigger()
     assert desk.session.selection.notes == frozenset(ids)
     if not desk.project.corrections.get(desk.player.id):
-        desk.session.actions["events.breath"].trigger()
+        actions(desk.session)["events.breath"].trigger()
 
 
 def several(desk: Desk) -> None:
@@ -210,7 +211,7 @@ def becomes(state: Callable[[Desk], object], requested: object, ready: Deed = la
 
 
 def command(action_id: str) -> Deed:
-    return lambda desk: desk.session.actions[action_id].trigger()
+    return lambda desk: actions(desk.session)[action_id].trigger()
 
 
 def tool(name: str) -> Case:
@@ -234,7 +235,7 @@ def problem(desk: Desk) -> None:
     for note in (notes[4], notes[10]):
         desk.session.select(Selection(frozenset({note.id})))
         for _ in range(4):
-            desk.session.actions["notes.octave_up"].trigger()
+            actions(desk.session)["notes.octave_up"].trigger()
     desk.session.select(Selection())
     desk.session.set_playhead(0.0)
 
@@ -264,7 +265,7 @@ def chosen_event(desk: Desk) -> None:
 
 
 def paste_ready(desk: Desk) -> None:
-    desk.session.actions["notes.copy"].trigger()
+    actions(desk.session)["notes.copy"].trigger()
     desk.session.set_playhead(desk.project.score.tempo_map.seconds(float(desk.project.score.end_tick)))
 
 
@@ -488,7 +489,7 @@ CASES: dict[str, Case] = {
                 d.project.score.tempo_map.seconds(float(d.notes()[4].onset_tick + d.notes()[4].duration_tick // 2))
             ),
             d.session.select(Selection(frozenset({d.notes()[4].id}))),
-            d.session.actions["notes.split"].trigger(),
+            actions(d.session)["notes.split"].trigger(),
         ),
         edits=True,
     ),
@@ -511,7 +512,7 @@ CASES: dict[str, Case] = {
     "edit.delete": Case(event_gone, chosen_event, edits=True),
     "events.give_back": Case(
         lambda d: not d.project.corrections.get(d.player.id),
-        lambda d: (d.session.select(Selection(with_alternates(d))), d.session.actions["fingering.cycle"].trigger()),
+        lambda d: (d.session.select(Selection(with_alternates(d))), actions(d.session)["fingering.cycle"].trigger()),
         edits=True,
     ),
     "events.give_back_player": Case(lambda d: not d.project.corrections.get(d.player.id), pinned, edits=True),
@@ -586,7 +587,7 @@ CASES: dict[str, Case] = {
     "players.select_all": Case(lambda d: len(d.session.players) == 4),
     "players.reset": Case(
         lambda d: d.project.players[0].parameters == d.seen["as cast"],
-        lambda d: (d.seen.update({"as cast": d.player.parameters}), d.session.actions["players.randomise"].trigger()),
+        lambda d: (d.seen.update({"as cast": d.player.parameters}), actions(d.session)["players.randomise"].trigger()),
         edits=True,
     ),
     # How the timeline is seen
@@ -630,7 +631,7 @@ CASES: dict[str, Case] = {
     "play.bar": Case(lambda d: began_at(d) == bar_s(d, 3) and playing(d), within_bar_3),
     "play.stop": Case(
         lambda d: not d.session.playing,
-        lambda d: (d.session.actions["play.toggle"].trigger(), d.seen.update(playing=d.session.playing)),
+        lambda d: (actions(d.session)["play.toggle"].trigger(), d.seen.update(playing=d.session.playing)),
     ),
     "play.loop": Case(looping),
     "play.to_start": go(lambda d: 5.0, lambda d: d.session.performance.time_frame.first_frame_s),
@@ -768,8 +769,8 @@ CASES: dict[str, Case] = {
     "pitch_names.syllables": becomes(lambda d: d.session.pitch_display.syllables, True),
     "theme.dark": becomes(lambda d: d.session.tokens.name, "dark", command("theme.light")),
     "theme.light": becomes(lambda d: d.session.tokens.name, "light"),
-    "language.en": becomes(lambda d: d.session.actions["file.save"].text(), "Save", set_language("ja")),
-    "language.ja": becomes(lambda d: d.session.actions["file.save"].text(), "保存"),
+    "language.en": becomes(lambda d: actions(d.session)["file.save"].text(), "Save", set_language("ja")),
+    "language.ja": becomes(lambda d: actions(d.session)["file.save"].text(), "保存"),
     "application.instruments": Case(lambda d: d.dialog("instruments")),
     "application.preferences": Case(lambda d: d.dialog("preferences")),
     "application.shortcuts": Case(lambda d: d.dialog("preferences")),
@@ -799,7 +800,7 @@ def span_of_chosen(desk: Desk) -> tuple[int, int]:
 
 
 def louder(desk: Desk) -> None:
-    desk.session.actions["notes.louder"].trigger()
+    actions(desk.session)["notes.louder"].trigger()
     assert len(desk.session.document.done) == 1
 
 
@@ -883,7 +884,7 @@ def do(desk: Desk, action_id: str) -> None:
     """By its shortcut where it has one, else from its menu or the palette."""
     row = desk.program.editor.table.rows[action_id]
     keys = desk.program.editor.table.keys(action_id)
-    action = desk.session.actions[action_id]
+    action = actions(desk.session)[action_id]
 
     def is_enabled() -> bool:
         desk.program.editor.table.refresh()

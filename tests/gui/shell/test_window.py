@@ -21,6 +21,7 @@ from app.project.storage import load
 from app.shell.app import Program
 from tests.gui.conftest import QUARTET
 from tests.gui.shell.conftest import Answers, Start, trigger
+from widgets.common.actions import actions
 from widgets.common.number_slider import NumberSlider
 
 PANELS = {
@@ -265,7 +266,7 @@ def test_a_new_window_shares_its_height_between_players_and_timeline(start: Star
 
 def test_how_a_user_listens_is_remembered(start: Start, settings: Settings) -> None:
     first = start()
-    first.session.actions["play.click"].trigger()
+    actions(first.session)["play.click"].trigger()
     volume = first.window.findChild(NumberSlider, "volume")
     assert volume is not None
     QTest.keyClick(volume, Qt.Key.Key_Down)

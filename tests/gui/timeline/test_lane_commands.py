@@ -24,6 +24,7 @@ from app.shell.commands import edit as undoing
 from app.shell.commands import events, fingerings, problems
 from tests.gui.timeline.lane_hands import front_plan, shown_panel
 from tests.support.windows import show_in_front
+from widgets.common.actions import actions
 from widgets.timeline.panel import TimelinePanel
 
 
@@ -238,12 +239,12 @@ def test_delete_erases_selected_notes(panel: TimelinePanel, session: Session) ->
 
 def test_all_corrections_of_a_player_are_reverted_in_one_step(panel: TimelinePanel, session: Session) -> None:
     choose(session, *notes(session)[5:8])
-    session.actions["gesture.sway"].trigger()
+    actions(session)["gesture.sway"].trigger()
     choose(session, notes(session)[9])
-    session.actions["events.cue"].trigger()
+    actions(session)["events.cue"].trigger()
     assert len(corrections(session)) == 2
     QApplication.processEvents()
-    session.actions["events.give_back_player"].trigger()
+    actions(session)["events.give_back_player"].trigger()
     assert corrections(session) == ()
     session.document.undo()
     assert len(corrections(session)) == 2
@@ -281,15 +282,15 @@ def test_f8_walks_through_the_problems_of_all_players(panel: TimelinePanel, sess
     visited: list[Problem] = []
     QApplication.processEvents()
     for player_id, problem in all_of_them:
-        session.actions["problems.next"].trigger()
+        actions(session)["problems.next"].trigger()
         assert session.players[0] == player_id
         if problem.note_id is not None:
             assert session.selection.notes == {problem.note_id}
         visited.append(problem)
     assert revealed == [problem.start_s for problem in visited]
-    session.actions["problems.next"].trigger()
+    actions(session)["problems.next"].trigger()
     assert session.players[0] == all_of_them[0][0]
-    session.actions["problems.previous"].trigger()
+    actions(session)["problems.previous"].trigger()
     assert session.players[0] == all_of_them[-1][0]
 
 
@@ -304,10 +305,10 @@ def test_without_problems_it_says_so(session: Session) -> None:
 
 def test_rows_that_make_no_sense_now_are_off(panel: TimelinePanel, session: Session) -> None:
     QApplication.processEvents()
-    assert not session.actions["fingering.cycle"].isEnabled()
-    assert not session.actions["edit.delete"].isEnabled()
-    assert not session.actions["events.give_back"].isEnabled()
+    assert not actions(session)["fingering.cycle"].isEnabled()
+    assert not actions(session)["edit.delete"].isEnabled()
+    assert not actions(session)["events.give_back"].isEnabled()
     choose(session, notes(session)[0])
     QApplication.processEvents()
-    assert session.actions["fingering.cycle"].isEnabled()
-    assert not session.actions["events.give_back"].isEnabled()
+    assert actions(session)["fingering.cycle"].isEnabled()
+    assert not actions(session)["events.give_back"].isEnabled()

@@ -19,6 +19,7 @@ from app.shell.actions import ActionTable
 from app.shell.commands import edit, events
 from tests.gui.timeline.lane_hands import click, drag, middle, region_of, shown_panel
 from tests.support.windows import show_in_front
+from widgets.common.actions import actions
 from widgets.timeline.lanes.acting.acting_lane import ActingLane
 from widgets.timeline.model.regions.acting_regions import STYLE
 from widgets.timeline.panel import TimelinePanel
@@ -122,7 +123,7 @@ def test_escape_takes_a_drag_back_and_delete_the_region(placed: TimelinePanel, s
     QTest.keyClick(lane.plot, Qt.Key.Key_Escape)
     assert (said(session)[0].start_tick, said(session)[0].end_tick) == SPAN
     click(lane, middle(lane, "style:own-1"))
-    session.actions["edit.delete"].trigger()
+    actions(session)["edit.delete"].trigger()
     assert not said(session)
 
 
@@ -134,7 +135,7 @@ def test_another_style_from_the_menu_and_by_key(placed: TimelinePanel, session: 
     assert [item.style for item in said(session)] == ["jazz"]
     session.select(Selection())
     session.set_playhead(20.0)
-    session.actions["events.style"].trigger()
+    actions(session)["events.style"].trigger()
     menu = next(one for one in QApplication.topLevelWidgets() if isinstance(one, QMenu) and one.isVisible())
     next(entry for entry in menu.actions() if entry.objectName() == "style_student").trigger()
     menu.close()

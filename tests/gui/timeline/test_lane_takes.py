@@ -26,6 +26,7 @@ from tests.gui.timeline.lane_hands import ALT, click, double_click, drag, move_t
 from tests.support.takes import PlayedNote, take_of
 from tests.support.tasks import ImmediateTasks
 from tests.support.windows import show_in_front
+from widgets.common.actions import actions
 from widgets.timeline.lanes.takes.takes_lane import TakesLane
 from widgets.timeline.panel import TimelinePanel
 
@@ -215,10 +216,10 @@ def test_deleting_leaves_the_notes(lane: TakesLane) -> None:
 def test_lanes_are_put_in_another_order(lane: TakesLane) -> None:
     lane.choose("take:2")
     QApplication.processEvents()
-    lane.session.actions["takes.earlier_lane"].trigger()
+    actions(lane.session)["takes.earlier_lane"].trigger()
     assert [row.take_id for row in lane.rows] == [BEFORE, "take:2", "take:1"]
     QApplication.processEvents()
-    lane.session.actions["takes.later_lane"].trigger()
+    actions(lane.session)["takes.later_lane"].trigger()
     assert [row.take_id for row in lane.rows] == [BEFORE, "take:1", "take:2"]
 
 
@@ -415,7 +416,7 @@ def test_double_clicking_a_row_is_no_swipe(lane: TakesLane) -> None:
 
 
 def test_the_part_goes_back_to_what_was_before_only_where_it_is_something_else(lane: TakesLane) -> None:
-    going_back = [lane.session.actions[id] for id in ("takes.whole", "takes.before")]
+    going_back = [actions(lane.session)[id] for id in ("takes.whole", "takes.before")]
 
     def can_go_back() -> list[bool]:
         menu = lane.menu()
@@ -429,7 +430,7 @@ def test_the_part_goes_back_to_what_was_before_only_where_it_is_something_else(l
     lane.choose("take:2")
     QApplication.processEvents()
     assert can_go_back() == [True, False]
-    lane.session.actions["takes.whole"].trigger()
+    actions(lane.session)["takes.whole"].trigger()
     for action in going_back:
         taken = lane.session.project
         lane.choose(BEFORE)

@@ -22,6 +22,7 @@ from app.shell.actions import ActionTable
 from app.shell.commands import edit, events, generate
 from tests.gui.timeline.lane_hands import click, drag, middle, region_of, shown_panel
 from tests.support.windows import show_in_front
+from widgets.common.actions import actions
 from widgets.inspector.correction_list import CorrectionList
 from widgets.inspector.generated import Generated
 from widgets.timeline.lanes.acting.acting_lane import ActingLane
@@ -42,7 +43,7 @@ def panel(session: Session, qtbot: QtBot, tmp_path: Path) -> Iterator[TimelinePa
     result.axis.show(-3.0, 27.0)
     session.select(Selection(span=SPAN))
     table.refresh()
-    session.actions["generate.bars"].trigger()
+    actions(session)["generate.bars"].trigger()
     session.select(Selection())
     show_in_front(result)
     yield result

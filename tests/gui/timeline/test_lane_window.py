@@ -14,6 +14,7 @@ from app.plan.model import PlayerPlan
 from app.shell.app import Program
 from tests.gui.shell.conftest import answers, program, settings, start  # noqa: F401  (fixtures)
 from tests.gui.timeline.lane_hands import ALT, drag, middle, region_of
+from widgets.common.actions import actions
 from widgets.timeline.lanes.breath import BreathLane
 from widgets.timeline.panel import TimelinePanel
 
@@ -55,8 +56,8 @@ def test_a_breath_is_dragged_while_plans_are_made_elsewhere(
     assert after.by_hand
     assert after.end_tick - after.start_tick == before.end_tick - before.start_tick
     assert list(lane.visible(0.0, 1e6)).count(after) == 1
-    qtbot.waitUntil(program.session.actions["edit.undo"].isEnabled)
-    program.session.actions["edit.undo"].trigger()
+    qtbot.waitUntil(actions(program.session)["edit.undo"].isEnabled)
+    actions(program.session)["edit.undo"].trigger()
     assert not program.session.project.corrections
     up_to_date(program, qtbot)
     assert region_of(lane, breath).start_tick == before.start_tick
@@ -78,12 +79,12 @@ def test_keys_reach_the_lanes_in_the_window(
     plot = panel.lanes["fingering"].plot
     plot.setFocus()
     session.select(Selection(notes=frozenset({note.id})))
-    qtbot.waitUntil(session.actions["fingering.cycle"].isEnabled)
+    qtbot.waitUntil(actions(session)["fingering.cycle"].isEnabled)
     QTest.keyClick(plot, Qt.Key.Key_1)
     QTest.keyClick(plot, Qt.Key.Key_3)
     assert session.project.corrections[session.player.id] == (PinFingering(note.id, "13"),)
     up_to_date(program, qtbot)
-    qtbot.waitUntil(session.actions["events.give_back"].isEnabled)
+    qtbot.waitUntil(actions(session)["events.give_back"].isEnabled)
     QTest.keyClick(plot, Qt.Key.Key_Backspace)
     assert not session.project.corrections
 

@@ -15,6 +15,7 @@ from app.project.edit.piece import set_audio
 from app.shell.actions import ActionTable
 from app.shell.commands import edit, playback
 from tests.gui.transport.conftest import Elapse
+from widgets.common.actions import actions
 
 
 @pytest.fixture
@@ -28,8 +29,8 @@ def table(session: Session, sound: Sound, tmp_path: Path) -> ActionTable:
 def run(session: Session, table: ActionTable) -> object:
     def trigger(name: str) -> None:
         table.refresh()
-        assert session.actions[f"play.{name}"].isEnabled()
-        session.actions[f"play.{name}"].trigger()
+        assert actions(session)[f"play.{name}"].isEnabled()
+        actions(session)[f"play.{name}"].trigger()
 
     return trigger
 
@@ -156,12 +157,12 @@ def test_speeds_are_alternatives(run, session: Session, table: ActionTable) -> N
         run(f"speed_{percent}")
         assert session.listening.speed == percent / 100
         table.refresh()
-        checked = [id for id, action in session.actions.items() if "speed" in id and action.isChecked()]
+        checked = [id for id, action in actions(session).items() if "speed" in id and action.isChecked()]
         assert checked == [f"play.speed_{percent}"]
     run("speed_100")
     assert session.listening.speed == 1.0
     table.refresh()
-    assert session.actions["play.speed_100"].isChecked()
+    assert actions(session)["play.speed_100"].isChecked()
 
 
 def test_toggles(run, session: Session, table: ActionTable) -> None:  # type: ignore[no-untyped-def]
@@ -174,20 +175,20 @@ def test_toggles(run, session: Session, table: ActionTable) -> None:  # type: ig
         run(name)
         assert value() is not before
         table.refresh()
-        assert session.actions[f"play.{name}"].isChecked() is value()
+        assert actions(session)[f"play.{name}"].isChecked() is value()
         run(name)
         assert value() is before
 
 
 def test_what_needs_a_recording_is_off_without(run, session: Session, table: ActionTable) -> None:  # type: ignore[no-untyped-def]
     names = ("source_recording", "source_both", "estimate_offset", "fit_tempo", "remove_recording")
-    assert not any(session.actions[f"play.{name}"].isEnabled() for name in names)
+    assert not any(actions(session)[f"play.{name}"].isEnabled() for name in names)
     session.attempt(Message("edit.set_audio"), lambda project: set_audio(project, "/nowhere/a.wav"))
     run("source_both")
     assert session.listening.source == "both"
     run("source_synthesiser")
     assert session.listening.source == "synthesiser"
-    assert not session.actions["play.estimate_offset"].isEnabled(), "it is not read"
+    assert not actions(session)["play.estimate_offset"].isEnabled(), "it is not read"
     run("remove_recording")
     assert session.project.audio is None
     assert session.document.done[-1].name.id == "edit.remove_audio"
@@ -198,7 +199,7 @@ def test_what_needs_a_recording_is_off_without(run, session: Session, table: Act
 def test_without_a_playback_nothing_plays(session: Session, table: ActionTable) -> None:
     session.playback = None
     table.refresh()
-    assert not session.actions["play.toggle"].isEnabled()
+    assert not actions(session)["play.toggle"].isEnabled()
     playback.toggle(session)
     playback.stop(session)
     playback.play_bar(session)

@@ -367,9 +367,8 @@ def test_where_there_is_little_room_the_views_fold_into_a_menu(qtbot: QtBot, vie
 
 
 def test_the_right_button_offers_the_tables_actions(qtbot: QtBot, viewport: ViewportPanel, session: Session) -> None:
-    action = QAction("Frame", viewport)
+    action = QAction("Frame", session, objectName="viewport.frame")
     action.triggered.connect(lambda: session.viewport.set_view("top"))
-    session.actions = {"viewport.frame": action}
     qtbot.mouseClick(canvas(viewport), Qt.MouseButton.RightButton, pos=QPoint(5, 5))
     menu = viewport.findChild(QMenu, "viewport_menu")
     assert menu is not None

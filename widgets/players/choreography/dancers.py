@@ -24,6 +24,7 @@ from app.project.edit import dancers as edit
 from app.project.model import DANCER_PARAMETERS, Project
 from app.project.performers import Dancer
 from app.rig.characters.character_library import characters
+from widgets.common.actions import actions
 from widgets.common.clicks import on_click, on_switch
 from widgets.common.combo import Combo, Option
 from widgets.common.controls import Check, IconButton, Retranslated, named
@@ -196,7 +197,7 @@ class DancersSection(Retranslated, QWidget):
         if dancer.choreography not in {option.id for option in options}:
             options.append(Option(dancer.choreography, shown(Path(dancer.choreography).stem)))
         more = [Option(_FROM_FILE, self.tr("dancers_section.from_file"))]
-        if "dancers.learn" in self._session.actions:
+        if "dancers.learn" in actions(self._session):
             more.append(Option(_LEARN, self.tr("dancers_section.learn")))
         self._choreography.set_options([*options, *more])
         self._choreography.show_option(dancer.choreography)
@@ -235,7 +236,7 @@ class DancersSection(Retranslated, QWidget):
         for name in bundled_choreographies():
             on_click(menu.addAction(verbatim(name)), self.add, name)
         on_click(menu.addAction(self.tr("dancers_section.from_file")), self._add_from_file)
-        learn = self._session.actions.get("dancers.learn")
+        learn = actions(self._session).get("dancers.learn")
         if learn is not None:
             menu.addAction(learn)
         button = self._tools["add"]
@@ -262,7 +263,7 @@ class DancersSection(Retranslated, QWidget):
             return
         if id == _LEARN:
             self._choreography.show_option(dancer.choreography)
-            self._session.actions["dancers.learn"].trigger()
+            actions(self._session)["dancers.learn"].trigger()
             return
         path = self._ask_for_choreography() if id == _FROM_FILE else id
         if path is None:
@@ -290,7 +291,7 @@ class DancersSection(Retranslated, QWidget):
         self.list.rename_current()
 
     def _show_choreography(self) -> None:
-        action = self._session.actions.get("dancers.choreography")
+        action = actions(self._session).get("dancers.choreography")
         if action is not None:
             action.trigger()
 
@@ -335,7 +336,7 @@ class DancersSection(Retranslated, QWidget):
 
     def contextMenuEvent(self, event: QContextMenuEvent) -> None:
         inside = self.list.rect().contains(self.list.mapFromGlobal(event.globalPos()))
-        if inside and self._session.actions:
+        if inside:
             offer_actions(self._session, MENU, self, "dancers_menu", event.globalPos())
         else:
             super().contextMenuEvent(event)

@@ -25,6 +25,7 @@ from app.arrays import FloatArray
 from app.editor.selection import Selection
 from app.editor.session import Session, Severity, TimeDisplay
 from app.errors import Message
+from widgets.common.actions import actions
 from widgets.common.clicks import on_click
 from widgets.common.controls import Retranslated
 from widgets.common.menus import add_actions
@@ -260,7 +261,7 @@ class Ruler(Retranslated, Strip):
         bar_tick = max(score.metre_map.tick_of_bar(score.metre_map.bar_of_tick(tick)), 0)
         on_click(menu.addAction(self.tr("ruler.add_tempo_here")), lambda: self.edit_mark("tempo", tick))
         on_click(menu.addAction(self.tr("ruler.add_metre_at_this_bar")), lambda: self.edit_mark("metre", bar_tick))
-        felt = [action for id, action in self.session.actions.items() if id.startswith("beat.")]
+        felt = [action for id, action in actions(self.session).items() if id.startswith("beat.")]
         if felt:
             menu.addMenu(self.tr("ruler.felt_beat")).addActions(felt)
         menu.addSeparator()

@@ -21,6 +21,7 @@ from PySide6.QtGui import (
 from PySide6.QtWidgets import QLineEdit, QMenu, QToolTip, QWidget
 
 from app.project.edit.takes import BEFORE
+from widgets.common.actions import actions
 from widgets.common.controls import Retranslated, named
 from widgets.common.icons import icon
 from widgets.common.take_times import clock_text, when_text
@@ -242,7 +243,7 @@ class TakeHeads(Retranslated, QWidget):
         over = event.button() == Qt.MouseButton.LeftButton and self._over_button(row, event)
         lane.choose(row.take_id)
         if over:
-            lane.session.actions["takes.listen"].trigger()
+            actions(lane.session)["takes.listen"].trigger()
         elif event.button() == Qt.MouseButton.LeftButton and row.take is not None:
             self._pressed = row.take_id, event.position().y()
 

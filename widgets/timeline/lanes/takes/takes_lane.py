@@ -13,6 +13,7 @@ from app.project.edit.takes import BEFORE
 from app.project.model import CompSpan
 from app.score.clean import Fault
 from instrument_maps.library import all_maps
+from widgets.common.actions import actions
 from widgets.common.controls import named
 from widgets.common.menus import add_actions
 from widgets.common.pitch import pitch_text
@@ -68,7 +69,7 @@ class TakesLane(RowLane):
         return self.tr("takes_lane.nothing_is_recorded_of_yet").format(player=player.name, keys=self._record_keys())
 
     def _record_keys(self) -> str:
-        action = self.session.actions.get("record.toggle")
+        action = actions(self.session).get("record.toggle")
         keys = action.shortcut().toString(QKeySequence.SequenceFormat.NativeText) if action is not None else ""
         return keys or self.tr("takes_lane.record")
 
@@ -327,7 +328,7 @@ class TakesLane(RowLane):
         elif key == Qt.Key.Key_Escape and self.heads.dropped_before is not None:
             self.heads.cancel_drag()
         elif key in (Qt.Key.Key_Delete, Qt.Key.Key_Backspace) and self.session.selection.take:
-            self.session.actions["takes.remove"].trigger()
+            actions(self.session)["takes.remove"].trigger()
         elif key == Qt.Key.Key_Escape and self.session.selection.take is not None:
             self.session.select(Selection())
         else:
