@@ -93,10 +93,10 @@ def edit(parsed: Namespace) -> int:
     from app.cli.terminal import warn
     from app.errors import AppError
     from app.messages import error_text
-    from app.shell.app import Start
+    from app.shell.app import LaunchOptions
     from app.shell.app import run as run_editor
 
-    start = Start(
+    start = LaunchOptions(
         file=parsed.file,
         screenshot=parsed.screenshot,
         time_s=parsed.time_s,

@@ -29,7 +29,7 @@ _ENCODER: Final = msgspec.msgpack.Encoder()
 T = TypeVar("T")
 
 
-class Channel(Generic[T]):
+class MessageChannel(Generic[T]):
     """Messages to another process and from it.
 
     Parameters
@@ -79,7 +79,7 @@ class Channel(Generic[T]):
         return data
 
 
-def channel_to_parent(kind: Any, limits: str) -> Channel[Any]:
+def channel_to_parent(kind: Any, limits: str) -> MessageChannel[Any]:
     """Confine this process by a row of `app.child_limits.LIMITS`, and reach the one that started it.
 
     What libraries print goes to standard error: it would be taken for an answer.
@@ -89,10 +89,10 @@ def channel_to_parent(kind: Any, limits: str) -> Channel[Any]:
     # On Windows a program without a console has no standard error.
     elsewhere = os.open(os.devnull, os.O_WRONLY) if sys.stderr is None else sys.stderr.fileno()
     os.dup2(elsewhere, sys.stdout.fileno())
-    return Channel(kind, sys.stdin.buffer, answers)
+    return MessageChannel(kind, sys.stdin.buffer, answers)
 
 
-class Child(Channel[T]):
+class Child(MessageChannel[T]):
     """A process that this one has started."""
 
     def end(self) -> None:
@@ -186,7 +186,7 @@ class ForkedChild(Child[T]):
     """
 
     def __init__(
-        self, kind: Any, work: Callable[[Channel[Any]], None], others: Sequence[Child[Any]], asked: Any = None
+        self, kind: Any, work: Callable[[MessageChannel[Any]], None], others: Sequence[Child[Any]], asked: Any = None
     ) -> None:
         ends = [*os.pipe(), *os.pipe()]
         there, to, back, here = (os.fdopen(end, mode) for end, mode in zip(ends, ("rb", "wb", "rb", "wb"), strict=True))
@@ -198,7 +198,7 @@ class ForkedChild(Child[T]):
             self._id = os.fork()
             if not self._id:
                 _close(to, back, *(stream for other in others for stream in (other.outgoing, other.incoming)))
-                _in_copy(lambda: work(Channel(asked, there, here)))
+                _in_copy(lambda: work(MessageChannel(asked, there, here)))
         except OSError:
             _close(there, to, back, here)
             raise

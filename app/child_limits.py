@@ -111,12 +111,12 @@ def limited_command(name: str, command: Sequence[str], size: int = 0) -> list[st
     return ["/bin/sh", "-c", script, "suisou", *command]
 
 
-def confine(name: str, process: subprocess.Popen[bytes], size: int = 0) -> Job | None:
+def confine(name: str, process: subprocess.Popen[bytes], size: int = 0) -> WindowsJob | None:
     """Set the limits of a process that has just been started: on Windows, by a job; elsewhere `limited_command` did.
 
     Returns
     -------
-    Job or None
+    WindowsJob or None
         To be kept as long as the process.
 
     Raises
@@ -128,7 +128,7 @@ def confine(name: str, process: subprocess.Popen[bytes], size: int = 0) -> Job |
         return None
     kernel32 = ctypes.WinDLL("kernel32", use_last_error=True)
     limits = LIMITS[name]
-    job = Job(kernel32, limits.memory_of(size), limits.cpu_of(size))
+    job = WindowsJob(kernel32, limits.memory_of(size), limits.cpu_of(size))
     if not job.take(int(process._handle)) and process.poll() is None:
         raise OSError(ctypes.get_last_error(), "the process cannot be put into a job")
     return job
@@ -211,7 +211,7 @@ def job_limits(memory: int | None, cpu_s: int | None) -> JobLimits:
     return limits
 
 
-class Job:
+class WindowsJob:
     """A job of Windows, whose processes keep its limits and end with this object.
 
     Parameters

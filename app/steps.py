@@ -18,14 +18,14 @@ T = TypeVar("T")
 BEFORE: Final = "before"
 
 
-class Reading(NamedTuple):
+class StepInputs(NamedTuple):
     """A step some of whose parameters are called otherwise than what they read: names by parameter."""
 
     function: Callable[..., object]
     names: Mapping[str, str | tuple[str, ...]]
 
 
-def reading(function: Callable[..., object], **names: str | tuple[str, ...]) -> Reading:
+def reading(function: Callable[..., object], **names: str | tuple[str, ...]) -> StepInputs:
     """Make a step of a function whose parameters of these names read what is named here; several names: a tuple.
 
     Raises
@@ -36,7 +36,7 @@ def reading(function: Callable[..., object], **names: str | tuple[str, ...]) -> 
     unknown = names.keys() - inspect.signature(function).parameters.keys()
     if unknown:
         raise TypeError(f"{_name(function)} has no {sorted(unknown)}")
-    return Reading(function, names)
+    return StepInputs(function, names)
 
 
 class StepTable:
@@ -63,10 +63,10 @@ class StepTable:
         Steps read one another in a circle.
     """
 
-    def __init__(self, **steps: Callable[..., object] | Reading | str) -> None:
+    def __init__(self, **steps: Callable[..., object] | StepInputs | str) -> None:
         self.paths: Final = {name: path for name, path in steps.items() if isinstance(path, str)}
         read = {
-            name: step if isinstance(step, Reading) else Reading(step, {})
+            name: step if isinstance(step, StepInputs) else StepInputs(step, {})
             for name, step in steps.items()
             if not isinstance(step, str)
         }
@@ -86,12 +86,12 @@ class StepTable:
         TopologicalSorter(names).prepare()
         self.given: Final = frozenset(one for reads in names.values() for one in reads if one not in steps)
 
-    def begin(self, before: Results | None = None, /, **given: object) -> Results:
+    def begin(self, before: StepResults | None = None, /, **given: object) -> StepResults:
         """Make a run of these steps, each to be done when its result is asked for.
 
         Parameters
         ----------
-        before : Results, optional
+        before : StepResults, optional
             The run before, of these steps.
         given : object
             Every value of `given`; there may be more.
@@ -103,7 +103,7 @@ class StepTable:
         """
         if not given.keys() >= self.given:
             raise TypeError(f"not given: {sorted(self.given - given.keys())}")
-        return Results(self, {name: given[name] for name in self.given}, before)
+        return StepResults(self, {name: given[name] for name in self.given}, before)
 
 
 class _Done(NamedTuple):
@@ -111,13 +111,13 @@ class _Done(NamedTuple):
     result: Any
 
 
-class Results:
+class StepResults:
     """The results of one run: the same objects as in the run before where they are equal to these.
 
     A run is good for one thread at a time.
     """
 
-    def __init__(self, steps: StepTable, given: Mapping[str, object], before: Results | None) -> None:
+    def __init__(self, steps: StepTable, given: Mapping[str, object], before: StepResults | None) -> None:
         self._steps = steps
         self._given = given
         self._done: dict[str, _Done] = {}
@@ -166,7 +166,7 @@ def _each(named: str | tuple[str, ...]) -> tuple[str, ...]:
     return (named,) if isinstance(named, str) else named
 
 
-def _parameters(step: Reading) -> tuple[str, ...]:
+def _parameters(step: StepInputs) -> tuple[str, ...]:
     """Return the parameters that read something."""
     if getattr(step.function, "__closure__", None):
         raise TypeError(f"{_name(step.function)} reads more than its parameters")

@@ -48,7 +48,7 @@ class _Table(msgspec.Struct, frozen=True, forbid_unknown_fields=True, omit_defau
     """A table of the file: immutable, and a key it does not know is an error."""
 
 
-class Name(_Table, frozen=True):
+class InstrumentName(_Table, frozen=True):
     """The instrument's name by language (BCP 47 primary tags the program speaks)."""
 
     en: str
@@ -123,7 +123,7 @@ class Mouthpiece(_Table, frozen=True):
     rim_outer_radius_m: float
 
 
-class Motion(_Table, frozen=True):
+class ControlMotion(_Table, frozen=True):
     """How a node moves while its control goes from 0 to 1, in the root frame.
 
     Either a translation (``axis`` and ``travel_m``) or a rotation about ``pivot_m`` (a point in the root
@@ -155,7 +155,7 @@ class Control(_Table, frozen=True):
         What moves it, one of `MOVERS`.
     node : str or None
         The model's node it moves; None for a hole without a moving part.
-    motion : Motion or None
+    motion : ControlMotion or None
         How; None exactly where ``node`` is.
     label : str
         Its sign in the short form of a fingering (``"1"``, ``"T"``, ``"L1"``); empty where the place itself is the
@@ -185,7 +185,7 @@ class Control(_Table, frozen=True):
     role: Literal["pitch", "intonation"]
     finger: str
     node: str | None = None
-    motion: Motion | None = None
+    motion: ControlMotion | None = None
     label: str = ""
     half_value: float | None = None
     hover_m: float = 0.0
@@ -210,7 +210,7 @@ class Link(_Table, frozen=True):
     ----------
     node : str
         The model's node that moves along; not the node of a control.
-    motion : Motion
+    motion : ControlMotion
         How.
     controls : tuple of str
         Names of the controls that move it.
@@ -219,7 +219,7 @@ class Link(_Table, frozen=True):
     """
 
     node: str
-    motion: Motion
+    motion: ControlMotion
     controls: tuple[str, ...]
     when: Literal["any", "all"] = "any"
 
@@ -254,7 +254,7 @@ class MovingPart(NamedTuple):
 
     name: str
     node: str
-    motion: Motion
+    motion: ControlMotion
     controls: tuple[str, ...]
     when: Literal["any", "all"] = "any"
 
@@ -382,7 +382,7 @@ class Carriage(_Table, frozen=True):
     trunk_left_deg: float = 0.0
 
 
-class Lowered(_Table, frozen=True):
+class LoweredPlace(_Table, frozen=True):
     """Where the instrument is in a long rest.
 
     ``offset_m`` is the mouthpiece's place relative to where it is while playing, in the player's frame
@@ -412,8 +412,8 @@ class Hold(_Table, frozen=True):
     support_hand: Hand
     standing: Carriage | None = None
     seated: Carriage | None = None
-    lowered_standing: Lowered | None = None
-    lowered_seated: Lowered | None = None
+    lowered_standing: LoweredPlace | None = None
+    lowered_seated: LoweredPlace | None = None
     size_range: tuple[float, float] = (0.5, 1.25)
     free_hand: Literal["left", "right", "none"] | None = None
 
@@ -438,7 +438,7 @@ class Hold(_Table, frozen=True):
         """Return how it is carried, in the only posture it is played in where the requested one is not possible."""
         return self._either(posture, self.standing, self.seated)
 
-    def lowered(self, posture: Posture) -> Lowered:
+    def lowered(self, posture: Posture) -> LoweredPlace:
         """Return where it is in a long rest; likewise."""
         return self._either(posture, self.lowered_standing, self.lowered_seated)
 
@@ -573,7 +573,7 @@ class InstrumentMap(_Table, frozen=True):
         `SCHEMA_VERSION`.
     id : str
         The file's stem.
-    name : Name
+    name : InstrumentName
         For people.
     short_name : str
         For a file name or a narrow column.
@@ -605,7 +605,7 @@ class InstrumentMap(_Table, frozen=True):
 
     schema_version: int
     id: str
-    name: Name
+    name: InstrumentName
     short_name: str
     plays: tuple[str, ...]
     transposition_semitones: int
@@ -650,7 +650,7 @@ class InstrumentMap(_Table, frozen=True):
         pin = self.endpin
         if pin is None:
             return (*own, *along)
-        return (*own, *along, MovingPart(pin.node, pin.node, Motion(pin.axis, travel_m=pin.most_m), (pin.node,)))
+        return (*own, *along, MovingPart(pin.node, pin.node, ControlMotion(pin.axis, travel_m=pin.most_m), (pin.node,)))
 
     @property
     def nodes(self) -> tuple[str, ...]:

@@ -19,10 +19,10 @@ from instrument_maps.model import (
     Cone,
     Contact,
     Control,
+    ControlMotion,
     Cylinder,
     Fingering,
     InstrumentMap,
-    Motion,
     Proxy,
     Ring,
     Vector,
@@ -151,7 +151,7 @@ def _controls(instrument: InstrumentMap) -> Iterator[Problem]:
         yield from _role(path, control, labels)
 
 
-def _motion(path: str, motion: Motion) -> Iterator[Problem]:
+def _motion(path: str, motion: ControlMotion) -> Iterator[Problem]:
     yield from _unit(f"{path}.axis", motion.axis)
     if (motion.travel_m is None) == (motion.angle_rad is None):
         yield path, "needs either travel_m or angle_rad"

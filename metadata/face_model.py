@@ -9,7 +9,7 @@ import msgspec
 from metadata.units import AmplitudeScale, Fraction01, NotNegative, Positive, Weights
 
 
-class Embouchure(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+class EmbouchureWeights(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """ARKit weights of one way to play (the map's ``embouchure.kind``).
 
     The face while playing is ``relaxed * (1 - tension) + tight * tension + air * air + soft * (1 - air) + effort *
@@ -145,7 +145,7 @@ EMBOUCHURE_WEIGHTS = (
     *("relaxed", "tight", "air", "effort", "tongue_stroke", "inhale"),
     *("tongue_back", "push", "soft", "onset", "corners", "chin", "tired", "vibrato"),
 )
-"""The tables of weights of an `Embouchure`."""
+"""The tables of weights of an `EmbouchureWeights`."""
 FACE_WEIGHTS = (
     *("working", "strain", "rising", "falling", "louder", "softer", "emptying", "phrase", "inhale"),
     *("brows", "lids", "nose"),

@@ -31,7 +31,7 @@ MOST_TRACKS = 15
 MOST_KEYS = 64
 
 
-class Key(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+class AngleKey(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """An angle at a time.
 
     Attributes
@@ -48,7 +48,7 @@ class Key(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     slope: Slope | None = None
 
 
-class Track(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+class AngleTrack(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """The keys of one angle; it begins and ends at 0.
 
     Attributes
@@ -62,7 +62,7 @@ class Track(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
     target: Target
     turn: Turn
-    keys: tuple[Key, ...]
+    keys: tuple[AngleKey, ...]
 
 
 class HandKey(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
@@ -140,7 +140,7 @@ class Gesture(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     name: str
     title: Title
     length_s: Annotated[float, msgspec.Meta(ge=0.3, le=30.0)]
-    tracks: tuple[Track, ...] = ()
+    tracks: tuple[AngleTrack, ...] = ()
     may_start: Start = "anytime"
     amplitude: AmplitudeScale = (0.3, 1.0, 1.5)
     description: Title = Title("")
@@ -180,7 +180,7 @@ def read_gesture(path: Path) -> Gesture:
     return gesture
 
 
-def _check_keys(path: Path, place: str, keys: tuple[Key, ...]) -> None:
+def _check_keys(path: Path, place: str, keys: tuple[AngleKey, ...]) -> None:
     if not 3 <= len(keys) <= MOST_KEYS:
         raise invalid(path, place, f"must be 3 to {MOST_KEYS}")
     _check_times(path, place, [key.at for key in keys])

@@ -13,8 +13,8 @@ from typing import Annotated, Literal, TypeAlias
 
 import msgspec
 
-from metadata.face_model import Embouchure as Embouchure
 from metadata.face_model import EmbouchureKind as EmbouchureKind
+from metadata.face_model import EmbouchureWeights as EmbouchureWeights
 from metadata.face_model import FaceMotion as FaceMotion
 from metadata.units import AmplitudeScale as AmplitudeScale
 from metadata.units import Axis as Axis
@@ -258,7 +258,7 @@ class ConcertMotion(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 class BreathMotion(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """An inhalation of depth 1; a shallower one scales it. Players become more upright and the arms neutral
-    (Frontiers in Psychology 2024, 1394035). What the mouth does is the embouchure's `Embouchure.inhale`.
+    (Frontiers in Psychology 2024, 1394035). What the mouth does is the embouchure's `EmbouchureWeights.inhale`.
     ``shown`` is how much of it is seen, by amplitude; ``chest_share`` and ``belly_share`` are weights of the shapes
     `BREATH_MORPHS`, where a character has them. ``push_forward_deg`` and ``push_share`` are how far the chest goes
     forward and the belly in when the breath pushes a marcato attack."""
@@ -302,7 +302,7 @@ class Body(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     cue: CueMotion
     concert: ConcertMotion
     breath: BreathMotion
-    embouchure: dict[EmbouchureKind, Embouchure]
+    embouchure: dict[EmbouchureKind, EmbouchureWeights]
     face: FaceMotion
 
     def turned_to(

@@ -8,14 +8,14 @@ from typing import Final
 
 import numpy as np
 
-from app.audio.track import RATE_HZ, Piece, Samples, Track
+from app.audio.track import RATE_HZ, AudioSegment, MixTrack, Samples
 from app.project.model import Project
 
 _BAR_HZ, _BEAT_HZ = 1760.0, 1320.0
 _CLICK_S: Final = 0.035
 
 
-def click_track(project: Project, start_s: float, end_s: float) -> Track:
+def click_track(project: Project, start_s: float, end_s: float) -> MixTrack:
     """Clicks on every beat of a span that is counted aloud (`MetreMap.counted`), the first of a bar higher.
 
     Parameters
@@ -28,16 +28,16 @@ def click_track(project: Project, start_s: float, end_s: float) -> Track:
     ticks, beats = metre_map.counted(first, max(last + 1, first))
     times_s = tempo_map.seconds(ticks)
     within = (times_s >= start_s) & (times_s < end_s)
-    return Track(
-        Piece(round(at_s * RATE_HZ), _click(_BEAT_HZ if beat else _BAR_HZ))
+    return MixTrack(
+        AudioSegment(round(at_s * RATE_HZ), _click(_BEAT_HZ if beat else _BAR_HZ))
         for at_s, beat in zip(times_s[within].tolist(), beats[within].tolist(), strict=True)
     )
 
 
-def steady_clicks(times_s: Iterable[float], high: int) -> Track:
+def steady_clicks(times_s: Iterable[float], high: int) -> MixTrack:
     """Clicks at times, the first ones higher."""
-    return Track(
-        Piece(round(at_s * RATE_HZ), _click(_BAR_HZ if index < high else _BEAT_HZ))
+    return MixTrack(
+        AudioSegment(round(at_s * RATE_HZ), _click(_BAR_HZ if index < high else _BEAT_HZ))
         for index, at_s in enumerate(times_s)
     )
 

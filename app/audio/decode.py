@@ -43,7 +43,7 @@ _UNKNOWN: Final = 2**63 - 1
 
 
 @dataclass(frozen=True, eq=False)
-class Recording:
+class AudioRecording:
     """A recording in memory.
 
     Attributes
@@ -78,7 +78,7 @@ def decode(
     path: str,
     progress: Callable[[float], None] = lambda share: None,
     stop_requested: Callable[[], bool] = lambda: False,
-) -> Recording:
+) -> AudioRecording:
     """Read a recording.
 
     Parameters
@@ -97,11 +97,11 @@ def decode(
     kind = media_kind(path)
     if kind is not MediaKind.SOUND:
         delay_s = None if kind is MediaKind.ADTS else 0.0
-        return Recording(path, _by_ffmpeg(path, delay_s, progress, stop_requested))
+        return AudioRecording(path, _by_ffmpeg(path, delay_s, progress, stop_requested))
     headless = _headless(path)
     if headless is not None:
         samples = _by_ffmpeg(path, headless.delay_samples / headless.rate_hz, progress, stop_requested)
-        return Recording(path, samples, _breaks_off(path, len(samples) / RATE_HZ) if headless.breaks_off else ())
+        return AudioRecording(path, samples, _breaks_off(path, len(samples) / RATE_HZ) if headless.breaks_off else ())
     try:
         with open_file(path) as stream, _Forward(stream) as file:
             return _read(path, file, os.fstat(stream.fileno()).st_size, progress, stop_requested)
@@ -165,7 +165,7 @@ def _read(
     size: int,
     progress: Callable[[float], None],
     stop_requested: Callable[[], bool],
-) -> Recording:
+) -> AudioRecording:
     rate_hz, channels = file.samplerate, file.channels
     if not (LEAST_RATE_HZ <= rate_hz <= MOST_RATE_HZ and 1 <= channels <= MOST_CHANNELS):
         raise FileError("audio.unusable", file=path, rate_hz=rate_hz, channels=channels)
@@ -202,7 +202,7 @@ def _read(
         raise FileError("audio.empty", file=path)
     if frames < expected and not warnings and file.is_seekable and expected < MOST_HOURS * 3600 * rate_hz:
         warnings = _breaks_off(path, frames / rate_hz)
-    return Recording(path, np.frombuffer(made, np.int16).reshape(-1, 2), warnings)
+    return AudioRecording(path, np.frombuffer(made, np.int16).reshape(-1, 2), warnings)
 
 
 def _stereo(block: Block) -> Block:

@@ -18,7 +18,7 @@ import numpy as np
 from app.arrays import FloatArray, IntArray
 from app.audio.onset_path import FINAL_WIDTH_S, LEAST_GAP_S, on_onsets
 from app.audio.passages import Passage
-from app.audio.places import LEAST_APART_S, Place, places, usual_ratios
+from app.audio.places import LEAST_APART_S, RecordingPlace, places, usual_ratios
 from app.audio.score_sound import (
     CHROMA_S,
     EARLY_S,
@@ -35,7 +35,7 @@ from app.audio.steady import steady_line
 from app.audio.track import Samples
 from app.audio.warping import MISSING_S, NO_PINS, Jump, Pins, Warped, along, played, warped
 from app.errors import AppError, stoppable
-from app.score.following import Following, RunnerUp, Span
+from app.score.following import Following, RunnerUp, UnmatchedSpan
 from app.score.metre_map import MetreMap
 from app.score.model import Score
 
@@ -192,13 +192,13 @@ def _margin(following: Following) -> float:
     return following.mean_confidence - float(np.interp(following.share, _SHARES, (_SOME_RECOGNISED, RECOGNISED)))
 
 
-def _line(prepared: _Prepared, place: Place) -> Warped:
+def _line(prepared: _Prepared, place: RecordingPlace) -> Warped:
     """An alignment at a constant tempo."""
     length_s = prepared.shapes.shape[1] * CHROMA_S
     ends_s = np.array([0.0, length_s])
     there_s = place.start_s + ends_s / place.ratio
     first_s, last_s = np.clip(np.interp([0.0, prepared.recorded.length_s], there_s, ends_s), 0.0, length_s)
-    outside = (Span(0.0, float(first_s)), Span(float(last_s), length_s))
+    outside = (UnmatchedSpan(0.0, float(first_s)), UnmatchedSpan(float(last_s), length_s))
     missing = tuple(span for span in outside if span.end - span.start >= MISSING_S)
     return Warped(ends_s, there_s, missing, (), length_s)
 
@@ -363,27 +363,29 @@ def _lengths(beat_s: FloatArray, recording_s: FloatArray) -> FloatArray:
     return result
 
 
-def _squeezed(beat_s: FloatArray, lengths: FloatArray) -> tuple[Span, ...]:
+def _squeezed(beat_s: FloatArray, lengths: FloatArray) -> tuple[UnmatchedSpan, ...]:
     """Seconds of the score that the recording hardly has time for: it leaves them out, whatever sounds there."""
     places = np.flatnonzero(lengths < _SQUEEZED)
     if not len(places):
         return ()
     breaks = np.flatnonzero(np.diff(places) > _EVEN_BEATS)
     starts, ends = np.concatenate(([0], breaks + 1)), np.concatenate((breaks, [len(places) - 1]))
-    spans = [Span(float(beat_s[places[a]]), float(beat_s[places[b]])) for a, b in zip(starts, ends, strict=True)]
+    spans = [
+        UnmatchedSpan(float(beat_s[places[a]]), float(beat_s[places[b]])) for a, b in zip(starts, ends, strict=True)
+    ]
     return tuple(span for span in spans if span.end - span.start >= MISSING_S)
 
 
-def _joined(spans: Iterable[Span]) -> tuple[Span, ...]:
+def _joined(spans: Iterable[UnmatchedSpan]) -> tuple[UnmatchedSpan, ...]:
     """In order, those that touch as one."""
-    result: list[Span] = []
+    result: list[UnmatchedSpan] = []
     for span in sorted(spans, key=lambda one: one.start):
         if result and span.start <= result[-1].end + MISSING_S:
-            result[-1] = Span(result[-1].start, max(result[-1].end, span.end))
+            result[-1] = UnmatchedSpan(result[-1].start, max(result[-1].end, span.end))
         else:
             result.append(span)
     return tuple(result)
 
 
-def _ticks(score: Score, span: Span) -> Span:
-    return Span(score.tempo_map.ticks(span.start), score.tempo_map.ticks(span.end))
+def _ticks(score: Score, span: UnmatchedSpan) -> UnmatchedSpan:
+    return UnmatchedSpan(score.tempo_map.ticks(span.start), score.tempo_map.ticks(span.end))

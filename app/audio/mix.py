@@ -8,9 +8,9 @@ from typing import Final
 import numpy as np
 import soxr
 
-from app.audio.decode import Recording, decode
-from app.audio.synth import Phrase, Synthesiser, drum_phrases, phrases, program_of
-from app.audio.track import RATE_HZ, Block, Mix, Piece, Track
+from app.audio.decode import AudioRecording, decode
+from app.audio.synth import RenderedPhrase, Synthesiser, drum_phrases, phrases, program_of
+from app.audio.track import RATE_HZ, AudioSegment, Block, Mix, MixTrack
 from app.errors import raise_if_stopped
 from app.project.model import Project
 from app.project.performers import Player
@@ -26,27 +26,27 @@ _SIDE: Final = 0.6
 """Pan of the outermost player; 1 is one channel alone."""
 
 
-def player_phrases(project: Project, player: Player) -> tuple[Phrase, ...]:
+def player_phrases(project: Project, player: Player) -> tuple[RenderedPhrase, ...]:
     """What the synthesiser renders for a player, also where the instrument's map is missing."""
     part = project.part(player)
     return phrases(part, project.score.tempo_map, program_of(part, all_maps().get(player.instrument_id)))
 
 
-def percussion_phrases(project: Project) -> tuple[Phrase, ...]:
+def percussion_phrases(project: Project) -> tuple[RenderedPhrase, ...]:
     """Return what the synthesiser renders for the percussion that no player plays."""
     return drum_phrases(project.score.percussion, project.score.tempo_map)
 
 
-def player_tracks(project: Project, pieces: Mapping[str, Iterable[Piece]]) -> tuple[Track, ...]:
+def player_tracks(project: Project, pieces: Mapping[str, Iterable[AudioSegment]]) -> tuple[MixTrack, ...]:
     """The audible players.
 
     Parameters
     ----------
-    pieces : mapping of str to iterable of Piece
+    pieces : mapping of str to iterable of AudioSegment
         What is rendered, by player id; also `PERCUSSION`.
     """
     return tuple(
-        Track(pieces[player_id], *gains) for player_id, gains in player_gains(project).items() if player_id in pieces
+        MixTrack(pieces[player_id], *gains) for player_id, gains in player_gains(project).items() if player_id in pieces
     )
 
 
@@ -66,9 +66,9 @@ def player_gains(project: Project) -> dict[str, tuple[float, float]]:
     return gains
 
 
-def recording_track(recording: Recording, offset_s: float) -> Track:
+def recording_track(recording: AudioRecording, offset_s: float) -> MixTrack:
     """A recording at its place."""
-    return Track([Piece(round(offset_s * RATE_HZ), recording.samples)])
+    return MixTrack([AudioSegment(round(offset_s * RATE_HZ), recording.samples)])
 
 
 def place_gains(x_m: float, width_m: float) -> tuple[float, float]:
@@ -150,7 +150,7 @@ def _synthesised(
         for phrase in own
         if phrase.start < end_s * RATE_HZ and phrase.end > start_s * RATE_HZ
     ]
-    pieces: dict[str, list[Piece]] = {}
+    pieces: dict[str, list[AudioSegment]] = {}
     for index, (player_id, phrase) in enumerate(requested):
         raise_if_stopped(stop_requested)
         pieces.setdefault(player_id, []).append(synthesiser.render(phrase))

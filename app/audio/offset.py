@@ -14,7 +14,7 @@ from typing import Final
 import numpy as np
 
 from app.audio.onset_path import alike
-from app.audio.places import TEMPO_RATIOS, Place, is_other, places, usual_ratios
+from app.audio.places import TEMPO_RATIOS, RecordingPlace, is_other, places, usual_ratios
 from app.audio.score_sound import (
     CHROMA_S,
     EARLY_S,
@@ -95,7 +95,7 @@ def estimate_offset(
 
 def _estimated(recorded: RecordedSound, expected: ExpectedSound, reached: Callable[[float], None]) -> Estimate:
     likely = places(recorded, expected, usual_ratios(expected), lambda share: reached(0.7 * share))
-    fits: list[tuple[float, float, Place]] = []
+    fits: list[tuple[float, float, RecordingPlace]] = []
     for index, place in enumerate(likely):
         fitted, strength = _by_onsets(recorded, expected, place)
         fits.append((confidence_of(_likeness(recorded, expected, fitted), strength), strength, fitted))
@@ -106,7 +106,7 @@ def _estimated(recorded: RecordedSound, expected: ExpectedSound, reached: Callab
     return Estimate(-(best.start_s + EARLY_S), best.ratio, confidence, others[0] if others else None)
 
 
-def _by_onsets(recorded: RecordedSound, expected: ExpectedSound, rough: Place) -> tuple[Place, float]:
+def _by_onsets(recorded: RecordedSound, expected: ExpectedSound, rough: RecordingPlace) -> tuple[RecordingPlace, float]:
     """The exact place near a rough one, and the mean onset strength there in spreads.
 
     Round by round the onsets may lie less and less beside the recording's.
@@ -143,10 +143,10 @@ def _by_onsets(recorded: RecordedSound, expected: ExpectedSound, rough: Place) -
             if total[top] > best[0]:
                 best = (float(total[top]), centre_s + float(shifts[top]), r)
         strength_there, centre_s, ratio = best
-    return Place(centre_s - middle / ratio, ratio), strength_there
+    return RecordingPlace(centre_s - middle / ratio, ratio), strength_there
 
 
-def _likeness(recorded: RecordedSound, expected: ExpectedSound, place: Place) -> float:
+def _likeness(recorded: RecordedSound, expected: ExpectedSound, place: RecordingPlace) -> float:
     """How alike the chroma of both are where the score now lies, against the score transposed: 0 for another piece."""
     lag = int(np.floor(place.start_s / CHROMA_S))
     expected_chroma = score_chroma(expected, place.ratio, place.start_s / CHROMA_S - lag)

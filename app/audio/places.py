@@ -24,7 +24,7 @@ _LEAST_OVERLAP: Final = 0.35
 
 
 @dataclass(frozen=True)
-class Place:
+class RecordingPlace:
     """A place of a score in a recording.
 
     Attributes
@@ -39,7 +39,7 @@ class Place:
     ratio: float
 
 
-def is_other(one: Place, other: Place) -> bool:
+def is_other(one: RecordingPlace, other: RecordingPlace) -> bool:
     """Return whether two places are more than a rounding apart."""
     return abs(one.start_s - other.start_s) > LEAST_APART_S
 
@@ -57,13 +57,13 @@ def places(
     expected: ExpectedSound,
     ratios: Sequence[float],
     progress: Callable[[float], None] = lambda share: None,
-) -> list[Place]:
+) -> list[RecordingPlace]:
     """Find the likeliest places, those first that are most alike; they lie a second apart.
 
     Parameters
     ----------
     ratios : sequence of float
-        Tempi that are tried, as `Place.ratio`.
+        Tempi that are tried, as `RecordingPlace.ratio`.
     progress : callable
         Called with the share 0..1 that is done.
     """
@@ -77,10 +77,10 @@ def places(
             found.append((float(values[at]), float(lags[at]) * CHROMA_S, ratio))
         progress((index + 1) / len(ratios))
     found.sort(reverse=True)
-    kept: list[Place] = []
+    kept: list[RecordingPlace] = []
     for _, start_s, ratio in found:
         if all(abs(start_s - other.start_s) > _APART_S for other in kept):
-            kept.append(Place(start_s, ratio))
+            kept.append(RecordingPlace(start_s, ratio))
         if len(kept) == _CANDIDATES:
             break
     return kept

@@ -6,7 +6,7 @@ from typing import Final
 
 import numpy as np
 
-from app.audio.stretch import HOP, Stretch
+from app.audio.stretch import HOP, TimeStretcher
 from app.audio.track import RATE_HZ, Block, Mix
 
 Mark = tuple[int, float, float]
@@ -97,7 +97,7 @@ class Reader:
         self._fade_in = True
         self._stream = 0
         self._segments = [(0, self._at)]
-        self._stretch = Stretch(self._input_all)
+        self._stretch = TimeStretcher(self._input_all)
         self._marks = [mark for mark in self._marks if mark[0] < self._made]
         self._marks.append((self._made, at / RATE_HZ, self._speed))
 

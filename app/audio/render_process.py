@@ -15,7 +15,7 @@ import numpy as np
 
 from app.audio.rendering import rendered
 from app.audio.track import Samples
-from app.child import Channel, StartedChild, channel_to_parent
+from app.child import MessageChannel, StartedChild, channel_to_parent
 
 _NICENESS: Final = 5
 """The window has priority where the processor is busy."""
@@ -53,7 +53,7 @@ class RenderProcess:
 
 def main() -> None:
     """Render whatever is asked for."""
-    channel: Channel[bytes] = channel_to_parent(bytes, "render")
+    channel: MessageChannel[bytes] = channel_to_parent(bytes, "render")
     if hasattr(os, "nice"):
         os.nice(_NICENESS)
     with contextlib.suppress(BrokenPipeError):

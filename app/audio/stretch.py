@@ -24,7 +24,7 @@ _COARSE: Final = 4
 _WINDOW: Final = np.hanning(_LENGTH + 1)[:-1].astype(np.float32)[:, None]
 
 
-class Stretch:
+class TimeStretcher:
     """Stretches a stream.
 
     Parameters

@@ -19,7 +19,7 @@ import numpy as np
 
 from app.arrays import IntArray
 from app.audio.rendering import rendered, soundfont
-from app.audio.track import RATE_HZ, Piece, Samples
+from app.audio.track import RATE_HZ, AudioSegment, Samples
 from app.performance.loudness import sounding_curve
 from app.score.bend_range import USUAL_SEMITONES, range_controls, range_for, wheel
 from app.score.model import SAME_SOUND, CurveKind, Note, Part, PercussionHit
@@ -43,7 +43,7 @@ _MOST_CACHED_BYTES: Final = 256 * 1024 * 1024
 
 
 @dataclass(frozen=True)
-class Phrase:
+class RenderedPhrase:
     """Some notes of a part, to be rendered.
 
     Attributes
@@ -73,28 +73,28 @@ class Synthesiser:
         self._sounds: dict[bytes, Samples] = {}
         self._bytes = 0
 
-    def ready(self, phrase: Phrase) -> Piece | None:
+    def ready(self, phrase: RenderedPhrase) -> AudioSegment | None:
         """A phrase that has been rendered; None if it has not."""
         samples = self._sounds.get(phrase.midi)
-        return None if samples is None else Piece(phrase.start, samples)
+        return None if samples is None else AudioSegment(phrase.start, samples)
 
-    def render(self, phrase: Phrase) -> Piece:
+    def render(self, phrase: RenderedPhrase) -> AudioSegment:
         """A phrase as sound: int16, mono. May be called from a worker."""
         piece = self.ready(phrase)
         if piece is None:
             samples = self._render(phrase.midi)
             self._sounds[phrase.midi] = samples
             self._bytes += samples.nbytes
-            piece = Piece(phrase.start, samples)
+            piece = AudioSegment(phrase.start, samples)
         return piece
 
-    def forget(self, used: Iterable[Phrase]) -> frozenset[bytes]:
+    def forget(self, used: Iterable[RenderedPhrase]) -> frozenset[bytes]:
         """Let go of the oldest unused sounds, until what is to be rendered has room.
 
         Returns
         -------
         frozenset of bytes
-            `Phrase.midi` of what is gone.
+            `RenderedPhrase.midi` of what is gone.
         """
         lengths = {phrase.midi: phrase.end - phrase.start for phrase in used}
         # Samples of two bytes.
@@ -109,7 +109,7 @@ class Synthesiser:
         return frozenset(gone)
 
 
-def phrases(part: Part, tempo_map: TempoMap, program: int) -> tuple[Phrase, ...]:
+def phrases(part: Part, tempo_map: TempoMap, program: int) -> tuple[RenderedPhrase, ...]:
     """Cut a part into phrases.
 
     Parameters
@@ -134,7 +134,7 @@ def phrases(part: Part, tempo_map: TempoMap, program: int) -> tuple[Phrase, ...]
     )
 
 
-def drum_phrases(hits: Sequence[PercussionHit], tempo_map: TempoMap) -> tuple[Phrase, ...]:
+def drum_phrases(hits: Sequence[PercussionHit], tempo_map: TempoMap) -> tuple[RenderedPhrase, ...]:
     """Cut the percussion of a piece into phrases, for the drum kit.
 
     Parameters
@@ -226,7 +226,7 @@ def _phrase(
     controls: Sequence[tuple[IntArray, tuple[bytes, ...]]],
     opening: bytes,
     channel: int = 0,
-) -> Phrase:
+) -> RenderedPhrase:
     """Notes that begin at ``onsets`` and end at ``ends``, in samples, as a MIDI file that begins with the first of them
     and with ``opening``."""
     start = int(onsets.min()) // _BLOCK * _BLOCK
@@ -242,7 +242,7 @@ def _phrase(
         events.append((max(end, onset + 1) - start, 2, bytes((0x80 | channel, note.pitch, 0))))
     events.sort(key=_in_order)
     tail = round(_TAIL_S * RATE_HZ)
-    return Phrase(start, max(last, start) + tail, _midi_file(events, tail))
+    return RenderedPhrase(start, max(last, start) + tail, _midi_file(events, tail))
 
 
 def _in_order(event: tuple[int, int, bytes]) -> tuple[int, int]:

@@ -24,7 +24,7 @@ _KNEE: Final = 0.8
 
 
 @dataclass(frozen=True, eq=False)
-class Piece:
+class AudioSegment:
     """A stretch of sound.
 
     Attributes
@@ -38,7 +38,7 @@ class Piece:
     samples: Samples
 
 
-class Track:
+class MixTrack:
     """Pieces with one loudness and place; they may overlap.
 
     Parameters
@@ -47,7 +47,7 @@ class Track:
         Gains of the two channels.
     """
 
-    def __init__(self, pieces: Iterable[Piece], left: float = 1.0, right: float = 1.0) -> None:
+    def __init__(self, pieces: Iterable[AudioSegment], left: float = 1.0, right: float = 1.0) -> None:
         self.pieces = tuple(sorted(pieces, key=lambda piece: piece.start))
         self.gains = np.array([left, right], np.float32) * np.float32(_FULL_SCALE)
 
@@ -78,7 +78,7 @@ class Track:
 class Mix:
     """The mix: the sum of tracks. Immutable, so that a player may read it while another is made."""
 
-    def __init__(self, tracks: Iterable[Track] = ()) -> None:
+    def __init__(self, tracks: Iterable[MixTrack] = ()) -> None:
         self.tracks = tuple(tracks)
 
     def read(self, start: int, count: int) -> Block:

@@ -19,7 +19,7 @@ from dtaidistance import dtw
 from app.arrays import BoolArray, FloatArray, IntArray
 from app.audio.passages import Passage, passages
 from app.audio.score_sound import CHROMA_S
-from app.score.following import Span
+from app.score.following import UnmatchedSpan
 
 _MOST_CELLS: Final = 60_000_000
 """Largest matrix of the warping, 8 bytes a cell: longer pieces are warped with coarser frames."""
@@ -90,8 +90,8 @@ class Warped:
 
     score_s: FloatArray
     recording_s: FloatArray
-    missing: tuple[Span, ...]
-    added: tuple[Span, ...]
+    missing: tuple[UnmatchedSpan, ...]
+    added: tuple[UnmatchedSpan, ...]
     length_s: float
     """Duration of the score."""
 
@@ -99,8 +99,8 @@ class Warped:
         """The same, found in a part of a score that begins so much later than the whole, which lasts until ``end_s``;
         what is beyond the part is missing."""
         last_s = score_s + self.length_s
-        missing = tuple(Span(span.start + score_s, span.end + score_s) for span in self.missing)
-        outside = [Span(*span) for span in ((0.0, score_s), (last_s, end_s)) if span[1] - span[0] >= MISSING_S]
+        missing = tuple(UnmatchedSpan(span.start + score_s, span.end + score_s) for span in self.missing)
+        outside = [UnmatchedSpan(*span) for span in ((0.0, score_s), (last_s, end_s)) if span[1] - span[0] >= MISSING_S]
         return replace(self, score_s=self.score_s + score_s, missing=(*missing, *outside), length_s=end_s)
 
     def at(self, score_s: FloatArray) -> FloatArray:
@@ -212,7 +212,7 @@ def _alone(frames: FloatArray, matched: IntArray) -> BoolArray:
     return alone
 
 
-def _runs(there: BoolArray, frame_s: float) -> tuple[Span, ...]:
+def _runs(there: BoolArray, frame_s: float) -> tuple[UnmatchedSpan, ...]:
     """Where they are for `MISSING_S` at least; short breaks between them are none."""
     places = np.flatnonzero(there)
     if not len(places):
@@ -221,7 +221,7 @@ def _runs(there: BoolArray, frame_s: float) -> tuple[Span, ...]:
     starts = places[np.concatenate(([0], breaks + 1))]
     ends = places[np.concatenate((breaks, [len(places) - 1]))] + 1
     return tuple(
-        Span(start * frame_s, end * frame_s)
+        UnmatchedSpan(start * frame_s, end * frame_s)
         for start, end in zip(starts.tolist(), ends.tolist(), strict=True)
         if (end - start) * frame_s >= MISSING_S
     )

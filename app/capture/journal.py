@@ -29,7 +29,7 @@ from app.errors import FileError
 from app.formats.files import cannot_write, read_file
 from app.formats.json_data import UNREADABLE
 from app.formats.locks import lock
-from app.score.sounding import Sounding, note_off
+from app.score.sounding import SoundingNotes, note_off
 
 VERSION: Final = 1
 _LENGTHS: Final = {0x8: 3, 0x9: 3, 0xA: 3, 0xB: 3, 0xC: 2, 0xD: 2, 0xE: 3}
@@ -43,7 +43,7 @@ Gap: TypeAlias = tuple[int, int | None]
 """Times of the device's loss and return; None if it stayed away."""
 
 
-class Header(msgspec.Struct, frozen=True):
+class JournalHeader(msgspec.Struct, frozen=True):
     """What a journal is of.
 
     Attributes
@@ -75,7 +75,7 @@ class _Version(msgspec.Struct, frozen=True):
 
 
 # Made under the import's lock: see the end of `metadata.load`.
-_HEADERS: Final = msgspec.json.Decoder(Header)
+_HEADERS: Final = msgspec.json.Decoder(JournalHeader)
 _VERSIONS: Final = msgspec.json.Decoder(_Version)
 
 
@@ -101,7 +101,7 @@ class Journal(msgspec.Struct, frozen=True):
         Whether the take was ended; else it was torn off.
     """
 
-    header: Header
+    header: JournalHeader
     times_ns: tuple[int, ...]
     messages: tuple[bytes, ...]
     syncs: tuple[SyncPoint, ...]
@@ -144,7 +144,7 @@ class JournalWriter:
         ``journal.exists`` (file), ``file.cannot_write`` (file, reason).
     """
 
-    def __init__(self, path: str, header: Header, *, resumed: bool = False) -> None:
+    def __init__(self, path: str, header: JournalHeader, *, resumed: bool = False) -> None:
         self.path = path
         self.count = 0
         self._last_sync = (-_LARGEST_NS, 0)
@@ -339,7 +339,7 @@ def _ended(journal: Journal) -> tuple[Sequence[int], Sequence[bytes]]:
     events = [(ns, message) for ns, message in zip(journal.times_ns, journal.messages, strict=True)]
     lost = [(lost_ns, None) for lost_ns, _ in journal.gaps]
     found: list[tuple[int, bytes]] = []
-    sounding: Sounding[None] = Sounding()
+    sounding: SoundingNotes[None] = SoundingNotes()
     for ns, message in merge(events, lost, key=lambda event: event[0]):
         if message is None:
             found += [(ns, note_off(key)) for key, _ in sounding.end_all()]
@@ -367,7 +367,7 @@ def _performance_us(times_ns: Iterable[int], latency_ns: int, points: Sequence[S
         yield round((position_s + speed * ((played_ns - near.ns) / 1e9)) * 1e6)
 
 
-def _header(path: Path, line: bytes) -> Header | None:
+def _header(path: Path, line: bytes) -> JournalHeader | None:
     try:
         version = _VERSIONS.decode(line).version
         if version > VERSION:

@@ -27,7 +27,7 @@ _MAD_TO_DEVIATION: Final = 1.4826
 Fault: TypeAlias = Literal["", "too_few", "too_uneven"]
 
 
-class Measured(msgspec.Struct, frozen=True):
+class LatencyMeasurement(msgspec.Struct, frozen=True):
     """What was found.
 
     Attributes
@@ -51,7 +51,7 @@ class Measured(msgspec.Struct, frozen=True):
     fault: Fault
 
 
-def measured(clicks_s: Sequence[float], hits_s: Sequence[float]) -> Measured:
+def measured(clicks_s: Sequence[float], hits_s: Sequence[float]) -> LatencyMeasurement:
     """The latency, from when clicks sounded and when hits came in; both on one clock, ascending.
 
     Each click is given the hit that lies most like the others; missing and double ones do no harm.
@@ -59,7 +59,7 @@ def measured(clicks_s: Sequence[float], hits_s: Sequence[float]) -> Measured:
     near = [[hit - click for hit in hits_s if EARLIEST_S <= hit - click <= LATEST_S] for click in clicks_s]
     every = [offset for offsets in near for offset in offsets]
     if not every:
-        return Measured((None,) * len(near), (False,) * len(near), 0.0, 0.0, "too_few")
+        return LatencyMeasurement((None,) * len(near), (False,) * len(near), 0.0, 0.0, "too_few")
     middle_s = _densest(every)
     offsets = tuple(min(own, key=lambda offset: abs(offset - middle_s), default=None) for own in near)
     found = np.array([offset for offset in offsets if offset is not None])
@@ -75,7 +75,7 @@ def measured(clicks_s: Sequence[float], hits_s: Sequence[float]) -> Measured:
         fault = "too_few"
     elif spread_s > MOST_SPREAD_S:
         fault = "too_uneven"
-    return Measured(offsets, used, latency_s, spread_s, fault)
+    return LatencyMeasurement(offsets, used, latency_s, spread_s, fault)
 
 
 def _densest(offsets: Sequence[float]) -> float:

@@ -16,11 +16,10 @@ from typing import Final, Self
 
 import msgspec
 
-from app.capture.journal import Header
+from app.capture.journal import JournalHeader
 from app.capture.protocol import (
     Back,
     Command,
-    Finished,
     Leave,
     Lost,
     Moved,
@@ -29,9 +28,10 @@ from app.capture.protocol import (
     Open,
     Opened,
     Opening,
-    Refused,
+    RecordingFinished,
+    RequestRefused,
     Restarted,
-    Start,
+    StartRecording,
     Stop,
     Sync,
     SystemEnded,
@@ -70,7 +70,7 @@ class RecorderLink:
         self._open: Open | None = None
         self._opening = ""
         self._refused = ""
-        self._take: Start | None = None
+        self._take: StartRecording | None = None
         self._is_begun = False
         self._is_stopping = False
         self._unsent: list[Sync] = []
@@ -94,7 +94,7 @@ class RecorderLink:
         return self._open.port if self._open is not None else None
 
     def open(self, port: str | None) -> None:
-        """Listen to a port, and again whenever it comes back: `Opened`, `Refused`, `Lost`, `Back`."""
+        """Listen to a port, and again whenever it comes back: `Opened`, `RequestRefused`, `Lost`, `Back`."""
         with self._lock:
             if port == self.port:
                 return
@@ -108,7 +108,7 @@ class RecorderLink:
                 self._end_surely()
 
     def start(
-        self, path: str | os.PathLike[str], header: Header, elsewhere: str | os.PathLike[str] | None = None
+        self, path: str | os.PathLike[str], header: JournalHeader, elsewhere: str | os.PathLike[str] | None = None
     ) -> None:
         """Begin a journal, which must not be there: `Written`, or `NotStarted`. One that runs is finished first.
 
@@ -122,7 +122,7 @@ class RecorderLink:
                 self._put(NotStarted(self._failure))
                 return
             second = b"" if elsewhere is None else os.fsencode(Path(elsewhere).absolute())
-            self._take = Start(os.fsencode(Path(path).absolute()), header, elsewhere=second)
+            self._take = StartRecording(os.fsencode(Path(path).absolute()), header, elsewhere=second)
             self._is_stopping = False
             self._unsent.clear()
             self._is_begun = self._report(self._take)
@@ -138,7 +138,7 @@ class RecorderLink:
                 self._unsent.append(point)
 
     def stop(self) -> None:
-        """Finish the journal: `Finished` comes when it is whole."""
+        """Finish the journal: `RecordingFinished` comes when it is whole."""
         with self._lock:
             if self._take is not None:
                 self._is_stopping = True
@@ -234,7 +234,7 @@ class RecorderLink:
         with self._lock:
             self._failure = Message("capture.recorder_fails", {"detail": detail})
             self._take = None
-        self._put(Refused(self._failure))
+        self._put(RequestRefused(self._failure))
 
     def _refuse(self, port: str) -> None:
         """Say once that opening the port ended a recorder; the next one leaves it alone for a while."""
@@ -244,7 +244,7 @@ class RecorderLink:
             self._open = Open(port, self._open.is_lost, _OPEN_AGAIN_S)
             was_said, self._refused = self._refused == port, port
         if not was_said:
-            self._put(Refused(Message("capture.port_taken", {"port": port})))
+            self._put(RequestRefused(Message("capture.port_taken", {"port": port})))
 
     def _may_restart(self) -> bool:
         now_s = time.monotonic()
@@ -266,7 +266,7 @@ class RecorderLink:
                     self._opening = ""
                 if isinstance(reported, Moved):
                     self._take_moved(reported)
-                elif isinstance(reported, Finished | NotStarted):
+                elif isinstance(reported, RecordingFinished | NotStarted):
                     self._take_ended(reported)
                 elif isinstance(reported, Lost | Opened | Back):
                     self._port_changed(reported)
@@ -284,7 +284,7 @@ class RecorderLink:
             if self._take is not None and self._take.elsewhere == reported.path:
                 self._take = msgspec.structs.replace(self._take, path=reported.path, elsewhere=b"")
 
-    def _take_ended(self, reported: Finished | NotStarted) -> None:
+    def _take_ended(self, reported: RecordingFinished | NotStarted) -> None:
         with self._lock:
             # A journal that was started while another ran ends that one.
             if self._take is not None and (isinstance(reported, NotStarted) or reported.path == self._take.path):
@@ -309,4 +309,4 @@ def _started(system: str) -> StartedChild[News]:
 
 
 def _is_refusal(reported: News) -> bool:
-    return isinstance(reported, Refused) and reported.reason.id == "capture.port_refused"
+    return isinstance(reported, RequestRefused) and reported.reason.id == "capture.port_refused"

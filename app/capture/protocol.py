@@ -6,7 +6,7 @@ from typing import TypeAlias
 
 import msgspec
 
-from app.capture.journal import Header
+from app.capture.journal import JournalHeader
 from app.errors import Message
 
 
@@ -23,13 +23,13 @@ class Open(_Report, frozen=True):
     after_s: float = 0.0
 
 
-class Start(_Report, frozen=True):
+class StartRecording(_Report, frozen=True):
     """Write received messages into a journal, whose path is as `os.fsencode` has it: not all names are text.
     ``resumed_ns``: another recorder began it, and nothing was received since. ``elsewhere``: a second path, on which it
     goes on where the disk of the first takes nothing more; empty: it waits for that disk."""
 
     path: bytes
-    header: Header
+    header: JournalHeader
     resumed_ns: int | None = None
     elsewhere: bytes = b""
 
@@ -94,7 +94,7 @@ class _Failure(_Report, frozen=True):
     reason: Message
 
 
-class Refused(_Failure, frozen=True):
+class RequestRefused(_Failure, frozen=True):
     """Something asked for cannot be done, and why."""
 
 
@@ -117,7 +117,7 @@ class Events(_Report, frozen=True):
     messages: tuple[bytes, ...]
 
 
-class Written(_Report, frozen=True):
+class EventsSaved(_Report, frozen=True):
     """So many events of the running journal are safe on the disk."""
 
     count: int
@@ -130,26 +130,26 @@ class Moved(_Report, frozen=True):
     reason: str
 
 
-class Finished(_Report, frozen=True):
+class RecordingFinished(_Report, frozen=True):
     """The journal is whole and closed."""
 
     path: bytes
     count: int
 
 
-Command: TypeAlias = Open | Start | Sync | Stop | Leave
+Command: TypeAlias = Open | StartRecording | Sync | Stop | Leave
 News: TypeAlias = (
     Ports
     | Opening
     | Opened
     | Lost
     | Back
-    | Refused
+    | RequestRefused
     | NotStarted
     | Restarted
     | Events
-    | Written
+    | EventsSaved
     | Moved
-    | Finished
+    | RecordingFinished
     | SystemEnded
 )

@@ -36,7 +36,7 @@ from app.capture.protocol import (
     Back,
     Command,
     Events,
-    Finished,
+    EventsSaved,
     Leave,
     Lost,
     Moved,
@@ -46,14 +46,14 @@ from app.capture.protocol import (
     Opened,
     Opening,
     Ports,
-    Refused,
-    Start,
+    RecordingFinished,
+    RequestRefused,
+    StartRecording,
     Stop,
     Sync,
     SystemEnded,
-    Written,
 )
-from app.child import Channel
+from app.child import MessageChannel
 from app.child_limits import confine_this_process
 from app.errors import FileError, Message
 
@@ -77,7 +77,7 @@ NewsQueue: TypeAlias = "SimpleQueue[News | StampedMessage | threading.Event | No
 """Items to send, in order; an event is set once all before it is sent, None ends the sending."""
 
 
-class Recorder:
+class RecorderProcess:
     """What the main thread does: obeys, and looks after the port.
 
     Parameters
@@ -126,7 +126,7 @@ class Recorder:
                 self._asked, self._was_open = command, command.is_lost
                 self._not_before_s = time.perf_counter() + command.after_s
                 self.look()
-            case Start(resumed_ns=None):
+            case StartRecording(resumed_ns=None):
                 self._journal.put(command)
                 if self._input is None:
                     self._journal.put(("lost", time.perf_counter_ns()))
@@ -228,7 +228,7 @@ class Recorder:
         """Say why something cannot be done, once for as long as it stays so."""
         if reason not in self._refused:
             self._refused.append(reason)
-            self._news.put(Refused(reason))
+            self._news.put(RequestRefused(reason))
 
 
 def _names(ports: tuple[Port, ...]) -> tuple[str, ...]:
@@ -236,8 +236,8 @@ def _names(ports: tuple[Port, ...]) -> tuple[str, ...]:
 
 
 class JournalKeeper:
-    """Writes what a queue holds: commands `Start`, `Sync`, `Stop`, `Leave`, received messages, marks; None ends the
-    journal and the thread."""
+    """Writes what a queue holds: commands `StartRecording`, `Sync`, `Stop`, `Leave`, received messages, marks; None
+    ends the journal and the thread."""
 
     def __init__(self, queue: SimpleQueue[Any], news: NewsQueue) -> None:
         self._queue, self._news = queue, news
@@ -262,7 +262,7 @@ class JournalKeeper:
                 self._finish("end")
             case Leave():
                 self._finish(None)
-            case Start():
+            case StartRecording():
                 self._start(item)
             case Stop():
                 self._finish("end")
@@ -281,7 +281,7 @@ class JournalKeeper:
             self._is_away = word == "lost"
             self._writer.mark(word, ns)
 
-    def _start(self, start: Start) -> None:
+    def _start(self, start: StartRecording) -> None:
         self._finish("end")
         self._elsewhere = start.elsewhere
         try:
@@ -295,7 +295,7 @@ class JournalKeeper:
         except OSError as error:
             self._report_failure(error)
 
-    def _begun(self, start: Start) -> JournalWriter:
+    def _begun(self, start: StartRecording) -> JournalWriter:
         """The journal, in the second place where the disk has no room for another file."""
         try:
             return JournalWriter(os.fsdecode(start.path), start.header, resumed=start.resumed_ns is not None)
@@ -322,7 +322,7 @@ class JournalKeeper:
     def _to_disk(self) -> None:
         assert self._writer is not None
         if self._writer.to_disk():
-            self._news.put(Written(self._writer.count))
+            self._news.put(EventsSaved(self._writer.count))
         self._to_disk_at_s = time.perf_counter() + _TO_DISK_S
 
     def _finish(self, word: str | None) -> None:
@@ -342,7 +342,7 @@ class JournalKeeper:
         self._writer = None
         self._failed = False
         if word is not None:
-            self._news.put(Finished(os.fsencode(writer.path), writer.count))
+            self._news.put(RecordingFinished(os.fsencode(writer.path), writer.count))
 
     def _report_failure(self, error: OSError) -> None:
         """Go on elsewhere; where that is not possible, say that the disk takes nothing, once: it is tried again with
@@ -367,10 +367,10 @@ class JournalKeeper:
         return True
 
     def _refuse(self, id: str, writer: JournalWriter, error: OSError) -> None:
-        self._news.put(Refused(Message(id, {"file": writer.path, "reason": error.strerror or str(error)})))
+        self._news.put(RequestRefused(Message(id, {"file": writer.path, "reason": error.strerror or str(error)})))
 
 
-def send_news(queue: NewsQueue, channel: Channel[Command]) -> None:
+def send_news(queue: NewsQueue, channel: MessageChannel[Command]) -> None:
     """Send what comes into a queue, events that have gathered together; None ends it, and that no one reads."""
     with contextlib.suppress(OSError):
         while True:
@@ -405,7 +405,7 @@ def wait_until_sent(queue: NewsQueue) -> None:
     sent.wait(_SENT_WITHIN_S)
 
 
-def _read_commands(queue: SimpleQueue[Command | None], channel: Channel[Command]) -> None:
+def _read_commands(queue: SimpleQueue[Command | None], channel: MessageChannel[Command]) -> None:
     with contextlib.suppress(BrokenPipeError):
         while True:
             queue.put(channel.receive())
@@ -458,7 +458,7 @@ def main() -> None:
     sys.setswitchinterval(_SWITCH_S)
     # What is loaded stays: no stamp waits until all of it was looked through for garbage.
     gc.freeze()
-    channel = Channel[Command](Command, sys.stdin.buffer, _private_output())
+    channel = MessageChannel[Command](Command, sys.stdin.buffer, _private_output())
     news: NewsQueue = SimpleQueue()
     journal: SimpleQueue[Any] = SimpleQueue()
     commands: SimpleQueue[Command | None] = SimpleQueue()
@@ -468,7 +468,7 @@ def main() -> None:
     for thread in (writing, sending, reading):
         thread.start()
     requested = os.environ.get(SYSTEM_VARIABLE, "")
-    recorder = Recorder(news, journal, requested, partial(wait_until_sent, news), take_precedence)
+    recorder = RecorderProcess(news, journal, requested, partial(wait_until_sent, news), take_precedence)
     next_look_s = time.perf_counter()
     command: Command | None = None
     while True:

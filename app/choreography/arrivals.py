@@ -17,7 +17,7 @@ from app.choreography.body import SEGMENTS
 from app.choreography.clip import MotionClip
 from app.choreography.features import points_m
 from app.choreography.music_offset import speed_minima
-from app.choreography.sequence import Grid
+from app.choreography.sequence import AccentGrid
 from app.choreography.warp import TimeMap, arriving
 
 SMOOTHING_S: Final = 5.0 / 60.0
@@ -61,7 +61,7 @@ def alignment(arrivals_s: FloatArray, beats_s: FloatArray) -> float:
     return float(fits.max(axis=1).mean() + fits.max(axis=0).mean())
 
 
-def settled(draft: MotionClip, first_s: float, shown: TimeMap, plain: TimeMap, grid: Grid) -> TimeMap:
+def settled(draft: MotionClip, first_s: float, shown: TimeMap, plain: TimeMap, grid: AccentGrid) -> TimeMap:
     """The map by which a dance arrives best, of a few that follow from one another.
 
     Parameters

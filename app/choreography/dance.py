@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from app.arrays import FloatArray
 from app.choreography.clip import MotionClip
-from app.choreography.feet import Stand
+from app.choreography.feet import FootPlant
 
 
 @dataclass(frozen=True)
@@ -33,7 +33,7 @@ class Manner:
 
 
 @dataclass(frozen=True)
-class Step:
+class SegmentStep:
     """A segment that is danced.
 
     Attributes
@@ -66,13 +66,13 @@ class Dance:
         Of the source's time, by frame: 1 as captured, 0 at rest.
     seams : tuple of int
         Frames at which motion begins that does not follow in the capture on what was before.
-    standing : tuple of Stand
+    standing : tuple of FootPlant
         Where feet stand.
     """
 
     clip: MotionClip
     first_s: float
-    steps: tuple[Step, ...]
+    steps: tuple[SegmentStep, ...]
     speeds: FloatArray
     seams: tuple[int, ...]
-    standing: tuple[Stand, ...]
+    standing: tuple[FootPlant, ...]

@@ -46,7 +46,7 @@ SINK_S: Final = 0.12
 
 
 @dataclass(frozen=True)
-class Stand:
+class FootPlant:
     """Frames ``start`` to ``stop`` (half-open) in which a foot stands (0: left) with its tip at a place."""
 
     foot: int
@@ -55,7 +55,7 @@ class Stand:
     place_m: tuple[float, float, float]
 
 
-def stands(clip: MotionClip, contacts: BoolArray) -> tuple[Stand, ...]:
+def stands(clip: MotionClip, contacts: BoolArray) -> tuple[FootPlant, ...]:
     """Where feet stand.
 
     Parameters
@@ -73,17 +73,17 @@ def stands(clip: MotionClip, contacts: BoolArray) -> tuple[Stand, ...]:
             for first, last in _still(tips[start:stop, foot], fps):
                 middle = _middle(tips[start + first : start + last, foot])
                 place = (float(middle[0]), on_floor_m, float(middle[2]))
-                found.append(Stand(foot, start + first, start + last, place))
+                found.append(FootPlant(foot, start + first, start + last, place))
     own = [_apart([stand for stand in found if stand.foot == foot], fps) for foot in range(2)]
     return tuple(sorted(own[0] + own[1], key=lambda stand: (stand.start, stand.foot)))
 
 
-def _apart(standing: list[Stand], fps: float) -> list[Stand]:
+def _apart(standing: list[FootPlant], fps: float) -> list[FootPlant]:
     """Stands of a foot, ascending, with time between them to go from one place to the next.
 
     A foot that comes down again where it was goes on standing there.
     """
-    found: list[Stand] = []
+    found: list[FootPlant] = []
     for stand in standing:
         if found:
             way_m = float(np.linalg.norm(np.subtract(stand.place_m, found[-1].place_m)))
@@ -102,7 +102,7 @@ def _apart(standing: list[Stand], fps: float) -> list[Stand]:
     return found
 
 
-def planted(clip: MotionClip, standing: tuple[Stand, ...], weight: float = 0.0) -> MotionClip:
+def planted(clip: MotionClip, standing: tuple[FootPlant, ...], weight: float = 0.0) -> MotionClip:
     """The motion with its feet where they stand; between two stands they go over from one correction to the other.
 
     Parameters
@@ -174,7 +174,7 @@ def _middle(places_m: FloatArray) -> FloatArray:
     return np.asarray(0.5 * (ordered[(len(ordered) - 1) // 2] + ordered[len(ordered) // 2]))
 
 
-def _correction(tip_m: FloatArray, standing: list[Stand], fps: float) -> FloatArray:
+def _correction(tip_m: FloatArray, standing: list[FootPlant], fps: float) -> FloatArray:
     """(F, 3) from a tip to where it has to be."""
     result = np.zeros_like(tip_m)
     for stand in standing:
@@ -217,7 +217,7 @@ def _eased(value: FloatArray, slope: FloatArray, u: FloatArray, fade: float) -> 
 
 
 def _sink_m(
-    clip: MotionClip, world: JointTransforms, targets: FloatArray, standing: tuple[Stand, ...], lower_m: float
+    clip: MotionClip, world: JointTransforms, targets: FloatArray, standing: tuple[FootPlant, ...], lower_m: float
 ) -> FloatArray:
     """(F,) how much farther than by ``lower_m`` the hips come down where a foot that stands would be out of reach."""
     fps = float(clip.fps)

@@ -17,14 +17,22 @@ from app.arrays import BoolArray, FloatArray, IntArray
 from app.choreography.arrivals import FPS, arrival_frames, joint_speed_m_s, settled, smoothed
 from app.choreography.body import SEGMENTS
 from app.choreography.clip import MotionClip
-from app.choreography.dance import Dance, Manner, Step
+from app.choreography.dance import Dance, Manner, SegmentStep
 from app.choreography.feet import planted, stands
 from app.choreography.hands import out_of_body
 from app.choreography.joins import distances_m
 from app.choreography.judge import usual_change_rad_s
 from app.choreography.model import ChoreographyModel
 from app.choreography.rhythm import Rhythm
-from app.choreography.sequence import Candidates, Constraints, Grid, Weights, choose, grid_of, symbol_scores
+from app.choreography.sequence import (
+    AccentGrid,
+    Constraints,
+    SegmentCandidates,
+    Weights,
+    choose,
+    grid_of,
+    symbol_scores,
+)
 from app.choreography.stitch import STAGE_M, Frames, Stitcher
 from app.choreography.warp import REST_S, TimeMap, arriving
 from app.rig import quaternion
@@ -58,7 +66,7 @@ class _Plan:
         Of each step, how far along all motions it meets its place.
     """
 
-    steps: tuple[Step, ...]
+    steps: tuple[SegmentStep, ...]
     times: TimeMap | None
     hits_s: FloatArray
 
@@ -89,7 +97,7 @@ class Choreographer:
         self._usual_rad_s: dict[Fraction, float] = {}
 
     @cached_property
-    def candidates(self) -> Candidates:
+    def candidates(self) -> SegmentCandidates:
         """The model's segments, compared with one another."""
         model, segments = self.model, self.model.segments
         fps = [float(clip.fps) for clip in model.clips]
@@ -102,7 +110,7 @@ class Choreographer:
         # Of a symbol, against how often it is struck at all.
         often = np.array([np.mean(states == state) for state in range(model.states)])
         usual = often @ model.emission
-        return Candidates(
+        return SegmentCandidates(
             states=states,
             before_s=self._hits_s - np.array([one.start / fps[one.clip] for one in segments]),
             after_s=np.array([one.end / fps[one.clip] for one in segments]) - self._hits_s,
@@ -152,7 +160,7 @@ class Choreographer:
 
     def steps(
         self, rhythm: Rhythm, manner: Manner, *, constraints: Constraints | None = None, weights: Weights | None = None
-    ) -> tuple[Step, ...]:
+    ) -> tuple[SegmentStep, ...]:
         """Which segments are danced when."""
         return self._planned(rhythm, manner, constraints, weights).steps
 
@@ -182,7 +190,7 @@ class Choreographer:
         """Log odds of beginning or ending at frames of the segments' clips: both feet stand, one does, none does."""
         return np.asarray(0.5 * STANDING * (self._stitcher.feet_standing(frames) - 2.0))
 
-    def _timed(self, chosen: Sequence[tuple[int, int]], grid: Grid, body: int) -> _Plan:
+    def _timed(self, chosen: Sequence[tuple[int, int]], grid: AccentGrid, body: int) -> _Plan:
         """Segments, each first put at its place, then all arrivals of the body on beats."""
         if not chosen:
             return _Plan((), None, np.zeros(0))
@@ -198,7 +206,7 @@ class Choreographer:
         def planned(times: TimeMap) -> _Plan:
             edges_s = times.when(np.concatenate([[hits[0] - before[0]], hits + after])).tolist()
             steps = (
-                Step(int(segment), int(candidates.states[segment]), place, *at)
+                SegmentStep(int(segment), int(candidates.states[segment]), place, *at)
                 for (place, segment), *at in zip(chosen, edges_s, times.when(hits).tolist(), edges_s[1:], strict=False)
             )
             return _Plan(tuple(steps), times, hits)

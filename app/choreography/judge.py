@@ -14,7 +14,7 @@ import numpy as np
 from app.arrays import FloatArray
 from app.choreography.clip import MotionClip
 from app.choreography.contacts import tips_m
-from app.choreography.feet import Stand
+from app.choreography.feet import FootPlant
 from app.choreography.resample import resampled
 from app.rig import quaternion
 
@@ -51,7 +51,7 @@ def jerking_seams(clip: MotionClip, seams: Sequence[int], usual_rad_s: float) ->
     return tuple(seam for seam, change in zip(seams, worst.tolist(), strict=True) if change > JERKS * usual_rad_s)
 
 
-def sliding_stands(clip: MotionClip, standing: Sequence[Stand]) -> tuple[Stand, ...]:
+def sliding_stands(clip: MotionClip, standing: Sequence[FootPlant]) -> tuple[FootPlant, ...]:
     """Those stands of a dance during which the foot slides over the floor."""
     tips = tips_m(clip)[..., [0, 2]]
     speeds = np.linalg.norm(np.diff(tips, axis=0), axis=-1) * float(clip.fps)

@@ -23,8 +23,8 @@ from app.choreography.cuts import Cut, Segmentation, segment
 from app.choreography.cuts_by_hand import check_cuts
 from app.choreography.features import features
 from app.choreography.hidden_markov import count
-from app.choreography.model import ChoreographyModel, MotionSegment, Source
-from app.choreography.music_offset import Offset, find_offset
+from app.choreography.model import ChoreographyModel, MotionSegment, TrainingPair
+from app.choreography.music_offset import MusicOffset, find_offset
 from app.choreography.resample import resampled
 from app.choreography.rhythm import Rhythm
 from app.encoding import shown
@@ -48,7 +48,7 @@ class Pair:
     offset_s : float or None
         The music's first tick is at this time of the motion; None to find it.
     credits : str
-        See `app.choreography.model.Source`.
+        See `app.choreography.model.TrainingPair`.
     cuts : tuple of Cut or None
         Frames of the motion at `FPS`, as a user set them; None to cut it (`app.choreography.cuts.segment`).
     """
@@ -72,13 +72,13 @@ class Analysis:
         The motion as a model holds it, at `FPS`.
     segmentation : Segmentation
         Of this clip.
-    offset : Offset
+    offset : MusicOffset
         Where the music begins; found, also where the pair says it.
     """
 
     clip: MotionClip
     segmentation: Segmentation
-    offset: Offset
+    offset: MusicOffset
 
 
 def analyse(pair: Pair) -> Analysis:
@@ -180,15 +180,15 @@ def _cuts(pair: Pair, clip: MotionClip) -> tuple[Cut, ...]:
     return pair.cuts
 
 
-def _source(pair: Pair, clip: MotionClip) -> Source:
+def _source(pair: Pair, clip: MotionClip) -> TrainingPair:
     given = pair.cuts is not None
     if pair.offset_s is not None:
-        return Source(pair.motion_name, pair.music_name, pair.offset_s, None, pair.credits, given)
+        return TrainingPair(pair.motion_name, pair.music_name, pair.offset_s, None, pair.credits, given)
     found = find_offset(clip, pair.rhythm)
-    return Source(pair.motion_name, pair.music_name, found.offset_s, found.confidence, pair.credits, given)
+    return TrainingPair(pair.motion_name, pair.music_name, found.offset_s, found.confidence, pair.credits, given)
 
 
-def _symbols(pair: Pair, source: Source, segments: Sequence[MotionSegment]) -> list[IntArray]:
+def _symbols(pair: Pair, source: TrainingPair, segments: Sequence[MotionSegment]) -> list[IntArray]:
     """The symbols that sound during each motion of a clip."""
     bounds = np.array([(one.start, one.end) for one in segments], np.float64).reshape(-1, 2) / float(FPS)
     first, last = np.searchsorted(pair.rhythm.hits_s, bounds - source.offset_s).T

@@ -9,7 +9,7 @@ from app.choreography.clip import MotionClip
 
 
 @dataclass(frozen=True)
-class Source:
+class TrainingPair:
     """A pair of motion and music that was learned from.
 
     Attributes
@@ -73,7 +73,7 @@ class ChoreographyModel:
     """
 
     name: str
-    sources: tuple[Source, ...]
+    sources: tuple[TrainingPair, ...]
     clips: tuple[MotionClip, ...]
     segments: tuple[MotionSegment, ...]
     transition: FloatArray

@@ -21,7 +21,7 @@ import numpy as np
 from app.arrays import FloatArray
 from app.choreography.body import ENDS, SEGMENTS
 from app.choreography.clip import BodyShape, MotionClip
-from app.choreography.model import ChoreographyModel, MotionSegment, Source
+from app.choreography.model import ChoreographyModel, MotionSegment, TrainingPair
 from app.choreography.rhythm import SYMBOLS
 from app.errors import FileError, shortened
 from app.formats.atomic import atomic_write
@@ -62,7 +62,7 @@ class _File(msgspec.Struct, forbid_unknown_fields=True):
     choreography_version: int
     name: str
     fps: str
-    sources: list[Source]
+    sources: list[TrainingPair]
     initial: list[float]
     transition: list[list[float]]
     emission: list[list[float]]
@@ -185,7 +185,7 @@ class _Check:
         self.is_true("fps", FPS[0] <= fps <= FPS[1], text)
         return fps
 
-    def source(self, place: str, source: Source) -> None:
+    def source(self, place: str, source: TrainingPair) -> None:
         self.is_true(f"{place}.offset_s", abs(source.offset_s) <= LARGEST_S, str(source.offset_s))
         confidence = source.offset_confidence
         self.is_true(f"{place}.offset_confidence", confidence is None or 0.0 <= confidence <= 1.0, str(confidence))

@@ -40,7 +40,7 @@ BEAT_STRENGTH: Final = 0.25
 
 
 @dataclass(frozen=True)
-class Offset:
+class MusicOffset:
     """Where the music begins.
 
     Attributes
@@ -56,22 +56,22 @@ class Offset:
     confidence: float
 
 
-def find_offset(clip: MotionClip, rhythm: Rhythm) -> Offset:
+def find_offset(clip: MotionClip, rhythm: Rhythm) -> MusicOffset:
     """Offset at which the beats of a motion meet hits and beats of the music best; 0 and no confidence without any."""
     frames, strengths = motion_beats(clip)
     times_s = np.concatenate([rhythm.hits_s, rhythm.beats_s])
     weights = np.concatenate([rhythm.strengths, BEAT_STRENGTH * np.where(rhythm.bar_beats == 0, 2.0, 1.0)])
     if not len(frames) or not len(times_s):
-        return Offset(0.0, 0.0)
+        return MusicOffset(0.0, 0.0)
     motion = _pulses(frames / float(clip.fps), strengths, clip.length_s)
     music = _pulses(times_s, weights, float(times_s.max()))
     fit, lags = _fit(motion, music)
     best = int(np.argmax(fit))
     others = fit[np.abs(lags - lags[best]) * GRID_S > APART_S]
     if fit[best] <= 0.0:
-        return Offset(0.0, 0.0)
+        return MusicOffset(0.0, 0.0)
     confidence = 1.0 - max(0.0, float(others.max(initial=0.0))) / float(fit[best])
-    return Offset(round(float(lags[best]) * GRID_S, 3), confidence)
+    return MusicOffset(round(float(lags[best]) * GRID_S, 3), confidence)
 
 
 def motion_beats(clip: MotionClip) -> tuple[IntArray, FloatArray]:

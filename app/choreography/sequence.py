@@ -68,7 +68,7 @@ NEVER: Final = -1e9
 
 
 @dataclass(frozen=True, eq=False)
-class Grid:
+class AccentGrid:
     """Places in time for accents.
 
     Attributes
@@ -83,7 +83,7 @@ class Grid:
 
 
 @dataclass(frozen=True, eq=False)
-class Candidates:
+class SegmentCandidates:
     """Segments to choose from.
 
     Attributes
@@ -125,17 +125,17 @@ class Constraints:
     forbidden: frozenset[tuple[int, int]] = frozenset()
 
 
-def grid_of(rhythm: Rhythm) -> Grid:
+def grid_of(rhythm: Rhythm) -> AccentGrid:
     """Beats, and the middles between them."""
     beats = rhythm.beats_s
     if len(beats) < 2:
-        return Grid(beats, np.ones(len(beats), bool))
+        return AccentGrid(beats, np.ones(len(beats), bool))
     times = np.empty(2 * len(beats) - 1)
     times[::2], times[1::2] = beats, 0.5 * (beats[1:] + beats[:-1])
-    return Grid(times, np.arange(len(times)) % 2 == 0)
+    return AccentGrid(times, np.arange(len(times)) % 2 == 0)
 
 
-def symbol_scores(grid: Grid, rhythm: Rhythm, candidates: Candidates) -> FloatArray:
+def symbol_scores(grid: AccentGrid, rhythm: Rhythm, candidates: SegmentCandidates) -> FloatArray:
     """(G, S) log odds of what is struck from half way after the place before to half way to the next, in each segment.
 
     Hits count by their strength; several at a place count no more than the strongest would twice, for they are one
@@ -157,9 +157,9 @@ def symbol_scores(grid: Grid, rhythm: Rhythm, candidates: Candidates) -> FloatAr
 
 
 def choose(
-    grid: Grid,
+    grid: AccentGrid,
     scores: FloatArray,
-    candidates: Candidates,
+    candidates: SegmentCandidates,
     *,
     seed: int,
     weights: Weights | None = None,
@@ -213,9 +213,9 @@ class _Search:
 
     def __init__(
         self,
-        grid: Grid,
+        grid: AccentGrid,
         scores: FloatArray,
-        candidates: Candidates,
+        candidates: SegmentCandidates,
         weights: Weights,
         constraints: Constraints,
         initial: FloatArray | None,

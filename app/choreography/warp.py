@@ -18,7 +18,7 @@ import numpy as np
 from scipy.interpolate import PchipInterpolator
 
 from app.arrays import FloatArray
-from app.choreography.sequence import SPEEDS, Grid
+from app.choreography.sequence import SPEEDS, AccentGrid
 
 REST_S: Final = 0.4
 """A dance begins and ends with so much of the motion before and after it, ever slower: it comes out of standing."""
@@ -83,7 +83,7 @@ class TimeMap:
         return np.asarray(np.interp(along_s, along, times_s))
 
 
-def arriving(plain: TimeMap, arrivals: FloatArray, grid: Grid) -> TimeMap:
+def arriving(plain: TimeMap, arrivals: FloatArray, grid: AccentGrid) -> TimeMap:
     """The map that puts arrivals on beats, where the limits of speed allow it.
 
     Parameters

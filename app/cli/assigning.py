@@ -14,7 +14,7 @@ from app.encoding import shown
 from app.errors import Message
 from app.project.importing import ImportRow
 from app.project.names import unique_names
-from app.score.choose import Candidates, How, MapChoice, TrackChannel, candidates, use_of
+from app.score.choose import How, MapCandidates, MapChoice, TrackChannel, candidates, use_of
 from app.score.parts import stream_name
 
 _SPECIAL: Final = re.compile(r'["$`\\!]')
@@ -47,7 +47,7 @@ def unassigned_parts(
         if row.assignment.map_id is None and all(use_of(stream) == "melodic" for stream in played):
             possible = candidates(played, maps)
             if of_others and not possible.maps:
-                possible = Candidates(How.RANGE, None, tuple(maps))
+                possible = MapCandidates(How.RANGE, None, tuple(maps))
             elif of_others or possible.how is not How.RANGE or not possible.maps:
                 continue
             pitches = [pitch for stream in played for pitch in stream.pitches]

@@ -45,7 +45,7 @@ _DASK_VARIABLES: Final = ("MALLOC_TRIM_THRESHOLD_",)
 """Environment variables that Dask sets for its workers: with them an export spends seconds on returning memory."""
 
 
-class Outcome(msgspec.Struct, frozen=True):
+class BatchOutcome(msgspec.Struct, frozen=True):
     """What became of a piece.
 
     Attributes
@@ -85,7 +85,7 @@ class _Note(msgspec.Struct, frozen=True):
     """Of a piece that was exported: from what, and the outcome."""
 
     digest: str
-    outcome: Outcome
+    outcome: BatchOutcome
 
 
 class _Reported(msgspec.Struct):
@@ -134,7 +134,7 @@ def export_folder(arguments: argparse.Namespace) -> int:
     progress = Progress(sys.stderr)
     stopped = False
     with _executor(arguments.scheduler, arguments.jobs) as executor:
-        futures: dict[Future[Outcome], str] = {}
+        futures: dict[Future[BatchOutcome], str] = {}
         for piece, folder in pieces.items():
             if piece not in known:
                 paths = str(source / piece), str(target / folder)
@@ -179,7 +179,7 @@ def _hidden(path: Path) -> bool:
     return any(part.startswith(".") for part in path.parts)
 
 
-def export_piece(given: Sequence[str], piece: str, folder: str) -> Outcome:
+def export_piece(given: Sequence[str], piece: str, folder: str) -> BatchOutcome:
     """Export a piece by a process of its own.
 
     Parameters
@@ -197,10 +197,10 @@ def export_piece(given: Sequence[str], piece: str, folder: str) -> Outcome:
     lines = [line for line in printed.decode("utf-8", "replace").splitlines() if line.strip()]
     if child.returncode not in (DONE, PARTIAL):
         reason = lines[-1].removeprefix("suisou: ") if lines else f"ended with status {child.returncode}"
-        return Outcome(child.returncode or BAD_INPUT, reason)
+        return BatchOutcome(child.returncode or BAD_INPUT, reason)
     file = Path(folder) / REPORT
     report = decode_json(read_file(file, _MOST_BYTES), _Reported, str(file))
-    return Outcome(
+    return BatchOutcome(
         status=child.returncode,
         players=len(report.players) + len(report.dancers),
         excluded=len(report.left_out),
@@ -256,12 +256,12 @@ def _executor(scheduler: str | None, jobs: int | None) -> Iterator[Executor]:
         yield executor
 
 
-def _outcome(future: Future[Outcome]) -> Outcome:
+def _outcome(future: Future[BatchOutcome]) -> BatchOutcome:
     """What became of a piece, also where its machine was lost."""
     try:
         return future.result()
     except Exception as error:  # noqa: BLE001 - a scheduler's errors have no common base; one piece stops no other
-        return Outcome(BAD_INPUT, str(error) or type(error).__name__)
+        return BatchOutcome(BAD_INPUT, str(error) or type(error).__name__)
 
 
 _NOTES: Final[msgspec.json.Decoder[dict[str, _Note]]] = msgspec.json.Decoder(dict[str, _Note])
@@ -289,7 +289,9 @@ def _write_notes(file: Path, notes: dict[str, _Note]) -> None:
         stream.write(msgspec.json.format(msgspec.json.encode(notes), indent=1))
 
 
-def _table(pieces: dict[str, str], outcomes: dict[str, Outcome], known: dict[str, Outcome], stopped: bool) -> list[str]:
+def _table(
+    pieces: dict[str, str], outcomes: dict[str, BatchOutcome], known: dict[str, BatchOutcome], stopped: bool
+) -> list[str]:
     """A line for each piece, and how many there are of each kind."""
     rows: list[tuple[str, ...]] = [("piece", "players", "seconds", "excluded", "to look at", "result")]
     for piece in pieces:

@@ -25,7 +25,7 @@ from app.cli.terminal import interrupted_by, say
 from app.encoding import shown
 from app.errors import UsageError
 from app.export.formats import FILE_FORMATS, USUAL_FORMATS, Format
-from app.export.request import Request
+from app.export.request import ExportRequest
 from app.export.rig_options import ATTACHMENTS, DEFAULT_RIG, REST_POSES, ROOT_BONES, RigOptions
 from app.export.run import export as write
 from app.export.tree import clean_up
@@ -224,7 +224,7 @@ def export(arguments: argparse.Namespace) -> int:
     find_holds(performance, [player for musician in musicians for player in project.played_by(musician)])
     progress = Progress(sys.stderr)
     skeleton: SkeletonChoice = arguments.skeleton or ("own" if unreal is None else "ue5")
-    request = Request(
+    request = ExportRequest(
         performance=performance,
         players=players,
         folder=arguments.to if unreal is None else unreal.folder,

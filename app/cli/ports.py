@@ -10,7 +10,7 @@ from types import TracebackType
 from typing import Final, Self
 
 from app.capture.link import RecorderLink
-from app.capture.protocol import News, Ports, Refused
+from app.capture.protocol import News, Ports, RequestRefused
 from app.cli.terminal import say, say_json
 from app.errors import AppError, Message
 from app.messages import text
@@ -23,7 +23,7 @@ class NoDevice(AppError):
     """There is no such device, or none at all."""
 
 
-class Listening:
+class PortMonitor:
     """A recorder, and its news as they come."""
 
     def __init__(self) -> None:
@@ -61,7 +61,7 @@ class Listening:
         for reported in self.until(time.monotonic() + _ANSWER_WITHIN_S):
             if isinstance(reported, Ports) and reported.system:
                 return reported
-            if isinstance(reported, Refused):
+            if isinstance(reported, RequestRefused):
                 raise NoDevice(reported.reason.id, **reported.reason.arguments)
         raise NoDevice(reason.id)
 
@@ -77,7 +77,7 @@ def add_arguments(command: argparse.ArgumentParser) -> None:
 
 def list_ports(arguments: argparse.Namespace) -> None:
     """Print the devices. Raises AppError where no MIDI system answers."""
-    with Listening() as listening:
+    with PortMonitor() as listening:
         ports = listening.ports()
     taken_for = {name: recognised_controller(name) for name in ports.inputs}
     if arguments.json:

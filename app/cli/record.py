@@ -13,11 +13,21 @@ from typing import Final
 
 import platformdirs
 
-from app.capture.journal import Header, passes, read_journal
+from app.capture.journal import JournalHeader, passes, read_journal
 from app.capture.port_names import matching
-from app.capture.protocol import Back, Finished, Lost, Moved, NotStarted, Opened, Refused, Restarted, Written
+from app.capture.protocol import (
+    Back,
+    EventsSaved,
+    Lost,
+    Moved,
+    NotStarted,
+    Opened,
+    RecordingFinished,
+    RequestRefused,
+    Restarted,
+)
 from app.cli.options import LONGEST_S, within
-from app.cli.ports import Listening, NoDevice
+from app.cli.ports import NoDevice, PortMonitor
 from app.cli.status import DONE, PARTIAL
 from app.cli.terminal import count, say, warn
 from app.encoding import shown
@@ -105,11 +115,11 @@ def _beside_none(folder: Path, name: str) -> Path:
 
 def _listen(arguments: argparse.Namespace, journal: Path) -> Path:
     """Record into the journal until the time is over or Ctrl+C; where the journal is."""
-    with Listening() as listening:
+    with PortMonitor() as listening:
         port = _open(listening, arguments.port)
         count_in_s = arguments.count_in * _BEATS_IN_BAR * 60.0 / arguments.tempo
         begin_ns = time.perf_counter_ns() + round((_LEAD_S * bool(arguments.count_in) + count_in_s) * 1e9)
-        header = Header(
+        header = JournalHeader(
             project="",
             player="",
             port=port,
@@ -149,7 +159,7 @@ class _Moves:
         warn(text(Message("record.goes_on_elsewhere", said)))
 
 
-def _open(listening: Listening, requested: str) -> str:
+def _open(listening: PortMonitor, requested: str) -> str:
     """Open the device that is called so, or the only one whose name holds the text."""
     inputs = listening.ports().inputs
     if not inputs:
@@ -161,23 +171,23 @@ def _open(listening: Listening, requested: str) -> str:
     for reported in listening.until(time.monotonic() + _WITHIN_S):
         if isinstance(reported, Opened):
             return reported.port
-        if isinstance(reported, Refused):
+        if isinstance(reported, RequestRefused):
             raise NoDevice(reported.reason.id, **reported.reason.arguments)
     raise NoDevice("capture.port_not_here", port=found[0])
 
 
-def _begun(listening: Listening, moves: _Moves) -> None:
+def _begun(listening: PortMonitor, moves: _Moves) -> None:
     for reported in listening.until(time.monotonic() + _WITHIN_S):
         if isinstance(reported, Moved):
             moves.follow(reported)
             return
-        if isinstance(reported, Written):
+        if isinstance(reported, EventsSaved):
             return
-        if isinstance(reported, NotStarted | Refused):
+        if isinstance(reported, NotStarted | RequestRefused):
             raise RecordError(reported.reason.id, **reported.reason.arguments)
 
 
-def _count_in(listening: Listening, bars: int, tempo: float, begin_ns: int, moves: _Moves) -> None:
+def _count_in(listening: PortMonitor, bars: int, tempo: float, begin_ns: int, moves: _Moves) -> None:
     beats = bars * _BEATS_IN_BAR
     for beat in range(beats):
         _report_until(listening, _monotonic_s(begin_ns) - (beats - beat) * 60.0 / tempo, moves)
@@ -186,7 +196,7 @@ def _count_in(listening: Listening, bars: int, tempo: float, begin_ns: int, move
     _report_until(listening, _monotonic_s(begin_ns), moves)
 
 
-def _report_until(listening: Listening, end_s: float, moves: _Moves) -> None:
+def _report_until(listening: PortMonitor, end_s: float, moves: _Moves) -> None:
     """Say what happens to the device until a moment of `time.monotonic`."""
     for reported in listening.until(end_s):
         match reported:
@@ -196,17 +206,17 @@ def _report_until(listening: Listening, end_s: float, moves: _Moves) -> None:
                 warn(f"{port} is gone; recording goes on when it comes back")
             case Back(port=port):
                 warn(f"{port} is back")
-            case Refused(reason=reason) | Restarted(reason=reason):
+            case RequestRefused(reason=reason) | Restarted(reason=reason):
                 warn(text(reason))
 
 
-def _finished(listening: Listening, moves: _Moves) -> None:
+def _finished(listening: PortMonitor, moves: _Moves) -> None:
     for reported in listening.until(time.monotonic() + _WITHIN_S):
         if isinstance(reported, Moved):
             moves.follow(reported)
-        if isinstance(reported, Refused):
+        if isinstance(reported, RequestRefused):
             warn(text(reported.reason))
-        if isinstance(reported, Finished):
+        if isinstance(reported, RecordingFinished):
             return
 
 

@@ -24,8 +24,8 @@ from app.stream.sender import (
     LOOPBACK,
     MOST_PORT,
     PORT,
-    Outcome,
     Sender,
+    SendOutcome,
     checked_port,
     find_address,
     is_loopback,
@@ -227,7 +227,7 @@ def _play(cast: list[_Streamed], senders: list[Sender], span: FrameSpan, first: 
         now_s = time.perf_counter()
         frame = (first + step) % frames
         for streamed, sender in zip(cast, senders, strict=True):
-            inaudible = sender.send(streamed.datagrams(frame, now_s - began_s)) is Outcome.NO_RECEIVER or inaudible
+            inaudible = sender.send(streamed.datagrams(frame, now_s - began_s)) is SendOutcome.NO_RECEIVER or inaudible
         sent += 1
         if now_s - sounding_s >= _REPORT_S:
             if inaudible and sys.stderr.isatty():

@@ -23,7 +23,7 @@ from app.messages import filled, text
 if TYPE_CHECKING:
     from app.export.target import SkeletonChoice
     from app.export.unreal.project import UnrealProject
-    from app.export.unreal.run import Written
+    from app.export.unreal.run import UnrealExport
 
 _DANCE_HEAD = ("dancer", "steps", "standing s", "slide mm/s", "bones mm")
 _HEAD = (
@@ -71,7 +71,7 @@ _SKELETONS: Final[dict[SkeletonChoice, str]] = {
 }
 
 
-def project_summary(written: Written, project: UnrealProject, skeleton: SkeletonChoice, chosen: bool) -> list[str]:
+def project_summary(written: UnrealExport, project: UnrealProject, skeleton: SkeletonChoice, chosen: bool) -> list[str]:
     """The tree of what is in an Unreal project now, on which skeleton, and what `summary` says of it.
 
     Parameters

@@ -19,7 +19,7 @@ import numpy as np
 from app.arrays import AnyFloatArray, BoolArray, FloatArray, IndexArray, SingleArray
 from app.contacts.alike import alike
 from app.contacts.distance_field import DistanceField
-from app.contacts.hand_poses import Parts, Placed, Poses, carried, joints_in_node, moving_parts_m, steadiest
+from app.contacts.hand_poses import NodePoints, Parts, VertexPoses, carried, joints_in_node, moving_parts_m, steadiest
 from app.rig.skinning import Skin
 from instrument_maps.model import Proxy
 
@@ -104,7 +104,7 @@ class HandDepths:
             depths_m[:] = least_m[order]
         weights = {name: np.asarray(morphs[name], np.float32)[order] for name in self._hand.morphs if name in morphs}
         nodes = [world_from_node[node][order] for node in self._nodes]
-        poses = Poses(self._hand, local[:, :, order], weights)
+        poses = VertexPoses(self._hand, local[:, :, order], weights)
         parts = Parts(nodes, base, self._field.reaches_m)
         search = _Search(self._groups, self._field, poses, joints[order], weights, nodes, parts)
         search.begin(sizes[0], depths_m.reshape(-1, sizes[0]))
@@ -171,7 +171,7 @@ class _Search:
     ----------
     groups : _Groups
     field : DistanceField
-    poses : Poses
+    poses : VertexPoses
         In the frame of the base.
     world_from_joint : (F, 3, J, 4) float32
     morphs : dict of str to (F,) float32
@@ -186,7 +186,7 @@ class _Search:
         self,
         groups: _Groups,
         field: DistanceField,
-        poses: Poses,
+        poses: VertexPoses,
         world_from_joint: SingleArray,
         morphs: Mapping[str, SingleArray],
         world_from_node: list[FloatArray],
@@ -256,10 +256,10 @@ class _Search:
             frames, at = np.unique(blocks[rows], return_inverse=True)
             local = joints_in_node(self._world_from_node[node][frames], self._world_from_joint[frames])
             morphs = {name: curve[frames] for name, curve in self._morphs.items()}
-            places_m[:, rows] = Poses(self._poses.hand, local, morphs).places_m(at, vertices[rows])
+            places_m[:, rows] = VertexPoses(self._poses.hand, local, morphs).places_m(at, vertices[rows])
         return places_m
 
-    def _placed(self, pairs: _Pairs, vertices: IndexArray) -> Placed:
+    def _placed(self, pairs: _Pairs, vertices: IndexArray) -> NodePoints:
         """Vertices (S,) of what is near nodes, in these nodes' frames in the middle of the blocks."""
         size, spots = self._moved.size, pairs.spots
         middles = pairs.blocks * size + size // 2
@@ -271,7 +271,7 @@ class _Search:
 
     def _near(
         self, pairs: _Pairs, vertices: IndexArray, radii_m: SingleArray, depths_m: SingleArray
-    ) -> tuple[BoolArray, Placed]:
+    ) -> tuple[BoolArray, NodePoints]:
         """Which pairs (N,) the grids leave, of vertices (S,) and what is within radii (S,) around them: those that may
         be deepest in some frame of their block. What was found raises the depths (B, size)."""
         placed, own_m = self._placed(pairs, vertices), radii_m[pairs.spots]

@@ -19,7 +19,7 @@ MOVES_M = 0.001
 
 
 @dataclass(frozen=True, eq=False)
-class Carried:
+class SkinnedVertices:
     """Vertices and the joints that carry them.
 
     Attributes
@@ -45,13 +45,13 @@ class Carried:
     morphs: Mapping[str, SingleArray]
 
 
-def carried(skin: Skin) -> Carried:
+def carried(skin: Skin) -> SkinnedVertices:
     """The vertices of a skin."""
     count = int(np.count_nonzero(skin.weights, axis=1).max())
     carriers = np.argsort(-skin.weights, axis=1, kind="stable")[:, :count]
     from_mesh = skin.joint_from_mesh[carriers]
     places_m = np.einsum("vkij,vj->vki", from_mesh[..., :3], skin.positions_m) + from_mesh[..., 3]
-    return Carried(
+    return SkinnedVertices(
         joints=skin.joints,
         carriers=carriers,
         weights=np.take_along_axis(skin.weights, carriers, axis=1).astype(np.float32),
@@ -94,18 +94,18 @@ def _through(matrices: SingleArray, at: IndexArray, points_m: SingleArray) -> Si
     return result
 
 
-class Poses:
+class VertexPoses:
     """Where vertices are in the frame of a node, and how far they move.
 
     Parameters
     ----------
-    hand : Carried
+    hand : SkinnedVertices
     node_from_joint : (3, 4, F, J) float32
     morphs : dict of str to (F,) float32
         Weights.
     """
 
-    def __init__(self, hand: Carried, node_from_joint: SingleArray, morphs: Mapping[str, SingleArray]) -> None:
+    def __init__(self, hand: SkinnedVertices, node_from_joint: SingleArray, morphs: Mapping[str, SingleArray]) -> None:
         self.hand, self._node_from_joint, self._morphs = hand, node_from_joint, morphs
 
     def places_m(self, frames: IndexArray, vertices: IndexArray) -> SingleArray:
@@ -152,7 +152,7 @@ class Moves:
 
     Attributes
     ----------
-    hand : Carried
+    hand : SkinnedVertices
     chords : (B, J) float32
         What is 1 from a joint is moved by its turning by no more.
     shifts_m : (B, J) float32
@@ -161,7 +161,7 @@ class Moves:
         Weights of the morphs, and their changes.
     """
 
-    hand: Carried
+    hand: SkinnedVertices
     chords: SingleArray
     shifts_m: SingleArray
     greatest: Mapping[str, SingleArray]
@@ -271,7 +271,7 @@ class PartMoves:
     shifts_m: SingleArray
     reaches_m: SingleArray
 
-    def placed(self, blocks: IndexArray, nodes: IndexArray, base_m: SingleArray, moves_m: SingleArray) -> Placed:
+    def placed(self, blocks: IndexArray, nodes: IndexArray, base_m: SingleArray, moves_m: SingleArray) -> NodePoints:
         """Place points in the frames of nodes (N,) in the middle of blocks (N,).
 
         Parameters
@@ -286,11 +286,11 @@ class PartMoves:
         lengths_m, reaches_m = _lengths(places_m), self.reaches_m.take(nodes)
         # However far a point is, its distance changes by no more than what the node has moves.
         turns_m = self.chords.reshape(-1).take(at) * np.minimum(lengths_m, reaches_m)
-        return Placed(places_m, moves_m + self.shifts_m.reshape(-1).take(at), turns_m, lengths_m - reaches_m)
+        return NodePoints(places_m, moves_m + self.shifts_m.reshape(-1).take(at), turns_m, lengths_m - reaches_m)
 
 
 @dataclass(frozen=True, eq=False)
-class Placed:
+class NodePoints:
     """Points in the frames of nodes in the middle of blocks, and what their distances change within.
 
     Attributes
@@ -307,8 +307,8 @@ class Placed:
     turns_m: SingleArray
     beyond_m: SingleArray
 
-    def __getitem__(self, rows: BoolArray) -> Placed:
-        return Placed(self.places_m[:, rows], self.shifts_m[rows], self.turns_m[rows], self.beyond_m[rows])
+    def __getitem__(self, rows: BoolArray) -> NodePoints:
+        return NodePoints(self.places_m[:, rows], self.shifts_m[rows], self.turns_m[rows], self.beyond_m[rows])
 
     @property
     def moves_m(self) -> SingleArray:

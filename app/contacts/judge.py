@@ -12,7 +12,7 @@ from app.contacts.breaks import JUDGED_PER_S, Break, runs
 from app.contacts.controls import NoteFrames
 from app.contacts.hold import missed_mm
 from app.contacts.touches import LIPS, TouchJudge, Traces, distance_m, hand_gaps_m, world_from_nodes
-from app.motion.contacts.carried_instrument import Carried
+from app.motion.contacts.carried_instrument import InstrumentTransform
 from app.motion.contacts.hand_in_bell import shifted
 from app.motion.model import Motion
 from app.motion.perform import PerformanceCurves
@@ -103,7 +103,7 @@ class ContactJudge:
             wrist_m = joints.of(self._wrists[hand.side])[0]
             gaps_m = hand_gaps_m(hand, wrist_m, place_m, turn, controls, placed)
             if stopped is not None and hand.side == stopped.hand and stopping.any():
-                shift = shifted(self._character.skeleton, stopped, stopping, Carried(place_m, turn))
+                shift = shifted(self._character.skeleton, stopped, stopping, InstrumentTransform(place_m, turn))
                 gaps_m = distance_m(wrist_m, shift.target(*hand_targets(hand, place_m, turn, controls, placed))[0])
             bounds_mm = [bound_mm(contact) for contact in instrument.contacts if contact.part.startswith(hand.side)]
             off[hand.side] = gaps_m * 1000.0 > MOVED_MM

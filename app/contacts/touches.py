@@ -17,7 +17,7 @@ from app.contacts.controls import NoteFrames
 from app.motion.contacts.hand_in_bell import FINGERS_KEPT
 from app.rig import quaternion
 from app.rig.grip.finger_stations import aside_m, only_at, stations, stations_of_notes, worked_by
-from app.rig.grip.grip_pose import HandHold, Placed, hand_targets
+from app.rig.grip.grip_pose import HandHold, StationBlend, hand_targets
 from instrument_maps.model import ROOT, Contact, InstrumentMap
 
 LIPS, UPPER_LIP = "lips.contact", "lips.upper"
@@ -79,7 +79,7 @@ def hand_gaps_m(
     world_from_instrument_m: FloatArray,
     world_from_instrument_rotation: FloatArray,
     controls: Mapping[str, FloatArray],
-    placed: Mapping[str, Placed] | None = None,
+    placed: Mapping[str, StationBlend] | None = None,
 ) -> FloatArray:
     """How far (F,) a hand is from its place on the instrument; parameters as of
     `app.rig.grip.grip_pose.hand_targets`."""

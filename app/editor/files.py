@@ -21,7 +21,7 @@ from app.errors import AppError, Message, raise_if_stopped
 from app.formats.other_computers import agree
 from app.formats.video import SUFFIXES
 from app.project import storage
-from app.project.autosave import Autosave, Writing, Written
+from app.project.autosave import Autosave, AutosaveResult, Writing
 from app.project.choreography_files import bundled_choreographies
 from app.project.document import Change
 from app.project.edit.dancers import add_dancer, change_dancers
@@ -516,7 +516,7 @@ class Files(QObject):
         return self.autosave.take(now_s)
 
     def _write(self, writing: Writing) -> None:
-        def work(progress: Callable[[float], None], stop_requested: Callable[[], bool]) -> Written:
+        def work(progress: Callable[[float], None], stop_requested: Callable[[], bool]) -> AutosaveResult:
             return writing.run()
 
         def ended() -> None:
@@ -524,7 +524,7 @@ class Files(QObject):
                 self.autosave.ended(writing, time.monotonic())
                 self._schedule()
 
-        def done(written: Written) -> None:
+        def done(written: AutosaveResult) -> None:
             if self.autosave is None:
                 return
             self._report(lambda autosave: autosave.written(writing, written))

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from app.editor.poses import Poses, blended
+from app.editor.poses import PoseSource, blended
 from app.editor.session import Session
 from app.performance.chunks import Pose
 
@@ -16,7 +16,7 @@ class LivePoses:
     """Poses of the performance; of players that are played now (`session.live_players`), those of now. Any thread may
     call it."""
 
-    def __init__(self, session: Session, poses: Poses) -> None:
+    def __init__(self, session: Session, poses: PoseSource) -> None:
         self._session, self._poses = session, poses
 
     @property
@@ -25,7 +25,7 @@ class LivePoses:
         return self._session.live_players.is_shown
 
     def poses(self, player_ids: Sequence[str], time_s: float) -> Sequence[Pose | None]:
-        """See `Poses.poses`."""
+        """See `PoseSource.poses`."""
         found = self._poses.poses(player_ids, time_s)
         live = self._session.live_players
         if not live.is_shown:
@@ -60,5 +60,5 @@ class LivePoses:
         return performed
 
     def pose_now(self, player_id: str, time_s: float) -> Pose | None:
-        """See `Poses.pose_now`: pictures of the performance show the performance."""
+        """See `PoseSource.pose_now`: pictures of the performance show the performance."""
         return self._poses.pose_now(player_id, time_s)

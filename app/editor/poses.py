@@ -48,7 +48,7 @@ def same(one: Pose | None, other: Pose | None) -> bool:
     )
 
 
-class Poses(Protocol):
+class PoseSource(Protocol):
     """Poses by player and time."""
 
     def poses(self, player_ids: Sequence[str], time_s: float) -> Sequence[Pose | None]:

@@ -21,29 +21,29 @@ from PySide6.QtCore import QObject, Qt, QTimer, Signal
 
 from app.audio.playback import Playback
 from app.capture.adopt import takes_of
-from app.capture.journal import LARGEST_LATENCY_S, Header, Journal, read_journal
+from app.capture.journal import LARGEST_LATENCY_S, Journal, JournalHeader, read_journal
 from app.capture.link import RecorderLink
 from app.capture.port_names import matching
 from app.capture.protocol import (
     Back,
     Events,
-    Finished,
+    EventsSaved,
     Lost,
     Moved,
     News,
     NotStarted,
     Opened,
     Ports,
-    Refused,
+    RecordingFinished,
+    RequestRefused,
     Restarted,
-    Written,
 )
 from app.editor.calls import window_calls
 from app.editor.files import Files
 from app.editor.live_player import LivePlayer
 from app.editor.session import Session, Severity
 from app.editor.settings import Settings
-from app.editor.sound import Sound
+from app.editor.sound import EditorSound
 from app.editor.translated import tr
 from app.encoding import stored
 from app.errors import AppError, Argument, Message
@@ -51,7 +51,7 @@ from app.project.edit.takes import add_takes, comp
 from app.project.journals import in_second_places, journal_path, journals_of, second_path
 from app.project.model import Project
 from app.project.storage import file_named
-from app.score.sounding import Sounding
+from app.score.sounding import SoundingNotes
 from app.score.take import ControllerMapping, Take, decoded, is_wired, said
 from metadata.load import load_controllers, recognised_controller
 from metadata.model import Controller
@@ -108,7 +108,7 @@ class Recorder(QObject):
         Beside the project's file lie the journals.
     settings : Settings
         Remember the device, and what is known of each.
-    sound : Sound
+    sound : EditorSound
         Counts a take in, and goes on beyond the end of the piece.
     make_link : callable
     now_ns : callable
@@ -129,7 +129,7 @@ class Recorder(QObject):
         session: Session,
         files: Files,
         settings: Settings,
-        sound: Sound,
+        sound: EditorSound,
         make_link: MakeLink | None = None,
         now_ns: Callable[[], int] = time.perf_counter_ns,
         make_playback: Callable[[], Playback] = Playback,
@@ -142,7 +142,7 @@ class Recorder(QObject):
         self.make_playback = make_playback
         self._link: RecorderLink | None = None
         self._live = LivePlayer(session, self.recorded_player, self)
-        self._sounding: Sounding[None] = Sounding()
+        self._sounding: SoundingNotes[None] = SoundingNotes()
         self._running: _Running | None = None
         self._adopting: list[_Running] = []
         self._adopted: dict[Path, Take] = {}
@@ -269,7 +269,7 @@ class Recorder(QObject):
                 self._silence()
                 id = "record.device_lost_running" if state.running else "record.device_lost"
                 self._session.notice(Message(id, {"device": reported.port}), Severity.WARNING)
-            case Refused():
+            case RequestRefused():
                 self._refused(reported.reason)
             case NotStarted():
                 self._session.notice(reported.reason, Severity.ERROR)
@@ -279,11 +279,11 @@ class Recorder(QObject):
                 self._session.notice(reported.reason, Severity.WARNING)
             case Events():
                 self._on_received(reported)
-            case Written():
+            case EventsSaved():
                 state.set(events=reported.count)
             case Moved():
                 self._moved(Path(os.fsdecode(reported.path)), reported.reason)
-            case Finished():
+            case RecordingFinished():
                 self._finished(Path(os.fsdecode(reported.path)))
 
     def _refused(self, reason: Message) -> None:
@@ -358,7 +358,7 @@ class Recorder(QObject):
             return
         # After a crash the take is looked for beside the project: it must be there too.
         self._files.write_soon()
-        header = Header(
+        header = JournalHeader(
             project=stored(self._files.path or ""),
             player=player_id,
             port=state.port,

@@ -15,7 +15,7 @@ Connection = Literal["none", "waiting", "open", "lost", "refused"]
 """State of the chosen device: none is chosen; not there (yet); listened to; gone; not available."""
 
 
-class Recording(State):
+class RecordingState(State):
     """How recording stands.
 
     Attributes

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from app.audio.decode import Recording
+from app.audio.decode import AudioRecording
 from app.audio.followed import Followed, FollowOptions, listen, take_over
 from app.editor.session import Session, Severity
 from app.editor.tasks import Progress, StopRequested
@@ -10,7 +10,7 @@ from app.errors import Message
 from app.score.following import bars_named, message_of_place
 
 
-def follow_in_background(session: Session, recording: Recording, options: FollowOptions) -> None:
+def follow_in_background(session: Session, recording: AudioRecording, options: FollowOptions) -> None:
     """Put every beat where the recording has it; nothing where the project has another recording or score by then."""
     project = session.project
 

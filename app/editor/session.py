@@ -14,7 +14,7 @@ from PySide6.QtCore import QObject, Signal
 from app.contacts.breaks import by_time
 from app.editor.listening import Listening
 from app.editor.live_players import LivePlayers
-from app.editor.recording import Recording
+from app.editor.recording import RecordingState
 from app.editor.selection import Selection
 from app.editor.state import State, Watched
 from app.editor.streaming import Streaming
@@ -133,7 +133,7 @@ class Session(QObject):
         self.video = VideoState()
         self.listening = Listening()
         self.live_players = LivePlayers()
-        self.recording = Recording()
+        self.recording = RecordingState()
         self.streaming = Streaming()
         self.playback: Playback | None = None
         """Plays the performance; None without sound, as in a picture made without a window."""

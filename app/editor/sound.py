@@ -10,13 +10,13 @@ from pathlib import Path
 from PySide6.QtCore import QObject, Qt, QTimer
 
 from app.audio.click import click_track
-from app.audio.decode import Recording, decode
+from app.audio.decode import AudioRecording, decode
 from app.audio.followed import FollowOptions
 from app.audio.mix import recording_track
 from app.audio.offset import Estimate, estimate_offset
 from app.audio.peaks import Peaks
 from app.audio.playback import Playback
-from app.audio.track import RATE_HZ, Mix, Track
+from app.audio.track import RATE_HZ, Mix, MixTrack
 from app.editor.listening import RecordedTake
 from app.editor.recording_follower import follow_in_background
 from app.editor.session import Session, Severity
@@ -48,7 +48,7 @@ _CLICKS_ON_S = 1800.0
 """Clicks beyond the end of the piece, while recording there."""
 
 
-class Sound(QObject):
+class EditorSound(QObject):
     """The editor's sound.
 
     Parameters
@@ -69,14 +69,14 @@ class Sound(QObject):
         if audible:
             session.playback = self.playback
         self._stems = Stems(session.tasks, self)
-        self._recording: Recording | None = None
+        self._recording: AudioRecording | None = None
         self._path = ""
         """Path of the recording that was requested last, readable or not."""
         self._estimated: set[str] = set()
         """Paths of recordings whose place was looked for."""
         self._unplaced = ""
         """Path of a recording that was just added: its place is to be looked for."""
-        self._click: tuple[tuple[object, ...], Track] | None = None
+        self._click: tuple[tuple[object, ...], MixTrack] | None = None
         self._chosen: tuple[object, ...] = ()
         """Source, metronome and percussion of the mix that was made last."""
         self._counted_s: tuple[float, float] | None = None
@@ -101,7 +101,7 @@ class Sound(QObject):
         self._listening_changed()
 
     @property
-    def recording(self) -> Recording | None:
+    def recording(self) -> AudioRecording | None:
         """The project's recording, once it is read."""
         return self._recording
 
@@ -250,7 +250,7 @@ class Sound(QObject):
     def _set_mix(self) -> None:
         session = self._session
         project, listening = self._sounding_project(), session.listening
-        tracks: list[Track] = []
+        tracks: list[MixTrack] = []
         alone = listening.take is not None and listening.take.alone
         if (
             project.audio is not None
@@ -267,7 +267,7 @@ class Sound(QObject):
             tracks.append(click_track(project, *self._counted_s))
         self.playback.set_mix(Mix(tracks))
 
-    def _clicks(self, project: Project) -> Track:
+    def _clicks(self, project: Project) -> MixTrack:
         score, frame = project.score, span_of(project)
         sources = (score.tempo_map, project.metre_map)
         start_s, end_s = frame.first_frame_s, frame.end_s
@@ -293,11 +293,11 @@ class Sound(QObject):
         if not path or not may_touch(path):
             return
 
-        def work(progress: Progress, stop_requested: StopRequested) -> tuple[Recording, Peaks]:
+        def work(progress: Progress, stop_requested: StopRequested) -> tuple[AudioRecording, Peaks]:
             recording = decode(path, progress, stop_requested)
             return recording, Peaks(recording.samples, RATE_HZ)
 
-        def done(result: tuple[Recording, Peaks]) -> None:
+        def done(result: tuple[AudioRecording, Peaks]) -> None:
             audio = self._session.project.audio
             if audio is None or audio.path != path:
                 return

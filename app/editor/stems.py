@@ -12,8 +12,8 @@ from PySide6.QtCore import QObject, QTimer, Signal
 from app.audio.mix import PERCUSSION, percussion_phrases, player_gains, player_phrases
 from app.audio.render_process import RenderProcess
 from app.audio.shelf import Shelved
-from app.audio.synth import Phrase, Synthesiser
-from app.audio.track import RATE_HZ, Track
+from app.audio.synth import RenderedPhrase, Synthesiser
+from app.audio.track import RATE_HZ, MixTrack
 from app.editor.tasks import Progress, StopRequested, Tasks
 from app.errors import Message, raise_if_stopped
 from app.project.model import Project
@@ -35,7 +35,7 @@ class _Made:
     """The phrases of a player or of the percussion, and what they were made from."""
 
     sources: tuple[object, ...]
-    phrases: tuple[Phrase, ...]
+    phrases: tuple[RenderedPhrase, ...]
 
     def is_of(self, sources: tuple[object, ...]) -> bool:
         """Whether they are up to date: compared by identity, as values are."""
@@ -75,7 +75,7 @@ class Stems(QObject):
         self._made: dict[str, _Made] = {}
         self._job: _Job | None = None
         self._requested: tuple[Project, float] | None = None
-        self._tracks: dict[str, tuple[_Made, tuple[float, float], Track]] = {}
+        self._tracks: dict[str, tuple[_Made, tuple[float, float], MixTrack]] = {}
         """By player, with what it was made from."""
         self._stale: deque[str] = deque()
         """Players whose track lacks what was rendered, or keeps what was forgotten; workers add, the window takes."""
@@ -116,7 +116,7 @@ class Stems(QObject):
         start_s, end_s = self._job.window_s
         return start_s <= at_s and (at_s + _AHEAD_S < end_s or end_s == inf)
 
-    def tracks(self, project: Project, percussion: bool = True) -> list[Track]:
+    def tracks(self, project: Project, percussion: bool = True) -> list[MixTrack]:
         """The audible players, and the percussion if it is requested, as far as they are rendered; a track is kept
         while nothing of it changes."""
         tracks, kept = [], {}
@@ -129,7 +129,7 @@ class Stems(QObject):
             known = self._tracks.get(player_id)
             if known is None or known[0] is not made or known[1] != gains:
                 pieces = (self._synthesiser.ready(phrase) for phrase in made.phrases)
-                known = (made, gains, Track((piece for piece in pieces if piece is not None), *gains))
+                known = (made, gains, MixTrack((piece for piece in pieces if piece is not None), *gains))
             kept[player_id] = known
             tracks.append(known[2])
         self._tracks = kept
@@ -186,8 +186,8 @@ class Stems(QObject):
 
 
 def _next_phrases(
-    phrases: Sequence[tuple[str, Phrase]], from_s: float
-) -> tuple[tuple[tuple[str, Phrase], ...], tuple[float, float]]:
+    phrases: Sequence[tuple[str, RenderedPhrase]], from_s: float
+) -> tuple[tuple[tuple[str, RenderedPhrase], ...], tuple[float, float]]:
     """As many players' phrases as there is room for, what sounds next first, and the seconds that they cover."""
     ordered = sorted(phrases, key=lambda item: (item[1].end < from_s * RATE_HZ, item[1].start))
     taken = 0

@@ -20,7 +20,7 @@ from PySide6.QtCore import QObject
 
 from app.editor.calls import Reporter
 from app.editor.live_poses import LivePoses
-from app.editor.poses import Poses
+from app.editor.poses import PoseSource
 from app.editor.session import Session, Severity
 from app.editor.settings import Settings
 from app.editor.streaming import RATES_HZ, StreamState
@@ -32,7 +32,7 @@ from app.project.performers import Dancer, Player
 from app.rig.characters.character_library import character_named
 from app.rig.model import Character
 from app.stream.faces import FACE_NAMES, FaceNames
-from app.stream.sender import MOST_PORT, TO_MANY, Address, Outcome, Sender, StreamError, find_address, reaches_many
+from app.stream.sender import MOST_PORT, TO_MANY, Address, Sender, SendOutcome, StreamError, find_address, reaches_many
 from app.stream.vmc import IN_THE_MIDDLE, Sent
 
 RESTING_S: Final = 0.2
@@ -57,11 +57,11 @@ class Streamer(QObject):
         Becomes the parent.
     settings : Settings
         Remember where to; not that it was on.
-    poses : Poses
+    poses : PoseSource
         Of the performance; asked by the thread.
     """
 
-    def __init__(self, session: Session, settings: Settings, poses: Poses) -> None:
+    def __init__(self, session: Session, settings: Settings, poses: PoseSource) -> None:
         super().__init__(session)
         self._session, self._settings, self._state = session, settings, session.streaming
         self._poses = LivePoses(session, poses)
@@ -350,7 +350,7 @@ class _Thread:
         sent = attempt(
             request.performers, lambda performer: self._sent_of(performer, request.faces, beside[performer.id])
         ).made
-        outcomes = list[Outcome]()
+        outcomes = list[SendOutcome]()
         for performer, port, stage in zip(request.performers, request.ports, request.stages, strict=True):
             pose = posed[performer.id]
             others = [other for one in beside[performer.id] if (other := posed[one.id]) is not None]
@@ -360,9 +360,9 @@ class _Thread:
                 if port not in self._senders:
                     self._senders[port] = Sender(request.address.port(port), request.broadcast)
                 outcomes.append(self._senders[port].send(datagrams))
-        if outcomes and Outcome.DROPPED not in outcomes:
+        if outcomes and SendOutcome.DROPPED not in outcomes:
             self._frames.append(now_s)
-        return bool(outcomes) and all(outcome is Outcome.NO_RECEIVER for outcome in outcomes)
+        return bool(outcomes) and all(outcome is SendOutcome.NO_RECEIVER for outcome in outcomes)
 
     def _sent_of(self, performer: Player | Dancer, faces: FaceNames, beside: Sequence[Player]) -> Sent:
         """How a performer is sent; made anew for another character, instrument or names."""

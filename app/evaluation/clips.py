@@ -33,7 +33,7 @@ CRF: Final = 22
 """x264's rate factor: all clips are part of one page."""
 
 
-class Stage(Protocol):
+class PerformanceRenderer(Protocol):
     """Draws a performance."""
 
     @property
@@ -58,7 +58,9 @@ class Stage(Protocol):
         ...
 
 
-Stages: TypeAlias = Callable[[Performance, str, StopRequested, Posed | None], AbstractContextManager[Stage]]
+Stages: TypeAlias = Callable[
+    [Performance, str, StopRequested, Posed | None], AbstractContextManager[PerformanceRenderer]
+]
 """A performance and a theme to what draws it, with other poses than the performance's where there are some."""
 
 

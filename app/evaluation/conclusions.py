@@ -11,7 +11,7 @@ import msgspec
 
 from app.errors import Argument, Message
 from app.evaluation.key import STEPS, Presentation, Variant
-from app.evaluation.results import Control, Question, Results
+from app.evaluation.results import EvaluationResults, ManipulationCheck, Question
 from app.evaluation.statistics import SIGNIFICANT, smallest_p
 
 ENOUGH_VIEWERS: Final = 15
@@ -27,7 +27,7 @@ class Conclusions(msgspec.Struct, frozen=True):
     may_not: tuple[Message, ...]
 
 
-def conclude(results: Results) -> Conclusions:
+def conclude(results: EvaluationResults) -> Conclusions:
     """Say in words what the tables hold, and what they do not."""
     return Conclusions(tuple(_may(results)), tuple(_may_not(results)))
 
@@ -46,7 +46,7 @@ def said_of(question: Question) -> dict[str, Argument]:
     }
 
 
-def _may(results: Results) -> Iterator[Message]:
+def _may(results: EvaluationResults) -> Iterator[Message]:
     counts: dict[str, Argument] = {"answers": results.answers, "not_judged": results.not_judged}
     yield Message("results.answered", {"viewers": len(results.viewers), **counts})
     for control in results.controls:
@@ -55,7 +55,7 @@ def _may(results: Results) -> Iterator[Message]:
     yield from _better(results)
 
 
-def _may_not(results: Results) -> Iterator[Message]:
+def _may_not(results: EvaluationResults) -> Iterator[Message]:
     yield from _viewers(results)
     for control in results.controls:
         if control.verdict != "noticed":
@@ -83,7 +83,7 @@ def _listed(ids: tuple[str, ...]) -> dict[str, Argument]:
     return {"count": len(ids), "ids": ", ".join(ids)}
 
 
-def _of_control(control: Control) -> Message:
+def _of_control(control: ManipulationCheck) -> Message:
     presentation = f"results.presentation_{control.presentation}"
     if control.difference is None:
         return Message("results.control_unjudged", {"presentation": presentation})
@@ -100,7 +100,7 @@ def _of_control(control: Control) -> Message:
     return Message("results.control_unnoticed", found)
 
 
-def _better(results: Results) -> Iterator[Message]:
+def _better(results: EvaluationResults) -> Iterator[Message]:
     """Which variants were judged better than which, and in how many questions."""
     total: dict[tuple[Presentation, frozenset[Variant]], int] = defaultdict(int)
     found: dict[tuple[Presentation, Variant, Variant], list[float]] = defaultdict(list)
@@ -123,7 +123,7 @@ def _better(results: Results) -> Iterator[Message]:
         yield Message("results.none_better")
 
 
-def _viewers(results: Results) -> Iterator[Message]:
+def _viewers(results: EvaluationResults) -> Iterator[Message]:
     """Whether there are enough of them for anything."""
     viewers = len(results.viewers)
     if viewers == 1:
@@ -143,7 +143,7 @@ def _viewers(results: Results) -> Iterator[Message]:
         yield Message("results.few", {"viewers": viewers})
 
 
-def _open(results: Results) -> Iterator[Message]:
+def _open(results: EvaluationResults) -> Iterator[Message]:
     """What is not shown is not shown to be equal."""
     tested = [contrast for contrast in results.contrasts if contrast.comparison.viewers > 1]
     unshown = [contrast for contrast in tested if not contrast.significant]
@@ -161,14 +161,14 @@ def _open(results: Results) -> Iterator[Message]:
         yield Message("results.uncorrected", {"questions": questions})
 
 
-def _agreement(results: Results) -> Iterator[Message]:
+def _agreement(results: EvaluationResults) -> Iterator[Message]:
     known = [one.alpha for one in results.agreements if one.alpha is not None]
     low = sum(alpha < RELIABLE_ALPHA for alpha in known)
     if low:
         yield Message("results.disagree", {"count": low, "total": len(known)})
 
 
-def _orders(results: Results) -> Iterator[Message]:
+def _orders(results: EvaluationResults) -> Iterator[Message]:
     for order in results.orders:
         presentation, later = f"results.presentation_{order.presentation}", order.later
         if later.low is None or later.high is None:

@@ -22,7 +22,7 @@ _FIRST_DIGITS: Final = "abcdf"
 
 
 @dataclass(frozen=True)
-class Shown:
+class ClipPair:
     """A clip, or two beside each other, as a viewer sees it.
 
     Attributes
@@ -37,7 +37,7 @@ class Shown:
     right: str = ""
 
 
-Order: TypeAlias = tuple[Shown, ...]
+Order: TypeAlias = tuple[ClipPair, ...]
 
 
 def new_id() -> str:
@@ -99,10 +99,10 @@ def orders(singles: Sequence[str], pairs: Sequence[tuple[str, str]]) -> tuple[Or
     sides = 2 if pairs else 1
     found = []
     for viewer in range(math.lcm(len(rows), sides * len(pair_rows))):
-        order = [Shown(singles[place]) for place in rows[viewer % len(rows)]]
+        order = [ClipPair(singles[place]) for place in rows[viewer % len(rows)]]
         turned = viewer // len(pair_rows)
         for place in pair_rows[viewer % len(pair_rows)]:
             left, right = pairs[place] if (turned + place) % 2 == 0 else pairs[place][::-1]
-            order.append(Shown(left, right))
+            order.append(ClipPair(left, right))
         found.append(tuple(order))
     return tuple(found)

@@ -11,14 +11,14 @@ from app.errors import FileError
 from app.evaluation.answers import read_answers
 from app.evaluation.key import KEY_FILE, read_key
 from app.evaluation.measures import MEASURES_FILE, VariantMeasures, read_measures
-from app.evaluation.results import Results, tabulate
+from app.evaluation.results import EvaluationResults, tabulate
 
 
 @dataclass(frozen=True)
 class Gathered:
     """What viewers answered, and what was measured without them; the key that said what they saw."""
 
-    results: Results
+    results: EvaluationResults
     measures: tuple[VariantMeasures, ...]
     key_file: Path
 

@@ -19,7 +19,7 @@ import numpy as np
 import numpy.typing as npt
 
 from app.audio.decode import decode
-from app.audio.track import RATE_HZ, Block, Mix, Piece, Samples, Track
+from app.audio.track import RATE_HZ, AudioSegment, Block, Mix, MixTrack, Samples
 from app.errors import AppError, FileError
 from app.evaluation.excerpts import Excerpt
 from app.formats.video import VideoFacts, VideoPictures, video_facts, video_pictures
@@ -69,7 +69,7 @@ class ImportedVideo:
     def sound(self, excerpt: Excerpt) -> Block:
         """Its sound during an excerpt (N, 2)."""
         assert self.samples is not None
-        mix = Mix([Track([Piece(round(self.offset_s * RATE_HZ), self.samples)])])
+        mix = Mix([MixTrack([AudioSegment(round(self.offset_s * RATE_HZ), self.samples)])])
         return mix.read(round(excerpt.from_s * RATE_HZ), round(excerpt.duration_s * RATE_HZ))
 
     def require_covered(self, excerpt: Excerpt) -> None:

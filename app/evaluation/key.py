@@ -35,7 +35,7 @@ STEPS: Final = 5
 Code = Annotated[str, msgspec.Meta(pattern=r"^c[0-9]{2,4}$")]
 
 
-class Clip(msgspec.Struct, frozen=True):
+class EvaluationClip(msgspec.Struct, frozen=True):
     """What is behind a code.
 
     Attributes
@@ -61,7 +61,7 @@ class Clip(msgspec.Struct, frozen=True):
     player: str = ""
 
 
-class Key(msgspec.Struct, frozen=True):
+class EvaluationKey(msgspec.Struct, frozen=True):
     """An evaluation.
 
     Attributes
@@ -79,7 +79,7 @@ class Key(msgspec.Struct, frozen=True):
     evaluation: Annotated[str, msgspec.Meta(pattern=r"^[0-9a-f]{8}$")]
     piece: str
     seed: int
-    clips: tuple[Clip, ...]
+    clips: tuple[EvaluationClip, ...]
     aspects: tuple[Aspect, ...] = ASPECTS
 
 
@@ -88,18 +88,18 @@ class _Head(msgspec.Struct):
     version: int
 
 
-def encoded_key(key: Key) -> bytes:
+def encoded_key(key: EvaluationKey) -> bytes:
     """The key as indented JSON."""
     return msgspec.json.format(msgspec.json.encode(key), indent=1) + b"\n"
 
 
-def write_key(key: Key, path: Path) -> None:
+def write_key(key: EvaluationKey, path: Path) -> None:
     """Write a key whole or not at all. Raises FileError (``file.cannot_write``)."""
     with atomic_write(path) as stream:
         stream.write(encoded_key(key))
 
 
-def read_key(path: Path) -> Key:
+def read_key(path: Path) -> EvaluationKey:
     """Read a key.
 
     Raises
@@ -110,7 +110,7 @@ def read_key(path: Path) -> Key:
     content = read_file(path, _MOST_BYTES)
     if decode_json(content, _Head, str(path), "evaluate.not_a_key").version > VERSION:
         raise FileError("evaluate.newer_key", file=str(path))
-    key = decode_json(content, Key, str(path), "evaluate.not_a_key")
+    key = decode_json(content, EvaluationKey, str(path), "evaluate.not_a_key")
     codes = [clip.code for clip in key.clips]
     if len(set(codes)) != len(codes):
         raise FileError("evaluate.not_a_key", file=str(path), detail="two clips have the same code")

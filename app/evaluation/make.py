@@ -22,12 +22,12 @@ from app.evaluation.clips import CRF, ClipScene, Framing, Stages, cut_video, dra
 from app.evaluation.design import codes, new_id, orders, pairs_of
 from app.evaluation.excerpts import Excerpt, choose_excerpts, practice_of
 from app.evaluation.imported import ImportedVideo, import_video
-from app.evaluation.key import KEY_FILE, VERSION, Clip, Key, Variant, write_key
+from app.evaluation.key import KEY_FILE, VERSION, EvaluationClip, EvaluationKey, Variant, write_key
 from app.evaluation.keyframes import Keyframes, holds_motion, read_keyframes
 from app.evaluation.loudness import equally_loud
 from app.evaluation.measures import MEASURES_FILE, measure_variants, write_measures
 from app.evaluation.page import PAGE_FILE, page
-from app.evaluation.request import Request, aspects_of, variants_of
+from app.evaluation.request import EvaluationRequest, aspects_of, variants_of
 from app.export.folder import files_into
 from app.export.video import beside
 from app.performance.cast import LeftOut, require_players
@@ -56,7 +56,7 @@ class Made:
     """
 
     folder: Path
-    key: Key
+    key: EvaluationKey
     pairs: int
     viewers: int
     left_out: tuple[LeftOut, ...]
@@ -65,7 +65,7 @@ class Made:
 
 def make_evaluation(
     project: Project,
-    request: Request,
+    request: EvaluationRequest,
     stages: Stages,
     wording: Callable[[Message], str],
     report: Report,
@@ -104,7 +104,7 @@ def make_evaluation(
     pairs = pairs_of([(clip.code, clip.variant, clip.excerpt) for clip in drawn])
     pairs = pairs if request.presentation != "single" else ()
     table = orders(singles, pairs)
-    key = Key(
+    key = EvaluationKey(
         "suisou-evaluation",
         VERSION,
         new_id(),
@@ -133,11 +133,11 @@ def make_evaluation(
 
 def _draw(
     project: Project,
-    request: Request,
+    request: EvaluationRequest,
     variants: Sequence[Variant],
     videos: Mapping[Variant, Imported],
     scenes: Sequence[ClipScene],
-    drawn: Sequence[Clip],
+    drawn: Sequence[EvaluationClip],
     clips: Path,
     stages: Stages,
     wording: Callable[[Message], str],
@@ -179,7 +179,7 @@ def _measured(report: Report, stop_requested: StopRequested) -> Callable[[float]
 
 def _videos(
     project: Project,
-    request: Request,
+    request: EvaluationRequest,
     variants: Sequence[Variant],
     report: Report,
     stop_requested: StopRequested,
@@ -210,7 +210,7 @@ def _videos(
 
 def _scenes(
     performance: Performance,
-    request: Request,
+    request: EvaluationRequest,
     videos: dict[Variant, Imported],
     report: Report,
     stop_requested: StopRequested,
@@ -230,7 +230,7 @@ def _scenes(
     return [ClipScene(span, sound, {}) for span, sound in zip(spans, loud, strict=True)]
 
 
-def _spans(performance: Performance, request: Request, videos: dict[Variant, Imported]) -> list[FrameSpan]:
+def _spans(performance: Performance, request: EvaluationRequest, videos: dict[Variant, Imported]) -> list[FrameSpan]:
     """The frames of the excerpts and of the practice."""
     fps = Fraction(*request.fps)
     if request.bars is not None:
@@ -251,14 +251,16 @@ def _spans(performance: Performance, request: Request, videos: dict[Variant, Imp
     ]
 
 
-def _clips(project: Project, request: Request, variants: Sequence[Variant], scenes: Sequence[ClipScene]) -> list[Clip]:
+def _clips(
+    project: Project, request: EvaluationRequest, variants: Sequence[Variant], scenes: Sequence[ClipScene]
+) -> list[EvaluationClip]:
     """The clips with their codes, excerpt by excerpt."""
     names = {performer.id: performer.name for performer in project.performers}
     player = names[request.player_ids[0]] if len(request.player_ids) == 1 else ""
     places = [(number, scene, variant) for number, scene in enumerate(scenes, start=1) for variant in variants]
     drawn = codes(len(places), request.seed)
     return [
-        Clip(
+        EvaluationClip(
             code=code,
             variant=variant,
             excerpt=number,

@@ -70,7 +70,7 @@ class BreathVisibility(msgspec.Struct, frozen=True):
     mouth: Visible
 
 
-class PlayerMeasures(msgspec.Struct, frozen=True):
+class VariantPlayerMeasures(msgspec.Struct, frozen=True):
     """One player of a variant.
 
     Attributes
@@ -97,7 +97,7 @@ class VariantMeasures(msgspec.Struct, frozen=True):
     """A variant; players who cannot be seen are not among its ``players``."""
 
     variant: Variant
-    players: tuple[PlayerMeasures, ...]
+    players: tuple[VariantPlayerMeasures, ...]
 
 
 class _File(msgspec.Struct, frozen=True):
@@ -163,7 +163,7 @@ def motions_of(performance: Performance) -> dict[str, Motion]:
     return {player_id: player_motion(performance, performer, span) for player_id, performer in performers.items()}
 
 
-def measure_player(performance: Performance, performer: Performer, motion: Motion) -> PlayerMeasures:
+def measure_player(performance: Performance, performer: Performer, motion: Motion) -> VariantPlayerMeasures:
     """Measure a motion against what its player plays."""
     plan = performance.plan(performer.player)
     fps = float(motion.fps)
@@ -175,7 +175,7 @@ def measure_player(performance: Performance, performer: Performer, motion: Motio
     places: dict[str, FloatArray] = {name: joints.of(skeleton.index(name))[0] for name in names}
     breaks = ContactJudge(playing_of(performance, performer), performer.character, performer.model).breaks(motion)
     notes = [note for note in plan.fingerings if times_s[0] <= note.start_s and note.end_s <= times_s[-1]]
-    return PlayerMeasures(
+    return VariantPlayerMeasures(
         player=performer.player.name,
         lag=measure_lag(plan.fingerings, performer.instrument.controls, motion.controls, times_s),
         head_mm_s=quantity_of_motion_mm_s(places["head"], fps, sounding),

@@ -16,7 +16,7 @@ from string import Template
 from typing import Any, Final
 
 from app.evaluation.design import Order
-from app.evaluation.key import SCALES, STEPS, Key
+from app.evaluation.key import SCALES, STEPS, EvaluationKey
 from app.messages import LANGUAGES, WORDINGS
 
 PAGE_FILE: Final = "evaluation.html"
@@ -24,12 +24,12 @@ _TEXTS: Final = "evaluate.page_"
 _RESOURCES: Final = "evaluation"
 
 
-def page(key: Key, table: Sequence[Order], clips: Path) -> bytes:
+def page(key: EvaluationKey, table: Sequence[Order], clips: Path) -> bytes:
     """The page.
 
     Parameters
     ----------
-    key : Key
+    key : EvaluationKey
         Of it nothing but codes, aspects, the evaluation's id and the title comes onto the page.
     table : sequence of Order
         The order of every viewer.

@@ -8,7 +8,7 @@ from xml.sax.saxutils import escape
 
 from app.errors import Message, shortened
 from app.evaluation.key import ASPECTS, SCALES, STEPS, VARIANTS, Presentation
-from app.evaluation.results import PRESENTATIONS, Question, Results, Score
+from app.evaluation.results import PRESENTATIONS, EvaluationResults, Question, VariantScore
 from app.evaluation.tables import variant_name
 from app.messages import text
 
@@ -22,7 +22,7 @@ _INK: Final[dict[Presentation, str]] = {"single": "#1b6ca8", "pair": "#c2571a"}
 """They differ in lightness and shape, too."""
 
 
-def plot(results: Results, language: str) -> str:
+def plot(results: EvaluationResults, language: str) -> str:
     """The picture as a document."""
     questions = {score.question for score in results.scores}
     aspects = [aspect for aspect in ASPECTS if any(question.aspect == aspect for question in questions)]
@@ -81,7 +81,7 @@ def _axes(left: float, top: float, high: float) -> Iterator[str]:
         yield _text(x, top + high + 14.0, str(step), 'text-anchor="middle" fill="#555555" font-size="11"')
 
 
-def _mark(score: Score | None, presentation: Presentation, left: float, y: float) -> Iterator[str]:
+def _mark(score: VariantScore | None, presentation: Presentation, left: float, y: float) -> Iterator[str]:
     over = None if score is None else score.over_viewers
     if over is None:
         return

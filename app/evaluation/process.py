@@ -1,7 +1,7 @@
 """An evaluation made by a process of its own: the window stays alive, and its drawing is not disturbed.
 
-The child reads a `Job` from its input and answers with `Reported`, at last with `Finished` or `Refused`. It stops and
-takes back what it has written when its input ends.
+The child reads an `EvaluationJob` from its input and answers with `EvaluationProgress`, at last with
+`EvaluationFinished` or `EvaluationRefused`. When its input ends, it stops and removes the files that it has written.
 
 Messages
 --------
@@ -18,7 +18,7 @@ import msgspec
 
 from app.child import StartedChild, ended_on_request
 from app.errors import AppError, Cancelled, Message, shortened
-from app.evaluation.request import Request
+from app.evaluation.request import EvaluationRequest
 from app.formats.scratch import scratch_folder
 from app.project.model import Project
 from app.project.storage import decode, encode
@@ -28,32 +28,32 @@ _BESIDE: Final = "project"
 Report: TypeAlias = Callable[[float, Message], None]
 
 
-class Job(msgspec.Struct, frozen=True):
+class EvaluationJob(msgspec.Struct, frozen=True):
     """What a process needs to know."""
 
     project: bytes
     beside: str
-    request: Request
+    request: EvaluationRequest
 
     def opened(self) -> Project:
         """The project that is performed."""
         return decode(self.project, Path(self.beside) / _BESIDE)
 
 
-class Reported(msgspec.Struct, frozen=True, tag=True):
+class EvaluationProgress(msgspec.Struct, frozen=True, tag=True):
     """How much is done, 0..1, and what is being done."""
 
     share: float
     message: Message
 
 
-class Refused(msgspec.Struct, frozen=True, tag=True):
+class EvaluationRefused(msgspec.Struct, frozen=True, tag=True):
     """Why nothing was written."""
 
     message: Message
 
 
-class Finished(msgspec.Struct, frozen=True, tag=True):
+class EvaluationFinished(msgspec.Struct, frozen=True, tag=True):
     """What was written.
 
     Attributes
@@ -71,18 +71,18 @@ class Finished(msgspec.Struct, frozen=True, tag=True):
     confidence: float | None = None
 
 
-Answer = Reported | Refused | Finished
+Answer = EvaluationProgress | EvaluationRefused | EvaluationFinished
 
 
 def made_by_process(
-    module: str, project: Project, request: Request, report: Report, stop_requested: Callable[[], bool]
-) -> Finished:
+    module: str, project: Project, request: EvaluationRequest, report: Report, stop_requested: Callable[[], bool]
+) -> EvaluationFinished:
     """Make an evaluation in another process: all of it or nothing.
 
     Parameters
     ----------
     module : str
-        What is run: it serves a `Job`.
+        What is run: it serves an `EvaluationJob`.
 
     Raises
     ------
@@ -91,7 +91,7 @@ def made_by_process(
     Cancelled
     """
     with scratch_folder() as folder, (folder / "complaint.txt").open("w+b") as printed:
-        job = Job(encode(project, folder / _BESIDE), str(folder), request)
+        job = EvaluationJob(encode(project, folder / _BESIDE), str(folder), request)
         try:
             child = StartedChild[Answer](Answer, module, stderr=printed)
         except OSError as error:
@@ -99,7 +99,7 @@ def made_by_process(
         with ended_on_request(child.process, stop_requested, child.hang_up):
             try:
                 child.send(job)
-                while isinstance(answer := child.receive(), Reported):
+                while isinstance(answer := child.receive(), EvaluationProgress):
                     report(answer.share, answer.message)
             except BrokenPipeError as error:
                 if stop_requested():
@@ -111,7 +111,7 @@ def made_by_process(
                 raise AppError("evaluate.ended", detail=shortened(detail)) from error
             finally:
                 child.ended()
-    if isinstance(answer, Refused):
+    if isinstance(answer, EvaluationRefused):
         if stop_requested() or answer.message.id == "work.stopped":
             raise Cancelled("work.stopped")
         raise AppError(answer.message.id, **answer.message.arguments)

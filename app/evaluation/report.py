@@ -17,8 +17,8 @@ from app.errors import Message
 from app.evaluation.conclusions import conclude
 from app.evaluation.measures import VariantMeasures
 from app.evaluation.plot import plot
-from app.evaluation.results import Results
-from app.evaluation.tables import Table, tables
+from app.evaluation.results import EvaluationResults
+from app.evaluation.tables import ResultTable, tables
 from app.formats.atomic import atomic_write
 from app.formats.files import cannot_write
 from app.messages import LANGUAGES, text
@@ -34,13 +34,13 @@ _SCORES: Final = (
 class _File(msgspec.Struct, frozen=True):
     format: str
     version: int
-    results: Results
+    results: EvaluationResults
     may_be_concluded: tuple[str, ...]
     may_not_be_concluded: tuple[str, ...]
     measures: tuple[VariantMeasures, ...]
 
 
-def write_results(results: Results, measures: Sequence[VariantMeasures], folder: Path) -> list[Path]:
+def write_results(results: EvaluationResults, measures: Sequence[VariantMeasures], folder: Path) -> list[Path]:
     """Write results.md, .svg (Japanese: results_ja), .csv and .json into a folder, which is made if need be.
 
     The same results are the same bytes.
@@ -67,7 +67,7 @@ def write_results(results: Results, measures: Sequence[VariantMeasures], folder:
     return [folder / name for name in contents]
 
 
-def markdown(results: Results, measures: Sequence[VariantMeasures], language: str, picture: str) -> str:
+def markdown(results: EvaluationResults, measures: Sequence[VariantMeasures], language: str, picture: str) -> str:
     """The report in a language: conclusions first, then the picture and the tables."""
     conclusions = conclude(results)
     title = text(Message("results.title", {"piece": results.piece}), language)
@@ -81,7 +81,7 @@ def markdown(results: Results, measures: Sequence[VariantMeasures], language: st
     return "\n".join(parts)
 
 
-def _table(table: Table) -> list[str]:
+def _table(table: ResultTable) -> list[str]:
     marks = ["---"] * table.names + ["---:"] * (len(table.head) - table.names)
     return [f"| {' | '.join(map(_plain, row))} |" for row in (table.head, marks, *table.rows)]
 
@@ -91,7 +91,7 @@ def _plain(words: str) -> str:
     return "".join(f"\\{character}" if character in "\\|*_`<>[]#" else character for character in words)
 
 
-def _scores(results: Results) -> bytes:
+def _scores(results: EvaluationResults) -> bytes:
     """As spreadsheets open it: with a byte order mark, in numbers."""
     stream = io.StringIO()
     writer = csv.writer(stream, lineterminator="\r\n")
@@ -110,7 +110,7 @@ def _scores(results: Results) -> bytes:
     return ("\ufeff" + stream.getvalue()).encode()
 
 
-def _json(results: Results, measures: Sequence[VariantMeasures]) -> bytes:
+def _json(results: EvaluationResults, measures: Sequence[VariantMeasures]) -> bytes:
     conclusions = conclude(results)
     may, may_not = (tuple(text(message) for message in said) for said in (conclusions.may, conclusions.may_not))
     file = _File("suisou-evaluation-results", VERSION, results, may, may_not, tuple(measures))

@@ -34,7 +34,7 @@ _OF_VIEW: Final[dict[str, tuple[Aspect, ...]]] = {
 _OF_ONE: Final[tuple[Aspect, ...]] = ("fingers_arms", "body", "mouth")
 
 
-class Request(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+class EvaluationRequest(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """What is asked for. Paths are as `app.encoding.stored` writes them.
 
     Attributes
@@ -87,7 +87,7 @@ class Request(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     theme: str = "dark"
 
 
-def variants_of(request: Request) -> tuple[Variant, ...]:
+def variants_of(request: EvaluationRequest) -> tuple[Variant, ...]:
     """The variants of an evaluation, in the order of `VARIANTS`.
 
     Raises

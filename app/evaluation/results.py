@@ -19,7 +19,7 @@ import msgspec
 
 from app.errors import FileError
 from app.evaluation.answers import Answer, ViewerFile
-from app.evaluation.key import SCALES, VARIANTS, Aspect, Clip, Key, Presentation, Scale, Variant
+from app.evaluation.key import SCALES, VARIANTS, Aspect, EvaluationClip, EvaluationKey, Presentation, Scale, Variant
 from app.evaluation.statistics import (
     SIGNIFICANT,
     Comparison,
@@ -42,7 +42,7 @@ class Question(msgspec.Struct, frozen=True):
     scale: Scale
 
 
-class Score(msgspec.Struct, frozen=True):
+class VariantScore(msgspec.Struct, frozen=True):
     """How viewers judged a variant; ``over_viewers`` is None where no one could judge."""
 
     question: Question
@@ -89,7 +89,7 @@ class Agreement(msgspec.Struct, frozen=True):
 Verdict = Literal["noticed", "unclear", "unnoticed", "unjudged"]
 
 
-class Control(msgspec.Struct, frozen=True):
+class ManipulationCheck(msgspec.Struct, frozen=True):
     """Whether viewers judged fingers that are 200 ms late as less in time than ours.
 
     Attributes
@@ -113,7 +113,7 @@ class Order(msgspec.Struct, frozen=True):
     later: Summary
 
 
-class Results(msgspec.Struct, frozen=True):
+class EvaluationResults(msgspec.Struct, frozen=True):
     """All of it.
 
     Attributes
@@ -133,16 +133,16 @@ class Results(msgspec.Struct, frozen=True):
     unvaried: tuple[str, ...]
     answers: int
     not_judged: int
-    scores: tuple[Score, ...]
+    scores: tuple[VariantScore, ...]
     contrasts: tuple[Contrast, ...]
     agreements: tuple[Agreement, ...]
-    controls: tuple[Control, ...]
+    controls: tuple[ManipulationCheck, ...]
     orders: tuple[Order, ...]
 
 
 class _Rating(msgspec.Struct, frozen=True):
     viewer: str
-    clip: Clip
+    clip: EvaluationClip
     answer: Answer
     beside: str
     """Code of the other clip of a pair."""
@@ -159,7 +159,7 @@ class _Rating(msgspec.Struct, frozen=True):
         return self.clip.excerpt, self.clip.view, self.clip.player
 
 
-def tabulate(key: Key, files: Sequence[ViewerFile]) -> Results:
+def tabulate(key: EvaluationKey, files: Sequence[ViewerFile]) -> EvaluationResults:
     """Compute everything from the files of all viewers, in whatever order they come.
 
     Raises
@@ -176,7 +176,7 @@ def tabulate(key: Key, files: Sequence[ViewerFile]) -> Results:
     for rating in given:
         by_question[_question(rating.answer)].append(rating)
     most = max((len(file.answers) for file in files), default=0)
-    return Results(
+    return EvaluationResults(
         evaluation=key.evaluation,
         piece=key.piece,
         viewers=tuple(file.viewer for file in files),
@@ -192,7 +192,7 @@ def tabulate(key: Key, files: Sequence[ViewerFile]) -> Results:
     )
 
 
-def _check(key: Key, files: Sequence[ViewerFile]) -> None:
+def _check(key: EvaluationKey, files: Sequence[ViewerFile]) -> None:
     codes = {clip.code for clip in key.clips}
     seen: dict[str, Path] = {}
     for file in files:
@@ -213,7 +213,7 @@ def _question(answer: Answer) -> Question:
     return Question(answer.presentation, answer.aspect, answer.scale)
 
 
-def _questions(key: Key, answers: Sequence[Answer]) -> Iterator[Question]:
+def _questions(key: EvaluationKey, answers: Sequence[Answer]) -> Iterator[Question]:
     """Those that anyone was asked, in the order of the tables."""
     asked = {_question(answer) for answer in answers}
     for presentation, aspect, scale in itertools.product(PRESENTATIONS, key.aspects, SCALES):
@@ -227,7 +227,7 @@ def _is_unvaried(file: ViewerFile) -> bool:
     return len(values) > 1 and len(set(values)) == 1
 
 
-def _ratings(files: Sequence[ViewerFile], clips: dict[str, Clip]) -> Iterator[_Rating]:
+def _ratings(files: Sequence[ViewerFile], clips: dict[str, EvaluationClip]) -> Iterator[_Rating]:
     for file in files:
         shown: dict[tuple[int, str], set[str]] = defaultdict(set)
         for answer in file.answers:
@@ -239,8 +239,8 @@ def _ratings(files: Sequence[ViewerFile], clips: dict[str, Clip]) -> Iterator[_R
 
 
 def _scores(
-    by_question: dict[Question, list[_Rating]], everything: Sequence[Answer], clips: dict[str, Clip]
-) -> Iterator[Score]:
+    by_question: dict[Question, list[_Rating]], everything: Sequence[Answer], clips: dict[str, EvaluationClip]
+) -> Iterator[VariantScore]:
     skipped: dict[tuple[Question, Variant], int] = defaultdict(int)
     for answer in everything:
         skipped[_question(answer), clips[answer.clip].variant] += answer.answer is None
@@ -249,7 +249,7 @@ def _scores(
             own = [rating for rating in ratings if rating.clip.variant == variant]
             if own or (question, variant) in skipped:
                 means = list(_means(own).values())
-                yield Score(question, variant, len(own), skipped[question, variant], summary(means))
+                yield VariantScore(question, variant, len(own), skipped[question, variant], summary(means))
 
 
 def _means(ratings: Sequence[_Rating]) -> dict[str, float]:
@@ -301,7 +301,7 @@ def _agreement(question: Question, ratings: Sequence[_Rating]) -> Agreement:
     return Agreement(question, sum(len(given) > 1 for given in units.values()), alpha)
 
 
-def _controls(key: Key, by_question: dict[Question, list[_Rating]]) -> Iterator[Control]:
+def _controls(key: EvaluationKey, by_question: dict[Question, list[_Rating]]) -> Iterator[ManipulationCheck]:
     if not {"generated", "shifted"} <= {clip.variant for clip in key.clips}:
         return
     for presentation in PRESENTATIONS:
@@ -311,14 +311,14 @@ def _controls(key: Key, by_question: dict[Question, list[_Rating]]) -> Iterator[
             yield _control(presentation, differences)
 
 
-def _control(presentation: Presentation, differences: Sequence[float]) -> Control:
+def _control(presentation: Presentation, differences: Sequence[float]) -> ManipulationCheck:
     if not differences:
-        return Control(presentation, 0, None, None, "unjudged")
+        return ManipulationCheck(presentation, 0, None, None, "unjudged")
     mean, p = sum(differences) / len(differences), lower_p(differences)
     verdict: Verdict = "unnoticed"
     if mean < 0.0:
         verdict = "noticed" if p is not None and p < SIGNIFICANT else "unclear"
-    return Control(presentation, len(differences), mean, p, verdict)
+    return ManipulationCheck(presentation, len(differences), mean, p, verdict)
 
 
 def _orders(ratings: Sequence[_Rating]) -> Iterator[Order]:

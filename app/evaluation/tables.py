@@ -10,14 +10,14 @@ from app.errors import Message
 from app.evaluation.conclusions import p_text, said_of
 from app.evaluation.key import Variant
 from app.evaluation.measures import VariantMeasures, Visible
-from app.evaluation.results import Question, Results
+from app.evaluation.results import EvaluationResults, Question
 from app.messages import WORDINGS, text
 
 NONE = "-"
 """Where there is nothing to tell."""
 
 
-class Table(msgspec.Struct, frozen=True):
+class ResultTable(msgspec.Struct, frozen=True):
     """A table: what it is called, what its columns are, and what they mean."""
 
     title: str
@@ -28,7 +28,7 @@ class Table(msgspec.Struct, frozen=True):
     """So many columns from the left are names, the others numbers."""
 
 
-def tables(results: Results, measures: Sequence[VariantMeasures], language: str) -> list[Table]:
+def tables(results: EvaluationResults, measures: Sequence[VariantMeasures], language: str) -> list[ResultTable]:
     """All of them; that of the measures only where there are any."""
     found = [_scores(results, language), _contrasts(results, language), _agreements(results, language)]
     return [*found, *([measures_table(measures, language)] if measures else [])]
@@ -41,11 +41,11 @@ def variant_name(variant: Variant, language: str) -> str:
 
 def _table(
     title: str, note: str, head: Sequence[str], rows: Sequence[tuple[str, ...]], names: int, language: str
-) -> Table:
+) -> ResultTable:
     def word(id: str) -> str:
         return text(Message(id), language)
 
-    return Table(word(title), word(note), tuple(word(f"results.{name}") for name in head), tuple(rows), names)
+    return ResultTable(word(title), word(note), tuple(word(f"results.{name}") for name in head), tuple(rows), names)
 
 
 def _asked(question: Question, language: str) -> tuple[str, str, str]:
@@ -54,7 +54,7 @@ def _asked(question: Question, language: str) -> tuple[str, str, str]:
     return said[0], said[1], said[2]
 
 
-def _scores(results: Results, language: str) -> Table:
+def _scores(results: EvaluationResults, language: str) -> ResultTable:
     rows = []
     for score in results.scores:
         over = score.over_viewers
@@ -81,7 +81,7 @@ def _scores(results: Results, language: str) -> Table:
     )
 
 
-def _contrasts(results: Results, language: str) -> Table:
+def _contrasts(results: EvaluationResults, language: str) -> ResultTable:
     rows = []
     for contrast in results.contrasts:
         comparison, spread = contrast.comparison, contrast.difference
@@ -109,7 +109,7 @@ def _contrasts(results: Results, language: str) -> Table:
     )
 
 
-def _agreements(results: Results, language: str) -> Table:
+def _agreements(results: EvaluationResults, language: str) -> ResultTable:
     rows = [
         (*_asked(one.question, language), str(one.clips), _number(one.alpha, signed=True)) for one in results.agreements
     ]
@@ -123,7 +123,7 @@ def _agreements(results: Results, language: str) -> Table:
     )
 
 
-def measures_table(measures: Sequence[VariantMeasures], language: str) -> Table:
+def measures_table(measures: Sequence[VariantMeasures], language: str) -> ResultTable:
     """What was measured, a row for every player of every variant."""
     rows = []
     for variant in measures:

@@ -9,10 +9,10 @@ import numpy as np
 
 from app.arrays import FloatArray
 from app.export.equip import socket_names
-from app.export.playback import METRES, Playback
+from app.export.playback import METRES, ScenePlayback
 from app.export.target import TargetSkeleton, Trajectory, instrument_path, placed, still
 from app.formats.names import numbered
-from app.formats.scene import Clip, Place, Scene, SkinnedMesh
+from app.formats.scene import Clip, NodePlace, Scene, SkinnedMesh
 from app.motion.model import Motion
 from app.rig import quaternion
 
@@ -90,16 +90,16 @@ def in_world(instrument: Scene, character: Scene, socket: str) -> Scene:
     clip, held = character.clip, instrument.clip
     assert clip is not None
     assert held is not None
-    world = Playback(character, clip).world(0, clip.frames)[:, _bone(character, socket)]
+    world = ScenePlayback(character, clip).world(0, clip.frames)[:, _bone(character, socket)]
     return _carried(instrument, Trajectory(world[:, :3, 3], quaternion.from_matrix(world[:, :3, :3])))
 
 
-def without_place(scene: Scene, place: Place | None) -> Scene:
+def without_place(scene: Scene, place: NodePlace | None) -> Scene:
     """A scene that stands at a place as if it stood at the origin."""
     if place is None or scene.clip is None:
         return scene
     back = quaternion.conjugate(place.rotation_xyzw)
-    there = Place(-quaternion.rotate(back, place.translation_cm), back)
+    there = NodePlace(-quaternion.rotate(back, place.translation_cm), back)
     return _carried(scene, placed(still(scene.clip.frames), there))
 
 

@@ -38,7 +38,7 @@ UNIT: Final = (0.2, 5.0)
 """Lengths that differ by more than these factors are of another unit, not of another body."""
 
 
-class Difference(msgspec.Struct, frozen=True):
+class SkeletonDifference(msgspec.Struct, frozen=True):
     """One thing in which a skeleton differs from an asset's.
 
     Attributes
@@ -62,7 +62,7 @@ class Difference(msgspec.Struct, frozen=True):
     amount: float = 0.0
 
 
-def check_skeleton(target: TargetSkeleton, asset: Figure) -> tuple[Difference, ...]:
+def check_skeleton(target: TargetSkeleton, asset: Figure) -> tuple[SkeletonDifference, ...]:
     """What differs between the skeleton of an export and an asset's, the most severe first.
 
     Parameters
@@ -78,13 +78,13 @@ def check_skeleton(target: TargetSkeleton, asset: Figure) -> tuple[Difference, .
     found = [*_roots(target, asset), *_unit(target, asset)]
     requested = {target.names[bone] for bone in target.added}
     found += [
-        Difference("requested", name, severe=False)
+        SkeletonDifference("requested", name, severe=False)
         if name in requested
-        else Difference("additional", name, name in moved)
+        else SkeletonDifference("additional", name, name in moved)
         for name in target.names
         if name not in theirs
     ]
-    found += [Difference("missing", name, severe=False) for name in asset.bone_names if name not in ours]
+    found += [SkeletonDifference("missing", name, severe=False) for name in asset.bone_names if name not in ours]
     for name in (name for name in target.names if name in theirs):
         bone, other = ours[name], theirs[name]
         above, other_above = target.parents[bone], asset.parents[other]
@@ -93,16 +93,16 @@ def check_skeleton(target: TargetSkeleton, asset: Figure) -> tuple[Difference, .
         if our_parent != their_parent:
             # A matter of roots, or of parents that have other names, is reported there.
             if our_parent and their_parent and (our_parent in theirs or their_parent in ours):
-                found.append(Difference("parent", name, severe=True, ours=our_parent, theirs=their_parent))
+                found.append(SkeletonDifference("parent", name, severe=True, ours=our_parent, theirs=their_parent))
             continue
         off_mm = 1000.0 * float(np.linalg.norm(target.offsets_m[bone] - asset.translations_m[other]))
         # The hips are where the motion has them, wherever they rest; so is what follows something else.
         if off_mm > POSITION_MM and bone not in target.loose:
-            found.append(Difference("position", name, severe=False, amount=round(off_mm, 2)))
+            found.append(SkeletonDifference("position", name, severe=False, amount=round(off_mm, 2)))
         turn = quaternion.multiply(quaternion.conjugate(asset.rotations[other]), target.rest[bone])
         off_deg = float(np.degrees(np.linalg.norm(quaternion.to_rotation_vector(turn))))
         if off_deg > ROTATION_DEG:
-            found.append(Difference("rotation", name, severe=False, amount=round(off_deg, 2)))
+            found.append(SkeletonDifference("rotation", name, severe=False, amount=round(off_deg, 2)))
     return tuple(sorted(found, key=lambda difference: not difference.severe))
 
 
@@ -123,7 +123,7 @@ def without_armature(asset: Figure) -> Figure:
     )
 
 
-def reported(differences: Sequence[Difference]) -> tuple[Message, ...]:
+def reported(differences: Sequence[SkeletonDifference]) -> tuple[Message, ...]:
     """The differences in words, the most severe first: how many there are of a kind, and which, or the largest."""
     messages = [
         _severe(difference) for difference in differences if difference.severe and difference.kind != "additional"
@@ -142,12 +142,12 @@ def reported(differences: Sequence[Difference]) -> tuple[Message, ...]:
     return tuple(messages)
 
 
-def _listed(differences: Sequence[Difference]) -> str:
+def _listed(differences: Sequence[SkeletonDifference]) -> str:
     names = [difference.bone for difference in differences]
     return ", ".join(names[:MOST_LISTED]) + (", ..." if len(names) > MOST_LISTED else "")
 
 
-def _severe(difference: Difference) -> Message:
+def _severe(difference: SkeletonDifference) -> Message:
     if difference.kind == "unit":
         return Message("skeleton.other_unit", {"factor": difference.amount})
     if difference.kind == "parent":
@@ -158,14 +158,14 @@ def _severe(difference: Difference) -> Message:
     return Message("skeleton.other_root", {"ours": difference.ours, "theirs": difference.theirs})
 
 
-def _roots(target: TargetSkeleton, asset: Figure) -> list[Difference]:
+def _roots(target: TargetSkeleton, asset: Figure) -> list[SkeletonDifference]:
     roots = [name for name, parent in zip(asset.bone_names, asset.parents, strict=True) if parent < 0]
     if roots == [target.names[0]]:
         return []
-    return [Difference("root", target.names[0], severe=True, ours=target.names[0], theirs=", ".join(roots))]
+    return [SkeletonDifference("root", target.names[0], severe=True, ours=target.names[0], theirs=", ".join(roots))]
 
 
-def _unit(target: TargetSkeleton, asset: Figure) -> list[Difference]:
+def _unit(target: TargetSkeleton, asset: Figure) -> list[SkeletonDifference]:
     """Whether lengths as a whole are of another unit, by the bones that both have."""
     theirs = {name: bone for bone, name in enumerate(asset.bone_names)}
     both = [
@@ -182,4 +182,4 @@ def _unit(target: TargetSkeleton, asset: Figure) -> list[Difference]:
             factor *= float(note.arguments["factor"])
     if UNIT[0] < factor < UNIT[1]:
         return []
-    return [Difference("unit", "", severe=True, amount=float(f"{factor:.4g}"))]
+    return [SkeletonDifference("unit", "", severe=True, amount=float(f"{factor:.4g}"))]

@@ -14,10 +14,10 @@ from app.export.file_names import figure_stems, file_names
 from app.export.formats import FILE_FORMATS
 from app.export.joint_playback import JointPlayback
 from app.export.keyed import key_count, keyed_character
-from app.export.playback import Playback
+from app.export.playback import ScenePlayback
 from app.export.player import skeleton_report, write_options
 from app.export.report import DancerMeasures, DancerReport, stage_place
-from app.export.request import ExportCast, Request
+from app.export.request import ExportCast, ExportRequest
 from app.export.target import TargetSkeleton
 from app.formats.fbx.read import read_scene
 from app.formats.scene import Scene
@@ -30,7 +30,7 @@ from app.rig.sole import SIDES, foot_tip_m
 def measure_dancer(scene: Scene, character: Character, target: TargetSkeleton, standing: BoolArray) -> DancerMeasures:
     """Measure a file that was read back."""
     assert scene.clip is not None
-    playback = Playback(scene, scene.clip)
+    playback = ScenePlayback(scene, scene.clip)
     joints = JointPlayback(playback, target, character)
     rate, frames = float(scene.clip.fps), scene.clip.frames
     world = playback.world(0, frames)
@@ -58,7 +58,7 @@ def measure_dancer(scene: Scene, character: Character, target: TargetSkeleton, s
 
 
 def export_dancer(
-    request: Request, cast: ExportCast, dancing: Dancing, folder: Path, reported: Callable[[float], None]
+    request: ExportRequest, cast: ExportCast, dancing: Dancing, folder: Path, reported: Callable[[float], None]
 ) -> DancerReport:
     """Write and measure the files of a dancer; parameters as of `app.export.player.export_player`."""
     dancer = next(one for one in request.dancers if one.id == dancing.dancer.id)

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Final, Literal
 
 from app.formats.scene import Scene
-from app.formats.usd import Sound, refuse_without_usd
+from app.formats.usd import UsdSound, refuse_without_usd
 
 Format = Literal["fbx", "bvh", "glb", "usd"]
 FileContent = Literal["character", "instrument"]
@@ -113,8 +113,8 @@ def _usd_stage(path: Path, scenes: Iterable[Scene], beside: WriteOptions) -> Non
     write_usds(path, scenes, _usd_sound(beside))
 
 
-def _usd_sound(beside: WriteOptions) -> Sound | None:
-    return None if beside.sound is None else Sound(beside.sound, 0.0)
+def _usd_sound(beside: WriteOptions) -> UsdSound | None:
+    return None if beside.sound is None else UsdSound(beside.sound, 0.0)
 
 
 FILE_FORMATS: Final[Mapping[Format, FileFormat]] = {

@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 
 from app.arrays import BoolArray, FloatArray, IntArray
-from app.export.playback import Playback
+from app.export.playback import ScenePlayback
 from app.export.target import TargetSkeleton
 from app.formats.scene import SkinnedMesh
 from app.rig import quaternion
@@ -26,14 +26,14 @@ class JointPlayback:
 
     Parameters
     ----------
-    playback : Playback
+    playback : ScenePlayback
         Of the file.
     target : TargetSkeleton
         What its bones mean.
     character : Character
     """
 
-    def __init__(self, playback: Playback, target: TargetSkeleton, character: Character) -> None:
+    def __init__(self, playback: ScenePlayback, target: TargetSkeleton, character: Character) -> None:
         self.playback = playback
         self._target = target
         self._character = character

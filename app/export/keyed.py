@@ -9,7 +9,7 @@ import msgspec
 from app.export.formats import Format
 from app.export.joint_playback import JointPlayback
 from app.export.marks import character_marks, part_marks
-from app.export.playback import Playback
+from app.export.playback import ScenePlayback
 from app.export.reduced_keys import INSTRUMENT_MM, PLACE_MM, reduced
 from app.export.target import TargetSkeleton
 from app.formats.keys import KeyChoice
@@ -50,7 +50,7 @@ def keyed_character(
     """
     if keys == "every" or scene.clip is None:
         return scene
-    joints = JointPlayback(Playback(scene, scene.clip), target, character)
+    joints = JointPlayback(ScenePlayback(scene, scene.clip), target, character)
     hanging = {bone: models[number].meshes for bone, number in target.sockets.items()}
     return reduced(scene, character_marks(joints, character, hanging), PLACE_MM, "usd" in formats)
 
@@ -59,7 +59,7 @@ def keyed_instrument(scene: Scene, keys: KeyChoice, formats: frozenset[Format]) 
     """An instrument's scene with its keys."""
     if keys == "every" or scene.clip is None:
         return scene
-    return reduced(scene, part_marks(Playback(scene, scene.clip)), INSTRUMENT_MM, "usd" in formats)
+    return reduced(scene, part_marks(ScenePlayback(scene, scene.clip)), INSTRUMENT_MM, "usd" in formats)
 
 
 def key_count(*scenes: Scene) -> KeyCount:

@@ -9,7 +9,7 @@ import numpy as np
 
 from app.arrays import AnyFloatArray, AnyIntArray, BoolArray, IndexArray, IntArray
 from app.export.joint_playback import JointPlayback
-from app.export.playback import METRES, Playback, Surface
+from app.export.playback import METRES, ScenePlayback, Surface
 from app.formats.scene import SkinnedMesh
 from app.rig.mesh import Mesh
 from app.rig.model import Character
@@ -19,7 +19,7 @@ _NO_SHAPES: AnyFloatArray = np.zeros((0, 0, 3))
 
 
 @dataclass(frozen=True, eq=False)
-class Carried:
+class BoneMarks:
     """What a bone adds to marks: ``rotation @ (points + weights @ shapes) + shares * place``.
 
     Attributes
@@ -30,7 +30,7 @@ class Carried:
     shares : (K,)
         Of the mark that the bone carries.
     shapes_m : (M, K, 3)
-        What each morph of `Marks.morphs` adds to the points.
+        What each morph of `SkinnedMarks.morphs` adds to the points.
     """
 
     marks: IndexArray
@@ -40,20 +40,20 @@ class Carried:
 
 
 @dataclass(frozen=True, eq=False)
-class Marks:
+class SkinnedMarks:
     """Places as linear blend skinning moves them; the first are the joints of all bones.
 
     Attributes
     ----------
     count : int
-    carried : mapping of int to Carried
+    carried : mapping of int to BoneMarks
         By bone, of the marks after the joints.
     morphs : tuple of str
         Those that move any of the marks.
     """
 
     count: int
-    carried: Mapping[int, Carried]
+    carried: Mapping[int, BoneMarks]
     morphs: tuple[str, ...] = ()
 
     def hang_on(self, parents: Sequence[int]) -> BoolArray:
@@ -86,11 +86,11 @@ class _Gathered:
             self.add(bone, np.where(corner, high, low))
             self.count += 1
 
-    def marks(self) -> Marks:
+    def marks(self) -> SkinnedMarks:
         morphs = tuple(sorted({name for rows in self.rows.values() for *_, shapes in rows for name in shapes}))
         zero = np.zeros(3)
         carried = {
-            bone: Carried(
+            bone: BoneMarks(
                 np.array([number for number, *_ in rows]),
                 np.array([point for _, point, *_ in rows]),
                 np.array([share for _, _, share, _ in rows]),
@@ -98,12 +98,12 @@ class _Gathered:
             )
             for bone, rows in self.rows.items()
         }
-        return Marks(self.count, carried, morphs)
+        return SkinnedMarks(self.count, carried, morphs)
 
 
 def character_marks(
     joints: JointPlayback, character: Character, hanging: Mapping[int, Sequence[Mesh]] | None = None
-) -> Marks:
+) -> SkinnedMarks:
     """The landmarks of a character in a file, all joints, and corners of boxes around what hangs on bones.
 
     Parameters
@@ -128,7 +128,7 @@ def character_marks(
     return gathered.marks()
 
 
-def part_marks(playback: Playback) -> Marks:
+def part_marks(playback: ScenePlayback) -> SkinnedMarks:
     """The corners of the box around whatever each bone carries, and all joints.
 
     What is rigid is nowhere farther off than one of its corners, so these stand for the whole surface of an instrument.
@@ -161,7 +161,7 @@ def _add_mean(gathered: _Gathered, skin: Skin) -> None:
 
 
 @dataclass(frozen=True, eq=False)
-class Link:
+class BoneLink:
     """How a bone that moves hangs on the next one above it that does.
 
     Attributes
@@ -183,13 +183,13 @@ class Link:
 
 
 def rigid_links(
-    marks: Marks, parents: Sequence[int], moving: AnyIntArray, turns: AnyFloatArray, places_m: AnyFloatArray
-) -> tuple[list[Link], dict[int, Carried]]:
+    marks: SkinnedMarks, parents: Sequence[int], moving: AnyIntArray, turns: AnyFloatArray, places_m: AnyFloatArray
+) -> tuple[list[BoneLink], dict[int, BoneMarks]]:
     """Only the bones that move, and the marks on them: what is still on its parent goes with it.
 
     Parameters
     ----------
-    marks : Marks
+    marks : SkinnedMarks
     parents : sequence of int
     moving : (N,) int
         The bones that move.
@@ -198,33 +198,33 @@ def rigid_links(
 
     Returns
     -------
-    list of Link
+    list of BoneLink
         Of the moving bones, in single precision, which is good for some thousandths of a millimetre.
     dict of int to Carried
         By row of the moving bone; -1: what is still in the world.
     """
     row_of = {bone: row for row, bone in enumerate(moving.tolist())}
     at: list[tuple[int, AnyFloatArray, AnyFloatArray]] = []
-    links: list[Link] = []
-    parts: dict[int, list[Carried]] = {}
+    links: list[BoneLink] = []
+    parts: dict[int, list[BoneMarks]] = {}
     for bone, parent in enumerate(parents):
         row, turn, offset_m = at[parent] if parent >= 0 else (-1, np.eye(3), np.zeros(3))
         if bone in row_of:
             direct = parent < 0 or parent in row_of
-            links.append(Link(row, None if direct else _single(turn), _single(offset_m), _single(places_m[bone])))
+            links.append(BoneLink(row, None if direct else _single(turn), _single(offset_m), _single(places_m[bone])))
             at.append((row_of[bone], np.eye(3), np.zeros(3)))
         else:
             at.append((row, turn @ turns[bone], turn @ places_m[bone] + offset_m))
         row, turn, offset_m = at[bone]
-        parts.setdefault(row, []).append(Carried(np.array([bone]), offset_m[None], np.ones(1), _NO_SHAPES))
+        parts.setdefault(row, []).append(BoneMarks(np.array([bone]), offset_m[None], np.ones(1), _NO_SHAPES))
         own = marks.carried.get(bone)
         if own is not None:
             points_m = own.points_m @ turn.T + own.shares[:, None] * offset_m
-            parts[row].append(Carried(own.marks, points_m, own.shares, own.shapes_m @ turn.T))
+            parts[row].append(BoneMarks(own.marks, points_m, own.shares, own.shapes_m @ turn.T))
     return links, {row: _joined(found, len(marks.morphs), marks.count) for row, found in parts.items()}
 
 
-def _joined(parts: Sequence[Carried], morphs: int, count: int) -> Carried:
+def _joined(parts: Sequence[BoneMarks], morphs: int, count: int) -> BoneMarks:
     """What one bone adds, where several that go with it add to the same marks."""
     points_m, shares, shapes_m = np.zeros((count, 3)), np.zeros(count), np.zeros((morphs, count, 3))
     for part in parts:
@@ -233,7 +233,7 @@ def _joined(parts: Sequence[Carried], morphs: int, count: int) -> Carried:
         if part.shapes_m.size:
             shapes_m[:, part.marks] += part.shapes_m
     used = np.unique(np.concatenate([part.marks for part in parts]))
-    return Carried(used, _single(points_m[used]), _single(shares[used]), _single(shapes_m[:, used]))
+    return BoneMarks(used, _single(points_m[used]), _single(shares[used]), _single(shapes_m[:, used]))
 
 
 def _single(values: AnyFloatArray) -> AnyFloatArray:

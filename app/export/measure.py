@@ -30,7 +30,7 @@ from app.contacts.controls import ControlMeasure, NoteFrames, notes_of
 from app.contacts.touches import TouchJudge, Traces, distance_m, hole_values
 from app.export.joint_measures import JointMeasure, measure_joints
 from app.export.joint_playback import JointPlayback
-from app.export.playback import Playback
+from app.export.playback import ScenePlayback
 from app.export.target import TargetSkeleton, normalised_target
 from app.export.threads import in_threads
 from app.export.walk import SOLES, Walk, bone_deviation_m
@@ -86,7 +86,7 @@ class PlayerMeasures(msgspec.Struct, frozen=True):
 
 
 @dataclass(frozen=True, eq=False)
-class Measured:
+class PlayerMeasurement:
     """Measures of one player, and the angles of its torso (F, 2), radians (sideways, forward), to compare players."""
 
     measures: PlayerMeasures
@@ -117,7 +117,7 @@ def measure_player(
     target: TargetSkeleton | None = None,
     changing: Sequence[tuple[float, float]] = (),
     out_of_reach: Set[str | None] = frozenset(),
-) -> Measured:
+) -> PlayerMeasurement:
     """Measure what was read back of one player's two files.
 
     Parameters
@@ -145,8 +145,8 @@ def measure_player(
     if player_scene.clip is None or instrument_scene.clip is None:
         raise ValueError("a file without a clip cannot be measured")
     character = meeting(character, instrument, body)
-    player = Playback(player_scene, player_scene.clip)
-    held = Playback(instrument_scene, instrument_scene.clip)
+    player = ScenePlayback(player_scene, player_scene.clip)
+    held = ScenePlayback(instrument_scene, instrument_scene.clip)
     fps = float(player.clip.fps)
     times_s = first_frame_s + np.arange(player.clip.frames) / fps
     notes = NoteFrames(times_s, notes_of(plan.grips, float(times_s[0]), float(times_s[-1])))
@@ -196,7 +196,7 @@ def measure_player(
         breaths=_breaths(plan.breaths, times_s, joints.curve("jawOpen"), found.torso, mouth_opens(character)),
         hovering={finger: Spread.of(gaps_m, HOVER_MM) for finger, gaps_m in judge.hovering_m().items()},
     )
-    return Measured(measures, found.torso)
+    return PlayerMeasurement(measures, found.torso)
 
 
 def greatest_correlations(players: Mapping[str, FloatArray]) -> dict[str, float]:
@@ -212,7 +212,7 @@ def greatest_correlations(players: Mapping[str, FloatArray]) -> dict[str, float]
 
 def _read(
     joints: JointPlayback,
-    held: Playback,
+    held: ScenePlayback,
     character: Character,
     instrument: InstrumentMap,
     sounding: BoolArray,
@@ -266,7 +266,7 @@ def slid_m(sole_m: FloatArray, times_s: FloatArray, plan: PlayerPlan, name: str,
     return distance_m(standing_m, standing_m[firsts[which]]) if len(standing_m) else np.zeros(0)
 
 
-def _control_values(instrument: InstrumentMap, held: Playback) -> dict[str, FloatArray]:
+def _control_values(instrument: InstrumentMap, held: ScenePlayback) -> dict[str, FloatArray]:
     """Value of every control that moves (F,), from where its bone is in the file."""
     result = {}
     for control in instrument.controls:

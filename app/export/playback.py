@@ -18,7 +18,7 @@ METRES = 0.01
 
 
 @dataclass(frozen=True, eq=False)
-class Playback:
+class ScenePlayback:
     """A scene with a clip, as any reader of the file would play it."""
 
     scene: Scene
@@ -71,7 +71,7 @@ class Playback:
     def world(self, first: int, last: int) -> FloatArray:
         """World transforms (n, J, 4, 4) of the frames ``first`` .. ``last - 1``."""
         result = np.zeros((last - first, len(self.parents), 4, 4))
-        result[:, :, :3] = Limbs(self, range(len(self.parents))).world(first, last).transpose(3, 0, 1, 2)
+        result[:, :, :3] = PlaybackBones(self, range(len(self.parents))).world(first, last).transpose(3, 0, 1, 2)
         result[..., 3, 3] = 1.0
         return result
 
@@ -85,7 +85,7 @@ class Surface:
 
     Parameters
     ----------
-    playback : Playback
+    playback : ScenePlayback
     mesh : SkinnedMesh
         One of its scene's.
     vertices : (V,) integer array
@@ -96,7 +96,7 @@ class Surface:
         Its joints are the file's bones.
     """
 
-    def __init__(self, playback: Playback, mesh: SkinnedMesh, vertices: AnyIntArray) -> None:
+    def __init__(self, playback: ScenePlayback, mesh: SkinnedMesh, vertices: AnyIntArray) -> None:
         binds = np.array(mesh.world_from_bone_bind, np.float64)
         binds[:, :3, 3] *= METRES
         carrying = np.unique(mesh.joint_indices[vertices])
@@ -116,16 +116,16 @@ class Surface:
         )
 
     def positions_m(self, world: FloatArray, first: int, last: int) -> FloatArray:
-        """Deformed positions (n, V, 3); ``world`` is `Playback.world` of the same frames."""
+        """Deformed positions (n, V, 3); ``world`` is `ScenePlayback.world` of the same frames."""
         return self.skin.deformed(world, self._playback.morphs(first, last))
 
 
-class Limbs:
+class PlaybackBones:
     """Some bones of a playback, and all above them.
 
     Parameters
     ----------
-    playback : Playback
+    playback : ScenePlayback
     bones : iterable of int
 
     Attributes
@@ -134,7 +134,7 @@ class Limbs:
         The rows of `world` by bone.
     """
 
-    def __init__(self, playback: Playback, bones: Iterable[int]) -> None:
+    def __init__(self, playback: ScenePlayback, bones: Iterable[int]) -> None:
         parents, chosen = playback.parents, set[int]()
         for bone in bones:
             while bone >= 0 and bone not in chosen:
@@ -191,11 +191,11 @@ class Middles:
     ----------
     skins : mapping of str to Skin
         Of each surface.
-    limbs : Limbs
+    limbs : PlaybackBones
         With all bones that carry any.
     """
 
-    def __init__(self, skins: Mapping[str, Skin], limbs: Limbs) -> None:
+    def __init__(self, skins: Mapping[str, Skin], limbs: PlaybackBones) -> None:
         self.names = tuple(skins)
         self._shown = tuple(sorted({name for skin in skins.values() for name in skin.morphs}))
         self._points: list[tuple[int, int, FloatArray]] = []
@@ -213,7 +213,7 @@ class Middles:
                 self._shapes += [(index, row, shapes) for row, shapes in zip(rows, added, strict=True)]
 
     def places_m(self, world: FloatArray, morphs: Mapping[str, AnyFloatArray]) -> FloatArray:
-        """Places (K, 3, n); ``world`` is `Limbs.world` of some frames, and ``morphs`` are the weights (n,) there."""
+        """Places (K, 3, n); ``world`` is `PlaybackBones.world` of some frames, ``morphs`` the weights (n,) there."""
         result = np.zeros((len(self.names), 3, world.shape[-1]))
         for index, row, point_m in self._points:
             result[index] += point_m @ world[row]

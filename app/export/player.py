@@ -21,9 +21,9 @@ from app.export.file_names import figure_stems, file_names, sound_name
 from app.export.formats import FILE_FORMATS, FileContent, FileFormat, Format, WriteOptions
 from app.export.instrument import instrument_scene
 from app.export.keyed import KeyCount, key_count, keyed_character, keyed_instrument
-from app.export.measure import Measured, measure_player
+from app.export.measure import PlayerMeasurement, measure_player
 from app.export.report import DoubleReport, MutedSpan, PlayerReport, SkeletonReport, stage_place
-from app.export.request import ExportCast, Request
+from app.export.request import ExportCast, ExportRequest
 from app.export.target import TargetSkeleton, Trajectory, instrument_path
 from app.export.targets import CheckedTarget
 from app.export.threads import in_threads
@@ -60,7 +60,7 @@ class ExportedPlayer(msgspec.Struct, frozen=True):
 
 
 def export_player(
-    request: Request,
+    request: ExportRequest,
     cast: ExportCast,
     performer: Performer,
     folder: Path,
@@ -71,7 +71,7 @@ def export_player(
 
     Parameters
     ----------
-    request : Request
+    request : ExportRequest
     cast : ExportCast
     performer : Performer
         One of the cast's.
@@ -181,13 +181,13 @@ def _judge(
 class _Judging:
     """What the files of a musician are measured with; without FBX files nothing is."""
 
-    request: Request
+    request: ExportRequest
     target: TargetSkeleton
     changing: tuple[tuple[float, float], ...]
 
     def measured(
         self, performer: Performer, read: dict[FileContent, Scene], socket: str, reported: Callable[[float], None]
-    ) -> Measured | None:
+    ) -> PlayerMeasurement | None:
         """What the files hold of a player: the musician's character and the instrument, which may hang on a socket.
         The scenes are taken out of ``read``."""
         if not read:
@@ -212,11 +212,11 @@ class _Judging:
 
 
 def _reported(
-    request: Request,
+    request: ExportRequest,
     performer: Performer,
     files: dict[str, str],
     socket: str,
-    measured: Measured | None,
+    measured: PlayerMeasurement | None,
     keys: KeyCount,
 ) -> dict[str, Any]:
     """What is reported of a player, whether the musician's first one or one who doubles."""
@@ -240,12 +240,12 @@ def _reported(
     }
 
 
-def skeleton_report(request: Request, checked: CheckedTarget) -> SkeletonReport:
+def skeleton_report(request: ExportRequest, checked: CheckedTarget) -> SkeletonReport:
     asset = None if request.asset is None else shown(request.asset.name)
     return SkeletonReport(checked.target.choice, asset, checked.differences, request.rig)
 
 
-def write_options(request: Request, character: Character, target: TargetSkeleton) -> WriteOptions:
+def write_options(request: ExportRequest, character: Character, target: TargetSkeleton) -> WriteOptions:
     return WriteOptions(
         sound=sound_name(request.source) if request.sound else None,
         bone_names=profile_names(request.bvh_names, target, character.skeleton) if request.bvh_names else {},
@@ -253,7 +253,7 @@ def write_options(request: Request, character: Character, target: TargetSkeleton
 
 
 def held_paths(
-    request: Request, target: TargetSkeleton, motion: Motion, doubles: Sequence[Performer]
+    request: ExportRequest, target: TargetSkeleton, motion: Motion, doubles: Sequence[Performer]
 ) -> tuple[Trajectory, ...]:
     """Where a musician's instruments are; nothing where they hang on no sockets.
 
@@ -271,7 +271,7 @@ def held_paths(
 
 
 def _scenes(
-    request: Request,
+    request: ExportRequest,
     performer: Performer,
     doubles: Sequence[Performer],
     target: TargetSkeleton,

@@ -16,7 +16,7 @@ import msgspec
 
 from app.child import Child, ForkedChild, StartedChild, can_fork, core_count
 from app.export.player import ExportedPlayer, export_player
-from app.export.request import ExportCast, Request
+from app.export.request import ExportCast, ExportRequest
 from app.export.worker import Answer, Exported, job_of, serve
 from app.performance.cast import Performer
 
@@ -26,7 +26,7 @@ _MOST = 8
 _POLL_S = 0.05
 
 
-def process_count(request: Request, cast: ExportCast) -> int:
+def process_count(request: ExportRequest, cast: ExportCast) -> int:
     """How many processes, this one among them, an export is worth on this machine."""
     most = max(1, min(_cores(request), len(cast.performers)))
     if request.processes is not None:
@@ -35,13 +35,13 @@ def process_count(request: Request, cast: ExportCast) -> int:
     return max(1, min(most, frames // (WORTH_COPY_FRAMES if can_fork() else WORTH_FRAMES), _MOST))
 
 
-def _cores(request: Request) -> int:
+def _cores(request: ExportRequest) -> int:
     """How many an export may use."""
     return core_count() if request.processes is None else request.processes
 
 
 def export_players(
-    request: Request,
+    request: ExportRequest,
     cast: ExportCast,
     folder: Path,
     processes: int,
@@ -51,7 +51,7 @@ def export_players(
 
     Parameters
     ----------
-    request : Request
+    request : ExportRequest
     cast : ExportCast
     folder : path
         What is in it when something is raised is not complete.
@@ -97,7 +97,7 @@ def export_players(
     return finished
 
 
-def _children(request: Request, cast: ExportCast, folder: Path, count: int) -> list[Child[Answer]]:
+def _children(request: ExportRequest, cast: ExportCast, folder: Path, count: int) -> list[Child[Answer]]:
     """Processes that export the musicians whose ids are sent; fewer where no more can be started."""
     children: list[Child[Answer]] = []
     copies = can_fork()

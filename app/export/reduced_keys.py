@@ -21,12 +21,12 @@ from typing import Final, NamedTuple
 import numpy as np
 
 from app.arrays import AnyFloatArray, AnyIntArray, BoolArray, SingleArray
-from app.export.marks import Marks, rigid_links
+from app.export.marks import SkinnedMarks, rigid_links
 from app.export.playback import METRES
 from app.formats.continuous import continuous
 from app.formats.euler import matrices, quaternions
 from app.formats.fbx.curves import EULER_ORDER, place_curves, rotation_curves
-from app.formats.keys import Keys, Spans, runs, straight_keys
+from app.formats.keys import Keys, KeySpans, runs, straight_keys
 from app.formats.scene import Clip, Scene
 
 PLACE_MM: Final = 0.5
@@ -47,14 +47,14 @@ _SAMPLES, _CHUNK, _ROUNDS = 16, 512, 8
 _STILL = 1e-7
 
 
-def reduced(scene: Scene, marks: Marks, most_mm: float, pose: bool = False) -> Scene:
+def reduced(scene: Scene, marks: SkinnedMarks, most_mm: float, pose: bool = False) -> Scene:
     """A scene whose clip has few keys.
 
     Parameters
     ----------
     scene : Scene
         With a clip.
-    marks : Marks
+    marks : SkinnedMarks
         Of the scene's surfaces.
     most_mm : float
         How far marks, and bones from their parents, may be off.
@@ -96,7 +96,7 @@ def _with_end(keys: Keys, frames: int) -> Keys:
     return keys
 
 
-def _weight_keys(clip: Clip, marks: Marks, most_m: float) -> tuple[dict[str, AnyIntArray], AnyIntArray]:
+def _weight_keys(clip: Clip, marks: SkinnedMarks, most_m: float) -> tuple[dict[str, AnyIntArray], AnyIntArray]:
     """Frames of each morph's keys, and of those of all morphs together."""
     names = list(clip.morph_weights)
     if not names:
@@ -128,7 +128,7 @@ class _Motion:
         By row; of the bones that leave their place.
     """
 
-    def __init__(self, scene: Scene, clip: Clip, marks: Marks, most_m: float) -> None:
+    def __init__(self, scene: Scene, clip: Clip, marks: SkinnedMarks, most_m: float) -> None:
         self.marks, self.frames, self.most_m = marks, clip.frames, most_m
         self.parents = [bone.parent for bone in scene.bones]
         rotations = continuous(clip.rotations_xyzw)
@@ -152,7 +152,7 @@ class _Motion:
         assert clip.keys is not None
         face = np.zeros((1, clip.frames), bool)
         face[0, clip.keys.face] = True
-        self._face_weights = Spans.of(face).straight(self.weights.T[None])[0].T
+        self._face_weights = KeySpans.of(face).straight(self.weights.T[None])[0].T
         self.chains = marks.hang_on(self.parents)[:, self.moving]
         """True for each mark (K,) that hangs on a moving bone (N,)."""
         self.reach_m = self._reach_m()
@@ -239,20 +239,20 @@ class _Motion:
             result[carried.marks] += moved + carried.shares[:, None, None] * place_m
         return result
 
-    def meant(self, frames: AnyIntArray) -> Shown:
+    def meant(self, frames: AnyIntArray) -> KeyedPoses:
         """What the motion is at some frames."""
         places_m = {row: values[frames] for row, values in self.places_m.items()}
-        return Shown(self.rotations[:, frames].astype(np.float64), places_m, self.weights[:, frames])
+        return KeyedPoses(self.rotations[:, frames].astype(np.float64), places_m, self.weights[:, frames])
 
-    def shown(self, frames: AnyIntArray, spans: Spans, by_angles: bool) -> Shown:
+    def shown(self, frames: AnyIntArray, spans: KeySpans, by_angles: bool) -> KeyedPoses:
         """What a program shows at some frames between keys, if it interpolates angles or quaternions."""
         angles = spans.straight(self.angles) if by_angles else None
         turned = spans.turned(self.rotations) if angles is None else quaternions(angles, EULER_ORDER)
         places_m = {row: spans.row(row).straight(values[None])[0] for row, values in self.places_m.items()}
-        return Shown(turned, places_m, self._face_weights[:, frames])
+        return KeyedPoses(turned, places_m, self._face_weights[:, frames])
 
 
-class Shown(NamedTuple):
+class KeyedPoses(NamedTuple):
     """Rotations (N, f, 4) and, by row, places (f, 3) of the moving bones, and weights (M, f) of the marks' morphs."""
 
     turned: AnyFloatArray
@@ -260,9 +260,9 @@ class Shown(NamedTuple):
     weights: AnyFloatArray
 
 
-def _together(shown: Sequence[Shown]) -> Shown:
+def _together(shown: Sequence[KeyedPoses]) -> KeyedPoses:
     """Frames after frames."""
-    return Shown(
+    return KeyedPoses(
         np.concatenate([one.turned for one in shown], axis=1),
         {row: np.concatenate([one.places_m[row] for one in shown]) for row in shown[0].places_m},
         np.concatenate([one.weights for one in shown], axis=1),
@@ -299,7 +299,7 @@ def _settle(motion: _Motion, kept: BoolArray, shared: bool) -> None:
     rounds = 0
     while changed.any():
         rounds += 1
-        spans = Spans.of(kept)
+        spans = KeySpans.of(kept)
         added, beyond = np.zeros(kept.shape, bool), np.zeros(motion.frames, bool)
         frames = np.flatnonzero(changed)
         for first in range(0, len(frames), _CHUNK):
@@ -323,7 +323,7 @@ def _add_keys(
     motion: _Motion,
     kept: BoolArray,
     added: BoolArray,
-    spans: Spans,
+    spans: KeySpans,
     frames: AnyIntArray,
     shared: bool,
     all_frames: bool,

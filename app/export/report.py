@@ -7,7 +7,7 @@ import math
 import msgspec
 
 from app.contacts.bounds import Spread, allowed_mm
-from app.export.check_skeleton import Difference
+from app.export.check_skeleton import SkeletonDifference
 from app.export.formats import Format
 from app.export.keyed import KeyCount
 from app.export.measure import PlayerMeasures
@@ -54,7 +54,7 @@ class DancerMeasures(msgspec.Struct, frozen=True):
         return self.slide_mm_s <= SLIDE_BOUND_MM_S and self.bones_mm <= BONES_BOUND_MM
 
 
-class StagePlace(msgspec.Struct, frozen=True):
+class PlaceReport(msgspec.Struct, frozen=True):
     """Where a performer stands on the stage: the performer's own files are at the origin, facing +Z. Metres, Y up, the
     audience towards +Z; a positive turn is from +Z towards +X."""
 
@@ -63,9 +63,9 @@ class StagePlace(msgspec.Struct, frozen=True):
     turn_deg: float
 
 
-def stage_place(place: StagePosition) -> StagePlace:
+def stage_place(place: StagePosition) -> PlaceReport:
     """A place of the project, rounded to what is seen."""
-    return StagePlace(round(place.x_m, 4), round(place.z_m, 4), round(math.degrees(place.turn_rad), 3))
+    return PlaceReport(round(place.x_m, 4), round(place.z_m, 4), round(math.degrees(place.turn_rad), 3))
 
 
 class SkeletonReport(msgspec.Struct, frozen=True):
@@ -77,7 +77,7 @@ class SkeletonReport(msgspec.Struct, frozen=True):
     choice: SkeletonChoice
     asset: str | None = None
     """Name of the asset's file."""
-    differences: tuple[Difference, ...] = ()
+    differences: tuple[SkeletonDifference, ...] = ()
     rig: RigOptions = DEFAULT_RIG
     """Options besides the bones; those that a character's own skeleton does not take are among the warnings."""
 
@@ -119,7 +119,7 @@ class PlayerReport(msgspec.Struct, frozen=True):
     character: str
     posture: str
     files: dict[str, str]
-    stage: StagePlace
+    stage: PlaceReport
     notes: int
     measures: PlayerMeasures | None
     """None where no FBX was asked for: that is the file that is read back and measured."""
@@ -150,7 +150,7 @@ class DancerReport(msgspec.Struct, frozen=True):
     choreography: str
     character: str
     files: dict[str, str]
-    stage: StagePlace
+    stage: PlaceReport
     steps: int
     """Basic motions that begin in the frames."""
     skeleton: SkeletonReport
@@ -165,7 +165,7 @@ class StageFigure(msgspec.Struct, frozen=True):
 
     node: str
     performer: str
-    place: StagePlace
+    place: PlaceReport
     socket: str | None = None
 
 
@@ -176,7 +176,7 @@ class StageReport(msgspec.Struct, frozen=True):
     figures: tuple[StageFigure, ...]
 
 
-class UnplayedPart(msgspec.Struct, frozen=True):
+class UnplayedPartReport(msgspec.Struct, frozen=True):
     """A part of the file without a player, and why."""
 
     name: str
@@ -206,7 +206,7 @@ class Report(msgspec.Struct, frozen=True):
     seed: int
     players: tuple[PlayerReport, ...]
     warnings: tuple[str, ...]
-    unplayed: tuple[UnplayedPart, ...]
+    unplayed: tuple[UnplayedPartReport, ...]
     sound: str | None = None
     """File that starts with frame 0; None where none was asked for."""
     left_out: tuple[LeftOutReport, ...] = ()

@@ -29,7 +29,7 @@ MOST_FRAMES = 432_000
 
 
 @dataclass(frozen=True)
-class Request:
+class ExportRequest:
     """What to export.
 
     Attributes
@@ -119,7 +119,7 @@ class ExportCast:
 
 
 def cast_of(
-    request: Request, wording: Callable[[Message], str], stop_requested: Callable[[], bool] = lambda: False
+    request: ExportRequest, wording: Callable[[Message], str], stop_requested: Callable[[], bool] = lambda: False
 ) -> ExportCast:
     """Who of a request can be exported. Nothing is written.
 

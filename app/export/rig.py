@@ -11,13 +11,13 @@ import numpy as np
 
 from app.arrays import FloatArray
 from app.export.rig_options import DEFAULT_RIG, RigOptions
-from app.formats.scene import Place
+from app.formats.scene import NodePlace
 from app.performance.cast import Performer
 from app.project.casting import StagePosition
 from app.rig import quaternion
 from app.rig.grip.grip_pose import Side
 
-ORIGIN: Final = Place(np.zeros(3), quaternion.IDENTITY)
+ORIGIN: Final = NodePlace(np.zeros(3), quaternion.IDENTITY)
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,13 +48,13 @@ class Rig:
     options : RigOptions
     grips : tuple of Grip
         Of the musician's instruments, in their order; none of a dancer.
-    place : Place or None
+    place : NodePlace or None
         On the stage, where the root bone stands there.
     """
 
     options: RigOptions = DEFAULT_RIG
     grips: tuple[Grip, ...] = ()
-    place: Place | None = None
+    place: NodePlace | None = None
 
 
 def rig_of(options: RigOptions, stage: StagePosition, performers: Iterable[Performer] = ()) -> Rig:
@@ -63,10 +63,12 @@ def rig_of(options: RigOptions, stage: StagePosition, performers: Iterable[Perfo
     return Rig(options, grips, floor_place(stage) if options.root_bone == "place" else None)
 
 
-def floor_place(stage: StagePosition) -> Place:
+def floor_place(stage: StagePosition) -> NodePlace:
     """On the floor, turned from +Z towards +X."""
     half = stage.turn_rad / 2.0
-    return Place(100.0 * np.array([stage.x_m, 0.0, stage.z_m]), np.array([0.0, math.sin(half), 0.0, math.cos(half)]))
+    return NodePlace(
+        100.0 * np.array([stage.x_m, 0.0, stage.z_m]), np.array([0.0, math.sin(half), 0.0, math.cos(half)])
+    )
 
 
 def _grip(performer: Performer) -> Grip:

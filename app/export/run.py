@@ -23,10 +23,10 @@ from app.export.report import (
     PlayerReport,
     Report,
     StageReport,
-    UnplayedPart,
+    UnplayedPartReport,
     encode_report,
 )
-from app.export.request import ExportCast, Request, cast_of
+from app.export.request import ExportCast, ExportRequest, cast_of
 from app.export.stage import write_stage
 from app.formats.atomic import atomic_write
 from app.plan.problem_lines import problem_lines
@@ -42,7 +42,7 @@ _STAGE_WORK = 0.4
 
 
 def export(
-    request: Request,
+    request: ExportRequest,
     wording: Callable[[Message], str],
     stop_requested: Callable[[], bool] = lambda: False,
     progress: Progress = lambda share, label: None,
@@ -51,7 +51,7 @@ def export(
 
     Parameters
     ----------
-    request : Request
+    request : ExportRequest
     wording : callable
         Words a message for the report.
     stop_requested, progress : callable
@@ -69,7 +69,7 @@ def export(
 
 
 def write_cast(
-    request: Request,
+    request: ExportRequest,
     cast: ExportCast,
     wording: Callable[[Message], str],
     stop_requested: Callable[[], bool] = lambda: False,
@@ -141,7 +141,7 @@ def _compared(players: Mapping[str, ExportedPlayer]) -> tuple[PlayerReport, ...]
 
 
 def _report(
-    request: Request,
+    request: ExportRequest,
     cast: ExportCast,
     players: Mapping[str, ExportedPlayer],
     dancers: tuple[DancerReport, ...],
@@ -173,7 +173,7 @@ def _report(
         warnings=(*(wording(message) for message in project.score.warnings), *warnings),
         incomplete=tuple(wording(message) for message in project.score.warnings if message.id in INCOMPLETE),
         unplayed=tuple(
-            UnplayedPart(part.name, wording(part.reason), part.note_count) for part in project.score.unplayed
+            UnplayedPartReport(part.name, wording(part.reason), part.note_count) for part in project.score.unplayed
         ),
         left_out=tuple(LeftOutReport(one.player.name, wording(one.reason)) for one in cast.left_out),
         sound=sound_name(request.source) if request.sound else None,

@@ -16,7 +16,7 @@ from app.export.instrument import instrument_scene
 from app.export.keyed import keyed_character, keyed_instrument
 from app.export.player import held_paths
 from app.export.report import StageFigure, StageReport, stage_place
-from app.export.request import ExportCast, Request
+from app.export.request import ExportCast, ExportRequest
 from app.export.rig import ORIGIN, floor_place
 from app.export.target import TargetSkeleton
 from app.formats.scene import Material, Scene
@@ -27,7 +27,7 @@ from app.project.performers import Dancer, Player
 
 
 def write_stage(
-    request: Request, cast: ExportCast, folder: Path, reported: Callable[[float], None] = lambda share: None
+    request: ExportRequest, cast: ExportCast, folder: Path, reported: Callable[[float], None] = lambda share: None
 ) -> StageReport:
     """Write the stage in every requested format that can hold it.
 
@@ -35,7 +35,7 @@ def write_stage(
 
     Parameters
     ----------
-    request : Request
+    request : ExportRequest
     cast : ExportCast
     folder : path
     reported : callable
@@ -80,7 +80,7 @@ def with_own_names(scene: Scene, known: dict[str, Material]) -> Scene:
 
 
 def _figures(
-    request: Request, cast: ExportCast, format: Format, reported: Callable[[float], None]
+    request: ExportRequest, cast: ExportCast, format: Format, reported: Callable[[float], None]
 ) -> Iterator[tuple[tuple[StageFigure, ...], Scene]]:
     """Everyone's character and instruments, each with its place, for a file of a format; on one skeleton where
     instruments hang on sockets."""

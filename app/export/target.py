@@ -17,7 +17,7 @@ import numpy as np
 from app.arrays import AnyFloatArray, FloatArray, SingleArray
 from app.errors import Message
 from app.export.rig_options import RestPose, RootBone
-from app.formats.scene import Place
+from app.formats.scene import NodePlace
 from app.motion.model import Motion
 from app.rig import quaternion
 from app.rig.model import Skeleton
@@ -90,7 +90,7 @@ class TargetSkeleton:
         Bones that an asset made from the skeleton lacks, because they were asked for beside it.
     root_bone : RootBone
         What the root does; where it does something, it is no joint.
-    place : Place or None
+    place : NodePlace or None
         Where a root that stands at the place on the stage stands.
     rest_pose : RestPose
     twisted_skin : bool
@@ -112,7 +112,7 @@ class TargetSkeleton:
     sockets: Mapping[int, int] = field(default_factory=dict)
     added: frozenset[int] = frozenset()
     root_bone: RootBone = "origin"
-    place: Place | None = None
+    place: NodePlace | None = None
     rest_pose: RestPose = "model"
     twisted_skin: bool = False
 
@@ -164,7 +164,7 @@ def still(frames: int) -> Trajectory:
     return Trajectory(np.zeros((frames, 3)), np.tile(quaternion.IDENTITY, (frames, 1)))
 
 
-def placed(path: Trajectory, place: Place | None) -> Trajectory:
+def placed(path: Trajectory, place: NodePlace | None) -> Trajectory:
     """A trajectory in a space that stands at a place; None: at the origin."""
     if place is None:
         return path

@@ -10,7 +10,7 @@ import numpy as np
 
 from app.errors import Argument, Message
 from app.export.bind_pose import CENTIMETRES, bound_meshes, rest_transforms
-from app.export.check_skeleton import Difference, check_skeleton, reported
+from app.export.check_skeleton import SkeletonDifference, check_skeleton, reported
 from app.export.equip import equipped
 from app.export.mannequin import mannequin_axes, mannequin_target
 from app.export.own_skeleton import own_target
@@ -33,7 +33,7 @@ class CheckedTarget:
     """A player's skeleton and what differs from the asset's; nothing where there is no asset."""
 
     target: TargetSkeleton
-    differences: tuple[Difference, ...] = ()
+    differences: tuple[SkeletonDifference, ...] = ()
 
     @property
     def messages(self) -> tuple[Message, ...]:

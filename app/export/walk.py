@@ -10,7 +10,7 @@ from app.arrays import AnyFloatArray, AnyIntArray, BoolArray, FloatArray, IntArr
 from app.contacts.depths import HandDepths
 from app.contacts.touches import LIPS, UPPER_LIP, Traces
 from app.export.joint_playback import JointPlayback
-from app.export.playback import Limbs, Middles, Playback, Surface
+from app.export.playback import Middles, PlaybackBones, ScenePlayback, Surface
 from app.formats.scene import SkinnedMesh
 from app.rig.model import Character
 from app.rig.skinning import Skin
@@ -29,12 +29,14 @@ class Walk:
     Parameters
     ----------
     joints : JointPlayback
-    held : Playback
+    held : ScenePlayback
     character : Character
     instrument : InstrumentMap
     """
 
-    def __init__(self, joints: JointPlayback, held: Playback, character: Character, instrument: InstrumentMap) -> None:
+    def __init__(
+        self, joints: JointPlayback, held: ScenePlayback, character: Character, instrument: InstrumentMap
+    ) -> None:
         self._player, self._held = joints.playback, held
         frames = self._player.clip.frames
         requested = {contact.part for contact in instrument.contacts} | {*SOLES, LIPS, UPPER_LIP}
@@ -42,14 +44,14 @@ class Walk:
         self.hands = [HandDepths(skins[name], instrument.proxy) for name in _HANDS if name in skins]
         low = joints.bone(_TORSO[0])
         high = joints.bone(_TORSO[1], "head")  # VRM leaves the neck optional; the head is next above it.
-        self._limbs = Limbs(self._player, {low, high}.union(*(skin.joints.tolist() for skin in skins.values())))
+        self._limbs = PlaybackBones(self._player, {low, high}.union(*(skin.joints.tolist() for skin in skins.values())))
         self._low, self._high = self._limbs.rows([low, high])
         self._carriers = [self._limbs.rows(hand.joints.tolist()) for hand in self.hands]
         self._middles = Middles({name: skins[name] for name in sorted(requested & skins.keys())}, self._limbs)
         bone_of_node = {part.node: part.name for part in instrument.moving_parts} | {ROOT: held.bone_names[0]}
         self._nodes = tuple(bone_of_node)
         bones = [held.bone_names.index(bone) for bone in bone_of_node.values()]
-        self._parts = Limbs(held, bones)
+        self._parts = PlaybackBones(held, bones)
         self._node_rows = self._parts.rows(bones)
         self._marks_m = np.empty((len(self._middles.names), 3, frames))
         self._placed = np.empty((len(bones), 3, 4, frames))

@@ -1,9 +1,9 @@
 """Musicians of a piece exported by a process of their own, so that several cores work on a piece.
 
-The child is a copy of the process that exports (`serve`), or this module, run as a program: that reads a `Job` from its
-input first. Each reads ids of musicians; for each it writes the files and answers with `Share`, the work that is done,
-and at last `Exported`. It ends when its input does, and where something fails: the process that started it does the
-same work again, and reports what is wrong.
+The child is a copy of the process that exports (`serve`), or this module, run as a program: that reads an `ExportJob`
+from its input first. Each reads ids of musicians; for each it writes the files and answers with `Share`, the work that
+is done, and at last `Exported`. It ends when its input does, and where something fails: the process that started it
+does the same work again, and reports what is wrong.
 """
 
 from __future__ import annotations
@@ -18,11 +18,11 @@ from typing import Any
 
 import msgspec
 
-from app.child import Channel, channel_to_parent
+from app.child import MessageChannel, channel_to_parent
 from app.errors import AppError
 from app.export.formats import Format
 from app.export.player import ExportedPlayer, export_player
-from app.export.request import ExportCast, Request, cast_of
+from app.export.request import ExportCast, ExportRequest, cast_of
 from app.export.rig_options import RigOptions
 from app.export.target import SkeletonChoice
 from app.formats.keys import KeyChoice
@@ -33,8 +33,8 @@ from app.performance.span import FrameSpan
 from app.project.storage import decode, encode
 
 
-class Job(msgspec.Struct, frozen=True):
-    """A `Request` without its players and dancers, as it is sent; paths are bytes, since not all are text."""
+class ExportJob(msgspec.Struct, frozen=True):
+    """An `ExportRequest` without its players and dancers, as it is sent; paths are bytes, since not all are text."""
 
     project: bytes
     folder: bytes
@@ -68,10 +68,10 @@ class Exported(msgspec.Struct, frozen=True, tag=True):
 Answer = Share | Exported
 
 
-def job_of(request: Request, folder: Path) -> Job:
+def job_of(request: ExportRequest, folder: Path) -> ExportJob:
     """What a process needs to know of a request, to write into a folder."""
     span = request.span
-    return Job(
+    return ExportJob(
         project=encode(request.performance.project, folder / "project"),
         folder=os.fsencode(folder),
         formats=request.formats,
@@ -90,9 +90,9 @@ def job_of(request: Request, folder: Path) -> Job:
     )
 
 
-def _request(job: Job) -> Request:
+def _request(job: ExportJob) -> ExportRequest:
     folder = Path(os.fsdecode(job.folder))
-    return Request(
+    return ExportRequest(
         performance=Performance(decode(job.project, folder / "project")),
         players=(),
         folder=folder,
@@ -110,16 +110,16 @@ def _request(job: Job) -> Request:
     )
 
 
-def serve(request: Request, cast: ExportCast, folder: Path, channel: Channel[str]) -> None:
+def serve(request: ExportRequest, cast: ExportCast, folder: Path, channel: MessageChannel[str]) -> None:
     """Export the musicians of a cast whose ids are read, until there are no more.
 
     Parameters
     ----------
-    request : Request
+    request : ExportRequest
     cast : ExportCast
     folder : path
         To write into.
-    channel : Channel
+    channel : MessageChannel
         To the process that started this one.
     """
     performers = {performer.player.id: performer for performer in cast.performers}
@@ -129,14 +129,16 @@ def serve(request: Request, cast: ExportCast, folder: Path, channel: Channel[str
             _export(request, cast, performers[channel.receive()], folder, channel)
 
 
-def _export(request: Request, cast: ExportCast, performer: Performer, folder: Path, channel: Channel[Any]) -> None:
+def _export(
+    request: ExportRequest, cast: ExportCast, performer: Performer, folder: Path, channel: MessageChannel[Any]
+) -> None:
     exported = export_player(request, cast, performer, folder, lambda share: channel.send(Share(share)))
     channel.send(Exported(exported))
 
 
 def main() -> None:
     """Export the musicians whose ids are sent."""
-    channel: Channel[Any] = channel_to_parent(Job | str, "export")
+    channel: MessageChannel[Any] = channel_to_parent(ExportJob | str, "export")
     try:
         request = _request(channel.receive())
         while True:

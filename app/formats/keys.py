@@ -61,7 +61,7 @@ class Keys:
 
 
 @dataclass(frozen=True, eq=False)
-class Spans:
+class KeySpans:
     """Where frames are between keys.
 
     Attributes
@@ -77,7 +77,7 @@ class Spans:
     share: SingleArray
 
     @classmethod
-    def of(cls, kept: BoolArray) -> Spans:
+    def of(cls, kept: BoolArray) -> KeySpans:
         """Of the frames (L, F) that have keys, the first among them."""
         frames = np.arange(kept.shape[1], dtype=np.int32)
         before = np.maximum.accumulate(np.where(kept, frames, 0), axis=1)
@@ -87,13 +87,13 @@ class Spans:
         share = (frames - before) / np.maximum(after - before, 1).astype(np.float32)
         return cls(before, after, np.where(after > before, share, np.float32(0.0)))
 
-    def at(self, frames: AnyIntArray) -> Spans:
+    def at(self, frames: AnyIntArray) -> KeySpans:
         """Of some of the frames."""
-        return Spans(self.before[:, frames], self.after[:, frames], self.share[:, frames])
+        return KeySpans(self.before[:, frames], self.after[:, frames], self.share[:, frames])
 
-    def row(self, row: int) -> Spans:
+    def row(self, row: int) -> KeySpans:
         """Of one of the curves."""
-        return Spans(self.before[row, None], self.after[row, None], self.share[row, None])
+        return KeySpans(self.before[row, None], self.after[row, None], self.share[row, None])
 
     def straight(self, values: AnyFloatArray) -> FloatArray:
         """What numbers (L, F, D) are at these frames if only the keys are known."""

@@ -140,7 +140,7 @@ class Clip:
 
 
 @dataclass(frozen=True, eq=False)
-class Place:
+class NodePlace:
     """Where a node stands: translation (3,) in centimetres and rotation (4,) xyzw."""
 
     translation_cm: AnyFloatArray
@@ -167,7 +167,7 @@ class Scene:
         Program and version that made the file.
     name : str
         What programs call the armature; empty: as the clip, or else as the root bone.
-    place : Place or None
+    place : NodePlace or None
         Of a node of that name above the root bone. None: no such node, since Unreal may make a bone of whatever is
         above the root; the name then shows only where the format has a place for it.
     """
@@ -177,7 +177,7 @@ class Scene:
     clip: Clip | None = None
     creator: str = "Suisou"
     name: str = ""
-    place: Place | None = None
+    place: NodePlace | None = None
 
     @property
     def title(self) -> str:

@@ -42,7 +42,7 @@ _MODULES: Final = ("Tf", "Gf", "Kind", "Sdf", "Usd", "UsdGeom", "UsdMedia", "Usd
 
 
 @dataclass(frozen=True)
-class Sound:
+class UsdSound:
     """A sound file beside the USD file.
 
     Attributes
@@ -72,14 +72,14 @@ def refuse_without_usd() -> None:
         raise UsageError("usd.missing")
 
 
-def write_usd(path: str | os.PathLike[str], scene: Scene, sound: Sound | None = None) -> None:
+def write_usd(path: str | os.PathLike[str], scene: Scene, sound: UsdSound | None = None) -> None:
     """Write a scene as a USD file, whole or not at all; the same scene always gives the same bytes.
 
     Parameters
     ----------
     path : str or path-like
         ``.usdc`` (binary) or ``.usda`` (text).
-    sound : Sound, optional
+    sound : UsdSound, optional
         Played along.
 
     Raises
@@ -94,7 +94,7 @@ def write_usd(path: str | os.PathLike[str], scene: Scene, sound: Sound | None = 
     write_usds(path, (scene,), sound)
 
 
-def write_usds(path: str | os.PathLike[str], scenes: Iterable[Scene], sound: Sound | None = None) -> None:
+def write_usds(path: str | os.PathLike[str], scenes: Iterable[Scene], sound: UsdSound | None = None) -> None:
     """Write scenes into one file as `write_usd`; each is let go when the next is asked for."""
     refuse_without_usd()
     with _ONE_AT_A_TIME:
@@ -137,7 +137,7 @@ def _open_libraries() -> None:
             system.dlopen(os.fsencode(library), os.RTLD_NOW)
 
 
-def _stage_layer(scenes: Iterable[Scene], sound: Sound | None) -> Any:
+def _stage_layer(scenes: Iterable[Scene], sound: UsdSound | None) -> Any:
     """The whole file."""
     from pxr import Kind, Sdf, Usd, UsdGeom
 
@@ -376,7 +376,7 @@ class _Writer:
         binding.CreateAnimationSourceRel().SetTargets([motion.GetPath()])
 
 
-def _add_sound(stage: Any, path: str, clip: Clip, sound: Sound) -> None:
+def _add_sound(stage: Any, path: str, clip: Clip, sound: UsdSound) -> None:
     from pxr import Sdf, UsdMedia
 
     made = UsdMedia.SpatialAudio.Define(stage, path)

@@ -19,7 +19,7 @@ from app.motion.contacts.trunk_and_legs import solve_legs
 from app.motion.curves.curve import EVERYWHERE, Curve, frame_times, moves
 from app.motion.model import Motion, joined
 from app.motion.perform import PerformanceCurves
-from app.plan.doubling import Change
+from app.plan.doubling import InstrumentChange
 from app.rig import quaternion
 
 MOST_FRAMES, LEAST_FRAMES = 2**17, 256
@@ -141,7 +141,7 @@ class Doubling(PerformanceCurves):
         return np.concatenate(spans)
 
 
-def doubled(played: Sequence[PerformanceCurves], first: str, found: Sequence[Change]) -> tuple[Doubling, ...]:
+def doubled(played: Sequence[PerformanceCurves], first: str, found: Sequence[InstrumentChange]) -> tuple[Doubling, ...]:
     """The motion of each instrument of a musician, with the others put aside.
 
     Parameters
@@ -150,7 +150,7 @@ def doubled(played: Sequence[PerformanceCurves], first: str, found: Sequence[Cha
         All of one body; each made as if it were the only instrument.
     first : str
         Id of the player whose instrument is in the hands at first.
-    found : sequence of Change
+    found : sequence of InstrumentChange
         In order.
     """
     ready = tuple(_with_ways(one, number, first, found) for number, one in enumerate(played))
@@ -170,7 +170,9 @@ def _doubling(
     return Doubling(**members, played=played, shares=shares, number=number, last=last)
 
 
-def _with_ways(playing: PerformanceCurves, number: int, first: str, found: Sequence[Change]) -> PerformanceCurves:
+def _with_ways(
+    playing: PerformanceCurves, number: int, first: str, found: Sequence[InstrumentChange]
+) -> PerformanceCurves:
     """A player's motion with the instrument put aside while another is played."""
     ways = []
     for change in found:
@@ -227,7 +229,7 @@ def _lowered(playing: PerformanceCurves, ways: Sequence[tuple[float, float, floa
     return moves(segments, 1.0 if united and united[0][0] == float("-inf") else 0.0)
 
 
-def _share(player_id: str, first: str, found: Sequence[Change]) -> Curve:
+def _share(player_id: str, first: str, found: Sequence[InstrumentChange]) -> Curve:
     """The weight of one instrument's motion in the body's."""
     ways = [
         (change.put_s, change.taken_s, 1.0 if change.after == player_id else 0.0)

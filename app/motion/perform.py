@@ -23,8 +23,8 @@ from app.motion.contacts.still_player import ContactCurves
 from app.motion.contacts.trunk_and_legs import SIDES, Side, footing, hips_path, torso_forward
 from app.motion.curves.curve import EVERYWHERE, Curve, Envelopes, frame_times
 from app.motion.faces.exertion import Lungs
-from app.motion.faces.face_curves import FACE, Face
-from app.motion.faces.gaze import GAZE, Gaze, Look, Watching, plan_gaze
+from app.motion.faces.face_curves import FACE, FaceCurves
+from app.motion.faces.gaze import GAZE, Gaze, GazeFrames, Watching, plan_gaze
 from app.motion.faces.morph_weights import FaceSizes, face_morphs, face_sizes
 from app.motion.fingering.finger_curves import sampled
 from app.motion.fingering.fingers import FINGERS, fingers_of
@@ -41,10 +41,10 @@ from app.plan.model import PlayerPlan
 from app.plan.parameters import PlayerParameters, deciding
 from app.plan.styles import differing_s, most_shown, share_at
 from app.rig.grip.carriage import carrying
-from app.rig.grip.grip_pose import GripPose, Placed, giving_for
+from app.rig.grip.grip_pose import GripPose, StationBlend, giving_for
 from app.rig.model import Character
 from app.score.metre_map import FeltBeats
-from app.steps import Results
+from app.steps import StepResults
 from instrument_maps.model import InstrumentMap
 from metadata.load import load_expressions
 from metadata.model import Body, Expression, Posture
@@ -57,10 +57,10 @@ OWN: Final = ("raised", "inhaling", "stopping", "_further", "additive")
 class CurveSteps(NamedTuple):
     """Results of `FACE`, `LAYERS`, `GAZE` and `FINGERS`."""
 
-    face: Results
-    layers: Results
-    gaze: Results
-    fingers: Results
+    face: StepResults
+    layers: StepResults
+    gaze: StepResults
+    fingers: StepResults
 
     @classmethod
     def begin(cls, before: CurveSteps | None, **given: object) -> CurveSteps:
@@ -102,7 +102,7 @@ class PerformanceCurves:
         The animator's curves.
     stopping : Envelopes
         How far a hand closes the bell.
-    steps : tuple of Results
+    steps : tuple of StepResults
         That made the curves: those of events that an edit leaves alone are taken over.
     """
 
@@ -116,7 +116,7 @@ class PerformanceCurves:
     expressions: dict[str, Expression]
     player: PlayerBody
     layers: Layers
-    face: Face
+    face: FaceCurves
     gaze: Gaze
     controls: dict[str, Curve]
     stations: dict[str, Curve]
@@ -205,7 +205,7 @@ class PerformanceCurves:
             moved, frames.controls, morphs, frames.face.mouth_open, frames.placed, frames.raised, frames.stowed
         )
 
-    def _moved(self, levels: LayerSamples, look: Look, times_s: FloatArray) -> BodyMotion:
+    def _moved(self, levels: LayerSamples, look: GazeFrames, times_s: FloatArray) -> BodyMotion:
         """The body without dance and the animator's curves, with the instrument in the hands."""
         return body_motion(
             levels,
@@ -240,7 +240,7 @@ class PerformanceCurves:
         shown = {name: share * getattr(levels, name) for name in ("full", "air", "further", "push")}
         return replace(levels, **shown)
 
-    def placed(self, times_s: FloatArray) -> dict[str, Placed]:
+    def placed(self, times_s: FloatArray) -> dict[str, StationBlend]:
         """Where the fingers are, and the hands that give way for some of them, at ascending times."""
         hands = self.player.hold.hands
         asked = {table.finger for hand in hands for table in hand.fingers}
@@ -355,7 +355,7 @@ def prepare(
         instrument=instrument_map,
         farthest=player.farthest,
     )
-    face, fingers = steps.face.of(Face), steps.fingers.of(fingers_of)
+    face, fingers = steps.face.of(FaceCurves), steps.fingers.of(fingers_of)
     made = PerformanceCurves(
         plan=plan,
         instrument_map=instrument_map,

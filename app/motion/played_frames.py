@@ -8,9 +8,9 @@ from dataclasses import dataclass, field
 from app.arrays import FloatArray
 from app.motion.by_hand.additive_curves import Added
 from app.motion.faces.face_curves import Drivers
-from app.motion.faces.gaze import Look
+from app.motion.faces.gaze import GazeFrames
 from app.motion.gestures.layers import LayerSamples
-from app.rig.grip.grip_pose import Placed
+from app.rig.grip.grip_pose import StationBlend
 
 
 @dataclass(frozen=True)
@@ -38,10 +38,10 @@ class PlayedFrames:
 
     times_s: FloatArray
     levels: LayerSamples
-    look: Look
+    look: GazeFrames
     face: Drivers
     controls: dict[str, FloatArray]
-    placed: dict[str, Placed]
+    placed: dict[str, StationBlend]
     raised: FloatArray
     danced: FloatArray | None = None
     stowed: FloatArray | None = None

@@ -13,7 +13,7 @@ from app.plan.parameters import PlayerParameters
 from app.project.casting import StagePosition
 from app.project.performers import Player
 from app.rig.characters.character_library import bundled_characters, character_revision
-from app.steps import Results, StepTable
+from app.steps import StepResults, StepTable
 from instrument_maps.load import bundled_maps
 from instrument_maps.model import InstrumentMap
 
@@ -29,14 +29,14 @@ class BodyProblems(NamedTuple):
         Note by note.
     unseen : Message or None
         Why the player cannot be seen.
-    reach : Results or None
+    reach : StepResults or None
         Of `REACH`, for the next time.
     """
 
     lacking: tuple[Message, ...]
     unreached: tuple[Problem, ...] = ()
     unseen: Message | None = None
-    reach: Results | None = None
+    reach: StepResults | None = None
 
 
 def body_problems(
@@ -44,7 +44,7 @@ def body_problems(
     instrument: InstrumentMap,
     fingerings: tuple[FingeringEvent, ...],
     waiting: bool,
-    before: Results | None = None,
+    before: StepResults | None = None,
 ) -> BodyProblems:
     """What is wrong with a player's body.
 
@@ -54,7 +54,7 @@ def body_problems(
         Of the library.
     waiting : bool
         Whether another task is computing how the instrument is held.
-    before : Results or None
+    before : StepResults or None
         What was found before an edit.
     """
     try:

@@ -148,7 +148,7 @@ def between(before: SingleArray, after: SingleArray, share: float) -> SingleArra
 
 
 @dataclass(frozen=True)
-class Grid:
+class FrameGrid:
     """The frames of a performance, and how they are cut."""
 
     fps: Fraction
@@ -157,7 +157,7 @@ class Grid:
     length: int
 
     @classmethod
-    def of(cls, time_frame: TimeFrame, fps: Fraction) -> Grid:
+    def of(cls, time_frame: TimeFrame, fps: Fraction) -> FrameGrid:
         return cls(fps, time_frame.first_frame_s, frame_count(time_frame, fps), max(1, round(CHUNK_S * fps)))
 
     @property
@@ -179,7 +179,7 @@ class Grid:
         first = chunk * self.length
         return first, min(self.length, self.frames - first)
 
-    def same_frames(self, other: Grid) -> bool:
+    def same_frames(self, other: FrameGrid) -> bool:
         """Whether a frame of one is the same moment in the other."""
         return self.fps == other.fps and self.start_s == other.start_s
 

@@ -25,7 +25,7 @@ from app.performance.body_problems import body_problems
 from app.performance.loudness import controller_input, note_loudness, note_marks, piece_reading, velocities_of
 from app.plan.acting import Acting, acting_of, with_style
 from app.plan.by_hand.corrections import Correction, PlayStyle, RemoveEvent, SetBreath, SetCue, Vary
-from app.plan.doubling import Change, changes, first_played, held_plan
+from app.plan.doubling import InstrumentChange, changes, first_played, held_plan
 from app.plan.faces.glances import StagePlace
 from app.plan.generate import EnsemblePlan, MonophonicPart, Piece, frame_around, plan_ensemble
 from app.plan.model import CONDUCTOR, PlayerPlan, Problem, TimeFrame, no_events
@@ -35,7 +35,7 @@ from app.project.model import Project
 from app.project.performers import Player
 from app.rig.characters.character_library import character_library
 from app.score.limits import too_long
-from app.steps import Results, StepTable, reading
+from app.steps import StepResults, StepTable, reading
 from instrument_maps.library import library
 from instrument_maps.model import InstrumentMap, Posture
 from metadata.acting import Habit, Style
@@ -92,11 +92,11 @@ class Performance:
         # One that was never played knows nothing, but may know of one that was.
         self._before: Performance | None = before if before is None or before.planned else before._before
         self._lock = RLock()
-        known = dict[str, Results]() if self._before is None else self._before._players
-        self._players: dict[str, Results] = {
+        known = dict[str, StepResults]() if self._before is None else self._before._players
+        self._players: dict[str, StepResults] = {
             player.id: self._begun(player, known.get(player.id)) for player in project.players
         }
-        self._whole: Results = WHOLE.begin(
+        self._whole: StepResults = WHOLE.begin(
             None if self._before is None else self._before._whole,
             clock=project.score.tempo_map,
             metre_map=project.metre_map,
@@ -105,11 +105,11 @@ class Performance:
             installed=self.metadata.expressions_by_name,
             own=project.expressions,
         )
-        self._lines = dict[str, Results]()
-        self._held = dict[str, Results]()
-        self._reach = dict[str, Results]()
+        self._lines = dict[str, StepResults]()
+        self._held = dict[str, StepResults]()
+        self._reach = dict[str, StepResults]()
 
-    def _begun(self, player: Player, before: Results | None) -> Results:
+    def _begun(self, player: Player, before: StepResults | None) -> StepResults:
         return PLAYED.begin(
             before,
             part=self.project.part(player),
@@ -231,7 +231,7 @@ class Performance:
                 progress=progress,
             )
             self.unseen = dict[str, Message]()
-            turns = dict[str, tuple[str, tuple[Change, ...]]]()
+            turns = dict[str, tuple[str, tuple[InstrumentChange, ...]]]()
             self._plans = {player.id: self._in_hands(player, made, turns) for player in self.project.players}
             problems = {}
             for player in self.project.players:
@@ -264,7 +264,7 @@ class Performance:
         return True
 
     def _in_hands(
-        self, player: Player, made: EnsemblePlan, turns: dict[str, tuple[str, tuple[Change, ...]]]
+        self, player: Player, made: EnsemblePlan, turns: dict[str, tuple[str, tuple[InstrumentChange, ...]]]
     ) -> PlayerPlan:
         """A player's plan, empty without an instrument; of a musician with several, without what is done while this one
         is put aside. ``turns`` keeps the changes of each musician's instruments."""
@@ -421,7 +421,7 @@ class Performance:
         return suited_to(player, self.instrument(player)).instrument
 
 
-def changes_of(performance: Performance, played: Sequence[Player]) -> tuple[str, tuple[Change, ...]]:
+def changes_of(performance: Performance, played: Sequence[Player]) -> tuple[str, tuple[InstrumentChange, ...]]:
     """For a musician who plays several instruments: which is in the hands first, and when they change."""
     plans = {player.id: performance.plan(player) for player in played}
     return first_played(plans), changes(plans)

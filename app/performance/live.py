@@ -21,7 +21,7 @@ from app.errors import AppError, Message
 from app.motion.model import Motion
 from app.motion.perform import PerformanceCurves
 from app.performance.cast import Performer, performers_of
-from app.performance.chunks import Chunk, Grid, Pose, poses_of
+from app.performance.chunks import Chunk, FrameGrid, Pose, poses_of
 from app.performance.dances import Dancing, dancing_of, layer_is_made
 from app.performance.ensemble import Performance
 from app.performance.motion import playing_of
@@ -126,7 +126,7 @@ class _Track:
 @dataclass(frozen=True, eq=False)
 class _Shown:
     performance: Performance
-    grid: Grid
+    grid: FrameGrid
     tracks: dict[str, _Track]
 
 
@@ -154,7 +154,7 @@ class LiveMotion:
         self._chunk_bytes = 0
         self._made_chunks = 0
         self._seen = 0
-        self._shown = _Shown(performance, Grid.of(performance.time_frame, performance.project.fps), {})
+        self._shown = _Shown(performance, FrameGrid.of(performance.time_frame, performance.project.fps), {})
         self.show(performance)
 
     @property
@@ -164,7 +164,7 @@ class LiveMotion:
 
     def show(self, performance: Performance) -> None:
         """Show another performance. What did not change stays; what did is shown as it was until it is made again."""
-        grid = Grid.of(performance.time_frame, performance.project.fps)
+        grid = FrameGrid.of(performance.time_frame, performance.project.fps)
         with self._lock:
             before = self._shown
             same_frames = grid.same_frames(before.grid)
@@ -533,7 +533,7 @@ class LiveMotion:
         for index in sorted(range(grid.chunks), key=lambda index: _distance(index, places[0])):
             yield from ((player_id, index) for player_id in everyone)
 
-    def _in_sight(self, grid: Grid) -> range:
+    def _in_sight(self, grid: FrameGrid) -> range:
         """The chunks that are looked at; the first one holds the playhead."""
         time_s, span_s, _ = self._requested
         return range(grid.place(time_s)[0] // grid.length, grid.place(time_s + span_s)[0] // grid.length + 1)

@@ -14,7 +14,15 @@ from app.motion.curves.live_values import Reach, Spring
 from app.motion.curves.seeded_chance import generator
 from app.motion.faces.exertion import LIGHT, Exertion
 from app.motion.faces.face_curves import FORM_S, HOLD_S, SHALLOWEST, Drivers
-from app.motion.faces.gaze import BLINK_DOWN_S, BLINK_SHUT_S, BLINK_UP_S, HEAD_TURN_S, MUSIC_PITCH_RAD, SACCADE_S, Look
+from app.motion.faces.gaze import (
+    BLINK_DOWN_S,
+    BLINK_SHUT_S,
+    BLINK_UP_S,
+    HEAD_TURN_S,
+    MUSIC_PITCH_RAD,
+    SACCADE_S,
+    GazeFrames,
+)
 from app.motion.gestures.body_lag import Overlapped
 from app.motion.gestures.layers import LayerSamples
 from app.motion.perform import PerformanceCurves
@@ -58,7 +66,7 @@ BELL_RISES = 0.5
 
 
 @dataclass(frozen=True)
-class Breathing:
+class BreathFrames:
     """Body and face at a moment: members as of `app.motion.perform.Frames`, of `FRAMES` equal frames."""
 
     levels: LayerSamples
@@ -234,7 +242,7 @@ class LiveBreath:
         for name, spring in self._shown.items():
             spring.follow(strengths[name], elapsed_s)
 
-    def at(self, now_s: float) -> Breathing:
+    def at(self, now_s: float) -> BreathFrames:
         """Body and face now."""
         self.advance(now_s)
         nothing, still = np.zeros(FRAMES), Overlapped.nothing(FRAMES)
@@ -284,7 +292,7 @@ class LiveBreath:
             feet={},
             held={},
         )
-        return Breathing(levels, face)
+        return BreathFrames(levels, face)
 
 
 class LiveLook:
@@ -297,7 +305,7 @@ class LiveLook:
         self._lids = Reach.at_rest(0.0)
         self._moves_s = self._blinks_s = self._opens_s = math.inf
 
-    def at(self, now_s: float) -> Look:
+    def at(self, now_s: float) -> GazeFrames:
         """Eyes and lids now, `FRAMES` equal frames."""
         random = self._random
         if math.isinf(self._moves_s):
@@ -319,7 +327,7 @@ class LiveLook:
             self._opens_s = now_s + BLINK_DOWN_S + BLINK_SHUT_S
             self._blinks_s = now_s + min(max(float(random.lognormal(np.log(4.2), 0.5)), 0.7), 12.0)
         lids = min(max(self._lids.at(now_s), 0.0), 1.0)
-        return Look(
+        return GazeFrames(
             yaw_rad=np.full(FRAMES, self._yaw.at(now_s)),
             pitch_rad=np.full(FRAMES, self._pitch.at(now_s)),
             head_yaw_rad=np.full(FRAMES, self._head_yaw.at(now_s)),

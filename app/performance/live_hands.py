@@ -21,7 +21,7 @@ from app.motion.fingering.finger_curves import FAST_NOTE_S, HOME_S, LEAST_TRAVEL
 from app.motion.perform import PerformanceCurves
 from app.plan.fingering.live_fingering import REMEMBERED, Fingered, NextFingering
 from app.rig.grip.finger_stations import fingers_at_work, station_for, stations
-from app.rig.grip.grip_pose import Placed, giving_for
+from app.rig.grip.grip_pose import StationBlend, giving_for
 from instrument_maps.model import Control, Fingering
 
 LET_GO_S = 0.5
@@ -42,7 +42,7 @@ class Hands:
     `app.motion.perform.Frames`, of `FRAMES` frames."""
 
     controls: dict[str, FloatArray]
-    placed: dict[str, Placed]
+    placed: dict[str, StationBlend]
     raised: FloatArray
     arrived_s: float
     """When they are there."""
@@ -245,9 +245,9 @@ class LiveHands:
         self._raised = self._raised.toward(now_s, float(np.mean(pace)), RAISES_S)
 
 
-def _placed(journey: Journey, now_s: float) -> Placed:
+def _placed(journey: Journey, now_s: float) -> StationBlend:
     before, after, share = journey.at(now_s)
     places = np.full((3, FRAMES), float(journey.goal))
     places[2] = 1.0
     places[:, 0] = before, after, share
-    return Placed(*places)
+    return StationBlend(*places)

@@ -19,7 +19,7 @@ from app.plan.music.dynamics_from_velocities import (
     velocity_loudness,
     velocity_marks,
 )
-from app.plan.music.piece import MEZZOFORTE, ControllerInput, Steps
+from app.plan.music.piece import MEZZOFORTE, ControllerInput, ControllerSteps
 from app.plan.music.velocity_ladders import DYNAMICS
 from app.score.model import ControllerCurve, Part
 
@@ -30,7 +30,7 @@ _SCALING: Final = ("expression", "volume")
 """Controllers that make what the velocities say louder or softer, as in synthesisers; the others take its place."""
 
 
-_STEPS: Final[IdentityCache[Steps]] = IdentityCache(64)
+_STEPS: Final[IdentityCache[ControllerSteps]] = IdentityCache(64)
 """A minute of a wind controller has ten thousand steps, and an edit of a note changes none of them."""
 
 
@@ -149,12 +149,12 @@ def _by_velocity(part: Part, reading: VelocityReading | None) -> FloatArray:
     return velocity_loudness(_velocity(part), part.program, reading)
 
 
-def _steps(curve: ControllerCurve) -> Steps:
+def _steps(curve: ControllerCurve) -> ControllerSteps:
     return _STEPS.step(_arrays, curve)
 
 
-def _arrays(curve: ControllerCurve) -> Steps:
-    return Steps(np.asarray(curve.ticks, np.float64), np.asarray(curve.values, np.float64))
+def _arrays(curve: ControllerCurve) -> ControllerSteps:
+    return ControllerSteps(np.asarray(curve.ticks, np.float64), np.asarray(curve.values, np.float64))
 
 
 def _span(part: Part) -> tuple[float, float] | None:
@@ -168,13 +168,13 @@ def _spans(part: Part) -> tuple[FloatArray, FloatArray]:
     return onsets, np.array([note.end_tick for note in part.notes], np.float64)
 
 
-def _moves(steps: Steps, first: float, last: float) -> bool:
+def _moves(steps: ControllerSteps, first: float, last: float) -> bool:
     """Whether it takes more than one value between two ticks."""
     start = max(int(np.searchsorted(steps.ticks, first, side="right")) - 1, 0)
     values = steps.values[start : int(np.searchsorted(steps.ticks, last))]
     return len(values) > 0 and bool(np.ptp(values) > 0.0)
 
 
-def _means(part: Part, steps: Steps) -> FloatArray:
+def _means(part: Part, steps: ControllerSteps) -> FloatArray:
     """Mean over each note."""
     return step_means(steps.ticks, steps.values, *_spans(part))

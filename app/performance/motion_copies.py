@@ -13,7 +13,7 @@ from typing import Final
 import msgspec
 import numpy as np
 
-from app.child import Channel, ForkedChild, can_fork
+from app.child import ForkedChild, MessageChannel, can_fork
 from app.errors import AppError
 from app.motion.model import Motion
 
@@ -59,7 +59,7 @@ def made_by_copies(make: Callable[[range], Motion], parts: Sequence[range]) -> I
             child.end()
 
 
-def _make(make: Callable[[range], Motion], part: range, channel: Channel[None]) -> None:
+def _make(make: Callable[[range], Motion], part: range, channel: MessageChannel[None]) -> None:
     # The process that was copied does again what fails, and reports what is wrong.
     with contextlib.suppress(BrokenPipeError, AppError):
         channel.send(_sent(make(part)))

@@ -16,7 +16,7 @@ import numpy as np
 
 from app.arrays import SingleArray
 from app.motion.by_hand.additive_curves import Additive
-from app.motion.by_hand.pose_corrections import Poses
+from app.motion.by_hand.pose_corrections import PoseCorrectionTable
 from app.motion.contacts.help_for_far_hands import Help
 from app.motion.contacts.solve import helped, needs, poses
 from app.motion.contacts.still_player import ContactCurves
@@ -29,7 +29,7 @@ from app.performance.live_hands import FRAMES, LiveHands
 from app.performance.live_help import LiveHelp
 from app.plan.model import AdditiveEvent, PoseEvent
 from app.score.bend_range import BendRanges
-from app.score.sounding import SILENCING, Sounding, begins
+from app.score.sounding import SILENCING, SoundingNotes, begins
 from app.score.take import ControllerMapping, decoded, is_wired, said
 from instrument_maps.model import Fingering
 from metadata.load import load_expressions
@@ -75,7 +75,7 @@ class PlayAlong:
         self._additive = playing.additive
         self._held: dict[int, int] = {}
         """Pitches that are held with their velocities, in the order they began."""
-        self._received: Sounding[None] = Sounding()
+        self._received: SoundingNotes[None] = SoundingNotes()
         self._ranges = BendRanges()
         self._ended_s = -math.inf
         self._now_s = -math.inf
@@ -186,7 +186,7 @@ class PlayAlong:
 
     def hold(self, poses: Sequence[PoseEvent], additive: Sequence[AdditiveEvent] = ()) -> None:
         """Stand as the project says, from now on."""
-        self._poses, self._additive = Poses.of(poses), Additive.of(additive)
+        self._poses, self._additive = PoseCorrectionTable.of(poses), Additive.of(additive)
 
     def pose(self, time_s: float, at_s: float | None = None) -> Pose:
         """How the player stands now.

@@ -33,7 +33,7 @@ PUT, TAKEN = 0.42, 0.58
 """Shares of the change at which the first is put aside, and the hand reaches the second."""
 
 
-class Change(msgspec.Struct, frozen=True):
+class InstrumentChange(msgspec.Struct, frozen=True):
     """A musician changes instruments.
 
     Attributes
@@ -58,7 +58,7 @@ class Change(msgspec.Struct, frozen=True):
     note_id: str
 
 
-def changes(played: Mapping[str, PlayerPlan]) -> tuple[Change, ...]:
+def changes(played: Mapping[str, PlayerPlan]) -> tuple[InstrumentChange, ...]:
     """When a musician changes: after a note, and where there is the time before the breath for the next one.
 
     Parameters
@@ -76,7 +76,7 @@ def changes(played: Mapping[str, PlayerPlan]) -> tuple[Change, ...]:
         for player, plan in played.items()
     }
     notes = sorted(rows, key=lambda row: row[:3])
-    found: list[Change] = []
+    found: list[InstrumentChange] = []
     free_s = float("-inf")
     for (_, end_s, _, before, _), (next_s, _, _, after, note_id) in pairwise(notes):
         if before == after:
@@ -93,12 +93,12 @@ def changes(played: Mapping[str, PlayerPlan]) -> tuple[Change, ...]:
         done_s = max(middle_s + 0.5 * length_s, begin_s + 0.1 * LEAST_S)
         length_s = done_s - begin_s
         put_s, taken_s = begin_s + PUT * length_s, begin_s + TAKEN * length_s
-        found.append(Change(before, after, begin_s, put_s, taken_s, done_s, rest_s, note_id))
+        found.append(InstrumentChange(before, after, begin_s, put_s, taken_s, done_s, rest_s, note_id))
         free_s = done_s
     return tuple(found)
 
 
-def in_hands(player_id: str, first: str, found: Sequence[Change]) -> tuple[tuple[float, float], ...]:
+def in_hands(player_id: str, first: str, found: Sequence[InstrumentChange]) -> tuple[tuple[float, float], ...]:
     """When a player's instrument is in the hands of a musician who begins with that of ``first``."""
     spans, since_s = [], float("-inf") if player_id == first else None
     for change in found:
@@ -134,14 +134,14 @@ class _Event(Protocol):
 E = TypeVar("E", bound=_Event)
 
 
-def held_plan(plan: PlayerPlan, first: str, found: Sequence[Change], names: Mapping[str, str]) -> PlayerPlan:
+def held_plan(plan: PlayerPlan, first: str, found: Sequence[InstrumentChange], names: Mapping[str, str]) -> PlayerPlan:
     """What remains of a player's plan: events while the instrument is put aside are removed, except manual corrections.
 
     Parameters
     ----------
     first : str
         See `first_played`.
-    found : sequence of Change
+    found : sequence of InstrumentChange
         The musician's, in order.
     names : mapping of str to str
         Names of players, by id.
@@ -176,7 +176,7 @@ def _within(events: Iterable[E], meets: Callable[[float, float], bool], at_end: 
     )
 
 
-def _problem(change: Change, names: Mapping[str, str]) -> Problem:
+def _problem(change: InstrumentChange, names: Mapping[str, str]) -> Problem:
     before, after = names[change.before], names[change.after]
     if change.rest_s < 0.0:
         message = Message("doubling.overlap", {"before": before, "after": after, "seconds": round(-change.rest_s, 1)})

@@ -21,12 +21,12 @@ from app.plan.music.ending import ending_of
 from app.plan.music.felt_bars import lowest, with_felt_bars
 from app.plan.music.fermatas import fermatas
 from app.plan.music.one_note_at_a_time import one_at_a_time
-from app.plan.music.piece import LineTimes, MonophonicPart, Piece, Rhythm, note_times
+from app.plan.music.piece import LineTimes, MonophonicPart, NoteTimes, Piece, note_times
 from app.plan.parameters import PlayerParameters, restricted
 from app.plan.player import AMONG_OTHERS, PLAYER
 from app.score.model import Note
 from app.score.tempo import TempoMap
-from app.steps import Results, StepTable, reading
+from app.steps import StepResults, StepTable, reading
 from instrument_maps.model import InstrumentMap
 from metadata.gestures import Gesture
 from metadata.library import bundled_gestures, bundled_rules
@@ -91,18 +91,18 @@ class EnsemblePlan(NamedTuple):
     ----------
     plans : dict of str to PlayerPlan
         By player id.
-    shared : Results
+    shared : StepResults
         Of `ENSEMBLE`.
-    lines, shared_lines, among, players : dict of str to Results
+    lines, shared_lines, among, players : dict of str to StepResults
         Of `LINE`, `SHARED_LINE`, `AMONG_OTHERS` and `PLAYER` by player id.
     """
 
     plans: dict[str, PlayerPlan]
-    shared: Results
-    lines: dict[str, Results]
-    shared_lines: dict[str, Results]
-    among: dict[str, Results]
-    players: dict[str, Results]
+    shared: StepResults
+    lines: dict[str, StepResults]
+    shared_lines: dict[str, StepResults]
+    among: dict[str, StepResults]
+    players: dict[str, StepResults]
 
 
 def make_plans(
@@ -161,7 +161,7 @@ def plan_ensemble(
         "rules": bundled_rules() if rules is None else rules,
         "known_gestures": bundled_gestures() if gestures is None else gestures,
     }
-    playable: dict[str, Results] = {}
+    playable: dict[str, StepResults] = {}
     for line in lines:
         raise_if_stopped(stop_requested)
         known = None if before is None else before.lines.get(line.player_id)
@@ -178,14 +178,14 @@ def plan_ensemble(
     )
     everyone |= {name: shared[name] for name in ("piece_felt", "fermatas", "cue_events", "cue_ids", "pulse", "last_s")}
     everyone |= {"piece": everyone.pop("piece_felt"), "piece_ending": shared.of(ending_of)}
-    shared_lines: dict[str, Results] = {}
+    shared_lines: dict[str, StepResults] = {}
     for player_id, results in playable.items():
         known = None if before is None else before.shared_lines.get(player_id)
         shared_lines[player_id] = SHARED_LINE.begin(known, piece=everyone["piece"], times=results.of(note_times))
     together = [results.of(shared_line) for results in shared_lines.values()]
     musicians = Counter(line.musician or line.player_id for line in lines)
-    amongst: dict[str, Results] = {}
-    players: dict[str, Results] = {}
+    amongst: dict[str, StepResults] = {}
+    players: dict[str, StepResults] = {}
     for done, line in enumerate(lines):
         raise_if_stopped(stop_requested)
         results = playable[line.player_id]
@@ -249,7 +249,7 @@ def _reported(unsound: tuple[Problem, ...], apart: tuple[Problem, ...]) -> tuple
     return unsound + apart
 
 
-def _rhythms(all_times: tuple[LineTimes, ...]) -> tuple[Rhythm, ...]:
+def _rhythms(all_times: tuple[LineTimes, ...]) -> tuple[NoteTimes, ...]:
     return tuple(times.rhythm for times in all_times)
 
 

@@ -14,7 +14,7 @@ Part: TypeAlias = Literal[
 """Of the body's motion, what answers a gesture (`app.motion.gestures.body_layers`)."""
 
 
-class Gesturing(NamedTuple):
+class GestureRow(NamedTuple):
     """A kind of gesture.
 
     Attributes
@@ -54,7 +54,7 @@ class Gesturing(NamedTuple):
     idle: bool = False
 
 
-class Breathing(NamedTuple):
+class BreathRow(NamedTuple):
     """A kind of breath.
 
     Attributes
@@ -70,12 +70,12 @@ class Breathing(NamedTuple):
 
 
 GESTURES: Final = (
-    Gesturing("sway", ("Sway", "揺れ"), "Sway", "sway", "sway", signed=True, look="curve"),
-    Gesturing(
+    GestureRow("sway", ("Sway", "揺れ"), "Sway", "sway", "sway", signed=True, look="curve"),
+    GestureRow(
         "weight_shift", ("Weight shift", "重心移動"), "Weight Shift", "weight", "weight_shift", True, look="strip"
     ),
-    Gesturing("bell_height", ("Bell height", "ベルの高さ"), "Bell Height", "bell", "bell_height", True, look="strip"),
-    Gesturing(
+    GestureRow("bell_height", ("Bell height", "ベルの高さ"), "Bell Height", "bell", "bell_height", True, look="strip"),
+    GestureRow(
         "lower_instrument",
         ("Instrument lowered", "楽器を下ろす"),
         "Lower Instrument",
@@ -83,31 +83,31 @@ GESTURES: Final = (
         row="pose",
         moves_eyes=True,
     ),
-    Gesturing("lean", ("Lean", "前後の傾き"), "Lean", "lean", "phrase", True, look="curve"),
-    Gesturing("accent", ("Accent", "アクセント"), "Accent", "accent", "phrase", True, look="strip"),
-    Gesturing("step", ("Step", "踏み出し"), "Step", "feet", "footwork", True, "feet"),
-    Gesturing("tap", ("Toe tap", "つま先タップ"), "Toe Tap", "feet", "footwork", True, "feet"),
-    Gesturing("heel", ("Heel lift", "かかと上げ"), "Heel Lift", "feet", "footwork", True, "feet"),
-    Gesturing("nod", ("Nod", "うなずき"), "Nod", "nod", "cue", row="beside"),
-    Gesturing("count", ("Counts the bars", "小節を数える"), "Count the Bars", "beside", row="beside", idle=True),
-    Gesturing(
+    GestureRow("lean", ("Lean", "前後の傾き"), "Lean", "lean", "phrase", True, look="curve"),
+    GestureRow("accent", ("Accent", "アクセント"), "Accent", "accent", "phrase", True, look="strip"),
+    GestureRow("step", ("Step", "踏み出し"), "Step", "feet", "footwork", True, "feet"),
+    GestureRow("tap", ("Toe tap", "つま先タップ"), "Toe Tap", "feet", "footwork", True, "feet"),
+    GestureRow("heel", ("Heel lift", "かかと上げ"), "Heel Lift", "feet", "footwork", True, "feet"),
+    GestureRow("nod", ("Nod", "うなずき"), "Nod", "nod", "cue", row="beside"),
+    GestureRow("count", ("Counts the bars", "小節を数える"), "Count the Bars", "beside", row="beside", idle=True),
+    GestureRow(
         "look_about", ("Looks about", "周りを見る"), "Look About", "eyes", row="beside", moves_eyes=True, idle=True
     ),
-    Gesturing("settle_grip", ("Settles the grip", "持ち直す"), "Settle the Grip", "beside", row="beside", idle=True),
-    Gesturing("hold_still", ("Holds still", "静止"), "Hold Still", "beside", row="beside"),
-    Gesturing("look_up", ("Looks up", "客席を見る"), "Look Up", "beside", row="beside", moves_eyes=True),
-    Gesturing("bow", ("Bow", "お辞儀"), "Bow", "beside", row="beside"),
+    GestureRow("settle_grip", ("Settles the grip", "持ち直す"), "Settle the Grip", "beside", row="beside", idle=True),
+    GestureRow("hold_still", ("Holds still", "静止"), "Hold Still", "beside", row="beside"),
+    GestureRow("look_up", ("Looks up", "客席を見る"), "Look Up", "beside", row="beside", moves_eyes=True),
+    GestureRow("bow", ("Bow", "お辞儀"), "Bow", "beside", row="beside"),
     # Of tables (`metadata.gestures`): each has a name of its own.
-    Gesturing("named", ("Gesture", "ジェスチャー"), "", "tracks", row="beside"),
+    GestureRow("named", ("Gesture", "ジェスチャー"), "", "tracks", row="beside"),
 )
 """What a body does beside playing, in the order of menus."""
 BREATHS: Final = (
-    Breathing("breath", ("Breath", "ブレス")),
-    Breathing("preparation", ("Breath preparation", "ブレスの準備動作")),
-    Breathing("within", ("Breath", "ブレス")),
+    BreathRow("breath", ("Breath", "ブレス")),
+    BreathRow("preparation", ("Breath preparation", "ブレスの準備動作")),
+    BreathRow("within", ("Breath", "ブレス")),
 )
-GESTURE_KINDS: Final[Mapping[str, Gesturing]] = {kind.id: kind for kind in GESTURES}
-BREATH_KINDS: Final[Mapping[str, Breathing]] = {kind.id: kind for kind in BREATHS}
+GESTURE_KINDS: Final[Mapping[str, GestureRow]] = {kind.id: kind for kind in GESTURES}
+BREATH_KINDS: Final[Mapping[str, BreathRow]] = {kind.id: kind for kind in BREATHS}
 if TYPE_CHECKING:
     GestureKind: TypeAlias = str
     BreathKind: TypeAlias = str

@@ -71,7 +71,7 @@ from app.plan.rules import facts_of, lowered_spans_s, plan_by_rules, with_ruled,
 from app.plan.styles import plan_styles
 from app.score.model import Note
 from app.score.tempo import TempoMap
-from app.steps import Reading, StepTable, reading
+from app.steps import StepInputs, StepTable, reading
 from metadata.acting import names_in
 from metadata.model import Expression
 
@@ -168,7 +168,7 @@ AMONG_OTHERS: Final = StepTable(
     shared=reading(shared_with, line="shared_line"),
 )
 """What one player's plan depends on of the others'."""
-BY_MUSIC: Final[dict[str, Callable[..., object] | Reading]] = {
+BY_MUSIC: Final[dict[str, Callable[..., object] | StepInputs]] = {
     "sways": sways,
     "weight_shifts": reading(weight_shifts, times="rhythm"),
     "leans": reading(leans, found="phrases"),

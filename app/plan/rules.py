@@ -17,7 +17,7 @@ import numpy as np
 from app.arrays import BoolArray, FloatArray, IntArray
 from app.errors import Argument, Message
 from app.plan.event_id import EventId
-from app.plan.gestures.when_possible import Lowered, belongs, comes_up, may_start
+from app.plan.gestures.when_possible import LoweredSpans, belongs, comes_up, may_start
 from app.plan.lips.embouchure import efforts_of
 from app.plan.model import EmbouchureEvent, ExpressionEvent, GestureEvent, Problem, StyleEvent, TimeFrame
 from app.plan.music.dynamics import Dynamics
@@ -116,7 +116,7 @@ def plan_by_rules(
     shown: list[ExpressionEvent] = []
     made: list[GestureEvent] = []
     problems: list[Problem] = []
-    line, down = _Line(notes, times, clock, instrument, facts, seeds), Lowered(lowered_s)
+    line, down = _Line(notes, times, clock, instrument, facts, seeds), LoweredSpans(lowered_s)
     for rule in rules:
         if not notes or not rule.enabled or not concerns(rule.when, in_styles, habits):
             continue
@@ -364,7 +364,7 @@ def _gestures(
     gesture: Gesture,
     found: IntArray,
     sizes: FloatArray,
-    lowered: Lowered,
+    lowered: LoweredSpans,
     others: Sequence[GestureEvent],
 ) -> list[GestureEvent]:
     """Make one gesture for every note, where it may start and the one before is `Rule.apart_s` away; ``others`` are

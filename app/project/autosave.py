@@ -44,7 +44,7 @@ def autosave_path(document: Path) -> Path:
 
 
 @dataclass(frozen=True)
-class Written:
+class AutosaveResult:
     """An autosave that was made.
 
     Attributes
@@ -99,7 +99,7 @@ class Writing:
     own_place: _OwnPlace
     former: Project | None = None
 
-    def run(self) -> Written:
+    def run(self) -> AutosaveResult:
         """Write it; what was there is replaced only when the new one is whole. What cannot be saved is left out.
 
         Raises
@@ -129,7 +129,7 @@ class Writing:
             # Not there or damaged: there is nothing to take the place of what cannot be saved.
             return None
 
-    def _run(self) -> Written:
+    def _run(self) -> AutosaveResult:
         beside, refusal = self._usual(), ""
         if beside is not None:
             try:
@@ -143,7 +143,7 @@ class Writing:
         place = {"file": str(self.document or ""), "folder": os.fspath(folder)}
         with self.own_place.lock:
             if self.own_place.generation > self.facts.generation:
-                return Written(None, self.held)
+                return AutosaveResult(None, self.held)
             try:
                 folder.mkdir(parents=True, exist_ok=True)
                 self._write(self.presence.own_path)
@@ -173,13 +173,13 @@ class Writing:
         with atomic_write(place, follow_link=False) as stream:
             stream.write(content)
 
-    def _written(self, path: Path, warning: Message | None = None) -> Written:
+    def _written(self, path: Path, warning: Message | None = None) -> AutosaveResult:
         former = self.held - {path}
         if self.asks_usual:
             for one in former:
                 remove(one)
             former = frozenset(filter(os.path.lexists, former))
-        return Written(path, former | {path}, warning, project=self.project)
+        return AutosaveResult(path, former | {path}, warning, project=self.project)
 
 
 def _reason(error: FileError | OSError) -> str:
@@ -314,7 +314,7 @@ class Autosave:
         if self._pending.pop(writing, None) is not None and self._changed_s is None:
             self._changed_s = now_s
 
-    def written(self, writing: Writing, written: Written) -> None:
+    def written(self, writing: Writing, written: AutosaveResult) -> None:
         """It was made. Raises FileError where the note of it cannot be written."""
         path = written.path
         if path is None:

@@ -18,7 +18,7 @@ MOST_STEPS = 1000
 
 
 @dataclass(frozen=True, eq=False)
-class Step:
+class UndoStep:
     """An edit that was made: its name, and the project before and after it.
 
     ``gesture`` is the token of the drag or slider that made it, None for an edit in one go.
@@ -52,8 +52,8 @@ class Document:
 
     def __init__(self, project: Project) -> None:
         self._project = project
-        self._undone: list[Step] = []
-        self._done: list[Step] = []
+        self._undone: list[UndoStep] = []
+        self._done: list[UndoStep] = []
         self._saved = project
         self._observers: list[Observer] = []
         self._telling = False
@@ -69,12 +69,12 @@ class Document:
         return self._project is self._saved
 
     @property
-    def done(self) -> tuple[Step, ...]:
+    def done(self) -> tuple[UndoStep, ...]:
         """The steps that undo would take back, oldest first."""
         return tuple(self._done)
 
     @property
-    def undone(self) -> tuple[Step, ...]:
+    def undone(self) -> tuple[UndoStep, ...]:
         """The steps that redo would make again, the next one last."""
         return tuple(self._undone)
 
@@ -117,7 +117,7 @@ class Document:
             else:
                 project = last.before
         else:
-            self._done.append(Step(name, before, project, gesture))
+            self._done.append(UndoStep(name, before, project, gesture))
             del self._done[:-MOST_STEPS]
         self._undone.clear()
         self._become(project, origin)

@@ -123,7 +123,7 @@ def separated(rows: Sequence[ImportRow], place: int) -> tuple[ImportRow, ...]:
     return (*rows[:place], *alone, *rows[place + 1 :])
 
 
-class Outcome(msgspec.Struct, frozen=True):
+class ImportPreview(msgspec.Struct, frozen=True):
     """What would come of some rows.
 
     Attributes
@@ -148,14 +148,14 @@ def outcome_of(
     contents: MidiContents,
     rows: Sequence[ImportRow],
     maps: Mapping[str, InstrumentMap],
-    before: Outcome | None = None,
+    before: ImportPreview | None = None,
     stop_requested: Callable[[], bool] = lambda: False,
-) -> Outcome:
+) -> ImportPreview:
     """What would come of the rows.
 
     Parameters
     ----------
-    before : Outcome, optional
+    before : ImportPreview, optional
         Of the same file: rows that are the same are not looked at again.
     stop_requested : callable
         Raises Cancelled when it says so.
@@ -170,7 +170,7 @@ def outcome_of(
                     contents, assignment, maps, stop_requested
                 )
     doubled = doubled_parts(score.parts, maps, score.tempo_map)
-    return Outcome(len(score.parts) - len(doubled), score.warnings, score.unplayed, instruments)
+    return ImportPreview(len(score.parts) - len(doubled), score.warnings, score.unplayed, instruments)
 
 
 def automatic(assignment: PartAssignment) -> PartAssignment:

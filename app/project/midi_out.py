@@ -11,7 +11,7 @@ from pathlib import Path
 from app.errors import FileError, Message
 from app.formats.other_computers import may_touch
 from app.project.model import Project, map_choices
-from app.score.write import Performer, write_midi
+from app.score.write import PartPlayer, write_midi
 from instrument_maps.model import InstrumentMap
 
 
@@ -29,11 +29,11 @@ def export_midi(project: Project, path: Path, maps: Mapping[str, InstrumentMap])
         Those of `app.score.write`, and ``midi.onto_source``.
     """
     _keep_source(project, path)
-    performers: dict[str, Performer] = {}
+    performers: dict[str, PartPlayer] = {}
     for player in project.players:
         if player.instrument_id in maps:
             [choice] = map_choices([maps[player.instrument_id]])
-            performers.setdefault(player.part_id, Performer(player.name, choice))
+            performers.setdefault(player.part_id, PartPlayer(player.name, choice))
     return write_midi(project.score, path, performers)
 
 

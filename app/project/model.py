@@ -28,7 +28,7 @@ from app.project.doubling import common_postures, doubled_parts, embodied
 from app.project.footprint import footprint, together
 from app.project.imported import ImportDecisions, ReadTiming
 from app.project.names import unique_names
-from app.project.parameters import Setting
+from app.project.parameters import ParameterSetting
 from app.project.parameters import with_settings as parameters_with
 from app.project.performers import Dancer, Player
 from app.project.recording import AudioTrack
@@ -320,7 +320,7 @@ def map_choices(maps: Iterable[InstrumentMap]) -> tuple[MapChoice, ...]:
     )
 
 
-def with_settings(project: Project, settings: Sequence[Setting], maps: Mapping[str, InstrumentMap]) -> Project:
+def with_settings(project: Project, settings: Sequence[ParameterSetting], maps: Mapping[str, InstrumentMap]) -> Project:
     """The project with what the user set for its players; ``None`` as instrument or character keeps the automatic
     choice.
 

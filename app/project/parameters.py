@@ -29,7 +29,7 @@ _GENERATED: Final = "none"
 _STYLE, _HABITS = "style", "habits"
 
 
-class Setting(msgspec.Struct, frozen=True):
+class ParameterSetting(msgspec.Struct, frozen=True):
     """One parameter of one player. ``player`` is the index of the player, ``value`` already of the right type."""
 
     player: int
@@ -75,7 +75,7 @@ def select_players(requested: Iterable[str], names: Sequence[str]) -> tuple[int,
 
 def parse_settings(
     texts: Iterable[str], names: Sequence[str], instruments: Iterable[str], characters: Iterable[str]
-) -> tuple[Setting, ...]:
+) -> tuple[ParameterSetting, ...]:
     """Read ``PLAYER.parameter=value`` texts; a later one wins over an earlier one.
 
     Parameters
@@ -93,12 +93,12 @@ def parse_settings(
         See the module's docstring.
     """
     choices = {"instrument": tuple(instruments), "character": tuple(characters)}
-    settings: dict[tuple[int, str], Setting] = {}
+    settings: dict[tuple[int, str], ParameterSetting] = {}
     for text in texts:
         players, parameter, value_text = _split(text, names)
         value = _value(parameter, value_text, choices)
         for player in players:
-            settings[player, parameter] = Setting(player, parameter, value)
+            settings[player, parameter] = ParameterSetting(player, parameter, value)
     return tuple(settings.values())
 
 
@@ -112,7 +112,7 @@ def is_possible(parameter: str, value: object) -> bool:
     return PARAMETERS[parameter].allows(value)
 
 
-def with_settings(parameters: PlayerParameters, settings: Iterable[Setting]) -> PlayerParameters:
+def with_settings(parameters: PlayerParameters, settings: Iterable[ParameterSetting]) -> PlayerParameters:
     """The parameters with those settings that are fields of them."""
     changes = {setting.parameter: setting.value for setting in settings if setting.parameter in PARAMETERS}
     return msgspec.structs.replace(parameters, **changes)

@@ -69,14 +69,14 @@ class PieceMetadata(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     expressions: tuple[Expression, ...] = ()
 
 
-class Loaded(NamedTuple):
+class LoadedPiece(NamedTuple):
     """A piece with other metadata, and what of them found no place in it."""
 
     project: Project
     problems: tuple[Message, ...]
 
 
-class Difference(NamedTuple):
+class MetadataDifference(NamedTuple):
     """A place at which two metadata are not the same; what has nothing there has an empty text."""
 
     place: str
@@ -104,7 +104,7 @@ def metadata_of(project: Project) -> PieceMetadata:
     return PieceMetadata(VERSION, score.ticks_per_quarter, project.section_intensity, players, project.expressions)
 
 
-def with_metadata(project: Project, metadata: PieceMetadata) -> Loaded:
+def with_metadata(project: Project, metadata: PieceMetadata) -> LoadedPiece:
     """The piece with these metadata in place of its own; players that are not named keep theirs.
 
     Raises
@@ -133,7 +133,7 @@ def with_metadata(project: Project, metadata: PieceMetadata) -> Loaded:
     require_sound(project, before)
     known = ", ".join(player.name for player in project.players)
     problems = (Message("metadata.no_player", {"players": ", ".join(lost), "known": known}),) if lost else ()
-    return Loaded(project, problems)
+    return LoadedPiece(project, problems)
 
 
 def _merged(before: tuple[Correction, ...], said: tuple[Correction, ...], scale: float) -> tuple[Correction, ...]:
@@ -161,11 +161,11 @@ def _scaled(value: Any, scale: float, key: str = "") -> Any:
     return value
 
 
-def differences(one: PieceMetadata, other: PieceMetadata) -> tuple[Difference, ...]:
+def differences(one: PieceMetadata, other: PieceMetadata) -> tuple[MetadataDifference, ...]:
     """Where two metadata are not the same, by place."""
     mine, theirs = dict(_flat(_table(one), "")), dict(_flat(_table(other), ""))
     return tuple(
-        Difference(place, mine.get(place, ""), theirs.get(place, ""))
+        MetadataDifference(place, mine.get(place, ""), theirs.get(place, ""))
         for place in sorted({*mine, *theirs})
         if mine.get(place, "") != theirs.get(place, "")
     )

@@ -30,7 +30,7 @@ NOTE: Final = ".json"
 MOST_NOTE_BYTES: Final = 2**16
 
 
-class Note(msgspec.Struct, frozen=True):
+class PresenceNote(msgspec.Struct, frozen=True):
     """What an editor works on.
 
     Attributes
@@ -67,7 +67,7 @@ class Presence:
     ----------
     token : str
         Names this editor's files in the folder.
-    note : Note
+    note : PresenceNote
         What this editor works on, whether or not the folder took it.
     refusal : FileError or None
         Why the folder could not be used when the editor started: ``presence.refused`` (file, reason).
@@ -76,7 +76,7 @@ class Presence:
     def __init__(self, folder: Path) -> None:
         self.folder = folder
         self.token = secrets.token_hex(8)
-        self.note = Note(os.getpid())
+        self.note = PresenceNote(os.getpid())
         self.refusal: FileError | None = None
         self._on_disk = self.note
         self._stream: IO[bytes] | None = None
@@ -92,7 +92,7 @@ class Presence:
 
     def report(self, document: Path | None, autosave: Path | None) -> None:
         """Note down what this editor works on. Raises FileError where the folder refuses."""
-        self.note = note = Note(os.getpid(), str(document or ""), str(autosave or ""))
+        self.note = note = PresenceNote(os.getpid(), str(document or ""), str(autosave or ""))
         was_here = self._is_here()
         if not was_here:
             self._enter()
@@ -100,7 +100,7 @@ class Presence:
             return
         try:
             with atomic_write(self.folder / f"{self.token}{NOTE}") as stream:
-                stream.write(msgspec.json.encode(Note(note.pid, stored(note.document), stored(note.autosave))))
+                stream.write(msgspec.json.encode(PresenceNote(note.pid, stored(note.document), stored(note.autosave))))
         except FileError as error:
             raise FileError(
                 "presence.refused", file=os.fspath(self.folder), reason=error.message.arguments["reason"]
@@ -148,14 +148,14 @@ def editors(folder: Path) -> Iterator[tuple[str, bool]]:
         yield path.name.removesuffix(LOCK), is_locked(path)
 
 
-def note_of(folder: Path, token: str) -> Note:
+def note_of(folder: Path, token: str) -> PresenceNote:
     """What an editor works on; an empty note where it left none."""
     path = folder / f"{token}{NOTE}"
     try:
-        note = decode_json(read_file(path, MOST_NOTE_BYTES), Note, str(path))
+        note = decode_json(read_file(path, MOST_NOTE_BYTES), PresenceNote, str(path))
     except FileError:
-        return Note()
-    return Note(note.pid, file_named(note.document), file_named(note.autosave))
+        return PresenceNote()
+    return PresenceNote(note.pid, file_named(note.document), file_named(note.autosave))
 
 
 def forget(folder: Path, token: str) -> None:
@@ -192,4 +192,4 @@ def remove(path: Path) -> None:
 
 
 # Worked out here, under the import's lock: two threads that use a type for the first time at once crash msgspec.
-msgspec.json.Decoder(Note)
+msgspec.json.Decoder(PresenceNote)

@@ -46,7 +46,7 @@ class Preset(msgspec.Struct, frozen=True):
 
 
 @dataclass(frozen=True)
-class Found(Generic[T]):
+class PresetFolder(Generic[T]):
     """What is in a folder: the sound ones by name, and what is wrong with the others."""
 
     items: Mapping[str, T]
@@ -71,9 +71,9 @@ def preset_of(parameters: PlayerParameters, name: str) -> Preset:
     return Preset(cleaned, {field: getattr(parameters, field) for field in _SHARED})
 
 
-def presets(folder: Path) -> Found[Preset]:
+def presets(folder: Path) -> PresetFolder[Preset]:
     """Every preset in a folder, by name in alphabetical order."""
-    return Found(*_PRESETS.found(folder))
+    return PresetFolder(*_PRESETS.found(folder))
 
 
 def save_preset(folder: Path, preset: Preset) -> None:
@@ -87,9 +87,9 @@ def delete_preset(folder: Path, name: str) -> None:
     _delete(folder, name, _PRESETS)
 
 
-def expressions(folder: Path) -> Found[Expression]:
+def expressions(folder: Path) -> PresetFolder[Expression]:
     """Every expression in a folder, by name in alphabetical order."""
-    return Found(*_EXPRESSIONS.found(folder))
+    return PresetFolder(*_EXPRESSIONS.found(folder))
 
 
 def save_expression(folder: Path, expression: Expression) -> None:

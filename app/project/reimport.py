@@ -47,7 +47,7 @@ from app.project.model import Project, map_choices
 from app.project.moved_ticks import place_map
 from app.project.orphans import Orphan, orphaned
 from app.project.recording import with_places
-from app.project.rereading import Reading, characters_of, read_as_decided
+from app.project.rereading import MidiReading, characters_of, read_as_decided
 from app.score.marks import moved_marks
 from app.score.model import Part, Score, UnplayedPart
 from app.score.read import Assumed, read_contents
@@ -113,7 +113,7 @@ def reimport(
     score: Score,
     maps: Mapping[str, InstrumentMap],
     source: str | None = None,
-    reading: Reading | None = None,
+    reading: MidiReading | None = None,
 ) -> Reimport:
     """Let the score that a file holds now take the place of the project's.
 
@@ -126,7 +126,7 @@ def reimport(
         By id; every part of the new score names one of them.
     source : str, optional
         Absolute path of the file.
-    reading : Reading, optional
+    reading : MidiReading, optional
         Of the file: the decisions that the score was read by.
     """
     scale = Fraction(score.ticks_per_quarter, project.score.ticks_per_quarter)

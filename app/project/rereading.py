@@ -25,7 +25,7 @@ from app.project.imported import (
 )
 from app.project.importing import ImportRow, decision_of, usual_rows
 from app.project.likeness import ALIKE, sketched_shares
-from app.score.choose import Candidates, How, MapChoice, TrackChannel, candidates, refusal
+from app.score.choose import How, MapCandidates, MapChoice, TrackChannel, candidates, refusal
 from app.score.parts import PERCUSSION, PartAssignment
 from app.score.read import MidiContents
 from instrument_maps.model import InstrumentMap
@@ -36,7 +36,7 @@ _NAMED: Final = 0.32
 
 
 @dataclass(frozen=True)
-class Reading:
+class MidiReading:
     """A file with the decisions about it.
 
     Attributes
@@ -63,7 +63,7 @@ def read_as_decided(
     maps: Mapping[str, InstrumentMap],
     choices: Sequence[MapChoice],
     played_on: Mapping[Place, str],
-) -> Reading:
+) -> MidiReading:
     """A file's rows as they were decided when another version of it was read.
 
     Parameters
@@ -111,7 +111,7 @@ def read_as_decided(
             rows.append(added)
             kept.append(decision_of(added, [mark_of(contents.streams[place], quarter) for place in new]))
     read = msgspec.structs.replace(contents, streams=tuple(streams))
-    return Reading(read, tuple(rows), msgspec.structs.replace(decisions, rows=tuple(kept)), places)
+    return MidiReading(read, tuple(rows), msgspec.structs.replace(decisions, rows=tuple(kept)), places)
 
 
 def _played(row: ImportRow, streams: Sequence[TrackChannel], choices: Sequence[MapChoice]) -> ImportRow:
@@ -225,7 +225,9 @@ def _row(
         elif found.unknown or not found.maps:
             # Its player stays, and has an instrument of its own; any map reads the notes.
             pitches = [pitch for stream in own for pitch in stream.pitches]
-            map_id = before if before in installed else Candidates(How.RANGE, None, tuple(choices)).best(pitches).map_id
+            map_id = (
+                before if before in installed else MapCandidates(How.RANGE, None, tuple(choices)).best(pitches).map_id
+            )
     name = decision.name
     if not name and own[0].name != called[places[0]].name:
         name = called[places[0]].name
@@ -235,7 +237,7 @@ def _row(
     return ImportRow(assignment, decision.requested, decision.character_id)
 
 
-def characters_of(reading: Reading) -> dict[Place, str]:
+def characters_of(reading: MidiReading) -> dict[Place, str]:
     """The characters chosen for rows, by the place of the parts that are read from them."""
     return {
         reading.contents.streams[row.assignment.streams[0]].place: row.character_id

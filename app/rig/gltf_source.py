@@ -22,7 +22,7 @@ from app.rig.mesh import Mesh, Morph
 
 
 @dataclass(frozen=True, eq=False)
-class Source:
+class GltfSource:
     """A glTF file and each node's rest transform.
 
     Attributes
@@ -36,10 +36,10 @@ class Source:
     world_from_node: FloatArray
 
 
-def read_source(path: Path, *, animated: bool = False) -> Source:
+def read_source(path: Path, *, animated: bool = False) -> GltfSource:
     """Read a glTF binary, with its animations if requested. Raises FileError."""
     gltf = read_glb(path, animated=animated)
-    return Source(str(path), gltf, _world(gltf.nodes))
+    return GltfSource(str(path), gltf, _world(gltf.nodes))
 
 
 def invalid(path: Path | str, detail: str) -> FileError:
@@ -47,7 +47,7 @@ def invalid(path: Path | str, detail: str) -> FileError:
     return FileError("model.invalid", file=str(path), detail=detail)
 
 
-def build_mesh(source: Source, index: int, name: str) -> tuple[Mesh, bool]:
+def build_mesh(source: GltfSource, index: int, name: str) -> tuple[Mesh, bool]:
     """Build one mesh of a file, its primitives joined; the second value says whether it is skinned.
 
     Primitives that share their vertices stay shared, so that indices of the file's vertices remain valid.
@@ -140,7 +140,7 @@ def _morph(name: str, parts: list[tuple[int, GltfPrimitive, int]]) -> Morph:
     )
 
 
-def _material(source: Source, index: int | None) -> Material:
+def _material(source: GltfSource, index: int | None) -> Material:
     if index is None:
         return Material("default", (1.0, 1.0, 1.0, 1.0), 0.0, 1.0)
     surface: GltfMaterial = source.gltf.materials[index]

@@ -16,8 +16,7 @@ from app.rig import quaternion
 from app.rig.gltf_source import build_mesh, invalid, moved_mesh, read_source
 from app.rig.mesh import Mesh
 from app.rig.model import InstrumentModel
-from instrument_maps.model import ROOT, InstrumentMap, MovingPart
-from instrument_maps.model import Motion as MotionOfPart
+from instrument_maps.model import ROOT, ControlMotion, InstrumentMap, MovingPart
 
 
 def load_instrument(path: Path, instrument_map: InstrumentMap) -> InstrumentModel:
@@ -72,12 +71,12 @@ def part_values(part: MovingPart, controls: Mapping[str, AnyFloatArray], frames:
     return together
 
 
-def part_transform(motion: MotionOfPart, values: npt.ArrayLike) -> tuple[FloatArray, FloatArray]:
+def part_transform(motion: ControlMotion, values: npt.ArrayLike) -> tuple[FloatArray, FloatArray]:
     """How a part moves, in the root's frame.
 
     Parameters
     ----------
-    motion : instrument_maps.model.Motion
+    motion : instrument_maps.model.ControlMotion
     values : (F,)
         0..1.
 

@@ -196,7 +196,7 @@ class How(Enum):
     """Nothing but its notes."""
 
 
-class Candidates(msgspec.Struct, frozen=True):
+class MapCandidates(msgspec.Struct, frozen=True):
     """The maps a track may go to.
 
     Attributes
@@ -387,7 +387,7 @@ def named_by_title(streams: Sequence[TrackChannel], title: str) -> list[TrackCha
     return reported
 
 
-def candidates(streams: Sequence[TrackChannel], maps: Sequence[MapChoice]) -> Candidates:
+def candidates(streams: Sequence[TrackChannel], maps: Sequence[MapChoice]) -> MapCandidates:
     """The maps that tracks which are played as one may go to; those whose range fits where nothing is said."""
     lead = next((one for one in streams if _said(one) is not None), streams[0])
     said = _said(lead)
@@ -408,12 +408,12 @@ def candidates(streams: Sequence[TrackChannel], maps: Sequence[MapChoice]) -> Ca
         return fitting[0]
     if fitting:
         together = {choice.map_id: choice for one in fitting for choice in one.maps}
-        return Candidates(how, None, tuple(together.values()))
+        return MapCandidates(how, None, tuple(together.values()))
     section = said or next((one for one in named if one.any_pitch), None)
     families = () if section is None else section.families
     usual = _where(maps, lambda one: not one.by_name_only and (not families or one.family in families))
     unknown = section is None and any(map(is_named, streams))
-    return Candidates(How.RANGE, section, tuple(usual or maps), unknown=unknown)
+    return MapCandidates(How.RANGE, section, tuple(usual or maps), unknown=unknown)
 
 
 def refusal(stream: TrackChannel, maps: Sequence[MapChoice]) -> Message | None:
@@ -436,8 +436,8 @@ def refusal(stream: TrackChannel, maps: Sequence[MapChoice]) -> Message | None:
 
 
 def _instead(
-    numbered: Instrument, found: Candidates, pitches: Sequence[int], maps: Sequence[MapChoice]
-) -> Candidates | None:
+    numbered: Instrument, found: MapCandidates, pitches: Sequence[int], maps: Sequence[MapChoice]
+) -> MapCandidates | None:
     """The maps of another instrument where a part's program names one that cannot play it, at sounding or written
     pitch: of its family, of its name ("horn" for an English horn), of its section, or any; None where it stays."""
     least = LEAST_OUTSIDE * len(pitches)
@@ -454,7 +454,7 @@ def _instead(
             and any(id in words.instruments and words.instruments[id] in relatives for id in choice.plays)
         ]
         if fitting:
-            best = Candidates(How.SAID, None, tuple(fitting)).best(pitches)
+            best = MapCandidates(How.SAID, None, tuple(fitting)).best(pitches)
             instrument = next(words.instruments[id] for id in best.plays if id in words.instruments)
             other = _of_instrument(How.SAID, instrument, maps)
             return msgspec.structs.replace(other, refused=numbered)
@@ -466,7 +466,7 @@ def plays(choice: MapChoice, instrument: Instrument) -> bool:
     return any(id == instrument.id or vocabulary().is_sort(id, instrument.id) for id in choice.plays)
 
 
-def _of_instrument(how: How, instrument: Instrument, maps: Sequence[MapChoice]) -> Candidates:
+def _of_instrument(how: How, instrument: Instrument, maps: Sequence[MapChoice]) -> MapCandidates:
     """The maps that play an instrument, those of its sorts among them; else those that stand in for it; else those of
     the kind it is a sort of."""
     exact = frozenset(choice.map_id for choice in maps if instrument.id in choice.plays)
@@ -474,8 +474,8 @@ def _of_instrument(how: How, instrument: Instrument, maps: Sequence[MapChoice]) 
     own = own or [choice for choice in maps if instrument.id in choice.substitutes_for]
     if not own and instrument.sort_of:
         general = _of_instrument(how, vocabulary().instruments[instrument.sort_of], maps)
-        return Candidates(how, instrument, general.maps, general.exact)
-    return Candidates(how, instrument, tuple(own), exact)
+        return MapCandidates(how, instrument, general.maps, general.exact)
+    return MapCandidates(how, instrument, tuple(own), exact)
 
 
 def _where(maps: Iterable[MapChoice], requested: Callable[[Instrument], bool]) -> list[MapChoice]:

@@ -50,7 +50,7 @@ INCOMPLETE: Final = frozenset({"midi.track_cut_off", "midi.track_truncated", "mi
 _END_OF_TRACK = b"\xff\x2f\x00"
 
 
-class Track(msgspec.Struct, frozen=True):
+class TrackChunk(msgspec.Struct, frozen=True):
     """The events of one track as bytes, and where in the file they begin."""
 
     data: bytes
@@ -66,13 +66,13 @@ class Container(msgspec.Struct, frozen=True):
         0, 1 or 2.
     division : int
         As in the file: positive ticks per quarter, or negative SMPTE (signed 16 bits).
-    tracks : tuple of Track
+    tracks : tuple of TrackChunk
         At least one.
     """
 
     format: int
     division: int
-    tracks: tuple[Track, ...]
+    tracks: tuple[TrackChunk, ...]
     warnings: tuple[Message, ...]
 
 
@@ -118,8 +118,8 @@ def read_container(path: Path) -> Container:
     return Container(format_, division - 0x10000 if division & 0x8000 else division, tuple(tracks), tuple(warnings))
 
 
-def _tracks(data: bytes, first: int, file: str) -> tuple[list[Track], list[Message]]:
-    tracks: list[Track] = []
+def _tracks(data: bytes, first: int, file: str) -> tuple[list[TrackChunk], list[Message]]:
+    tracks: list[TrackChunk] = []
     warnings: list[Message] = []
     at = first
     while len(data) - at >= 8:
@@ -138,7 +138,7 @@ def _tracks(data: bytes, first: int, file: str) -> tuple[list[Track], list[Messa
                 else:
                     warnings.append(Message("midi.track_length", {"track": number, "byte": byte}))
                 end = real
-            tracks.append(Track(data[begin:end], begin))
+            tracks.append(TrackChunk(data[begin:end], begin))
         elif end > len(data):
             break
         at = end

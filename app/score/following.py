@@ -16,7 +16,7 @@ SURE: Final = 0.5
 
 
 @dataclass(frozen=True)
-class Span:
+class UnmatchedSpan:
     """Something that only one of the two has: ticks of the score, or seconds of the recording."""
 
     start: float
@@ -84,9 +84,9 @@ class Following:
         When each sounds in the recording, rising; before 0 or behind the end where it is not in it.
     confidence : (N,) float64
         0..1.
-    missing : tuple of Span
+    missing : tuple of UnmatchedSpan
         Ticks of the score that the recording does not have.
-    added : tuple of Span
+    added : tuple of UnmatchedSpan
         Seconds of the recording, between its first and its last note, that the score does not have.
     runner_up : RunnerUp or None
         None where no other place is alike at all.
@@ -95,8 +95,8 @@ class Following:
     ticks: IntArray
     recording_s: FloatArray
     confidence: FloatArray
-    missing: tuple[Span, ...] = ()
-    added: tuple[Span, ...] = ()
+    missing: tuple[UnmatchedSpan, ...] = ()
+    added: tuple[UnmatchedSpan, ...] = ()
     runner_up: RunnerUp | None = None
 
     @property
@@ -112,7 +112,7 @@ class Following:
 
     def later(self, seconds: float) -> Following:
         """The same in a recording that begins so much earlier."""
-        added = tuple(Span(span.start + seconds, span.end + seconds) for span in self.added)
+        added = tuple(UnmatchedSpan(span.start + seconds, span.end + seconds) for span in self.added)
         return replace(self, recording_s=self.recording_s + seconds, added=added)
 
     def bars(self, metre_map: MetreMap) -> list[tuple[int, float]]:

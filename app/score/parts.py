@@ -89,8 +89,8 @@ import msgspec
 from app.errors import Argument, Message, raise_if_stopped
 from app.score.choose import (
     LEAST_OUTSIDE,
-    Candidates,
     How,
+    MapCandidates,
     MapChoice,
     TrackChannel,
     candidates,
@@ -110,7 +110,7 @@ from app.score.solos import solo_notes, with_solos
 from app.score.switches import without_key_switches
 from app.score.take_tracks import without_faults
 from app.score.tempo import TempoMap
-from app.score.voices import Shared, file_id, split_voices
+from app.score.voices import TrackVoices, file_id, split_voices
 from instrument_maps.vocabulary import Instrument, vocabulary
 
 PERCUSSION: Final = "percussion"
@@ -336,10 +336,10 @@ def _once(messages: Sequence[Message]) -> list[Message]:
 
 def _shared(
     assignment: PartAssignment, chosen: Sequence[TrackChannel], notes: Sequence[Note], tempo_map: TempoMap, most: int
-) -> Shared:
+) -> TrackVoices:
     """The notes among their players."""
     if assignment.split == "never":
-        return Shared([tuple(notes)], [], [], [])
+        return TrackVoices([tuple(notes)], [], [], [])
     alone = len(chosen) == 1 or are_one_line(chosen)
     said = vocabulary().by_name(chosen[0].name or chosen[0].instrument_name) if alone else None
     shared = split_voices(
@@ -419,7 +419,7 @@ def _silent(id_: str, part: str, notes: Sequence[Note], piece: Score) -> list[Un
 
 
 def _instrument_warnings(
-    parts: Sequence[Part], found: Candidates, assignment: PartAssignment, maps: Sequence[MapChoice], piece: Score
+    parts: Sequence[Part], found: MapCandidates, assignment: PartAssignment, maps: Sequence[MapChoice], piece: Score
 ) -> list[Message]:
     """What was guessed about the instrument."""
     warnings = []
@@ -464,16 +464,16 @@ def _substitutions(parts: Sequence[Part], instrument: Instrument, maps: Sequence
     ]
 
 
-def _found(chosen: Sequence[TrackChannel], map_id: str | None, maps: Sequence[MapChoice]) -> Candidates:
+def _found(chosen: Sequence[TrackChannel], map_id: str | None, maps: Sequence[MapChoice]) -> MapCandidates:
     """The maps an assignment may be given to: the one the user named, else what the tracks say and fit. Raises as
     `require_map`."""
     found = candidates(chosen, maps)
     if map_id is not None:
         by_id = {choice.map_id: choice for choice in maps}
-        return Candidates(How.SAID, found.instrument, (by_id[require_map(map_id, by_id)],))
+        return MapCandidates(How.SAID, found.instrument, (by_id[require_map(map_id, by_id)],))
     if not found.maps:
         # The user requests a player though no map fits, and must select the instrument.
-        return Candidates(How.RANGE, None, tuple(maps), unknown=True)
+        return MapCandidates(How.RANGE, None, tuple(maps), unknown=True)
     return found
 
 
@@ -484,7 +484,7 @@ def stream_name(stream: TrackChannel) -> str:
 
 
 def _parts(
-    stream: TrackChannel, name: str, found: Candidates, voices: Sequence[tuple[Note, ...]], written: bool
+    stream: TrackChannel, name: str, found: MapCandidates, voices: Sequence[tuple[Note, ...]], written: bool
 ) -> list[Part]:
     """A part for every voice."""
     parts = []

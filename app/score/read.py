@@ -78,7 +78,7 @@ from app.encoding import shown
 from app.errors import FileError, Message
 from app.score.channels import curves_of, leading, players_channels, settle_bends, sounding_channels
 from app.score.choose import MapChoice, TrackChannel, is_no_name, named_by_title, use_of
-from app.score.chunks import Container, Track, read_container
+from app.score.chunks import Container, TrackChunk, read_container
 from app.score.doublings import doubled_instruments
 from app.score.ensembles import named_by_ensemble
 from app.score.limits import MOST_NAME, MOST_STREAMS, too_long
@@ -95,7 +95,7 @@ from app.score.spread import spread_lines
 from app.score.stuck import cut_stuck_notes
 from app.score.take_tracks import RECORDED
 from app.score.tempo import TempoChange, TempoMap
-from app.score.texts import Texts
+from app.score.texts import TextDecoder
 from app.score.tracks import LEAST_TEMPO, TrackEvents, gather, no_notes
 from instrument_maps.vocabulary import vocabulary
 
@@ -316,7 +316,7 @@ def read_contents(
     )
 
 
-def _messages(track: Track, index: int, file: str) -> tuple[mido.MidiTrack, list[Message]]:
+def _messages(track: TrackChunk, index: int, file: str) -> tuple[mido.MidiTrack, list[Message]]:
     """The messages of one track, repaired as far as needed."""
     until = last_suspicious(track.data)
     repair = repaired(track.data, until) if until else None
@@ -342,7 +342,7 @@ def _parsed(data: bytes) -> mido.MidiTrack:
     return mido.MidiFile(file=io.BytesIO(header + data), clip=True, charset="latin-1").tracks[0]
 
 
-def _repair_warnings(repair: Repaired, track: Track, index: int) -> list[Message]:
+def _repair_warnings(repair: Repaired, track: TrackChunk, index: int) -> list[Message]:
     warnings = []
     if repair.skipped:
         byte = track.first_byte + repair.first_skipped
@@ -464,14 +464,14 @@ def _assumed_warnings(metres: Sequence[Metre]) -> list[Message]:
     return [Message("midi.metre_assumed", {"numerator": metres[-1].numerator, "denominator": metres[-1].denominator})]
 
 
-def _texts(tracks: Sequence[TrackEvents], encoding: str | None) -> Texts:
+def _texts(tracks: Sequence[TrackEvents], encoding: str | None) -> TextDecoder:
     """The reader of the texts of a file."""
     names = (name for events in tracks for name in (events.name, events.instrument_name))
     others = (text for events in tracks for _, text in (*events.markers, *events.texts))
-    return Texts(names, others, encoding)
+    return TextDecoder(names, others, encoding)
 
 
-def _markers(tracks: Sequence[TrackEvents], texts: Texts) -> tuple[Marker, ...]:
+def _markers(tracks: Sequence[TrackEvents], texts: TextDecoder) -> tuple[Marker, ...]:
     found = (
         Marker(tick, " ".join(texts.read(text).split())[:_LONGEST_MARKER].rstrip())
         for events in tracks
@@ -481,7 +481,7 @@ def _markers(tracks: Sequence[TrackEvents], texts: Texts) -> tuple[Marker, ...]:
     return tuple(sorted(named, key=lambda marker: marker.tick))
 
 
-def _title(first: TrackEvents, texts: Texts, alone: bool) -> str:
+def _title(first: TrackEvents, texts: TextDecoder, alone: bool) -> str:
     """The name of the first track, if it is the piece's and not a player's."""
     if first.channels and not alone:
         return ""
@@ -491,7 +491,7 @@ def _title(first: TrackEvents, texts: Texts, alone: bool) -> str:
 def _streams(
     tracks: Sequence[TrackEvents],
     zones: Sequence[Mapping[int, frozenset[int]]],
-    texts: Texts,
+    texts: TextDecoder,
     alone: bool,
     apart: Set[tuple[int, int]],
 ) -> list[TrackChannel]:

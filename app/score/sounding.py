@@ -28,7 +28,7 @@ def is_note(message: bytes) -> bool:
     return message[0] >> 4 in (_NOTE_OFF, _NOTE_ON)
 
 
-class Sounding(Generic[T]):
+class SoundingNotes(Generic[T]):
     """The notes that sound, the one that was struck last at the end.
 
     Attributes

@@ -26,7 +26,7 @@ _LEAST_TRACKS: Final = 3
 """Tracks of a line that no zone announces."""
 
 
-class Spread(NamedTuple):
+class SpreadLine(NamedTuple):
     """A line that several tracks share.
 
     Attributes
@@ -45,7 +45,7 @@ class Spread(NamedTuple):
 
 def spread_lines(
     tracks: Sequence[TrackEvents], zones: Sequence[Mapping[int, frozenset[int]]], names: Sequence[str]
-) -> dict[int, Spread]:
+) -> dict[int, SpreadLine]:
     """Return the lines that are spread over tracks, by the place of each of their tracks.
 
     Parameters
@@ -60,7 +60,7 @@ def spread_lines(
             manager = next((one for one, own in zones[place].items() if channel == one or channel in own), None)
             key = events.port or FIRST_PORT, manager, _base(names[place], channel), events.instrument_name
             alike.setdefault(key, []).append(place)
-    found: dict[int, Spread] = {}
+    found: dict[int, SpreadLine] = {}
     for (port, manager, *_), places in alike.items():
         channels = tuple(sorted(next(iter(tracks[place].channels)) for place in places))
         if len({*channels}) != len(places) or len(places) < (_LEAST_TRACKS if manager is None else 2):
@@ -68,7 +68,7 @@ def spread_lines(
         managing = [one for one in tracks if (one.port or FIRST_PORT) == port and manager not in one.channels]
         events = _together([tracks[place] for place in places], managing, manager)
         if is_line(events, channels) if manager is not None else rotate(events, channels):
-            found.update(dict.fromkeys(places, Spread(places[0], events, channels)))
+            found.update(dict.fromkeys(places, SpreadLine(places[0], events, channels)))
     return found
 
 

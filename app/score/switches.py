@@ -12,7 +12,7 @@ import msgspec
 import numpy as np
 
 from app.arrays import BoolArray, IntArray
-from app.score.choose import Candidates, How, MapChoice, TrackChannel, candidates
+from app.score.choose import How, MapCandidates, MapChoice, TrackChannel, candidates
 from app.score.tempo import TempoMap
 
 _AWAY: Final = 5
@@ -32,13 +32,13 @@ _MOST_ODD: Final = 0.2
 
 
 def without_key_switches(
-    stream: TrackChannel, found: Candidates, maps: Sequence[MapChoice], tempo_map: TempoMap
+    stream: TrackChannel, found: MapCandidates, maps: Sequence[MapChoice], tempo_map: TempoMap
 ) -> tuple[TrackChannel, tuple[int, ...]]:
     """A stream without its key switches, and their places among its notes; the very same stream where it has none.
 
     Parameters
     ----------
-    found : Candidates
+    found : MapCandidates
         The maps it may go to.
     maps : sequence of MapChoice
         All there are.

@@ -19,7 +19,7 @@ from app.arrays import FloatArray, IntArray
 from app.identity_cache import IdentityCache
 from app.score.bend_range import PARAMETERS, USUAL_SEMITONES, BendRanges
 from app.score.model import CurveKind
-from app.score.sounding import Sounding
+from app.score.sounding import SoundingNotes
 from app.score.tempo import TempoMap
 from metadata.model import BiteSource, BreathSource
 
@@ -176,7 +176,7 @@ _PLAYED: Final[IdentityCache[Played]] = IdentityCache(64)
 def _played(times_us: tuple[int, ...], messages: tuple[str, ...], wiring: ControllerMapping, end_us: int) -> Played:
     """Decode a take; messages that say nothing of notes, breath or lips are passed over."""
     notes: list[tuple[float, float, int, int]] = []
-    sounding: Sounding[tuple[float, int]] = Sounding()
+    sounding: SoundingNotes[tuple[float, int]] = SoundingNotes()
     sent: dict[CurveKind, tuple[list[float], list[float]]] = {}
     ranges = BendRanges()
     for time_us, raw in zip(times_us, messages, strict=True):

@@ -49,7 +49,7 @@ _NO_WORD: Final = 5.0
 """For a character that stands as none of its script does: a single half width kana, a dash within a word."""
 
 
-class Texts:
+class TextDecoder:
     """Reads the texts of a file.
 
     Parameters

@@ -16,7 +16,7 @@ from app.score.bend_range import PARAMETERS, RESET
 from app.score.limits import LAST_TICK, MOST_NAME
 from app.score.model import CurveKind
 from app.score.sound_module import FIRST_PORT, ChannelSound, Port, Setup, Setups
-from app.score.texts import Texts
+from app.score.texts import TextDecoder
 
 CONTROLLERS: Final[dict[CurveKind, int]] = {"breath": 2, "volume": 7, "expression": 11, "bite": 16}
 """The curves that are MIDI controllers, and their numbers."""
@@ -421,7 +421,7 @@ def _close(events: TrackEvents) -> None:
                 ends[index] = onset + 1
 
 
-def no_notes(tracks: Sequence[TrackEvents], counts: Sequence[int], texts: Texts) -> list[Message]:
+def no_notes(tracks: Sequence[TrackEvents], counts: Sequence[int], texts: TextDecoder) -> list[Message]:
     """What the tracks of a file without notes have instead, ``counts`` events each; nothing of other files."""
     if any(events.channels for events in tracks):
         return []

@@ -96,7 +96,7 @@ class _Hypothesis(NamedTuple):
     history: _History
 
 
-class Shared(NamedTuple):
+class TrackVoices(NamedTuple):
     """The notes of a track as players have them.
 
     Attributes
@@ -179,7 +179,7 @@ def split_voices(
     least: int = 1,
     every_chord: bool = False,
     unison: bool = False,
-) -> Shared:
+) -> TrackVoices:
     """Share the notes of one track among those who play it.
 
     Parameters
@@ -197,7 +197,7 @@ def split_voices(
         The players are of one section: what one of them could play alone is played by all, if they move together.
     """
     if not notes:
-        return Shared([], [], [], [])
+        return TrackVoices([], [], [], [])
     spans = _spans(notes, tempo_map)
     depths = spans.depths()
     deepest = int(depths.max())
@@ -208,7 +208,7 @@ def split_voices(
             return alone._replace(unisons=[notes[place] for place in sorted(twins)])
     if deepest == 1:
         line, shortened = _legato(notes, spans, tempo_map)
-        return Shared([line], [], [], shortened)
+        return TrackVoices([line], [], [], shortened)
     pitches = np.array([note.pitch for note in notes])
     struck_together = bool(np.any((np.diff(spans.onsets) <= _CHORD_S) & (depths[1:] > 1)))
     count = max(deepest if every_chord else _players(spans, depths, pitches), least if struck_together else 1)
@@ -227,7 +227,7 @@ def split_voices(
     shared = [voice for voice in voices if voice]
     if count > 1 and (least > 1 or (unison and _move_together(spans, np.array(kept)))):
         shared = _with_unisons(shared + [()] * (count - len(shared)), tempo_map)
-    return Shared(shared, together, left_out, sorted(shortened, key=lambda note: note.onset_tick))
+    return TrackVoices(shared, together, left_out, sorted(shortened, key=lambda note: note.onset_tick))
 
 
 def _unisons(notes: Sequence[Note], spans: _Spans) -> set[int]:

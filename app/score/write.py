@@ -77,7 +77,7 @@ _Event: TypeAlias = tuple[int, int, mido.Message | mido.MetaMessage]
 """Tick, place among those of the tick, message."""
 
 
-class Performer(msgspec.Struct, frozen=True):
+class PartPlayer(msgspec.Struct, frozen=True):
     """Who plays a part.
 
     Attributes
@@ -99,12 +99,12 @@ class MidiFile(msgspec.Struct, frozen=True):
     warnings: tuple[Message, ...]
 
 
-def write_midi(score: Score, path: Path, performers: Mapping[str, Performer] | None = None) -> tuple[Message, ...]:
+def write_midi(score: Score, path: Path, performers: Mapping[str, PartPlayer] | None = None) -> tuple[Message, ...]:
     """Write a score as a MIDI file, which appears whole or not at all.
 
     Parameters
     ----------
-    performers : mapping of str to Performer, optional
+    performers : mapping of str to PartPlayer, optional
         By part id; a part that is not there has its own name and what it is for.
 
     Returns
@@ -123,7 +123,7 @@ def write_midi(score: Score, path: Path, performers: Mapping[str, Performer] | N
     return made.warnings
 
 
-def midi_file(score: Score, performers: Mapping[str, Performer] | None = None) -> MidiFile:
+def midi_file(score: Score, performers: Mapping[str, PartPlayer] | None = None) -> MidiFile:
     """A score as the bytes of a MIDI file; parameters and errors as in `write_midi`."""
     performing = performers or {}
     warnings: list[Message] = []
@@ -168,7 +168,7 @@ def _channels(parts: Sequence[Part], names: Sequence[str]) -> list[int]:
     return channels
 
 
-def _instrument(part: Part, performer: Performer | None) -> Instrument | None:
+def _instrument(part: Part, performer: PartPlayer | None) -> Instrument | None:
     """What a reader is to take a part for: what the part says where its player's map is for that, else what the map
     is for."""
     known = vocabulary().instruments
@@ -182,7 +182,7 @@ def _may_play(choice: MapChoice, instrument: Instrument) -> bool:
     return instrument.any_pitch or plays(choice, instrument) or instrument.id in choice.substitutes_for
 
 
-def _warnings(part: Part, name: str, performer: Performer | None, score: Score) -> Iterable[Message]:
+def _warnings(part: Part, name: str, performer: PartPlayer | None, score: Score) -> Iterable[Message]:
     nested = _nested(part.notes)
     if nested:
         yield Message("midi.nested_notes", {"part": name, "count": nested})

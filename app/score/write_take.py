@@ -10,7 +10,7 @@ from typing import Final
 import mido
 
 from app.formats.atomic import atomic_write
-from app.score.sounding import Sounding, begins, is_note, note_off
+from app.score.sounding import SoundingNotes, begins, is_note, note_off
 from app.score.take_tracks import RECORDED
 
 TICKS_PER_QUARTER: Final = 960
@@ -77,7 +77,7 @@ def ended(times_us: Sequence[int], messages: Sequence[bytes], last_us: int) -> l
     """The messages with their times, and exactly one end for every note: where it is struck again too, and at last for
     those without; ends without a begin are left out."""
     found: list[tuple[int, bytes]] = []
-    sounding: Sounding[None] = Sounding()
+    sounding: SoundingNotes[None] = SoundingNotes()
     for time_us, message in zip(times_us, messages, strict=True):
         ends = [key for key, _ in sounding.receive(message, None)]
         if is_note(message) and not begins(message):

@@ -14,7 +14,7 @@ Subject = TypeVar("Subject")
 
 
 @dataclass(frozen=True)
-class Row(Generic[Subject]):
+class ActionRow(Generic[Subject]):
     """Something the user can do; menus, palette, tool tips and shortcuts all read this row.
 
     Its functions are given what it is about: `Action` the session, `app.shell.editor.EditorAction` the whole editor.
@@ -66,7 +66,7 @@ class Row(Generic[Subject]):
         return " › ".join(without_key(tr(f"menu.{part}")) for part in self.menu.split("/") if part)
 
 
-class Action(Row[Session]):
+class Action(ActionRow[Session]):
     """A row about the project and what of it is shown: its functions take the session."""
 
 

@@ -13,7 +13,7 @@ from PySide6.QtWidgets import QApplication, QWidget
 from app.editor.session import Session
 from app.editor.settings import Settings
 from app.editor.translated import tr
-from app.shell.action import Row, without_dots
+from app.shell.action import ActionRow, without_dots
 from widgets.common.clicks import on_click
 from widgets.common.icons import icon
 from widgets.common.plain import verbatim
@@ -53,7 +53,7 @@ class RowAction(QAction):
         Knows what the row is about, and its shortcuts.
     """
 
-    def __init__(self, row: Row[Any], table: ActionTable) -> None:
+    def __init__(self, row: ActionRow[Any], table: ActionTable) -> None:
         super().__init__(table)
         self.row, self._table = row, table
         self.setObjectName(row.id)
@@ -124,7 +124,7 @@ class ActionTable(QObject):
         Is the table's parent: `widgets.common.actions` finds the actions there.
     settings : Settings
         Knows the user's own shortcuts.
-    rows : sequence of Row
+    rows : sequence of ActionRow
         Those about the editor make no sense before `begin`.
 
     Signals
@@ -135,7 +135,7 @@ class ActionTable(QObject):
 
     shortcuts_changed = Signal()
 
-    def __init__(self, session: Session, settings: Settings, rows: Sequence[Row[Any]]) -> None:
+    def __init__(self, session: Session, settings: Settings, rows: Sequence[ActionRow[Any]]) -> None:
         super().__init__(session)
         self.session = session
         self.settings = settings
@@ -178,7 +178,7 @@ class ActionTable(QObject):
         self._editor = editor
         self.refresh()
 
-    def about(self, row: Row[Any]) -> object | None:
+    def about(self, row: ActionRow[Any]) -> object | None:
         """What the functions of a row are given; None: it is not there yet."""
         return self._editor if row.about_editor else self.session
 

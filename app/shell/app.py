@@ -23,7 +23,7 @@ from app.editor.questions import Questions
 from app.editor.recorder import Recorder
 from app.editor.session import Session, Severity
 from app.editor.settings import Settings, settings_path
-from app.editor.sound import Sound
+from app.editor.sound import EditorSound
 from app.editor.streamer import Streamer
 from app.editor.tasks import Tasks, ThreadTasks
 from app.editor.video import ReferenceVideo
@@ -60,7 +60,7 @@ PICTURE_S = 60.0
 
 
 @dataclass(frozen=True)
-class Start:
+class LaunchOptions:
     """What the command line asks of the editor.
 
     Attributes
@@ -115,7 +115,7 @@ class Program(QObject):
         autosave: Autosave | None = None,
         audible: bool = True,
         playback: Playback | None = None,
-        recorder: Callable[[Session, Files, Settings, Sound], Recorder] | None = None,
+        recorder: Callable[[Session, Files, Settings, EditorSound], Recorder] | None = None,
     ) -> None:
         super().__init__()
         # The user's own are read beside the window, which may take as long as it likes.
@@ -140,7 +140,7 @@ class Program(QObject):
         self._apply_theme()
         self.generator = Generator(self.session, self.tasks)
         # Children of the session: they stay.
-        sound = Sound(self.session, playback, audible)
+        sound = EditorSound(self.session, playback, audible)
         video = ReferenceVideo(self.session)
         watch_instruments(self.session)
         watch_characters(self.session)
@@ -182,7 +182,7 @@ def _clean_up() -> None:
     clean_up()
 
 
-def run(start: Start) -> int:
+def run(start: LaunchOptions) -> int:
     """Run the editor; returns the exit status."""
     if start.screenshot is not None:
         return picture(start, start.screenshot)
@@ -219,7 +219,7 @@ def run(start: Start) -> int:
         settings.sync()
 
 
-def _assignment(program: Program, start: Start) -> None:
+def _assignment(program: Program, start: LaunchOptions) -> None:
     if start.theme:
         actions(program.session)[f"theme.{start.theme}"].trigger()
     if start.language:
@@ -240,7 +240,7 @@ def _end_on_signal(application: QApplication) -> None:
     timer.start(250)
 
 
-def picture(start: Start, target: Path) -> int:
+def picture(start: LaunchOptions, target: Path) -> int:
     """Draw the real window once, whatever the user's settings are, write it to a file, and end."""
     application = make_application()
     stopped = threading.Event()

@@ -27,7 +27,7 @@ from app.rig.figure import Figure
 from app.shell.editor import Editor
 from widgets.common.instrument_name import character_name
 from widgets.dialogs.character import CharacterDialog
-from widgets.dialogs.character_draft import Draft
+from widgets.dialogs.character_draft import CharacterDraft
 from widgets.dialogs.characters import CharactersDialog
 
 
@@ -60,7 +60,7 @@ def bring_character(editor: Editor, path: Path) -> None:
     session = editor.session
 
     def done(figure: Figure) -> None:
-        dialog = _dialog(editor, path, figure, Draft(_title(path)), give=True)
+        dialog = _dialog(editor, path, figure, CharacterDraft(_title(path)), give=True)
         dialog.agreed.connect(lambda draft, give: _keep(editor, path, draft, give))
 
     _read(session, path, done)
@@ -74,7 +74,7 @@ def edit_character(editor: Editor, id: str) -> None:
     entry, path = source.entry, source.path
 
     def done(figure: Figure) -> None:
-        draft = Draft(entry.title or id, entry.joints, entry.morphs)
+        draft = CharacterDraft(entry.title or id, entry.joints, entry.morphs)
         dialog = _dialog(editor, path, figure, draft, give=False)
         dialog.agreed.connect(lambda draft, give: _change(editor, id, entry, draft))
 
@@ -107,7 +107,7 @@ def _read(session: Session, path: Path, done: Callable[[Figure], None]) -> None:
     session.tasks.run(Message("work.character", {"file": path.name}), work, done, failed, key="character")
 
 
-def _dialog(editor: Editor, path: Path, figure: Figure, draft: Draft, give: bool) -> CharacterDialog:
+def _dialog(editor: Editor, path: Path, figure: Figure, draft: CharacterDraft, give: bool) -> CharacterDialog:
     session = editor.session
     names = [player.name for player in session.project.players if player.id in session.players]
     offered = ", ".join(names) if give and editor.files.is_open else ""
@@ -116,7 +116,7 @@ def _dialog(editor: Editor, path: Path, figure: Figure, draft: Draft, give: bool
     return dialog
 
 
-def _keep(editor: Editor, path: Path, draft: Draft, give: bool) -> None:
+def _keep(editor: Editor, path: Path, draft: CharacterDraft, give: bool) -> None:
     """Copy a character's file beside the others, and cast it."""
     session = editor.session
     chosen = session.players
@@ -142,7 +142,7 @@ def _keep(editor: Editor, path: Path, draft: Draft, give: bool) -> None:
     session.tasks.run(Message("work.character_add", {"name": draft.title}), work, done, failed, key="character_add")
 
 
-def _change(editor: Editor, id: str, entry: CharacterEntry, draft: Draft) -> None:
+def _change(editor: Editor, id: str, entry: CharacterEntry, draft: CharacterDraft) -> None:
     """Describe a character anew."""
     morphs = {face: dict(parts) for face, parts in draft.morphs.items()}
     title = shortened(" ".join(draft.title.split()), MOST_TITLE)

@@ -13,10 +13,10 @@ from app.editor.questions import Questions
 from app.editor.recorder import Recorder
 from app.editor.session import Session
 from app.editor.settings import Settings
-from app.editor.sound import Sound
+from app.editor.sound import EditorSound
 from app.editor.streamer import Streamer
 from app.editor.video import ReferenceVideo
-from app.shell.action import Row
+from app.shell.action import ActionRow
 from app.shell.actions import ActionTable
 from app.shell.language import Language
 from app.shell.window import Window
@@ -39,7 +39,7 @@ class Editor:
     language: Language
     questions: Questions
     files: Files
-    sound: Sound
+    sound: EditorSound
     recorder: Recorder
     streamer: Streamer
     video: ReferenceVideo
@@ -59,7 +59,7 @@ class Editor:
         dialog.activateWindow()
 
 
-class EditorAction(Row[Editor]):
+class EditorAction(ActionRow[Editor]):
     """A row about files, devices or the window: its functions take the editor."""
 
     about_editor = True

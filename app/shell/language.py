@@ -86,10 +86,10 @@ def _translators(code: str) -> list[QTranslator]:
     of_qt = QTranslator()
     if of_qt.load(f"qtbase_{code}", QLibraryInfo.path(QLibraryInfo.LibraryPath.TranslationsPath)):
         found.append(of_qt)
-    return [*found, Texts(code)]
+    return [*found, TextTranslator(code)]
 
 
-class Texts(QTranslator):
+class TextTranslator(QTranslator):
     """The texts of the editor in one language, by their ids.
 
     Parameters

@@ -26,7 +26,7 @@ _LONGEST: Final = 80
 _SOURCES: Final = ("source", "source code", "repository", "homepage", "home")
 
 
-class Part(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+class ThirdPartyWork(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """A third party's work within a package, or among the program's data.
 
     Attributes
@@ -50,7 +50,7 @@ class Package(msgspec.Struct, frozen=True):
     version: str
     licence: str
     source: str
-    parts: tuple[Part, ...] = ()
+    parts: tuple[ThirdPartyWork, ...] = ()
 
 
 class _Fact(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
@@ -58,12 +58,12 @@ class _Fact(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
     licence: str = ""
     source: str = ""
-    parts: tuple[Part, ...] = ()
+    parts: tuple[ThirdPartyWork, ...] = ()
 
 
 class _Facts(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     packages: dict[str, _Fact]
-    data: tuple[Part, ...]
+    data: tuple[ThirdPartyWork, ...]
 
 
 @cache
@@ -72,7 +72,7 @@ def _facts() -> _Facts:
     return shaped(read_toml(path), _Facts, path.name)
 
 
-def data() -> tuple[Part, ...]:
+def data() -> tuple[ThirdPartyWork, ...]:
     """What others made among the program's own files."""
     return _facts().data
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any, Final
 
 from app.features import extended
-from app.shell.action import Row
+from app.shell.action import ActionRow
 from app.shell.commands import (
     application,
     beat,
@@ -55,10 +55,10 @@ FILE_ORDER: Final = (
 """How the rows of the first menu stand, whichever module they are from."""
 
 
-def rows() -> tuple[Row[Any], ...]:
+def rows() -> tuple[ActionRow[Any], ...]:
     """Every row of the table."""
     place = {action_id: number for number, action_id in enumerate(FILE_ORDER)}
-    own: tuple[Row[Any], ...] = (
+    own: tuple[ActionRow[Any], ...] = (
         *(*file.ACTIONS, *exchange.ACTIONS, *stream.ACTIONS, *edit.ACTIONS, *notes.ACTIONS, *fingerings.ACTIONS),
         *(*events.ACTIONS, *beat.ACTIONS, *players.ACTIONS, *timeline.ACTIONS, *viewport.ACTIONS),
         *(*video.ACTIONS, *playback.ACTIONS, *record.ACTIONS, *takes.ACTIONS, *generate.ACTIONS, *problems.ACTIONS),

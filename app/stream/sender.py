@@ -50,7 +50,7 @@ class Address:
         return Address(self.host, self.family, (self.at[0], port, *self.at[2:]))
 
 
-class Outcome(Enum):
+class SendOutcome(Enum):
     """What became of a frame."""
 
     SENT = "sent"
@@ -143,17 +143,17 @@ class Sender:
             self._socket.close()
             raise self._not_sent(error) from error
 
-    def send(self, datagrams: Iterable[bytes]) -> Outcome:
+    def send(self, datagrams: Iterable[bytes]) -> SendOutcome:
         """Send a frame, or what there is room for. Raises StreamError (``stream.not_sent``)."""
-        outcome = Outcome.SENT
+        outcome = SendOutcome.SENT
         for datagram in datagrams:
             try:
                 self._socket.send(datagram)
             except BlockingIOError:
-                return Outcome.DROPPED
+                return SendOutcome.DROPPED
             except (ConnectionRefusedError, ConnectionResetError):
                 # Of a packet before this one; a later receiver gets the next.
-                outcome = Outcome.NO_RECEIVER
+                outcome = SendOutcome.NO_RECEIVER
             except OSError as error:
                 raise self._not_sent(error) from error
         return outcome

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from app.shell.licences import Package, Part, data, described, distributions, package_of
+from app.shell.licences import Package, ThirdPartyWork, data, described, distributions, package_of
 
 TARGET = Path(__file__).parents[2] / "docs" / "licences.md"
 BEGIN = "<!-- The tables are written by resources/build/build_licences.py. -->\n"
@@ -28,7 +28,7 @@ def main() -> None:
     TARGET.write_text(above + BEGIN + "\n" + "\n\n".join(tables) + "\n", encoding="utf-8")
 
 
-def _row(work: Package | Part) -> str:
+def _row(work: Package | ThirdPartyWork) -> str:
     return f"| {work.name} | {work.licence} | {work.source} |"
 
 

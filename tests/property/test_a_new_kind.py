@@ -18,7 +18,7 @@ from app.plan.kinds import BREATH_KINDS, GESTURE_KINDS
 ROOT = Path(__file__).parents[2]
 ROW = """    Gesturing("stomp", ("Stomps", "足踏み"), "Stomp", "accent", "phrase", True, look="strip"),
 """
-FUNCTION = '''def stomps(times: Rhythm) -> list[GestureEvent]:
+FUNCTION = '''def stomps(times: NoteTimes) -> list[GestureEvent]:
     """Stomp with the first note."""
     tick, start_s = int(times.onset_tick[0]), float(times.onset_s[0])
     return [GestureEvent(f"stomp:@{tick}", "stomp", tick, tick + 480, start_s, start_s + 0.5, 0.8, Message("a.b"))]
@@ -94,7 +94,7 @@ def test_a_kind_is_a_row_and_a_function(tmp_path: Path) -> None:
     for pitch in (67, 69, 71, 72, 71, 69, 67, 67):
         track += [mido.Message("note_on", note=pitch, velocity=80), mido.Message("note_off", note=pitch, time=480)]
     mido.MidiFile(tracks=[track], ticks_per_beat=480).save(tmp_path / "piece.mid")
-    imports = "from app.errors import Message\nfrom app.plan.music.piece import Rhythm\n"
+    imports = "from app.errors import Message\nfrom app.plan.music.piece import NoteTimes\n"
     put_in(tmp_path / "app/plan/player.py", "from app.plan.acting import", imports)
     command = [sys.executable, "-c", SEEN]
     done = subprocess.run(command, cwd=tmp_path, env={"PYTHONPATH": str(tmp_path)}, capture_output=True, text=True)

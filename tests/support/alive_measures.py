@@ -24,8 +24,8 @@ from scipy.stats import rankdata, spearmanr
 
 from app.arrays import BoolArray, FloatArray
 from app.evaluation.measures import quantity_of_motion_mm_s
-from app.export.playback import Playback, Surface
-from app.export.request import Request
+from app.export.playback import ScenePlayback, Surface
+from app.export.request import ExportRequest
 from app.export.run import export
 from app.formats.fbx.read import read_scene
 from app.messages import text
@@ -64,7 +64,7 @@ class Read:
     """
 
     name: str
-    playback: Playback
+    playback: ScenePlayback
     plan: PlayerPlan
     times_s: FloatArray
     world: FloatArray
@@ -304,7 +304,7 @@ def exported(project: Project, folder: Path, fps: int) -> list[Read]:
     """Every player of a project, exported and read back."""
     performance = Performance(project)
     span = cut_span(performance.time_frame, Fraction(fps), -np.inf, np.inf)
-    request = Request(
+    request = ExportRequest(
         performance, project.players, folder, frozenset({"fbx"}), span, None, "piece", "measures", keys="every"
     )
     report = export(request, text)
@@ -313,7 +313,7 @@ def exported(project: Project, folder: Path, fps: int) -> list[Read]:
         player = next(player for player in project.players if player.name == entry.name)
         scene = read_scene(folder / entry.files["character_fbx"])
         assert scene.clip is not None
-        playback = Playback(scene, scene.clip)
+        playback = ScenePlayback(scene, scene.clip)
         piece, line = performance.piece, lines[player.id]
         times = line_times(line, piece.clock)
         ticks = piece.metre_map.felt_between(int(times.onset_tick[0]), int(times.onset_tick[-1]) + 1)

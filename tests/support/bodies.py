@@ -189,7 +189,7 @@ def playing() -> Iterator[None]:
     from app.rig.characters import character_library as characters
 
     library, one = characters.character_library(), characters.character_named
-    sources = {**library.sources, **{id: characters.Source(Path(f"{id}.glb")) for id in BODIES}}
+    sources = {**library.sources, **{id: characters.CharacterSource(Path(f"{id}.glb")) for id in BODIES}}
 
     def either(id: str) -> Character:
         return odd_body(id) if id in BODIES else one(id)

@@ -9,7 +9,7 @@ from scipy.spatial.transform import Rotation
 
 from app.choreography.body import SEGMENTS
 from app.choreography.clip import BodyShape, MotionClip
-from app.choreography.model import ChoreographyModel, MotionSegment, Source
+from app.choreography.model import ChoreographyModel, MotionSegment, TrainingPair
 from app.choreography.rhythm import Rhythm
 
 HIPS_M, ANKLE_M, THIGH_M, SHANK_M = 0.95, 0.08, 0.43, 0.40
@@ -81,7 +81,7 @@ def model(beats: int = 24, states: int = 4, seed: int = 1) -> ChoreographyModel:
     rows = random.dirichlet(np.ones(states), states)
     return ChoreographyModel(
         name="steps",
-        sources=tuple(Source(f"{name}.bvh", f"{name}.mid", 0.0, None, "") for name in ("one", "other")),
+        sources=tuple(TrainingPair(f"{name}.bvh", f"{name}.mid", 0.0, None, "") for name in ("one", "other")),
         clips=clips,
         segments=tuple(segments),
         transition=rows,

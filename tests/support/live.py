@@ -18,7 +18,7 @@ from app.performance.live import LiveMotion
 from app.performance.play_along import PlayAlong
 from app.plan.model import PlayerPlan
 from app.project.model import project_from_score
-from app.rig.grip.grip_pose import Placed
+from app.rig.grip.grip_pose import StationBlend
 from app.score.model import Note, Part, Score
 from app.score.tempo import TempoMap
 from instrument_maps.load import bundled_maps
@@ -88,10 +88,10 @@ class Played:
         place = self.playing.player.place
         return {side: np.tile(ankle_m, (len(times_s), 1)) for side, ankle_m in place.ankles_m.items()}
 
-    def placed(self, times_s: FloatArray) -> dict[str, Placed]:
+    def placed(self, times_s: FloatArray) -> dict[str, StationBlend]:
         """Where the fingers were."""
         frames = np.round((times_s - self.motion.first_frame_s) * FPS).astype(int)
-        return {name: Placed(*rows[frames].T) for name, rows in self.hands.items()}
+        return {name: StationBlend(*rows[frames].T) for name, rows in self.hands.items()}
 
 
 def performance_of(instrument_id: str, notes: Notes) -> Performance:

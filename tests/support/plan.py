@@ -15,14 +15,14 @@ from app.score.metre_map import Metre, MetreMap
 from instrument_maps.model import (
     Carriage,
     Control,
+    ControlMotion,
     Embouchure,
     Fingering,
     Hold,
     InstrumentMap,
-    Lowered,
-    Motion,
+    InstrumentName,
+    LoweredPlace,
     Mouthpiece,
-    Name,
     Range,
 )
 
@@ -87,7 +87,7 @@ def even(pitches: list[int], step_tick: int = 240, start_tick: int = 0, track: i
 
 
 _CARRIAGE = Carriage((0.0, 10.0, 20.0), (-5.0, 0.0, 5.0), (-5.0, 0.0, 5.0))
-_LOWERED = Lowered((0.0, -0.3, 0.1), 40.0, 0.0, 0.0)
+_LOWERED = LoweredPlace((0.0, -0.3, 0.1), 40.0, 0.0, 0.0)
 FRAME: dict[str, Any] = {
     "schema_version": 1,
     "model": "none.glb",
@@ -116,18 +116,18 @@ def valves() -> InstrumentMap:
             controls = {f"valve_{digit}": 1.0 for digit in label if digit != "0"}
             correction = {"ring": 0.5} if label in ("13", "123") else {}
             fingerings.append(Fingering(written, rank, label, controls, cents, correction))
-    motion = Motion(axis=(0.0, -1.0, 0.0), travel_m=0.016)
+    motion = ControlMotion(axis=(0.0, -1.0, 0.0), travel_m=0.016)
     fingers = ("index", "middle", "ring")
     controls_ = tuple(
         Control(f"valve_{n + 1}", "press", "pitch", f"right.{fingers[n]}", f"valve_{n + 1}", motion, str(n + 1))
         for n in range(3)
     )
     ring = Control(
-        "ring", "slide", "intonation", "left.ring", "ring", Motion(axis=(0.0, 0.0, 1.0), travel_m=0.03),
+        "ring", "slide", "intonation", "left.ring", "ring", ControlMotion(axis=(0.0, 0.0, 1.0), travel_m=0.03),
         used_with=("13", "123"), held_min_s=0.4,
     )  # fmt: skip
     return InstrumentMap(
-        id="valves", name=Name("Valves", "Valves"), short_name="valves", plays=(), transposition_semitones=2,
+        id="valves", name=InstrumentName("Valves", "Valves"), short_name="valves", plays=(), transposition_semitones=2,
         range=Range(52, 82, 58, 74), controls=(*controls_, ring), fingerings=tuple(fingerings), **FRAME,
     )  # fmt: skip
 
@@ -155,15 +155,15 @@ def slide() -> InstrumentMap:
             fingerings.append(Fingering(pitch, rank, label, controls, cents))
     controls_ = (
         Control(
-            "slide", "slide", "pitch", "right.hand", "slide", Motion(axis=(0.0, 0.0, 1.0), travel_m=0.62),
+            "slide", "slide", "pitch", "right.hand", "slide", ControlMotion(axis=(0.0, 0.0, 1.0), travel_m=0.62),
             move_note_share=0.5, max_speed_m_s=2.5,
         ),
         Control(
             "trigger", "lever", "pitch", "left.thumb", "trigger",
-            Motion(axis=(1.0, 0.0, 0.0), angle_rad=0.3, pivot_m=(0.0, 0.0, 0.0)), "T",
+            ControlMotion(axis=(1.0, 0.0, 0.0), angle_rad=0.3, pivot_m=(0.0, 0.0, 0.0)), "T",
         ),
     )  # fmt: skip
     return InstrumentMap(
-        id="slide", name=Name("Slide", "Slide"), short_name="slide", plays=(), transposition_semitones=0,
+        id="slide", name=InstrumentName("Slide", "Slide"), short_name="slide", plays=(), transposition_semitones=0,
         range=Range(40, 70, 46, 65), controls=controls_, fingerings=tuple(fingerings), **FRAME,
     )  # fmt: skip

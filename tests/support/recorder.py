@@ -6,9 +6,9 @@ import os
 import time
 from collections.abc import Callable
 
-from app.capture.journal import Header, JournalWriter
+from app.capture.journal import JournalHeader, JournalWriter
 from app.capture.link import RecorderLink
-from app.capture.protocol import Events, Finished, Moved, News, Opened, Ports
+from app.capture.protocol import Events, Moved, News, Opened, Ports, RecordingFinished
 
 EWI = "EWI5000 MIDI 1"
 
@@ -50,7 +50,7 @@ class SpokenFor(RecorderLink):
         if port == EWI:
             self.say(Opened(EWI, 0))
 
-    def start(self, path: object, header: Header, elsewhere: object = None) -> None:
+    def start(self, path: object, header: JournalHeader, elsewhere: object = None) -> None:
         self.writer, self.elsewhere = JournalWriter(str(path), header), elsewhere
 
     def move(self) -> None:
@@ -70,7 +70,7 @@ class SpokenFor(RecorderLink):
         if writer is not None:
             writer.mark("end", self.clock.now_ns())
             writer.close()
-            self.say(Finished(os.fsencode(writer.path), writer.count))
+            self.say(RecordingFinished(os.fsencode(writer.path), writer.count))
 
     def play(self, message: bytes) -> None:
         self.play_at(self.clock.now_ns(), message)

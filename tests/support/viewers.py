@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from app.evaluation.answers import Answer, ViewerFile, encode_answers
-from app.evaluation.key import ASPECTS, SCALES, Aspect, Clip, Key, Presentation, Scale, Variant
+from app.evaluation.key import ASPECTS, SCALES, Aspect, EvaluationClip, EvaluationKey, Presentation, Scale, Variant
 
 EVALUATION = "c0ffee01"
 TRUTH: Mapping[Variant, float] = {"film": 4.2, "generated": 3.6, "still": 2.4, "shifted": 3.5}
@@ -16,18 +16,18 @@ TRUTH: Mapping[Variant, float] = {"film": 4.2, "generated": 3.6, "still": 2.4, "
 
 def key_of(
     variants: Sequence[Variant] = ("film", "generated", "still", "shifted"), excerpts: int = 3, piece: str = "Air"
-) -> Key:
+) -> EvaluationKey:
     """An evaluation; codes say nothing, as they must."""
     clips = [(variant, excerpt) for excerpt in range(1, excerpts + 1) for variant in variants]
     random.Random(5).shuffle(clips)
-    return Key(
+    return EvaluationKey(
         format="suisou-evaluation",
         version=1,
         evaluation=EVALUATION,
         piece=piece,
         seed=5,
         clips=tuple(
-            Clip(f"c{index:02}", variant, excerpt, 8.0 * excerpt, 8.0 * excerpt + 8.0, "ensemble")
+            EvaluationClip(f"c{index:02}", variant, excerpt, 8.0 * excerpt, 8.0 * excerpt + 8.0, "ensemble")
             for index, (variant, excerpt) in enumerate(clips, start=1)
         ),
     )
@@ -63,7 +63,7 @@ def opinion(truth: Mapping[Variant, float], variant: Variant, aspect: Aspect, sc
 
 
 def viewers(
-    key: Key,
+    key: EvaluationKey,
     count: int,
     seed: int = 1,
     truth: Mapping[Variant, float] = TRUTH,
@@ -92,7 +92,7 @@ def viewers(
 
 
 def _viewer(
-    key: Key,
+    key: EvaluationKey,
     index: int,
     by_chance: random.Random,
     truth: Mapping[Variant, float],
@@ -102,7 +102,7 @@ def _viewer(
     skips: float,
 ) -> ViewerFile:
     taste = by_chance.gauss(0.0, 0.4)
-    shown: list[tuple[Presentation, tuple[Clip, ...]]] = []
+    shown: list[tuple[Presentation, tuple[EvaluationClip, ...]]] = []
     if "single" in presentations:
         shown += [("single", (clip,)) for clip in by_chance.sample(key.clips, len(key.clips))]
     if "pair" in presentations:

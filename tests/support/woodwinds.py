@@ -8,7 +8,7 @@ from __future__ import annotations
 import random
 from typing import Any
 
-from instrument_maps.model import Control, Fingering, InstrumentMap, Name, Range
+from instrument_maps.model import Control, Fingering, InstrumentMap, InstrumentName, Range
 from tests.support.plan import FRAME
 
 Row = tuple[int, str] | tuple[int, str, str]
@@ -31,7 +31,8 @@ def made(
         fingerings.append(Fingering(pitch, ranks[pitch], label, held, tags=tuple(tags[0].split()) if tags else ()))
     low, high = min(ranks), max(ranks)
     return InstrumentMap(
-        id=id, name=Name(id, id), short_name=id, plays=(), transposition_semitones=0, range=Range(low, high, low, high),
+        id=id, name=InstrumentName(id, id), short_name=id, plays=(), transposition_semitones=0,
+        range=Range(low, high, low, high),
         controls=controls, fingerings=tuple(sorted(fingerings, key=lambda one: (one.written_pitch, one.rank))),
         breaks=breaks, **FRAME, **more,
     )  # fmt: skip

@@ -14,7 +14,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from app.child_limits import LIMITS, ChildLimits, Job, JobLimits, job_limits, limited_command
+from app.child_limits import LIMITS, ChildLimits, JobLimits, WindowsJob, job_limits, limited_command
 
 ROOT = Path(__file__).parents[2]
 MB = 2**20
@@ -113,12 +113,12 @@ def windows(refuses: bool = False) -> tuple[SimpleNamespace, list[str]]:
 
 def test_a_job_is_closed_when_its_process_is_done_with() -> None:
     kernel32, calls = windows()
-    job = Job(kernel32, MB, 1)
+    job = WindowsJob(kernel32, MB, 1)
     assert job.take(5)
     del job
     assert calls == [f"limits 77 9 {ctypes.sizeof(JobLimits)}", "process 77 5", "closed 77"]
     with pytest.raises(OSError, match="no job"):
-        Job(windows(refuses=True)[0], MB, 1)
+        WindowsJob(windows(refuses=True)[0], MB, 1)
 
 
 STARTED = {

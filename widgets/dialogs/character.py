@@ -1,7 +1,7 @@
 """Bring your own character: which bone is which joint, which morphs make a face, and what will not be played.
 
-What is shown follows from `Steps.now` and the figure alone; every change goes through `CharacterDialog.change` and can
-be taken back. Pictures are drawn beside the window, the newest only.
+What is shown follows from `DraftHistory.now` and the figure alone; every change goes through `CharacterDialog.change`
+and can be undone. Pictures are drawn beside the window, the newest only.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ from widgets.common.plain import Label, verbatim, verbatim_title
 from widgets.common.text import message_text
 from widgets.dialogs.body_map import BodyMap, joints
 from widgets.dialogs.bone_tree import BoneTree
-from widgets.dialogs.character_draft import Draft, Steps, character_of, joint_name, mapped, not_played
+from widgets.dialogs.character_draft import CharacterDraft, DraftHistory, character_of, joint_name, mapped, not_played
 from widgets.dialogs.face_map_page import FaceMapPage
 
 PICTURE_PX: Final = QSize(250, 340)
@@ -43,7 +43,7 @@ class CharacterDialog(Retranslated, QDialog):
     ----------
     path : Path
         Of the file, for its name.
-    draft : Draft
+    draft : CharacterDraft
         What is known of it already.
     offered : str
         Name of the player it may be given to, or of several; empty: no one.
@@ -51,7 +51,7 @@ class CharacterDialog(Retranslated, QDialog):
     Signals
     -------
     agreed(object, bool)
-        The user accepts the character of this `Draft`; and whether the selected players become it.
+        The user accepts the character of this `CharacterDraft`; and whether the selected players become it.
     """
 
     agreed = Signal(object, bool)
@@ -61,7 +61,7 @@ class CharacterDialog(Retranslated, QDialog):
         session: Session,
         path: Path,
         figure: Figure,
-        draft: Draft,
+        draft: CharacterDraft,
         offered: str = "",
         parent: QWidget | None = None,
     ) -> None:
@@ -69,7 +69,7 @@ class CharacterDialog(Retranslated, QDialog):
         self.setObjectName("character")
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         self._session, self._path, self._figure, self._offered = session, path, figure, offered
-        self._first, self._steps = draft, Steps(draft)
+        self._first, self._steps = draft, DraftHistory(draft)
         self._made = mapped(figure, draft)
         self._joint = ""
         self._seen: tuple[tuple[object, ...], Seen] | None = None
@@ -91,7 +91,7 @@ class CharacterDialog(Retranslated, QDialog):
         self._undo = Button("character_dialog.undo", self.undo, "character_undo")
         self._redo = Button("character_dialog.redo", self.redo, "character_redo")
         self._reset = Button(
-            "character_dialog.reset_all", lambda: self.change(Draft(self.draft.title)), "character_reset"
+            "character_dialog.reset_all", lambda: self.change(CharacterDraft(self.draft.title)), "character_reset"
         )
         self.give = named(QCheckBox(), "character_give")
         self._buttons = OkCancel("character_dialog.keep_character", "character_dialog.cancel")
@@ -158,7 +158,7 @@ class CharacterDialog(Retranslated, QDialog):
     # What the user does
 
     @property
-    def draft(self) -> Draft:
+    def draft(self) -> CharacterDraft:
         """What was said so far."""
         return self._steps.now
 
@@ -199,9 +199,9 @@ class CharacterDialog(Retranslated, QDialog):
 
     def _rename(self, title: str) -> None:
         # One word is one step.
-        self.change(Draft(title, self.draft.joints, self.draft.morphs), self.title)
+        self.change(CharacterDraft(title, self.draft.joints, self.draft.morphs), self.title)
 
-    def change(self, draft: Draft, gesture: object | None = None) -> None:
+    def change(self, draft: CharacterDraft, gesture: object | None = None) -> None:
         """Another draft; those of one gesture are one step."""
         if self._steps.apply(draft, gesture):
             self._changed()

@@ -24,7 +24,7 @@ _MOST_STEPS: Final = 200
 
 
 @dataclass(frozen=True)
-class Draft:
+class CharacterDraft:
     """What the user said of a character.
 
     Attributes
@@ -39,12 +39,12 @@ class Draft:
     joints: Mapping[str, str] = field(default_factory=dict)
     morphs: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
 
-    def with_joint(self, joint: str, bone: str | None) -> Draft:
+    def with_joint(self, joint: str, bone: str | None) -> CharacterDraft:
         """Another bone for a joint; empty: none; None: as it is found by itself."""
         joints = {name: own for name, own in self.joints.items() if name != joint}
         return replace(self, joints=joints if bone is None else {**joints, joint: bone})
 
-    def with_face(self, face: str, parts: Mapping[str, float] | None) -> Draft:
+    def with_face(self, face: str, parts: Mapping[str, float] | None) -> CharacterDraft:
         """Other morphs for a face; empty: none; None: as it is found by itself."""
         morphs = {name: own for name, own in self.morphs.items() if name != face}
         return replace(self, morphs=morphs if parts is None else {**morphs, face: dict(parts)})
@@ -54,7 +54,7 @@ class Draft:
 class Mapped:
     """What a draft makes of a figure."""
 
-    draft: Draft
+    draft: CharacterDraft
     joints: JointMapping
     faces: FaceMapping
 
@@ -70,7 +70,7 @@ class Mapped:
         return "doubtful" if joint in self.joints.doubtful else "mapped"
 
 
-def mapped(figure: Figure, draft: Draft, before: Mapped | None = None) -> Mapped:
+def mapped(figure: Figure, draft: CharacterDraft, before: Mapped | None = None) -> Mapped:
     """What a draft makes of a figure; what is the same as before is taken from there.
 
     Raises FileError where it names what the figure has not.
@@ -89,17 +89,17 @@ def character_of(figure: Figure, made: Mapped) -> Character:
     return figure_character(figure, made.draft.title, made.joints.bones, made.faces.morphs)
 
 
-class Steps:
+class DraftHistory:
     """Drafts, one after another, that can be gone back to."""
 
-    def __init__(self, first: Draft) -> None:
-        self._done, self._undone = [first], list[Draft]()
+    def __init__(self, first: CharacterDraft) -> None:
+        self._done, self._undone = [first], list[CharacterDraft]()
         self._gesture: object | None = None
         self._of_gesture = False
         """Whether the last step is of that gesture."""
 
     @property
-    def now(self) -> Draft:
+    def now(self) -> CharacterDraft:
         """The draft as it is."""
         return self._done[-1]
 
@@ -113,7 +113,7 @@ class Steps:
         """Whether something was taken back."""
         return bool(self._undone)
 
-    def apply(self, draft: Draft, gesture: object | None = None) -> bool:
+    def apply(self, draft: CharacterDraft, gesture: object | None = None) -> bool:
         """Another draft; those of one gesture are one step. Whether it is another."""
         before = self.now
         if gesture is not None and gesture is self._gesture and self._of_gesture:

@@ -13,7 +13,7 @@ from app.errors import Message
 from app.export.file_names import REPORT, file_names, sound_name, stage_names
 from app.export.formats import Format
 from app.export.report import Report
-from app.export.request import Request
+from app.export.request import ExportRequest
 from app.export.run import export
 from app.export.unreal.project import UnrealProject, find_project
 from app.export.unreal.run import export_into, plan_export
@@ -112,7 +112,7 @@ def foresee(
 
 def write(
     destination: Destination,
-    request: Request,
+    request: ExportRequest,
     stop_requested: Callable[[], bool],
     progress: Callable[[float, str], None],
 ) -> Done:

@@ -21,7 +21,7 @@ from app.editor.tokens import LEAST_TARGET_PX
 from app.encoding import shown
 from app.errors import AppError, Message
 from app.export.formats import FILE_FORMATS
-from app.export.request import Request
+from app.export.request import ExportRequest
 from app.formats.keys import KEY_CHOICES, KeyChoice
 from app.performance.ensemble import Performance
 from app.performance.span import bars_span, whole_span
@@ -190,7 +190,7 @@ class ExportDialog(WorkingDialog):
         """Which frames have keys."""
         return KEY_CHOICES[self._keys.currentIndex()]
 
-    def _request(self) -> Request:
+    def _request(self) -> ExportRequest:
         project = replace(self._project, preroll_beats=self._preroll.value())
         performance = Performance(project)
         fps, bars = Fraction(self._rate.currentData()), self._range.bars
@@ -199,7 +199,7 @@ class ExportDialog(WorkingDialog):
             if bars is None
             else bars_span(performance, fps, bars, self._preroll.value())
         )
-        return Request(
+        return ExportRequest(
             performance=performance,
             players=self._chosen_players(),
             folder=self._place.path,

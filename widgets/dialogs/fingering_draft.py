@@ -11,7 +11,7 @@ from instrument_maps.model import InstrumentMap
 
 
 @dataclass
-class Draft:
+class FingeringDraft:
     """What the user made of one instrument's table, with every state before and after.
 
     Attributes

@@ -30,9 +30,9 @@ from app.errors import AppError, Message
 from app.messages.pitches import pitch_name
 from app.project.choreography_files import bundled_choreographies
 from app.project.importing import (
+    ImportPreview,
     ImportRequest,
     ImportRow,
-    Outcome,
     automatic,
     carried_over,
     merged,
@@ -80,7 +80,7 @@ class _ReadAgain(NamedTuple):
     contents: MidiContents
     usual: tuple[ImportRow, ...]
     rows: tuple[ImportRow, ...]
-    outcome: Outcome
+    outcome: ImportPreview
 
 
 class ImportDialog(Retranslated, QDialog):
@@ -113,7 +113,7 @@ class ImportDialog(Retranslated, QDialog):
         self._usual: tuple[ImportRow, ...] = ()
         """The rows by default."""
         self._rows: tuple[ImportRow, ...] = ()
-        self._outcome: Outcome | None = None
+        self._outcome: ImportPreview | None = None
         """Of the newest rows for which it is known."""
         self._closing = Event()
         self._slow = QTimer(self, singleShot=True, interval=_SLOW_MS)
@@ -306,14 +306,14 @@ class ImportDialog(Retranslated, QDialog):
         """Find out what comes of these rows, or of the usual ones."""
         contents, maps, before, closing = self._contents, self._maps, self._outcome, self._closing
 
-        def work(progress: Progress, stop_requested: StopRequested) -> tuple[tuple[ImportRow, ...], Outcome]:
+        def work(progress: Progress, stop_requested: StopRequested) -> tuple[tuple[ImportRow, ...], ImportPreview]:
             asked = usual_rows(contents, maps) if rows is None else rows
             return asked, outcome_of(contents, asked, maps, before, lambda: stop_requested() or closing.is_set())
 
         self._slow.start()
         self._tasks.run(Message("work.open"), work, self._worked_out, key="import")
 
-    def _worked_out(self, found: tuple[tuple[ImportRow, ...], Outcome]) -> None:
+    def _worked_out(self, found: tuple[tuple[ImportRow, ...], ImportPreview]) -> None:
         rows, outcome = found
         first = self._outcome is None
         if self._closing.is_set() or not (first or rows is self._rows):

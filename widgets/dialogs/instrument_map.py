@@ -43,7 +43,7 @@ from widgets.common.paths import show_folder
 from widgets.common.pitch import syllables
 from widgets.common.plain import Label, Role, ask
 from widgets.common.text import message_text
-from widgets.dialogs.fingering_draft import Draft, base_of
+from widgets.dialogs.fingering_draft import FingeringDraft, base_of
 
 WRITTEN, SOUNDS, RANK, LABEL, CENTS, TAGS = range(6)
 MOST_WRONG = 6
@@ -62,7 +62,7 @@ class InstrumentsDialog(Retranslated, QDialog):
         self.setObjectName("instruments")
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         self._session = session
-        self._drafts: dict[str, Draft] = {}
+        self._drafts: dict[str, FingeringDraft] = {}
         self._filling = False
         self._list = named(QListWidget(), "instruments_list")
         self._wrong, self._facts = (
@@ -171,19 +171,19 @@ class InstrumentsDialog(Retranslated, QDialog):
         self._fill_list(id)
 
     @property
-    def draft(self) -> Draft | None:
+    def draft(self) -> FingeringDraft | None:
         """What is shown."""
         item = self._list.currentItem()
         return None if item is None else self._draft_of(str(item.data(_PLACE)))
 
-    def _draft_of(self, id: str) -> Draft | None:
+    def _draft_of(self, id: str) -> FingeringDraft | None:
         known = self._drafts.get(id)
         if known is not None:
             return known
         instrument = library().maps.get(id)
         if instrument is None:
             return None
-        self._drafts[id] = Draft(instrument, base_of(instrument), [instrument.fingerings])
+        self._drafts[id] = FingeringDraft(instrument, base_of(instrument), [instrument.fingerings])
         return self._drafts[id]
 
     def _library_changed(self) -> None:
@@ -260,7 +260,7 @@ class InstrumentsDialog(Retranslated, QDialog):
         display = self._session.pitch_display
         return pitch_name(pitch, display.middle_c_octave, syllables() if display.syllables else LETTERS)
 
-    def _fill_table(self, draft: Draft, chosen: tuple[int, int] | None = None) -> None:
+    def _fill_table(self, draft: FingeringDraft, chosen: tuple[int, int] | None = None) -> None:
         chosen = chosen or self._chosen()
         self._filling = True
         self._table.setUpdatesEnabled(False)
@@ -367,7 +367,7 @@ class InstrumentsDialog(Retranslated, QDialog):
 
     # Editing
 
-    def _do(self, change: Callable[[Draft], edit.Table], chosen: tuple[int, int] | None = None) -> bool:
+    def _do(self, change: Callable[[FingeringDraft], edit.Table], chosen: tuple[int, int] | None = None) -> bool:
         """Change the table by one step; what cannot be is reported beside it."""
         draft = self.draft
         if draft is None:
@@ -521,7 +521,7 @@ class InstrumentsDialog(Retranslated, QDialog):
         )
         return "save" if role == Role.AcceptRole else "discard" if role == Role.DestructiveRole else "cancel"
 
-    def _save_all(self, drafts: list[Draft]) -> bool:
+    def _save_all(self, drafts: list[FingeringDraft]) -> bool:
         for draft in drafts:
             self.choose(draft.instrument.id)
             if not self.save():

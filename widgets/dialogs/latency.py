@@ -12,7 +12,7 @@ from PySide6.QtWidgets import QDialog, QDoubleSpinBox, QPushButton, QWidget
 from app.audio.click import steady_clicks
 from app.audio.playback import Playback
 from app.audio.track import Mix
-from app.capture.latency import LATEST_S, LEAST_HITS, Measured, hits, measured, placed
+from app.capture.latency import LATEST_S, LEAST_HITS, LatencyMeasurement, hits, measured, placed
 from app.capture.protocol import Events
 from app.editor.session import Session
 from widgets.common.clicks import on_click
@@ -62,7 +62,7 @@ class LatencyDialog(Retranslated, QDialog):
         self._running = False
         self._events: list[tuple[int, bytes]] = []
         self._positions: list[tuple[int, float]] = []
-        self._found: Measured | None = None
+        self._found: LatencyMeasurement | None = None
         self._stopped_why = ""
         self._explained, self._reported, self._value_name = (
             Caption("latency_dialog.blow_short_note_on_every_click_what_is"),
@@ -263,7 +263,7 @@ class HitChart(Retranslated, QWidget):
         super().__init__(parent)
         self.setObjectName("latency_hits")
         self._session = session
-        self.found: Measured | None = None
+        self.found: LatencyMeasurement | None = None
         self._click, self._flashes = -1, False
         self.texted(self, name="hit_chart.how_late_every_hit_came")
 
@@ -273,7 +273,7 @@ class HitChart(Retranslated, QWidget):
             self._click, self._flashes = number, flashes
             self.update()
 
-    def show_measured(self, found: Measured | None) -> None:
+    def show_measured(self, found: LatencyMeasurement | None) -> None:
         """What was found up to now."""
         if found != self.found:
             self.found = found
@@ -315,7 +315,7 @@ class HitChart(Retranslated, QWidget):
             text = self.tr("hit_chart.ms").format(count=str(ms).replace("-", "−"))
             painter.drawText(label, int(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter), text)
 
-    def _paint_hits(self, painter: QPainter, room: QRectF, found: Measured) -> None:
+    def _paint_hits(self, painter: QPainter, room: QRectF, found: LatencyMeasurement) -> None:
         tokens = self._session.tokens
         step = room.width() / COUNTED
         if any(found.used):

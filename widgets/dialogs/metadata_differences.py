@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from PySide6.QtCore import QSize, Qt
 from PySide6.QtWidgets import QDialog, QDialogButtonBox, QTreeWidgetItem, QWidget
 
-from app.project.piece_metadata import Difference
+from app.project.piece_metadata import MetadataDifference
 from widgets.common.controls import Button, ColumnList, Retranslated
 from widgets.common.layouts import in_column
 
@@ -17,7 +17,7 @@ _NOTHING = "–"
 class MetadataDifferencesDialog(Retranslated, QDialog):
     """A list of places with what the piece and the file have there."""
 
-    def __init__(self, differences: Sequence[Difference], file: str, parent: QWidget | None = None) -> None:
+    def __init__(self, differences: Sequence[MetadataDifference], file: str, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.setObjectName("metadata_differences")
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)

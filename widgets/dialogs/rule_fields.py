@@ -104,7 +104,7 @@ class Number(QDoubleSpinBox):
             event.ignore()
 
 
-class Asked:
+class OptionalNumberField:
     """A number that may be left out: a box to tick with its name, and the number beside it."""
 
     def __init__(self, field: Field, changed: Callable[[], None]) -> None:

@@ -26,9 +26,9 @@ from widgets.dialogs.rule_fields import (
     MOMENTS,
     PLACES,
     SECONDS,
-    Asked,
     Field,
     Number,
+    OptionalNumberField,
     Several,
     kept,
 )
@@ -56,7 +56,7 @@ class RuleForm(Retranslated, QWidget):
         self._title = named(QLineEdit(), "rule_title")
         self._title.setMaxLength(120)
         self._title.editingFinished.connect(self._edited)
-        self._asked = [Asked(field, self._edited) for field in CONDITIONS]
+        self._asked = [OptionalNumberField(field, self._edited) for field in CONDITIONS]
         self._moment, self._does, self._start, self._end_of = (
             named(Combo(), f"rule_{name}") for name in ("moment", "does", "start", "end")
         )
@@ -71,7 +71,9 @@ class RuleForm(Retranslated, QWidget):
         self._spread = self._number("spread_s", 0.0, 60.0, 0.1)
         self._stays = self._number("stays_s", 0.0, 60.0, 0.1)
         self._apart = self._number("apart_s", 0.0, 600.0, 0.5)
-        self._end, self._fade_in, self._fade_out = (Asked(field, self._edited) for field in (_END, _FADE_IN, _FADE_OUT))
+        self._end, self._fade_in, self._fade_out = (
+            OptionalNumberField(field, self._edited) for field in (_END, _FADE_IN, _FADE_OUT)
+        )
         self._puff = named(Check("rules_dialog.scaled_by_puff"), "rule_scaled_by")
         on_click(self._puff, self._edited)
         for combo in (self._moment, self._does, self._start, self._end_of):

@@ -29,7 +29,7 @@ LATE_TICK = 2**62
 
 
 @dataclass(frozen=True)
-class Place:
+class CorrectionRow:
     """A correction and where it is: its event or note in the plan, and what the generator has there."""
 
     player_id: str
@@ -82,7 +82,7 @@ class CorrectionList(Retranslated, QWidget):
             return
         project, plans = self._session.project, self._session.plans
         lost = {(orphan.player_id, orphan.correction) for orphan in orphaned(project)}
-        places: list[Place] = []
+        places: list[CorrectionRow] = []
         for player_id in self._session.players:
             places += self._places(project.player(player_id), plans.get(player_id), lost)
         places.sort(key=lambda place: (not place.orphan, self._tick(place)))
@@ -92,7 +92,9 @@ class CorrectionList(Retranslated, QWidget):
         self._empty.setVisible(not places)
         self._show_buttons()
 
-    def _places(self, player: Player, plan: PlayerPlan | None, lost: set[tuple[str, Correction]]) -> list[Place]:
+    def _places(
+        self, player: Player, plan: PlayerPlan | None, lost: set[tuple[str, Correction]]
+    ) -> list[CorrectionRow]:
         corrections = self._session.project.corrections.get(player.id, ())
         if not corrections:
             return []
@@ -110,10 +112,10 @@ class CorrectionList(Retranslated, QWidget):
                 and former not in before
                 and bare is not None
             )
-            places.append(Place(player.id, item, events.get(id), before.get(former), orphan))
+            places.append(CorrectionRow(player.id, item, events.get(id), before.get(former), orphan))
         return places
 
-    def _tick(self, place: Place) -> int:
+    def _tick(self, place: CorrectionRow) -> int:
         event = place.event or place.generated
         if isinstance(place.correction, Vary | AdditiveCurve):
             return place.correction.start_tick
@@ -124,7 +126,7 @@ class CorrectionList(Retranslated, QWidget):
             return int(start)
         return round(self._session.project.score.tempo_map.ticks(event.start_s))
 
-    def _line(self, place: Place, several: bool) -> ListRow:
+    def _line(self, place: CorrectionRow, several: bool) -> ListRow:
         score, player = self._session.project.score, self._session.project.player(place.player_id)
         title = correction_title(place.correction)
         if several:
@@ -177,7 +179,7 @@ class CorrectionList(Retranslated, QWidget):
         return event_text(self._session.project.score, event)
 
     def _show_buttons(self, *_: object) -> None:
-        chosen = [key for key in self.list.selected_keys() if isinstance(key, Place)]
+        chosen = [key for key in self.list.selected_keys() if isinstance(key, CorrectionRow)]
         self._revert.setEnabled(bool(chosen))
         self._revert_all.setEnabled(bool(self.list.lines.lines))
         lost = [place for place in chosen if place.orphan]
@@ -187,7 +189,7 @@ class CorrectionList(Retranslated, QWidget):
     # Doing
 
     def _open(self, key: object) -> None:
-        assert isinstance(key, Place)
+        assert isinstance(key, CorrectionRow)
         item, event = key.correction, key.event or key.generated
         if isinstance(item, PinFingering | SetEmbouchure):
             self._session.select(Selection(notes=frozenset((item.note_id,))))
@@ -200,7 +202,7 @@ class CorrectionList(Retranslated, QWidget):
             self._session.reveal(event.start_s)
 
     def _revert_selected(self) -> None:
-        chosen = [key for key in self.list.selected_keys() if isinstance(key, Place)]
+        chosen = [key for key in self.list.selected_keys() if isinstance(key, CorrectionRow)]
         if not chosen:
             return
 
@@ -223,7 +225,7 @@ class CorrectionList(Retranslated, QWidget):
         self._session.attempt(Message("edit.give_back_player", {"player": names}), reverted)
 
     def _reattach(self) -> None:
-        lost = [key for key in self.list.selected_keys() if isinstance(key, Place) and key.orphan]
+        lost = [key for key in self.list.selected_keys() if isinstance(key, CorrectionRow) and key.orphan]
         notes = tuple(self._session.selection.notes)
         if len(lost) == 1 and len(notes) == 1:
             place = lost[0]
@@ -243,6 +245,6 @@ class CorrectionList(Retranslated, QWidget):
         self.show_corrections()
 
 
-def _place(line: ListRow) -> Place:
-    assert isinstance(line.key, Place)
+def _place(line: ListRow) -> CorrectionRow:
+    assert isinstance(line.key, CorrectionRow)
     return line.key

@@ -35,7 +35,7 @@ from widgets.players.newcomers import (
     reset_players,
 )
 from widgets.players.parameters import ParameterSections
-from widgets.players.player_list import PlayerList, Row
+from widgets.players.player_list import PlayerList, PlayerRow
 from widgets.players.preset_section import PresetSection
 from widgets.players.stage_section import StageSection
 
@@ -221,7 +221,7 @@ class PlayersPanel(Retranslated, QWidget):
             if musician is not player:
                 played = self.tr("players_panel.played_by").format(instrument=played, name=musician.name)
             rows.append(
-                Row(
+                PlayerRow(
                     player,
                     self._session.colour(player),
                     played,

@@ -32,7 +32,7 @@ _ROW = Qt.ItemDataRole.UserRole
 
 
 @dataclass(frozen=True)
-class Row:
+class PlayerRow:
     """What a row shows.
 
     Attributes
@@ -68,14 +68,14 @@ class PlayerModel(QAbstractListModel):
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self._rows: tuple[Row, ...] = ()
+        self._rows: tuple[PlayerRow, ...] = ()
 
     @property
-    def rows(self) -> tuple[Row, ...]:
+    def rows(self) -> tuple[PlayerRow, ...]:
         """What is shown, from the top."""
         return self._rows
 
-    def show_rows(self, rows: tuple[Row, ...]) -> None:
+    def show_rows(self, rows: tuple[PlayerRow, ...]) -> None:
         """Show these."""
         if [row.player.id for row in rows] != [row.player.id for row in self._rows]:
             self.beginResetModel()
@@ -142,7 +142,7 @@ class _RowDelegate(RowDelegate):
         return QSize(120, max(ROW_PX, round(lines) + 7))
 
     def paint(self, painter: QPainter, option: QStyleOptionViewItem, index: AnyIndex) -> None:
-        row: Row = index.data(_ROW)
+        row: PlayerRow = index.data(_ROW)
         tokens, box = self._session.tokens, option.rect
         in_front = self._session.players[:1] == (row.player.id,)
         painter.save()
@@ -158,7 +158,7 @@ class _RowDelegate(RowDelegate):
         self.paint_frame(painter, box, in_front)
         painter.restore()
 
-    def _paint_texts(self, painter: QPainter, room: QRect, row: Row, in_front: bool) -> None:
+    def _paint_texts(self, painter: QPainter, room: QRect, row: PlayerRow, in_front: bool) -> None:
         tokens = self._session.tokens
         font, small = QFont(self._view.font()), self._small_font()
         font.setBold(in_front)
@@ -213,7 +213,7 @@ class _RowDelegate(RowDelegate):
         editor.setGeometry(box.adjusted(13, 3, -count * (BUTTON_PX + 2) - 8, -4))
 
     def tip(self, index: AnyIndex, box: QRect, at: QPoint) -> str:
-        row: Row = index.data(_ROW)
+        row: PlayerRow = index.data(_ROW)
         mute, solo = self.buttons(box)
         if mute.contains(at):
             return self.tr("row_delegate.mute_silent_but_still")
@@ -263,7 +263,7 @@ class PlayerList(OrderedList):
         """How high the list is without scrolling, pixels."""
         return max(self.sizeHintForRow(0), 0) * self.rows.rowCount() + 2 * self.frameWidth()
 
-    def show_rows(self, rows: tuple[Row, ...]) -> None:
+    def show_rows(self, rows: tuple[PlayerRow, ...]) -> None:
         """Show these players, and which of them are selected."""
         self._showing = True
         self.rows.show_rows(rows)

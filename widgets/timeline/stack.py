@@ -19,7 +19,7 @@ LINE_PX = 1
 MOST_PX = 2000
 
 
-class Handle(QWidget):
+class LaneResizeHandle(QWidget):
     """The line below a lane: dragged it makes the lane taller or lower, a double click lets the lane choose again."""
 
     def __init__(self, stack: LaneStack, lane: Lane) -> None:
@@ -93,7 +93,7 @@ class LaneStack(QScrollArea):
         self._order = list(lanes)
         self._set_px: dict[str, int] = {}
         self._column = in_column(STRETCH, margins=0, spacing=0)
-        self._handles = {lane.id: Handle(self, lane) for lane in lanes}
+        self._handles = {lane.id: LaneResizeHandle(self, lane) for lane in lanes}
         for lane in lanes:
             lane.installEventFilter(self)
             lane.fold_changed.connect(self.arrange)

@@ -15,13 +15,13 @@ from PySide6.QtOpenGL import QOpenGLFramebufferObject, QOpenGLFramebufferObjectF
 from vispy import app as vispy_app
 
 from widgets.viewport.camera import Camera
-from widgets.viewport.look import Look
+from widgets.viewport.look import ViewportLook
 from widgets.viewport.renderer import Emphasis, Renderer
 
 SAMPLES = 4
 NO_GL_PLATFORMS = ("offscreen", "minimal", "vnc", "linuxfb")
 
-Picture = tuple[Camera, Look, Emphasis]
+Picture = tuple[Camera, ViewportLook, Emphasis]
 
 
 def why_no_gl() -> str | None:
@@ -145,6 +145,6 @@ def pixels(image: QImage) -> npt.NDArray[np.uint8]:
     return rows[:, : 4 * image.width()].reshape(image.height(), image.width(), 4).copy()
 
 
-def _sized(picture: Picture, width: int, height: int) -> tuple[Camera, tuple[int, int], Look, Emphasis]:
+def _sized(picture: Picture, width: int, height: int) -> tuple[Camera, tuple[int, int], ViewportLook, Emphasis]:
     camera, look, emphasis = picture
     return camera, (width, height), look, emphasis

@@ -18,7 +18,7 @@ AWAY_FROM_REST = 0.5
 
 
 @dataclass(frozen=True, eq=False)
-class Touch:
+class ContactReading:
     """One contact of the map in the present pose.
 
     Attributes
@@ -47,7 +47,7 @@ class Touch:
         return 1000.0 * float(np.linalg.norm(self.requested_m - self.found_m))
 
 
-def touches(stage: Stage, row: int) -> tuple[Touch, ...]:
+def touches(stage: Stage, row: int) -> tuple[ContactReading, ...]:
     """The contacts of a player that hold in the present pose."""
     kit, pose = stage.members[row].kit, stage.poses[row]
     if pose is None:
@@ -62,8 +62,8 @@ def touches(stage: Stage, row: int) -> tuple[Touch, ...]:
     marks = landmark_set(kit.character, tuple(contact.part for contact in holding))
     bones = stage.bones[row, marks.joints].astype(np.float64)
     found = np.tensordot(bones, marks.points, axes=([0, 2], [0, 1])).T
-    result: list[Touch] = []
-    workers: dict[tuple[str, ...], list[Touch]] = {}
+    result: list[ContactReading] = []
+    workers: dict[tuple[str, ...], list[ContactReading]] = {}
     for contact, place in zip(holding, found, strict=True):
         node = kit.instrument.node_names.index(contact.node)
         origin = 0.0 if contact.node == ROOT else kit.instrument.node_positions_m[node]
@@ -71,7 +71,7 @@ def touches(stage: Stage, row: int) -> tuple[Touch, ...]:
         rest = origin + np.asarray(contact.position_m) + aside_m(contact, kit.map, np.full(1, value))[0]
         matrix = stage.node_matrix(row, node)
         requested = matrix[:, :3] @ rest + matrix[:, 3]
-        result.append(Touch(contact.part, requested, place, contact.grip == "firm"))
+        result.append(ContactReading(contact.part, requested, place, contact.grip == "firm"))
         if works := worked_by(contact, kit.map):
             workers.setdefault(works, []).append(result[-1])
     # What several fingers may work, the nearest of them does.
@@ -79,7 +79,7 @@ def touches(stage: Stage, row: int) -> tuple[Touch, ...]:
     return tuple(touch for touch in result if id(touch) not in idle)
 
 
-def _nearest(touches: list[Touch]) -> Touch:
+def _nearest(touches: list[ContactReading]) -> ContactReading:
     return min(touches, key=lambda touch: touch.distance_mm)
 
 

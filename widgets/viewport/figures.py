@@ -20,7 +20,7 @@ CastKey = tuple[tuple[str, str, str, str, str, int, int, bool, float, float, flo
 
 
 @dataclass(frozen=True, eq=False)
-class Loaded:
+class DrawableFigures:
     """Who can be drawn, from what, and who cannot be, with the reason.
 
     ``crowd`` is there until the card has it: it is large.
@@ -71,7 +71,7 @@ def same_figures(one: CastKey, other: CastKey) -> bool:
     return [row[:8] for row in one] == [row[:8] for row in other]
 
 
-def load(project: Project, before: Shapes | None, progress: Progress, stop_requested: StopRequested) -> Loaded:
+def load(project: Project, before: Shapes | None, progress: Progress, stop_requested: StopRequested) -> DrawableFigures:
     """Load all performers. A player with something missing is excluded. Raises Cancelled."""
     kits: dict[tuple[str, str], RenderAssets] = {}
     musicians: dict[str, str] = {}
@@ -106,10 +106,10 @@ def load(project: Project, before: Shapes | None, progress: Progress, stop_reque
     progress(0.9)
     everyone = crowd_of(stage, shapes) if members else None
     progress(1.0)
-    return Loaded(cast_key(project), stage, shapes, found.left_out + dancers.left_out, everyone)
+    return DrawableFigures(cast_key(project), stage, shapes, found.left_out + dancers.left_out, everyone)
 
 
-def moved(project: Project, loaded: Loaded) -> Loaded:
+def moved(project: Project, loaded: DrawableFigures) -> DrawableFigures:
     """The same figures at the places of another value of the project, in the poses they had."""
     players: dict[str, Player] = {player.id: player for player in project.players}
     dancers: dict[str, Dancer] = {dancer.id: dancer for dancer in project.dancers}

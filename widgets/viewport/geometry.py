@@ -17,7 +17,7 @@ from app.arrays import AnyIntArray, FloatArray, IntArray, SingleArray
 from app.rig.mesh import Mesh
 from app.rig.model import Character, InstrumentModel
 from widgets.viewport.kept_shapes import kept
-from widgets.viewport.shape_model import BONES_PER_VERTEX, SHAPE, SURFACE, Face, Geometry, numbers
+from widgets.viewport.shape_model import BONES_PER_VERTEX, SHAPE, SURFACE, Geometry, MorphTargets, numbers
 
 BODY_CELLS_M = (0.0, 0.0055, 0.02)
 """Vertices nearer to one another than this are one, by level of detail; 0: all are kept."""
@@ -289,7 +289,7 @@ class _Whole:
             return self._surface[order], None
         return self._surface[order[first]], surface_of.reshape(-1).astype(np.uint16)
 
-    def _face(self, names: tuple[str, ...], shape: npt.NDArray[np.void], place: IntArray, count: int) -> Face:
+    def _face(self, names: tuple[str, ...], shape: npt.NDArray[np.void], place: IntArray, count: int) -> MorphTargets:
         targets = []
         for name in names:
             vertices, moves, turns = self._morphs[name]
@@ -297,7 +297,7 @@ class _Whole:
             here = own >= 0
             targets.append((own[here].astype(np.int32), np.concatenate([moves[here], turns[here]], axis=1)))
         rest = np.ascontiguousarray(shape[:count]).view(np.float32).reshape(count, -1).copy()
-        return Face(count, names, tuple(targets), rest)
+        return MorphTargets(count, names, tuple(targets), rest)
 
     def _clustered(self, cell_m: float, thin_share: float) -> tuple[IntArray, IntArray]:
         """Vertices kept, and triangles between them: of those in one cell and of one surface the first one stays."""

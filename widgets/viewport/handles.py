@@ -143,7 +143,7 @@ def dragged(
 
 
 @dataclass(frozen=True)
-class Span:
+class CorrectionSpan:
     """Where a correction holds, in ticks, with its fades."""
 
     start_tick: int
@@ -151,13 +151,13 @@ class Span:
     fade_ticks: int
 
 
-def span_of(project: Project, chosen: tuple[int, int] | None, playhead_tick: int) -> Span:
+def span_of(project: Project, chosen: tuple[int, int] | None, playhead_tick: int) -> CorrectionSpan:
     """The chosen span, else the bar at the playhead; faded over a felt beat."""
     if chosen is not None:
-        return Span(chosen[0], chosen[1], project.metre_map.felt_ticks_at(chosen[0]))
+        return CorrectionSpan(chosen[0], chosen[1], project.metre_map.felt_ticks_at(chosen[0]))
     metre_map = project.metre_map
     start, end = metre_map.span_of_bar(metre_map.bar_of_tick(max(playhead_tick, 0)))
-    return Span(start, end, metre_map.felt_ticks_at(start))
+    return CorrectionSpan(start, end, metre_map.felt_ticks_at(start))
 
 
 def correction_at(
@@ -178,7 +178,7 @@ def correction_at(
     return None
 
 
-def fresh_correction(project: Project, player_id: str, target: PoseTarget, span: Span) -> PoseCorrection:
+def fresh_correction(project: Project, player_id: str, target: PoseTarget, span: CorrectionSpan) -> PoseCorrection:
     """A correction that does nothing yet, of a name that the player has not."""
     taken = {item.name for item in project.corrections.get(player_id, ()) if isinstance(item, PoseCorrection)}
     number = 1

@@ -40,7 +40,7 @@ FULL_SCREEN = "application.full_screen"
 """The shell's: only a window can fill the screen."""
 
 
-class Header(Retranslated, QWidget):
+class ViewportHeader(Retranslated, QWidget):
     """Buttons over the picture; views fold into a menu where there is no room for them.
 
     Parameters

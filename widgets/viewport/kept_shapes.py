@@ -24,7 +24,7 @@ from app.formats.files import open_file
 from app.formats.json_data import UNREADABLE
 from app.formats.kept import digest_of
 from app.rig.mesh import Mesh
-from widgets.viewport.shape_model import SHAPE, SURFACE, Face, Geometry
+from widgets.viewport.shape_model import SHAPE, SURFACE, Geometry, MorphTargets
 
 MOST_FILES: Final = 128
 """Of characters and instruments, and of what they were before; the oldest go."""
@@ -123,7 +123,7 @@ def _write(file: BinaryIO, levels: Sequence[Geometry]) -> None:
         place += len(content)
         return _Array(place - len(content), _NAMES[array.dtype], array.shape)
 
-    def put_face(face: Face) -> _Face:
+    def put_face(face: MorphTargets) -> _Face:
         targets = tuple((put(vertices), put(deltas)) for vertices, deltas in face.targets)
         return _Face(face.count, face.names, targets, put(face.rest))
 
@@ -167,9 +167,9 @@ def _read(path: Path) -> tuple[Geometry, ...] | None:
     def got(array: _Array) -> npt.NDArray[Any]:
         return np.ndarray(array.size, _KINDS[array.kind], memory, first + array.start)
 
-    def face_of(face: _Face) -> Face:
+    def face_of(face: _Face) -> MorphTargets:
         targets = tuple((got(vertices), got(deltas)) for vertices, deltas in face.targets)
-        return Face(face.count, face.names, targets, got(face.rest))
+        return MorphTargets(face.count, face.names, targets, got(face.rest))
 
     return tuple(
         Geometry(

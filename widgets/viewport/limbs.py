@@ -90,7 +90,7 @@ def instrument_capsule(model: InstrumentModel) -> tuple[FloatArray, FloatArray, 
     return first, last, radius
 
 
-class Limbs:
+class LimbCapsules:
     """The capsules of everyone on a stage.
 
     Parameters

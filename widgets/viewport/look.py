@@ -13,7 +13,7 @@ Color = tuple[float, float, float]
 
 
 @dataclass(frozen=True)
-class Look:
+class ViewportLook:
     """Colours 0..1 as the display shows them (backdrop, floor, lines, glow), and lights in linear units."""
 
     top: Color
@@ -61,12 +61,12 @@ def is_dark(tokens: Tokens) -> bool:
 
 
 @lru_cache(maxsize=4)
-def look_of(tokens: Tokens) -> Look:
+def look_of(tokens: Tokens) -> ViewportLook:
     """The picture in a theme."""
     surface, sunken, raised = rgb(tokens.surface), rgb(tokens.sunken), rgb(tokens.raised)
     text, accent = rgb(tokens.text), rgb(tokens.accent)
     if is_dark(tokens):
-        return Look(
+        return ViewportLook(
             top=mixed(sunken, (0.0, 0.0, 0.0), 0.1),
             horizon=mixed(surface, text, 0.07),
             floor=mixed(raised, text, 0.24),
@@ -81,7 +81,7 @@ def look_of(tokens: Tokens) -> Look:
             key=KEY,
             wire=mixed(accent, text, 0.3),
         )
-    return Look(
+    return ViewportLook(
         top=mixed(sunken, text, 0.24),
         horizon=mixed(sunken, text, 0.09),
         floor=mixed(sunken, text, 0.11),

@@ -166,7 +166,7 @@ class _MadePoses:
         self._live, self._stop_requested, self._posed = live, stop_requested, posed
 
     def poses(self, player_ids: Sequence[str], time_s: float) -> Sequence[Pose | None]:
-        """See `app.editor.poses.Poses.poses`."""
+        """See `app.editor.poses.PoseSource.poses`."""
         poses = self._live.poses(player_ids, time_s)
         return [self._seen(*one, time_s) for one in zip(player_ids, poses, strict=True)]
 
@@ -174,7 +174,7 @@ class _MadePoses:
         return pose if pose is None or self._posed is None else self._posed(player_id, time_s, pose)
 
     def pose_now(self, player_id: str, time_s: float) -> Pose | None:
-        """See `app.editor.poses.Poses.pose_now`. Raises Cancelled."""
+        """See `app.editor.poses.PoseSource.pose_now`. Raises Cancelled."""
         live = self._live
         live.request(time_s, 0.0)
         while not live.is_seen:

@@ -14,7 +14,7 @@ from app.editor.tokens import Tokens
 from app.plan.model import PoseTarget
 from widgets.viewport.camera import Camera
 from widgets.viewport.cast import Stage
-from widgets.viewport.contacts import Touch
+from widgets.viewport.contacts import ContactReading
 from widgets.viewport.handles import Handle
 
 HANDLE_RADIUS_PX = 9.0
@@ -26,7 +26,7 @@ CLOSE_MM, NEAR_MM = 2.0, 4.0
 
 
 @dataclass(frozen=True, eq=False)
-class Name:
+class NameTag:
     """A player's name over their head."""
 
     text: str
@@ -37,13 +37,13 @@ class Name:
 
 
 @dataclass(frozen=True, eq=False)
-class Marks:
+class OverlayMarks:
     """Everything that is painted over the picture."""
 
-    names: Sequence[Name] = ()
+    names: Sequence[NameTag] = ()
     skeletons: Sequence[tuple[int, str]] = ()
     """Rows of the stage with their colour."""
-    touches: Sequence[Touch] = ()
+    touches: Sequence[ContactReading] = ()
     handles: Sequence[Handle] = ()
     grasped: PoseTarget | None = None
     corrected: frozenset[PoseTarget] = field(default_factory=frozenset)
@@ -55,7 +55,7 @@ class Marks:
 
 
 def paint(
-    painter: QPainter, marks: Marks, stage: Stage, camera: Camera, size: tuple[float, float], tokens: Tokens
+    painter: QPainter, marks: OverlayMarks, stage: Stage, camera: Camera, size: tuple[float, float], tokens: Tokens
 ) -> None:
     """Paint marks over a picture of this size (width, height)."""
     painter.setRenderHint(QPainter.RenderHint.Antialiasing)
@@ -110,7 +110,7 @@ def _paint_skeleton(
 
 
 def _paint_touches(
-    painter: QPainter, touches: Sequence[Touch], camera: Camera, size: tuple[float, float], tokens: Tokens
+    painter: QPainter, touches: Sequence[ContactReading], camera: Camera, size: tuple[float, float], tokens: Tokens
 ) -> None:
     requested, depths = camera.project(np.array([touch.requested_m for touch in touches]), *size)
     found, _ = camera.project(np.array([touch.found_m for touch in touches]), *size)
@@ -150,7 +150,9 @@ def _paint_touches(
         painter.drawText(box, Qt.AlignmentFlag.AlignCenter, text)
 
 
-def _paint_handles(painter: QPainter, marks: Marks, camera: Camera, size: tuple[float, float], tokens: Tokens) -> None:
+def _paint_handles(
+    painter: QPainter, marks: OverlayMarks, camera: Camera, size: tuple[float, float], tokens: Tokens
+) -> None:
     places, depths = camera.project(np.array([handle.at_m for handle in marks.handles]), *size)
     for handle, place, depth in zip(marks.handles, places, depths, strict=True):
         if depth <= 0.0:
@@ -173,7 +175,7 @@ def _paint_handles(painter: QPainter, marks: Marks, camera: Camera, size: tuple[
 
 
 def _paint_names(
-    painter: QPainter, names: Sequence[Name], camera: Camera, size: tuple[float, float], tokens: Tokens
+    painter: QPainter, names: Sequence[NameTag], camera: Camera, size: tuple[float, float], tokens: Tokens
 ) -> None:
     places, depths = camera.project(np.array([name.at_m for name in names]), *size)
     metrics = {bold: QFontMetricsF(_font(painter, 9.0, bold)) for bold in (False, True)}

@@ -14,7 +14,7 @@ from PySide6.QtGui import QColor, QImage, QPainter
 from PySide6.QtWidgets import QStackedWidget, QWidget
 
 from app.arrays import FloatArray
-from app.editor.poses import Poses
+from app.editor.poses import PoseSource
 from app.editor.session import Session
 from app.editor.viewport_state import SHOWN, VIEWS, View
 from app.errors import AppError
@@ -27,15 +27,15 @@ from widgets.viewport.camera import Camera, frame
 from widgets.viewport.canvas import Canvas, Picture, pixels, why_no_gl
 from widgets.viewport.cast import Stage
 from widgets.viewport.eye import Eye
-from widgets.viewport.figures import Loaded, cast_key
-from widgets.viewport.header import Header
+from widgets.viewport.figures import DrawableFigures, cast_key
+from widgets.viewport.header import ViewportHeader
 from widgets.viewport.layer import Layer
 from widgets.viewport.look import look_of
 from widgets.viewport.overlay import paint
 from widgets.viewport.pointer import Pointer
 from widgets.viewport.pose_tool import PoseTool
 from widgets.viewport.renderer import Emphasis, Renderer
-from widgets.viewport.scene import Scene
+from widgets.viewport.scene import ViewportScene
 from widgets.viewport.shot import Shot, times_looked_at
 from widgets.viewport.video import BesideVideo, VideoStrip
 from widgets.viewport.views import bounds, in_the_way, steady_camera, tracked, view_camera
@@ -69,21 +69,21 @@ class ViewportPanel(Retranslated, QWidget):
     Parameters
     ----------
     session : Session
-    poses : Poses
+    poses : PoseSource
     """
 
-    def __init__(self, session: Session, poses: Poses, parent: QWidget | None = None) -> None:
+    def __init__(self, session: Session, poses: PoseSource, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.setObjectName("viewport")
         self._session = session
         self._eye = Eye()
         self._tool = PoseTool(session)
-        self.scene = Scene(session, poses, self._tool, self)
+        self.scene = ViewportScene(session, poses, self._tool, self)
         self._settle_until_s = 0.0
         self._elsewhere: tuple[Camera, Shot] | None = None
         """Camera and shot of a picture that is not the window's, while it is drawn."""
 
-        self.header = Header(session, self)
+        self.header = ViewportHeader(session, self)
         self._stack = QStackedWidget(self)
         self._reason = wrapped(named(Label(parent=self._stack), "viewport_reason"))
         self._reason.setAlignment(Qt.AlignmentFlag.AlignCenter)
@@ -174,7 +174,7 @@ class ViewportPanel(Retranslated, QWidget):
         """What is said instead of a picture, or in its middle; empty where there is nothing to say."""
         return self._reason.text() if self._failure is not None else self.scene.message()
 
-    def set_poses(self, poses: Poses) -> None:
+    def set_poses(self, poses: PoseSource) -> None:
         """Take poses from there from now on."""
         self.scene.set_poses(poses)
         self.refresh()
@@ -468,7 +468,7 @@ class ViewportPanel(Retranslated, QWidget):
             self._canvas.clear_stage()
         self.refresh()
 
-    def _send(self, renderer: Renderer, loaded: Loaded) -> None:
+    def _send(self, renderer: Renderer, loaded: DrawableFigures) -> None:
         renderer.set_stage(loaded.stage, loaded.shapes, loaded.crowd)
         self.scene.sent(loaded.shapes)
 

@@ -11,7 +11,7 @@ from widgets.viewport.eye import Eye
 from widgets.viewport.handles import Handle
 from widgets.viewport.overlay import handle_at
 from widgets.viewport.pose_tool import PoseTool
-from widgets.viewport.scene import Scene
+from widgets.viewport.scene import ViewportScene
 
 CLICK_PX = 4.0
 """A press that moves less is a click."""
@@ -28,7 +28,7 @@ class Pointer(QObject):
     canvas : QWidget
     session : Session
     eye : Eye
-    scene : Scene
+    scene : ViewportScene
     tool : PoseTool
 
     Signals
@@ -51,7 +51,7 @@ class Pointer(QObject):
     menu_asked = Signal(QPoint)
     framed = Signal(int)
 
-    def __init__(self, canvas: QWidget, session: Session, eye: Eye, scene: Scene, tool: PoseTool) -> None:
+    def __init__(self, canvas: QWidget, session: Session, eye: Eye, scene: ViewportScene, tool: PoseTool) -> None:
         super().__init__(canvas)
         self._canvas, self._session = canvas, session
         self._eye, self._scene, self._tool = eye, scene, tool

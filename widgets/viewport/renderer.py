@@ -31,8 +31,8 @@ from widgets.viewport.geometry import (
     stand,
     stool,
 )
-from widgets.viewport.limbs import HELD, LIMBS, SHADING, Limbs
-from widgets.viewport.look import Color, Look
+from widgets.viewport.limbs import HELD, LIMBS, SHADING, LimbCapsules
+from widgets.viewport.look import Color, ViewportLook
 from widgets.viewport.shape_model import Geometry
 
 FINE_PX_PER_M = 620.0
@@ -193,7 +193,7 @@ class Renderer:
         self._morphed: OrderedDict[tuple[int, int], tuple[Any, object]] = OrderedDict()
         self._stage: Stage | None = None
         self._shapes: Shapes | None = None
-        self._limbs: Limbs | None = None
+        self._limbs: LimbCapsules | None = None
         self._middles_m = np.zeros((0, 3))
         self._sent: dict[object, object] = {}
         """What the programs' uniforms were last made from: most pictures have the camera and look of the one before."""
@@ -218,7 +218,7 @@ class Renderer:
         self._sent.clear()
         if same:
             # The same players at other places: what is on the card stays.
-            self._limbs = Limbs(stage)
+            self._limbs = LimbCapsules(stage)
             return
         alive = {
             id(level) for levels in (*shapes.characters.values(), *shapes.instruments.values()) for level in levels
@@ -228,7 +228,7 @@ class Renderer:
         count = len(stage.members)
         if everyone is None:
             raise ValueError("other figures need their crowd")
-        self._limbs = Limbs(stage)
+        self._limbs = LimbCapsules(stage)
         self._bone_rows = np.zeros((count, 3 * stage.bones.shape[1] + 1, 4), np.float32)
         self._bones = gloo.Texture2D(self._bone_rows, internalformat="rgba32f", interpolation="nearest")
         self._limb_rows = np.zeros((count, 2 * LIMBS + 1, 4), np.float32)
@@ -276,7 +276,7 @@ class Renderer:
         self._batch_edges: Any = None
         self._batch_parts = everyone.parts
 
-    def draw(self, camera: Camera, size_px: tuple[int, int], look: Look, emphasis: Emphasis) -> None:
+    def draw(self, camera: Camera, size_px: tuple[int, int], look: ViewportLook, emphasis: Emphasis) -> None:
         """Draw one picture of this size into the bound framebuffer."""
         width, height = size_px
         aspect = width / max(height, 1)
@@ -324,7 +324,7 @@ class Renderer:
         self._sent[program] = source
         return True
 
-    def _dress_backdrop(self, camera: Camera, aspect: float, look: Look) -> None:
+    def _dress_backdrop(self, camera: Camera, aspect: float, look: ViewportLook) -> None:
         program = self._backdrop
         tangent = float(np.tan(np.radians(camera.fov_deg) / 2.0))
         program["u_eye"] = camera.eye_m
@@ -371,7 +371,7 @@ class Renderer:
         level[outside | ~stage.shown] = -1
         return level
 
-    def _upload(self, stage: Stage, limbs: Limbs, level: IndexArray, emphasis: Emphasis) -> None:
+    def _upload(self, stage: Stage, limbs: LimbCapsules, level: IndexArray, emphasis: Emphasis) -> None:
         count = len(stage.members)
         rows = self._bone_rows
         rows[:, :-1] = stage.bones.reshape(count, -1, 4)
@@ -407,7 +407,7 @@ class Renderer:
             self._ring.draw("triangle_strip")
 
     @staticmethod
-    def _light(program: Any, camera: Camera, clip: SingleArray, look: Look) -> None:
+    def _light(program: Any, camera: Camera, clip: SingleArray, look: ViewportLook) -> None:
         program["u_clip_from_world"] = clip
         program["u_eye"] = camera.eye_m
         program["u_key"] = look.key

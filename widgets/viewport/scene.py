@@ -10,7 +10,7 @@ from PySide6.QtCore import QObject, Signal
 
 from app.arrays import FloatArray
 from app.editor.live_poses import LivePoses
-from app.editor.poses import Poses, same
+from app.editor.poses import PoseSource, same
 from app.editor.session import Session, Severity
 from app.editor.translated import tr
 from app.errors import Message
@@ -22,11 +22,11 @@ from widgets.common.text import message_text
 from widgets.viewport.camera import Camera
 from widgets.viewport.cast import Member, Stage
 from widgets.viewport.contacts import touches
-from widgets.viewport.figures import Loaded, cast_key, load, moved, same_figures
+from widgets.viewport.figures import DrawableFigures, cast_key, load, moved, same_figures
 from widgets.viewport.handles import TARGETS, Handle, handles
-from widgets.viewport.limbs import Limbs, hit
+from widgets.viewport.limbs import LimbCapsules, hit
 from widgets.viewport.look import Color, rgb
-from widgets.viewport.overlay import Marks, Name, over_heads_m
+from widgets.viewport.overlay import NameTag, OverlayMarks, over_heads_m
 from widgets.viewport.pose_tool import PoseTool
 from widgets.viewport.renderer import Shapes
 from widgets.viewport.worn_face import WornFaces
@@ -36,13 +36,13 @@ PODIUM_NAME_M = 0.5
 """So high over the conductor's place it says what it is."""
 
 
-class Scene(QObject):
+class ViewportScene(QObject):
     """The stage of a session's project.
 
     Parameters
     ----------
     session : Session
-    poses : Poses
+    poses : PoseSource
 
     Signals
     -------
@@ -55,17 +55,17 @@ class Scene(QObject):
     staged = Signal()
     shown = Signal()
 
-    def __init__(self, session: Session, poses: Poses, tool: PoseTool, parent: QObject | None = None) -> None:
+    def __init__(self, session: Session, poses: PoseSource, tool: PoseTool, parent: QObject | None = None) -> None:
         super().__init__(parent)
         self._session = session
-        self._poses: Poses = WornFaces(session, LivePoses(session, poses))
+        self._poses: PoseSource = WornFaces(session, LivePoses(session, poses))
         self._tool = tool
-        self._loaded: Loaded | None = None
+        self._loaded: DrawableFigures | None = None
         self.missing = False
         """Whether a pose was missing when it was last requested."""
 
     @property
-    def loaded(self) -> Loaded | None:
+    def loaded(self) -> DrawableFigures | None:
         """What is drawn; None before it is loaded."""
         return self._loaded
 
@@ -74,7 +74,7 @@ class Scene(QObject):
         """Who is drawn."""
         return self._loaded.stage if self._loaded is not None else None
 
-    def set_poses(self, poses: Poses) -> None:
+    def set_poses(self, poses: PoseSource) -> None:
         """Take poses from there from now on."""
         self._poses = WornFaces(self._session, LivePoses(self._session, poses))
 
@@ -100,7 +100,7 @@ class Scene(QObject):
         if self._loaded is not None and self._loaded.shapes is shapes:
             self._loaded = replace(self._loaded, crowd=None)
 
-    def _arrived(self, loaded: Loaded) -> None:
+    def _arrived(self, loaded: DrawableFigures) -> None:
         if same_figures(loaded.key, cast_key(self._session.project)):
             self._set(loaded)
             self._report_left_out(loaded.left_out)
@@ -114,7 +114,7 @@ class Scene(QObject):
             names = ", ".join(one.player.name for one in left_out)
             self._session.notice(Message("player.not_seen", {"players": names}), Severity.WARNING)
 
-    def _set(self, loaded: Loaded) -> None:
+    def _set(self, loaded: DrawableFigures) -> None:
         self._loaded = loaded
         self.staged.emit()
 
@@ -179,7 +179,7 @@ class Scene(QObject):
         stage = self.stage
         if stage is None or not stage.shown.any():
             return None
-        found = hit(Limbs(stage).capsules(), origin_m, direction)
+        found = hit(LimbCapsules(stage).capsules(), origin_m, direction)
         return found[0] if found is not None else None
 
     def rings(self) -> dict[int, Color]:
@@ -210,11 +210,11 @@ class Scene(QObject):
         stage, rows = self.stage, self.rows()
         return handles(stage, rows[0]) if self._session.viewport.posing and stage is not None and rows else ()
 
-    def marks(self, camera: Camera) -> Marks:
+    def marks(self, camera: Camera) -> OverlayMarks:
         """What is painted over the picture."""
         stage, state, session = self.stage, self._session.viewport, self._session
         if stage is None:
-            return Marks()
+            return OverlayMarks()
         project = session.project
         players = {performer.id: performer for performer in project.performers}
         rows, visible = self.rows(), self.visible(selected=False)
@@ -225,14 +225,14 @@ class Scene(QObject):
             places_m = over_heads_m(stage, [row for row, _ in known], camera.up)
             for (_, player), over_m in zip(known, places_m, strict=True):
                 selected = self._is_selected(player)
-                names.append(Name(player.name, session.colour(player) if selected else "", over_m, selected))
+                names.append(NameTag(player.name, session.colour(player) if selected else "", over_m, selected))
             if project.conducting is not None:
                 over_m = np.array([project.conducting.x_m, PODIUM_NAME_M, project.conducting.z_m])
-                names.append(Name(_conductors_name(), "", over_m, False))
+                names.append(NameTag(_conductors_name(), "", over_m, False))
         if state.shows("skeleton"):
             skeletons = [(row, session.colour(player)) for row, player in known]
         touched = state.shows("contacts") and bool(rows) and rows[0] in visible
-        return Marks(
+        return OverlayMarks(
             names=names,
             skeletons=skeletons,
             touches=touches(stage, rows[0]) if touched else (),

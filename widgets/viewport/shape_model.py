@@ -23,7 +23,7 @@ SURFACE = np.dtype(
 
 
 @dataclass(frozen=True, eq=False)
-class Face:
+class MorphTargets:
     """Morph targets over the first vertices of a geometry.
 
     Attributes
@@ -64,7 +64,7 @@ class Geometry:
         Those that are seen from one side only come first.
     one_sided : int
         How many these are.
-    face : Face or None
+    face : MorphTargets or None
     surface_of : (V,) uint16 or None
         Which of the surfaces each vertex has: those of what does not bend are few. None: each its own.
     """
@@ -73,7 +73,7 @@ class Geometry:
     surfaces: npt.NDArray[np.void]
     triangles: npt.NDArray[np.uint16] | npt.NDArray[np.uint32]
     one_sided: int
-    face: Face | None = None
+    face: MorphTargets | None = None
     surface_of: npt.NDArray[np.uint16] | None = None
 
     @property

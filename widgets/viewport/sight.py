@@ -8,7 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from app.arrays import FloatArray
-from app.rig.grip.instrument_proxy import Nodes, bodies, inside
+from app.rig.grip.instrument_proxy import InstrumentNodes, bodies, inside
 from widgets.viewport.cast import Stage
 
 Direction = tuple[float, float]
@@ -63,7 +63,7 @@ def seen(stage: Stage, row: int, towards_deg: Sequence[Direction], turn_rad: flo
     on_line = places_m[:, None] + lines[:, :, None] / lengths[:, :, None, None] * steps[:, None]
     local = ((on_line - held[:, 3]) @ held[:, :3]).reshape(-1, 3)
     names = kit.instrument.node_names
-    nodes = Nodes(kit.instrument.node_positions_m, np.tile(np.eye(3), (len(names), 1, 1)))
+    nodes = InstrumentNodes(kit.instrument.node_positions_m, np.tile(np.eye(3), (len(names), 1, 1)))
     depth_m, _ = inside(bodies(kit.map.proxy, names), nodes, local, np.full(len(local), _WIRE_M))
     hidden = (depth_m.reshape(on_line.shape[:3]) > 0.0).any(axis=2)
     share: FloatArray = 1.0 - hidden.mean(axis=1)

@@ -16,7 +16,7 @@ import numpy as np
 from app.arrays import FloatArray
 from app.choreography.body import ENDS, PARENT_OF, SEGMENTS
 from app.choreography.clip import MotionClip
-from app.choreography.dance import Step
+from app.choreography.dance import SegmentStep
 from app.choreography.features import facing, height_m, points_m
 from app.choreography.generate import Choreographer
 from app.choreography.model import ChoreographyModel
@@ -44,7 +44,7 @@ class DanceSteps:
 
     Attributes
     ----------
-    steps : tuple of Step
+    steps : tuple of SegmentStep
         In order; empty where the music has no beats, and with an error.
     ticks : tuple of int
         Of each step, the place in the music at which a correction of it is kept.
@@ -61,7 +61,7 @@ class DanceSteps:
     """
 
     dancer: Dancer
-    steps: tuple[Step, ...] = ()
+    steps: tuple[SegmentStep, ...] = ()
     ticks: tuple[int, ...] = ()
     spans: tuple[tuple[int, int], ...] = ()
     places: tuple[int, ...] = ()

@@ -25,7 +25,7 @@ import numpy as np
 
 from app.arrays import BoolArray, FloatArray
 from app.chance import chance, performed_seed
-from app.choreography.dance import Dance, Manner, Step
+from app.choreography.dance import Dance, Manner, SegmentStep
 from app.choreography.derived_rhythm import audible_rhythm
 from app.choreography.generate import Choreographer
 from app.choreography.judge import jerking_seams, sliding_stands
@@ -33,7 +33,7 @@ from app.choreography.performed.choreographers import choreographer_of, too_long
 from app.choreography.performed.forgetting import Remembered
 from app.choreography.retarget import retarget
 from app.choreography.rhythm import Rhythm, delayed
-from app.choreography.sequence import Constraints, Grid, grid_of
+from app.choreography.sequence import AccentGrid, Constraints, grid_of
 from app.errors import AppError, Message
 from app.identity_cache import IdentityCache
 from app.motion.curves.curve import Envelopes
@@ -90,10 +90,10 @@ class GeneratedDance:
         self._corrections, self._tempo_map = corrections, tempo_map
         self._problems: tuple[Problem, ...] = ()
         self._made: _Made | None = None
-        self._steps: tuple[Step, ...] | None = None
+        self._steps: tuple[SegmentStep, ...] | None = None
         self._lock = Lock()
 
-    def steps(self) -> tuple[Step, ...]:
+    def steps(self) -> tuple[SegmentStep, ...]:
         """Which segments are danced when, at every frame rate."""
         with self._lock:
             if self._steps is None:
@@ -101,11 +101,11 @@ class GeneratedDance:
                 self._steps = made.dance.steps if made is not None else self._chosen()
             return self._steps
 
-    def _chosen(self) -> tuple[Step, ...]:
+    def _chosen(self) -> tuple[SegmentStep, ...]:
         constraints = self._constraints(grid_of(self.rhythm))
         return self.choreographer.steps(self.rhythm, self._manner, constraints=constraints)
 
-    def _constraints(self, grid: Grid) -> Constraints:
+    def _constraints(self, grid: AccentGrid) -> Constraints:
         return assignments_of(self._corrections, grid, self._tempo_map, self.choreographer.model.states)
 
     @property
@@ -257,7 +257,7 @@ def dance_frame(performance: Performance) -> TimeFrame:
 
 
 def assignments_of(
-    corrections: Sequence[DanceCorrection], grid: Grid, tempo_map: TempoMap, states: int | None = None
+    corrections: Sequence[DanceCorrection], grid: AccentGrid, tempo_map: TempoMap, states: int | None = None
 ) -> Constraints:
     """Corrections, which hold for ticks, on the nearest places of a grid; of several for one place the last counts.
 
@@ -278,7 +278,7 @@ def assignments_of(
 
 
 def not_held(
-    corrections: Sequence[DanceCorrection], steps: Sequence[Step], grid: Grid, tempo_map: TempoMap
+    corrections: Sequence[DanceCorrection], steps: Sequence[SegmentStep], grid: AccentGrid, tempo_map: TempoMap
 ) -> tuple[Problem, ...]:
     """A problem for every correction that these steps do not hold: there is no such basic motion or segment, or other
     corrections are against it. The corrections stay."""
@@ -329,12 +329,12 @@ def visible_faults(dance: Dance, usual_rad_s: float) -> tuple[Problem, ...]:
     return tuple(found)
 
 
-def place_of(tick: int, grid: Grid, tempo_map: TempoMap) -> int:
+def place_of(tick: int, grid: AccentGrid, tempo_map: TempoMap) -> int:
     """The place of a grid that is nearest to a tick."""
     return int(np.abs(grid.times_s - tempo_map.seconds(float(tick))).argmin())
 
 
-def _places(item: ForbidState, grid: Grid, tempo_map: TempoMap) -> range:
+def _places(item: ForbidState, grid: AccentGrid, tempo_map: TempoMap) -> range:
     """The places of a grid in a span of ticks."""
     start_s, end_s = (tempo_map.seconds(float(tick)) for tick in (item.start_tick, item.end_tick))
     first, stop = np.searchsorted(grid.times_s, (start_s - 1e-6, end_s - 1e-6))

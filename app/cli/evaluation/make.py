@@ -30,7 +30,17 @@ from app.encoding import stored
 from app.errors import AppError, Cancelled, UsageError
 from app.evaluation.design import PRESENTATIONS
 from app.evaluation.key import KEY_FILE, VARIANTS, Variant
-from app.evaluation.request import EXCERPTS, FPS, LEAST_S, MOST_EXCERPTS, MOST_S, SECONDS, SIZE, Request, variants_of
+from app.evaluation.request import (
+    EXCERPTS,
+    FPS,
+    LEAST_S,
+    MOST_EXCERPTS,
+    MOST_S,
+    SECONDS,
+    SIZE,
+    EvaluationRequest,
+    variants_of,
+)
 from app.messages import error_text, filled, text
 
 if TYPE_CHECKING:
@@ -187,11 +197,11 @@ def _check_options(arguments: argparse.Namespace) -> None:
         raise UsageError("picture.odd_size", width=arguments.size[0], height=arguments.size[1])
 
 
-def _request(arguments: argparse.Namespace, project: Project) -> Request:
+def _request(arguments: argparse.Namespace, project: Project) -> EvaluationRequest:
     view, player_ids = seen(arguments, project)
     if arguments.view is None and not arguments.players and len(project.seen) == 1:
         view, player_ids = "front", (project.seen[0].id,)
-    return Request(
+    return EvaluationRequest(
         folder=stored(arguments.to),
         title=project.score.title or arguments.file.stem,
         film="" if arguments.film is None else stored(arguments.film),

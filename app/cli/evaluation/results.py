@@ -13,7 +13,7 @@ from app.errors import Message
 from app.messages import text
 
 if TYPE_CHECKING:
-    from app.evaluation.tables import Table
+    from app.evaluation.tables import ResultTable
 
 
 def add_arguments(command: argparse.ArgumentParser) -> None:
@@ -62,6 +62,6 @@ def results(arguments: argparse.Namespace) -> None:
         say("", f"{shown(arguments.to)}: {', '.join(path.name for path in written)}")
 
 
-def table_lines(table: Table) -> list[str]:
+def table_lines(table: ResultTable) -> list[str]:
     """A table, numbers on the right of their columns."""
     return [table.title, *columns([table.head, *table.rows], names=table.names), f"({table.note})"]

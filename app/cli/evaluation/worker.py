@@ -4,36 +4,36 @@ from __future__ import annotations
 
 import threading
 
-from app.child import Channel, channel_to_parent
+from app.child import MessageChannel, channel_to_parent
 from app.errors import AppError, Message
 from app.evaluation.make import make_evaluation
-from app.evaluation.process import Answer, Finished, Job, Refused, Reported
+from app.evaluation.process import Answer, EvaluationFinished, EvaluationJob, EvaluationProgress, EvaluationRefused
 from app.messages import text
 
 
 def main() -> None:
     """Make the evaluation that is asked for."""
-    channel: Channel[Job] = channel_to_parent(Job, "evaluation")
+    channel: MessageChannel[EvaluationJob] = channel_to_parent(EvaluationJob, "evaluation")
     job = channel.receive()
     stopped = threading.Event()
     threading.Thread(target=_until_closed, args=(channel, stopped), daemon=True).start()
     try:
         answer = _made(job, channel, stopped)
     except AppError as error:
-        answer = Refused(error.message)
+        answer = EvaluationRefused(error.message)
     channel.send(answer)
 
 
-def _made(job: Job, channel: Channel[Job], stopped: threading.Event) -> Answer:
+def _made(job: EvaluationJob, channel: MessageChannel[EvaluationJob], stopped: threading.Event) -> Answer:
     # All of Qt.
     from widgets.viewport.offscreen import offscreen
 
     def report(share: float, message: Message) -> None:
-        channel.send(Reported(share, message))
+        channel.send(EvaluationProgress(share, message))
 
     made = make_evaluation(job.opened(), job.request, offscreen, text, report, stopped.is_set)
     video = made.video
-    return Finished(
+    return EvaluationFinished(
         clips=len(made.key.clips),
         pairs=made.pairs,
         left_out=tuple((one.player.name, one.reason) for one in made.left_out),
@@ -42,7 +42,7 @@ def _made(job: Job, channel: Channel[Job], stopped: threading.Event) -> Answer:
     )
 
 
-def _until_closed(channel: Channel[Job], stopped: threading.Event) -> None:
+def _until_closed(channel: MessageChannel[EvaluationJob], stopped: threading.Event) -> None:
     """Wait until who asked closes the input, or has ended."""
     while channel.incoming.read(1):
         pass

@@ -13,7 +13,7 @@ from typing import Final
 
 import msgspec
 
-from app.export.report import StagePlace, stage_place
+from app.export.report import PlaceReport, stage_place
 from app.export.unreal.layout import FigurePlace, Layout
 from app.export.unreal.manifest import OwnFile
 from app.performance.ensemble import Performance
@@ -36,7 +36,7 @@ class Rate(msgspec.Struct, frozen=True):
     denominator: int
 
 
-class Place(msgspec.Struct, frozen=True):
+class UnrealPlace(msgspec.Struct, frozen=True):
     """Where an actor stands in Unreal, which is left-handed with Z up: our (x, y, z) in metres is (100 x, 100 z,
     100 y) there, so that a turn from +Z towards +X is a negative yaw."""
 
@@ -46,7 +46,7 @@ class Place(msgspec.Struct, frozen=True):
     yaw_deg: float
 
 
-class Figure(msgspec.Struct, frozen=True):
+class UnrealFigure(msgspec.Struct, frozen=True):
     """A skeletal mesh and what it does: its file, beside this one, and its assets. ``bones`` are all of the file's, the
     root first; ``socket`` is the bone of the player's character that an instrument hangs on, empty for none."""
 
@@ -64,7 +64,7 @@ class Double(msgspec.Struct, frozen=True):
     name: str
     part: str
     instrument_id: str
-    instrument: Figure
+    instrument: UnrealFigure
 
 
 class Cast(msgspec.Struct, frozen=True):
@@ -74,10 +74,10 @@ class Cast(msgspec.Struct, frozen=True):
     part: str
     instrument_id: str
     character_id: str
-    stage: StagePlace
-    place: Place
-    character: Figure
-    instrument: Figure
+    stage: PlaceReport
+    place: UnrealPlace
+    character: UnrealFigure
+    instrument: UnrealFigure
     doubles: tuple[Double, ...]
 
 
@@ -87,12 +87,12 @@ class CastDancer(msgspec.Struct, frozen=True):
     name: str
     choreography: str
     character_id: str
-    stage: StagePlace
-    place: Place
-    character: Figure
+    stage: PlaceReport
+    place: UnrealPlace
+    character: UnrealFigure
 
 
-class Sound(msgspec.Struct, frozen=True):
+class UnrealSound(msgspec.Struct, frozen=True):
     """The sound. ``offset_s`` is the time of the animation at which the file begins."""
 
     file: str
@@ -113,7 +113,7 @@ class Tempo(msgspec.Struct, frozen=True):
     quarters_per_minute: float
 
 
-class Metre(msgspec.Struct, frozen=True):
+class UnrealMetre(msgspec.Struct, frozen=True):
     """A time signature from a tick on."""
 
     tick: int
@@ -131,7 +131,7 @@ class Bar(msgspec.Struct, frozen=True):
     frame: int
 
 
-class Marker(msgspec.Struct, frozen=True):
+class UnrealMarker(msgspec.Struct, frozen=True):
     """A rehearsal marker that the animation shows, in its bar. ``frame`` is the nearest."""
 
     text: str
@@ -173,15 +173,15 @@ class Description(msgspec.Struct, frozen=True):
     frames: int
     first_frame_s: float
     bars_exported: tuple[int, int] | None
-    sound: Sound
+    sound: UnrealSound
     players: tuple[Cast, ...]
     dancers: tuple[CastDancer, ...]
     ticks_per_quarter: int
     pickup_ticks: int
     tempo: tuple[Tempo, ...]
-    metres: tuple[Metre, ...]
+    metres: tuple[UnrealMetre, ...]
     bars: tuple[Bar, ...]
-    markers: tuple[Marker, ...]
+    markers: tuple[UnrealMarker, ...]
     cues: tuple[Cue, ...]
     files: dict[str, OwnFile]
     left_out: tuple[LeftOutFigures, ...]
@@ -201,7 +201,7 @@ def describe(
     bodies: Mapping[str, tuple[str, str]],
     sockets: Mapping[str, str],
     rooted: Set[str],
-    sound: Sound,
+    sound: UnrealSound,
     files: Mapping[str, OwnFile],
 ) -> Description:
     """Describe an export.
@@ -225,16 +225,16 @@ def describe(
     score, rate = project.score, span.fps
     time = _Time(performance.piece.clock, span)
 
-    def figure(place: FigurePlace, socket: str = "") -> Figure:
+    def figure(place: FigurePlace, socket: str = "") -> UnrealFigure:
         file = place.file.as_posix()
-        return Figure(file, place.mesh, place.skeleton, place.animation, bones[file], socket)
+        return UnrealFigure(file, place.mesh, place.skeleton, place.animation, bones[file], socket)
 
-    def character(id: str) -> Figure:
+    def character(id: str) -> UnrealFigure:
         mesh, skeleton = bodies[id]
         return figure(replace(layout.characters[id], mesh=mesh, skeleton=skeleton))
 
-    def placed(one: Player | Dancer) -> Place:
-        return Place(0.0, 0.0, 0.0, 0.0) if one.id in rooted else place_of(one.stage)
+    def placed(one: Player | Dancer) -> UnrealPlace:
+        return UnrealPlace(0.0, 0.0, 0.0, 0.0) if one.id in rooted else place_of(one.stage)
 
     def cast(player: Player) -> Cast:
         return Cast(
@@ -285,7 +285,8 @@ def describe(
             for change in score.tempo_map.changes
         ),
         metres=tuple(
-            Metre(metre.tick, time.after_s(metre.tick), metre.numerator, metre.denominator) for metre in score.metres
+            UnrealMetre(metre.tick, time.after_s(metre.tick), metre.numerator, metre.denominator)
+            for metre in score.metres
         ),
         bars=_bars(score, bars, time),
         markers=_markers(score, bars, time),
@@ -334,12 +335,12 @@ def _bars(score: Score, bars: tuple[int, int] | None, time: _Time) -> tuple[Bar,
     return tuple(bar for bar in reported if time.shows(bar.frame))
 
 
-def _markers(score: Score, bars: tuple[int, int] | None, time: _Time) -> tuple[Marker, ...]:
+def _markers(score: Score, bars: tuple[int, int] | None, time: _Time) -> tuple[UnrealMarker, ...]:
     reported = []
     for marker in score.markers:
         bar, s = score.metre_map.bar_of_tick(marker.tick), time.after_s(marker.tick)
         if bars is None or bars[0] <= bar <= bars[1]:
-            reported.append(Marker(marker.text, bar, marker.tick, s, time.frame(s)))
+            reported.append(UnrealMarker(marker.text, bar, marker.tick, s, time.frame(s)))
     return tuple(marker for marker in reported if time.shows(marker.frame))
 
 
@@ -352,10 +353,10 @@ def _cues(performance: Performance, players: tuple[Player, ...], time: _Time) ->
     return tuple(sorted((cue for cue in reported if time.shows(cue.frame)), key=lambda cue: cue.entry_s))
 
 
-def place_of(stage: StagePosition) -> Place:
+def place_of(stage: StagePosition) -> UnrealPlace:
     """A performer's place as Unreal has it."""
     turn_deg = math.degrees(math.remainder(stage.turn_rad, math.tau))
-    return Place(
+    return UnrealPlace(
         x_cm=round(100.0 * stage.x_m, 3) + 0.0,
         y_cm=round(100.0 * stage.z_m, 3) + 0.0,
         z_cm=0.0,

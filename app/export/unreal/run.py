@@ -25,13 +25,13 @@ from app.export.equip import socket_names
 from app.export.file_names import REPORT as EXPORTED_REPORT
 from app.export.instrument import instrument_bones
 from app.export.report import Report, encode_report
-from app.export.request import ExportCast, Request, cast_of
+from app.export.request import ExportCast, ExportRequest, cast_of
 from app.export.run import Progress, write_cast
 from app.export.sound import write_sound
 from app.export.targets import written_meshes
 from app.export.tree import TreeChange, files_below, recover, refuse_links_out, tree_into
 from app.export.unreal.check import Expected, check_fbx, check_wave
-from app.export.unreal.description import Sound, describe, encode_description
+from app.export.unreal.description import UnrealSound, describe, encode_description
 from app.export.unreal.layout import (
     DESCRIPTION,
     MANIFEST,
@@ -85,7 +85,7 @@ class Plan:
 
 
 @dataclass(frozen=True)
-class Written:
+class UnrealExport:
     """What an export into a project has done: its plan, and the report of what the files hold."""
 
     plan: Plan
@@ -147,17 +147,17 @@ def plan_export(
 
 
 def export_into(
-    request: Request,
+    request: ExportRequest,
     project: UnrealProject,
     wording: Callable[[Message], str],
     stop_requested: Callable[[], bool] = lambda: False,
     progress: Progress = lambda share, label: None,
-) -> Written:
+) -> UnrealExport:
     """Write a performance into a project.
 
     Parameters
     ----------
-    request : Request
+    request : ExportRequest
         Its folder, its formats and whether it includes the sound and the stage do not count.
     project : UnrealProject
     wording : callable
@@ -207,7 +207,7 @@ def export_into(
             _vouch(change, PurePosixPath(PLUGIN), request.creator, plan.plugin, {})
         change.removed += [Path(path) for path in plan.removed]
     progress(1.0, "")
-    return Written(plan, report)
+    return UnrealExport(plan, report)
 
 
 def _vouch(
@@ -229,7 +229,7 @@ def _vouch(
 
 
 def _figures(
-    request: Request,
+    request: ExportRequest,
     cast: ExportCast,
     layout: Layout,
     sources: Path,
@@ -276,13 +276,13 @@ def _figures(
     return msgspec.structs.replace(report, players=players, dancers=dancers)
 
 
-def _dancers(request: Request, cast: ExportCast) -> tuple[tuple[Dancer, str], ...]:
+def _dancers(request: ExportRequest, cast: ExportCast) -> tuple[tuple[Dancer, str], ...]:
     """The dancers who are exported, as the project has them, with the names of their choreographies."""
     dancers = {dancer.id: dancer for dancer in request.dancers}
     return tuple((dancers[dancing.dancer.id], dancing.choreography_name) for dancing in cast.dances)
 
 
-def _bodies(request: Request, cast: ExportCast, layout: Layout) -> dict[str, tuple[str, str]]:
+def _bodies(request: ExportRequest, cast: ExportCast, layout: Layout) -> dict[str, tuple[str, str]]:
     """Mesh and skeleton of each character, by the id of the player or dancer: of those alike the same."""
     characters = {performer.player.id: performer.player.character_id for performer in cast.performers}
     characters |= {dancer.id: dancer.character_id for dancer, _ in _dancers(request, cast)}
@@ -303,8 +303,8 @@ def _sockets(cast: ExportCast) -> dict[str, str]:
 
 
 def _sound(
-    request: Request, layout: Layout, sources: Path, stop_requested: Callable[[], bool], progress: Progress
-) -> Sound:
+    request: ExportRequest, layout: Layout, sources: Path, stop_requested: Callable[[], bool], progress: Progress
+) -> UnrealSound:
     """Write the sound from the first frame to the last."""
     project, span = request.performance.project, request.span
     file = sources / layout.sound_file
@@ -316,7 +316,7 @@ def _sound(
         lambda share: progress(_SHARES["files"] + _SHARES["sound"] * share, file.name),
         stop_requested,
     )
-    return Sound(
+    return UnrealSound(
         file=layout.sound_file.as_posix(),
         asset=layout.sound,
         source="synthesiser" if project.audio is None else "recording",
@@ -328,11 +328,11 @@ def _sound(
 
 
 def _checked(
-    request: Request,
+    request: ExportRequest,
     cast: ExportCast,
     layout: Layout,
     sources: Path,
-    sound: Sound,
+    sound: UnrealSound,
     stop_requested: Callable[[], bool],
     progress: Progress,
 ) -> dict[str, tuple[str, ...]]:
@@ -351,7 +351,7 @@ def _checked(
 
 
 def _figures_written(
-    request: Request, cast: ExportCast, layout: Layout
+    request: ExportRequest, cast: ExportCast, layout: Layout
 ) -> Iterator[tuple[str, FigurePlace, tuple[str, ...], tuple[Mesh, ...]]]:
     """Every character and instrument: the performer's name, the place, the bones and the meshes that the file holds."""
     for performer in cast.performers:

@@ -39,7 +39,7 @@ def steady(curves: AnyFloatArray, least: float) -> AnyFloatArray:
     return np.where(rests, curves[..., :1], curves)
 
 
-class Curves:
+class FbxLayerCurves:
     """Adds the curves of one layer. What is the same in many of them is packed once."""
 
     def __init__(self, assembly: Assembly, layer: int, key_ticks: IntArray) -> None:

@@ -23,9 +23,9 @@ from app.formats.fbx.decode import read_elements
 from app.formats.fbx.encode import Element
 from app.formats.fbx.graph import FbxObject, ObjectGraph, numbers, properties_of
 from app.formats.fbx.materials import roughness_of
-from app.formats.fbx.take import MOST_VALUES, Curve, Take, read_take
+from app.formats.fbx.take import MOST_VALUES, FbxCurve, FbxTake, read_take
 from app.formats.files import read_file
-from app.formats.scene import Bone, Clip, Material, MorphTarget, Place, Scene, SkinnedMesh, checked_scenes
+from app.formats.scene import Bone, Clip, Material, MorphTarget, NodePlace, Scene, SkinnedMesh, checked_scenes
 
 MOST_BYTES = 2**30
 _BLOCK = 16384
@@ -84,13 +84,13 @@ def decode_scenes(data: bytes, file: str) -> tuple[Scene, ...]:
         raise FileError("fbx.contradiction", file=file, detail=str(error)) from error
 
 
-def _figure(graph: ObjectGraph, node: FbxObject | None, take: Take | None, creator: str) -> Scene:
+def _figure(graph: ObjectGraph, node: FbxObject | None, take: FbxTake | None, creator: str) -> Scene:
     """What hangs from a node; from the file's root where there is none."""
     bones, bone_of_model = _bones(graph, node)
     place, node_from_world, models = None, np.eye(4, dtype=np.float64), graph.of_kind("Model", "Mesh")
     if node is not None:
         translation, rotation = _placement(graph, node)
-        place = Place(translation, euler.quaternions(rotation[::-1], EULER_ORDER))
+        place = NodePlace(translation, euler.quaternions(rotation[::-1], EULER_ORDER))
         node_from_world[:] = np.linalg.inv(place.matrix)
         models = graph.below(node, "Model", "Mesh")
     meshes = tuple(_mesh(graph, model, bone_of_model, node_from_world) for model in models)
@@ -310,7 +310,7 @@ def _morphs(graph: ObjectGraph, shape: FbxObject) -> tuple[MorphTarget, ...]:
 
 def _clip(
     graph: ObjectGraph,
-    take: Take,
+    take: FbxTake,
     bones: tuple[Bone, ...],
     bone_of_model: dict[int, int],
     name_of_channel: dict[int, str],
@@ -321,7 +321,7 @@ def _clip(
         raise FileError("fbx.unsupported", file=graph.file, what=f"{frames} frames of {len(bones)} bones")
     rotations = np.empty((4, len(bones), frames))
     rotations[:] = np.array([bone.rotation_xyzw for bone in bones]).T[..., None]
-    turning: list[tuple[int, list[Curve]]] = []
+    turning: list[tuple[int, list[FbxCurve]]] = []
     translations: dict[int, FloatArray] = {}
     weights: dict[str, FloatArray] = {}
     for (target, to_property), channels in take.curves.items():
@@ -339,7 +339,7 @@ def _clip(
     return Clip(take.name, take.fps, frames, rotations.transpose(2, 1, 0), translations, weights)
 
 
-def _turn(rotations: FloatArray, turning: list[tuple[int, list[Curve]]]) -> None:
+def _turn(rotations: FloatArray, turning: list[tuple[int, list[FbxCurve]]]) -> None:
     """Set the rotations (4, B, F) of bones to what the curves of their angles say, some bones at a time."""
     frames = rotations.shape[-1]
     resting = [row for row in turning if all(curve.rests for curve in row[1])]

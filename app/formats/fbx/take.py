@@ -27,7 +27,7 @@ _ANIMATED = {
 }
 
 
-class Curve(NamedTuple):
+class FbxCurve(NamedTuple):
     """Frames of a curve's keys, and their values as the file has them."""
 
     frames: IntArray
@@ -46,16 +46,16 @@ class Curve(NamedTuple):
         return found
 
 
-class Take(NamedTuple):
+class FbxTake(NamedTuple):
     """The file's one animation: the curves of its channels by what they move and which property of it."""
 
     name: str
     fps: Fraction
     frames: int
-    curves: dict[tuple[int, str], list[Curve]]
+    curves: dict[tuple[int, str], list[FbxCurve]]
 
 
-def read_take(graph: ObjectGraph, root: Element) -> Take | None:
+def read_take(graph: ObjectGraph, root: Element) -> FbxTake | None:
     """The first take of a file; None where it has none."""
     stacks = graph.of_kind("AnimationStack", "")
     if not stacks:
@@ -77,14 +77,14 @@ def read_take(graph: ObjectGraph, root: Element) -> Take | None:
         moved = graph.objects[target].sub_class if target in graph.objects else ""
         if _ANIMATED.get(to_property) != (moved, len(channels)):
             raise FileError("fbx.unsupported", file=graph.file, what=f"animation of {to_property}")
-    return Take(stacks[0].name, fps, frames, curves)
+    return FbxTake(stacks[0].name, fps, frames, curves)
 
 
 def _curves(
     graph: ObjectGraph, stack: FbxObject, frame_ticks: IntArray, fps: Fraction
-) -> dict[tuple[int, str], list[Curve]]:
+) -> dict[tuple[int, str], list[FbxCurve]]:
     """The curves of every animated property, channel by channel."""
-    result: dict[tuple[int, str], list[Curve]] = {}
+    result: dict[tuple[int, str], list[FbxCurve]] = {}
     # Equal arrays of a file are one array.
     known: dict[int, tuple[IntArray, IntArray]] = {}
     for layer in graph.below(stack, "AnimationLayer"):
@@ -97,7 +97,7 @@ def _curves(
                     known[id(key_ticks)] = key_ticks, _key_frames(graph, key_ticks, frame_ticks, fps)
                 if len(values) != len(key_ticks):
                     raise FileError("fbx.contradiction", file=graph.file, detail=f"times and values of {node.name}")
-                channels.append(Curve(known[id(key_ticks)][1], values))
+                channels.append(FbxCurve(known[id(key_ticks)][1], values))
             targets = [(target, to) for target, to in graph.parents.get(node.id, ()) if to]
             if len(targets) != 1 or not channels:
                 raise FileError("fbx.missing", file=graph.file, what=f"target or curve of {node.name}")

@@ -18,7 +18,7 @@ from app.formats.atomic import atomic_write
 from app.formats.euler import euler_degrees
 from app.formats.fbx import encode, ticks
 from app.formats.fbx.assembly import Assembly
-from app.formats.fbx.curves import EULER_ORDER, Curves
+from app.formats.fbx.curves import EULER_ORDER, FbxLayerCurves
 from app.formats.fbx.encode import Element, element_pieces
 from app.formats.fbx.materials import PHYSICAL_MATERIAL, SHADING_MODEL, phong
 from app.formats.fbx.packed import PackedMesh, packed_mesh
@@ -32,7 +32,7 @@ from app.formats.fbx.sections import (
     property_row,
     takes,
 )
-from app.formats.scene import Bone, Clip, Material, Place, Scene, SkinnedMesh, checked_scenes
+from app.formats.scene import Bone, Clip, Material, NodePlace, Scene, SkinnedMesh, checked_scenes
 
 _BESIDE_CM = 5e-4
 
@@ -60,7 +60,7 @@ def write_scenes(path: str | os.PathLike[str], scenes: Iterable[Scene]) -> None:
 def scene_elements(scenes: Iterable[Scene]) -> tuple[Element, ...]:
     """Top level of the file, in the order that every reader expects."""
     graph = Assembly()
-    curves: Curves | None = None
+    curves: FbxLayerCurves | None = None
     creator, take, rate, last_tick = "", "", None, 0
     for scene in checked_scenes(scenes):
         creator = scene.creator
@@ -141,7 +141,7 @@ def _add_bone(graph: Assembly, figure: _Figure, bone: Bone, rotation_degrees: An
     graph.connect(attribute, model)
 
 
-def _placed(place: Place) -> tuple[Element, ...]:
+def _placed(place: NodePlace) -> tuple[Element, ...]:
     rotation = euler_degrees(np.asarray(place.rotation_xyzw)[None, None], EULER_ORDER)[0, ::-1, 0]
     return _model(place.translation_cm, rotation)
 
@@ -306,7 +306,7 @@ def _add_morphs(graph: Assembly, figure: _Figure, mesh: SkinnedMesh, packed: Pac
 # -------------------------------------------------------------------------------------------------------- animation
 
 
-def _add_take(graph: Assembly, clip: Clip) -> tuple[int, Curves]:
+def _add_take(graph: Assembly, clip: Clip) -> tuple[int, FbxLayerCurves]:
     """Stack and layer; the tick of the last key, and what adds curves to them."""
     key_ticks = ticks.frame_ticks(clip.fps, clip.frames)
     last_tick = int(key_ticks[-1])
@@ -319,4 +319,4 @@ def _add_take(graph: Assembly, clip: Clip) -> tuple[int, Curves]:
     stack = graph.add("AnimationStack", clip.name, "AnimStack", "", (property_block(*spans),))
     layer = graph.add("AnimationLayer", "BaseLayer", "AnimLayer", "", ())
     graph.connect(layer, stack)
-    return last_tick, Curves(graph, layer, key_ticks)
+    return last_tick, FbxLayerCurves(graph, layer, key_ticks)

@@ -16,7 +16,7 @@ from app.formats.scene import Clip, Scene, SkinnedMesh
 METRES = 0.01
 
 
-class Document(Protocol):
+class GltfDocument(Protocol):
     """What an animation is added to."""
 
     gltf: gltf.GLTF2
@@ -30,12 +30,12 @@ class Samplers:
 
     Parameters
     ----------
-    document : Document
+    document : GltfDocument
     clip : Clip
         The first of them.
     """
 
-    def __init__(self, document: Document, clip: Clip) -> None:
+    def __init__(self, document: GltfDocument, clip: Clip) -> None:
         self._seconds = (np.arange(clip.frames) * clip.fps.denominator / clip.fps.numerator).astype(np.float32)
         self._document = document
         self._times: dict[bytes, int] = {}

@@ -30,7 +30,7 @@ from app.errors import FileError
 from app.formats.atomic import atomic_write
 from app.formats.gltf.primitives import Primitive, primitives
 from app.formats.gltf.samplers import METRES, Samplers, weights_move
-from app.formats.scene import Material, MorphTarget, Place, Scene, SkinnedMesh, checked_scenes
+from app.formats.scene import Material, MorphTarget, NodePlace, Scene, SkinnedMesh, checked_scenes
 from app.formats.skin import influences
 
 _MAGIC, _JSON, _BINARY = b"glTF", 0x4E4F534A, 0x004E4942
@@ -229,7 +229,7 @@ def _add_figure(
         out.nodes[-1].children = [len(out.nodes)]
     first = len(out.nodes)
     for bone in scene.bones:
-        out.nodes.append(_node(bone.name, Place(bone.translation_cm, bone.rotation_xyzw)))
+        out.nodes.append(_node(bone.name, NodePlace(bone.translation_cm, bone.rotation_xyzw)))
         if bone.parent >= 0:
             parent = out.nodes[first + bone.parent]
             parent.children = [*(parent.children or []), len(out.nodes) - 1]
@@ -249,7 +249,7 @@ def _add_figure(
     return first, mesh_nodes
 
 
-def _node(name: str, place: Place) -> gltf.Node:
+def _node(name: str, place: NodePlace) -> gltf.Node:
     rotation = np.asarray(place.rotation_xyzw, dtype=np.float64)
     return gltf.Node(
         name=name,

@@ -14,7 +14,7 @@ import numpy as np
 
 from app.arrays import FloatArray
 from app.motion.body_motion import BodyMotion
-from app.motion.by_hand.pose_corrections import Offset, within
+from app.motion.by_hand.pose_corrections import PoseAngles, within
 from app.motion.curves.curve import rows_changed_s
 from app.plan.by_hand.additive_curve import CHANNELS, FACE
 from app.plan.by_hand.additive_events import POSED
@@ -91,7 +91,7 @@ class Additive:
 NOTHING: Final = Additive.of(())
 
 
-def with_held(held: Mapping[PoseTarget, Offset], added: Mapping[str, Added]) -> dict[PoseTarget, Offset]:
+def with_held(held: Mapping[PoseTarget, PoseAngles], added: Mapping[str, Added]) -> dict[PoseTarget, PoseAngles]:
     """What the animator holds differently, with the curves of the same targets as far as there is room."""
     result = dict(held)
     for channel, more in added.items():
@@ -99,7 +99,7 @@ def with_held(held: Mapping[PoseTarget, Offset], added: Mapping[str, Added]) -> 
             continue
         target, angle = POSED[channel]
         zero = np.zeros(len(more.values))
-        offset = result.get(target, Offset(zero, zero, zero))
+        offset = result.get(target, PoseAngles(zero, zero, zero))
         name = angle.removesuffix("_deg")
         own: FloatArray = getattr(offset, name)
         result[target] = replace(offset, **{name: own + more.beside(own)})

@@ -21,7 +21,7 @@ _COLUMNS: tuple[PoseTarget, ...] = ("bell", "head", "left_elbow", "right_elbow",
 
 
 @dataclass(frozen=True)
-class Offset:
+class PoseAngles:
     """Angles (F,) up, to the left and of roll, radians; see `app.plan.by_hand.corrections.PoseCorrection`."""
 
     up: FloatArray
@@ -30,7 +30,7 @@ class Offset:
 
 
 @dataclass(frozen=True, eq=False)
-class Poses:
+class PoseCorrectionTable:
     """All pose corrections of a player, a row for each.
 
     Attributes
@@ -48,7 +48,7 @@ class Poses:
     angles_rad: FloatArray
 
     @classmethod
-    def of(cls, events: Sequence[PoseEvent]) -> Poses:
+    def of(cls, events: Sequence[PoseEvent]) -> PoseCorrectionTable:
         """From a plan's events."""
         times_s = [
             (event.start_s - event.fade_in_s, event.start_s, event.end_s, event.end_s + event.fade_out_s)
@@ -61,15 +61,15 @@ class Poses:
             np.deg2rad(np.array(angles_deg, dtype=np.float64).reshape(-1, 3)),
         )
 
-    def sample(self, times_s: FloatArray) -> dict[PoseTarget, Offset]:
+    def sample(self, times_s: FloatArray) -> dict[PoseTarget, PoseAngles]:
         """Offsets at ascending times, of the targets that have any."""
         sums: dict[PoseTarget, FloatArray] = {}
         for target, span_s, angle_rad in zip(self.targets, self.times_s, self.angles_rad, strict=True):
             total = sums.setdefault(_COLUMNS[int(target)], np.zeros((3, len(times_s))))
             total += angle_rad[:, None] * Envelopes.of([(*span_s.tolist(), 1.0)]).sample(times_s)
-        return {target: Offset(*total) for target, total in sums.items()}
+        return {target: PoseAngles(*total) for target, total in sums.items()}
 
-    def changed_s(self, other: Poses) -> FloatArray:
+    def changed_s(self, other: PoseCorrectionTable) -> FloatArray:
         """Spans (K, 2) outside of which both have the very same values."""
         mine, others = self._rows, other._rows
         return rows_changed_s(mine, others, mine[:, [1, 4]], others[:, [1, 4]])
@@ -87,7 +87,7 @@ def within(offset: FloatArray, room_above: FloatArray | float, room_below: Float
 
 
 def hold_body(
-    offsets: dict[PoseTarget, Offset],
+    offsets: dict[PoseTarget, PoseAngles],
     body: Body,
     forward_rad: dict[str, FloatArray],
     left_rad: dict[str, FloatArray],

@@ -28,7 +28,7 @@ FREE_DEG = 10.0
 
 
 @dataclass(frozen=True)
-class Carried:
+class InstrumentTransform:
     """World transform of the instrument: (F, 3) and (F, 4) float64."""
 
     position_m: FloatArray

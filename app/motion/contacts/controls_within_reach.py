@@ -14,12 +14,12 @@ import numpy as np
 
 from app.arrays import FloatArray
 from app.motion.contacts.arms import shoulder
-from app.motion.contacts.carried_instrument import Carried
+from app.motion.contacts.carried_instrument import InstrumentTransform
 from app.motion.contacts.still_player import ContactCurves, StillPlayer
 from app.motion.contacts.upper_body import UpperBody
 from app.motion.curves.soft_bounds import softly_capped
 from app.rig import quaternion
-from app.rig.grip.grip_pose import HandHold, Placed, hand_targets
+from app.rig.grip.grip_pose import HandHold, StationBlend, hand_targets
 from app.rig.ik import arm
 
 LONGEST = 0.997
@@ -36,8 +36,8 @@ class _Seen:
 
     hand: HandHold
     shoulder_m: FloatArray
-    carried: Carried
-    placed: Mapping[str, Placed]
+    carried: InstrumentTransform
+    placed: Mapping[str, StationBlend]
 
     def distance_m(self, values: FloatArray) -> FloatArray:
         """From the shoulder joint to the wrist with the control at these values."""
@@ -77,8 +77,8 @@ def stopped(player: StillPlayer, curves: ContactCurves, upper: UpperBody) -> dic
         there = _Seen(
             hand,
             shoulder_m[far],
-            Carried(carried.position_m[far], carried.rotation[far]),
-            {finger: Placed(*(values[far] for values in where)) for finger, where in placed.items()},
+            InstrumentTransform(carried.position_m[far], carried.rotation[far]),
+            {finger: StationBlend(*(values[far] for values in where)) for finger, where in placed.items()},
         )
         values = result[hand.motion.control].copy()
         values[far] = there.value_at(softly_capped(distance_m[far], LONGEST * length_m, EASE * length_m), asked[far])

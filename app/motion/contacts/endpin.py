@@ -12,7 +12,7 @@ import numpy as np
 
 from app.arrays import AnyFloatArray, FloatArray
 from app.motion.body_motion import BodyMotion
-from app.motion.contacts.carried_instrument import Carried, attitude, held_angles
+from app.motion.contacts.carried_instrument import InstrumentTransform, attitude, held_angles
 from app.rig import quaternion
 from instrument_maps.model import Carriage, Endpin
 
@@ -21,7 +21,7 @@ UPRIGHT = 0.5
 
 
 @dataclass(frozen=True)
-class Stand:
+class EndpinStand:
     """An instrument on its pin.
 
     ``lips_m`` (1, 3) is where its mouthpiece is before any motion: what the tip's place on the floor follows from.
@@ -32,13 +32,13 @@ class Stand:
     lips_m: FloatArray
 
     @classmethod
-    def of(cls, endpin: Endpin, carriage: Carriage, usual: Carried) -> Stand | None:
+    def of(cls, endpin: Endpin, carriage: Carriage, usual: InstrumentTransform) -> EndpinStand | None:
         """An instrument that is usually carried there on its pin; None where that does not reach the floor."""
         needed_m, down = _needed(endpin, usual.position_m, usual.rotation)
         stands = down[0] > UPRIGHT and needed_m[0] <= endpin.most_m
         return cls(endpin, carriage, usual.position_m) if stands else None
 
-    def stood(self, carried: Carried, motion: BodyMotion) -> Carried:
+    def stood(self, carried: InstrumentTransform, motion: BodyMotion) -> InstrumentTransform:
         """The instrument where it is carried, swung about the mouthpiece until its pin is over the tip's place."""
         # Where an animator turns the instrument, its tip goes: melody and cues move no one's pin.
         pitch, yaw, roll = held_angles(self.carriage, replace(motion, bell_rad=np.zeros_like(motion.bell_rad)))
@@ -52,7 +52,7 @@ class Stand:
         out_m = np.sqrt(np.maximum((requested_m**2).sum(axis=1) - float(tip_m @ tip_m) + along**2, 0.0)) - along
         pointing_m = quaternion.rotate(carried.rotation, self._tip_m(out_m))
         swung = quaternion.between(_unit(pointing_m), _unit(requested_m))
-        return Carried(carried.position_m, quaternion.multiply(swung, carried.rotation))
+        return InstrumentTransform(carried.position_m, quaternion.multiply(swung, carried.rotation))
 
     def drawn_out(self, position_m: AnyFloatArray, rotation: AnyFloatArray) -> FloatArray:
         """How far the pin is drawn out, (F,) of 0..1, so that its tip is on the floor, or as near to it as it can be.

@@ -8,7 +8,7 @@ from typing import Final
 import numpy as np
 
 from app.arrays import FloatArray
-from app.motion.contacts.carried_instrument import Carried
+from app.motion.contacts.carried_instrument import InstrumentTransform
 from app.motion.contacts.hand_in_bell import STOPPING, shifted
 from app.motion.contacts.hands_away import Away
 from app.motion.contacts.help_for_far_hands import clavicle_of
@@ -38,7 +38,7 @@ def away(
     skeleton: Skeleton,
     base: Trunk,
     hands: Mapping[str, FloatArray],
-    carried: Carried,
+    carried: InstrumentTransform,
     water: Water | None,
     stopped: Stopped | None,
 ) -> Away | None:
@@ -115,7 +115,7 @@ def _at_page(
 
 
 def _at_key(
-    skeleton: Skeleton, side: Side, base: Trunk, scale: float, carried: Carried, water: Water
+    skeleton: Skeleton, side: Side, base: Trunk, scale: float, carried: InstrumentTransform, water: Water
 ) -> tuple[FloatArray, FloatArray]:
     key_m = carried.position_m + quaternion.rotate(carried.rotation, np.asarray(water.position_m))
     out = quaternion.rotate(carried.rotation, np.asarray(water.normal))

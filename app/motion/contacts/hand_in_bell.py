@@ -10,7 +10,7 @@ from typing import Final
 import numpy as np
 
 from app.arrays import FloatArray
-from app.motion.contacts.carried_instrument import Carried
+from app.motion.contacts.carried_instrument import InstrumentTransform
 from app.motion.contacts.hands_away import Shift
 from app.motion.curves.curve import Envelopes
 from app.plan.model import MuteEvent
@@ -42,7 +42,7 @@ def stopping(mutes: Sequence[MuteEvent], stopped: Stopped | None) -> Envelopes:
     )
 
 
-def shifted(skeleton: Skeleton, stopped: Stopped, share: FloatArray, carried: Carried) -> Shift:
+def shifted(skeleton: Skeleton, stopped: Stopped, share: FloatArray, carried: InstrumentTransform) -> Shift:
     """How a wrist leaves its grip for shares (F,) of the whole way: the palm turns about the knuckles."""
     turned_rad = quaternion.rotate(carried.rotation, np.deg2rad(np.asarray(stopped.turned_deg)))
     # About the first finger's knuckle, which is held against the wall.

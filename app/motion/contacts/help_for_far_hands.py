@@ -9,12 +9,12 @@ from functools import lru_cache
 import numpy as np
 
 from app.arrays import FloatArray
-from app.motion.contacts.carried_instrument import Carried
+from app.motion.contacts.carried_instrument import InstrumentTransform
 from app.motion.contacts.hands_away import Away
 from app.motion.contacts.trunk_and_legs import Side, Trunk
 from app.motion.curves.soft_bounds import softly_capped, softly_over
 from app.rig import quaternion
-from app.rig.grip.grip_pose import GripPose, Placed, hand_targets
+from app.rig.grip.grip_pose import GripPose, StationBlend, hand_targets
 from app.rig.ik import arm
 from app.rig.model import Skeleton
 
@@ -70,9 +70,9 @@ def needed_help(
     skeleton: Skeleton,
     hold: GripPose,
     body: Trunk,
-    carried: Carried,
+    carried: InstrumentTransform,
     controls: Mapping[str, FloatArray],
-    placed: Mapping[str, Placed],
+    placed: Mapping[str, StationBlend],
     away: Away | None = None,
 ) -> Help:
     """The help a body needs that has none yet; exactly 0 where the arms alone reach, and where hands stay.

@@ -12,7 +12,7 @@ import numpy as np
 
 from app.arrays import FloatArray
 from app.motion.body_motion import BodyMotion
-from app.motion.contacts.carried_instrument import Y_AXIS, Z_AXIS, Carried
+from app.motion.contacts.carried_instrument import Y_AXIS, Z_AXIS, InstrumentTransform
 from app.motion.contacts.help_for_far_hands import clavicle_of
 from app.motion.contacts.trunk_and_legs import Side, Trunk
 from app.rig import quaternion
@@ -57,7 +57,7 @@ class Aside:
 
 
 @dataclass(frozen=True)
-class Place:
+class AsidePlace:
     """An instrument's place aside.
 
     Attributes
@@ -66,17 +66,17 @@ class Place:
         What it swings about: the shoulder of a body that keeps still.
     swing_rad : (3,) float64
         The whole swing as a rotation vector.
-    rest : Carried
+    rest : InstrumentTransform
         Where it lies, one frame.
     """
 
     aside: Aside
     pivot_m: FloatArray
     swing_rad: FloatArray
-    rest: Carried
+    rest: InstrumentTransform
 
     @classmethod
-    def of(cls, aside: Aside, skeleton: Skeleton, hold: GripPose, base: Trunk, low: Carried) -> Place:
+    def of(cls, aside: Aside, skeleton: Skeleton, hold: GripPose, base: Trunk, low: InstrumentTransform) -> AsidePlace:
         """From where a body that keeps still has the lowered instrument."""
         joint, reaches_m = clavicle_of(skeleton, aside.side)
         begins_m = base.chest_m + quaternion.rotate(base.chest, skeleton.offsets_m[joint])
@@ -96,26 +96,26 @@ class Place:
         along_m, away2 = float(wrist_m @ towards), float(wrist_m @ wrist_m)
         room_m = max(reach_m**2 - away2 + along_m**2, 0.0) ** 0.5 - along_m
         further_m = min(max(room_m, 0.0), OUT_M)
-        return replace(bare, rest=Carried(lies.position_m + further_m * towards, lies.rotation))
+        return replace(bare, rest=InstrumentTransform(lies.position_m + further_m * towards, lies.rotation))
 
     def turned(self, stowed: FloatArray) -> FloatArray:
         """How far the arm has swung, (F, 4)."""
         return quaternion.from_rotation_vector(stowed[:, None] * self.swing_rad)
 
-    def put(self, carried: Carried, stowed: FloatArray) -> Carried:
+    def put(self, carried: InstrumentTransform, stowed: FloatArray) -> InstrumentTransform:
         """The instrument on its way: 0 where it is carried, 1 where it lies, (F,)."""
         swung, share = self._swung(carried, stowed), stowed[:, None]
         position_m = swung.position_m + (self.rest.position_m - swung.position_m) * share
         rotation = quaternion.slerp(swung.rotation, self.rest.rotation, stowed)
         lies, stays = share >= 1.0, share <= 0.0
-        return Carried(
+        return InstrumentTransform(
             np.where(lies, self.rest.position_m, np.where(stays, carried.position_m, position_m)),
             np.where(lies, self.rest.rotation, np.where(stays, carried.rotation, rotation)),
         )
 
-    def _swung(self, carried: Carried, stowed: FloatArray) -> Carried:
+    def _swung(self, carried: InstrumentTransform, stowed: FloatArray) -> InstrumentTransform:
         turn = self.turned(stowed)
-        return Carried(
+        return InstrumentTransform(
             self.pivot_m + quaternion.rotate(turn, carried.position_m - self.pivot_m),
             quaternion.multiply(turn, carried.rotation),
         )

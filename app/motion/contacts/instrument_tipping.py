@@ -15,7 +15,7 @@ from app.motion.contacts.still_player import ContactCurves
 from app.motion.contacts.upper_body import upper_body
 from app.motion.contacts.wrists import LOST_RAD, BellRoom
 from app.rig import quaternion
-from app.rig.grip.grip_pose import Placed, giving_for
+from app.rig.grip.grip_pose import StationBlend, giving_for
 from app.rig.ik import arm
 
 MOST_DEG, STEP_DEG = 40, 2
@@ -33,11 +33,11 @@ def with_bell_room(player: PlayerBody) -> PlayerBody:
     tipped = np.deg2rad(np.arange(-MOST_DEG, MOST_DEG + 1, STEP_DEG))
     leans = [lean for hand in player.hold.hands for lean in hand.leans]
     # As the hands lie, and as they give way for a finger, a row each.
-    placed: dict[str, Placed] = {}
+    placed: dict[str, StationBlend] = {}
     for finger in sorted({finger for lean in leans for finger, _ in lean.places}):
         stations = [dict(lean.places).get(finger, 0) for lean in leans]
         there = np.repeat([0.0, *stations], len(tipped))
-        placed[giving_for(finger)] = Placed(np.zeros(len(there)), there, (there > 0.0).astype(np.float64))
+        placed[giving_for(finger)] = StationBlend(np.zeros(len(there)), there, (there > 0.0).astype(np.float64))
     found = _wrists_and_elbows(player, np.tile(tipped, len(leans) + 1), placed)
     bent, raised = (values.reshape(-1, len(tipped)) for values in found)
     usual, usually = (values[:, len(tipped) // 2, None] for values in (bent, raised))
@@ -48,7 +48,7 @@ def with_bell_room(player: PlayerBody) -> PlayerBody:
 
 
 def _wrists_and_elbows(
-    player: PlayerBody, tipped_rad: FloatArray, placed: dict[str, Placed]
+    player: PlayerBody, tipped_rad: FloatArray, placed: dict[str, StationBlend]
 ) -> tuple[FloatArray, FloatArray]:
     """How far the worse wrist of a still body is out of its range, and how high the higher elbow is as seen from its
     shoulder, (F,) each; the bell is down by so much (F,)."""

@@ -11,7 +11,7 @@ import numpy as np
 from app.arrays import FloatArray
 from app.identity_cache import IdentityCache
 from app.motion.body_motion import BodyMotion
-from app.motion.contacts.carried_instrument import Carried
+from app.motion.contacts.carried_instrument import InstrumentTransform
 from app.motion.contacts.instrument_put_aside import Aside
 from app.motion.contacts.instrument_tipping import with_bell_room
 from app.motion.contacts.solve import PlayerBody
@@ -26,7 +26,7 @@ from app.rig.model import Character, Skeleton
 from instrument_maps.model import InstrumentMap
 from instrument_maps.model import Posture as PostureName
 from metadata.load import load_skeleton
-from metadata.model import Body, Embouchure
+from metadata.model import Body, EmbouchureWeights
 
 _CURVED: IdentityCache[GripPose] = IdentityCache(128)
 _PLAYERS: IdentityCache[PlayerBody] = IdentityCache(128)
@@ -40,7 +40,7 @@ def lying(
     hold: GripPose,
     body: Body,
     number: int,
-) -> Carried:
+) -> InstrumentTransform:
     """Where an instrument lies while its player has another in the hands, one frame; ``number`` as of `Aside`."""
     still = player_body(parameters, instrument_map, character, hold, body)
     place = replace(still, aside=Aside(instrument_map.hold.support_hand, number)).put_aside
@@ -85,7 +85,7 @@ def _made(
     return with_bell_room(made.standing_on(instrument_map.endpin))
 
 
-def _grip_of_lips(lips: Lips, embouchure: Embouchure) -> FloatArray:
+def _grip_of_lips(lips: Lips, embouchure: EmbouchureWeights) -> FloatArray:
     """From where one lip alone would carry the mouthpiece to where it is played, at a middling embouchure (3,)."""
     morphs = {name: np.array([weight]) for name, weight in usual_morphs(embouchure, lips).items()}
     grip_m: FloatArray = (lips.contact_m(morphs, 1) - lips.carried_m(morphs, 1))[0]

@@ -13,13 +13,13 @@ import numpy as np
 from app.arrays import FloatArray
 from app.motion.body_motion import BodyMotion
 from app.motion.contacts.arms import solve_arms
-from app.motion.contacts.carried_instrument import Carried
+from app.motion.contacts.carried_instrument import InstrumentTransform
 from app.motion.contacts.controls_within_reach import stopped
-from app.motion.contacts.endpin import Stand
+from app.motion.contacts.endpin import EndpinStand
 from app.motion.contacts.hand_destinations import with_shapes
 from app.motion.contacts.hand_in_bell import STOPPING, with_fingers_kept
 from app.motion.contacts.help_for_far_hands import TURN_RAD, Help, needed_help, shoulder_distance_m
-from app.motion.contacts.instrument_put_aside import Place
+from app.motion.contacts.instrument_put_aside import AsidePlace
 from app.motion.contacts.shares_of_help import HELP_EASE_S, drawn, spread, turned, with_room
 from app.motion.contacts.still_player import ContactCurves, StillPlayer
 from app.motion.contacts.trunk_and_legs import hips_path, solve_legs, trunk
@@ -48,16 +48,16 @@ class PlayerBody(StillPlayer):
         if endpin is None:
             return self
         usual = upper_body(self, ContactCurves(self.still, {}, {}, np.zeros(1))).carried
-        return replace(self, stand=Stand.of(endpin, self.carriage, usual))
+        return replace(self, stand=EndpinStand.of(endpin, self.carriage, usual))
 
     @cached_property
-    def put_aside(self) -> Place | None:
+    def put_aside(self) -> AsidePlace | None:
         """Where the instrument lies while another is in the hands."""
         if self.aside is None:
             return None
         low = replace(self.still, lowered=np.ones(1))
         carried = upper_body(replace(self, aside=None, stand=None), ContactCurves(low, {}, {}, np.zeros(1))).carried
-        return Place.of(self.aside, self.skeleton, self.hold, self.base, carried)
+        return AsidePlace.of(self.aside, self.skeleton, self.hold, self.base, carried)
 
     @cached_property
     def drawn_m(self) -> float:
@@ -159,7 +159,7 @@ def _parts(frames: int) -> Iterator[slice]:
 
 def _pose(
     player: PlayerBody, curves: ContactCurves, known: UpperBody
-) -> tuple[FloatArray, dict[int, FloatArray], Carried, dict[str, FloatArray]]:
+) -> tuple[FloatArray, dict[int, FloatArray], InstrumentTransform, dict[str, FloatArray]]:
     """Hips, local rotations by joint (fingers apart), instrument, and the controls as far as hands carry them."""
     skeleton, motion = player.skeleton, curves.body
     local = {skeleton.index("hips"): known.hips} | known.trunk.local

@@ -7,16 +7,16 @@ from dataclasses import dataclass, field
 
 from app.arrays import FloatArray
 from app.motion.body_motion import BodyMotion
-from app.motion.contacts.carried_instrument import Carried
-from app.motion.contacts.endpin import Stand
+from app.motion.contacts.carried_instrument import InstrumentTransform
+from app.motion.contacts.endpin import EndpinStand
 from app.motion.contacts.hand_destinations import away
 from app.motion.contacts.hands_away import Away
 from app.motion.contacts.instrument_put_aside import Aside
 from app.motion.contacts.trunk_and_legs import Side, Stance, Trunk
 from app.motion.contacts.wrists import ANYWHERE, BellRoom, Wrist
-from app.rig.grip.grip_pose import GripPose, Placed
+from app.rig.grip.grip_pose import GripPose, StationBlend
 from app.rig.model import Skeleton
-from instrument_maps.model import Carriage, Lowered, Stopped, Water
+from instrument_maps.model import Carriage, LoweredPlace, Stopped, Water
 
 
 @dataclass(frozen=True)
@@ -33,12 +33,12 @@ class StillPlayer:
     hold: GripPose
     place: Stance
     carriage: Carriage
-    lowered: Lowered
+    lowered: LoweredPlace
     still: BodyMotion
     base: Trunk
     grip_of_lips_m: FloatArray
     wrists: Mapping[Side, Wrist]
-    stand: Stand | None = None
+    stand: EndpinStand | None = None
     aside: Aside | None = None
     bell_room: BellRoom = ANYWHERE
     water: Water | None = None
@@ -54,7 +54,7 @@ class StillPlayer:
         """Hips may leave their place: not on a seat, nor over an instrument that stands on its pin."""
         return not self.place.seated and self.stand is None
 
-    def away(self, motion: BodyMotion, carried: Carried) -> Away | None:
+    def away(self, motion: BodyMotion, carried: InstrumentTransform) -> Away | None:
         """Where hands are that leave the instrument; None where all stay."""
         if not motion.hands:
             return None
@@ -70,7 +70,7 @@ class ContactCurves:
     controls, morphs : dict of str to (F,) float64
     mouth_open : (F,) float64
         How far the mouth is open for a breath.
-    placed : dict of str to Placed
+    placed : dict of str to StationBlend
         Where the fingers are that leave their home.
     raised : (F,) float64 or float
         How high fingers wait over their keys, 0..1.
@@ -82,7 +82,7 @@ class ContactCurves:
     controls: dict[str, FloatArray]
     morphs: dict[str, FloatArray]
     mouth_open: FloatArray
-    placed: dict[str, Placed] = field(default_factory=dict)
+    placed: dict[str, StationBlend] = field(default_factory=dict)
     raised: FloatArray | float = 0.0
     stowed: FloatArray | None = None
 
@@ -95,7 +95,7 @@ class ContactCurves:
             {name: values[frames] for name, values in self.controls.items()},
             {name: values[frames] for name, values in self.morphs.items()},
             self.mouth_open[frames],
-            {finger: Placed(*(values[frames] for values in where)) for finger, where in self.placed.items()},
+            {finger: StationBlend(*(values[frames] for values in where)) for finger, where in self.placed.items()},
             self.raised if isinstance(self.raised, float) else self.raised[frames],
             None if self.stowed is None else self.stowed[frames],
         )

@@ -9,7 +9,14 @@ import numpy as np
 
 from app.arrays import FloatArray
 from app.motion.by_hand.pose_corrections import within
-from app.motion.contacts.carried_instrument import Z_AXIS, Carried, attitude, bell_pitch, going_along, held_angles
+from app.motion.contacts.carried_instrument import (
+    Z_AXIS,
+    InstrumentTransform,
+    attitude,
+    bell_pitch,
+    going_along,
+    held_angles,
+)
 from app.motion.contacts.still_player import ContactCurves, StillPlayer
 from app.motion.contacts.trunk_and_legs import Trunk, hips_path, trunk
 from app.rig import quaternion
@@ -28,7 +35,7 @@ class UpperBody:
     hips_m: FloatArray
     hips: FloatArray
     trunk: Trunk
-    carried: Carried
+    carried: InstrumentTransform
 
     def __getitem__(self, frames: slice) -> UpperBody:
         trunk, carried = self.trunk, self.carried
@@ -37,7 +44,7 @@ class UpperBody:
             self.hips_m[frames],
             self.hips[frames],
             Trunk({joint: turn[frames] for joint, turn in trunk.local.items()}, *(part[frames] for part in parts)),
-            Carried(carried.position_m[frames], carried.rotation[frames]),
+            InstrumentTransform(carried.position_m[frames], carried.rotation[frames]),
         )
 
 
@@ -60,7 +67,7 @@ def joined(parts: Sequence[UpperBody]) -> UpperBody:
             whole(lambda part: part.trunk.head),
             whole(lambda part: part.trunk.head_m),
         ),
-        Carried(whole(lambda part: part.carried.position_m), whole(lambda part: part.carried.rotation)),
+        InstrumentTransform(whole(lambda part: part.carried.position_m), whole(lambda part: part.carried.rotation)),
     )
 
 
@@ -74,7 +81,7 @@ def upper_body(player: StillPlayer, curves: ContactCurves) -> UpperBody:
     return UpperBody(hips_m, hips, upper, carried)
 
 
-def _carry(player: StillPlayer, curves: ContactCurves, body: Trunk) -> Carried:
+def _carry(player: StillPlayer, curves: ContactCurves, body: Trunk) -> InstrumentTransform:
     """Place the instrument: at the lips, or lowered before the body.
 
     What head and melody tip beyond the room of the bell, the instrument tips back in the lips; not what the animator
@@ -100,7 +107,7 @@ def _at_lips(player: StillPlayer, curves: ContactCurves, body: Trunk) -> FloatAr
     return body.head_m + quaternion.rotate(body.head, lips_m)
 
 
-def _played(player: StillPlayer, curves: ContactCurves, body: Trunk) -> Carried:
+def _played(player: StillPlayer, curves: ContactCurves, body: Trunk) -> InstrumentTransform:
     """The instrument at the lips."""
     carriage, base, motion = player.carriage, player.base, curves.body
     pitch, yaw, roll = held_angles(carriage, motion)
@@ -115,10 +122,12 @@ def _played(player: StillPlayer, curves: ContactCurves, body: Trunk) -> Carried:
     pitch = pitch + cued + back + motion.bell_down_rad
     turned = attitude(pitch, yaw - motion.bell_right_rad, roll)
     rotation = quaternion.multiply(going, turned)
-    return Carried(_at_lips(player, curves, body), rotation)
+    return InstrumentTransform(_at_lips(player, curves, body), rotation)
 
 
-def _lowered(player: StillPlayer, played: Carried, body: Trunk, lowering: FloatArray) -> Carried:
+def _lowered(
+    player: StillPlayer, played: InstrumentTransform, body: Trunk, lowering: FloatArray
+) -> InstrumentTransform:
     """The instrument on its way before the body, where the chest carries it."""
     base, lowered = player.base, player.lowered
     with_chest = quaternion.multiply(body.chest, quaternion.conjugate(base.chest))
@@ -136,4 +145,4 @@ def _lowered(player: StillPlayer, played: Carried, body: Trunk, lowering: FloatA
     clear_m = CLEAR_M * min(1.0, max(0.0, -lowered.offset_m[1]) / CHIN_M)
     swing = 4.0 * share * (1.0 - share) * clear_m * Z_AXIS
     position_m = played.position_m + (low_m - played.position_m) * share + swing
-    return Carried(position_m, quaternion.slerp(played.rotation, low, lowering))
+    return InstrumentTransform(position_m, quaternion.slerp(played.rotation, low, lowering))

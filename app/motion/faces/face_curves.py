@@ -132,7 +132,7 @@ def _shown(plan: PlayerPlan) -> dict[str, Envelopes]:
 
 @dataclass(frozen=True)
 class Drivers:
-    """What moves the face at some frames: members as of `Face`, each (F,) float64."""
+    """What moves the face at some frames: members as of `FaceCurves`, each (F,) float64."""
 
     at_lips: FloatArray
     tension: FloatArray
@@ -150,7 +150,7 @@ class Drivers:
 
 
 @dataclass(frozen=True)
-class Face:
+class FaceCurves:
     """What one player's plan asks of the face, as curves of time.
 
     Attributes
@@ -217,7 +217,7 @@ FACE: Final = StepTable(
     vibrato=reading(vibrato_size, plan="plan_of_lips"),
     exertion=reading(exertion_of, plan="plan_of_effort", face="face_motion"),
     expressions=reading(_shown, plan="plan_of_expressions"),
-    face=Face,
+    face=FaceCurves,
 )
 """The steps of a face; given are the plan, the player's ``embouchure_tension`` (1 is as planned) and lungs, and the
 ``face_motion`` of the body."""

@@ -24,7 +24,7 @@ from app.plan.model import PlayerPlan, only
 from app.plan.styles import share_at
 from app.steps import StepTable, reading
 
-__all__ = ["BLINK_DOWN_S", "BLINK_SHUT_S", "BLINK_UP_S", "ENTRY_GUARD_S", "Gaze", "Look", "Watching", "plan_gaze"]
+__all__ = ["BLINK_DOWN_S", "BLINK_SHUT_S", "BLINK_UP_S", "ENTRY_GUARD_S", "Gaze", "GazeFrames", "Watching", "plan_gaze"]
 
 SACCADE_S = 0.05
 SACCADE_BASE_S, SACCADE_S_RAD = 0.035, 0.12
@@ -64,7 +64,7 @@ PLAYING_TURN_RAD, FREE_TURN_RAD, LOW_ENOUGH = 0.2, 2.0, 0.7
 
 
 @dataclass(frozen=True)
-class Look:
+class GazeFrames:
     """Eyes and lids at some frames: members as of `Gaze`, each (F,) float64."""
 
     yaw_rad: FloatArray
@@ -75,7 +75,7 @@ class Look:
     right_lid: FloatArray
 
 
-def with_instrument(look: Look, lowered: FloatArray) -> Look:
+def with_instrument(look: GazeFrames, lowered: FloatArray) -> GazeFrames:
     """The look of a head with an instrument at its mouth: it turns little, since the hands cannot follow it far, and
     the eyes do the rest as far as they go.
 
@@ -111,11 +111,11 @@ class Gaze:
     left_lid: Envelopes
     right_lid: Envelopes
 
-    def sample(self, times_s: FloatArray) -> Look:
+    def sample(self, times_s: FloatArray) -> GazeFrames:
         """Where the eyes look at ascending times."""
         head_yaw_rad, head_pitch_rad = self.head.sample(times_s)
         turned_rad = HEAD_TURNS * head_yaw_rad
-        return Look(
+        return GazeFrames(
             yaw_rad=np.clip(self.yaw_rad.sample(times_s), turned_rad - EYES_RAD, turned_rad + EYES_RAD),
             pitch_rad=self.pitch_rad.sample(times_s),
             head_yaw_rad=head_yaw_rad,

@@ -12,7 +12,7 @@ from app.arrays import FloatArray
 from app.motion.curves.curve import Noise
 from app.motion.curves.seeded_chance import generator
 from app.motion.curves.spline import Spline
-from metadata.face_model import Embouchure, FaceMotion
+from metadata.face_model import EmbouchureWeights, FaceMotion
 from metadata.model import ARKIT_MORPHS
 
 GRID_S: Final = 0.1
@@ -123,6 +123,6 @@ def own_face(player_id: str, seed: int, least: float, most: float, vibrato_hz: t
     )
 
 
-def face_of_player(player_id: str, seed: int, face: FaceMotion, embouchure: Embouchure) -> OwnFace:
+def face_of_player(player_id: str, seed: int, face: FaceMotion, embouchure: EmbouchureWeights) -> OwnFace:
     """The face of a player, with sizes from a body's tables."""
     return own_face(player_id, seed, *face.left_right, embouchure.vibrato_hz)

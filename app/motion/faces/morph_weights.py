@@ -14,13 +14,13 @@ import numpy as np
 
 from app.arrays import FloatArray
 from app.motion.faces.face_curves import Drivers
-from app.motion.faces.gaze import Look
+from app.motion.faces.gaze import GazeFrames
 from app.motion.faces.individual_face import OwnFace, Wandering, face_of_player
 from app.motion.faces.upper_face import Driver, upper_face
 from app.plan.acting import Acting
 from app.plan.parameters import PlayerParameters
 from app.rig.grip.grip_pose import Lips
-from metadata.face_model import Embouchure, EmbouchureKind, FaceMotion
+from metadata.face_model import EmbouchureKind, EmbouchureWeights, FaceMotion
 from metadata.model import Body, Expression, at_amplitude
 
 AROUND_FROM, AROUND_BY = 0.32, 0.06
@@ -39,7 +39,7 @@ class FaceSizes:
 
     Attributes
     ----------
-    embouchure : Embouchure
+    embouchure : EmbouchureWeights
         Weights of the instrument's kind of embouchure.
     upper, lips, vibrato : float or (F,) float64
         Size of what is above the mouth, of what the lips do within notes, and of a full vibrato.
@@ -47,7 +47,7 @@ class FaceSizes:
 
     own: OwnFace
     motion: FaceMotion
-    embouchure: Embouchure
+    embouchure: EmbouchureWeights
     upper: FloatArray | float
     lips: FloatArray | float
     vibrato: FloatArray | float
@@ -93,7 +93,7 @@ def face_morphs(
     face: Drivers,
     lips: Lips,
     expressions: Mapping[str, Expression],
-    look: Look,
+    look: GazeFrames,
     lowered: FloatArray,
     sizes: FaceSizes,
     times_s: FloatArray,
@@ -106,7 +106,7 @@ def face_morphs(
         Of the character, with the instrument.
     expressions : mapping of str to Expression
         All that ``face`` names.
-    look : Look
+    look : GazeFrames
         Lids, and how far down the eyes look.
     lowered : (F,) float64
         0 with the instrument at the lips, 1 with it lowered.
@@ -169,7 +169,7 @@ def _lips(
     return drivers
 
 
-def usual_morphs(embouchure: Embouchure, lips: Lips) -> dict[str, float]:
+def usual_morphs(embouchure: EmbouchureWeights, lips: Lips) -> dict[str, float]:
     """The face of a middling tension, with the jaw as it closes the lips around what lies between them."""
     morphs = {name: np.array([weight]) for name, weight in embouchure.usual.items()}
     one = np.ones(1)

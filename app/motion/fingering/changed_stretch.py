@@ -20,7 +20,7 @@ APART_S = 3.0
 
 
 @dataclass(frozen=True)
-class Stretch:
+class ChangedStretch:
     """The notes ``first`` .. ``last - 1`` of a line, in which an edit lies, and the silences around them.
 
     Attributes
@@ -41,7 +41,7 @@ class Stretch:
 
 def changed_stretch(
     before: Sequence[FingeringEvent], after: Sequence[FingeringEvent], felt_beats: FeltBeats
-) -> Stretch | None:
+) -> ChangedStretch | None:
     """The shortest stretch that holds everything in which two lines differ; None where it is the whole line."""
     most = min(len(before), len(after))
     head = _alike(before[:most], after[:most])
@@ -52,7 +52,7 @@ def changed_stretch(
     last = next((index for index in range(count - tail + 1, count) if _apart(after, index, felt_beats)), count)
     if first == 0 and last == count:
         return None
-    return Stretch(
+    return ChangedStretch(
         first,
         last,
         0.5 * (after[first - 1].end_s + after[first].start_s) if first else -np.inf,
@@ -73,8 +73,10 @@ def _apart(fingerings: Sequence[FingeringEvent], index: int, felt_beats: FeltBea
     return after.start_s - before.end_s >= APART_S and after.start_tick - before.end_tick >= beat_ticks
 
 
-def spliced(before: Mapping[str, Curve], within: Mapping[str, Curve], stretch: Stretch) -> dict[str, Curve] | None:
-    """Curves of the line before, with those of a stretch (`Stretch.notes`) put in; None where they do not fit."""
+def spliced(
+    before: Mapping[str, Curve], within: Mapping[str, Curve], stretch: ChangedStretch
+) -> dict[str, Curve] | None:
+    """Curves of the line before, with those of a stretch (`ChangedStretch.notes`); None where they do not fit."""
     if before.keys() != within.keys():
         return None
     result = {}
@@ -86,7 +88,7 @@ def spliced(before: Mapping[str, Curve], within: Mapping[str, Curve], stretch: S
     return result
 
 
-def _spliced(before: Curve, within: Curve, stretch: Stretch) -> Curve | None:
+def _spliced(before: Curve, within: Curve, stretch: ChangedStretch) -> Curve | None:
     ahead, behind = before.end_s <= stretch.start_s, before.start_s >= stretch.end_s
     own = (within.start_s >= stretch.start_s) & (within.end_s <= stretch.end_s)
     if _crossed(before, stretch) or _crossed(within, stretch) or before.initial != within.initial:
@@ -101,6 +103,6 @@ def _spliced(before: Curve, within: Curve, stretch: Stretch) -> Curve | None:
     return Curve(start_s, end_s, low, high, before.initial)
 
 
-def _crossed(curve: Curve, stretch: Stretch) -> bool:
+def _crossed(curve: Curve, stretch: ChangedStretch) -> bool:
     """Whether something still moves in the middle of a silence."""
     return any(bool(((curve.start_s < at_s) & (at_s < curve.end_s)).any()) for at_s in (stretch.start_s, stretch.end_s))

@@ -18,7 +18,7 @@ from app.arrays import BoolArray, FloatArray, IndexArray
 from app.motion.curves.curve import Curve, moves, moves_to
 from app.plan.model import FingeringEvent
 from app.rig.grip.finger_stations import Station, kinds_of_notes, station_for, stations
-from app.rig.grip.grip_pose import Placed, giving_for
+from app.rig.grip.grip_pose import StationBlend, giving_for
 from instrument_maps.model import InstrumentMap
 
 TRAVEL_S = 0.17
@@ -114,9 +114,9 @@ def _silences_s(fingerings: Sequence[FingeringEvent]) -> FloatArray:
     return np.asarray(starts_s[1:] - ends_s[:-1])
 
 
-def sampled(curve: Curve, times_s: FloatArray) -> Placed:
+def sampled(curve: Curve, times_s: FloatArray) -> StationBlend:
     """Between which stations a finger is at ascending times."""
-    return Placed(*curve.between(times_s))
+    return StationBlend(*curve.between(times_s))
 
 
 def raised_curve(fingerings: Sequence[FingeringEvent]) -> Curve:

@@ -14,8 +14,8 @@ import numpy as np
 
 from app.arrays import FloatArray
 from app.motion.body_motion import BodyMotion
-from app.motion.by_hand.pose_corrections import Offset, hold_body
-from app.motion.faces.gaze import Look, with_instrument
+from app.motion.by_hand.pose_corrections import PoseAngles, hold_body
+from app.motion.faces.gaze import GazeFrames, with_instrument
 from app.motion.gestures.beside_playing import beside_playing
 from app.motion.gestures.feet import feet_moved
 from app.motion.gestures.hand_gestures import reached
@@ -49,7 +49,7 @@ class StyleShares(NamedTuple):
 def body_motion(
     levels: LayerSamples,
     sizes: Sizes,
-    look: Look,
+    look: GazeFrames,
     times_s: FloatArray,
     shares: StyleShares,
     steps: bool,
@@ -152,7 +152,7 @@ def _bent_rad(levels: LayerSamples, sizes: Sizes, down: FloatArray) -> FloatArra
     return bent_rad
 
 
-def _turned_bell(held: dict[PoseTarget, Offset]) -> dict[str, FloatArray]:
+def _turned_bell(held: dict[PoseTarget, PoseAngles]) -> dict[str, FloatArray]:
     """Angles by which the animator holds the bell differently."""
     if "bell" not in held:
         return {}

@@ -11,7 +11,7 @@ import numpy as np
 
 from app.arrays import FloatArray
 from app.motion.breath.air_in_trunk import air, lungs, quiet_breaths
-from app.motion.by_hand.pose_corrections import Offset, Poses
+from app.motion.by_hand.pose_corrections import PoseAngles, PoseCorrectionTable
 from app.motion.curves.curve import Curve, Envelopes, moves
 from app.motion.curves.following_gestures import follow, path
 from app.motion.curves.path import Path
@@ -56,7 +56,7 @@ class LayerSamples:
     height: FloatArray
     lowered: FloatArray
     feet: dict[str, FloatArray]
-    held: dict[PoseTarget, Offset]
+    held: dict[PoseTarget, PoseAngles]
     gestured: Sums | None = None
     concert: ConcertSamples = NOTHING_BESIDE
     reached: Reaches | None = None
@@ -95,7 +95,7 @@ class Layers:
     lowered: Curve
     quiet: Curve
     feet: Feet
-    held: Poses
+    held: PoseCorrectionTable
     gestured: Gestured
     reached: Reaching
     concert: Concert
@@ -186,7 +186,7 @@ LAYERS: Final = StepTable(
     step_s="body.footwork.step_s",
     feet=reading(Feet.of, events="stepping"),
     posed="styled.poses",
-    held=reading(Poses.of, events="posed"),
+    held=reading(PoseCorrectionTable.of, events="posed"),
     gestured=reading(Gestured.of, events="gestures"),
     reached=reading(Reaching.of, events="gestures"),
     beside=partial(_of_part, part="beside"),

@@ -13,11 +13,11 @@ from typing import Self, TypeAlias
 import numpy as np
 
 from app.arrays import FloatArray
-from app.motion.by_hand.pose_corrections import Offset, within
+from app.motion.by_hand.pose_corrections import PoseAngles, within
 from app.motion.curves.curve import rows_changed_s
 from app.plan.by_hand.pose_corrections import ELBOW_DEG, HANDS_FOLLOW_DEG
 from app.plan.model import GestureEvent, PoseTarget
-from metadata.gestures import Gesture, Track
+from metadata.gestures import AngleTrack, Gesture
 from metadata.model import AmplitudeScale, at_amplitude
 
 Sums: TypeAlias = dict[AmplitudeScale, dict[PoseTarget, FloatArray]]
@@ -25,7 +25,7 @@ Sums: TypeAlias = dict[AmplitudeScale, dict[PoseTarget, FloatArray]]
 _TURNS = ("up", "left", "roll")
 
 
-def slopes_of(track: Track) -> FloatArray:
+def slopes_of(track: AngleTrack) -> FloatArray:
     """The tangent of every key, degrees for the whole length: where none is given, level at a turn and else towards
     the neighbours, so that nothing overshoots."""
     slopes = _monotone(np.array([key.at for key in track.keys]), np.array([key.deg for key in track.keys]))
@@ -43,7 +43,7 @@ def _monotone(at: FloatArray, values: FloatArray) -> FloatArray:
     return slopes
 
 
-def angles_deg(track: Track, phase: FloatArray) -> FloatArray:
+def angles_deg(track: AngleTrack, phase: FloatArray) -> FloatArray:
     """A track's angle at phases of its gesture, (F,); 0 outside of 0..1."""
     at = np.array([key.at for key in track.keys])
     return _between(at, np.array([key.deg for key in track.keys]), slopes_of(track), phase)
@@ -136,8 +136,8 @@ class Gestured(KeyedGestures):
 
 
 def with_gestures(
-    held: dict[PoseTarget, Offset], gestured: Sums | None, amplitude: float, amount: FloatArray | float
-) -> dict[PoseTarget, Offset]:
+    held: dict[PoseTarget, PoseAngles], gestured: Sums | None, amplitude: float, amount: FloatArray | float
+) -> dict[PoseTarget, PoseAngles]:
     """What the animator holds differently, with the gestures: as large as each is at the player's amplitude, times the
     player's amount, at most as it is at full amplitude, and no further than hands follow."""
     if not gestured or not np.any(amount):
@@ -157,7 +157,7 @@ def with_gestures(
             angle + (turn if limit is None else within(turn, limit[1] - angle, angle - limit[0]))
             for angle, turn, limit in zip(own, sums[target], limits, strict=True)
         ]
-        both[target] = Offset(*(np.asarray(angles) for angles in added))
+        both[target] = PoseAngles(*(np.asarray(angles) for angles in added))
     return both
 
 

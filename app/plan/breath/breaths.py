@@ -36,12 +36,12 @@ from app.plan.breath.lungs import (
     where_short,
     with_circular_breathing,
 )
-from app.plan.breath.staggered_breaths import Shared, within_held
+from app.plan.breath.staggered_breaths import BreathConstraints, within_held
 from app.plan.breath.which_rests import ALWAYS_S, Decided, RestNeeds, breathed_in, rest_needs, why
 from app.plan.by_hand.corrections import BY_HAND, Correction, SetBreath, removed_ids, without_removed
 from app.plan.event_id import EventId
 from app.plan.model import BreathEvent, Problem, TimeFrame
-from app.plan.music.breath_controller import BreathEnvelope, Silences, gaps_within, silences
+from app.plan.music.breath_controller import BreathEnvelope, BreathGaps, gaps_within, silences
 from app.plan.music.notation import at_score_tempo, heard_rests_s, notated, usual_release
 from app.plan.music.piece import EPSILON, LineTimes, Piece, Seeds, gaps_s
 from app.plan.music.rests import Rests, are_audible, rest_ticks
@@ -81,7 +81,7 @@ def plan_breaths(
     parameters: PlayerParameters,
     frame: TimeFrame,
     corrections: tuple[Correction, ...],
-    shared: Shared,
+    shared: BreathConstraints,
     seeds: Seeds,
     air: Air | None,
     envelope: BreathEnvelope | None,
@@ -92,7 +92,7 @@ def plan_breaths(
     ----------
     air : Air or None
         How long a lungful lasts on the instrument, as its map says.
-    shared : Shared
+    shared : BreathConstraints
         Where others of a unison breathe.
     seeds : Seeds
         What distinguishes this player where places are equally good.
@@ -148,7 +148,7 @@ class _Score(NamedTuple):
         As a score would have it, and that without short changes of tempo, by which is decided what is needed.
     sounded_s : (N,) float64
         How long each note sounds, at the tempo of the score.
-    gaps : Silences or None
+    gaps : BreathGaps or None
         Where the breath that was blown shows breaths.
     used, steady_used : (N + 1,) float
         `app.plan.breath.lungs.air_used_s` of both.
@@ -162,7 +162,7 @@ class _Score(NamedTuple):
     steady: LineTimes
     rests: Rests
     sounded_s: FloatArray
-    gaps: Silences | None
+    gaps: BreathGaps | None
     used: FloatArray
     steady_used: FloatArray
     lung_s: float
@@ -265,7 +265,7 @@ def _rests(steady: LineTimes, played: LineTimes, times: LineTimes, piece: Piece)
 
 
 def _given(
-    line: _Breather, score: _Score, frame: TimeFrame, corrections: tuple[Correction, ...], shared: Shared
+    line: _Breather, score: _Score, frame: TimeFrame, corrections: tuple[Correction, ...], shared: BreathConstraints
 ) -> _Given:
     notes, times, piece, parameters = line.notes, line.times, line.piece, line.parameters
     if score.gaps is not None:
@@ -410,7 +410,9 @@ def _in_rests(
     return result
 
 
-def _catches(line: _Breather, score: _Score, stock: _Stock, may: BoolArray, shared: Shared, seeds: Seeds) -> list[int]:
+def _catches(
+    line: _Breather, score: _Score, stock: _Stock, may: BoolArray, shared: BreathConstraints, seeds: Seeds
+) -> list[int]:
     """The notes before which catch breaths are taken: decided at the tempo of the score, corrected where a change of
     tempo takes more air."""
     taken = np.zeros(len(line.notes), dtype=bool)

@@ -16,7 +16,7 @@ from app.errors import Argument, Message
 from app.plan.breath.which_rests import LONG_S
 from app.plan.by_hand.corrections import WITHIN
 from app.plan.model import BreathEvent, TimeFrame
-from app.plan.music.breath_controller import BREATH_S, Silences
+from app.plan.music.breath_controller import BREATH_S, BreathGaps
 from app.plan.music.piece import EPSILON, LineTimes, Piece
 from app.plan.music.rests import Rests
 from app.plan.parameters import PlayerParameters
@@ -55,7 +55,7 @@ def blown_breaths(
     piece: Piece,
     parameters: PlayerParameters,
     frame: TimeFrame,
-    gaps: Silences,
+    gaps: BreathGaps,
 ) -> tuple[BreathEvent, ...]:
     """The breaths of a recorded breath curve: in the gaps, each shaped by its length as in a rest.
 
@@ -167,7 +167,7 @@ def breath_at(id: str, piece: Piece, start_s: float, end_s: float, reason: Messa
     return _event("breath", id, start, end, reason)
 
 
-def _blown_reason(id: str, gaps: Silences, index: int) -> Message:
+def _blown_reason(id: str, gaps: BreathGaps, index: int) -> Message:
     return Message(id, {"gap_s": round(float(gaps.length_s[index]), 2)})
 
 
@@ -194,7 +194,7 @@ def because(reason: Message, why: Mapping[str, Argument]) -> Message:
     return reason if reason.id == "breath.first" else Message(reason.id, {**reason.arguments, **why})
 
 
-def blown_catch(note: Note, piece: Piece, gaps: Silences, index: int) -> BreathEvent:
+def blown_catch(note: Note, piece: Piece, gaps: BreathGaps, index: int) -> BreathEvent:
     start_s, end_s = float(gaps.start_s[index]), float(gaps.end_s[index])
     return breath_at(f"breath:{note.id}", piece, start_s, end_s, _blown_reason("breath.blown_short", gaps, index))
 

@@ -108,7 +108,7 @@ class Breathed(NamedTuple):
     within: tuple[tuple[Place, float], ...]
 
 
-class Shared(NamedTuple):
+class BreathConstraints(NamedTuple):
     """What a player's breaths keep clear of.
 
     Attributes
@@ -129,7 +129,7 @@ class Shared(NamedTuple):
     after_hold: frozenset[int] = frozenset()
 
 
-ALONE = Shared()
+ALONE = BreathConstraints()
 
 
 def shared_line(times: LineTimes, piece: Piece) -> SharedLine:
@@ -184,7 +184,9 @@ def met(line: SharedLine, breathed: tuple[Breathed, ...], before: Met | None) ->
     return Met(line, breathed, tuple(caught), tuple(left_out))
 
 
-def shared_with(line: SharedLine, others: tuple[SharedLine, ...], met: Met, after_hold: frozenset[int]) -> Shared:
+def shared_with(
+    line: SharedLine, others: tuple[SharedLine, ...], met: Met, after_hold: frozenset[int]
+) -> BreathConstraints:
     """Return what a player must keep clear of.
 
     Parameters
@@ -205,7 +207,7 @@ def shared_with(line: SharedLine, others: tuple[SharedLine, ...], met: Met, afte
         if any(other.holds(place, length_s) for other in others):
             held.append((index, tuple(sorted(taken.get(place, ())))))
     left_out = tuple(sorted(chain.from_iterable(met.left_out)))
-    return Shared(NO_NOTES.union(*met.caught), left_out, tuple(held), after_hold)
+    return BreathConstraints(NO_NOTES.union(*met.caught), left_out, tuple(held), after_hold)
 
 
 def caught_in_unison(line: SharedLine, other: SharedLine, caught: frozenset[Place]) -> frozenset[int]:
@@ -252,7 +254,7 @@ def _together(places: Sequence[int], known: frozenset[int], index: int, least: i
 
 
 def within_held(
-    notes: Sequence[Note], times: LineTimes, piece: Piece, used: FloatArray, lung_s: float, shared: Shared
+    notes: Sequence[Note], times: LineTimes, piece: Piece, used: FloatArray, lung_s: float, shared: BreathConstraints
 ) -> tuple[BreathEvent, ...]:
     """Return the breaths within each note that takes most of a player's air or more, as far as others hold it on.
 

@@ -22,7 +22,7 @@ MOST_KEYS: Final = 5000
 """Of one curve."""
 
 
-class Channel(NamedTuple):
+class AdditiveChannel(NamedTuple):
     """Something a curve can move.
 
     Attributes
@@ -37,8 +37,8 @@ class Channel(NamedTuple):
     most: float
 
 
-_ANGLE, _PLACE = Channel("deg", 180.0), Channel("m", 1.0)
-BODY_CHANNELS: Final[dict[str, Channel]] = {
+_ANGLE, _PLACE = AdditiveChannel("deg", 180.0), AdditiveChannel("m", 1.0)
+BODY_CHANNELS: Final[dict[str, AdditiveChannel]] = {
     "bell.up": _ANGLE,
     "bell.left": _ANGLE,
     "bell.roll": _ANGLE,
@@ -64,7 +64,9 @@ BODY_CHANNELS: Final[dict[str, Channel]] = {
 `app.plan.by_hand.corrections.PoseCorrection`."""
 FACE: Final = "face."
 """How channels of the face begin; the name of a morph target follows."""
-CHANNELS: Final[dict[str, Channel]] = BODY_CHANNELS | {f"{FACE}{name}": Channel("weight", 1.0) for name in ARKIT_MORPHS}
+CHANNELS: Final[dict[str, AdditiveChannel]] = BODY_CHANNELS | {
+    f"{FACE}{name}": AdditiveChannel("weight", 1.0) for name in ARKIT_MORPHS
+}
 
 
 class Tangent(msgspec.Struct, frozen=True, forbid_unknown_fields=True):

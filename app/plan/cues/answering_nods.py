@@ -12,7 +12,7 @@ import numpy as np
 
 from app.errors import Message
 from app.plan.model import CONDUCTOR, CueEvent, GestureEvent
-from app.plan.music.piece import Piece, Rhythm, Seeds
+from app.plan.music.piece import NoteTimes, Piece, Seeds
 from app.score.model import Note
 
 SOONEST_S: Final = 0.02
@@ -26,7 +26,7 @@ UNDER_CONDUCTOR: Final = 0.6
 
 
 def answering_nods(
-    notes: tuple[Note, ...], times: Rhythm, answered: Sequence[CueEvent], piece: Piece, seeds: Seeds
+    notes: tuple[Note, ...], times: NoteTimes, answered: Sequence[CueEvent], piece: Piece, seeds: Seeds
 ) -> list[GestureEvent]:
     """A nod for every cue that a player comes in with; none where the player's own note comes later than its beat.
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from app.arrays import FloatArray, IntArray
 from app.plan.music.fermatas import OTHER_TEMPO, Fermata, fermatas
-from app.plan.music.piece import Piece, Rhythm
+from app.plan.music.piece import NoteTimes, Piece
 from app.plan.music.spans import Spans
 
 COMMON_REST_S = 1.5
@@ -61,7 +61,7 @@ class Entry(msgspec.Struct, frozen=True):
     players: tuple[tuple[int, int], ...]
 
 
-def entries(all_times: tuple[Rhythm, ...], piece: Piece, musicians: tuple[str, ...] = ()) -> tuple[Entry, ...]:
+def entries(all_times: tuple[NoteTimes, ...], piece: Piece, musicians: tuple[str, ...] = ()) -> tuple[Entry, ...]:
     """Every place that asks for a cue, in order: by the rhythm of the lines and the tempo alone.
 
     ``musicians`` gives the musician of each line, where one plays several: changing instruments is no rest.
@@ -100,7 +100,7 @@ class _Spans(msgspec.Struct, frozen=True):
         return index >= 0 and bool(self.ends[index] > tick - ticks)
 
 
-def _stretches(times: Rhythm) -> tuple[IntArray, IntArray]:
+def _stretches(times: NoteTimes) -> tuple[IntArray, IntArray]:
     """Where a line begins to sound and where it stops: a tenth of as many as there are notes."""
     stops = times.onset_tick[1:] > times.played_end_tick[:-1]
     return times.onset_tick[np.insert(stops, 0, True)], times.played_end_tick[np.append(stops, True)]
@@ -119,7 +119,7 @@ def played_together(piece: Piece, tick: int) -> int:
     return following + beat if following <= bar / 2 else max(round(ON_BEAT * beat), 1)
 
 
-def coming_in(sounding: list[tuple[int, Rhythm]], tick: int, ticks: int) -> tuple[tuple[int, int], ...]:
+def coming_in(sounding: list[tuple[int, NoteTimes]], tick: int, ticks: int) -> tuple[tuple[int, int], ...]:
     """Who begins a note within so many ticks from a tick on, and which."""
     found = []
     for line, times in sounding:
@@ -129,7 +129,7 @@ def coming_in(sounding: list[tuple[int, Rhythm]], tick: int, ticks: int) -> tupl
     return tuple(found)
 
 
-def _common_entries(sounding: list[tuple[int, Rhythm]], lines: _Spans, piece: Piece) -> list[Entry]:
+def _common_entries(sounding: list[tuple[int, NoteTimes]], lines: _Spans, piece: Piece) -> list[Entry]:
     """The first entry, and those after silences of all, on stage or not."""
     accompaniment = np.array(piece.accompaniment, np.int64).reshape(-1, 2)
     all_spans = _Spans.of([(lines.starts, lines.ends), (accompaniment[:, 0], accompaniment[:, 1])])
@@ -152,7 +152,7 @@ def _common_entries(sounding: list[tuple[int, Rhythm]], lines: _Spans, piece: Pi
     return found
 
 
-def _silence(sounding: list[tuple[int, Rhythm]], end: int, tick: int, rest_s: float, piece: Piece) -> Reason | None:
+def _silence(sounding: list[tuple[int, NoteTimes]], end: int, tick: int, rest_s: float, piece: Piece) -> Reason | None:
     """Why all need a cue after a silence of all from ``end`` to ``tick``; None if no one does."""
     bars, beats = (tick - end) / piece.metre_map.bar_ticks_at(end), (tick - end) / beat_ticks(piece, tick)
     long = rest_s >= COMMON_REST_S - EXACT
@@ -173,7 +173,7 @@ def _silence(sounding: list[tuple[int, Rhythm]], end: int, tick: int, rest_s: fl
     return "cue.after_fermata" if left else None
 
 
-def _held_entries(sounding: list[tuple[int, Rhythm]], piece: Piece) -> list[Entry]:
+def _held_entries(sounding: list[tuple[int, NoteTimes]], piece: Piece) -> list[Entry]:
     """Where all go on at once after notes that all held so long that no one counts them."""
     held: dict[int, int] = {}
     for _, times in sounding:
@@ -192,14 +192,14 @@ def _held_entries(sounding: list[tuple[int, Rhythm]], piece: Piece) -> list[Entr
     return found
 
 
-def _nothing_begins(times: Rhythm, begin: int, tick: int) -> bool:
+def _nothing_begins(times: NoteTimes, begin: int, tick: int) -> bool:
     """Whether a line begins nothing between two ticks, nor sounds on at the second."""
     index = int(np.searchsorted(times.onset_tick, tick)) - 1
     return index < 0 or bool(times.onset_tick[index] <= begin and times.played_end_tick[index] <= tick)
 
 
 def _tempo_entries(
-    sounding: list[tuple[int, Rhythm]], lines: _Spans, piece: Piece, held: tuple[Fermata, ...]
+    sounding: list[tuple[int, NoteTimes]], lines: _Spans, piece: Piece, held: tuple[Fermata, ...]
 ) -> list[Entry]:
     """Where a new tempo begins and stays, or the old one goes on after a fermata."""
     beats = piece.metre_map.felt_between(int(lines.starts[0]), int(lines.ends[-1]))
@@ -250,7 +250,7 @@ def _new_tempo(lasts_s: FloatArray, place: int) -> bool:
 
 
 def _joining(
-    sounding: list[tuple[int, Rhythm]], lines: _Spans, shared: list[Entry], piece: Piece, musicians: tuple[str, ...]
+    sounding: list[tuple[int, NoteTimes]], lines: _Spans, shared: list[Entry], piece: Piece, musicians: tuple[str, ...]
 ) -> list[Entry]:
     """Where players come in after long rests of their own while others play; those within a bar are one entry."""
     first = int(lines.starts[0])

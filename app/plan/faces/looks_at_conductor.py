@@ -15,7 +15,7 @@ import numpy as np
 from app.arrays import FloatArray, IntArray
 from app.plan.faces.glances import PLAYING_HEAD, StagePlace, bearing_rad, pitch_rad
 from app.plan.model import CONDUCTOR, GlanceEvent, TimeFrame
-from app.plan.music.piece import LineTimes, Piece, Rhythm, Seeds
+from app.plan.music.piece import LineTimes, NoteTimes, Piece, Seeds
 from app.plan.music.spans import Spans
 
 CHANGING: Final = 0.03
@@ -107,7 +107,7 @@ def _certain(times: LineTimes, piece: Piece, last_s: float) -> list[tuple[float,
     return found
 
 
-def _by_chance(times: Rhythm, piece: Piece, amount: float, seeds: Seeds) -> list[tuple[float, float]]:
+def _by_chance(times: NoteTimes, piece: Piece, amount: float, seeds: Seeds) -> list[tuple[float, float]]:
     """As phrases begin, and now and then before a bar."""
     rests_s = times.onset_s[1:] - times.played_end_s[:-1]
     starts = np.flatnonzero(np.insert(rests_s >= PHRASE_REST_S, 0, False))
@@ -126,7 +126,7 @@ def _by_chance(times: Rhythm, piece: Piece, amount: float, seeds: Seeds) -> list
     return sorted(spans)
 
 
-def _bars(times: Rhythm, piece: Piece) -> tuple[IntArray, FloatArray]:
+def _bars(times: NoteTimes, piece: Piece) -> tuple[IntArray, FloatArray]:
     """Ticks and seconds of the bars near what is played, one of those that lie close together."""
     bars = piece.bars(int(times.onset_tick[0]), int(times.onset_tick[-1]) + 1)
     bars_s: FloatArray = piece.clock.seconds(bars.astype(np.float64))

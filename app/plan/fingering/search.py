@@ -113,7 +113,7 @@ TOLERANCE = 1e-9
 
 
 @dataclass(frozen=True)
-class Table:
+class FingeringTable:
     """Fingerings of the pitches of a line, padded to K.
 
     Attributes
@@ -185,7 +185,7 @@ class FingeringProblem:
     """The search as arrays: what each note may be played with, and what that costs."""
 
     times: LineTimes
-    table: Table
+    table: FingeringTable
     pitch_index: IntArray
     controls: tuple[Control, ...]
     allowed: BoolArray
@@ -416,7 +416,7 @@ def pitch_controls(instrument: InstrumentMap) -> tuple[Control, ...]:
     return tuple(control for control in instrument.controls if control.role == "pitch")
 
 
-def table_of(pitches: tuple[int, ...], instrument: InstrumentMap) -> Table:
+def table_of(pitches: tuple[int, ...], instrument: InstrumentMap) -> FingeringTable:
     """The fingerings of these concert pitches, in their order."""
     choices = tuple(instrument.fingerings_for(pitch) for pitch in pitches)
     controls = pitch_controls(instrument)
@@ -448,7 +448,7 @@ def table_of(pitches: tuple[int, ...], instrument: InstrumentMap) -> Table:
     register = np.searchsorted(np.sort(np.array(instrument.breaks, dtype=np.int64)), written, side="right")
     places = finger_places(choices, shape, controls, instrument.contacts)
     leaves_down = any("held" in fingering.tags for fingering in instrument.fingerings)
-    return Table(
+    return FingeringTable(
         choices,
         values,
         cost,

@@ -19,7 +19,7 @@ from app.plan.event_id import EventId
 from app.plan.gestures.lowered_instrument import LOWER_S, RAISE_S
 from app.plan.kinds import GestureKind
 from app.plan.model import GestureEvent, TimeFrame
-from app.plan.music.piece import Piece, Rhythm, Seeds
+from app.plan.music.piece import NoteTimes, Piece, Seeds
 from app.score.model import Note
 
 LONG_REST_S: Final = 8.0
@@ -54,7 +54,7 @@ AFTER_S: Final = 0.2
 
 def in_long_rests(
     notes: tuple[Note, ...],
-    times: Rhythm,
+    times: NoteTimes,
     lowered: Sequence[GestureEvent],
     piece: Piece,
     frame: TimeFrame,
@@ -141,7 +141,7 @@ def _looks(
 
 
 def holding_at_end(
-    times: Rhythm, lowered: Sequence[GestureEvent], piece: Piece, frame: TimeFrame
+    times: NoteTimes, lowered: Sequence[GestureEvent], piece: Piece, frame: TimeFrame
 ) -> list[GestureEvent]:
     """The player keeps still from the end of the last note until the instrument comes down."""
     lows = [event for event in lowered if event.id == "lower_instrument:end"]

@@ -20,7 +20,7 @@ from app.plan.gestures.leans_and_accents import Phrase
 from app.plan.gestures.sways import Pulse
 from app.plan.kinds import GestureKind, answered_by
 from app.plan.model import GestureEvent, StyleEvent
-from app.plan.music.piece import Rhythm, Seeds
+from app.plan.music.piece import NoteTimes, Seeds
 from app.plan.styles import amount_at
 from app.score.tempo import TempoMap
 
@@ -69,7 +69,7 @@ def lifted_s(gestures: Iterable[GestureEvent], foot: Foot, step_s: float) -> lis
 
 def footwork(
     *,
-    times: Rhythm,
+    times: NoteTimes,
     found: tuple[Phrase, ...],
     pulse: Pulse,
     clock: TempoMap,
@@ -103,7 +103,7 @@ def footwork(
     return sorted((*steps, *taps, *heels), key=lambda event: (event.start_s, event.id))
 
 
-def _steps(times: Rhythm, found: tuple[Phrase, ...], clock: TempoMap, seeds: Seeds) -> list[GestureEvent]:
+def _steps(times: NoteTimes, found: tuple[Phrase, ...], clock: TempoMap, seeds: Seeds) -> list[GestureEvent]:
     """At ends of phrases, back at the end of the next or the one after it."""
     ends_s = times.played_end_s[np.array([phrase.end for phrase in found]) - 1]
     ticks = times.onset_tick[np.array([phrase.first for phrase in found])]
@@ -129,7 +129,7 @@ def _steps(times: Rhythm, found: tuple[Phrase, ...], clock: TempoMap, seeds: See
 
 
 def _taps(
-    times: Rhythm,
+    times: NoteTimes,
     found: tuple[Phrase, ...],
     pulse: Pulse,
     clock: TempoMap,

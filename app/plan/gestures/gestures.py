@@ -32,7 +32,7 @@ from app.errors import Message
 from app.plan.gestures.sways import STIR_S, Pulse, stirring
 from app.plan.model import GestureEvent, TimeFrame
 from app.plan.music.dynamics import Dynamics, grown
-from app.plan.music.piece import LineTimes, Piece, Rhythm, Seeds
+from app.plan.music.piece import LineTimes, NoteTimes, Piece, Seeds
 from app.score.model import Note
 from app.score.tempo import TempoMap
 
@@ -65,7 +65,7 @@ def in_order(kinds: tuple[Sequence[GestureEvent], ...]) -> tuple[GestureEvent, .
 
 
 def weight_shifts(
-    times: Rhythm, pulse: Pulse, frame: TimeFrame, seeds: Seeds, clock: TempoMap, dynamics: Dynamics
+    times: NoteTimes, pulse: Pulse, frame: TimeFrame, seeds: Seeds, clock: TempoMap, dynamics: Dynamics
 ) -> list[GestureEvent]:
     """Shifts of weight at arbitrary times (T7), about every `SHIFT_MEAN_S`: bar by bar a player shifts or not."""
     places = stirring(times, frame, pulse.bars_s)
@@ -97,7 +97,7 @@ def weight_shifts(
     return events
 
 
-def _in_silence(times: Rhythm, seeds: Seeds, clock: TempoMap) -> IntArray:
+def _in_silence(times: NoteTimes, seeds: Seeds, clock: TempoMap) -> IntArray:
     """Ticks of shifts in the middle of long silences: a few, however long they are."""
     found = []
     quiet = times.onset_s[1:] - times.played_end_s[:-1] > 2.0 * STIR_S + SHIFT_LEAST_S

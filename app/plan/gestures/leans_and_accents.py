@@ -20,7 +20,7 @@ from app.errors import Message
 from app.plan.gestures.sways import Pulse, Swings
 from app.plan.model import ACCENT_AT, BreathEvent, CueEvent, GestureEvent
 from app.plan.music.dynamics import Dynamics, grown
-from app.plan.music.piece import LineTimes, Piece, Rhythm, Seeds
+from app.plan.music.piece import LineTimes, NoteTimes, Piece, Seeds
 from app.score.tempo import TempoMap
 
 LEAN_BACK, ACCENT, LOUD = Message("gesture.lean_back"), Message("gesture.accent"), Message("gesture.accent_loud")
@@ -66,7 +66,7 @@ class Phrase(NamedTuple):
     end: int
 
 
-def phrases(times: Rhythm, breaths: Sequence[BreathEvent]) -> tuple[Phrase, ...]:
+def phrases(times: NoteTimes, breaths: Sequence[BreathEvent]) -> tuple[Phrase, ...]:
     """The phrases of a line, in order: every note is in one."""
     count = len(times.onset_s)
     if not count:
@@ -85,7 +85,7 @@ def phrases(times: Rhythm, breaths: Sequence[BreathEvent]) -> tuple[Phrase, ...]
     return tuple(found)
 
 
-def _after_breaths(times: Rhythm, breaths: Sequence[BreathEvent]) -> IntArray:
+def _after_breaths(times: NoteTimes, breaths: Sequence[BreathEvent]) -> IntArray:
     """The note after each breath; their number for none."""
     drawn_s = [breath.end_s for breath in breaths if breath.kind == "breath"]
     return np.asarray(np.searchsorted(times.onset_s, np.array(drawn_s) - ON_BEAT_S))

@@ -16,7 +16,7 @@ import numpy as np
 
 from app.errors import Message
 from app.plan.model import BreathEvent, CueEvent, GestureEvent, TimeFrame
-from app.plan.music.piece import Piece, Rhythm, Seeds
+from app.plan.music.piece import NoteTimes, Piece, Seeds
 from app.score.model import Note
 
 LOWER_REST_S = 6.0
@@ -37,7 +37,7 @@ HELD_S = 0.9
 
 def lowered_spans(
     notes: tuple[Note, ...],
-    times: Rhythm,
+    times: NoteTimes,
     piece: Piece,
     frame: TimeFrame,
     breaths: tuple[BreathEvent, ...],

@@ -13,14 +13,14 @@ import numpy as np
 
 from app.errors import Message
 from app.plan.by_hand.pose_corrections import GENTLE_RAD_S2, pose_limits
-from app.plan.gestures.when_possible import Lowered, impossible, may_start
+from app.plan.gestures.when_possible import LoweredSpans, impossible, may_start
 from app.plan.kinds import GESTURE_KINDS
 from app.plan.model import GestureEvent, Problem
 from app.plan.music.piece import LineTimes
 from app.plan.music.spans import Spans
 from app.plan.parameters import PlayerParameters
 from instrument_maps.model import InstrumentMap
-from metadata.gestures import Gesture, HandTrack, Key, Track
+from metadata.gestures import AngleKey, AngleTrack, Gesture, HandTrack
 from metadata.load import load_body
 
 
@@ -47,7 +47,7 @@ def with_definitions(
     result: list[GestureEvent] = []
     problems: list[Problem] = []
     limits: dict[str, dict[str, tuple[float, float]]] = {}
-    down = Lowered(lowered)
+    down = LoweredSpans(lowered)
     busy_s = -np.inf
     for event in events:
         definition = definitions.get(event.name)
@@ -127,7 +127,7 @@ def undisturbed(events: tuple[GestureEvent, ...]) -> tuple[GestureEvent, ...]:
     )
 
 
-def _acceleration_deg(track: Track) -> float:
+def _acceleration_deg(track: AngleTrack) -> float:
     """Largest acceleration of a track, degrees for a gesture of one second, about: of level moves between its keys."""
     at, deg = np.array([key.at for key in track.keys]), np.array([key.deg for key in track.keys])
     slopes = np.array([abs(key.slope or 0.0) for key in track.keys])
@@ -138,6 +138,8 @@ def _acceleration_deg(track: Track) -> float:
     return float((moved + bent).max())
 
 
-def _scaled(track: Track, share: float) -> Track:
-    keys = tuple(Key(key.at, share * key.deg, None if key.slope is None else share * key.slope) for key in track.keys)
-    return Track(track.target, track.turn, keys)
+def _scaled(track: AngleTrack, share: float) -> AngleTrack:
+    keys = tuple(
+        AngleKey(key.at, share * key.deg, None if key.slope is None else share * key.slope) for key in track.keys
+    )
+    return AngleTrack(track.target, track.turn, keys)

@@ -14,7 +14,7 @@ from app.arrays import BoolArray, FloatArray, IntArray
 from app.errors import Message
 from app.plan.model import GestureEvent, StyleEvent, TimeFrame
 from app.plan.music.dynamics import Dynamics, grown
-from app.plan.music.piece import Piece, Rhythm, Seeds
+from app.plan.music.piece import NoteTimes, Piece, Seeds
 from app.plan.styles import amount_at
 
 SWING_S = 1.1
@@ -114,7 +114,7 @@ class Swings:
 
 
 def swings_of(
-    times: Rhythm,
+    times: NoteTimes,
     pulse: Pulse,
     frame: TimeFrame,
     seeds: Seeds,
@@ -232,7 +232,7 @@ def sways(swings: Swings, pulse: Pulse) -> list[GestureEvent]:
     ]
 
 
-def _sounding_share(times: Rhythm, starts_s: FloatArray, ends_s: FloatArray) -> FloatArray:
+def _sounding_share(times: NoteTimes, starts_s: FloatArray, ends_s: FloatArray) -> FloatArray:
     """Part of each span in which the line sounds."""
     if len(times.onset_s) == 0:
         return np.zeros(len(starts_s))
@@ -244,7 +244,7 @@ def _sounding_share(times: Rhythm, starts_s: FloatArray, ends_s: FloatArray) -> 
     return share
 
 
-def stirring(times: Rhythm, frame: TimeFrame, edges_s: FloatArray) -> IntArray:
+def stirring(times: NoteTimes, frame: TimeFrame, edges_s: FloatArray) -> IntArray:
     """Which spans between neighbouring edges lie near the begin or end of a note, or near the frame's ends; ascending.
 
     What it costs depends on how many these are, not on how many spans there are.

@@ -19,7 +19,7 @@ from instrument_maps.model import InstrumentMap
 from metadata.gestures import Gesture
 
 
-class Lowered:
+class LoweredSpans:
     """Spans, seconds, in which the instrument is off the lips: looked up, so that no gesture is compared with all."""
 
     def __init__(self, spans_s: tuple[tuple[float, float], ...]) -> None:
@@ -45,7 +45,7 @@ class Lowered:
         return False
 
 
-def may_start(gesture: Gesture, start_s: float, end_s: float, times: LineTimes, lowered: Lowered) -> bool:
+def may_start(gesture: Gesture, start_s: float, end_s: float, times: LineTimes, lowered: LoweredSpans) -> bool:
     """Whether a gesture may be done from one time to another."""
     if gesture.may_start == "resting":
         first = int(np.searchsorted(times.played_end_s, start_s, side="right"))
@@ -56,7 +56,7 @@ def may_start(gesture: Gesture, start_s: float, end_s: float, times: LineTimes, 
     return True
 
 
-def comes_up(start_s: float, end_s: float, lowered: Lowered) -> bool:
+def comes_up(start_s: float, end_s: float, lowered: LoweredSpans) -> bool:
     """Whether the instrument that is down at one time is on its way up before another."""
     return lowered.end_between(start_s, end_s + RAISE_S)
 

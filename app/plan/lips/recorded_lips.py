@@ -13,7 +13,7 @@ from app.plan.by_hand.corrections import Correction, SetEmbouchure
 from app.plan.lips.embouchure import strain_of, tension_of
 from app.plan.model import SampledCurves
 from app.plan.music.breath_controller import BreathEnvelope, step_means
-from app.plan.music.piece import ControllerInput, LineTimes, Steps
+from app.plan.music.piece import ControllerInput, ControllerSteps, LineTimes
 from app.score.model import Note
 from app.score.tempo import TempoMap
 from instrument_maps.model import InstrumentMap
@@ -115,7 +115,7 @@ def pressed_by(bite: FloatArray, bend: FloatArray) -> FloatArray:
     return pressed
 
 
-def _sampled(steps: Steps, clock: TempoMap, at_s: FloatArray) -> FloatArray:
+def _sampled(steps: ControllerSteps, clock: TempoMap, at_s: FloatArray) -> FloatArray:
     return step_means(clock.seconds(steps.ticks), steps.values, at_s - STEP_S / 2.0, at_s + STEP_S / 2.0)
 
 

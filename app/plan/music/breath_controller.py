@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from app.arrays import BoolArray, FloatArray, IntArray
-from app.plan.music.piece import LineTimes, Steps
+from app.plan.music.piece import ControllerSteps, LineTimes
 from app.score.tempo import TempoMap
 
 BLOWS_FROM, STOPS_AT = 6.0 / 127.0, 2.0 / 127.0
@@ -71,7 +71,7 @@ class BreathEnvelope:
 
 
 @dataclass(frozen=True, eq=False)
-class Silences:
+class BreathGaps:
     """The gap that serves each note.
 
     Attributes
@@ -92,7 +92,7 @@ class Silences:
         return np.nan_to_num(self.end_s - self.start_s)
 
 
-def blown(steps: Steps, clock: TempoMap) -> BreathEnvelope:
+def blown(steps: ControllerSteps, clock: TempoMap) -> BreathEnvelope:
     """A breath curve in time, with its gaps."""
     at_s = clock.seconds(steps.ticks)
     return BreathEnvelope(at_s, steps.values, find_gaps(at_s, steps.values))
@@ -123,7 +123,7 @@ def gaps_within(envelope: BreathEnvelope, times: LineTimes) -> list[tuple[int, f
     return [(note, *longest[note]) for note in sorted(longest)]
 
 
-def silences(envelope: BreathEnvelope, times: LineTimes) -> Silences:
+def silences(envelope: BreathEnvelope, times: LineTimes) -> BreathGaps:
     """Which gap comes before which note: the longest of those between the note before and this one.
 
     A gap in the middle of a note serves none (`gaps_within`); where the note before was not blown either, it begins
@@ -144,7 +144,7 @@ def silences(envelope: BreathEnvelope, times: LineTimes) -> Silences:
     # The longest comes last of a note's, and stays.
     order = np.lexsort((ends_s - starts_s, serves))
     start_s[serves[order]], end_s[serves[order]] = starts_s[order], ends_s[order]
-    return Silences(start_s, end_s, played)
+    return BreathGaps(start_s, end_s, played)
 
 
 def step_means(at: FloatArray, values: FloatArray, starts: FloatArray, ends: FloatArray) -> FloatArray:

@@ -15,7 +15,7 @@ import numpy as np
 
 from app.arrays import FloatArray, IntArray
 from app.plan.music.notation import written_onsets
-from app.plan.music.piece import LineTimes, Piece, Rhythm
+from app.plan.music.piece import LineTimes, NoteTimes, Piece
 
 LEAST_NOTES = 24
 """Fewer notes show no metre."""
@@ -42,14 +42,14 @@ def lowest(lines: Sequence[LineTimes]) -> tuple[bool, ...]:
     return tuple(height == min(heights) for height in heights)
 
 
-def with_felt_bars(piece: Piece, lines: tuple[Rhythm, ...], low: tuple[bool, ...]) -> Piece:
+def with_felt_bars(piece: Piece, lines: tuple[NoteTimes, ...], low: tuple[bool, ...]) -> Piece:
     """The piece with its bars where they are felt to begin: the very same where nothing speaks clearly against them.
 
     Pieces that change their metre, or have a pickup already, keep their bars.
 
     Parameters
     ----------
-    lines : tuple of Rhythm
+    lines : tuple of NoteTimes
         All that the bars depend on, but for ``low``: another pitch seldom asks for them again.
     low : tuple of bool
         `lowest` of the lines.
@@ -77,7 +77,7 @@ def with_felt_bars(piece: Piece, lines: tuple[Rhythm, ...], low: tuple[bool, ...
     return msgspec.structs.replace(piece, metre_map=msgspec.structs.replace(metre_map, metres=(felt,)))
 
 
-def _late_ticks(lines: Sequence[Rhythm], onsets: Sequence[IntArray], unit_ticks: int) -> int:
+def _late_ticks(lines: Sequence[NoteTimes], onsets: Sequence[IntArray], unit_ticks: int) -> int:
     """How long after the given beats the felt ones come: less than a beat, 0 unless the long notes show another.
 
     Parameters
@@ -96,7 +96,7 @@ def _late_ticks(lines: Sequence[Rhythm], onsets: Sequence[IntArray], unit_ticks:
 
 
 def _weights(
-    lines: Sequence[Rhythm], lowest: Sequence[bool], onsets: Sequence[IntArray], unit_ticks: int, count: int
+    lines: Sequence[NoteTimes], lowest: Sequence[bool], onsets: Sequence[IntArray], unit_ticks: int, count: int
 ) -> FloatArray:
     """(count,): how strong each beat of the bar is, 1 on average; all alike where there is little to go by.
 

@@ -14,7 +14,7 @@ import msgspec
 import numpy as np
 
 from app.arrays import FloatArray, IntArray
-from app.plan.music.piece import Piece, Rhythm
+from app.plan.music.piece import NoteTimes, Piece
 
 HELD_TEMPO: Final = 1.5
 """Least factor by which the held beat is slower than the beats before and after it ..."""
@@ -64,12 +64,12 @@ class Fermata(msgspec.Struct, frozen=True):
     returns: bool
 
 
-def fermatas(all_times: tuple[Rhythm, ...], piece: Piece) -> tuple[Fermata, ...]:
+def fermatas(all_times: tuple[NoteTimes, ...], piece: Piece) -> tuple[Fermata, ...]:
     """Every fermata that the tempo shows, in order and apart; one after which no one begins again is left out.
 
     Parameters
     ----------
-    all_times : tuple of Rhythm
+    all_times : tuple of NoteTimes
         Of every line on stage; those without notes do not matter. What the accompaniment begins counts as well.
     """
     sounding = [times for times in all_times if len(times.onset_tick)]
@@ -116,7 +116,7 @@ class _Gaps(msgspec.Struct, frozen=True):
     slowness: FloatArray
 
     @classmethod
-    def of(cls, sounding: list[Rhythm], piece: Piece) -> _Gaps:
+    def of(cls, sounding: list[NoteTimes], piece: Piece) -> _Gaps:
         begun = [start for start, _ in piece.accompaniment]
         onsets = np.unique(np.concatenate([*(times.onset_tick for times in sounding), np.array(begun, np.int64)]))
         apart = np.diff(onsets) > TOGETHER_BEATS * piece.beat_ticks_at(onsets[:-1])
@@ -126,7 +126,7 @@ class _Gaps(msgspec.Struct, frozen=True):
         return cls(starts, ends, lasts_s / np.maximum(ends - starts, 1))
 
 
-def _rows(gaps: _Gaps, sounding: list[Rhythm], piece: Piece) -> list[list[tuple[int, Fermata]]]:
+def _rows(gaps: _Gaps, sounding: list[NoteTimes], piece: Piece) -> list[list[tuple[int, Fermata]]]:
     """The fermatas of chords that each have one, with their places: two to `MOST_IN_A_ROW` gaps, much slower than what
     comes before and after all of them."""
     rows: list[list[tuple[int, Fermata]]] = []
@@ -148,7 +148,7 @@ def _rows(gaps: _Gaps, sounding: list[Rhythm], piece: Piece) -> list[list[tuple[
     return rows
 
 
-def _row(first: int, last: int, gaps: _Gaps, sounding: list[Rhythm], piece: Piece) -> list[tuple[int, Fermata]]:
+def _row(first: int, last: int, gaps: _Gaps, sounding: list[NoteTimes], piece: Piece) -> list[tuple[int, Fermata]]:
     """The fermatas of some gaps in a row, if each is one."""
     slowest = float(gaps.slowness[first : last + 1].min())
     after = _beats(int(gaps.ends[last]), AFTER_BEATS, piece)
@@ -216,7 +216,7 @@ def _beats(tick: int, count: int, piece: Piece) -> FloatArray:
     return lasts
 
 
-def _released(sounding: list[Rhythm], start: int, entry: int) -> int:
+def _released(sounding: list[NoteTimes], start: int, entry: int) -> int:
     """End of the last sound of those that begin at a fermata's start or before."""
     ends = []
     for times in sounding:

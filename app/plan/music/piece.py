@@ -30,7 +30,7 @@ def marked(loudness: FloatArray) -> FloatArray:
 
 
 @dataclass(frozen=True, eq=False)
-class Steps:
+class ControllerSteps:
     """A controller over time: a step function, each value holds until the next tick.
 
     Attributes
@@ -44,7 +44,7 @@ class Steps:
 
     def __eq__(self, other: object) -> bool:
         """Whether they are the same to the last bit, as lines are compared."""
-        if not isinstance(other, Steps):
+        if not isinstance(other, ControllerSteps):
             return NotImplemented
         return np.array_equal(self.ticks, other.ticks) and np.array_equal(self.values, other.values)
 
@@ -58,17 +58,17 @@ class ControllerInput:
 
     Attributes
     ----------
-    breath : Steps or None
+    breath : ControllerSteps or None
         How strongly it is blown, 0..1.
-    bite : Steps or None
+    bite : ControllerSteps or None
         How hard the teeth press, 0..1.
-    bend : Steps or None
+    bend : ControllerSteps or None
         Pitch bend in whole tones.
     """
 
-    breath: Steps | None = None
-    bite: Steps | None = None
-    bend: Steps | None = None
+    breath: ControllerSteps | None = None
+    bite: ControllerSteps | None = None
+    bend: ControllerSteps | None = None
 
 
 class MonophonicPart(msgspec.Struct, frozen=True):
@@ -132,7 +132,7 @@ class Piece(msgspec.Struct, frozen=True):
 
 
 @dataclass(frozen=True, eq=False)
-class Rhythm:
+class NoteTimes:
     """When something is played, whatever it is: arrays (N,), in ticks and seconds. ``played_end`` is a note's end, at
     most the next onset. Equal for players in unison of rhythm."""
 
@@ -156,7 +156,7 @@ class Rhythm:
 
 
 @dataclass(frozen=True, eq=False)
-class LineTimes(Rhythm):
+class LineTimes(NoteTimes):
     """The notes of a line.
 
     ``slurs_next`` is whether the next note is slurred to it; ``silence_tick`` the silence before each note (none is 0;
@@ -169,9 +169,9 @@ class LineTimes(Rhythm):
     loudness: FloatArray
 
     @cached_property
-    def rhythm(self) -> Rhythm:
+    def rhythm(self) -> NoteTimes:
         """When it plays."""
-        return Rhythm(self.onset_tick, self.played_end_tick, self.onset_s, self.played_end_s)
+        return NoteTimes(self.onset_tick, self.played_end_tick, self.onset_s, self.played_end_s)
 
     @cached_property
     def leaps(self) -> BoolArray:

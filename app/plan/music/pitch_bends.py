@@ -10,14 +10,14 @@ from typing import Final
 
 import numpy as np
 
-from app.plan.music.piece import Steps
+from app.plan.music.piece import ControllerSteps
 from app.score.model import Note
 
 LEAST_BEND: Final = 0.3
 """Whole tones between a note's end and its middle: 60 cents, which is twice a wide vibrato."""
 
 
-def bends(notes: Sequence[Note], bend: Steps | None) -> list[tuple[str, ...]]:
+def bends(notes: Sequence[Note], bend: ControllerSteps | None) -> list[tuple[str, ...]]:
     """How each note is bent: ``scoop`` (into its start from below) or ``plop`` (from above), ``fall`` (away at its end
     downwards) or ``doit`` (upwards).
 
@@ -25,7 +25,7 @@ def bends(notes: Sequence[Note], bend: Steps | None) -> list[tuple[str, ...]]:
     ----------
     notes : sequence of Note
         By onset.
-    bend : Steps or None
+    bend : ControllerSteps or None
         Pitch bend in whole tones.
     """
     if bend is None:
@@ -37,7 +37,7 @@ def bends(notes: Sequence[Note], bend: Steps | None) -> list[tuple[str, ...]]:
     ]
 
 
-def _of_note(bend: Steps, onset_tick: float, end_tick: float) -> tuple[str, ...]:
+def _of_note(bend: ControllerSteps, onset_tick: float, end_tick: float) -> tuple[str, ...]:
     first = int(np.searchsorted(bend.ticks, onset_tick, side="right"))
     stop = int(np.searchsorted(bend.ticks, end_tick, side="left"))
     if stop <= first:

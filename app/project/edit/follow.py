@@ -17,7 +17,7 @@ from app.project.edit.piece import set_audio, set_offset
 from app.project.edit.tempo import set_beats
 from app.project.model import Project
 from app.project.recording import BeatPin, Doubt
-from app.score.following import SURE, Following, Span
+from app.score.following import SURE, Following, UnmatchedSpan
 
 _LEAST_TIME: Final = 0.7
 """Of the usual time of bars: with less, the recording leaves some out."""
@@ -53,7 +53,7 @@ def follow_recording(project: Project, following: Following, path: str | os.Path
     return replace(project, audio=audio)
 
 
-def _leaves_no_time(project: Project, following: Following, span: Span) -> bool:
+def _leaves_no_time(project: Project, following: Following, span: UnmatchedSpan) -> bool:
     """Whether the recording goes on at once after bars that it does not have; else something else sounds there."""
     # Beats before the first note and after the last one are no bars that would have to wait for those left out.
     sounding = following.confidence >= SURE

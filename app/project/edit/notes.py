@@ -240,22 +240,22 @@ class CopiedLine(msgspec.Struct, frozen=True):
     notes: tuple[CopiedNote, ...]
 
 
-class Clip(msgspec.Struct, frozen=True):
+class ClipboardNotes(msgspec.Struct, frozen=True):
     """Notes on the clipboard, with the resolution that their ticks are counted in."""
 
     ticks_per_quarter: Annotated[int, msgspec.Meta(ge=TICKS_PER_QUARTER[0], le=TICKS_PER_QUARTER[1])]
     lines: tuple[CopiedLine, ...]
 
 
-def read_clip(data: bytes) -> Clip | None:
+def read_clip(data: bytes) -> ClipboardNotes | None:
     """Notes from the clipboard; None where another program has put something else there under our name."""
     try:
-        return decode_json(data, Clip, "")
+        return decode_json(data, ClipboardNotes, "")
     except FileError:
         return None
 
 
-def copied(project: Project, note_ids: Collection[str]) -> Clip:
+def copied(project: Project, note_ids: Collection[str]) -> ClipboardNotes:
     """Notes, ready to be pasted."""
     chosen = list(chosen_notes(project, note_ids))
     first = min((notes[0].onset_tick for _, notes in chosen), default=0)
@@ -266,10 +266,10 @@ def copied(project: Project, note_ids: Collection[str]) -> Clip:
         )
         for part, notes in chosen
     )
-    return Clip(project.score.ticks_per_quarter, lines)
+    return ClipboardNotes(project.score.ticks_per_quarter, lines)
 
 
-def paste(project: Project, part_id: str, clip: Clip, at_tick: int) -> tuple[Project, tuple[str, ...]]:
+def paste(project: Project, part_id: str, clip: ClipboardNotes, at_tick: int) -> tuple[Project, tuple[str, ...]]:
     """Put copied notes at a place; the ids of the new ones come with the project.
 
     Notes of one part go to ``part_id``, whatever they came from; those of several parts go back to their own, and to

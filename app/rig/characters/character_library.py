@@ -61,7 +61,7 @@ class CharacterEntry(msgspec.Struct, frozen=True, forbid_unknown_fields=True, om
 
 
 @dataclass(frozen=True)
-class Source:
+class CharacterSource:
     """Where a character comes from.
 
     Attributes
@@ -80,11 +80,11 @@ class Source:
 
 
 @dataclass(frozen=True)
-class CharacterLibrary(Shelf[Source]):
+class CharacterLibrary(Shelf[CharacterSource]):
     """All characters, as they were when the folder was read."""
 
     @property
-    def sources(self) -> Mapping[str, Source]:
+    def sources(self) -> Mapping[str, CharacterSource]:
         """By id: first the bundled ones, then the user's own, each in the order of the ids."""
         return self.items
 
@@ -102,11 +102,11 @@ def bundled_characters() -> Mapping[str, Path]:
 
 
 @cache
-def _bundled() -> Mapping[str, Source]:
-    return {id: Source(path) for id, path in bundled_characters().items()}
+def _bundled() -> Mapping[str, CharacterSource]:
+    return {id: CharacterSource(path) for id, path in bundled_characters().items()}
 
 
-def _own_source(path: Path) -> Read[Source]:
+def _own_source(path: Path) -> Read[CharacterSource]:
     """The source of an entry. Raises FileError."""
     if not path.stem.isprintable():  # Bytes that are no UTF-8 are not printable either.
         raise FileError("character.odd_name", file=str(path))
@@ -117,7 +117,7 @@ def _own_source(path: Path) -> Read[Source]:
     file = path.parent / entry.file
     if not os.path.isfile(file):
         raise FileError("character.file_missing", file=str(path), name=entry.file)
-    return Read(Source(file, entry, stamp_of([path, file])), (path, file))
+    return Read(CharacterSource(file, entry, stamp_of([path, file])), (path, file))
 
 
 def read_entry(path: Path) -> CharacterEntry:
@@ -183,7 +183,7 @@ def character_named(id: str) -> Character:
         return character
 
 
-def _opened(id: str, source: Source) -> Character:
+def _opened(id: str, source: CharacterSource) -> Character:
     return _loaded(id, source.path, source.stamp, msgspec.json.encode(source.entry))
 
 

@@ -36,7 +36,7 @@ SINGULAR: Final = 1e-18
 
 
 @dataclass(frozen=True, eq=False)
-class Nodes:
+class NodeHierarchy:
     """The hierarchy of a file.
 
     Attributes
@@ -62,7 +62,7 @@ class Nodes:
 
 
 @dataclass(frozen=True, eq=False)
-class Part:
+class FigurePart:
     """A mesh in its own space and what moves it.
 
     Attributes
@@ -81,8 +81,8 @@ class Part:
 def build_figure(
     file: str,
     origin: Origin,
-    nodes: Nodes,
-    parts: Sequence[Part],
+    nodes: NodeHierarchy,
+    parts: Sequence[FigurePart],
     humanoid: Mapping[str, int] | None = None,
     expressions: Mapping[str, Mapping[str, float]] | None = None,
 ) -> Figure:
@@ -163,7 +163,9 @@ def rest_pose(parents: Sequence[int], posed: FloatArray, bound: Mapping[int, Flo
     return world
 
 
-def turned(nodes: Nodes, parts: Sequence[Part], turn: FloatArray) -> tuple[Nodes, tuple[Part, ...]]:
+def turned(
+    nodes: NodeHierarchy, parts: Sequence[FigurePart], turn: FloatArray
+) -> tuple[NodeHierarchy, tuple[FigurePart, ...]]:
     """The same with the world turned by a (4, 4) matrix."""
     return (
         replace(nodes, world_from_node=turn @ nodes.world_from_node),
@@ -171,7 +173,7 @@ def turned(nodes: Nodes, parts: Sequence[Part], turn: FloatArray) -> tuple[Nodes
     )
 
 
-def _bones(nodes: Nodes) -> list[int]:
+def _bones(nodes: NodeHierarchy) -> list[int]:
     """Nodes that become bones, parents first, a parent's children in the file's order.
 
     Bones are what the file says, everything they hang from, and what hangs from them and is nothing else. A file whose
@@ -198,7 +200,7 @@ def _bones(nodes: Nodes) -> list[int]:
     return [node for node in order if node in chosen and node not in nodes.skipped]
 
 
-def _nearest_above(nodes: Nodes, node: int, bone_of: Mapping[int, int]) -> int:
+def _nearest_above(nodes: NodeHierarchy, node: int, bone_of: Mapping[int, int]) -> int:
     """The bone that a node is or hangs from; -1: none."""
     while node >= 0 and node not in bone_of:
         node = nodes.parents[node]
@@ -217,7 +219,7 @@ def _named_apart(meshes: Sequence[Mesh]) -> tuple[Mesh, ...]:
     return tuple(replace(mesh, name=name) for mesh, name in zip(meshes, names, strict=True))
 
 
-def _at_rest(part: Part, above: Sequence[int]) -> Mesh:
+def _at_rest(part: FigurePart, above: Sequence[int]) -> Mesh:
     """The mesh with its vertices in the world at rest and bones as its joints."""
     mesh = part.mesh
     weights = np.maximum(mesh.weights.astype(np.float64), 0.0)

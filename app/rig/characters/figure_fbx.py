@@ -18,7 +18,7 @@ from app.arrays import FloatArray, IntArray, SingleArray
 from app.errors import FileError
 from app.formats.fbx.foreign import FbxCluster, FbxContent, FbxMesh, FbxNode, read_foreign_fbx
 from app.formats.scene import Material
-from app.rig.characters.figure_build import SINGULAR, Nodes, Part, apart, build_figure, rest_pose
+from app.rig.characters.figure_build import SINGULAR, FigurePart, NodeHierarchy, apart, build_figure, rest_pose
 from app.rig.figure import Figure
 from app.rig.mesh import Mesh, Morph
 
@@ -33,11 +33,11 @@ def fbx_figure(path: Path) -> Figure:
     bound = _bind_pose(content)
     posed = np.array([node.world_from_node for node in content.nodes])
     world = rest_pose([node.parent for node in content.nodes], posed, bound)
-    parts: list[Part] = []
+    parts: list[FigurePart] = []
     hidden = _hidden(content.nodes)
     for mesh in content.meshes:
         parts += _parts(str(path), mesh, content.nodes, world, hidden)
-    nodes = Nodes(
+    nodes = NodeHierarchy(
         names=[node.name for node in content.nodes],
         parents=[node.parent for node in content.nodes],
         world_from_node=world,
@@ -82,7 +82,7 @@ def _hidden(nodes: tuple[FbxNode, ...]) -> frozenset[int]:
 
 def _parts(
     file: str, mesh: FbxMesh, nodes: tuple[FbxNode, ...], world: FloatArray, hidden: frozenset[int]
-) -> list[Part]:
+) -> list[FigurePart]:
     shown = [node for node in mesh.nodes if node not in hidden]
     if not len(mesh.points) or not len(mesh.faces) or not shown:
         return []
@@ -92,7 +92,7 @@ def _parts(
         joints, weights = _influences(clusters, len(mesh.points))
         table = np.array([world[cluster.node] @ cluster.bone_from_mesh for cluster in clusters])
         own = tuple(cluster.node for cluster in clusters)
-        return [Part(replace(built, joints=joints[points], weights=weights[points]), own, table)]
+        return [FigurePart(replace(built, joints=joints[points], weights=weights[points]), own, table)]
     count = len(built.positions_m)
     rigid = replace(built, joints=np.zeros((count, 1), np.int32), weights=np.ones((count, 1), np.float32))
     parts = []
@@ -100,7 +100,7 @@ def _parts(
         posed = nodes[node]
         if abs(np.linalg.det(posed.world_from_node)) > SINGULAR:
             place = world[node] @ np.linalg.inv(posed.world_from_node) @ posed.world_from_geometry
-            parts.append(Part(rigid, (node,), place[None]))
+            parts.append(FigurePart(rigid, (node,), place[None]))
     return parts
 
 

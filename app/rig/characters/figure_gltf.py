@@ -15,10 +15,10 @@ from typing import Any, Final
 import numpy as np
 
 from app.arrays import FloatArray
-from app.rig.characters.figure_build import SINGULAR, Nodes, Part, apart, build_figure, rest_pose, turned
+from app.rig.characters.figure_build import SINGULAR, FigurePart, NodeHierarchy, apart, build_figure, rest_pose, turned
 from app.rig.characters.texture_color import Textures, coloured
 from app.rig.figure import Figure, Origin
-from app.rig.gltf_source import Source, build_mesh, read_source
+from app.rig.gltf_source import GltfSource, build_mesh, read_source
 
 THUMBS_OF_VRM0: Final = {"ThumbProximal": "ThumbMetacarpal", "ThumbIntermediate": "ThumbProximal"}
 PRESETS_OF_VRM0: Final = {
@@ -64,7 +64,7 @@ def gltf_figure(path: Path) -> Figure:
     return build_figure(source.file, origin, nodes, parts, humanoid, expressions)
 
 
-def bind_pose(source: Source) -> Mapping[int, FloatArray]:
+def bind_pose(source: GltfSource) -> Mapping[int, FloatArray]:
     """Where each joint of a skin was when it was bound; empty where skins contradict one another.
 
     A skin is bound in a space of its own: where that lies in the world, the joint says that all others hang from, or
@@ -88,7 +88,7 @@ def bind_pose(source: Source) -> Mapping[int, FloatArray]:
     return bound
 
 
-def _depths(source: Source) -> list[int]:
+def _depths(source: GltfSource) -> list[int]:
     """How many nodes each node hangs from."""
     depths = []
     for node in source.gltf.nodes:
@@ -99,9 +99,9 @@ def _depths(source: Source) -> list[int]:
     return depths
 
 
-def _nodes(source: Source) -> Nodes:
+def _nodes(source: GltfSource) -> NodeHierarchy:
     entries = source.gltf.nodes
-    return Nodes(
+    return NodeHierarchy(
         names=[entry.name for entry in entries],
         parents=[entry.parent for entry in entries],
         world_from_node=source.world_from_node,
@@ -114,7 +114,7 @@ def _nodes(source: Source) -> Nodes:
     )
 
 
-def _parts(source: Source) -> list[Part]:
+def _parts(source: GltfSource) -> list[FigurePart]:
     parts = []
     textures = Textures(source.gltf)
     for node, entry in enumerate(source.gltf.nodes):
@@ -130,15 +130,15 @@ def _parts(source: Source) -> list[Part]:
             if len(mesh.joints) and mesh.joints.max() >= len(skin.joints):
                 mesh = replace(mesh, joints=np.where(mesh.joints < len(skin.joints), mesh.joints, 0))
             matrices = source.world_from_node[list(skin.joints)] @ skin.joint_from_mesh_bind
-            parts.append(Part(mesh, skin.joints, matrices))
+            parts.append(FigurePart(mesh, skin.joints, matrices))
         else:
             count = len(mesh.positions_m)
             rigid = replace(mesh, joints=np.zeros((count, 1), np.int32), weights=np.ones((count, 1), np.float32))
-            parts.append(Part(rigid, (node,), source.world_from_node[node][None]))
+            parts.append(FigurePart(rigid, (node,), source.world_from_node[node][None]))
     return parts
 
 
-def morph_name(source: Source, mesh: int, name: str) -> str:
+def morph_name(source: GltfSource, mesh: int, name: str) -> str:
     """A morph's name; one that the file does not name is distinguished from those of other meshes."""
     if re.fullmatch(r"morph_\d+", name) and len(source.gltf.meshes) > 1:
         return f"{source.gltf.meshes[mesh].name}.{name}"
@@ -155,12 +155,12 @@ def _number(value: object) -> float | None:
     return float(value) if isinstance(value, int | float) and not isinstance(value, bool) and abs(value) < 1e6 else None
 
 
-def _bone(value: object, source: Source) -> int | None:
+def _bone(value: object, source: GltfSource) -> int | None:
     whole = isinstance(value, int) and not isinstance(value, bool)
     return value if whole and 0 <= value < len(source.gltf.nodes) else None  # type: ignore[operator, return-value]
 
 
-def _vrm1(vrm: dict[str, Any], source: Source) -> tuple[dict[str, int], dict[str, dict[str, float]]]:
+def _vrm1(vrm: dict[str, Any], source: GltfSource) -> tuple[dict[str, int], dict[str, dict[str, float]]]:
     humanoid = vrm.get("humanoid")
     bones = humanoid.get("humanBones") if isinstance(humanoid, dict) else None
     found = {
@@ -182,7 +182,7 @@ def _vrm1(vrm: dict[str, Any], source: Source) -> tuple[dict[str, int], dict[str
     return found, {name: weights for name, weights in faces.items() if weights}
 
 
-def _vrm0(vrm: dict[str, Any], source: Source) -> tuple[dict[str, int], dict[str, dict[str, float]]]:
+def _vrm0(vrm: dict[str, Any], source: GltfSource) -> tuple[dict[str, int], dict[str, dict[str, float]]]:
     found: dict[str, int] = {}
     for bone in _members(vrm.get("humanoid"), "humanBones"):
         name, node = bone.get("bone"), _bone(bone.get("node"), source)
@@ -208,7 +208,7 @@ def _vrm0(vrm: dict[str, Any], source: Source) -> tuple[dict[str, int], dict[str
 
 
 def _add(
-    weights: dict[str, float], source: Source, mesh: int | None, index: object, weight: object, unit: float
+    weights: dict[str, float], source: GltfSource, mesh: int | None, index: object, weight: object, unit: float
 ) -> None:
     """Add one of an expression's binds; one that points nowhere adds nothing, as in the viewers of such files."""
     share = _number(weight)

@@ -19,7 +19,7 @@ from app.rig.characters.joint_mapping import JointMapping, map_joints
 from app.rig.characters.read_figure import read_figure
 from app.rig.characters.t_pose import facing_ahead, upright
 from app.rig.figure import Figure
-from app.rig.gltf_source import Source, build_mesh, invalid, read_source
+from app.rig.gltf_source import GltfSource, build_mesh, invalid, read_source
 from app.rig.model import Character, Landmark, Skeleton
 from app.rig.skeleton import rest_positions
 from metadata.model import REQUIRED_JOINTS
@@ -29,7 +29,7 @@ OURS: Final = "Suisou build_characters"
 
 
 @dataclass(frozen=True, eq=False)
-class Reading:
+class CharacterFigure:
     """A figure and what of it is what.
 
     Attributes
@@ -78,7 +78,7 @@ def load_character(
 
 def read_character(
     path: Path, joints: Mapping[str, str] | None = None, morphs: Mapping[str, Mapping[str, float]] | None = None
-) -> Reading:
+) -> CharacterFigure:
     """Read a figure and find out what of it is what. Raises FileError; a figure that lacks joints raises none.
 
     Parameters
@@ -93,10 +93,10 @@ def read_character(
         if facing is not figure:
             # Which side is left depends on where ahead is.
             figure, found = facing, map_joints(facing, joints)
-    return Reading(figure, found, map_morphs(figure, morphs))
+    return CharacterFigure(figure, found, map_morphs(figure, morphs))
 
 
-def _ours(source: Source, id: str) -> Character:
+def _ours(source: GltfSource, id: str) -> Character:
     """One of our own: its nodes are the skeleton, normalised already, and one skin binds all meshes."""
     nodes, (skin,) = source.gltf.nodes, source.gltf.skins
     root = nodes[min(skin.joints)].parent

@@ -26,7 +26,7 @@ LEAST_COMPARED = 32
 
 
 @dataclass(frozen=True)
-class Asked:
+class ReachTarget:
     """A finger that is to be brought somewhere in some frames.
 
     Attributes
@@ -83,7 +83,7 @@ class _Rows:
         )
 
 
-def brought(asked: Sequence[Asked]) -> list[FloatArray]:
+def brought(asked: Sequence[ReachTarget]) -> list[FloatArray]:
     """Rotations (K, n, 4) of each, with the point at its place, within the limits of the joints."""
     result: list[FloatArray] = [one.rotations for one in asked]
     lengths = [len(one.chain.offsets_m) for one in asked]

@@ -9,12 +9,12 @@ import numpy as np
 
 from app.arrays import AnyFloatArray, BoolArray, FloatArray, IndexArray
 from app.rig import quaternion
-from app.rig.grip.finger_ik import Asked, brought
+from app.rig.grip.finger_ik import ReachTarget, brought
 from app.rig.grip.grip_pose import (
     FingerTable,
     GripPose,
     HandHold,
-    Placed,
+    StationBlend,
     StationTable,
     WristOffset,
     come_to,
@@ -47,7 +47,7 @@ def finger_rotations(
     hold: GripPose,
     controls: Controls,
     frames: int,
-    placed: Mapping[str, Placed] | None = None,
+    placed: Mapping[str, StationBlend] | None = None,
     raised: FloatArray | float = 0.0,
 ) -> FloatArray:
     """Pose the fingers.
@@ -58,7 +58,7 @@ def finger_rotations(
         Values 0..1; a control that is absent is at 0.
     frames : int
         F.
-    placed : mapping of str to Placed, optional
+    placed : mapping of str to StationBlend, optional
         Where the fingers are that are not at home.
     raised : (F,) float64 or float
         0..1: how high fingers wait over their keys, from a slow passage to the fastest.
@@ -120,7 +120,7 @@ class _Way:
     given: bool
 
 
-def _moved(hand: HandHold, frames: int, placed: Mapping[str, Placed] | None) -> BoolArray:
+def _moved(hand: HandHold, frames: int, placed: Mapping[str, StationBlend] | None) -> BoolArray:
     """In which frames (F,) a hand gives way, or one of its fingers waits for that."""
     moved = np.zeros(frames, dtype=np.bool_)
     for lean in hand.leans:
@@ -130,7 +130,7 @@ def _moved(hand: HandHold, frames: int, placed: Mapping[str, Placed] | None) -> 
     return moved
 
 
-def _ways(table: FingerTable, where: Placed | None, frames: IndexArray, joints: slice, given: bool) -> list[_Way]:
+def _ways(table: FingerTable, where: StationBlend | None, frames: IndexArray, joints: slice, given: bool) -> list[_Way]:
     """The ways between two stations among some frames."""
     if not len(frames):
         return []
@@ -147,7 +147,7 @@ def _ways(table: FingerTable, where: Placed | None, frames: IndexArray, joints: 
 def _posed(
     hand: HandHold,
     ways: Sequence[_Way],
-    placed: Mapping[str, Placed] | None,
+    placed: Mapping[str, StationBlend] | None,
     controls: Controls,
     raised: Mapping[str, FloatArray],
 ) -> list[FloatArray]:
@@ -157,18 +157,18 @@ def _posed(
     """
     given = [(lean, weight) for lean in hand.leans for weight in [given_way(lean, placed)] if weight is not None]
     wrist = wrist_given(hand, given)
-    ends: list[FloatArray | Asked] = []
+    ends: list[FloatArray | ReachTarget] = []
     for way in ways:
         values = _sampled(way.table, controls, way.frames)
-        poses: tuple[FloatArray | Asked, ...] = _both(
+        poses: tuple[FloatArray | ReachTarget, ...] = _both(
             way.table, way.first, way.second, way.share, values, raised[way.table.finger][way.frames]
         )
         if way.given:
             here = (wrist[0][way.frames], wrist[1][way.frames]) if given else wrist
             now = _Given(given, way.frames, here)
             near, far = poses
-            assert not isinstance(near, Asked)
-            assert not isinstance(far, Asked)
+            assert not isinstance(near, ReachTarget)
+            assert not isinstance(far, ReachTarget)
             at_far = _at_place(hand, way.table, way.second, far, now)
             at_near = at_far if way.first == way.second else _at_place(hand, way.table, way.first, near, now)
             poses = (at_near, at_far)
@@ -182,14 +182,14 @@ def _posed(
     )
 
 
-def _solved(asked: Sequence[FloatArray | Asked]) -> list[FloatArray]:
+def _solved(asked: Sequence[FloatArray | ReachTarget]) -> list[FloatArray]:
     """Poses, with those that are asked for brought there; what is the same is brought once."""
-    requested = {id(one): one for one in asked if isinstance(one, Asked)}
+    requested = {id(one): one for one in asked if isinstance(one, ReachTarget)}
     found = dict(zip(requested, brought(list(requested.values())), strict=True))
-    return [found[id(one)] if isinstance(one, Asked) else one for one in asked]
+    return [found[id(one)] if isinstance(one, ReachTarget) else one for one in asked]
 
 
-def solved_pose(asked: FloatArray | Asked) -> FloatArray:
+def solved_pose(asked: FloatArray | ReachTarget) -> FloatArray:
     """One pose by itself."""
     return _solved([asked])[0]
 
@@ -225,7 +225,7 @@ def _both(
 
 def _on_way(
     table: FingerTable, first: int, second: int, near: FloatArray, far: FloatArray, share: FloatArray
-) -> FloatArray | Asked:
+) -> FloatArray | ReachTarget:
     """Rotations (K, n, 4) between two stations, lifted over what lies between."""
     pose = mixed(near, far, share[:, None, None])
     away = max((table.stations[first].away_m, table.stations[second].away_m), key=lambda one: float(one @ one))
@@ -234,7 +234,7 @@ def _on_way(
 
 def raised_way(
     table: FingerTable, first: int, second: int, rotations: FloatArray, share: FloatArray, away_m: FloatArray
-) -> FloatArray | Asked:
+) -> FloatArray | ReachTarget:
     """Lift a finger that is between two of its stations, most half way: rotations (K, n, 4)."""
     near, far = table.stations[first], table.stations[second]
     if table.chain is None or min(near.tip_joint, far.tip_joint) < 0 or not np.any(away_m):
@@ -243,7 +243,7 @@ def raised_way(
     outer = max(near, far, key=lambda station: station.tip_joint)
     tips = np.broadcast_to(outer.tip_m, (len(share), 3))
     requested = _tip(table, rotations, tips, outer.tip_joint) + np.multiply.outer(np.sin(np.pi * share), away_m)
-    return Asked(table.chain, rotations, outer.tip_joint, outer.tip_m, requested, LIFT_STAY_M)
+    return ReachTarget(table.chain, rotations, outer.tip_joint, outer.tip_m, requested, LIFT_STAY_M)
 
 
 def _sampled(table: FingerTable, controls: Controls, here: IndexArray) -> Controls:
@@ -268,7 +268,7 @@ class _Given:
 
 def _at_place(
     hand: HandHold, table: FingerTable, index: int, rotations: FloatArray, given: _Given
-) -> FloatArray | Asked:
+) -> FloatArray | ReachTarget:
     """Rotations (K, n, 4) at a station, for another wrist than the one they were solved for."""
     station = table.stations[index]
     if station.tip_joint < 0:
@@ -288,7 +288,7 @@ def with_wrist(
     own: tuple[FloatArray, FloatArray],
     wrist: tuple[FloatArray, FloatArray],
     lifted_m: FloatArray | float = 0.0,
-) -> Asked:
+) -> ReachTarget:
     """Rotations (K, n, 4) that leave what touches at a station where it is, for another wrist than their ``own``.
 
     Wrists are places (K, 3) and rotations (K, 4) in one frame; ``lifted_m`` (K, 3) is added in that of the wrist.
@@ -297,7 +297,9 @@ def with_wrist(
     tips = np.broadcast_to(station.tip_m, (len(rotations), 3))
     requested = own[0] + quaternion.rotate(own[1], _tip(table, rotations, tips, station.tip_joint))
     local = quaternion.rotate(quaternion.conjugate(wrist[1]), requested - wrist[0]) + lifted_m
-    return Asked(table.chain, rotations, station.tip_joint, station.tip_m, np.broadcast_to(local, (len(rotations), 3)))
+    return ReachTarget(
+        table.chain, rotations, station.tip_joint, station.tip_m, np.broadcast_to(local, (len(rotations), 3))
+    )
 
 
 def tip_m(table: FingerTable, station: StationTable, rotations: FloatArray) -> FloatArray:

@@ -123,7 +123,7 @@ class FingerTable:
     chain: Chain | None = None
 
 
-class Placed(NamedTuple):
+class StationBlend(NamedTuple):
     """Between which two of its stations a finger is, frame by frame.
 
     ``before`` and ``after`` (F,) are places in ``FingerTable.stations``, ``share`` (F,) is 0 at the first and 1 at the
@@ -302,7 +302,7 @@ def hand_targets(
     world_from_instrument_m: FloatArray,
     world_from_instrument_rotation: FloatArray,
     controls: Mapping[str, AnyFloatArray],
-    placed: Mapping[str, Placed] | None = None,
+    placed: Mapping[str, StationBlend] | None = None,
 ) -> tuple[FloatArray, FloatArray]:
     """Place a hand on a moving instrument.
 
@@ -311,7 +311,7 @@ def hand_targets(
     world_from_instrument_m, world_from_instrument_rotation : (F, 3) and (F, 4) float64
     controls : dict of str to (F,)
         Values 0..1; a control that is absent is at 0.
-    placed : mapping of str to Placed, optional
+    placed : mapping of str to StationBlend, optional
         Where the fingers are that are not at home: the hand may give way for them.
 
     Returns
@@ -341,21 +341,21 @@ def hand_targets(
 
 
 def giving_for(finger: str) -> str:
-    """Under which name a `Placed` says where the hand is that gives way for a finger; without it, with the finger."""
+    """Name of the `StationBlend` of the hand that gives way for a finger; without it, the hand goes with the finger."""
     return f"{finger}.hand"
 
 
-def given_way(lean: WristOffset, placed: Mapping[str, Placed] | None) -> FloatArray | None:
+def given_way(lean: WristOffset, placed: Mapping[str, StationBlend] | None) -> FloatArray | None:
     """How far (F,) a hand gives way, 0..1; None where it never does."""
     return _all_at(lean, placed, [giving_for(finger) for finger, _ in lean.places])
 
 
-def come_to(lean: WristOffset, placed: Mapping[str, Placed] | None) -> FloatArray | None:
+def come_to(lean: WristOffset, placed: Mapping[str, StationBlend] | None) -> FloatArray | None:
     """How far (F,) fingers have come to where their hand gives way for them, 0..1; None where they never do."""
     return _all_at(lean, placed, [finger for finger, _ in lean.places])
 
 
-def _all_at(lean: WristOffset, placed: Mapping[str, Placed] | None, names: Sequence[str]) -> FloatArray | None:
+def _all_at(lean: WristOffset, placed: Mapping[str, StationBlend] | None, names: Sequence[str]) -> FloatArray | None:
     weight: FloatArray | None = None
     for (finger, station), name in zip(lean.places, names, strict=True):
         where = None if placed is None else placed.get(name, placed.get(finger))
@@ -366,7 +366,7 @@ def _all_at(lean: WristOffset, placed: Mapping[str, Placed] | None, names: Seque
     return weight
 
 
-def _share_at(where: Placed, station: int) -> FloatArray | None:
+def _share_at(where: StationBlend, station: int) -> FloatArray | None:
     """How far (F,) a finger is at one of its stations, 0..1; None where it never is."""
     weight: FloatArray = (where.after == station) * where.share + (where.before == station) * (1.0 - where.share)
     return weight if np.any(weight) else None

@@ -110,14 +110,16 @@ def near(all_bodies: Bodies, nodes_m: FloatArray, centre_m: FloatArray, radius_m
     return all_bodies.taken(_capsule(all_bodies.hulls, centre_m - nodes_m[all_bodies.nodes]) < radius_m)
 
 
-class Nodes(NamedTuple):
+class InstrumentNodes(NamedTuple):
     """Where the nodes of an instrument are in its frame: places (N, 3) and bases (N, 3, 3)."""
 
     place_m: FloatArray
     basis: FloatArray
 
 
-def inside(some: Bodies, nodes: Nodes, points_m: FloatArray, radius_m: FloatArray) -> tuple[FloatArray, IndexArray]:
+def inside(
+    some: Bodies, nodes: InstrumentNodes, points_m: FloatArray, radius_m: FloatArray
+) -> tuple[FloatArray, IndexArray]:
     """How deep balls reach into the union.
 
     Parameters
@@ -145,7 +147,7 @@ def inside(some: Bodies, nodes: Nodes, points_m: FloatArray, radius_m: FloatArra
     return depth, owner
 
 
-def distance(some: Bodies, nodes: Nodes, points_m: FloatArray) -> FloatArray:
+def distance(some: Bodies, nodes: InstrumentNodes, points_m: FloatArray) -> FloatArray:
     """Signed distance (P,) of points (P, 3) of the instrument's frame to the union, negative inside."""
     count = len(points_m)
     point, body = (index.ravel() for index in np.mgrid[:count, : len(some)])
@@ -154,7 +156,7 @@ def distance(some: Bodies, nodes: Nodes, points_m: FloatArray) -> FloatArray:
     return nearest
 
 
-def gradient(some: Bodies, nodes: Nodes, points_m: FloatArray, body: IndexArray) -> FloatArray:
+def gradient(some: Bodies, nodes: InstrumentNodes, points_m: FloatArray, body: IndexArray) -> FloatArray:
     """Gradient (P, 3) of the distance of each point (P, 3) to one body (P,), in the instrument's frame."""
     local = _local(some, nodes, points_m, body)
     steps = _STEP_M * np.concatenate([np.eye(3), -np.eye(3)])
@@ -176,7 +178,7 @@ def _alone(shape: Proxy) -> tuple[FloatArray, _Measure]:
     return next((rows[0], measure) for rows, measure in _kinds(bodies((shape,), (shape.node,))) if len(rows))
 
 
-def _local(some: Bodies, nodes: Nodes, points_m: FloatArray, body: IndexArray) -> FloatArray:
+def _local(some: Bodies, nodes: InstrumentNodes, points_m: FloatArray, body: IndexArray) -> FloatArray:
     """Points (K, 3) in the frame of the node of a body (K,) each."""
     node = some.nodes[body]
     off = points_m - nodes.place_m[node]
@@ -185,7 +187,7 @@ def _local(some: Bodies, nodes: Nodes, points_m: FloatArray, body: IndexArray) -
 
 
 def _candidates(
-    some: Bodies, nodes: Nodes, points_m: FloatArray, radius_m: FloatArray
+    some: Bodies, nodes: InstrumentNodes, points_m: FloatArray, radius_m: FloatArray
 ) -> tuple[IndexArray, IndexArray]:
     """Pairs of ball and body whose hull the ball reaches: first the bodies near all balls together, then each."""
     basis, place_m = nodes.basis[some.nodes], nodes.place_m[some.nodes]

@@ -23,7 +23,7 @@ from app.editor.selection import EventKey, Selection
 from app.editor.session import Session
 from app.errors import Message
 from app.plan.event_id import EventId
-from app.plan.kinds import GESTURES, Gesturing
+from app.plan.kinds import GESTURES, GestureRow
 from app.plan.model import PlayerPlan
 from app.project.edit.events import (
     give_back,
@@ -230,7 +230,7 @@ def prepare(session: Session) -> None:
     session.attempt(Message("edit.toggle_preparation"), edit)
 
 
-def _added(kind: Gesturing) -> Action:
+def _added(kind: GestureRow) -> Action:
     return Action(
         f"gesture.{kind.id}",
         lambda session: add_gestures(session, kind.id, _spans(session)),

@@ -262,7 +262,7 @@ def paste(session: Session) -> None:
     )
 
 
-def _clipboard() -> notes.Clip | None:
+def _clipboard() -> notes.ClipboardNotes | None:
     data = QGuiApplication.clipboard().mimeData()
     if data is None or not data.hasFormat(MIME_TYPE):
         return None

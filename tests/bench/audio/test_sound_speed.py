@@ -18,9 +18,9 @@ from app.audio.peaks import Peaks
 from app.audio.playback import Playback
 from app.audio.reader import Reader
 from app.audio.synth import Synthesiser
-from app.audio.track import RATE_HZ, Mix, Piece, Track
+from app.audio.track import RATE_HZ, AudioSegment, Mix, MixTrack
 from app.editor.session import Session
-from app.editor.sound import Sound
+from app.editor.sound import EditorSound
 from app.errors import Message
 from app.project.model import Project
 from tests.gui.transport.devices import FakeDevices, Time
@@ -83,7 +83,7 @@ def test_the_synthesiser() -> None:
 
 def test_reading_a_mix_of_fifty() -> None:
     noise = np.random.default_rng(0).integers(-3000, 3000, RATE_HZ * 8, dtype=np.int16)
-    mix = Mix([Track([Piece(second * RATE_HZ, noise) for second in range(0, 600, 7)]) for _ in range(50)])
+    mix = Mix([MixTrack([AudioSegment(second * RATE_HZ, noise) for second in range(0, 600, 7)]) for _ in range(50)])
     for speed in (1.0, 0.5):
         reader = Reader(mix, 10.0, speed)
         report(f"10 ms of fifty players at {speed}", took_s(lambda reader=reader: reader.read(480), 200))
@@ -93,7 +93,7 @@ def test_a_frame_while_it_plays(qtbot: QtBot) -> None:
     session = Session(quartet(), ImmediateTasks())
     now = Time()
     playback = Playback(FakeDevices(now).open, now)
-    sound = Sound(session, playback)
+    sound = EditorSound(session, playback)
     bar = TransportBar(session)
     qtbot.addWidget(bar)
     bar.resize(1500, bar.sizeHint().height())
@@ -119,7 +119,7 @@ def test_a_frame_while_it_plays(qtbot: QtBot) -> None:
 def test_an_edit_of_a_large_score(qtbot: QtBot) -> None:
     project = crowd(50)
     session = Session(project, ImmediateTasks())
-    sound = Sound(session, Playback(FakeDevices(Time()).open))
+    sound = EditorSound(session, Playback(FakeDevices(Time()).open))
     print(sum(len(part.notes) for part in project.score.parts), "notes")
     phrases = took_s(lambda: [player_phrases(project, player) for player in project.players[:5]])
     report("cutting a player of 3,000 notes", phrases / 5)

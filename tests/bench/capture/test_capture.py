@@ -20,9 +20,9 @@ import numpy as np
 import pytest
 
 from app.arrays import FloatArray
-from app.capture.journal import Header, read_journal
+from app.capture.journal import JournalHeader, read_journal
 from app.capture.link import RecorderLink
-from app.capture.protocol import Finished, Opened, Ports, Restarted, Written
+from app.capture.protocol import EventsSaved, Opened, Ports, RecordingFinished, Restarted
 from tests.support.jack import PATIENT_FRAMES, QUICK_FRAMES, RATE_HZ, jack_server
 from tests.support.listening import Ear
 from tests.support.wind_player import WindPlayer, burst
@@ -30,7 +30,7 @@ from tests.support.wind_player import WindPlayer, burst
 PERIOD_MS = QUICK_FRAMES / RATE_HZ * 1e3
 MOST_OURS_MS = 2.0
 """How much later than a bare callback's our stamp may be, at the 99th percentile."""
-HEADER = Header("p", "player", "EWI", "ewi_usb", 0.0, "")
+HEADER = JournalHeader("p", "player", "EWI", "ewi_usb", 0.0, "")
 
 pytestmark = pytest.mark.bench
 
@@ -121,7 +121,7 @@ def begun(ear: Ear, player: WindPlayer, path: Path) -> None:
     ear.wait(Opened)
     ear.link.start(path, HEADER)
     ear.link.sync(time.perf_counter_ns(), 0.0)
-    ear.wait(Written)
+    ear.wait(EventsSaved)
 
 
 def bursts(path: Path, seconds: float, rate_hz: float, *, busy: bool, is_realtime: bool) -> str:
@@ -160,7 +160,7 @@ def bursts(path: Path, seconds: float, rate_hz: float, *, busy: bool, is_realtim
         waking.join()
         calibrated = calibration.received()
         link.stop()
-        ear.wait(Finished)
+        ear.wait(RecordingFinished)
     journal = read_journal(path)
     came = [message for _, message in ear.messages]
     is_whole = came == [message for _, message in sent] == list(journal.messages)
@@ -218,7 +218,7 @@ def test_what_a_killed_recorder_loses(tmp_path: Path) -> None:
         sent = player.sent()
         time.sleep(0.5)
         link.stop()
-        ear.wait(Finished)
+        ear.wait(RecordingFinished)
     journal = read_journal(path)
     before = [ns for ns in journal.times_ns if ns < killed_ns]
     came = [ns for ns, _ in ear.messages if ns < killed_ns]

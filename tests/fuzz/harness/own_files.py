@@ -126,9 +126,9 @@ def exported() -> list[bytes]:
     """The note of one piece."""
     import msgspec
 
-    from app.cli.batch import Outcome, _Note
+    from app.cli.batch import BatchOutcome, _Note
 
-    return [msgspec.json.encode({"a.mid": _Note("0" * 32, Outcome(0, players=4, seconds=10.0))})]
+    return [msgspec.json.encode({"a.mid": _Note("0" * 32, BatchOutcome(0, players=4, seconds=10.0))})]
 
 
 def exported_pieces(size: int) -> bytes:

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import pytest
 from PySide6.QtWidgets import QApplication
 
-from app.shell.language import Texts
+from app.shell.language import TextTranslator
 from instrument_maps.load import bundled_maps
 from widgets.common.fingering_tags import tag_words, tags_of_text, words_of_tags
 
@@ -16,7 +16,7 @@ USED = {tag for instrument in bundled_maps().values() for one in instrument.fing
 
 @pytest.fixture
 def japanese(qt_app: QApplication) -> Iterator[None]:
-    translator = Texts("ja")
+    translator = TextTranslator("ja")
     qt_app.installTranslator(translator)
     yield
     qt_app.removeTranslator(translator)

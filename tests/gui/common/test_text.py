@@ -12,7 +12,7 @@ from app.errors import Message
 from app.messages import PITCHES, WORDINGS, text
 from app.project.edit.notes import move
 from app.score.model import Note
-from app.shell.language import Texts
+from app.shell.language import TextTranslator
 from widgets.common.text import message_text
 
 OUTSIDE = {"low": 54, "high": 82, "played_pitch": 54}
@@ -31,7 +31,7 @@ def note(session: Session) -> Note:
 
 @pytest.fixture
 def japanese(qt_app: QApplication) -> Iterator[None]:
-    translator = Texts("ja")
+    translator = TextTranslator("ja")
     qt_app.installTranslator(translator)
     yield
     qt_app.removeTranslator(translator)

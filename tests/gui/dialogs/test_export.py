@@ -14,7 +14,7 @@ from pytestqt.qtbot import QtBot
 
 from app.editor.session import Session
 from app.editor.tasks import ThreadTasks
-from app.export.request import Request
+from app.export.request import ExportRequest
 from app.export.run import export
 from app.formats import usd
 from app.formats.bvh import read_bvh
@@ -72,7 +72,7 @@ def test_it_writes_what_the_command_line_writes(dialog: ExportDialog, session: S
     start(dialog)
     performance = Performance(session.project)
     fps = Fraction(24)
-    request = Request(
+    request = ExportRequest(
         performance=performance,
         players=session.project.players[:1],
         folder=tmp_path / "expected",

@@ -18,7 +18,7 @@ from app.formats.fbx.write import write_scene
 from app.performance.bodies import character_of
 from app.performance.ensemble import Performance
 from app.performance.span import cut_span
-from app.shell.language import Texts
+from app.shell.language import TextTranslator
 from tests.gui.conftest import quartet_project
 from tests.support.bad_players import with_character
 from tests.support.performed import player_motion
@@ -143,7 +143,7 @@ def test_both_languages(dialog: ExportDialog, qt_app: QApplication) -> None:
     box = dialog.findChild(QComboBox, "export_skeleton")
     assert box is not None
     assert box.itemText(1) == "Unreal Engine 5 mannequin"
-    japanese = Texts("ja")
+    japanese = TextTranslator("ja")
     qt_app.installTranslator(japanese)
     try:
         qt_app.sendEvent(dialog._skeleton, QEvent(QEvent.Type.LanguageChange))

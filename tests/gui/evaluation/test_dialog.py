@@ -16,8 +16,8 @@ from pytestqt.qtbot import QtBot
 from app.editor.session import Session
 from app.editor.tasks import ThreadTasks
 from app.errors import AppError, Cancelled, Message
-from app.evaluation.process import Finished, made_by_process
-from app.evaluation.request import Request
+from app.evaluation.process import EvaluationFinished, made_by_process
+from app.evaluation.request import EvaluationRequest
 from app.messages import WORDINGS
 from app.performance.ensemble import Performance
 from app.project.model import Project
@@ -66,15 +66,15 @@ def enabled(dialog: EvaluationDialog) -> bool:
 
 
 def test_what_is_chosen_is_asked_for(threaded: Session, qtbot: QtBot, tmp_path: Path) -> None:
-    asked: list[Request] = []
+    asked: list[EvaluationRequest] = []
 
     def make(
-        project: Project, request: Request, report: Callable[[float, Message], None], stop: Callable[[], bool]
-    ) -> Finished:
+        project: Project, request: EvaluationRequest, report: Callable[[float, Message], None], stop: Callable[[], bool]
+    ) -> EvaluationFinished:
         assert project is threaded.project
         asked.append(request)
         report(0.5, Message("evaluate.step_sound"))
-        return Finished(12, 3, (("Horn", Message("picture.loading")),), -3.25, 0.875)
+        return EvaluationFinished(12, 3, (("Horn", Message("picture.loading")),), -3.25, 0.875)
 
     dialog = dialog_of(threaded, make, tmp_path / "made")
     film = dialog.findChild(PathEdit, "evaluation_film")
@@ -103,7 +103,7 @@ def test_what_is_chosen_is_asked_for(threaded: Session, qtbot: QtBot, tmp_path: 
 def test_it_is_not_begun_without_two_variants_or_onto_another(threaded: Session, tmp_path: Path) -> None:
     (tmp_path / "key.json").write_text("{}")
 
-    def make(*asked: object) -> Finished:
+    def make(*asked: object) -> EvaluationFinished:
         raise AssertionError("nothing is to be made")
 
     dialog = dialog_of(threaded, make, tmp_path / "made")
@@ -128,8 +128,8 @@ def test_a_trouble_is_said_and_cancelling_ends_it(threaded: Session, qtbot: QtBo
     begun: list[bool] = []
 
     def make(
-        project: Project, request: Request, report: Callable[[float, Message], None], stop: Callable[[], bool]
-    ) -> Finished:
+        project: Project, request: EvaluationRequest, report: Callable[[float, Message], None], stop: Callable[[], bool]
+    ) -> EvaluationFinished:
         if not begun:
             begun.append(True)
             raise AppError("evaluate.silent_video", file="film.mp4")
@@ -150,7 +150,7 @@ def test_a_trouble_is_said_and_cancelling_ends_it(threaded: Session, qtbot: QtBo
 
 
 def test_bars_and_motion_from_elsewhere_are_asked_for(threaded: Session, tmp_path: Path) -> None:
-    def make(*asked: object) -> Finished:
+    def make(*asked: object) -> EvaluationFinished:
         raise AssertionError("nothing is to be made")
 
     dialog = dialog_of(threaded, make, tmp_path / "made")
@@ -190,7 +190,7 @@ def test_errors_name_controls_that_there_are() -> None:
 @pytest.mark.skipif(not os.environ.get("DISPLAY"), reason="no display")
 def test_another_process_makes_it_stops_and_refuses(tmp_path: Path) -> None:
     project = quartet_project()
-    request = Request(
+    request = EvaluationRequest(
         str(tmp_path / "made"), "Quartet", variants=("generated", "keyframes"), excerpts=1, excerpt_s=1.0,
         view="front", player_ids=(project.bodies[0].id,), size=(64, 64), fps=(2, 1), presentation="pair",
         keyframes=str(tmp_path / "motion"),
@@ -210,7 +210,7 @@ def test_another_process_makes_it_stops_and_refuses(tmp_path: Path) -> None:
         made_by_process(
             module,
             project,
-            Request(str(tmp_path / "other"), "Quartet", excerpts=3, size=(64, 64)),
+            EvaluationRequest(str(tmp_path / "other"), "Quartet", excerpts=3, size=(64, 64)),
             lambda share, said: shares.append(share + 1.0),
             lambda: shares[-1] > 1.2,
         )

@@ -8,7 +8,7 @@ from app.editor.selection import EventKey, Selection
 from app.editor.session import Session
 from app.errors import Message
 from app.project.edit import events as edit
-from app.shell.language import Texts
+from app.shell.language import TextTranslator
 from tests.gui.inspector.hands import show_tab
 from tests.gui.japanese import english_in, texts_of
 from widgets.common.section import Section
@@ -27,7 +27,7 @@ def test_everything_is_japanese_at_once_and_english_again(panel: InspectorPanel,
     maker.set_open(True)
     show_tab(panel, 1)
     english = texts_of(panel)
-    translator = Texts("ja")
+    translator = TextTranslator("ja")
     QApplication.installTranslator(translator)
     try:
         QApplication.processEvents()

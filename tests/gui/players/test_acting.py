@@ -13,7 +13,7 @@ from pytestqt.qtbot import QtBot
 from app.editor.library_watch import watch_metadata
 from app.editor.session import Session
 from app.plan.parameters import PARAMETERS
-from app.shell.language import Texts
+from app.shell.language import TextTranslator
 from metadata.acting import AMOUNTS
 from metadata.library import FOLDERS, HABITS, STYLES
 from tests.support.windows import show_in_front
@@ -151,7 +151,7 @@ def test_the_folded_section_says_what_the_player_is(session: Session, qtbot: QtB
 
 
 def test_names_are_in_the_language_of_the_editor(panel: PlayersPanel) -> None:
-    translator = Texts("ja")
+    translator = TextTranslator("ja")
     QApplication.installTranslator(translator)
     try:
         QApplication.processEvents()

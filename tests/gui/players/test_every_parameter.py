@@ -12,7 +12,7 @@ from app.plan.parameters import PARAMETERS, Parameter
 from app.project.edit.body_dance import set_body_dance
 from app.project.edit.dancers import add_dancer
 from app.project.model import DANCER_PARAMETERS
-from app.shell.language import Texts
+from app.shell.language import TextTranslator
 from app.shell.theme import unstyled
 from metadata.acting import names_in
 from tests.support.parameters import others
@@ -85,7 +85,7 @@ def test_every_parameter_of_a_dancer_is_changed(panel: PlayersPanel, session: Se
 
 def test_words_are_those_of_the_declaration_in_both_languages(panel: PlayersPanel) -> None:
     for language, code in enumerate(("en", "ja")):
-        translator = Texts(code)
+        translator = TextTranslator(code)
         QApplication.installTranslator(translator)
         try:
             QApplication.processEvents()

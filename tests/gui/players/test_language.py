@@ -6,7 +6,7 @@ from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
 from app.editor.session import Session
-from app.shell.language import Texts
+from app.shell.language import TextTranslator
 from tests.gui.japanese import english_in, texts_of
 from widgets.players.panel import PlayersPanel
 
@@ -16,7 +16,7 @@ def test_everything_is_japanese_at_once_and_english_again(session: Session, qtbo
     qtbot.addWidget(panel)
     panel.show()
     english = texts_of(panel)
-    translator = Texts("ja")
+    translator = TextTranslator("ja")
     QApplication.installTranslator(translator)
     try:
         QApplication.processEvents()

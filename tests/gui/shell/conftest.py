@@ -15,7 +15,7 @@ from app.editor.questions import Answer, ReadAgain
 from app.editor.recorder import Recorder
 from app.editor.session import Session
 from app.editor.settings import Settings
-from app.editor.sound import Sound
+from app.editor.sound import EditorSound
 from app.editor.tasks import Tasks
 from app.editor.tokens import Tokens
 from app.project.autosave import Autosave
@@ -165,7 +165,7 @@ def studio(
         made.append(SpokenFor(on_news, clock))
         return made[-1]
 
-    def recorder(session: Session, files: Files, settings: Settings, sound: Sound) -> Recorder:
+    def recorder(session: Session, files: Files, settings: Settings, sound: EditorSound) -> Recorder:
         return Recorder(session, files, settings, sound, make_link, clock.now_ns, lambda: Playback(now=clock.now_s))
 
     settings.midi_port = EWI

@@ -26,7 +26,7 @@ from widgets.common.character_picture import picture, seen
 from widgets.common.number_slider import NumberSlider
 from widgets.dialogs.body_map import joints, places
 from widgets.dialogs.character import CharacterDialog
-from widgets.dialogs.character_draft import Draft, Steps
+from widgets.dialogs.character_draft import CharacterDraft, DraftHistory
 from widgets.dialogs.characters import CharactersDialog
 
 DATA = Path(__file__).parents[2] / "data" / "characters"
@@ -301,20 +301,20 @@ def test_a_file_put_into_the_folder_is_there_by_itself(program: Program, qtbot: 
 
 
 def test_steps() -> None:
-    steps, gesture = Steps(Draft("a")), object()
-    assert not steps.apply(Draft("a"))
+    steps, gesture = DraftHistory(CharacterDraft("a")), object()
+    assert not steps.apply(CharacterDraft("a"))
     for title in ("b", "c", "d"):
-        assert steps.apply(Draft(title), gesture)
+        assert steps.apply(CharacterDraft(title), gesture)
     steps.undo()
-    assert steps.now == Draft("a")
+    assert steps.now == CharacterDraft("a")
     assert steps.can_redo
     steps.redo()
-    assert steps.now == Draft("d")
+    assert steps.now == CharacterDraft("d")
     # A drag back to where it began is none.
     other = object()
-    assert steps.apply(Draft("e"), other)
-    assert steps.apply(Draft("d"), other), "what is shown has to follow"
-    assert steps.apply(Draft("f"), other)
-    assert steps.apply(Draft("d"), other)
+    assert steps.apply(CharacterDraft("e"), other)
+    assert steps.apply(CharacterDraft("d"), other), "what is shown has to follow"
+    assert steps.apply(CharacterDraft("f"), other)
+    assert steps.apply(CharacterDraft("d"), other)
     steps.undo()
-    assert steps.now == Draft("a")
+    assert steps.now == CharacterDraft("a")

@@ -26,7 +26,7 @@ from tests.gui.conftest import QUARTET, delete_now
 from tests.gui.shell.conftest import Studio, trigger
 from tests.unit.cli.test_main import ROOT
 from widgets.common.actions import actions
-from widgets.dialogs.character_draft import Draft
+from widgets.dialogs.character_draft import CharacterDraft
 from widgets.dialogs.follow_recording import FollowRecordingDialog
 from widgets.dialogs.instrument_map import InstrumentsDialog
 from widgets.dialogs.metadata_differences import MetadataDifferencesDialog
@@ -63,7 +63,7 @@ OPENED: dict[str, Open] = {
     "InstrumentsDialog": command("application.instruments"),
     "CharactersDialog": command("application.characters"),
     "CharacterDialog": lambda program: characters._dialog(
-        program.editor, FIGURE, read_figure(FIGURE), Draft("x"), give=True
+        program.editor, FIGURE, read_figure(FIGURE), CharacterDraft("x"), give=True
     ),
     "ExportDialog": command("export.files"),
     "PlayblastDialog": command("export.playblast"),

@@ -40,7 +40,7 @@ from tests.support.windows import show
 from widgets.common.actions import actions
 from widgets.common.section import SectionHeader
 from widgets.dialogs.character import CharacterDialog
-from widgets.dialogs.character_draft import Draft
+from widgets.dialogs.character_draft import CharacterDraft
 from widgets.dialogs.import_midi import ImportDialog
 
 pytestmark = pytest.mark.skipif(not WATCHES, reason="only Linux reports which files are opened")
@@ -213,7 +213,7 @@ def dialogs(program: Program, judge: Judge) -> None:
     bones = tuple(f"{number} {judge.canary.name('bone')}" for number in range(len(figure.bone_names)))
     figure = dataclasses.replace(figure, bone_names=bones)
     path, name = Path(f"{judge.canary.file_name('figure')}.vrm"), judge.canary.name("player")
-    CharacterDialog(program.session, path, figure, Draft(name), name, program.window).show()
+    CharacterDialog(program.session, path, figure, CharacterDraft(name), name, program.window).show()
     judge.look("character", program.window)
     close_others(program)
 

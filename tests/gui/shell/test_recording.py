@@ -9,8 +9,8 @@ import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QApplication, QLabel
 
-from app.capture.journal import Header, JournalWriter
-from app.capture.protocol import Back, Lost, Opened, Ports, Refused, Written
+from app.capture.journal import JournalHeader, JournalWriter
+from app.capture.protocol import Back, EventsSaved, Lost, Opened, Ports, RequestRefused
 from app.editor.live_player import REST_S
 from app.errors import Message
 from tests.support.recorder import EWI
@@ -165,7 +165,7 @@ def test_a_midi_system_that_ends_is_reported_as_the_device_s_loss(studio: Studio
     studio.blow(60, 0.2)
     # Without an audio device that is said at first.
     said.clear()
-    studio.link.say(Lost(EWI, studio.clock.ns), Ports((), (), ""), Refused(Message("capture.no_system")))
+    studio.link.say(Lost(EWI, studio.clock.ns), Ports((), (), ""), RequestRefused(Message("capture.no_system")))
     studio.wait(lambda: studio.session.recording.connection == "refused")
     assert said == ["record.device_lost_running"]
     assert studio.session.recording.running
@@ -183,7 +183,7 @@ def test_what_cannot_be_brought_in_is_not_said_to_be(studio: Studio) -> None:
     studio.program.editor.files.save_as()
     said: list[str] = []
     studio.session.noticed.connect(lambda message, severity: said.append(message.id))
-    header = Header(str(path), "another user", EWI, "ewi_5000", 0.0, "2026-11-21T10:00:00.000+00:00")
+    header = JournalHeader(str(path), "another user", EWI, "ewi_5000", 0.0, "2026-11-21T10:00:00.000+00:00")
     writer = JournalWriter(str(path.with_name(f"{path.name}.1.take-journal")), header)
     writer.sync(10**9, 0.0, 0)
     writer.event(15 * 10**8, bytes((0x90, 64, 90)))
@@ -198,7 +198,7 @@ def test_a_take_that_a_crash_tore_off_is_brought_in_when_its_project_is_opened(s
     studio.program.editor.questions.path = path  # type: ignore[attr-defined]
     studio.program.editor.files.save_as()
     player = studio.session.project.players[0].id
-    header = Header(str(path), player, EWI, "ewi_5000", 0.0, "2026-11-21T10:00:00.000+00:00")
+    header = JournalHeader(str(path), player, EWI, "ewi_5000", 0.0, "2026-11-21T10:00:00.000+00:00")
     journal = path.with_name(f"{path.name}.1.take-journal")
     writer = JournalWriter(str(journal), header)
     writer.sync(10**9, 0.0, 0)
@@ -255,7 +255,7 @@ def test_a_take_that_a_crash_left_in_a_second_place_is_brought_in(studio: Studio
     studio.program.editor.files.save_as()
     player = studio.session.project.players[0].id
     for number, project in enumerate((path, studio.folder / "other.suisou")):
-        header = Header(str(project), player, EWI, "ewi_5000", 0.0, f"2026-11-21T10:00:0{number}.000+00:00")
+        header = JournalHeader(str(project), player, EWI, "ewi_5000", 0.0, f"2026-11-21T10:00:0{number}.000+00:00")
         writer = JournalWriter(str(folder / f"0123456789abcde{number}.1.take-journal"), header)
         writer.sync(10**9, 0.0, 0)
         writer.event(15 * 10**8, bytes((0x90, 64 + number, 90)))
@@ -310,5 +310,5 @@ def test_without_a_device_it_is_said_and_the_devices_are_shown(studio: Studio) -
 
 
 def test_events_on_the_disk_are_counted(studio: Studio) -> None:
-    studio.link.say(Written(7))
+    studio.link.say(EventsSaved(7))
     studio.wait(lambda: studio.session.recording.events == 7)

@@ -21,7 +21,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from app.capture.protocol import Back, Lost, Opened, Ports, Refused
+from app.capture.protocol import Back, Lost, Opened, Ports, RequestRefused
 from app.errors import Message
 from app.messages.pitches import pitch_name
 from app.score.take import ControllerMapping
@@ -82,7 +82,7 @@ def test_devices_come_and_go_while_one_looks(studio: Studio) -> None:
     studio.wait(lambda: (EWI, "disconnected") in rows(dialog))
     studio.link.say(Back(EWI, 0))
     studio.wait(lambda: (EWI, "connected") in rows(dialog))
-    studio.link.say(Lost(EWI, 0), Refused(Message("capture.port_refused", {"port": EWI, "detail": "busy"})))
+    studio.link.say(Lost(EWI, 0), RequestRefused(Message("capture.port_refused", {"port": EWI, "detail": "busy"})))
     studio.wait(lambda: (EWI, "cannot open") in rows(dialog))
     assert "another program" in reported(dialog, "midi_hint")
     studio.link.say(Opened(EWI, 0))
@@ -121,7 +121,7 @@ def test_without_a_device_it_is_taught_what_to_do(studio: Studio) -> None:
     dialog = devices(studio)
     studio.wait(lambda: not studio.session.recording.ports)
     assert reported(dialog, "midi_hint").startswith("Connect a wind controller")
-    studio.link.say(Ports((), (), ""), Refused(Message("capture.no_system")))
+    studio.link.say(Ports((), (), ""), RequestRefused(Message("capture.no_system")))
     studio.wait(lambda: "modprobe" in reported(dialog, "midi_hint"))
     studio.link.say(Ports((EWI,), (), "alsa"))
     studio.wait(lambda: reported(dialog, "midi_hint").startswith("Select your device"))
@@ -132,7 +132,7 @@ def test_a_remembered_device_that_is_not_there_is_waited_for_without_a_warning(s
     said: list[str] = []
     studio.session.noticed.connect(lambda message, severity: said.append(message.id))
     dialog = devices(studio)
-    studio.link.say(Ports((), (), "test"), Refused(Message("capture.port_not_here", {"port": EWI})))
+    studio.link.say(Ports((), (), "test"), RequestRefused(Message("capture.port_not_here", {"port": EWI})))
     studio.wait(lambda: (EWI, "waiting…") in rows(dialog))
     assert not said
 
@@ -155,10 +155,10 @@ def test_a_device_is_found_again_by_another_number(studio: Studio, now: str) -> 
 
 
 def test_what_the_disk_or_an_output_refuses_says_nothing_of_the_device(studio: Studio) -> None:
-    studio.link.say(Lost(EWI, 0), Refused(Message("capture.not_written", {"file": "x", "reason": "full"})))
+    studio.link.say(Lost(EWI, 0), RequestRefused(Message("capture.not_written", {"file": "x", "reason": "full"})))
     studio.wait(lambda: studio.session.recording.connection == "lost")
     assert studio.session.recording.connection == "lost"
-    studio.link.say(Back(EWI, 0), Refused(Message("capture.port_refused", {"port": "Synth", "detail": "busy"})))
+    studio.link.say(Back(EWI, 0), RequestRefused(Message("capture.port_refused", {"port": "Synth", "detail": "busy"})))
     studio.wait(lambda: studio.session.recording.connection == "open")
     assert studio.session.recording.connection == "open"
 
@@ -317,8 +317,11 @@ def test_the_dialogs_speak_japanese(studio: Studio) -> None:
         judge(dialog, "learned")
         for news in (
             [Lost(EWI, 0), Ports((USB,), (), "test")],
-            [Ports((), (), ""), Refused(Message("capture.no_system"))],
-            [Ports((EWI,), (), "test"), Refused(Message("capture.port_refused", {"port": EWI, "detail": "使用中"}))],
+            [Ports((), (), ""), RequestRefused(Message("capture.no_system"))],
+            [
+                Ports((EWI,), (), "test"),
+                RequestRefused(Message("capture.port_refused", {"port": EWI, "detail": "使用中"})),
+            ],
         ):
             studio.link.say(*news)
             studio.wait(lambda: not studio.link.reported)

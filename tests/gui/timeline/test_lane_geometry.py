@@ -6,7 +6,7 @@ import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from widgets.timeline.model.geometry import Spans, Steps, packed_rows, step_path
+from widgets.timeline.model.geometry import StepCurve, TimeSpans, packed_rows, step_path
 
 spans = st.lists(st.tuples(st.integers(0, 60), st.integers(1, 30)), max_size=25).map(
     lambda rows: sorted((start, start + length) for start, length in rows)
@@ -31,7 +31,7 @@ def test_no_two_spans_of_a_row_meet_and_no_row_is_wasted(rows: list[tuple[int, i
 
 @given(spans, st.integers(-5, 95), st.integers(0, 40))
 def test_visible_spans_are_those_that_meet_the_range(rows: list[tuple[int, int]], start: int, length: int) -> None:
-    found = Spans(*arrays(rows)).between(float(start), float(start + length)).tolist()
+    found = TimeSpans(*arrays(rows)).between(float(start), float(start + length)).tolist()
     assert found == [i for i, (begin, end) in enumerate(rows) if begin <= start + length and end >= start]
 
 
@@ -46,7 +46,7 @@ def test_columns_hold_the_extremes_of_the_steps(
     rows: list[tuple[int, float]], start: int, length: int, width_px: int
 ) -> None:
     rows.sort()
-    steps = Steps(np.array([row[0] for row in rows], np.float64), np.array([row[1] for row in rows], np.float64))
+    steps = StepCurve(np.array([row[0] for row in rows], np.float64), np.array([row[1] for row in rows], np.float64))
     low, high = steps.columns(float(start), float(start + length), width_px)
     edges = np.linspace(start, start + length, width_px + 1)
     for column in range(width_px):
@@ -69,7 +69,7 @@ def test_a_path_goes_through_both_extremes_of_every_column() -> None:
 
 def test_many_values_are_few_points() -> None:
     time_s = np.arange(216_000) / 100.0
-    low, high = Steps(time_s, np.sin(time_s)).columns(0.0, 2160.0, 1500)
+    low, high = StepCurve(time_s, np.sin(time_s)).columns(0.0, 2160.0, 1500)
     assert len(low) == len(high) == 1500
     assert low.min() < -0.999
     assert high.max() > 0.999

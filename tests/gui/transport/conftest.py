@@ -8,7 +8,7 @@ import pytest
 
 from app.audio.playback import Playback
 from app.editor.session import Session
-from app.editor.sound import Sound
+from app.editor.sound import EditorSound
 from tests.gui.transport.devices import FakeDevices, Time
 from tests.support.phrases import know_phrases
 
@@ -54,8 +54,8 @@ def elapse(playback: Playback, time: Time) -> Elapse:
 
 
 @pytest.fixture
-def sound(session: Session, playback: Playback, devices: FakeDevices) -> Iterator[Sound]:
+def sound(session: Session, playback: Playback, devices: FakeDevices) -> Iterator[EditorSound]:
     """The session's sound, with everything rendered at once."""
-    result = Sound(session, playback)
+    result = EditorSound(session, playback)
     yield result
     playback.stop()

@@ -15,7 +15,7 @@ from pytestqt.qtbot import QtBot
 from app.editor.grids import GRIDS
 from app.editor.session import Session
 from app.editor.settings import Settings
-from app.editor.sound import Sound
+from app.editor.sound import EditorSound
 from app.editor.tokens import LIGHT
 from app.errors import Message
 from app.project.edit.piece import set_audio, set_fps
@@ -33,7 +33,7 @@ LEFT = Qt.MouseButton.LeftButton
 
 
 @pytest.fixture
-def bar(session: Session, sound: Sound, tmp_path: Path, qtbot: QtBot) -> TransportBar:
+def bar(session: Session, sound: EditorSound, tmp_path: Path, qtbot: QtBot) -> TransportBar:
     table = ActionTable(session, Settings(tmp_path / "settings.toml"), (*edit.ACTIONS, *playback.ACTIONS))
     table.refresh()
     result = TransportBar(session)

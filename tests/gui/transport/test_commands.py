@@ -9,7 +9,7 @@ import pytest
 from app.editor.selection import Selection
 from app.editor.session import Session
 from app.editor.settings import Settings
-from app.editor.sound import Sound
+from app.editor.sound import EditorSound
 from app.errors import Message
 from app.project.edit.piece import set_audio
 from app.shell.actions import ActionTable
@@ -19,7 +19,7 @@ from widgets.common.actions import actions
 
 
 @pytest.fixture
-def table(session: Session, sound: Sound, tmp_path: Path) -> ActionTable:
+def table(session: Session, sound: EditorSound, tmp_path: Path) -> ActionTable:
     result = ActionTable(session, Settings(tmp_path / "settings.toml"), (*edit.ACTIONS, *playback.ACTIONS))
     result.refresh()
     return result

@@ -16,7 +16,7 @@ from app.audio.render_process import RenderProcess
 from app.audio.track import RATE_HZ
 from app.editor.listening import RecordedTake
 from app.editor.session import Session, Severity
-from app.editor.sound import Sound
+from app.editor.sound import EditorSound
 from app.errors import Message
 from app.project.edit.piece import set_audio, set_offset
 from app.project.edit.takes import add_takes, remove_take
@@ -35,23 +35,23 @@ NAME = Message("edit.set_offset")
 
 
 @pytest.fixture
-def ready(sound: Sound, session: Session, qtbot: QtBot) -> Sound:
+def ready(sound: EditorSound, session: Session, qtbot: QtBot) -> EditorSound:
     """A short duet, rendered."""
     session.document.open(piece(melody((0, 960, 70), (960, 960, 72)), melody((1920, 960, 65))))
     wait_ready(sound, qtbot)
     return sound
 
 
-def wait_ready(sound: Sound, qtbot: QtBot) -> None:
+def wait_ready(sound: EditorSound, qtbot: QtBot) -> None:
     qtbot.waitUntil(lambda: not sound.is_busy)
 
 
-def excerpt(sound: Sound, start_s: float, end_s: float) -> np.ndarray:
+def excerpt(sound: EditorSound, start_s: float, end_s: float) -> np.ndarray:
     """What the playback would play."""
     return sound.playback.mix.read(round(start_s * RATE_HZ), round((end_s - start_s) * RATE_HZ))
 
 
-def loudness(sound: Sound, start_s: float, end_s: float) -> float:
+def loudness(sound: EditorSound, start_s: float, end_s: float) -> float:
     return float(np.sqrt((excerpt(sound, start_s, end_s) ** 2).mean()))
 
 
@@ -59,11 +59,11 @@ def edit(session: Session, project: Project) -> None:
     session.apply(NAME, project)
 
 
-def test_its_session_plays_by_it(session: Session, sound: Sound) -> None:
+def test_its_session_plays_by_it(session: Session, sound: EditorSound) -> None:
     assert session.playback is sound.playback
 
 
-def test_playing_moves_the_playhead(ready: Sound, session: Session, elapse: Elapse, qtbot: QtBot) -> None:
+def test_playing_moves_the_playhead(ready: EditorSound, session: Session, elapse: Elapse, qtbot: QtBot) -> None:
     session.playback.play(0.0)  # type: ignore[union-attr]
     assert session.playing
     elapse(0.5)
@@ -74,7 +74,7 @@ def test_playing_moves_the_playhead(ready: Sound, session: Session, elapse: Elap
 
 
 def test_moving_the_playhead_moves_the_sound(
-    ready: Sound, session: Session, elapse: Elapse, devices: FakeDevices
+    ready: EditorSound, session: Session, elapse: Elapse, devices: FakeDevices
 ) -> None:
     session.set_playhead(1.0)
     assert ready.playback.position_s() == 1.0
@@ -87,18 +87,20 @@ def test_moving_the_playhead_moves_the_sound(
     assert ready.playback.position_s() == pytest.approx(0.75, abs=0.003)
 
 
-def test_scrubbing_can_be_silent(ready: Sound, session: Session, devices: FakeDevices) -> None:
+def test_scrubbing_can_be_silent(ready: EditorSound, session: Session, devices: FakeDevices) -> None:
     session.listening.set(scrub_sound=False)
     session.set_playhead(1.0)
     assert not devices.sinks
     assert ready.playback.position_s() == 1.0
 
 
-def test_films_get_the_sound_of_playback(ready: Sound, session: Session) -> None:
+def test_films_get_the_sound_of_playback(ready: EditorSound, session: Session) -> None:
     assert excerpt(ready, 0.0, 3.0) == pytest.approx(mixdown(session.project, 0.0, 3.0), abs=1e-6)
 
 
-def test_percussion_is_heard_as_in_films_and_can_be_silenced(ready: Sound, session: Session, qtbot: QtBot) -> None:
+def test_percussion_is_heard_as_in_films_and_can_be_silenced(
+    ready: EditorSound, session: Session, qtbot: QtBot
+) -> None:
     import msgspec
 
     before = excerpt(ready, 0.0, 3.0)
@@ -112,7 +114,7 @@ def test_percussion_is_heard_as_in_films_and_can_be_silenced(ready: Sound, sessi
     np.testing.assert_allclose(excerpt(ready, 0.0, 3.0), before, atol=1e-6)
 
 
-def test_mute_and_solo_take_effect_at_once(ready: Sound, session: Session, tasks: ImmediateTasks) -> None:
+def test_mute_and_solo_take_effect_at_once(ready: EditorSound, session: Session, tasks: ImmediateTasks) -> None:
     rendered = len(tasks.names)
     edit(session, with_players(session.project, p0={"muted": True}))
     assert loudness(ready, 0.2, 0.9) < 1e-4
@@ -124,7 +126,7 @@ def test_mute_and_solo_take_effect_at_once(ready: Sound, session: Session, tasks
 
 
 def test_after_an_edit_only_what_changed_is_rendered(
-    ready: Sound, session: Session, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
+    ready: EditorSound, session: Session, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     rendered = []
     real = RenderProcess.__call__
@@ -156,13 +158,13 @@ def replace_parts(score: object, parts: object) -> object:
     return msgspec.structs.replace(score, parts=parts)
 
 
-def test_another_tempo_changes_the_sound(ready: Sound, session: Session, qtbot: QtBot) -> None:
+def test_another_tempo_changes_the_sound(ready: EditorSound, session: Session, qtbot: QtBot) -> None:
     edit(session, set_tempo(session.project, 0, 60.0))
     qtbot.waitUntil(lambda: loudness(ready, 4.2, 5.0) > 0.01)
     assert excerpt(ready, 0.0, 6.0) == pytest.approx(mixdown(session.project, 0.0, 6.0), abs=1e-6)
 
 
-def test_the_click(ready: Sound, session: Session) -> None:
+def test_the_click(ready: EditorSound, session: Session) -> None:
     quiet = loudness(ready, -0.6, -0.01)
     session.listening.set(click=True)
     assert loudness(ready, -0.6, -0.01) > quiet + 0.005
@@ -171,7 +173,7 @@ def test_the_click(ready: Sound, session: Session) -> None:
 
 
 def test_the_loop_and_the_speed_reach_the_playback(
-    ready: Sound, session: Session, elapse: Elapse, qtbot: QtBot
+    ready: EditorSound, session: Session, elapse: Elapse, qtbot: QtBot
 ) -> None:
     session.set_loop((0.5, 1.0))
     session.listening.set(speed=0.5)
@@ -181,7 +183,7 @@ def test_the_loop_and_the_speed_reach_the_playback(
 
 
 @pytest.fixture
-def recording(tmp_path: Path, session: Session, ready: Sound) -> Path:
+def recording(tmp_path: Path, session: Session, ready: EditorSound) -> Path:
     """The duet, two seconds into a file."""
     played = mixdown(session.project, -2.0, 5.0)
     played += np.random.default_rng(0).normal(scale=1e-3, size=played.shape).astype(np.float32)
@@ -196,9 +198,9 @@ def add(session: Session, path: Path, qtbot: QtBot) -> None:
 
 
 def test_a_recording_sounds_at_its_offset(
-    recording: Path, ready: Sound, session: Session, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
+    recording: Path, ready: EditorSound, session: Session, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(Sound, "estimate", lambda self, **how: None)
+    monkeypatch.setattr(EditorSound, "estimate", lambda self, **how: None)
     add(session, recording, qtbot)
     assert session.listening.waveform is not None
     assert session.listening.waveform.duration_s == pytest.approx(7.0)
@@ -217,7 +219,7 @@ def test_a_recording_sounds_at_its_offset(
 
 
 def test_a_new_recording_finds_its_place_by_itself(
-    sound: Sound, session: Session, qtbot: QtBot, tmp_path: Path
+    sound: EditorSound, session: Session, qtbot: QtBot, tmp_path: Path
 ) -> None:
     reported: list[tuple[Message, Severity]] = []
     session.noticed.connect(lambda message, severity: reported.append((message, severity)))
@@ -240,7 +242,7 @@ def test_a_new_recording_finds_its_place_by_itself(
     assert len(session.document.undone) == 1
 
 
-def test_another_piece_changes_nothing(sound: Sound, session: Session, qtbot: QtBot, tmp_path: Path) -> None:
+def test_another_piece_changes_nothing(sound: EditorSound, session: Session, qtbot: QtBot, tmp_path: Path) -> None:
     reported: list[Message] = []
     session.noticed.connect(lambda message, severity: reported.append(message))
     noise = np.random.default_rng(1).normal(scale=0.1, size=(20 * RATE_HZ, 2))
@@ -254,7 +256,7 @@ def test_another_piece_changes_nothing(sound: Sound, session: Session, qtbot: Qt
 
 
 def test_a_faster_recording_gives_its_tempo_when_asked(
-    sound: Sound, session: Session, qtbot: QtBot, tmp_path: Path
+    sound: EditorSound, session: Session, qtbot: QtBot, tmp_path: Path
 ) -> None:
     reported: list[Message] = []
     session.noticed.connect(lambda message, severity: reported.append(message))
@@ -275,7 +277,7 @@ def test_a_faster_recording_gives_its_tempo_when_asked(
 
 
 def test_the_beats_follow_a_recording_with_a_tempo_of_its_own(
-    sound: Sound, session: Session, qtbot: QtBot, tmp_path: Path
+    sound: EditorSound, session: Session, qtbot: QtBot, tmp_path: Path
 ) -> None:
     reported: list[tuple[Message, Severity]] = []
     session.noticed.connect(lambda message, severity: reported.append((message, severity)))
@@ -301,7 +303,9 @@ def test_the_beats_follow_a_recording_with_a_tempo_of_its_own(
     assert session.project.score.tempo_map is before.score.tempo_map
 
 
-def test_a_missing_recording_is_reported_once(sound: Sound, session: Session, qtbot: QtBot, tmp_path: Path) -> None:
+def test_a_missing_recording_is_reported_once(
+    sound: EditorSound, session: Session, qtbot: QtBot, tmp_path: Path
+) -> None:
     reported: list[tuple[Message, Severity]] = []
     session.noticed.connect(lambda message, severity: reported.append((message, severity)))
     session.attempt(NAME, lambda project: set_audio(project, tmp_path / "gone.wav"))
@@ -313,7 +317,7 @@ def test_a_missing_recording_is_reported_once(sound: Sound, session: Session, qt
     assert len(reported) == 1
 
 
-def test_a_project_brings_its_own_offset(sound: Sound, session: Session, qtbot: QtBot, tmp_path: Path) -> None:
+def test_a_project_brings_its_own_offset(sound: EditorSound, session: Session, qtbot: QtBot, tmp_path: Path) -> None:
     soundfile.write(tmp_path / "r.wav", mixdown(session.project, 0.0, 10.0), RATE_HZ)
     project = set_offset(set_audio(session.project, tmp_path / "r.wav"), 1.5)
     session.document.open(project)
@@ -322,7 +326,7 @@ def test_a_project_brings_its_own_offset(sound: Sound, session: Session, qtbot: 
 
 
 def test_a_recording_that_was_moved_keeps_its_offset(
-    sound: Sound, session: Session, qtbot: QtBot, tmp_path: Path
+    sound: EditorSound, session: Session, qtbot: QtBot, tmp_path: Path
 ) -> None:
     soundfile.write(tmp_path / "here.wav", mixdown(session.project, -2.0, 10.0), RATE_HZ)
     session.document.open(set_offset(set_audio(session.project, tmp_path / "there.wav"), 1.5))
@@ -336,7 +340,7 @@ def test_a_recording_that_was_moved_keeps_its_offset(
     assert len(session.document.done) == 1
 
 
-def test_opening_stops_the_sound(ready: Sound, session: Session, elapse: Elapse) -> None:
+def test_opening_stops_the_sound(ready: EditorSound, session: Session, elapse: Elapse) -> None:
     ready.playback.play(0.0)
     elapse(0.2)
     session.document.open(piece(melody((0, 480, 60))))
@@ -346,7 +350,7 @@ def test_opening_stops_the_sound(ready: Sound, session: Session, elapse: Elapse)
 def test_for_a_picture_the_recording_is_only_seen(
     session: Session, playback: Playback, qtbot: QtBot, tmp_path: Path, tasks: ImmediateTasks
 ) -> None:
-    sound = Sound(session, playback, audible=False)
+    sound = EditorSound(session, playback, audible=False)
     assert session.playback is None
     soundfile.write(tmp_path / "r.wav", mixdown(session.project, -2.0, 5.0), RATE_HZ)
     add(session, tmp_path / "r.wav", qtbot)
@@ -355,7 +359,7 @@ def test_for_a_picture_the_recording_is_only_seen(
     assert not sound.is_busy
 
 
-def test_an_empty_piece_is_silent(sound: Sound, session: Session, qtbot: QtBot) -> None:
+def test_an_empty_piece_is_silent(sound: EditorSound, session: Session, qtbot: QtBot) -> None:
     session.document.open(piece())
     wait_ready(sound, qtbot)
     assert not excerpt(sound, -1.0, 2.0).any()
@@ -369,7 +373,7 @@ def first(session: Session) -> str:
 
 
 @pytest.fixture
-def recorded(ready: Sound, session: Session, qtbot: QtBot) -> Sound:
+def recorded(ready: EditorSound, session: Session, qtbot: QtBot) -> EditorSound:
     """Two takes of the first player: one of the second second, one of nothing."""
     takes = [take_of([(1.0, 1.9, 74, 0.8)], tempo_map=session.project.score.tempo_map), take_of([])]
     edit(session, add_takes(session.project, first(session), takes)[0])
@@ -378,7 +382,7 @@ def recorded(ready: Sound, session: Session, qtbot: QtBot) -> Sound:
 
 
 def test_an_auditioned_take_replaces_the_part_until_playback_stops(
-    recorded: Sound, session: Session, elapse: Elapse, qtbot: QtBot
+    recorded: EditorSound, session: Session, elapse: Elapse, qtbot: QtBot
 ) -> None:
     before, project = excerpt(recorded, 0.0, 3.0), session.project
     recorded.listen(RecordedTake(first(session), "take:1", alone=False), 0.5)
@@ -394,7 +398,7 @@ def test_an_auditioned_take_replaces_the_part_until_playback_stops(
     assert excerpt(recorded, 0.0, 3.0) == pytest.approx(before, abs=1e-6)
 
 
-def test_a_take_auditioned_alone_is_the_only_sound(recorded: Sound, session: Session, qtbot: QtBot) -> None:
+def test_a_take_auditioned_alone_is_the_only_sound(recorded: EditorSound, session: Session, qtbot: QtBot) -> None:
     edit(session, with_players(session.project, p0={"muted": True}, p1={"soloed": True}))
     recorded.listen(RecordedTake(first(session), "take:1", alone=True), 1.0)
     wait_ready(recorded, qtbot)
@@ -404,7 +408,7 @@ def test_a_take_auditioned_alone_is_the_only_sound(recorded: Sound, session: Ses
     assert not session.playing
 
 
-def test_a_deleted_take_sounds_no_more(recorded: Sound, session: Session, qtbot: QtBot) -> None:
+def test_a_deleted_take_sounds_no_more(recorded: EditorSound, session: Session, qtbot: QtBot) -> None:
     recorded.listen(RecordedTake(first(session), "take:1", alone=True), 1.0)
     wait_ready(recorded, qtbot)
     edit(session, remove_take(session.project, first(session), "take:1"))
@@ -412,7 +416,7 @@ def test_a_deleted_take_sounds_no_more(recorded: Sound, session: Session, qtbot:
     assert loudness(recorded, 2.2, 2.9) > 0.01
 
 
-def test_another_piece_ends_listening(recorded: Sound, session: Session) -> None:
+def test_another_piece_ends_listening(recorded: EditorSound, session: Session) -> None:
     recorded.listen(RecordedTake(first(session), "take:1", alone=True), 1.0)
     session.document.open(piece(melody((0, 960, 60))))
     assert session.listening.take is None

@@ -12,10 +12,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from app.capture.journal import Header, Journal, JournalWriter, SyncPoint, passes, read_journal
+from app.capture.journal import Journal, JournalHeader, JournalWriter, SyncPoint, passes, read_journal
 from app.errors import FileError
 
-HEADER = Header("ピアノ.suisou", "p", "EWI", "generic", 0.0, "")
+HEADER = JournalHeader("ピアノ.suisou", "p", "EWI", "generic", 0.0, "")
 DATA = st.integers(0, 127)
 MESSAGES = st.one_of(
     st.builds(lambda status, a, b: bytes([status, a, b]), st.integers(0x80, 0xBF), DATA, DATA),

@@ -12,7 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from app.capture.adopt import takes_of
-from app.capture.journal import Header, JournalWriter, read_journal
+from app.capture.journal import JournalHeader, JournalWriter, read_journal
 from app.cli import main
 from app.performance.play_along import PlayAlong
 from app.project.model import map_choices
@@ -23,7 +23,7 @@ from instrument_maps.load import bundled_maps
 from tests.support.live import QUARTER, playing_alone
 
 MAPS = map_choices(bundled_maps().values())
-HEADER = Header("", "", "EWI", "ewi_usb", 0.0, "2026-11-28T00:00:00+00:00")
+HEADER = JournalHeader("", "", "EWI", "ewi_usb", 0.0, "2026-11-28T00:00:00+00:00")
 WIRING = ControllerMapping(channel=1, breath="cc2", bite="none")
 TICK_S = 0.5 / 960
 PITCHES = st.sampled_from((60, 62, 64))

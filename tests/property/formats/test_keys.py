@@ -12,7 +12,7 @@ from hypothesis.extra.numpy import arrays
 from scipy.spatial.transform import Rotation, Slerp
 
 from app.arrays import AnyFloatArray, BoolArray, FloatArray, SingleArray
-from app.formats.keys import Keys, Spans, runs, straight_keys
+from app.formats.keys import Keys, KeySpans, runs, straight_keys
 
 WITHIN = 1.0 + 1e-5
 
@@ -126,7 +126,7 @@ def test_what_is_between_keys_is_as_other_libraries_have_it(seed: int, frames: i
     kept[0] = True
     turns = Rotation.random(frames, random_state=seed % 2**31).as_quat()
     numbers = random.normal(size=(frames, 2))
-    spans, keys, time = Spans.of(kept[None]), np.flatnonzero(kept), np.arange(frames)
+    spans, keys, time = KeySpans.of(kept[None]), np.flatnonzero(kept), np.arange(frames)
     drawn = spans.straight(numbers[None])[0]
     for column in range(2):
         np.testing.assert_allclose(drawn[:, column], np.interp(time, keys, numbers[keys, column]), atol=1e-5)

@@ -10,7 +10,7 @@ from typing import Any
 from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 
-from app.capture.journal import Header, JournalWriter, read_journal
+from app.capture.journal import JournalHeader, JournalWriter, read_journal
 from app.editor.settings import Settings
 from app.encoding import restored, stored
 from app.project.autosave import Autosave
@@ -103,7 +103,7 @@ def test_settings(tmp_path_factory: Any, names: list[str], folder: str) -> None:
 @settings(max_examples=20)
 def test_a_journal(tmp_path_factory: Any, name: str) -> None:
     path = odd(tmp_path_factory.mktemp("takes"), ".take-journal")
-    header = Header(stored(f"/home/{name}"), "p", "EWI", "", 0.0, "2026-01-01T00:00:00")
+    header = JournalHeader(stored(f"/home/{name}"), "p", "EWI", "", 0.0, "2026-01-01T00:00:00")
     writer = JournalWriter(str(path), header)
     writer.mark("end", 1)
     writer.close()

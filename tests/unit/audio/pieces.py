@@ -9,7 +9,7 @@ from pathlib import Path
 import msgspec
 import numpy as np
 
-from app.audio.track import RATE_HZ, Piece, Samples, Track
+from app.audio.track import RATE_HZ, AudioSegment, MixTrack, Samples
 from app.project.model import Project, map_choices, project_from_score
 from app.score.metre_map import Metre
 from app.score.model import Note, Part, Score
@@ -56,10 +56,10 @@ def with_players(project: Project, **changes: dict[str, object]) -> Project:
     return replace(project, players=tuple(players))
 
 
-def ramp_track(seconds: float = 20.0, start_s: float = 0.0) -> Track:
+def ramp_track(seconds: float = 20.0, start_s: float = 0.0) -> MixTrack:
     """Every sample says its own time: amplitude rises by 1000 a second."""
     samples: Samples = np.round(np.arange(round(seconds * RATE_HZ)) / RATE_HZ * 1000).astype(np.int16)
-    return Track([Piece(round(start_s * RATE_HZ), samples)])
+    return MixTrack([AudioSegment(round(start_s * RATE_HZ), samples)])
 
 
 def times_s(block: np.ndarray) -> np.ndarray:

@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 
 from app.audio.mix import mixdown, place_gains, player_tracks
 from app.audio.synth import Synthesiser, drum_phrases
-from app.audio.track import RATE_HZ, Piece, Track, softened
+from app.audio.track import RATE_HZ, AudioSegment, MixTrack, softened
 from app.errors import Cancelled, FileError
 from app.project.recording import AudioTrack
 from app.score.model import PercussionHit
@@ -33,7 +33,7 @@ def test_a_block_is_the_plain_sum(pieces: list[tuple[int, int, int]], start: int
     long = np.zeros((6000, 2))
     for at, length, value in pieces:
         long[at + 1000 : at + 1000 + length] += np.array([0.5, 0.25]) * value / 32768
-    track = Track([Piece(at, np.full(length, value, np.int16)) for at, length, value in pieces], 0.5, 0.25)
+    track = MixTrack([AudioSegment(at, np.full(length, value, np.int16)) for at, length, value in pieces], 0.5, 0.25)
     out = np.zeros((count, 2), np.float32)
     track.add_to(out, start)
     assert out == pytest.approx(long[start + 1000 : start + 1000 + count], abs=1e-5)
@@ -51,7 +51,7 @@ def test_loud_sums_are_bent_and_soft_ones_are_not() -> None:
 
 
 def test_mute_and_solo_are_obeyed_as_on_a_desk() -> None:
-    pieces = {player.id: [Piece(0, np.ones(10, np.int16))] for player in DUET.players}
+    pieces = {player.id: [AudioSegment(0, np.ones(10, np.int16))] for player in DUET.players}
     assert len(player_tracks(DUET, pieces)) == 2
     assert len(player_tracks(with_players(DUET, p0={"muted": True}), pieces)) == 1
     assert len(player_tracks(with_players(DUET, p0={"soloed": True}), pieces)) == 1

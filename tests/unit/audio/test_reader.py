@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from app.audio.reader import Mark, Reader
-from app.audio.track import RATE_HZ, Mix, Piece, Track
+from app.audio.track import RATE_HZ, AudioSegment, Mix, MixTrack
 from tests.unit.audio.pieces import ramp_track, times_s
 
 MIX = Mix([ramp_track()])
@@ -82,7 +82,7 @@ def test_at_any_speed_the_marks_give_the_sounding_position(speed: float, chunk: 
 def test_the_pitch_and_the_loudness_stay(speed: float) -> None:
     times = np.arange(8 * RATE_HZ) / RATE_HZ
     tone = np.round(12000 * (np.sin(2 * np.pi * 233.0 * times) + 0.4 * np.sin(2 * np.pi * 699.0 * times)))
-    reader = Reader(Mix([Track([Piece(0, tone.astype(np.int16))])]), 0.5, speed)
+    reader = Reader(Mix([MixTrack([AudioSegment(0, tone.astype(np.int16))])]), 0.5, speed)
     block = read_all(reader, 3.0)[0][RATE_HZ // 2 :, 0]
     spectrum = np.abs(np.fft.rfft(block * np.hanning(len(block)))) ** 2
     frequencies = np.fft.rfftfreq(len(block), 1 / RATE_HZ)
@@ -98,7 +98,7 @@ def test_a_click_sounds_at_the_reported_moment(speed: float) -> None:
     click = np.zeros(6 * RATE_HZ, np.int16)
     times = np.arange(2400) / RATE_HZ
     click[2 * RATE_HZ : 2 * RATE_HZ + 2400] = 20000 * np.sin(2 * np.pi * 880 * times) * np.exp(-times / 0.01)
-    block, marks = read_all(Reader(Mix([Track([Piece(0, click)])]), 1.0, speed), 1.5 / speed)
+    block, marks = read_all(Reader(Mix([MixTrack([AudioSegment(0, click)])]), 1.0, speed), 1.5 / speed)
     loudest = int(np.abs(block[:, 0]).argmax())
     print(f"speed {speed}: {1000 * (said_s(marks, loudest) - 2.0):+.1f} ms")
     assert said_s(marks, loudest) == pytest.approx(2.0, abs=0.02)

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from app.capture.adopt import takes_of
-from app.capture.journal import Header, Journal, SyncPoint
+from app.capture.journal import Journal, JournalHeader, SyncPoint
 from app.score.take import ControllerMapping
 from app.score.tempo import TempoMap
 
-HEADER = Header("piece.suisou", "1.1.1", "EWI5000", "ewi_5000", 0.1, "2026-11-21T10:00:00+00:00")
+HEADER = JournalHeader("piece.suisou", "1.1.1", "EWI5000", "ewi_5000", 0.1, "2026-11-21T10:00:00+00:00")
 S = 10**9
 
 

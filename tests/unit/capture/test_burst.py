@@ -6,9 +6,9 @@ import threading
 import time
 from pathlib import Path
 
-from app.capture.journal import Header, read_journal
+from app.capture.journal import JournalHeader, read_journal
 from app.capture.link import RecorderLink
-from app.capture.protocol import Finished, Opened, Ports, Written
+from app.capture.protocol import EventsSaved, Opened, Ports, RecordingFinished
 from tests.support.jack import QUICK_FRAMES, jack_server
 from tests.support.listening import Ear
 from tests.support.wind_player import WindPlayer, burst
@@ -34,9 +34,9 @@ def test_nothing_is_lost_in_bursts_while_the_editor_is_busy(tmp_path: Path) -> N
         ear.wait(Ports, lambda reported: player.name in reported.inputs)
         link.open(player.name)
         ear.wait(Opened)
-        link.start(path, Header("p", "player", "EWI", "ewi_usb", 0.0, ""))
+        link.start(path, JournalHeader("p", "player", "EWI", "ewi_usb", 0.0, ""))
         link.sync(time.perf_counter_ns(), 0.0)
-        ear.wait(Written)
+        ear.wait(EventsSaved)
         window = threading.Thread(target=redraw)
         window.start()
         try:
@@ -47,7 +47,7 @@ def test_nothing_is_lost_in_bursts_while_the_editor_is_busy(tmp_path: Path) -> N
             done.set()
             window.join()
         link.stop()
-        ear.wait(Finished)
+        ear.wait(RecordingFinished)
     journal = read_journal(path)
     assert len(sent) == round(BURST_S * 1000)
     assert [message for _, message in ear.messages] == [message for _, message in sent]

@@ -8,11 +8,11 @@ from pathlib import Path
 import msgspec
 import pytest
 
-from app.capture.journal import Header, Journal, JournalWriter, Pass, SyncPoint, is_whole, passes, read_journal
+from app.capture.journal import Journal, JournalHeader, JournalWriter, Pass, SyncPoint, is_whole, passes, read_journal
 from app.errors import FileError
 from app.formats.locks import is_locked
 
-HEADER = Header("quartet.suisou", "player-1", "EWI-USB MIDI 1", "ewi_usb", 0.012, "2026-11-21T18:00:00+09:00")
+HEADER = JournalHeader("quartet.suisou", "player-1", "EWI-USB MIDI 1", "ewi_usb", 0.012, "2026-11-21T18:00:00+09:00")
 ON, OFF, BREATH = bytes([0x90, 60, 80]), bytes([0x80, 60, 64]), bytes([0xB0, 2, 70])
 S = 1_000_000_000
 

@@ -7,7 +7,7 @@ from statistics import NormalDist
 
 import pytest
 
-from app.capture.latency import LEAST_HITS, Measured, hits, measured, placed
+from app.capture.latency import LEAST_HITS, LatencyMeasurement, hits, measured, placed
 
 CLICKS_S = tuple(0.6 * index for index in range(12))
 
@@ -67,7 +67,7 @@ def test_irregular_or_sparse_hits_are_refused() -> None:
     assert all(faults)
     few = measured(CLICKS_S, player(0.05, 0.005, 1, missed=12 - LEAST_HITS + 1))
     assert few.fault == "too_few"
-    assert measured(CLICKS_S, ()) == Measured((None,) * 12, (False,) * 12, 0.0, 0.0, "too_few")
+    assert measured(CLICKS_S, ()) == LatencyMeasurement((None,) * 12, (False,) * 12, 0.0, 0.0, "too_few")
 
 
 def test_a_hit_is_a_note_and_what_follows_at_once_is_the_same() -> None:

@@ -15,18 +15,18 @@ from pathlib import Path
 
 import pytest
 
-from app.capture.journal import Header, Journal, passes, read_journal
+from app.capture.journal import Journal, JournalHeader, passes, read_journal
 from app.capture.link import RecorderLink
 from app.capture.protocol import (
     Back,
-    Finished,
+    EventsSaved,
     Lost,
     NotStarted,
     Opened,
     Ports,
-    Refused,
+    RecordingFinished,
+    RequestRefused,
     Restarted,
-    Written,
 )
 from app.formats.locks import is_locked
 from tests.support.jack import PATIENT_FRAMES, RATE_HZ, Server, jack_server
@@ -34,7 +34,7 @@ from tests.support.listening import PATIENCE_S, Ear, assert_mostly_in_order
 from tests.support.wind_player import WindPlayer, burst, phrase
 
 ROOT = Path(__file__).parents[3]
-HEADER = Header("p", "player", "EWI", "ewi_usb", 0.0, "")
+HEADER = JournalHeader("p", "player", "EWI", "ewi_usb", 0.0, "")
 PHRASE = phrase([60, 62, 64], beat_s=0.2, ghosts=1)
 
 
@@ -60,7 +60,7 @@ def opened(ear: Ear, name: str) -> Ear:
 def started(ear: Ear, path: Path) -> Ear:
     ear.link.start(path, HEADER)
     ear.link.sync(time.perf_counter_ns(), 0.0)
-    ear.wait(Written)
+    ear.wait(EventsSaved)
     return ear
 
 
@@ -79,7 +79,7 @@ def receive_one(ear: Ear, player: WindPlayer, message: bytes) -> int:
 
 def finished(ear: Ear, path: Path) -> Journal:
     ear.link.stop()
-    reported = ear.wait(Finished)
+    reported = ear.wait(RecordingFinished)
     assert reported.path == os.fsencode(path)
     journal = read_journal(path)
     assert journal.complete
@@ -144,7 +144,7 @@ def test_unplugged_in_the_middle_and_plugged_in_again(ear: Ear, tmp_path: Path) 
     assert_mostly_in_order(journal.messages[:before], sent)
     assert_mostly_in_order(journal.messages[before:], sent)
     assert journal.gaps == ((lost.ns, back.ns),)
-    assert not ear.of(Refused)
+    assert not ear.of(RequestRefused)
 
 
 def test_another_port_is_opened_while_the_first_is_blown(ear: Ear) -> None:
@@ -191,7 +191,7 @@ def test_a_killed_recorder_is_started_again_and_goes_on(ear: Ear, tmp_path: Path
         sent = [message for _, message in player.play(PHRASE)]
         ear.wait_for_most(len(sent))
         before = len(ear.messages)
-        ear.wait(Written, lambda reported: reported.count >= before)
+        ear.wait(EventsSaved, lambda reported: reported.count >= before)
         before = len(ear.messages)
         place = len(ear.reported)
         child = ear.link._child
@@ -211,22 +211,22 @@ def test_a_killed_recorder_is_started_again_and_goes_on(ear: Ear, tmp_path: Path
 
 def test_a_recorder_that_does_not_live_is_given_up(ear: Ear) -> None:
     end_s = time.monotonic() + PATIENCE_S
-    while not ear.of(Refused) and time.monotonic() < end_s:
+    while not ear.of(RequestRefused) and time.monotonic() < end_s:
         child = ear.link._child
         if child is not None:
             child.process.kill()
         ear.look()
         time.sleep(0.02)
-    (refused,) = ear.of(Refused)
-    assert isinstance(refused, Refused)
+    (refused,) = ear.of(RequestRefused)
+    assert isinstance(refused, RequestRefused)
     assert refused.reason.id == "capture.recorder_fails"
 
 
 EDITOR = """
 import sys, time
-from app.capture.journal import Header
+from app.capture.journal import JournalHeader
 from app.capture.link import RecorderLink
-from app.capture.protocol import Events, Opened, Ports, Written
+from app.capture.protocol import Events, Opened, Ports, EventsSaved
 link = RecorderLink()
 name, path = sys.argv[1:]
 def wait(kind):
@@ -235,9 +235,9 @@ def wait(kind):
 wait(Ports)
 link.open(name)
 wait(Opened)
-link.start(path, Header("p", "player", name, "ewi_usb", 0.0, ""))
+link.start(path, JournalHeader("p", "player", name, "ewi_usb", 0.0, ""))
 link.sync(time.perf_counter_ns(), 0.0)
-wait(Written)
+wait(EventsSaved)
 print(link._child.process.pid, flush=True)
 while True:
     for news in link.poll():
@@ -290,7 +290,7 @@ def test_a_take_that_waits_for_its_device(ear: Ear, tmp_path: Path) -> None:
     path = tmp_path / "take"
     ear.wait(Ports)
     ear.link.open("EWI:EWI USB")
-    assert ear.wait(Refused).reason.id == "capture.port_not_here"
+    assert ear.wait(RequestRefused).reason.id == "capture.port_not_here"
     started(ear, path)
     with WindPlayer() as player:
         ear.wait(Opened)
@@ -307,10 +307,10 @@ def test_without_a_server_it_says_so_once_and_prints_nothing(
     monkeypatch.setenv("JACK_DEFAULT_SERVER", "suisou-none")
     with RecorderLink(system="jack") as link:
         ear = Ear(link)
-        assert ear.wait(Refused).reason.id == "capture.no_system"
+        assert ear.wait(RequestRefused).reason.id == "capture.no_system"
         time.sleep(2.5)
         ear.look()
-        assert len(ear.of(Refused)) == 1
+        assert len(ear.of(RequestRefused)) == 1
         assert ear.of(Ports) == [Ports((), (), "")]
     assert capfd.readouterr() == ("", "")
 
@@ -327,7 +327,7 @@ def test_a_server_that_ends_in_the_middle(by: signal.Signals, tmp_path: Path, se
             before = len(ear.messages)
             server.stop(by)
             ear.wait(Lost)
-            assert ear.wait(Refused).reason.id == "capture.no_system"
+            assert ear.wait(RequestRefused).reason.id == "capture.no_system"
         # Others of this module use it afterwards.
         assert server.start() == name
         with WindPlayer() as player:
@@ -387,7 +387,7 @@ def test_where_no_process_can_be_started(monkeypatch: pytest.MonkeyPatch, tmp_pa
     monkeypatch.setattr("sys.executable", "/nowhere/python")
     with RecorderLink() as link:
         ear = Ear(link)
-        assert ear.wait(Refused).reason.id == "capture.recorder_fails"
+        assert ear.wait(RequestRefused).reason.id == "capture.recorder_fails"
         link.start(tmp_path / "take", HEADER)
         assert ear.wait(NotStarted).reason.id == "capture.recorder_fails"
 

@@ -13,7 +13,7 @@ import pytest
 from app.capture.link import RecorderLink
 from app.capture.midi_library import PythonRtmidi, Rtmidi2, load_library
 from app.capture.ports import MidiSystem, PortError
-from app.capture.protocol import NotStarted, Opened, Ports, Refused, Restarted
+from app.capture.protocol import NotStarted, Opened, Ports, RequestRefused, Restarted
 from tests.support.listening import Ear
 
 ABORTING = '''
@@ -122,7 +122,7 @@ def test_a_port_whose_opening_ends_the_process_is_refused_and_opened_later(
         ear = Ear(link)
         ear.wait(Ports)
         link.open("EWI-USB MIDI 1")
-        refused = ear.wait(Refused)
+        refused = ear.wait(RequestRefused)
         assert refused.reason.id == "capture.port_taken"
         assert refused.reason.arguments["port"] == "EWI-USB MIDI 1"
         # More often than a recorder may die by itself.
@@ -131,5 +131,5 @@ def test_a_port_whose_opening_ends_the_process_is_refused_and_opened_later(
             ear.wait(Ports, after=place)
         in_use.unlink()
         assert ear.wait(Opened).port == "EWI-USB MIDI 1"
-    assert len(ear.of(Refused)) == 1
+    assert len(ear.of(RequestRefused)) == 1
     assert not ear.of(Restarted, NotStarted)

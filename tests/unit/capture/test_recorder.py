@@ -13,13 +13,12 @@ from typing import Any, ClassVar
 import pytest
 
 from app.capture import recorder as recording
-from app.capture.journal import Header, read_journal
+from app.capture.journal import JournalHeader, read_journal
 from app.capture.port_names import Port
 from app.capture.ports import PortError
 from app.capture.protocol import (
     Back,
     Events,
-    Finished,
     Lost,
     Moved,
     News,
@@ -27,13 +26,14 @@ from app.capture.protocol import (
     Opened,
     Opening,
     Ports,
-    Refused,
-    Start,
+    RecordingFinished,
+    RequestRefused,
+    StartRecording,
     Stop,
     SystemEnded,
 )
-from app.capture.recorder import JournalKeeper, Recorder, send_news
-from app.child import Channel
+from app.capture.recorder import JournalKeeper, RecorderProcess, send_news
+from app.child import MessageChannel
 
 
 class Device:
@@ -91,7 +91,7 @@ class Bench:
         monkeypatch.setattr(recording, "MidiSystem", made)
         self.news: SimpleQueue[Any] = SimpleQueue()
         self.journal: SimpleQueue[Any] = SimpleQueue()
-        self.recorder = Recorder(self.news, self.journal)
+        self.recorder = RecorderProcess(self.news, self.journal)
 
     def reported(self) -> list[News]:
         found = []
@@ -154,7 +154,7 @@ def test_a_port_in_use_elsewhere_is_reported_once_and_opened_when_it_is_free(mon
     bench.recorder.obey(Open("EWI"))
     for _ in range(3):
         bench.recorder.look()
-    (refused,) = [reported for reported in bench.reported() if isinstance(reported, Refused)]
+    (refused,) = [reported for reported in bench.reported() if isinstance(reported, RequestRefused)]
     assert refused.reason.id == "capture.port_refused"
     system.busy.clear()
     bench.recorder.look()
@@ -166,7 +166,7 @@ def test_a_port_that_is_not_there_yet_is_reported_once_and_opened_when_it_is(mon
     bench = Bench(monkeypatch, system)
     bench.recorder.obey(Open("EWI"))
     bench.recorder.look()
-    assert [reported.reason.id for reported in bench.reported() if isinstance(reported, Refused)] == [
+    assert [reported.reason.id for reported in bench.reported() if isinstance(reported, RequestRefused)] == [
         "capture.port_not_here"
     ]
     system.listed["EWI"] = "EWI 20:0"
@@ -181,7 +181,7 @@ def test_a_system_that_comes_later_is_found(monkeypatch: pytest.MonkeyPatch) -> 
     for _ in range(4):
         bench.recorder.look()
         now_s[0] += 0.5
-    assert [type(reported) for reported in bench.reported()] == [Ports, Refused]
+    assert [type(reported) for reported in bench.reported()] == [Ports, RequestRefused]
     bench.systems.append(System("EWI"))
     now_s[0] += 2.0
     bench.recorder.look()
@@ -232,7 +232,7 @@ def test_events_that_gathered_are_sent_together_and_in_order() -> None:
     for item in ((1, b"\x90\x3c\x40"), (2, b"\xf8"), (3, b"\x80\x3c\x40"), Lost("EWI", 4), (5, b"\xb0\x02\x01"), None):
         queue.put(item)
     stream = io.BytesIO()
-    channel: Channel[Any] = Channel(News, stream, stream)
+    channel: MessageChannel[Any] = MessageChannel(News, stream, stream)
     send_news(queue, channel)
     stream.seek(0)
     found = [channel.receive() for _ in range(3)]
@@ -270,16 +270,16 @@ def test_a_recording_goes_on_in_a_second_place_whole(
     played = [(number, bytes((0x90, 60 + number, 80))) for number in range(1, 9)]
     queue: SimpleQueue[Any] = SimpleQueue()
     news: SimpleQueue[Any] = SimpleQueue()
-    header = Header("", "", "EWI", "ewi_usb", 0.0, "")
-    for item in (Start(os.fsencode(journal), header, elsewhere=os.fsencode(second)), *played, Stop(), None):
+    header = JournalHeader("", "", "EWI", "ewi_usb", 0.0, "")
+    for item in (StartRecording(os.fsencode(journal), header, elsewhere=os.fsencode(second)), *played, Stop(), None):
         queue.put(item)
     JournalKeeper(queue, news).run()
     sent = [news.get_nowait() for _ in range(news.qsize())]
     moved = [one for one in sent if isinstance(one, Moved)]
     place = second if moved else journal
     assert bool(moved) == (room < 100_000)
-    assert not any(isinstance(one, Refused) for one in sent)
-    assert sent[-1] == Finished(os.fsencode(place), len(played))
+    assert not any(isinstance(one, RequestRefused) for one in sent)
+    assert sent[-1] == RecordingFinished(os.fsencode(place), len(played))
     found = read_journal(place)
     assert found.complete
     assert list(zip(found.times_ns, found.messages, strict=True)) == played
@@ -297,9 +297,17 @@ def test_a_disk_that_stays_full_is_reported_once_and_again_at_the_end(
         raise OSError(errno.ENOSPC, "No space left on device")
 
     monkeypatch.setattr("app.capture.journal.os.fsync", full)
-    for item in (Start(str(journal), Header("", "", "EWI", "ewi_usb", 0.0, "")), (1, b"\x90\x3c\x50"), Stop(), None):
+    for item in (
+        StartRecording(str(journal), JournalHeader("", "", "EWI", "ewi_usb", 0.0, "")),
+        (1, b"\x90\x3c\x50"),
+        Stop(),
+        None,
+    ):
         queue.put(item)
     JournalKeeper(queue, news).run()
     sent = [news.get_nowait() for _ in range(news.qsize())]
-    assert [one.reason.id for one in sent if isinstance(one, Refused)] == ["capture.not_written", "capture.cut_short"]
-    assert sent[-1] == Finished(os.fsencode(journal), 1)
+    assert [one.reason.id for one in sent if isinstance(one, RequestRefused)] == [
+        "capture.not_written",
+        "capture.cut_short",
+    ]
+    assert sent[-1] == RecordingFinished(os.fsencode(journal), 1)

@@ -11,7 +11,7 @@ from app.arrays import BoolArray
 from app.choreography.body import SEGMENTS
 from app.choreography.clip import MotionClip
 from app.choreography.contacts import foot_contacts, tips_m
-from app.choreography.feet import DEEPER, HIGHER, STEP_S, Stand, planted, stands
+from app.choreography.feet import DEEPER, HIGHER, STEP_S, FootPlant, planted, stands
 from app.rig import quaternion
 from tests.support.dance_measures import angular_jumps
 from tests.support.dances import SHANK_M, THIGH_M, stepping, still
@@ -55,7 +55,7 @@ def test_a_knee_that_is_a_little_more_than_straight_bends_forwards() -> None:
         turns[:, SEGMENTS.index(name)] = quaternion.from_axis_angle(np.array([1.0, 0.0, 0.0]), part * back)
     # Below where the leg is straight the foot, which stands, has no room.
     sunk = replace(clip, rotations=turns, hips_m=clip.hips_m - np.array((0.0, 0.04, 0.0)))
-    found = planted(sunk, (Stand(0, 0, 60, (0.1, 0.0, 0.2)),))
+    found = planted(sunk, (FootPlant(0, 0, 60, (0.1, 0.0, 0.2)),))
     places_m = found.world().positions_m
     hip, knee, ankle = (places_m[:, 1 + SEGMENTS.index(f"left{name}")] for name in ("UpperLeg", "LowerLeg", "Foot"))
     assert (knee[:, 2] - 0.5 * (hip + ankle)[:, 2]).min() > 0.05

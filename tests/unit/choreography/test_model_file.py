@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 
 from app.choreography import model_file
 from app.choreography.learn import Pair, learn
-from app.choreography.model import ChoreographyModel, Source
+from app.choreography.model import ChoreographyModel, TrainingPair
 from app.choreography.model_file import VERSION, decode_model, encode_model, read_model, write_model
 from app.errors import FileError
 from app.messages import error_text
@@ -67,7 +67,7 @@ def test_any_model_is_read_back(data: st.DataObject) -> None:
     states = data.draw(st.integers(1, 6))
     generator = np.random.default_rng(data.draw(st.integers(0, 2**32 - 1)))
     sources = tuple(
-        Source(
+        TrainingPair(
             data.draw(texts),
             data.draw(texts),
             data.draw(st.floats(-1e4, 1e4)),

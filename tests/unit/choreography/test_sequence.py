@@ -8,7 +8,15 @@ import numpy as np
 import pytest
 from hmmlearn.base import BaseHMM
 
-from app.choreography.sequence import Candidates, Constraints, Grid, Weights, choose, grid_of, symbol_scores
+from app.choreography.sequence import (
+    AccentGrid,
+    Constraints,
+    SegmentCandidates,
+    Weights,
+    choose,
+    grid_of,
+    symbol_scores,
+)
 from tests.support.dances import beaten
 
 
@@ -22,10 +30,10 @@ class Scored(BaseHMM):
 PLAIN = Weights(join_per_m=0.0, speed=0.0, off_beat=0.0, chance=0.0, lately=0.0)
 
 
-def candidates(count: int, seed: int, spread: float = 0.0) -> Candidates:
+def candidates(count: int, seed: int, spread: float = 0.0) -> SegmentCandidates:
     random = np.random.default_rng(seed)
     lasts = 0.25 * np.exp(spread * random.uniform(-1.0, 1.0, (2, count)))
-    return Candidates(
+    return SegmentCandidates(
         states=np.arange(count),
         before_s=lasts[0],
         after_s=lasts[1],
@@ -46,9 +54,11 @@ def test_with_a_segment_a_state_and_a_place_a_step_it_is_the_viterbi_algorithm(s
     transition /= transition.sum(axis=1, keepdims=True)
     with np.errstate(divide="ignore"):
         log = np.log(transition * 5)
-    fixed = Candidates(own.states, own.before_s, own.after_s, own.joins_m, np.maximum(log, -1e6), own.log_emission)
+    fixed = SegmentCandidates(
+        own.states, own.before_s, own.after_s, own.joins_m, np.maximum(log, -1e6), own.log_emission
+    )
     initial = random.dirichlet(np.ones(5))
-    grid = Grid(0.5 * np.arange(20), np.ones(20, bool))
+    grid = AccentGrid(0.5 * np.arange(20), np.ones(20, bool))
     found = choose(grid, scores, fixed, seed=0, weights=PLAIN, initial=np.log(initial * 5))
     other = Scored(n_components=5)
     other.startprob_, other.transmat_ = initial, transition
@@ -58,7 +68,7 @@ def test_with_a_segment_a_state_and_a_place_a_step_it_is_the_viterbi_algorithm(s
 
 
 def scored(
-    way: tuple[tuple[int, int], ...], grid: Grid, scores: np.ndarray, own: Candidates, weights: Weights
+    way: tuple[tuple[int, int], ...], grid: AccentGrid, scores: np.ndarray, own: SegmentCandidates, weights: Weights
 ) -> float:
     """What a way through the grid is worth, added up one by one; less than anything where it is too fast or slow."""
     total = 0.0
@@ -76,7 +86,7 @@ def scored(
 @pytest.mark.parametrize("seed", range(6))
 def test_no_way_through_a_small_grid_is_better(seed: int) -> None:
     own = candidates(3, seed, spread=0.6)
-    grid = Grid(0.3 * np.arange(6), np.arange(6) % 2 == 0)
+    grid = AccentGrid(0.3 * np.arange(6), np.arange(6) % 2 == 0)
     scores = np.random.default_rng(seed).normal(size=(6, 3))
     weights = Weights(chance=0.0, lately=0.0, join_per_m=5.0)
     found = choose(grid, scores, own, seed=0, weights=weights)
@@ -130,5 +140,5 @@ def test_motions_keep_within_the_speeds_at_any_tempo() -> None:
 
 def test_without_music_or_motion_there_is_nothing() -> None:
     own = candidates(3, 0)
-    assert choose(Grid(np.zeros(0), np.zeros(0, bool)), np.zeros((0, 3)), own, seed=0) == []
-    assert choose(Grid(np.zeros(1), np.ones(1, bool)), np.zeros((1, 3)), own, seed=0)
+    assert choose(AccentGrid(np.zeros(0), np.zeros(0, bool)), np.zeros((0, 3)), own, seed=0) == []
+    assert choose(AccentGrid(np.zeros(1), np.ones(1, bool)), np.zeros((1, 3)), own, seed=0)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from app.choreography.sequence import SPEEDS, Grid, grid_of
+from app.choreography.sequence import SPEEDS, AccentGrid, grid_of
 from app.choreography.warp import REST_S, TimeMap, arriving
 from tests.support.dances import beaten
 
@@ -38,7 +38,10 @@ def test_no_motion_is_hurried_or_held_beyond_the_limits() -> None:
 
 def test_without_beats_or_arrivals_it_goes_as_planned() -> None:
     plain = even(4.0, 1.0)
-    for arrivals, grid in ((np.zeros(0), grid_of(beaten(9))), (np.array([1.2]), Grid(np.zeros(0), np.zeros(0, bool)))):
+    for arrivals, grid in (
+        (np.zeros(0), grid_of(beaten(9))),
+        (np.array([1.2]), AccentGrid(np.zeros(0), np.zeros(0, bool))),
+    ):
         times_s = np.linspace(0.0, 4.0, 50)
         assert arriving(plain, arrivals, grid).at(times_s)[0] == pytest.approx(times_s)
 

@@ -16,7 +16,7 @@ from typing import BinaryIO
 import mido
 import pytest
 
-from app.capture.journal import Header, JournalWriter
+from app.capture.journal import JournalHeader, JournalWriter
 from app.cli import main
 from app.formats import atomic
 from tests.support.jack import jack_server
@@ -166,7 +166,7 @@ def test_nothing_is_written_over(run: Run, tmp_path: Path) -> None:
 def left(tmp_path: Path) -> Path:
     """The journal of a recording that was killed."""
     journal = tmp_path / "take.mid.take-journal"
-    writer = JournalWriter(str(journal), Header("", "", "EWI USB", "ewi_usb", 0.0, ""))
+    writer = JournalWriter(str(journal), JournalHeader("", "", "EWI USB", "ewi_usb", 0.0, ""))
     writer.sync(10**9, 0.0, 0)
     writer.event(10**9, b"\x90\x3c\x50")
     writer.event(2 * 10**9, b"\x80\x3c\x50")
@@ -188,7 +188,9 @@ def test_what_a_crash_left_is_written(run: Run, tmp_path: Path) -> None:
 
 
 def test_a_take_lasts_until_the_recording_was_stopped_and_not_until_its_last_note(run: Run, tmp_path: Path) -> None:
-    writer = JournalWriter(str(tmp_path / "take.mid.take-journal"), Header("", "", "EWI USB", "ewi_usb", 0.0, ""))
+    writer = JournalWriter(
+        str(tmp_path / "take.mid.take-journal"), JournalHeader("", "", "EWI USB", "ewi_usb", 0.0, "")
+    )
     writer.sync(10**9, 0.0, 0)
     writer.event(10**9, b"\x90\x3c\x50")
     writer.event(2 * 10**9, b"\x80\x3c\x50")
@@ -247,7 +249,7 @@ def test_a_full_disk_keeps_the_journal_and_names_the_remedy(
 
 def test_a_running_recording_is_left_alone(run: Run, tmp_path: Path) -> None:
     journal = tmp_path / "take.mid.take-journal"
-    writer = JournalWriter(str(journal), Header("", "", "EWI USB", "ewi_usb", 0.0, ""))
+    writer = JournalWriter(str(journal), JournalHeader("", "", "EWI USB", "ewi_usb", 0.0, ""))
     for arguments in (("--rescue",), ("--port", "EWI")):
         status, _, reported = run("record", *arguments, "--to", tmp_path / "take.mid")
         assert status == 1

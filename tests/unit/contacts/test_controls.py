@@ -16,7 +16,7 @@ from app.contacts.bounds import in_place
 from app.contacts.controls import ControlMeasure, NoteFrames, notes_of
 from app.errors import Message
 from app.plan.model import FingeringEvent
-from instrument_maps.model import Control, Motion
+from instrument_maps.model import Control, ControlMotion
 
 FPS, FIRST_FRAME_S = 10.0, -0.05
 
@@ -27,7 +27,7 @@ def event(start_s: float, end_s: float, value: float) -> FingeringEvent:
 
 
 def control(**changes: object) -> Control:
-    plain = Control("c", "press", "pitch", "right.index", "c", Motion((0.0, -1.0, 0.0), travel_m=0.016))
+    plain = Control("c", "press", "pitch", "right.index", "c", ControlMotion((0.0, -1.0, 0.0), travel_m=0.016))
     return msgspec.structs.replace(plain, **changes)
 
 
@@ -54,14 +54,16 @@ def test_short_notes_are_counted_apart() -> None:
 
 
 def test_a_slide_is_judged_in_millimetres() -> None:
-    slide = control(kind="slide", motion=Motion((0.0, 0.0, 1.0), travel_m=0.6), max_speed_m_s=2.5)
+    slide = control(kind="slide", motion=ControlMotion((0.0, 0.0, 1.0), travel_m=0.6), max_speed_m_s=2.5)
     notes = [event(1.0, 2.0, 0.5)]
     assert measured(notes, slide, np.full(40, 0.5 + 0.0049 / 0.6)).right == 1
     assert measured(notes, slide, np.full(40, 0.5 + 0.0051 / 0.6)).right == 0
 
 
 def test_what_stops_where_the_hand_ends_is_distinguished_from_what_is_wrong() -> None:
-    slide = control(kind="slide", finger="right.hand", motion=Motion((0.0, 0.0, 1.0), travel_m=0.6), max_speed_m_s=2.5)
+    slide = control(
+        kind="slide", finger="right.hand", motion=ControlMotion((0.0, 0.0, 1.0), travel_m=0.6), max_speed_m_s=2.5
+    )
     notes, values = [event(1.0, 2.0, 0.9)], np.full(40, 0.8)
     wrong = measured(notes, slide, values)
     assert (wrong.right, wrong.stopped_short, wrong.held_wrong, wrong.held_stopped_short) == (0, 0, 10, 0)
@@ -137,7 +139,7 @@ def _kept_slowly(times_s: FloatArray, notes: list[FingeringEvent], asked: list[b
     )
 )
 def test_frames_of_notes_are_those_of_one_note_after_another(rows: list[tuple[float, float, float, bool]]) -> None:
-    slide = control(kind="slide", motion=Motion((0.0, 0.0, 1.0), travel_m=0.6), max_speed_m_s=2.5)
+    slide = control(kind="slide", motion=ControlMotion((0.0, 0.0, 1.0), travel_m=0.6), max_speed_m_s=2.5)
     times_s = FIRST_FRAME_S + np.arange(40) / FPS
     starts_s = np.cumsum([row[0] for row in rows]).tolist()
     notes = [event(start_s, start_s + row[1], row[2]) for start_s, row in zip(starts_s, rows, strict=True)]

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from app.evaluation.design import Order, codes, orders, pairs_of
-from app.evaluation.key import VERSION, Clip, Key, Variant
+from app.evaluation.key import VERSION, EvaluationClip, EvaluationKey, Variant
 from app.evaluation.page import PAGE_FILE, page
 from app.export.video import beside, video_into
 
@@ -16,11 +16,13 @@ VARIANTS: tuple[Variant, ...] = ("film", "generated", "shifted")
 TITLE = "</script><script>alert(1)</script> & <b>\"film\"</b> 'C:\\n' 組曲\u2028"
 
 
-def small_evaluation(folder: Path, title: str = TITLE) -> tuple[Key, tuple[Order, ...]]:
+def small_evaluation(folder: Path, title: str = TITLE) -> tuple[EvaluationKey, tuple[Order, ...]]:
     """Write a page of three variants in one excerpt, and two pairs."""
     drawn = codes(len(VARIANTS), 5)
-    clips = tuple(Clip(code, variant, 1, 0.0, 0.6, "ensemble") for code, variant in zip(drawn, VARIANTS, strict=True))
-    key = Key("suisou-evaluation", VERSION, "a1234567", title, 5, clips, ("fingers_arms", "ensemble"))
+    clips = tuple(
+        EvaluationClip(code, variant, 1, 0.0, 0.6, "ensemble") for code, variant in zip(drawn, VARIANTS, strict=True)
+    )
+    key = EvaluationKey("suisou-evaluation", VERSION, "a1234567", title, 5, clips, ("fingers_arms", "ensemble"))
     made = folder / "clips"
     made.mkdir()
     for number, name in enumerate([*drawn, "practice"]):

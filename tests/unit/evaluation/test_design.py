@@ -7,7 +7,7 @@ from itertools import pairwise
 
 import pytest
 
-from app.evaluation.design import Shown, codes, new_id, orders, pairs_of, williams
+from app.evaluation.design import ClipPair, codes, new_id, orders, pairs_of, williams
 from app.evaluation.key import VARIANTS, Variant
 
 
@@ -51,7 +51,7 @@ def test_the_table_of_orders_is_balanced(variants: tuple[Variant, ...], excerpts
             (place, shown) for row in table for place, shown in enumerate(row) if other in (shown.left, shown.right)
         ]
         turns = Counter(shown for place, shown in sides if place >= count)
-        assert turns == {Shown(one, other): len(table) // 2, Shown(other, one): len(table) // 2}
+        assert turns == {ClipPair(one, other): len(table) // 2, ClipPair(other, one): len(table) // 2}
         places = Counter(place for place, _ in sides if place >= count)
         assert len(places) == len(pairs)
         assert len(set(places.values())) == 1

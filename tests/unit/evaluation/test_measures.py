@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from app.evaluation.measures import (
-    PlayerMeasures,
     VariantMeasures,
+    VariantPlayerMeasures,
     measure,
     measure_variants,
     motions_of,
@@ -39,7 +39,9 @@ def variants(duet: Project) -> dict[str, VariantMeasures]:
     return {one.variant: one for one in found}
 
 
-def both(variants: dict[str, VariantMeasures], one: str, other: str) -> list[tuple[PlayerMeasures, PlayerMeasures]]:
+def both(
+    variants: dict[str, VariantMeasures], one: str, other: str
+) -> list[tuple[VariantPlayerMeasures, VariantPlayerMeasures]]:
     """The same players of two variants."""
     return list(zip(variants[one].players, variants[other].players, strict=True))
 

@@ -13,9 +13,9 @@ import pytest
 from app.audio.track import RATE_HZ
 from app.errors import FileError, UsageError
 from app.evaluation.excerpts import choose_excerpts
-from app.evaluation.key import VERSION, Clip, Key, encoded_key, read_key, write_key
+from app.evaluation.key import VERSION, EvaluationClip, EvaluationKey, encoded_key, read_key, write_key
 from app.evaluation.loudness import TARGET_LUFS, equally_loud, loudness_lufs
-from app.evaluation.request import Request, aspects_of, variants_of
+from app.evaluation.request import EvaluationRequest, aspects_of, variants_of
 from app.evaluation.variants import LATE_S, performance_of
 from app.performance.cast import performers_of
 from app.performance.motion import playing_of
@@ -86,8 +86,8 @@ def test_without_acting_the_amplitude_is_none() -> None:
 
 
 def test_a_key_is_read_as_it_was_written(tmp_path: Path) -> None:
-    clip = Clip("c01", "film", 1, -0.5, 7.5, "front", "Trumpet 1")
-    key = Key("suisou-evaluation", VERSION, "a1234567", "組曲", 7, (clip,))
+    clip = EvaluationClip("c01", "film", 1, -0.5, 7.5, "front", "Trumpet 1")
+    key = EvaluationKey("suisou-evaluation", VERSION, "a1234567", "組曲", 7, (clip,))
     write_key(key, tmp_path / "key.json")
     assert read_key(tmp_path / "key.json") == key
     path = tmp_path / "other.json"
@@ -109,7 +109,7 @@ def test_a_key_is_read_as_it_was_written(tmp_path: Path) -> None:
 
 
 def test_what_there_is_no_video_of_is_not_compared() -> None:
-    request = Request("made", "x")
+    request = EvaluationRequest("made", "x")
     assert variants_of(request) == ("generated", "still", "shifted")
     assert variants_of(msgspec.structs.replace(request, film="a", variants=("film", "shifted"))) == ("film", "shifted")
     with pytest.raises(UsageError, match="needs_file"):

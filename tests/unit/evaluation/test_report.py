@@ -12,10 +12,10 @@ import msgspec
 import pytest
 
 from app.errors import FileError
-from app.evaluation.measures import PlayerMeasures, VariantMeasures, read_measures, write_measures
+from app.evaluation.measures import VariantMeasures, VariantPlayerMeasures, read_measures, write_measures
 from app.evaluation.plot import plot
 from app.evaluation.report import write_results
-from app.evaluation.results import Results, tabulate
+from app.evaluation.results import EvaluationResults, tabulate
 from app.evaluation.tables import tables
 from tests.support.viewers import key_of, viewers
 
@@ -27,12 +27,12 @@ PLAYER = msgspec.json.decode(
     b'"lag": {"notes": 9, "missed": 0, "median_ms": -17.1, "latest_ms": -16.0, "detectable": 0.0, "unacceptable": 0},'
     b'"breath": {"breaths": 1, "chest_mm": {"at_breaths": 1, "between": null}, "shoulders_mm": {"at_breaths": 9.2,'
     b'"between": 1.5}, "ribs": {"at_breaths": 1, "between": 0}, "mouth": {"at_breaths": 0.29, "between": null}}}',
-    type=PlayerMeasures,
+    type=VariantPlayerMeasures,
 )
 MEASURES = (VariantMeasures("generated", (PLAYER,)),)
 
 
-def written(results: Results, folder: Path) -> dict[str, bytes]:
+def written(results: EvaluationResults, folder: Path) -> dict[str, bytes]:
     return {path.name: path.read_bytes() for path in write_results(results, MEASURES, folder)}
 
 
@@ -71,7 +71,7 @@ def test_the_table_for_spreadsheets_holds_the_scores(tmp_path: Path) -> None:
 
 def test_json_is_read_back(tmp_path: Path) -> None:
     found = msgspec.json.decode(written(RESULTS, tmp_path)["results.json"])
-    assert msgspec.convert(found["results"], Results) == RESULTS
+    assert msgspec.convert(found["results"], EvaluationResults) == RESULTS
     assert msgspec.convert(found["measures"], tuple[VariantMeasures, ...]) == MEASURES
     assert len(found["may_not_be_concluded"]) > 3
 

@@ -13,7 +13,7 @@ from app.errors import FileError, Message
 from app.evaluation.answers import Answer, ViewerFile
 from app.evaluation.conclusions import conclude
 from app.evaluation.key import ASPECTS, SCALES, Variant
-from app.evaluation.results import Contrast, Question, Results, tabulate
+from app.evaluation.results import Contrast, EvaluationResults, Question, tabulate
 from app.evaluation.statistics import summary
 from app.messages import LANGUAGES, text
 from tests.support.viewers import TRUTH, answer_of, key_of, opinion, viewer_of, viewers
@@ -24,7 +24,7 @@ BODY = Question("single", "body", "naturalness")
 CODE = {(clip.variant, clip.excerpt): clip.code for clip in KEY.clips}
 
 
-def contrast(results: Results, question: Question, first: Variant, second: Variant) -> Contrast:
+def contrast(results: EvaluationResults, question: Question, first: Variant, second: Variant) -> Contrast:
     [found] = [one for one in results.contrasts if (one.question, one.first, one.second) == (question, first, second)]
     return found
 
@@ -33,7 +33,7 @@ def ids(messages: Sequence[Message]) -> list[str]:
     return [message.id for message in messages]
 
 
-def worded(results: Results) -> list[str]:
+def worded(results: EvaluationResults) -> list[str]:
     """Everything that is said, in both languages; no field is left open and nothing is "nan"."""
     said = conclude(results)
     found = [text(message, language) for language in LANGUAGES for message in (*said.may, *said.may_not)]
@@ -42,11 +42,11 @@ def worded(results: Results) -> list[str]:
 
 
 @pytest.fixture(scope="module")
-def many() -> Results:
+def many() -> EvaluationResults:
     return tabulate(KEY, viewers(KEY, 30, presentations=("single", "pair"), skips=0.05))
 
 
-def test_known_opinions_are_recovered(many: Results) -> None:
+def test_known_opinions_are_recovered(many: EvaluationResults) -> None:
     missed = 0
     for score in many.scores:
         over, question = score.over_viewers, score.question
@@ -58,7 +58,7 @@ def test_known_opinions_are_recovered(many: Results) -> None:
     assert missed <= 0.1 * len(many.scores)
 
 
-def test_differences_are_shown_where_they_are(many: Results) -> None:
+def test_differences_are_shown_where_they_are(many: EvaluationResults) -> None:
     for presentation in ("single", "pair"):
         question = msgspec.structs.replace(FINGERS, presentation=presentation)
         late = contrast(many, question, "generated", "shifted")
@@ -93,7 +93,7 @@ def test_without_a_difference_few_are_shown() -> None:
     assert len(shown) <= 9
 
 
-def test_the_control_is_noticed_or_not(many: Results) -> None:
+def test_the_control_is_noticed_or_not(many: EvaluationResults) -> None:
     assert [control.verdict for control in many.controls] == ["noticed", "noticed"]
     assert ids(conclude(many).may).count("results.control_noticed") == 2
     blind = tabulate(KEY, viewers(KEY, 20, late=-0.6))
@@ -107,7 +107,7 @@ def test_the_control_is_noticed_or_not(many: Results) -> None:
     assert "results.no_control" in ids(conclude(without).may_not)
 
 
-def test_tired_viewers_are_found(many: Results) -> None:
+def test_tired_viewers_are_found(many: EvaluationResults) -> None:
     tired = tabulate(KEY, viewers(KEY, 20, tires=1.5))
     [order] = tired.orders
     # Between the halves lies half of the way from the first answer to the last.

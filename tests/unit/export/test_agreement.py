@@ -12,7 +12,7 @@ import pytest
 
 from app.export.character import character_scene
 from app.export.instrument import instrument_scene
-from app.export.playback import Playback, Surface
+from app.export.playback import ScenePlayback, Surface
 from app.export.target import SkeletonChoice
 from app.export.targets import target_skeleton
 from app.formats.fbx.read import read_scene
@@ -56,7 +56,7 @@ def _scenes(performance: Performance, fps: Fraction) -> dict[str, Scene]:
 
 def _shown_by_fbx(scene: Scene, frame: int) -> Shown:
     assert scene.clip is not None
-    playback = Playback(scene, scene.clip)
+    playback = ScenePlayback(scene, scene.clip)
     world = playback.world(frame, frame + 1)
     (mesh,) = scene.meshes
     points = Surface(playback, mesh, np.arange(len(mesh.vertices_cm))).positions_m(world, frame, frame + 1)[0] * 100
@@ -147,7 +147,7 @@ def test_other_programs_readers_agree(performance: Performance, fps: Fraction, t
     scene = _scenes(performance, fps)["character"]
     assert scene.clip is not None
     frames = [0, 9, scene.clip.frames - 1]
-    world_cm = 100 * Playback(scene, scene.clip).world(0, scene.clip.frames)[frames][..., :3, 3]
+    world_cm = 100 * ScenePlayback(scene, scene.clip).world(0, scene.clip.frames)[frames][..., :3, 3]
     names = [bone.name for bone in scene.bones]
     expected = readers.Expected(
         fps=fps,

@@ -12,7 +12,7 @@ import pytest
 from app.export.bone_names import joint_names, profile_names
 from app.export.character import character_scene
 from app.export.joints import world_transforms
-from app.export.playback import Playback
+from app.export.playback import ScenePlayback
 from app.export.skeleton import scene_bvh
 from app.export.target import SkeletonChoice, TargetSkeleton
 from app.export.targets import target_skeleton
@@ -113,7 +113,7 @@ def test_on_another_skeleton_its_joints_get_the_names_and_the_hips_the_motion() 
     offsets = np.tile(clip.offsets_cm, (6, 1, 1))
     offsets[:, 0] = clip.root_translation_cm
     world = world_transforms(clip.parents, offsets, np.asarray(clip.rotations_xyzw, np.float64))
-    meant = Playback(scene, scene.clip).world(0, 6)[:, bone, :3, 3] * 100
+    meant = ScenePlayback(scene, scene.clip).world(0, 6)[:, bone, :3, 3] * 100
     np.testing.assert_allclose(world[:, hand, :3, 3], meant, atol=1e-3)
 
 

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from app.errors import Message
-from app.export.check_skeleton import Difference, check_skeleton, reported
+from app.export.check_skeleton import SkeletonDifference, check_skeleton, reported
 from app.export.own_skeleton import own_target
 from app.export.target import TargetSkeleton
 from app.messages import text
@@ -65,20 +65,20 @@ def test_the_same_file_differs_in_nothing() -> None:
 @pytest.mark.parametrize(
     ("change", "expected"),
     [
-        (lambda f: renamed(f, HAND, "Hand_L"), Difference("additional", HAND, severe=True)),
-        (lambda f: renamed(f, "hair_2", "Braid"), Difference("additional", "hair_2", severe=False)),
-        (lambda f: renamed(f, "hair_2", "Braid"), Difference("missing", "Braid", severe=False)),
-        (lambda f: renamed(f, "Reference", "Rig"), Difference("root", "Reference", True, "Reference", "Rig")),
-        (lambda f: hung(f, HAIR, PREFIX + "neck"), Difference("parent", HAIR, True, "hair_0", PREFIX + "neck")),
-        (lambda f: shifted(f, HEAD, 0.004), Difference("position", HEAD, severe=False, amount=4.0)),
-        (lambda f: turned(f, HEAD, 2.5), Difference("rotation", HEAD, severe=False, amount=2.5)),
+        (lambda f: renamed(f, HAND, "Hand_L"), SkeletonDifference("additional", HAND, severe=True)),
+        (lambda f: renamed(f, "hair_2", "Braid"), SkeletonDifference("additional", "hair_2", severe=False)),
+        (lambda f: renamed(f, "hair_2", "Braid"), SkeletonDifference("missing", "Braid", severe=False)),
+        (lambda f: renamed(f, "Reference", "Rig"), SkeletonDifference("root", "Reference", True, "Reference", "Rig")),
+        (lambda f: hung(f, HAIR, PREFIX + "neck"), SkeletonDifference("parent", HAIR, True, "hair_0", PREFIX + "neck")),
+        (lambda f: shifted(f, HEAD, 0.004), SkeletonDifference("position", HEAD, severe=False, amount=4.0)),
+        (lambda f: turned(f, HEAD, 2.5), SkeletonDifference("rotation", HEAD, severe=False, amount=2.5)),
         (
             lambda f: replace(f, translations_m=f.translations_m / 100.0),
-            Difference("unit", "", severe=True, amount=100.0),
+            SkeletonDifference("unit", "", severe=True, amount=100.0),
         ),
     ],
 )
-def test_what_differs_is_found(change: Callable[[Figure], Figure], expected: Difference) -> None:
+def test_what_differs_is_found(change: Callable[[Figure], Figure], expected: SkeletonDifference) -> None:
     target, figure = exported()
     found = check_skeleton(target, change(figure))
     assert expected in found
@@ -88,7 +88,7 @@ def test_what_differs_is_found(change: Callable[[Figure], Figure], expected: Dif
 def test_a_unit_that_the_reader_corrected_is_still_the_assets() -> None:
     target, figure = exported()
     corrected = replace(figure, notes=(Message("figure.scaled", {"file": "x", "height_m": 0.017, "factor": 100.0}),))
-    assert check_skeleton(target, corrected)[0] == Difference("unit", "", severe=True, amount=100.0)
+    assert check_skeleton(target, corrected)[0] == SkeletonDifference("unit", "", severe=True, amount=100.0)
 
 
 def test_a_little_is_nothing() -> None:
@@ -100,7 +100,7 @@ def test_an_asset_with_several_roots_is_not_ours() -> None:
     character = foreign(character_named("woman_adult"), roots=2)
     assert character.own is not None
     found = check_skeleton(own_target(character), character.own.figure)
-    assert found[0] == Difference("root", "root", severe=True, ours="root", theirs="Reference, prop_1")
+    assert found[0] == SkeletonDifference("root", "root", severe=True, ours="root", theirs="Reference, prop_1")
 
 
 def test_it_is_reported_in_words() -> None:

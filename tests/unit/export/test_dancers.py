@@ -16,7 +16,7 @@ from app.choreography.performed.dancers import dancing_of
 from app.choreography.read_motion import read_motion
 from app.export.dancers import measure_dancer
 from app.export.report import Report
-from app.export.request import Request
+from app.export.request import ExportRequest
 from app.export.run import export
 from app.export.targets import target_skeleton
 from app.formats.fbx.read import read_scene, read_scenes
@@ -45,7 +45,7 @@ def written(tmp_path_factory: pytest.TempPathFactory) -> tuple[Report, Path, Pro
     performance = Performance(project)
     span = whole_span(performance.time_frame, FPS)
     formats = frozenset(("fbx", "bvh"))
-    request = Request(
+    request = ExportRequest(
         performance, (), folder / "out", formats, span, None, "piece.mid", "test", dancers=dancers, stage=True
     )
     return export(replace(request, stage=True), text), folder / "out", project
@@ -122,7 +122,7 @@ def test_a_dancer_who_was_moved_and_renamed_is_written_as_now(
     now = msgspec.structs.replace(project.dancers[0], name="Now", stage=StagePosition(-2.0, 4.0, 0.0))
     performance = Performance(replace(project, dancers=(now,)))
     span = whole_span(performance.time_frame, FPS)
-    request = Request(
+    request = ExportRequest(
         performance, (), tmp_path / "out", frozenset(("bvh",)), span, None, "piece.mid", "test", dancers=(now,)
     )
     [reported] = export(request, text).dancers

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from app.export.report import Report, failures
-from app.export.request import Request
+from app.export.request import ExportRequest
 from app.export.run import export
 from app.formats.fbx.read import read_scene
 from app.messages import text
@@ -27,7 +27,7 @@ REPORTED = {"limits of leftHand sideways"}
 
 def exported(project: Project, folder: Path, asked: int, formats: frozenset[str] = frozenset(("fbx", "glb"))) -> Report:
     performance = Performance(project)
-    request = Request(
+    request = ExportRequest(
         performance=performance,
         players=(project.players[asked],),
         folder=folder,

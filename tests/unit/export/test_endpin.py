@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from app.cli import main
-from app.export.playback import Playback, Surface
+from app.export.playback import ScenePlayback, Surface
 from app.formats.fbx.read import read_scene
 from app.rig.characters.character_library import bundled_characters
 from instrument_maps.load import bundled_maps
@@ -64,7 +64,7 @@ def test_the_tip_is_on_the_floor_as_long_as_a_user_plays(instrument: str, charac
     report = json.loads((tmp_path / "report.json").read_text(encoding="utf-8"))
     scene = read_scene(tmp_path / f"x_{instrument}.fbx")
     assert scene.clip is not None
-    played, mesh = Playback(scene, scene.clip), scene.meshes[0]
+    played, mesh = ScenePlayback(scene, scene.clip), scene.meshes[0]
     pin = played.bone_names.index(map.endpin.node)
     owner = np.asarray(mesh.joint_indices)[np.arange(len(mesh.vertices_cm)), np.argmax(mesh.weights, axis=1)]
     frames = scene.clip.frames

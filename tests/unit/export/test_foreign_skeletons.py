@@ -14,7 +14,7 @@ from app.export.character import character_scene
 from app.export.check_skeleton import check_skeleton
 from app.export.mannequin import mannequin_target
 from app.export.own_skeleton import own_target
-from app.export.playback import Playback, Surface
+from app.export.playback import ScenePlayback, Surface
 from app.export.target import TargetSkeleton
 from app.formats.fbx.read import read_scene
 from app.formats.fbx.write import write_scene
@@ -57,14 +57,14 @@ def random_motion(character: Character, seed: int = 1) -> Motion:
     )
 
 
-def written(character: Character, motion: Motion, target: TargetSkeleton | None, folder: Path) -> Playback:
+def written(character: Character, motion: Motion, target: TargetSkeleton | None, folder: Path) -> ScenePlayback:
     write_scene(folder / "x.fbx", character_scene(character, motion, "x", "test", target))
     scene = read_scene(folder / "x.fbx")
     assert scene.clip is not None
-    return Playback(scene, scene.clip)
+    return ScenePlayback(scene, scene.clip)
 
 
-def all_m(playback: Playback) -> np.ndarray:
+def all_m(playback: ScenePlayback) -> np.ndarray:
     world = playback.world(0, FRAMES)
     scene: Scene = playback.scene
     return np.concatenate(

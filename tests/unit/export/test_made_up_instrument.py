@@ -12,7 +12,7 @@ from app.contacts.judge import ContactJudge
 from app.export.character import character_scene
 from app.export.instrument import instrument_scene
 from app.export.measure import PlayerMeasures, measure_player
-from app.export.report import PlayerReport, StagePlace, failures
+from app.export.report import PlaceReport, PlayerReport, failures
 from app.motion.model import Motion
 from app.motion.perform import PerformanceCurves, prepare
 from app.plan.model import PlayerPlan
@@ -93,7 +93,7 @@ def test_fingers_that_play_nothing_wait_over_their_keys(played: Played) -> None:
 
 
 def test_the_written_files_keep_the_bounds_of_any_instrument(played: Played) -> None:
-    place = StagePlace(0.0, 0.0, 0.0)
+    place = PlaceReport(0.0, 0.0, 0.0)
     report = PlayerReport("p", "p", "pipe", "man_adult", "standing", {}, place, 1, played.measures, None, None)
     # The embouchures of this plan are not those of a fipple's player: lips are judged elsewhere.
     assert set(failures(report)) <= {"lips"}

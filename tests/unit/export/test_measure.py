@@ -11,7 +11,7 @@ import pytest
 
 from app.export.character import character_scene
 from app.export.instrument import instrument_scene
-from app.export.measure import Measured, greatest_correlations, measure_player
+from app.export.measure import PlayerMeasurement, greatest_correlations, measure_player
 from app.formats.scene import Scene
 from app.performance.bodies import body_of, character_of, model_of
 from app.performance.ensemble import Performance
@@ -41,7 +41,7 @@ class Case:
         self.player_scene = character_scene(self.character, motion, "x", "test")
         self.held_scene = instrument_scene(self.instrument, model_of(self.instrument), motion, "x", "test")
 
-    def measure(self, player_scene: Scene | None = None, held_scene: Scene | None = None) -> Measured:
+    def measure(self, player_scene: Scene | None = None, held_scene: Scene | None = None) -> PlayerMeasurement:
         body = body_of(self.player)
         return measure_player(
             player_scene or self.player_scene,

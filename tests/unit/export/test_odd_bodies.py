@@ -13,7 +13,7 @@ import pytest
 from app.cli import main
 from app.contacts.bounds import Spread
 from app.export.measure import PlayerMeasures
-from app.export.report import PlayerReport, StagePlace, failures
+from app.export.report import PlaceReport, PlayerReport, failures
 from instrument_maps.load import bundled_maps
 from tests.support.bodies import playing
 
@@ -97,7 +97,7 @@ def test_what_a_hold_misses_is_reported_and_no_more_than_that_is_forgiven() -> N
             PlayerMeasures,
         )
         missed = {"right.index.pad on key": missed_mm} if missed_mm else {}
-        place = StagePlace(0.0, 0.0, 0.0)
+        place = PlaceReport(0.0, 0.0, 0.0)
         return failures(
             PlayerReport("p", "p", "i", "c", "standing", {}, place, 1, measures, None, None, size=0.6, missed=missed)
         )

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.export.playback import Limbs, Middles, Playback, Surface
+from app.export.playback import Middles, PlaybackBones, ScenePlayback, Surface
 from tests.unit.export.scenes import random_scene, slow_positions_m
 
 
@@ -15,7 +15,7 @@ from tests.unit.export.scenes import random_scene, slow_positions_m
 def test_deformed_vertices(seed: int) -> None:
     scene = random_scene(seed)
     assert scene.clip is not None
-    playback = Playback(scene, scene.clip)
+    playback = ScenePlayback(scene, scene.clip)
     chosen = np.array([3, 0, 17, 42, 1, 17, 3])  # a landmark may name a vertex twice
     surface = Surface(playback, scene.meshes[0], chosen)
     positions = surface.positions_m(playback.world(2, 6), 2, 6)
@@ -27,11 +27,11 @@ def test_deformed_vertices(seed: int) -> None:
 def test_the_middle_of_a_surface_is_the_mean_of_its_deformed_vertices(seed: int) -> None:
     scene = random_scene(seed)
     assert scene.clip is not None
-    playback = Playback(scene, scene.clip)
+    playback = ScenePlayback(scene, scene.clip)
     vertices = {"few": [3, 0, 17, 42, 1, 17, 3], "one": [5], "all": [*range(43)]}
     surfaces = {name: Surface(playback, scene.meshes[0], np.array(chosen)) for name, chosen in vertices.items()}
     carriers = {int(joint) for surface in surfaces.values() for joint in surface.skin.joints}
-    limbs = Limbs(playback, carriers)
+    limbs = PlaybackBones(playback, carriers)
     middles = Middles({name: surface.skin for name, surface in surfaces.items()}, limbs)
     found = middles.places_m(limbs.world(2, 6, limbs.room(9)), playback.morphs(2, 6))
     for name, places_m in zip(middles.names, found, strict=True):
@@ -44,8 +44,8 @@ def test_bones_that_are_still_are_where_they_are_all_the_time() -> None:
     assert scene.clip is not None
     rotations = np.array(scene.clip.rotations_xyzw)
     rotations[:, 1:3] = rotations[:1, 1:3]
-    moving = Playback(scene, scene.clip)
-    stopped = Playback(scene, replace(scene.clip, rotations_xyzw=rotations, translations_cm={}))
+    moving = ScenePlayback(scene, scene.clip)
+    stopped = ScenePlayback(scene, replace(scene.clip, rotations_xyzw=rotations, translations_cm={}))
     assert not moving.still.all()
     assert stopped.still[1:3].all()
     once = stopped.world(0, 1)

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from app.cli import main
-from app.export.playback import Playback
+from app.export.playback import ScenePlayback
 from app.formats.fbx.read import read_scene
 from app.plan.by_hand.corrections import PoseCorrection
 from app.project.edit.corrections import put
@@ -26,7 +26,7 @@ def bell_directions(folder: Path) -> np.ndarray:
     """Where the instrument points in every frame, as written."""
     scene = read_scene(folder / f"{PLAYER}_trumpet_Bb.fbx")
     assert scene.clip is not None
-    playback = Playback(scene, scene.clip)
+    playback = ScenePlayback(scene, scene.clip)
     root = playback.world(0, scene.clip.frames)[:, 0]
     return root[:, :3, 2] / np.linalg.norm(root[:, :3, 2], axis=1, keepdims=True)
 

@@ -18,7 +18,7 @@ from app import child
 from app.errors import Cancelled, FileError
 from app.export import processes, worker
 from app.export.processes import Waiting, process_count
-from app.export.request import Request, cast_of
+from app.export.request import ExportRequest, cast_of
 from app.export.run import export
 from app.messages import text
 from app.performance.ensemble import Performance
@@ -32,9 +32,9 @@ ROOT = Path(__file__).parents[3]
 QUARTET = ROOT / "resources" / "examples" / "quartet.mid"
 
 
-def request(folder: Path, project: Project, processes: int | None) -> Request:
+def request(folder: Path, project: Project, processes: int | None) -> ExportRequest:
     performance = Performance(project)
-    return Request(
+    return ExportRequest(
         performance=performance,
         players=project.players[1:],
         folder=folder,
@@ -193,6 +193,6 @@ def test_more_processes_only_for_long_work(tmp_path: Path) -> None:
 def test_a_job_says_paths_that_are_no_text(tmp_path: Path) -> None:
     folder = odd(tmp_path)
     said = replace(request(folder, quartet(), 2), asset=odd(tmp_path, ".fbx"))
-    job = msgspec.msgpack.decode(msgspec.msgpack.encode(worker.job_of(said, folder)), type=worker.Job)
+    job = msgspec.msgpack.decode(msgspec.msgpack.encode(worker.job_of(said, folder)), type=worker.ExportJob)
     read = worker._request(job)
     assert (read.folder, read.asset) == (folder, said.asset)

@@ -14,8 +14,8 @@ import pytest
 from app.cli import main
 from app.export.joint_playback import JointPlayback
 from app.export.keyed import keyed_character, keyed_instrument
-from app.export.marks import Marks, part_marks
-from app.export.playback import Playback, Surface
+from app.export.marks import SkinnedMarks, part_marks
+from app.export.playback import ScenePlayback, Surface
 from app.export.reduced_keys import INSTRUMENT_MM, PLACE_MM, ROTATION_DEG, WEIGHT, reduced
 from app.export.target import TargetSkeleton
 from app.export.targets import target_skeleton
@@ -89,7 +89,7 @@ def _judge(found: Scene, meant: Scene, most_mm: float) -> None:
     assert meant.clip is not None
     frames = meant.clip.frames
     assert found.clip.frames == frames
-    shown, asked = Playback(found, found.clip), Playback(meant, meant.clip)
+    shown, asked = ScenePlayback(found, found.clip), ScenePlayback(meant, meant.clip)
     off = _angles_deg(shown.rotations(0, frames), asked.rotations(0, frames))
     assert off.max() <= ROTATION_DEG + 3 * FBX_STEADY_DEG
     places_mm = 1000.0 * np.linalg.norm(shown.translations_m(0, frames) - asked.translations_m(0, frames), axis=-1)
@@ -106,7 +106,7 @@ def _landmarks_mm(scene: Scene, character: Character, target: TargetSkeleton, pl
     assert played.clip is not None
     frames, result, found = scene.clip.frames, {}, []
     for one in (scene, played):
-        playback = Playback(one, one.clip)  # type: ignore[arg-type]
+        playback = ScenePlayback(one, one.clip)  # type: ignore[arg-type]
         joints, world = JointPlayback(playback, target, character), playback.world(0, frames)
         found.append(
             {
@@ -160,7 +160,7 @@ def test_an_fbx_instrument_plays_within_the_bounds_and_its_valves_reach_their_pl
     frames = meant.clip.frames
     for mesh, played in zip(meant.meshes, found.meshes, strict=True):
         vertices = np.arange(len(mesh.vertices_cm))[::7]
-        one, other = Playback(meant, meant.clip), Playback(found, found.clip)
+        one, other = ScenePlayback(meant, meant.clip), ScenePlayback(found, found.clip)
         for first in range(0, frames, 64):
             last = min(first + 64, frames)
             asked = Surface(one, mesh, vertices).positions_m(one.world(first, last), first, last)
@@ -217,7 +217,7 @@ def _expected(scene: Scene, sampled: list[int] | None = None) -> readers.Expecte
     assert scene.clip is not None
     clip = scene.clip
     sampled = list(range(clip.frames)) if sampled is None else sampled
-    world_cm = 100.0 * Playback(scene, clip).world(0, clip.frames)[sampled][..., :3, 3]
+    world_cm = 100.0 * ScenePlayback(scene, clip).world(0, clip.frames)[sampled][..., :3, 3]
     names = [bone.name for bone in scene.bones]
     return readers.Expected(
         fps=clip.fps,
@@ -259,7 +259,7 @@ def _smooth(scene: Scene, frames: int = 90) -> Scene:
 
 def _few(scene: Scene) -> Scene:
     assert scene.clip is not None
-    return reduced(scene, part_marks(Playback(scene, scene.clip)), PLACE_MM, True)
+    return reduced(scene, part_marks(ScenePlayback(scene, scene.clip)), PLACE_MM, True)
 
 
 @pytest.mark.parametrize("amplitude_rad", [0.6, 4.0], ids=["calm", "through gimbal lock"])
@@ -344,9 +344,9 @@ def test_marks_are_where_skinning_takes_the_landmarks(
 
     scene = every["character"]
     assert scene.clip is not None
-    playback = Playback(scene, scene.clip)
+    playback = ScenePlayback(scene, scene.clip)
     joints = JointPlayback(playback, target, character)
-    marks: Marks = character_marks(joints, character)
+    marks: SkinnedMarks = character_marks(joints, character)
     clip = replace(scene.clip, keys=Keys(tuple(np.zeros(1, int) for _ in scene.bones)))
     motion = _Motion(scene, clip, marks, PLACE_MM / 1000.0)
     frames = np.array([0, 100, 101, scene.clip.frames - 1])

@@ -13,7 +13,15 @@ from app.cli.summary import columns, summary
 from app.contacts.bounds import Spread
 from app.contacts.controls import ControlMeasure
 from app.export.measure import BreathMeasure, JointMeasure, PlayerMeasures
-from app.export.report import DancerMeasures, PlayerReport, Report, StagePlace, UnplayedPart, encode_report, failures
+from app.export.report import (
+    DancerMeasures,
+    PlaceReport,
+    PlayerReport,
+    Report,
+    UnplayedPartReport,
+    encode_report,
+    failures,
+)
 
 
 def measures(**changes: object) -> PlayerMeasures:
@@ -37,13 +45,13 @@ def measures(**changes: object) -> PlayerMeasures:
 
 
 def player(found: PlayerMeasures | None, sway: float | None = 0.5) -> PlayerReport:
-    place = StagePlace(0.0, 0.0, 0.0)
+    place = PlaceReport(0.0, 0.0, 0.0)
     files = {"character_fbx": "x.fbx"}
     return PlayerReport("Ünal 🎺", "p", "i", "c", "standing", files, place, 10, found, sway, 0.95)
 
 
 def report(*players: PlayerReport, first_frame_s: float = -2.0) -> Report:
-    unplayed = (UnplayedPart("tuba", "no map", 3),)
+    unplayed = (UnplayedPartReport("tuba", "no map", 3),)
     return Report("v", "s.mid", first_frame_s, 30.0, "30", 10, 1.0, None, 0, players, ("look here",), unplayed)
 
 

@@ -16,7 +16,7 @@ from app.export.equip import equipped, socket_names
 from app.export.instrument import instrument_scene
 from app.export.joint_playback import JointPlayback
 from app.export.keyed import key_count, keyed_character, keyed_instrument
-from app.export.playback import Playback, Surface
+from app.export.playback import ScenePlayback, Surface
 from app.export.rig import floor_place, rig_of
 from app.export.rig_options import Attachment, RigOptions
 from app.export.target import SkeletonChoice, TargetSkeleton
@@ -68,7 +68,7 @@ class Files:
     def joints(self) -> JointPlayback:
         scene = without_place(self.scene, self.target.place)
         assert scene.clip is not None
-        return JointPlayback(Playback(scene, scene.clip), self.target, self.character)
+        return JointPlayback(ScenePlayback(scene, scene.clip), self.target, self.character)
 
     def instrument(self) -> np.ndarray:
         """Where the instrument's bones are (F, N, 4, 4), in the player's own space."""

@@ -19,7 +19,7 @@ import pytest
 import soundfile
 
 from app.cli import main
-from app.export.playback import Playback
+from app.export.playback import ScenePlayback
 from app.export.report import PlayerReport, failures
 from app.formats import usd
 from app.formats.bvh import read_bvh
@@ -94,7 +94,7 @@ def test_the_character_file(folder: Path, report: dict[str, Any], name: str) -> 
     assert names[0] == "root"
     assert {"hips", "rightIndexDistal", "leftFoot", "leftThumbMetacarpal"} <= set(names)
     # The player stands at the origin, facing +Z: the left hand is on the +X side of the body at rest.
-    playback = Playback(scene, scene.clip)
+    playback = ScenePlayback(scene, scene.clip)
     world = playback.world(0, report["frames"])
     root = names.index("root")
     np.testing.assert_allclose(world[:, root], np.tile(np.eye(4), (report["frames"], 1, 1)), atol=1e-6)
@@ -112,11 +112,11 @@ def test_the_instrument_file_moves_with_the_player(folder: Path) -> None:
     names = [bone.name for bone in scene.bones]
     assert names[0] == "root"
     assert {"valve_1", "valve_2", "valve_3", "third_slide"} <= set(names)
-    instrument = Playback(scene, scene.clip)
+    instrument = ScenePlayback(scene, scene.clip)
     # The root's origin is the mouthpiece's rim, which is at the lips in almost all of these bars.
     player_scene = read_scene(folder / "Trumpet 1.fbx")
     assert player_scene.clip is not None
-    player = Playback(player_scene, player_scene.clip)
+    player = ScenePlayback(player_scene, player_scene.clip)
     frames = scene.clip.frames
     head = player.world(0, frames)[:, [bone.name for bone in player_scene.bones].index("head"), :3, 3]
     rim = instrument.world(0, frames)[:, 0, :3, 3]
@@ -131,7 +131,7 @@ def test_bvh_is_the_same_motion(folder: Path, report: dict[str, Any], name: str)
     assert scene.clip is not None
     assert clip.names[0] == "hips"
     assert len(clip.root_translation_cm) == report["frames"]
-    playback = Playback(scene, scene.clip)
+    playback = ScenePlayback(scene, scene.clip)
     world = playback.world(0, report["frames"])[..., :3, 3] * 100.0
     from app.export.joints import world_transforms
 
@@ -285,7 +285,7 @@ def test_names_become_files_only_inside_the_folder(tmp_path: Path) -> None:
 def expected(folder: Path, name: str, frames: list[int]) -> readers.Expected:
     scene = read_scene(folder / f"{name}.fbx")
     assert scene.clip is not None
-    playback = Playback(scene, scene.clip)
+    playback = ScenePlayback(scene, scene.clip)
     world_cm = playback.world(0, scene.clip.frames)[frames][..., :3, 3] * 100.0
     names = playback.bone_names
     return readers.Expected(

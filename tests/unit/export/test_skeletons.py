@@ -16,8 +16,8 @@ from app.export.instrument import instrument_scene
 from app.export.mannequin import mannequin_target
 from app.export.measure import PlayerMeasures, measure_player
 from app.export.own_skeleton import own_target
-from app.export.playback import Playback
-from app.export.request import Request
+from app.export.playback import ScenePlayback
+from app.export.request import ExportRequest
 from app.export.run import export
 from app.export.target import SkeletonChoice, TargetSkeleton, normalised_target
 from app.formats.fbx.read import read_scene
@@ -154,7 +154,7 @@ def test_a_spoilt_file_is_found_on_every_skeleton(piece: Piece, name: str) -> No
 def what_it_holds(scene: Scene) -> readers.Expected:
     assert scene.clip is not None
     frames = [0, 40, scene.clip.frames - 1]
-    playback = Playback(scene, scene.clip)
+    playback = ScenePlayback(scene, scene.clip)
     world_cm = playback.world(0, scene.clip.frames)[frames][..., :3, 3] * 100.0
     names = playback.bone_names
     return readers.Expected(
@@ -197,8 +197,8 @@ def test_slow_readers_read_the_same(piece: Piece, name: str, reader: str) -> Non
     readers.judge(piece.folder / f"{file}.fbx", what_it_holds(scene), [reader])
 
 
-def request(piece: Piece, folder: Path, skeleton: SkeletonChoice, asset: Path | None) -> Request:
-    return Request(
+def request(piece: Piece, folder: Path, skeleton: SkeletonChoice, asset: Path | None) -> ExportRequest:
+    return ExportRequest(
         performance=piece.performance,
         players=(piece.player,),
         folder=folder,

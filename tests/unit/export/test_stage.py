@@ -16,7 +16,7 @@ from scipy.spatial.transform import Rotation
 
 from app.cli import main
 from app.export.file_names import figure_stems, stage_names
-from app.export.playback import Playback
+from app.export.playback import ScenePlayback
 from app.export.stage import with_own_names
 from app.formats.fbx.read import read_scene, read_scenes
 from app.formats.scene import Material, Scene
@@ -47,7 +47,7 @@ def _hips_m(scene: Scene) -> np.ndarray:
     assert scene.clip is not None
     names = [bone.name for bone in scene.bones]
     bone = names.index("hips") if "hips" in names else 0
-    world: np.ndarray = Playback(scene, scene.clip).world(0, scene.clip.frames)[:, bone, :3, 3]
+    world: np.ndarray = ScenePlayback(scene, scene.clip).world(0, scene.clip.frames)[:, bone, :3, 3]
     return world
 
 

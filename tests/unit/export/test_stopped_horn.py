@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from app.cli import main
-from app.export.playback import Playback
+from app.export.playback import ScenePlayback
 from app.export.report import PlayerReport, failures
 from app.formats.fbx.read import read_scene
 from app.motion.contacts.hand_in_bell import CLOSES_S, READY_S
@@ -51,7 +51,7 @@ def test_the_palm_closes_the_bell_for_the_stopped_notes_and_comes_back(folder: P
     body, held = (read_scene(folder / player["files"][f"{name}_fbx"]) for name in ("character", "instrument"))
     assert body.clip is not None
     assert held.clip is not None
-    worlds = [Playback(scene, scene.clip).world(0, scene.clip.frames) for scene in (body, held)]  # type: ignore[arg-type]
+    worlds = [ScenePlayback(scene, scene.clip).world(0, scene.clip.frames) for scene in (body, held)]  # type: ignore[arg-type]
     names = [bone.name for bone in body.bones]
     horn = worlds[1][:, 0]
 

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from app.cli import main
-from app.export.playback import Playback, Surface
+from app.export.playback import ScenePlayback, Surface
 from app.export.report import PlayerReport
 from app.formats.fbx.read import read_scene
 from app.formats.scene import Scene
@@ -73,7 +73,7 @@ def moved_mm(scene: Scene, morph: str, first_s: float, bar: str, *places: int) -
     sizes_cm = np.linalg.norm(target.position_deltas_cm, axis=1)
     much = target.vertex_indices[sizes_cm > 0.8 * sizes_cm.max()]
     vertex = much[np.asarray(mesh.vertices_cm)[much, 1].argmin()]
-    playback = Playback(scene, scene.clip)
+    playback = ScenePlayback(scene, scene.clip)
     world = playback.world(0, scene.clip.frames)
     place_m = Surface(playback, mesh, np.array([vertex])).positions_m(world, 0, scene.clip.frames)[:, 0]
     head = world[:, [bone.name for bone in scene.bones].index("head")]

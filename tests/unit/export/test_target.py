@@ -17,7 +17,7 @@ from app.export.check_skeleton import check_skeleton
 from app.export.joint_playback import JointPlayback
 from app.export.mannequin import MANNEQUIN, MannequinAxes, mannequin_target
 from app.export.own_skeleton import own_target, own_weights
-from app.export.playback import Playback, Surface
+from app.export.playback import ScenePlayback, Surface
 from app.export.target import TargetSkeleton, bone_motion
 from app.formats.scene import check_scene
 from app.motion.model import Motion
@@ -56,14 +56,14 @@ def random_motion(seed: int, frames: int = 5, reach_rad: float = 1.0) -> Motion:
     )
 
 
-def played(character: Character, motion: Motion, target: TargetSkeleton) -> Playback:
+def played(character: Character, motion: Motion, target: TargetSkeleton) -> ScenePlayback:
     scene = character_scene(character, motion, "x", "test", target)
     check_scene(scene)
     assert scene.clip is not None
-    return Playback(scene, scene.clip)
+    return ScenePlayback(scene, scene.clip)
 
 
-def assert_joints_agree(character: Character, motion: Motion, target: TargetSkeleton, playback: Playback) -> None:
+def assert_joints_agree(character: Character, motion: Motion, target: TargetSkeleton, playback: ScenePlayback) -> None:
     world = playback.world(0, motion.frames)
     joints = forward(character.skeleton, motion.rotations.astype(np.float64), motion.hips_m.astype(np.float64))
     for joint, bone in target.bone_of_joint.items():
@@ -75,7 +75,7 @@ def assert_joints_agree(character: Character, motion: Motion, target: TargetSkel
         assert np.degrees(turned.magnitude()).max() < 0.01, target.names[bone]
 
 
-def surfaces_m(playback: Playback) -> np.ndarray:
+def surfaces_m(playback: ScenePlayback) -> np.ndarray:
     frames = playback.clip.frames
     world = playback.world(0, frames)
     every = [np.arange(0, len(mesh.vertices_cm), 7) for mesh in playback.scene.meshes]
@@ -117,7 +117,7 @@ def test_skin_is_where_it_is_on_ours() -> None:
     own = surfaces_m(played(character, motion, own_target(character)))
     normal = character_scene(character, motion, "x", "test")
     assert normal.clip is not None
-    playback, world = Playback(normal, normal.clip), None
+    playback, world = ScenePlayback(normal, normal.clip), None
     world = playback.world(0, motion.frames)
     starts = np.cumsum([0, *(len(mesh.positions_m) for mesh in character.meshes)])
     rows = np.concatenate(
@@ -267,7 +267,7 @@ def test_the_mannequins_skin_is_ours() -> None:
     motion.rotations[:, eyes] = quaternion.IDENTITY
     normal = character_scene(ours(), motion, "x", "test")
     assert normal.clip is not None
-    expected = surfaces_m(Playback(normal, normal.clip))
+    expected = surfaces_m(ScenePlayback(normal, normal.clip))
     found = surfaces_m(played(ours(), motion, mannequin_target(ours().skeleton)))
     assert np.linalg.norm(expected - found, axis=-1).max() / MM < 0.01
 

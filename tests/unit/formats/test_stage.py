@@ -21,7 +21,7 @@ from app.formats.fbx.read import read_scene, read_scenes
 from app.formats.fbx.write import write_scenes
 from app.formats.gltf.read import read_glb
 from app.formats.gltf.write import write_glbs
-from app.formats.scene import Material, Place, Scene
+from app.formats.scene import Material, NodePlace, Scene
 from app.formats.usd import write_usds
 from tests.support.readers import QUICK_FBX, QUICK_GLB, QUICK_USD, SLOW_FBX, SLOW_GLB, Expected, installed, judge
 from tests.unit.export.scenes import slow_positions_m
@@ -53,11 +53,11 @@ def stage() -> tuple[Scene, ...]:
     )
 
 
-def _place(x_cm: float, z_cm: float, turn_deg: float) -> Place:
-    return Place(np.array([x_cm, 0.0, z_cm]), Rotation.from_euler("y", turn_deg, degrees=True).as_quat())
+def _place(x_cm: float, z_cm: float, turn_deg: float) -> NodePlace:
+    return NodePlace(np.array([x_cm, 0.0, z_cm]), Rotation.from_euler("y", turn_deg, degrees=True).as_quat())
 
 
-def _figure(scene: Scene, name: str, prefix: str, place: Place) -> Scene:
+def _figure(scene: Scene, name: str, prefix: str, place: NodePlace) -> Scene:
     bones = tuple(replace(bone, name=prefix + bone.name) for bone in scene.bones)
     meshes = tuple(replace(mesh, name=f"{name}_{mesh.name}") for mesh in scene.meshes)
     clip = scene.clip

@@ -15,7 +15,7 @@ import pytest
 from app.errors import FileError, UsageError
 from app.formats import usd
 from app.formats.scene import Scene
-from app.formats.usd import Sound, usd_installed, write_usd
+from app.formats.usd import UsdSound, usd_installed, write_usd
 from app.messages import text
 from tests.support.skinned import UsdFile
 from tests.unit.export.scenes import random_scene, slow_positions_m
@@ -24,7 +24,7 @@ from tests.unit.formats import scenes
 needs_usd = pytest.mark.skipif(not usd_installed(), reason="usd-core is not installed")
 
 
-def _stage(path: Path, scene: Scene, sound: Sound | None = None) -> Any:
+def _stage(path: Path, scene: Scene, sound: UsdSound | None = None) -> Any:
     from pxr import Usd
 
     write_usd(path, scene, sound)
@@ -47,7 +47,7 @@ def test_usd_deforms_the_mesh_as_meant(seed: int, tmp_path: Path) -> None:
 def test_the_validators_find_nothing(make: Any, tmp_path: Path) -> None:
     validation = pytest.importorskip("pxr.UsdValidation")
     (tmp_path / "song.wav").write_bytes(b"")
-    stage = _stage(tmp_path / "scene.usdc", make(Fraction(24)), Sound("song.wav", 1.0))
+    stage = _stage(tmp_path / "scene.usdc", make(Fraction(24)), UsdSound("song.wav", 1.0))
     validators = validation.ValidationRegistry().GetOrLoadAllValidators()
     assert len(validators) > 10
     errors = validation.ValidationContext(validators).Validate(stage)
@@ -124,7 +124,7 @@ def test_the_sound_plays_along(start_s: float, tmp_path: Path, capfd: pytest.Cap
     from pxr import UsdMedia
 
     (tmp_path / "song one.wav").write_bytes(b"")
-    stage = _stage(tmp_path / "scene.usdc", scenes.instrument(Fraction(24)), Sound("song one.wav", start_s))
+    stage = _stage(tmp_path / "scene.usdc", scenes.instrument(Fraction(24)), UsdSound("song one.wav", start_s))
     sound = UsdMedia.SpatialAudio(stage.GetDefaultPrim().GetChild("Sound"))
     assert sound.GetFilePathAttr().Get().path == "./song one.wav"
     assert Path(sound.GetFilePathAttr().Get().resolvedPath) == tmp_path / "song one.wav"
@@ -149,7 +149,7 @@ def test_a_still_scene_and_a_bare_skeleton(tmp_path: Path) -> None:
     from pxr import UsdSkel
 
     scene = scenes.character(Fraction(24))
-    still = _stage(tmp_path / "still.usdc", replace(scene, clip=None), Sound("song.wav", 0.0))
+    still = _stage(tmp_path / "still.usdc", replace(scene, clip=None), UsdSound("song.wav", 0.0))
     assert [child.GetName() for child in still.GetDefaultPrim().GetChildren()] == [
         "root_skeleton", "Body", "Materials", "Teeth", "Shirt",
     ]  # fmt: skip

@@ -199,11 +199,11 @@ def test_trigger_moves_its_pad_forward_by_a_thumbs_stroke() -> None:
     assert stroke @ np.array(contact.normal) < 0  # away from the thumb
 
 
-def bodies_of(instrument: InstrumentMap) -> tuple[instrument_proxy.Bodies, instrument_proxy.Nodes]:
+def bodies_of(instrument: InstrumentMap) -> tuple[instrument_proxy.Bodies, instrument_proxy.InstrumentNodes]:
     """The collision bodies, and their nodes at rest."""
     places = origins(model_of(instrument.id))
     place_m = np.array(list(places.values()))
-    return instrument_proxy.bodies(instrument.proxy, list(places)), instrument_proxy.Nodes(
+    return instrument_proxy.bodies(instrument.proxy, list(places)), instrument_proxy.InstrumentNodes(
         place_m, np.tile(np.eye(3), (len(place_m), 1, 1))
     )
 

@@ -13,7 +13,7 @@ from app.plan.model import (
     TimeFrame,
     TongueEvent,
 )
-from instrument_maps.model import Control, Motion
+from instrument_maps.model import Control, ControlMotion
 
 TICKS = 480
 REASON = Message("test.reason")
@@ -25,7 +25,7 @@ def press(name: str = "valve_1", **changes: object) -> Control:
         "kind": "press",
         "role": "pitch",
         "node": name,
-        "motion": Motion(axis=(0.0, -1.0, 0.0), travel_m=0.016),
+        "motion": ControlMotion(axis=(0.0, -1.0, 0.0), travel_m=0.016),
         "finger": "right.index",
     }
     return Control(name=name, **(settings | changes))  # type: ignore[arg-type]
@@ -37,7 +37,7 @@ def slide(name: str = "slide", **changes: object) -> Control:
         "kind": "slide",
         "role": "pitch",
         "node": name,
-        "motion": Motion(axis=(0.0, 0.0, 1.0), travel_m=0.6),
+        "motion": ControlMotion(axis=(0.0, 0.0, 1.0), travel_m=0.6),
         "finger": "right.hand",
         "move_note_share": 0.5,
         "max_speed_m_s": 2.5,

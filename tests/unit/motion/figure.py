@@ -100,11 +100,11 @@ def hold(bones: Skeleton, slide_m: float = 0.0, sliding: str = "right") -> GripP
 def instrument_map(*controls: maps.Control) -> InstrumentMap:
     """A map with these controls and a usual carriage."""
     carriage = maps.Carriage((-10.0, 10.0, 40.0), (-5.0, 0.0, 5.0), (-10.0, 0.0, 10.0))
-    lowered = maps.Lowered((0.0, -0.30, 0.05), 40.0, 10.0, 0.0)
+    lowered = maps.LoweredPlace((0.0, -0.30, 0.05), 40.0, 10.0, 0.0)
     return InstrumentMap(
         schema_version=1,
         id="thing",
-        name=maps.Name("thing", "thing"),
+        name=maps.InstrumentName("thing", "thing"),
         short_name="thing",
         plays=(),
         transposition_semitones=0,

@@ -14,7 +14,7 @@ from app.plan.music.dynamics import dynamics_of
 from app.plan.music.piece import line_times
 from app.plan.parameters import PlayerParameters
 from app.plan.rules import facts_of, matches
-from metadata.gestures import Gesture, Key, Track
+from metadata.gestures import AngleKey, AngleTrack, Gesture
 from metadata.library import _all_rules, bundled_gestures, bundled_rules
 from metadata.rules import Do, Rule, RuleSet, When, rule_faults
 from metadata.tables import Title
@@ -29,7 +29,12 @@ NOTES = line_of(
     (24 * Q, Q, 62, 60), (25 * Q, Q, 76, 60), (26 * Q, 2 * Q, 64, 60),
 )  # fmt: skip
 LINE = MonophonicPart("p", NOTES, valves())
-NOD = Gesture("nodding", Title("Nodding"), 1.0, (Track("head", "up", (Key(0.0, 0.0), Key(0.4, -8.0), Key(1.0, 0.0))),))
+NOD = Gesture(
+    "nodding",
+    Title("Nodding"),
+    1.0,
+    (AngleTrack("head", "up", (AngleKey(0.0, 0.0), AngleKey(0.4, -8.0), AngleKey(1.0, 0.0))),),
+)
 
 
 def plan(*rules: Rule, line: MonophonicPart = LINE, gesture: Gesture = NOD) -> PlayerPlan:

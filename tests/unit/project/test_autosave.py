@@ -20,7 +20,7 @@ import pytest
 from app.errors import FileError
 from app.formats import atomic
 from app.messages import error_text, text
-from app.project.autosave import PATIENCE_S, Autosave, Writing, Written, autosave_path
+from app.project.autosave import PATIENCE_S, Autosave, AutosaveResult, Writing, autosave_path
 from app.project.model import Project
 from app.project.presence import Presence, editors, is_open_elsewhere
 from app.project.recovery import Recoverable, discard, load_work, recoverable, recoverable_of
@@ -64,7 +64,7 @@ def later(project: Project) -> Project:
     return replace(project, seed=project.seed + 1)
 
 
-def made(autosave: Autosave, writing: Writing, now_s: float) -> Written:
+def made(autosave: Autosave, writing: Writing, now_s: float) -> AutosaveResult:
     """What the shell does with a writing that is due."""
     try:
         written = writing.run()

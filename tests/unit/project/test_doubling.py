@@ -15,7 +15,7 @@ from app.project.doubling import together_s
 from app.project.edit import players as edit
 from app.project.edit.generation import vary_players
 from app.project.model import project_from_score, with_settings
-from app.project.parameters import Setting
+from app.project.parameters import ParameterSetting
 from app.project.performers import Player
 from app.project.reimport import reimport
 from app.project.storage import load, save
@@ -155,7 +155,7 @@ def test_a_reimport_keeps_it_and_casts_a_new_change_so() -> None:
 def test_a_setting_of_one_instrument_is_one_of_the_musician() -> None:
 
     project = flutist()
-    changed = with_settings(project, [Setting(1, "amplitude", 0.77)], MAPS)
+    changed = with_settings(project, [ParameterSetting(1, "amplitude", 0.77)], MAPS)
     assert [player.parameters.amplitude for player in changed.players[:2]] == [0.77, 0.77]
 
 

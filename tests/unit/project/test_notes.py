@@ -232,7 +232,7 @@ def test_copy_and_paste(given: tuple[Project, frozenset[str]], at: int) -> None:
     project, ids = given
     target = project.score.parts[-1].id
     taken = [row for row in rows(project) if row[1] in ids]
-    clip = msgspec.json.decode(msgspec.json.encode(edit.copied(project, ids)), type=edit.Clip)
+    clip = msgspec.json.decode(msgspec.json.encode(edit.copied(project, ids)), type=edit.ClipboardNotes)
     result, new = edit.paste(project, target, clip, at)
     first = min((row[2] for row in taken), default=0)
     several = len({row[0] for row in taken}) > 1
@@ -244,7 +244,7 @@ def test_copy_and_paste(given: tuple[Project, frozenset[str]], at: int) -> None:
 
 
 def test_paste_counts_ticks_anew_in_another_resolution() -> None:
-    clip = edit.Clip(TPQ * 2, (edit.CopiedLine("9.9.9", (edit.CopiedNote(960, 1, 60, 80),)),))
+    clip = edit.ClipboardNotes(TPQ * 2, (edit.CopiedLine("9.9.9", (edit.CopiedNote(960, 1, 60, 80),)),))
     result, _ = edit.paste(project_of(part("1.1.1", [])), "1.1.1", clip, 10)
     assert [row[2:4] for row in rows(result)] == [(490, 491)]
 

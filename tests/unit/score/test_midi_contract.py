@@ -14,7 +14,7 @@ import msgspec
 import pytest
 
 from app.capture.journal import is_whole
-from app.score.sounding import Sounding
+from app.score.sounding import SoundingNotes
 from app.score.take import ControllerMapping, decoded, said
 from app.score.tracks import TrackEvents, gather
 from metadata.model import BiteSource, BreathSource
@@ -185,7 +185,7 @@ def _kinds(raw: bytes, mapping: ControllerMapping) -> set[str]:
     message = decoded(raw.hex())
     if message is None:
         return set()
-    sounding: Sounding[None] = Sounding()
+    sounding: SoundingNotes[None] = SoundingNotes()
     sounding.receive(bytes([0x90 | raw[0] & 0xF, 60, 64]), None)
     ended = bool(sounding.receive(raw, None)) and raw[0] >> 4 != 0x9
     return {kind for kind, _ in said(message, mapping)} | ({"end"} if ended else set())

@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from app.score.model import Score
-from app.score.sounding import Sounding
+from app.score.sounding import SoundingNotes
 from tests.unit.score.midi_bytes import END, MAPS, chunk, header, meta, notes_of, one_track, score_of
 from tests.unit.score.test_mpe import track
 
@@ -86,7 +86,7 @@ def test_two_voices_in_unison_are_one_player_on_two_channels_too() -> None:
 def test_files_and_takes_have_the_same_notes_of_a_pitch(steps: list[bool]) -> None:
     events = [(on if begins else off)(96 * place) for place, begins in enumerate(steps)]
     events.append(off(96 * len(steps)))
-    sounding, struck = Sounding[int](), []
+    sounding, struck = SoundingNotes[int](), []
     for tick, message in events:
         struck += [(onset, tick) for _, onset in sounding.receive(message, tick)]
     ours = sorted((one.onset_tick, one.end_tick) for part in read(events).parts for one in part.notes)

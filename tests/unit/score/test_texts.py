@@ -4,12 +4,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from app.score.texts import Texts
+from app.score.texts import TextDecoder
 
 
 def decoded(data: bytes, encoding: str | None = None) -> str:
     """A text that stands alone."""
-    return Texts([data], encoding=encoding).read(data)
+    return TextDecoder([data], encoding=encoding).read(data)
 
 
 @pytest.mark.parametrize(
@@ -84,7 +84,7 @@ def test_control_characters_and_outer_space_fall_away() -> None:
 )
 def test_the_texts_of_a_file_say_together_how_they_are_encoded(encoding: str, names: str) -> None:
     data = [name.encode(encoding) for name in names.split()]
-    texts = Texts(data[:1], data[1:])
+    texts = TextDecoder(data[:1], data[1:])
     assert texts.encoding == encoding
     assert [texts.read(name) for name in data] == names.split()
 
@@ -95,24 +95,24 @@ def test_a_text_that_would_be_odd_in_the_encoding_of_the_others_has_its_own() ->
         b"Horn",
         "소리".encode(),
     ]
-    assert [Texts(data).read(name) for name in data] == ["トランペット", "吹奏楽", "Flöte", "Horn", "소리"]
+    assert [TextDecoder(data).read(name) for name in data] == ["トランペット", "吹奏楽", "Flöte", "Horn", "소리"]
 
 
 @pytest.mark.parametrize("encoding", ["utf-8-sig", "utf-16", "utf-16-be", "utf-16-le"])
 def test_unicode_needs_no_guess(encoding: str) -> None:
     data = "Trompete in B".encode(encoding)
     assert decoded(data) == "Trompete in B"
-    assert Texts([data]).encoding == ""
+    assert TextDecoder([data]).encoding == ""
     marked = b"\xfe\xff" + "Flöte ♭".encode("utf-16-be")
     assert decoded(marked) == "Flöte ♭"
 
 
 def test_chinese_that_happens_to_be_utf_8_is_chinese_beside_chinese() -> None:
     data = [name.encode("gbk") for name in ("单簧管", "陶笛", "鼓")]
-    assert [Texts(data).read(name) for name in data] == ["单簧管", "陶笛", "鼓"]
+    assert [TextDecoder(data).read(name) for name in data] == ["单簧管", "陶笛", "鼓"]
 
 
 @given(st.lists(st.binary(max_size=40), max_size=5))
 def test_any_bytes_are_read(given_texts: list[bytes]) -> None:
-    texts = Texts(given_texts, given_texts)
+    texts = TextDecoder(given_texts, given_texts)
     assert all(isinstance(texts.read(data), str) for data in given_texts)

@@ -12,7 +12,7 @@ from app.score.metre_map import Metre
 from app.score.model import ControllerCurve, Note, Part, Score
 from app.score.read import read_midi
 from app.score.tempo import TempoChange, TempoMap
-from app.score.write import Performer, midi_file, write_midi
+from app.score.write import PartPlayer, midi_file, write_midi
 from instrument_maps.vocabulary import vocabulary
 from tests.unit.score.midi_bytes import MAPS, TROMBONE, TRUMPET
 
@@ -27,7 +27,7 @@ def score(*parts: Part, division: int = 96, tempo: float = 500_000.0) -> Score:
     return Score("Piece", division, TempoMap(division, (TempoChange(0, tempo),)), parts=parts)
 
 
-def again(written: Score, folder: Path, performers: dict[str, Performer] | None = None) -> Score:
+def again(written: Score, folder: Path, performers: dict[str, PartPlayer] | None = None) -> Score:
     path = folder / "written.mid"
     write_midi(written, path, performers)
     return read_midi(path, maps=MAPS)
@@ -63,15 +63,15 @@ def test_texts_beyond_ascii(tmp_path: Path) -> None:
 
 def test_a_part_that_says_nothing_is_read_for_who_plays_it(tmp_path: Path) -> None:
     silent = part("Anna", program=None, instrument=None, map_id="trombone")
-    read = again(score(silent), tmp_path, {"p": Performer("Anna", TROMBONE)})
+    read = again(score(silent), tmp_path, {"p": PartPlayer("Anna", TROMBONE)})
     assert [(one.name, one.map_id, one.program) for one in read.parts] == [("Anna", "trombone", 57)]
     assert read.warnings == ()
 
 
 def test_a_name_that_says_another_instrument_is_reported() -> None:
-    given = midi_file(score(part("Violin 1", instrument="violin")), {"p": Performer("Violin 1", TRUMPET)})
+    given = midi_file(score(part("Violin 1", instrument="violin")), {"p": PartPlayer("Violin 1", TRUMPET)})
     assert [warning.id for warning in given.warnings] == ["midi.name_says_other"]
-    assert midi_file(score(part()), {"p": Performer("Trumpet 2", TRUMPET)}).warnings == ()
+    assert midi_file(score(part()), {"p": PartPlayer("Trumpet 2", TRUMPET)}).warnings == ()
 
 
 def test_notes_together_are_reported() -> None:

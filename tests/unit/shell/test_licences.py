@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from app.shell.licences import Package, Part, data, distributions, installed, package_of
+from app.shell.licences import Package, ThirdPartyWork, data, distributions, installed, package_of
 
 ROOT = Path(__file__).parents[3]
 LIBRARY = re.compile(r"\.(so|dylib|dll|exe)(\.|$)")
@@ -75,7 +75,7 @@ def test_the_program_that_makes_films_is_named() -> None:
     (part,) = PACKAGES["imageio-ffmpeg"].parts
     programs = [file for file in distributions()["imageio-ffmpeg"].files or () if fnmatch(str(file), part.files[0])]
     assert len(programs) == 1
-    assert part == Part("FFmpeg", "GPL-3.0-or-later", "https://ffmpeg.org/download.html", part.files)
+    assert part == ThirdPartyWork("FFmpeg", "GPL-3.0-or-later", "https://ffmpeg.org/download.html", part.files)
 
 
 def test_every_folder_of_data_has_a_licence() -> None:

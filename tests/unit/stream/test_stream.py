@@ -33,7 +33,7 @@ from app.rig.skeleton import forward
 from app.score.read import read_midi
 from app.stream.faces import FACE_NAMES, VRM_PRESETS
 from app.stream.packets import MOST_BYTES
-from app.stream.sender import Outcome, Sender, StreamError, find_address, is_loopback, reaches_many
+from app.stream.sender import Sender, SendOutcome, StreamError, find_address, is_loopback, reaches_many
 from app.stream.unity import unity_bone
 from app.stream.vmc import Sent
 from instrument_maps.load import bundled_maps
@@ -333,7 +333,7 @@ def test_over_the_wire() -> None:
     with Receiver() as receiver:
         sender = Sender(find_address("127.0.0.1", receiver.port))
         for _ in range(30):
-            assert sender.send(packets) is Outcome.SENT
+            assert sender.send(packets) is SendOutcome.SENT
         assert receiver.wait(lambda: len(receiver.packets) == 30 * len(packets))
         sender.close()
         assert [packet for _, packet in receiver.packets] == packets * 30
@@ -349,7 +349,7 @@ def test_a_missing_receiver_is_no_error_and_a_later_one_receives() -> None:
     start_s = time.process_time()
     outcomes = {sender.send(packets) for _ in range(50)}
     assert time.process_time() - start_s < 0.5
-    assert outcomes <= {Outcome.SENT, Outcome.NO_RECEIVER}
+    assert outcomes <= {SendOutcome.SENT, SendOutcome.NO_RECEIVER}
     with Receiver(port) as receiver:
         for _ in range(5):
             sender.send(packets)
@@ -366,7 +366,7 @@ def test_a_full_buffer_drops_the_frame_at_once(monkeypatch: pytest.MonkeyPatch) 
             raise BlockingIOError
 
     monkeypatch.setattr(sender, "_socket", Full())
-    assert sender.send([b"abcd"]) is Outcome.DROPPED
+    assert sender.send([b"abcd"]) is SendOutcome.DROPPED
 
 
 def test_what_cannot_be_reached_is_said() -> None:

@@ -22,8 +22,8 @@ from app.project.model import Project
 from app.project.performers import Player
 from app.score.model import Note, Part, Score
 from app.score.tempo import TempoMap
-from widgets.timeline.model.gestures import Band, Step, either, moved_edge
-from widgets.timeline.model.hand import Box, LaneMouse, spanned
+from widgets.timeline.model.gestures import Band, LiveEdit, either, moved_edge
+from widgets.timeline.model.hand import LaneMouse, PixelRect, spanned
 from widgets.timeline.model.regions.shown_event import Region
 from widgets.timeline.model.regions.shown_regions import RegionTable, region_box
 from widgets.timeline.model.roll.shown_notes import edge_of, zoomed_pitches
@@ -116,7 +116,7 @@ def test_an_edge_stops_before_the_other(tick: int, at_start: bool) -> None:
 def test_a_drag_is_one_step_and_can_be_taken_back() -> None:
     desk = Desk()
     before = desk.project
-    step = Step(desk, desk)
+    step = LiveEdit(desk, desk)
     for ticks in (10, 20, 30):
         assert step.edit(Message("edit.move_notes", {"count": 1}), moved_by(ticks))
     assert (onset(desk), len(desk.document.done)) == (30, 1)
@@ -127,7 +127,7 @@ def test_a_drag_is_one_step_and_can_be_taken_back() -> None:
 
 def test_a_step_that_was_undone_in_the_middle_does_nothing_more() -> None:
     desk = Desk()
-    step = Step(desk, desk)
+    step = LiveEdit(desk, desk)
     step.edit(Message("edit.move_notes", {"count": 1}), moved_by(10))
     desk.document.undo()
     assert not step.edit(Message("edit.move_notes", {"count": 1}), moved_by(20))
@@ -146,7 +146,7 @@ class Plane:
 
 
 def test_a_rubber_band_begins_late_and_stays_with_the_picture() -> None:
-    plane, boxes = Plane(), list[Box]()
+    plane, boxes = Plane(), list[PixelRect]()
     band = Band(plane, mouse(100.0, 10.0), either(3.0), lambda box, _: boxes.append(box))
     band.drag(mouse(102.0, 12.0))
     assert not boxes
@@ -162,7 +162,7 @@ def test_a_rubber_band_begins_late_and_stays_with_the_picture() -> None:
 def test_boxes_meet_where_they_have_pixels_in_common(places: list[int]) -> None:
     one, other = (spanned(*places[at : at + 4]) for at in (0, 4))
 
-    def cells(box: Box) -> set[tuple[int, int]]:
+    def cells(box: PixelRect) -> set[tuple[int, int]]:
         return {(x, y) for x in range(int(box.left), int(box.right)) for y in range(int(box.top), int(box.bottom))}
 
     assert one.meets(other) is bool(cells(one) & cells(other))

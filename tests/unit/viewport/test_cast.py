@@ -17,7 +17,7 @@ from tests.support.deformed import deform
 from tests.unit.viewport.poses import pose, posed_stage, quartet
 from widgets.viewport.cast import Stage, kit_of, member_of, placed
 from widgets.viewport.contacts import touches
-from widgets.viewport.limbs import LIMBS, Limbs, hit
+from widgets.viewport.limbs import LIMBS, LimbCapsules, hit
 
 
 @pytest.mark.parametrize("row", range(4))
@@ -103,7 +103,7 @@ def test_only_who_is_seated_has_a_seat_under_the_hips() -> None:
 
 def test_a_ray_finds_the_nearest_player_and_misses_between_them() -> None:
     stage = posed_stage()
-    capsules = Limbs(stage).capsules()
+    capsules = LimbCapsules(stage).capsules()
     assert capsules.shape == (4, LIMBS, 2, 4)
     for row in range(4):
         chest = stage.joint_m(row, "chest")
@@ -117,6 +117,6 @@ def test_a_ray_finds_the_nearest_player_and_misses_between_them() -> None:
 
 def test_feet_stand_on_the_floor() -> None:
     """The capsules of the feet touch the floor when the soles do."""
-    capsules = Limbs(posed_stage()).capsules()
+    capsules = LimbCapsules(posed_stage()).capsules()
     feet = capsules[:, LIMBS - 4 : LIMBS - 2]
     assert np.abs(feet[..., 1] - 0.6 * feet[..., 3]).max() < 0.012

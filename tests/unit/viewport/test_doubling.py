@@ -8,12 +8,12 @@ from app.project.edit import players as edit
 from app.project.model import Project
 from tests.support.doubled import flutist
 from widgets.viewport.cast import Stage
-from widgets.viewport.figures import Loaded, cast_key, load, moved, same_figures
-from widgets.viewport.limbs import HELD, Limbs
+from widgets.viewport.figures import DrawableFigures, cast_key, load, moved, same_figures
+from widgets.viewport.limbs import HELD, LimbCapsules
 from widgets.viewport.renderer import crowd_of
 
 
-def loaded(project: Project) -> Loaded:
+def loaded(project: Project) -> DrawableFigures:
     return load(project, None, lambda share: None, lambda: False)
 
 
@@ -39,7 +39,7 @@ def test_the_body_is_drawn_once_and_both_instruments_have_a_stand() -> None:
 def test_a_click_on_the_body_finds_the_musician_and_the_shadow_of_the_other_is_its_own() -> None:
     stage: Stage = loaded(flutist()).stage
     stage.shown[:] = True
-    capsules = Limbs(stage).capsules()
+    capsules = LimbCapsules(stage).capsules()
     assert (capsules[1, :HELD, :, 3] == 0.0).all()
     assert (capsules[0, :HELD, :, 3] > 0.0).all()
     assert (capsules[1, HELD, :, 3] > 0.0).all()

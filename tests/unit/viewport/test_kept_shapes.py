@@ -10,7 +10,7 @@ import pytest
 from app.formats.cache import CACHE_VARIABLE
 from app.rig.mesh import Mesh
 from widgets.viewport.kept_shapes import kept
-from widgets.viewport.shape_model import SHAPE, SURFACE, Face, Geometry
+from widgets.viewport.shape_model import SHAPE, SURFACE, Geometry, MorphTargets
 
 
 def level(count: int, face: bool, shared: bool) -> Geometry:
@@ -18,7 +18,9 @@ def level(count: int, face: bool, shared: bool) -> Geometry:
     shape = random.random((count, 6), np.float32).view(SHAPE).reshape(-1)
     surfaces = random.random((3 if shared else count, 13), np.float32).view(SURFACE).reshape(-1)
     vertices, deltas = np.arange(5, dtype=np.int32), random.random((5, 6), np.float32)
-    made = Face(6, ("a", "b"), ((vertices, deltas), (vertices[:0], deltas[:0])), random.random((6, 6), np.float32))
+    made = MorphTargets(
+        6, ("a", "b"), ((vertices, deltas), (vertices[:0], deltas[:0])), random.random((6, 6), np.float32)
+    )
     triangles = random.integers(0, count, (2 * count, 3)).astype(np.uint16 if shared else np.uint32)
     return Geometry(
         shape,

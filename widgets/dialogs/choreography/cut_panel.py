@@ -17,7 +17,7 @@ from widgets.common.layouts import STRETCH, in_column, in_row
 from widgets.common.plain import Label
 from widgets.dialogs.choreography.cut_figure import PoseFigure, pose_of
 from widgets.dialogs.choreography.cut_plot import CutPlot
-from widgets.dialogs.choreography.learn_draft import Found, PairDraft
+from widgets.dialogs.choreography.learn_draft import PairContents, PairDraft
 
 _EMPTY = np.zeros(0), Fraction(60), 0.0, np.zeros(0)
 
@@ -64,7 +64,7 @@ class CutPanel(Retranslated, QWidget):
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._session = session
-        self._draft, self._found, self._history = PairDraft(), Found(), CutHistory()
+        self._draft, self._found, self._history = PairDraft(), PairContents(), CutHistory()
         self.plot, self.figure = CutPlot(session), PoseFigure(session)
         self._title, self._place, self._hint = Label(), Label(), Caption("cut_panel.angular_acceleration_rad_s_over")
         self._place.setObjectName("cut_place")
@@ -90,7 +90,7 @@ class CutPanel(Retranslated, QWidget):
         self.texted(self.plot.plot, name="cut_panel.cuts_of_motion")
         self.retranslate()
 
-    def show_pair(self, draft: PairDraft, found: Found, history: CutHistory) -> None:
+    def show_pair(self, draft: PairDraft, found: PairContents, history: CutHistory) -> None:
         """Show the cuts of a pair."""
         before, read, analysis = self._found, found.read, found.analysis
         self._draft, self._found, self._history = draft, found, history

@@ -31,7 +31,7 @@ from widgets.common.plain import Label
 from widgets.common.text import message_text, sentence
 from widgets.dialogs.automatic_number import TEXT_MARGIN_PX, AutomaticNumber
 from widgets.dialogs.choreography.cut_panel import CutHistory, CutPanel
-from widgets.dialogs.choreography.learn_draft import MIDI_SUFFIXES, MOTION_SUFFIXES, Found, PairDraft, with_files
+from widgets.dialogs.choreography.learn_draft import MIDI_SUFFIXES, MOTION_SUFFIXES, PairContents, PairDraft, with_files
 from widgets.dialogs.choreography.learn_pair import PairForm, file_name
 from widgets.dialogs.working import WorkingDialog
 
@@ -69,7 +69,7 @@ class _Row:
     """
 
     draft: PairDraft
-    found: Found = field(default_factory=Found)
+    found: PairContents = field(default_factory=PairContents)
     history: CutHistory = field(default_factory=CutHistory)
     reading: int = 0
     states: int | None = None
@@ -80,7 +80,7 @@ class _Read:
     """What came of reading a pair's files."""
 
     number: int
-    found: Found
+    found: PairContents
 
 
 @dataclass(frozen=True, eq=False)
@@ -249,7 +249,7 @@ class LearnDialog(WorkingDialog):
         """Read the files of a pair beside the window; what was found before is of others."""
         self._readings += 1
         draft, number = row.draft, self._readings
-        row.found, row.reading = Found(), 0
+        row.found, row.reading = PairContents(), 0
         if draft.motion is None or draft.music is None:
             return
         row.reading = number
@@ -258,11 +258,11 @@ class LearnDialog(WorkingDialog):
         def work(progress: Progress, stop_requested: StopRequested) -> _Read:
             try:
                 read = read_pair(motion, music, fps=draft.fps, credits=draft.credits)
-                return _Read(number, Found(read, analyse(read.pair)))
+                return _Read(number, PairContents(read, analyse(read.pair)))
             except Cancelled:
                 raise
             except AppError as error:
-                return _Read(number, Found(error=error.message))
+                return _Read(number, PairContents(error=error.message))
 
         self._session.tasks.run(Message("work.read_motion", {"file": motion.name}), work, self._was_read)
 
@@ -411,8 +411,8 @@ class LearnDialog(WorkingDialog):
             widget.setEnabled(row is not None and not self._running)
         self._remove.setEnabled(row is not None and not self._running)
         if row is None:
-            self.form.show_pair(PairDraft(), Found(), busy=False)
-            self.cuts.show_pair(PairDraft(), Found(), CutHistory())
+            self.form.show_pair(PairDraft(), PairContents(), busy=False)
+            self.cuts.show_pair(PairDraft(), PairContents(), CutHistory())
         else:
             self.form.show_pair(row.draft, row.found, bool(row.reading))
             self.cuts.show_pair(row.draft, row.found, row.history)

@@ -46,7 +46,7 @@ class PairDraft(msgspec.Struct, frozen=True):
         return self.motion, self.music, self.credits, self.fps
 
 
-class Found(msgspec.Struct, frozen=True):
+class PairContents(msgspec.Struct, frozen=True):
     """What the files of a pair hold, or why they cannot be read."""
 
     read: ReadPair | None = None

@@ -20,7 +20,7 @@ from widgets.common.paths import PathEdit, ask_for_file
 from widgets.common.plain import Label
 from widgets.common.text import message_text, sentence
 from widgets.dialogs.automatic_number import AutomaticNumber
-from widgets.dialogs.choreography.learn_draft import MIDI_SUFFIXES, MOTION_SUFFIXES, Found, PairDraft
+from widgets.dialogs.choreography.learn_draft import MIDI_SUFFIXES, MOTION_SUFFIXES, PairContents, PairDraft
 
 _FILES = {"motion": MOTION_SUFFIXES, "music": MIDI_SUFFIXES, "credits": (CREDITS_SUFFIX,)}
 _LABELS: Final = {
@@ -53,7 +53,7 @@ class PairForm(Retranslated, QWidget):
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self._draft, self._found, self._busy = PairDraft(), Found(), False
+        self._draft, self._found, self._busy = PairDraft(), PairContents(), False
         self._labels = {name: Caption(text_id) for name, text_id in _LABELS.items()}
         self._paths = {name: self.texted(PathEdit(), placeholder=text_id) for name, text_id in _PLACEHOLDERS.items()}
         self._offset = self.texted(
@@ -97,7 +97,7 @@ class PairForm(Retranslated, QWidget):
         self.texted(self._fps.number, suffix="pair_form.frames_s")
         self.retranslate()
 
-    def show_pair(self, draft: PairDraft, found: Found, busy: bool) -> None:
+    def show_pair(self, draft: PairDraft, found: PairContents, busy: bool) -> None:
         """Show a pair, and what its files hold; ``busy`` while they are read."""
         self._draft, self._found, self._busy = draft, found, busy
         for name, edit in self._paths.items():

@@ -41,7 +41,7 @@ _MOST_NAMED: Final = 3
 
 
 @dataclass(frozen=True, eq=False)
-class Shown:
+class ChoreographyView:
     """What is shown of a dancer's choreography.
 
     Attributes
@@ -77,7 +77,7 @@ class ChoreographyDialog(Retranslated, QDialog):
         self.setObjectName("choreography")
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         self._session = session
-        self._shown: Shown | None = None
+        self._shown: ChoreographyView | None = None
         self._error: AppError | None = None
         self._asked: tuple[Performance, Dancer] | None = None
         self._heading = wrapped(named(Label(), "choreography_heading"))
@@ -154,7 +154,7 @@ class ChoreographyDialog(Retranslated, QDialog):
                 key="choreography",
             )
 
-    def _found(self, shown: Shown) -> None:
+    def _found(self, shown: ChoreographyView) -> None:
         if self._asked is not None and self._asked[1] is shown.dancer:
             self._shown, self._error = shown, None
             self._show()
@@ -197,14 +197,14 @@ class ChoreographyDialog(Retranslated, QDialog):
         self._show_tables(shown, mirrored)
         self.credits.setPlainText(self._credits_text(model))
 
-    def _use_text(self, shown: Shown) -> str:
+    def _use_text(self, shown: ChoreographyView) -> str:
         if shown.error is not None:
             return sentence(shown.error, self._session, shown.dancer.id)
         return self.tr("choreography_dialog.dances_of_basic_motions_in").format(
             dancer=shown.dancer.name, used=len(shown.used), count=shown.model.states
         )
 
-    def _show_tables(self, shown: Shown, mirrored: bool) -> None:
+    def _show_tables(self, shown: ChoreographyView, mirrored: bool) -> None:
         model, names = shown.model, percussion_names()
         figures: FloatArray = np.array([motion.poses[1] for motion in shown.motions])
         if mirrored:
@@ -284,8 +284,8 @@ class ChoreographyDialog(Retranslated, QDialog):
         return self.tr("choreography_dialog.what_is_struck_during_each_basic_motion_in")
 
 
-def _finder(performance: Performance, dancer: Dancer) -> Callable[[Progress, StopRequested], Shown]:
-    def work(progress: Progress, stop_requested: StopRequested) -> Shown:
+def _finder(performance: Performance, dancer: Dancer) -> Callable[[Progress, StopRequested], ChoreographyView]:
+    def work(progress: Progress, stop_requested: StopRequested) -> ChoreographyView:
         from app.choreography.model_file import read_model
         from app.choreography.overview import basic_motions, learned_symbols
         from app.choreography.performed.dance_steps import dance_of
@@ -296,7 +296,7 @@ def _finder(performance: Performance, dancer: Dancer) -> Callable[[Progress, Sto
         model = dance.model if dance.error is None else read_model(choreography_path(dancer.choreography))
         rhythm = rhythm_of(performance)
         struck = frozenset(rhythm.symbols.tolist())
-        return Shown(
+        return ChoreographyView(
             dancer,
             model,
             basic_motions(model),

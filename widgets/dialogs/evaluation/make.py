@@ -17,8 +17,8 @@ from app.encoding import restored, shown, stored
 from app.errors import AppError, Message
 from app.evaluation.key import KEY_FILE, Variant
 from app.evaluation.keyframes import SUFFIXES as MOTION_SUFFIXES
-from app.evaluation.process import Finished, Report
-from app.evaluation.request import EXCERPTS, LEAST_S, MOST_EXCERPTS, MOST_S, SECONDS, Request
+from app.evaluation.process import EvaluationFinished, Report
+from app.evaluation.request import EXCERPTS, LEAST_S, MOST_EXCERPTS, MOST_S, SECONDS, EvaluationRequest
 from app.formats.video import SUFFIXES
 from app.project.model import Project
 from widgets.common.controls import Button, Caption, Check, named, selectable, wrapped
@@ -29,7 +29,7 @@ from widgets.common.text import message_text
 from widgets.dialogs.export_range import TEXT_MARGIN_PX, RangeChooser
 from widgets.dialogs.working import WorkingDialog
 
-Make: TypeAlias = Callable[[Project, Request, Report, StopRequested], Finished]
+Make: TypeAlias = Callable[[Project, EvaluationRequest, Report, StopRequested], EvaluationFinished]
 """Makes an evaluation beside the window; see `app.evaluation.process.made_by_process`."""
 
 SIZES: Final = ((640, 360), (960, 540), (1280, 720), (360, 640))
@@ -187,7 +187,7 @@ class EvaluationDialog(WorkingDialog):
         self._timer.start()
         stop = self._stop
 
-        def work(progress: Progress, stop_requested: StopRequested) -> Finished:
+        def work(progress: Progress, stop_requested: StopRequested) -> EvaluationFinished:
             def report(share: float, message: Message) -> None:
                 now[0] = (share, message)
                 progress(share)
@@ -198,7 +198,7 @@ class EvaluationDialog(WorkingDialog):
             Message("work.evaluation"), work, self._done, self._failed, key="evaluation", ended=self._finish
         )
 
-    def request(self) -> Request:
+    def request(self) -> EvaluationRequest:
         """What is chosen."""
         film, keyframes, folder = self._film.path, self._keyframes.path, self._folder.path
         assert folder is not None, "the button is disabled without one"
@@ -207,7 +207,7 @@ class EvaluationDialog(WorkingDialog):
         players = self._session.players[:1] if view != "ensemble" else ()
         if view != "ensemble" and not players:
             players = tuple(player.id for player in self._session.project.bodies[:1])
-        return Request(
+        return EvaluationRequest(
             folder=stored(folder),
             title=self._title,
             film="" if film is None else stored(film),
@@ -238,7 +238,7 @@ class EvaluationDialog(WorkingDialog):
         self._variants[variant].setChecked(there)
         self._show_state()
 
-    def _done(self, made: Finished) -> None:
+    def _done(self, made: EvaluationFinished) -> None:
         page = f"{shown(restored(self.request().folder))}{os.sep}evaluation.html"
         lines = [self.tr("evaluation_dialog.done").format(page=page, clips=made.clips, pairs=made.pairs)]
         if made.confidence is not None and made.offset_s is not None:

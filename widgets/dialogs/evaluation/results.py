@@ -28,7 +28,7 @@ from app.evaluation.conclusions import conclude
 from app.evaluation.gathered import Gathered
 from app.evaluation.plot import plot
 from app.evaluation.report import write_results
-from app.evaluation.tables import Table, tables
+from app.evaluation.tables import ResultTable, tables
 from app.messages import text
 from widgets.common.controls import Button, Caption, Retranslated, named, selectable, wrapped
 from widgets.common.instrument_name import language
@@ -246,7 +246,7 @@ class EvaluationResultsDialog(Retranslated, QDialog):
 class _TableView(QWidget):
     """A table and what its columns mean."""
 
-    def __init__(self, table: Table) -> None:
+    def __init__(self, table: ResultTable) -> None:
         super().__init__()
         self._table = table
         grid = QTableWidget(len(table.rows), len(table.head))

@@ -24,8 +24,16 @@ from widgets.common.plain import ComboBox, verbatim
 from widgets.common.text import message_text
 from widgets.timeline.lane import Lane, LaneItem, LaneMouse
 from widgets.timeline.lanes.number_field import NumberField
-from widgets.timeline.model.curves import LIPS, DragController, DragCurve, Lips, controller_steps, lips, with_values
-from widgets.timeline.model.geometry import Steps, step_path
+from widgets.timeline.model.curves import (
+    LIPS,
+    DragController,
+    DragCurve,
+    EmbouchureCurves,
+    controller_steps,
+    lips,
+    with_values,
+)
+from widgets.timeline.model.geometry import StepCurve, step_path
 from widgets.timeline.plot.drawing import draw_lines, draw_mark, draw_path, draw_rects, draw_text, shade, small_font
 from widgets.timeline.plot.time_axis import TimeAxis
 
@@ -59,7 +67,7 @@ class _Curves(LaneItem["CurvesLane"]):
         if trace is not None:
             self._paint_steps(painter, exposed, trace, shade(tokens.text, 200), 1.2)
 
-    def _paint_steps(self, painter: QPainter, exposed: QRectF, steps: Steps, colour: QColor, width: float) -> None:
+    def _paint_steps(self, painter: QPainter, exposed: QRectF, steps: StepCurve, colour: QColor, width: float) -> None:
         axis = self.lane.axis
         left, right = int(exposed.left()), int(np.ceil(exposed.right()))
         low, high = steps.columns(axis.seconds(left), axis.seconds(right), right - left)
@@ -118,8 +126,8 @@ class CurvesLane(Lane):
 
     def __init__(self, session: Session, axis: TimeAxis, parent: QWidget | None = None) -> None:
         super().__init__(session, axis, parent)
-        self.lips: Lips | None = None
-        self.controllers: dict[str, Steps] = {}
+        self.lips: EmbouchureCurves | None = None
+        self.controllers: dict[str, StepCurve] = {}
         self.curve = "tension"
         self._plan: PlayerPlan | None = None
         self._part: Part | None = None

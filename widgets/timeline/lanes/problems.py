@@ -14,7 +14,7 @@ from widgets.common.controls import named
 from widgets.common.plain import Label
 from widgets.common.text import sentence
 from widgets.timeline.lane import Lane, LaneItem, LaneMouse
-from widgets.timeline.model.geometry import Spans
+from widgets.timeline.model.geometry import TimeSpans
 from widgets.timeline.plot.drawing import shade
 from widgets.timeline.plot.time_axis import TimeAxis
 
@@ -36,7 +36,7 @@ class ProblemMarks(LaneItem[Lane]):
         self._rooms = rooms
         lane.session.problems_changed.connect(lane.update_items)
         self._problems: tuple[Problem, ...] = ()
-        self._spans = Spans(np.empty(0), np.empty(0))
+        self._spans = TimeSpans(np.empty(0), np.empty(0))
 
     def paint_px(self, painter: QPainter, exposed: QRectF) -> None:
         lane, player = self.lane, self.lane.session.player
@@ -57,9 +57,9 @@ def problems_in(problems: tuple[Problem, ...], rooms: tuple[str, ...] = ()) -> t
     return tuple(problem for problem in problems if not rooms or problem.message.id.split(".")[0] in rooms)
 
 
-def spans_of(problems: tuple[Problem, ...]) -> Spans:
+def spans_of(problems: tuple[Problem, ...]) -> TimeSpans:
     """Where problems are."""
-    return Spans(
+    return TimeSpans(
         np.array([problem.start_s for problem in problems], np.float64),
         np.array([problem.end_s for problem in problems], np.float64),
     )

@@ -24,7 +24,7 @@ from widgets.common.text import message_text
 from widgets.timeline.lane import Lane, LaneItem, LaneMouse
 from widgets.timeline.lanes.number_field import NumberField
 from widgets.timeline.model.gestures import snapped
-from widgets.timeline.model.hand import Box
+from widgets.timeline.model.hand import PixelRect
 from widgets.timeline.model.regions.region_drag import RegionDrag
 from widgets.timeline.model.regions.shown_event import Region, place_of
 from widgets.timeline.model.regions.shown_regions import (
@@ -172,7 +172,7 @@ class RegionLane(Lane):
     def rows_scrolled(self) -> None:
         """The rows are in other places."""
 
-    def place(self, region: Region) -> Box:
+    def place(self, region: Region) -> PixelRect:
         """Where a region lies."""
         return region_box(region, self.axis, self.row_box(region.row))
 
@@ -193,7 +193,7 @@ class RegionLane(Lane):
         """Where the fades are taken hold of."""
         return tuple(
             (zone, QPointF(*at))
-            for zone, at in fade_handles(region, Box(box.left(), box.top(), box.right(), box.bottom()), self.axis)
+            for zone, at in fade_handles(region, PixelRect(box.left(), box.top(), box.right(), box.bottom()), self.axis)
         )
 
     def refresh(self) -> None:

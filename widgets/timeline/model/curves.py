@@ -14,8 +14,8 @@ from app.project.edit.dynamics import change_level
 from app.project.edit.events import set_embouchure
 from app.project.model import Project
 from app.score.model import CurveKind, Part
-from widgets.timeline.model.geometry import Spans, Steps
-from widgets.timeline.model.gestures import DRAG_PX, Editing, Gesture, Step, across
+from widgets.timeline.model.geometry import StepCurve, TimeSpans
+from widgets.timeline.model.gestures import DRAG_PX, Editing, LiveEdit, MouseGesture, across
 from widgets.timeline.model.hand import LaneMouse
 
 LIPS = ("tension", "effort", "air")
@@ -24,26 +24,26 @@ FINE = 0.2
 
 
 @dataclass(frozen=True)
-class Lips:
+class EmbouchureCurves:
     """A plan's embouchures as arrays (N,), and what was recorded within the notes (``traces``)."""
 
     events: tuple[EmbouchureEvent, ...]
-    spans: Spans
-    steps: Mapping[str, Steps]
-    traces: Mapping[str, Steps]
+    spans: TimeSpans
+    steps: Mapping[str, StepCurve]
+    traces: Mapping[str, StepCurve]
 
 
-def lips(plan: PlayerPlan) -> Lips:
+def lips(plan: PlayerPlan) -> EmbouchureCurves:
     """Embouchures for drawing: between notes the lips rest, which a curve shows as a gap."""
     events = plan.embouchures
     start_s = np.array([event.start_s for event in events], np.float64)
     end_s = np.array([event.end_s for event in events], np.float64)
     values = {name: np.array([getattr(event, name) for event in events], np.float64) for name in LIPS}
-    steps = {name: Steps(start_s, value) for name, value in values.items()}
-    return Lips(events, Spans(start_s, end_s), steps, _traces(plan, start_s, end_s))
+    steps = {name: StepCurve(start_s, value) for name, value in values.items()}
+    return EmbouchureCurves(events, TimeSpans(start_s, end_s), steps, _traces(plan, start_s, end_s))
 
 
-def _traces(plan: PlayerPlan, start_s: FloatArray, end_s: FloatArray) -> dict[str, Steps]:
+def _traces(plan: PlayerPlan, start_s: FloatArray, end_s: FloatArray) -> dict[str, StepCurve]:
     """What was recorded, while notes sound; nothing in between."""
     traces = plan.traces
     if traces is None:
@@ -53,18 +53,20 @@ def _traces(plan: PlayerPlan, start_s: FloatArray, end_s: FloatArray) -> dict[st
     sounds = (note >= 0) & (time_s < end_s[np.maximum(note, 0)])
     recorded = {"tension": traces.tension, "effort": traces.effort, "air": traces.air}
     return {
-        name: Steps(time_s, np.where(sounds, values, np.nan)) for name, values in recorded.items() if values is not None
+        name: StepCurve(time_s, np.where(sounds, values, np.nan))
+        for name, values in recorded.items()
+        if values is not None
     }
 
 
-def controller_steps(part: Part, project: Project) -> dict[str, Steps]:
+def controller_steps(part: Part, project: Project) -> dict[str, StepCurve]:
     """The part's controllers over time, by kind; values are shares 0..1 of the range that is shown of them."""
     clock = project.score.tempo_map
-    result: dict[str, Steps] = {}
+    result: dict[str, StepCurve] = {}
     for curve in part.curves:
         low, high = curve.shown_range
         values = (np.array(curve.values, np.float64) - low) / (high - low)
-        result[curve.kind] = Steps(clock.seconds(np.array(curve.ticks, np.float64)), values)
+        result[curve.kind] = StepCurve(clock.seconds(np.array(curve.ticks, np.float64)), values)
     return result
 
 
@@ -75,7 +77,7 @@ def with_values(project: Project, player_id: str, curve: str, values: Mapping[st
     return project
 
 
-class DragController(Gesture):
+class DragController(MouseGesture):
     """A controller goes up and down in some spans of ticks, and blends back beside them.
 
     Parameters
@@ -98,7 +100,7 @@ class DragController(Gesture):
         height_px: float,
     ) -> None:
         super().__init__(at, across(DRAG_PX))
-        self._step = Step(session, origin)
+        self._step = LiveEdit(session, origin)
         self._player_id, self._kind, self._spans, self._blend_beats = player_id, kind, spans, blend_beats
         self._height_px = max(height_px, 1.0)
 
@@ -118,7 +120,7 @@ class DragController(Gesture):
             self._step.take_back()
 
 
-class DragCurve(Gesture):
+class DragCurve(MouseGesture):
     """A curve of the lips goes up and down at all chosen notes together.
 
     Parameters
@@ -140,7 +142,7 @@ class DragCurve(Gesture):
         height_px: float,
     ) -> None:
         super().__init__(at, across(DRAG_PX))
-        self._step = Step(session, origin)
+        self._step = LiveEdit(session, origin)
         self._player_id, self._curve, self._starts = player_id, curve, starts
         self._height_px = max(height_px, 1.0)
 

@@ -33,7 +33,7 @@ def packed_rows(start: FloatArray, end: FloatArray) -> IntArray:
     return rows
 
 
-class Spans:
+class TimeSpans:
     """Spans of time, to be found by what is visible.
 
     Parameters
@@ -53,7 +53,7 @@ class Spans:
         return first + np.flatnonzero(self.end_s[first:last] >= start_s)
 
 
-class Steps:
+class StepCurve:
     """A step function: every value holds until the next time; nothing before the first.
 
     Parameters

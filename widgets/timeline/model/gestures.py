@@ -13,7 +13,7 @@ from app.project.document import Document
 from app.project.grid import Grid
 from app.project.model import Project
 from app.score.model import Score
-from widgets.timeline.model.hand import Box, LaneMouse, spanned
+from widgets.timeline.model.hand import LaneMouse, PixelRect, spanned
 from widgets.timeline.model.view import Scale
 
 DRAG_PX = 3.0
@@ -84,7 +84,7 @@ def together(least_px: float) -> Far:
     return lambda at, mouse: abs(mouse.x_px - at.x_px) + abs(mouse.y_px - at.y_px) >= least_px
 
 
-class Step:
+class LiveEdit:
     """One step of undo, made again and again from the project that it began with.
 
     Parameters
@@ -135,7 +135,7 @@ class Step:
         self.end()
 
 
-class Gesture:
+class MouseGesture:
     """A press and what follows it.
 
     Parameters
@@ -182,7 +182,7 @@ class Gesture:
         """As if it had never begun."""
 
 
-class Band(Gesture):
+class Band(MouseGesture):
     """A rubber band: the box from the press to the mouse, which stays with the picture when that scrolls.
 
     Parameters
@@ -192,14 +192,14 @@ class Band(Gesture):
 
     Attributes
     ----------
-    box : Box or None
+    box : PixelRect or None
         While it is drawn.
     """
 
-    def __init__(self, plane: Plane, at: LaneMouse, far: Far, take: Callable[[Box, LaneMouse], None]) -> None:
+    def __init__(self, plane: Plane, at: LaneMouse, far: Far, take: Callable[[PixelRect, LaneMouse], None]) -> None:
         super().__init__(at, far)
         self._plane, self._take = plane, take
-        self.box: Box | None = None
+        self.box: PixelRect | None = None
 
     def follow(self, mouse: LaneMouse) -> None:
         corner = self._plane.axis.x_px(self.at.time_s), self._plane.y_px(self.at.value)

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 
-class Box(NamedTuple):
+class PixelRect(NamedTuple):
     """A rectangle, pixels from the upper left corner of a plot."""
 
     left: float
@@ -26,7 +26,7 @@ class Box(NamedTuple):
         """Whether a place is inside or on the edge; ``slack_px`` to the left and right count as inside."""
         return self.left - slack_px <= x_px <= self.right + slack_px and self.top <= y_px <= self.bottom
 
-    def meets(self, other: Box) -> bool:
+    def meets(self, other: PixelRect) -> bool:
         """Whether both have room in common; what has no width or no height meets nothing."""
         return (
             max(self.left, other.left) < min(self.right, other.right)
@@ -34,9 +34,9 @@ class Box(NamedTuple):
         )  # fmt: skip
 
 
-def spanned(x0: float, y0: float, x1: float, y1: float) -> Box:
+def spanned(x0: float, y0: float, x1: float, y1: float) -> PixelRect:
     """The box with these two places as opposite corners."""
-    return Box(min(x0, x1), min(y0, y1), max(x0, x1), max(y0, y1))
+    return PixelRect(min(x0, x1), min(y0, y1), max(x0, x1), max(y0, y1))
 
 
 @dataclass(frozen=True)

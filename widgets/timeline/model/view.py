@@ -24,7 +24,7 @@ class Scale(Protocol):
     def seconds(self, x_px: float) -> float: ...
 
 
-class Span(Scale, Protocol):
+class VisibleSpan(Scale, Protocol):
     """A scale of what is visible."""
 
     @property

@@ -13,7 +13,7 @@ from shiboken6 import wrapInstance
 
 from app.arrays import AnyIntArray, FloatArray
 from app.editor.tokens import LEAST_TEXT_PT, Tokens
-from widgets.timeline.model.hand import Box
+from widgets.timeline.model.hand import PixelRect
 
 # As numbers: joining flags of Qt takes Python as long as drawing a word.
 _ONE_LINE = int(Qt.TextFlag.TextDontClip) | int(Qt.TextFlag.TextSingleLine)
@@ -21,7 +21,7 @@ MARK_PX = 6.0
 """Side of the square that marks what the user made."""
 
 
-def rect(box: Box) -> QRectF:
+def rect(box: PixelRect) -> QRectF:
     """A box as Qt has it."""
     return QRectF(box.left, box.top, box.width, box.height)
 

@@ -26,9 +26,9 @@ from widgets.common.menus import add_actions
 from widgets.common.pitch import pitch_text
 from widgets.common.text import sentence
 from widgets.timeline.lane import GUTTER_PX, Lane, LaneItem, LaneMouse
-from widgets.timeline.model.gestures import Gesture
+from widgets.timeline.model.gestures import MouseGesture
 from widgets.timeline.model.roll.entries import EntryDrag
-from widgets.timeline.model.roll.note_table import Behind, Sounding
+from widgets.timeline.model.roll.note_table import Behind, TimedNotes
 from widgets.timeline.model.roll.roll_gestures import Copy, Draw, Erase, LassoNotes, Move, Resize, RollGesture, Velocity
 from widgets.timeline.model.roll.shown_notes import (
     RollModel,
@@ -75,7 +75,7 @@ class PianoRoll(Lane):
 
     def __init__(self, session: Session, axis: TimeAxis, parent: QWidget | None = None) -> None:
         self.model = RollModel(session, axis)
-        self._gesture: Gesture | None = None
+        self._gesture: MouseGesture | None = None
         self._tool = Tool.SELECT
         self._velocity = FIRST_VELOCITY
         super().__init__(session, axis, parent)
@@ -162,12 +162,12 @@ class PianoRoll(Lane):
         bottom, top = self.y_range
         return self.plot_rect.height() / (top - bottom)
 
-    def visible(self, table: Sounding, exposed: QRectF) -> IntArray:
+    def visible(self, table: TimedNotes, exposed: QRectF) -> IntArray:
         """Places of the notes that may show in a part of the plot."""
         times = self.axis.seconds(exposed.left()), self.axis.seconds(exposed.right())
         return visible(table, *times, self.y_range)
 
-    def boxes(self, table: Sounding, rows: IntArray) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
+    def boxes(self, table: TimedNotes, rows: IntArray) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
         """Left, top, width and height of notes, in whole pixels so that edges are sharp."""
         return boxes(table, rows, self.axis, self.y_range[1], self.row_px)
 
@@ -223,7 +223,7 @@ class PianoRoll(Lane):
     def press(self, mouse: LaneMouse) -> None:
         self._gesture = self._begin(mouse)
 
-    def _begin(self, mouse: LaneMouse) -> Gesture | None:
+    def _begin(self, mouse: LaneMouse) -> MouseGesture | None:
         entry = self.entries.end_at(mouse) if self._tool is Tool.SELECT else None
         if entry is not None:
             return EntryDrag(self, mouse, *entry)
@@ -241,7 +241,7 @@ class PianoRoll(Lane):
             return Draw(self, mouse, player.part_id, self._velocity)
         return LassoNotes(self, mouse)
 
-    def _take_hold(self, note: Note, mouse: LaneMouse) -> Gesture | None:
+    def _take_hold(self, note: Note, mouse: LaneMouse) -> MouseGesture | None:
         self.model.bring_forward(note)
         selected = self.session.selection.notes
         if _copies(mouse):
@@ -274,7 +274,7 @@ class PianoRoll(Lane):
             self._show_gesture(self._gesture)
         self.keyboard.show_pitch(int(mouse.value // 1))
 
-    def _show_gesture(self, gesture: Gesture) -> None:
+    def _show_gesture(self, gesture: MouseGesture) -> None:
         """Draw what it encloses, or say what it has made of a note."""
         if isinstance(gesture, LassoNotes):
             self.lasso.show(rect(gesture.box) if gesture.box is not None else None)

@@ -17,8 +17,8 @@ FIELD_PX = 80
 
 
 @dataclass(frozen=True)
-class Mark:
-    """See `widgets.timeline.model.ruler.ruler_marks.Mark`."""
+class RulerLabel:
+    """See `widgets.timeline.model.ruler.ruler_marks.RulerMark`."""
 
     kind: str
     tick: int
@@ -28,10 +28,10 @@ class Mark:
 
 def lay_marks(
     score: Score, axis: TimeAxis, metrics: QFontMetricsF, left_px: float, right_px: float, height_px: float
-) -> list[Mark]:
+) -> list[RulerLabel]:
     """See `widgets.timeline.model.ruler.ruler_marks.lay_marks`."""
     laid = model.lay_marks(score, axis, metrics, left_px, right_px, height_px)
-    return [Mark(mark.kind, mark.tick, mark.text, rect(mark.box)) for mark in laid]
+    return [RulerLabel(mark.kind, mark.tick, mark.text, rect(mark.box)) for mark in laid]
 
 
 class MarkEditor(QLineEdit):

@@ -30,7 +30,7 @@ from widgets.common.clicks import on_click
 from widgets.common.controls import Retranslated
 from widgets.common.menus import add_actions
 from widgets.timeline.lane import GUTTER_PX
-from widgets.timeline.model.gestures import Gesture, along, snapped
+from widgets.timeline.model.gestures import MouseGesture, along, snapped
 from widgets.timeline.model.hand import LaneMouse
 from widgets.timeline.model.lines import Lines
 from widgets.timeline.model.ruler.ruler_gestures import HoldEdge, HoldMark, HoldPlayhead, Seek
@@ -46,7 +46,7 @@ from widgets.timeline.model.ruler.ruler_marks import (
 from widgets.timeline.plot.drawing import draw_lines
 from widgets.timeline.plot.mouse import mouse_at
 from widgets.timeline.plot.time_axis import TimeAxis
-from widgets.timeline.ruler.ruler_labels import Mark, MarkEditor, lay_marks
+from widgets.timeline.ruler.ruler_labels import MarkEditor, RulerLabel, lay_marks
 from widgets.timeline.ruler.ruler_unit import UnitButton
 from widgets.timeline.ruler.strip import Strip
 
@@ -65,8 +65,8 @@ class Ruler(Retranslated, Strip):
     def __init__(self, session: Session, axis: TimeAxis, parent: QWidget | None = None) -> None:
         super().__init__(session, axis, MARKS_PX + SCALE_PX, parent)
         self.setObjectName("ruler")
-        self._marks: list[Mark] = []
-        self._gesture: Gesture | None = None
+        self._marks: list[RulerLabel] = []
+        self._gesture: MouseGesture | None = None
         self._chosen: tuple[str, int] | None = None
         """The mark that was clicked: Delete removes it."""
         self._panned_px: float | None = None
@@ -106,7 +106,7 @@ class Ruler(Retranslated, Strip):
     def _tick_at(self, mouse: LaneMouse, free: bool) -> int:
         return max(snapped(self.session.grid, self.session.project.score, mouse.tick, free), 0)
 
-    def _mark_at(self, place: QPointF) -> Mark | None:
+    def _mark_at(self, place: QPointF) -> RulerLabel | None:
         return next((mark for mark in reversed(self._marks) if mark.rect.contains(place)), None)
 
     def _place_of(self, tick: int) -> float:
@@ -300,7 +300,7 @@ class Ruler(Retranslated, Strip):
                     return name
         return "seek"
 
-    def _take_hold(self, held: str, mouse: LaneMouse, mark: Mark | None) -> Gesture | None:
+    def _take_hold(self, held: str, mouse: LaneMouse, mark: RulerLabel | None) -> MouseGesture | None:
         """The gesture that a press begins."""
         session, far, at_start = self.session, along(QApplication.startDragDistance() / 2), held.endswith("_start")
         if mark is not None:
@@ -322,7 +322,7 @@ class Ruler(Retranslated, Strip):
             )
         return Seek(session, mouse, far, self._tick_at) if held else None
 
-    def _drag(self, gesture: Gesture, mouse: LaneMouse) -> None:
+    def _drag(self, gesture: MouseGesture, mouse: LaneMouse) -> None:
         gesture.drag(mouse)
         if isinstance(gesture, HoldMark) and gesture.began:
             self._chosen = gesture.chosen

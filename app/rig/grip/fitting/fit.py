@@ -31,7 +31,7 @@ from app.rig.grip.fitting.fit_terms import (
     no_progress,
     require_landmarks,
 )
-from app.rig.grip.fitting.hand_problem import Problem, grip_problem, joint_angles, travel, wrist_transform
+from app.rig.grip.fitting.hand_problem import HandProblem, grip_problem, joint_angles, travel, wrist_transform
 from app.rig.grip.fitting.judged_grip import judge
 from app.rig.grip.fitting.leaning_hand import Leaning, lean_of, leanings, whole_hand
 from app.rig.grip.fitting.search import finished, search_knots, starts
@@ -97,7 +97,7 @@ def _part(progress: Progress, first: float, last: float) -> Progress:
 
 
 def _fit_hand(
-    problem: Problem, scene: GripScene, seed: HandSeed, stand: Upright, size: float, progress: Progress
+    problem: HandProblem, scene: GripScene, seed: HandSeed, stand: Upright, size: float, progress: Progress
 ) -> HandHold:
     """Fit one hand; the wrist of the scene is not solved.
 
@@ -134,7 +134,7 @@ def _missed(hold: HandHold, size: float) -> float:
 
 
 def _held(
-    problem: Problem,
+    problem: HandProblem,
     scene: GripScene,
     best: FloatArray,
     path: FloatArray,
@@ -183,7 +183,7 @@ def _held(
 
 
 def _leant_tables(
-    problem: Problem, leant: Sequence[Leaning]
+    problem: HandProblem, leant: Sequence[Leaning]
 ) -> dict[tuple[int, int], tuple[GripScene, dict[int, StationTable]]]:
     """The wrist and the other fingers wherever the hand gives way."""
     result = {}

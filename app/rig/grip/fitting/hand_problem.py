@@ -68,7 +68,7 @@ class Dof:
 
 
 @dataclass(frozen=True, eq=False)
-class Touch:
+class TouchTarget:
     """A contact in the instrument's frame over some values of the controls its finger works there.
 
     ``positions`` and ``normals`` are (S, 3), ``active``, ``spread_m`` and ``spread_normal`` (S,).
@@ -91,14 +91,14 @@ class Elsewhere:
 
     number: int
     station: Station
-    touches: tuple[Touch, ...]
+    touches: tuple[TouchTarget, ...]
     points: FloatArray
     normals: FloatArray
     angles: slice
 
 
 @dataclass(frozen=True, eq=False)
-class Problem:
+class HandProblem:
     """Everything that is fixed while one hand is solved."""
 
     hand: HandModel
@@ -107,7 +107,7 @@ class Problem:
     dofs: tuple[Dof, ...]
     stations: tuple[tuple[Station, ...], ...]
     worked: tuple[int, ...]
-    touches: tuple[Touch, ...]
+    touches: tuple[TouchTarget, ...]
     touch_points: FloatArray
     touch_normals: FloatArray
     node_place: FloatArray
@@ -138,7 +138,7 @@ def grip_problem(
     body: Body,
     seed: HandSeed,
     stand: Upright,
-) -> tuple[Problem, Control | None]:
+) -> tuple[HandProblem, Control | None]:
     side = seed.hand
     posture = body.postures[instrument_map.hold.postures[0]]
     hand = hand_model(character, side, body, load_skeleton(body.skeleton))
@@ -168,7 +168,7 @@ def grip_problem(
     off_ribs_deg = seed.elbow_off_ribs_deg
     usual = float(np.radians(posture.elbow_off_ribs_deg if off_ribs_deg is None else off_ribs_deg))
     about = (usual - SWIVEL_ABOUT_RAD, usual + SWIVEL_ABOUT_RAD)
-    problem = Problem(
+    problem = HandProblem(
         hand=hand,
         seed_m=seed_m,
         seed_rotation=turn,
@@ -236,7 +236,7 @@ def home_controls(of_finger: Sequence[Sequence[Station]]) -> frozenset[str]:
 
 
 def _elsewhere(
-    problem: Problem, model: InstrumentModel, instrument_map: InstrumentMap, carrier: Control | None
+    problem: HandProblem, model: InstrumentModel, instrument_map: InstrumentMap, carrier: Control | None
 ) -> tuple[Elsewhere, ...]:
     """The fingers at their other stations; a hand that is carried has none."""
     found = []
@@ -276,15 +276,15 @@ def _dofs(hand: HandModel, curl: tuple[float, ...]) -> tuple[Dof, ...]:
     return tuple(found)
 
 
-def finger_dofs(problem: Problem, number: int) -> list[int]:
+def finger_dofs(problem: HandProblem, number: int) -> list[int]:
     return [i for i, dof in enumerate(problem.dofs) if (dof.joint - 1) // 3 == number]
 
 
-def worked_dofs(problem: Problem) -> list[int]:
+def worked_dofs(problem: HandProblem) -> list[int]:
     return [i for number in problem.worked for i in finger_dofs(problem, number)]
 
 
-def _bounds(problem: Problem) -> tuple[FloatArray, FloatArray]:
+def _bounds(problem: HandProblem) -> tuple[FloatArray, FloatArray]:
     """Parameters: wrist place (3), turn (3), swivel, angles at rest, of working fingers fully worked, elsewhere."""
     order = _order(problem)
     low = [-np.inf] * 6 + [problem.swivel_range[0]] + [problem.dofs[i].low for i in order]
@@ -292,13 +292,13 @@ def _bounds(problem: Problem) -> tuple[FloatArray, FloatArray]:
     return np.array(low), np.array(high)
 
 
-def _order(problem: Problem) -> list[int]:
+def _order(problem: HandProblem) -> list[int]:
     """Which of the angles each parameter from the eighth on is."""
     elsewhere = [i for one in problem.elsewhere for i in finger_dofs(problem, one.number)]
     return [*range(len(problem.dofs)), *worked_dofs(problem), *elsewhere]
 
 
-def start_at(problem: Problem, turn: FloatArray) -> FloatArray:
+def start_at(problem: HandProblem, turn: FloatArray) -> FloatArray:
     order = _order(problem)
     angles = [np.clip(problem.dofs[i].relaxed, problem.dofs[i].low, problem.dofs[i].high) for i in order]
     start = np.array([0.0, 0.0, 0.0, *turn, problem.swivel_usual, *angles])
@@ -306,13 +306,13 @@ def start_at(problem: Problem, turn: FloatArray) -> FloatArray:
     return clipped
 
 
-def wrist_transform(problem: Problem, x: FloatArray) -> tuple[FloatArray, FloatArray]:
+def wrist_transform(problem: HandProblem, x: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Wrist in the instrument's frame: positions (B, 3) and rotations (B, 4)."""
     turn = quaternion.multiply(quaternion.from_rotation_vector(x[:, 3:6]), problem.seed_rotation)
     return problem.seed_m + METRES * x[:, :3], turn
 
 
-def joint_angles(problem: Problem, x: FloatArray) -> FloatArray:
+def joint_angles(problem: HandProblem, x: FloatArray) -> FloatArray:
     """Joint angles (B, configs, 16, 3)."""
     result = np.zeros((len(x), problem.configs, 16, 3))
     count = len(problem.dofs)
@@ -330,7 +330,7 @@ def touch_at(
     worked: frozenset[str],
     carrier: Control | None,
     values: FloatArray,
-) -> Touch:
+) -> TouchTarget:
     """A contact while the ``worked`` controls are all at ``values`` (S,), and where a finger waits over it."""
     position, normal = contact_at(model, instrument_map, contact, worked, carrier, values)
     exact_m, exact_normal = SPREADS[contact.grip]
@@ -343,7 +343,7 @@ def touch_at(
         spread_m = np.hypot(spread_m, HOVER_SPREAD * height_m)
         if control.hover_m:
             spread_normal = spread_normal * (1.0 + HOVER_TURNS * share)
-    return Touch(contact, position, normal, counts(contact, values), spread_m, spread_normal)
+    return TouchTarget(contact, position, normal, counts(contact, values), spread_m, spread_normal)
 
 
 def counts(contact: Contact, values: FloatArray) -> BoolArray:

@@ -18,14 +18,14 @@ from app.rig.grip.fitting.hand_model import (
     wrist_from_joint,
     wrist_from_mesh,
 )
-from app.rig.grip.fitting.hand_problem import Problem, contact_at, counts, home_controls, nodes_at
+from app.rig.grip.fitting.hand_problem import HandProblem, contact_at, counts, home_controls, nodes_at
 from app.rig.grip.fitting.residuals import inside_proxy
 from app.rig.grip.grip_pose import ContactFit, FingerTable, StationTable
 from app.rig.quaternion import interpolated
 
 
 def judge(
-    problem: Problem,
+    problem: HandProblem,
     scene: GripScene,
     fingers: tuple[FingerTable, ...],
     values: FloatArray,
@@ -79,7 +79,7 @@ def _posed(tables: Mapping[int, StationTable], values: Mapping[int, FloatArray],
 
 
 def _judged(
-    problem: Problem,
+    problem: HandProblem,
     scene: GripScene,
     rotations: FloatArray,
     moved: frozenset[str],

@@ -17,8 +17,8 @@ from app.rig.grip.finger_stations import Station
 from app.rig.grip.fitting.fit_terms import GripScene
 from app.rig.grip.fitting.hand_model import FINGERS
 from app.rig.grip.fitting.hand_problem import (
-    Problem,
-    Touch,
+    HandProblem,
+    TouchTarget,
     finger_dofs,
     home_controls,
     joint_angles,
@@ -63,7 +63,7 @@ class Leaning:
 
 
 def leanings(
-    problem: Problem,
+    problem: HandProblem,
     scene: GripScene,
     x: FloatArray,
     solved: Sequence[Solved],
@@ -93,7 +93,13 @@ def leanings(
 
 
 def _leant(
-    problem: Problem, scene: GripScene, x: FloatArray, one: Solved, index: int, homes: dict[int, Solved], eased: float
+    problem: HandProblem,
+    scene: GripScene,
+    x: FloatArray,
+    one: Solved,
+    index: int,
+    homes: dict[int, Solved],
+    eased: float,
 ) -> Leaning:
     there = _lean_problem(problem, scene, one.number, one.station, x, eased)
     assert there.anchor is not None
@@ -111,8 +117,8 @@ def _leant(
 
 
 def _lean_problem(
-    problem: Problem, scene: GripScene, number: int, station: Station, x: FloatArray, eased: float
-) -> Problem:
+    problem: HandProblem, scene: GripScene, number: int, station: Station, x: FloatArray, eased: float
+) -> HandProblem:
     """All fingers at work at once: one at its station, the others at home, the wrist near where it was."""
     instrument, hand = scene.instrument_map, problem.hand
     chosen = [station if n == number else places[0] for n, places in enumerate(problem.stations) if places]
@@ -152,7 +158,7 @@ def _lean_problem(
     )
 
 
-def _eased(touch: Touch, by: float) -> Touch:
+def _eased(touch: TouchTarget, by: float) -> TouchTarget:
     return touch if touch.contact.control is None else replace(touch, spread_m=touch.spread_m * by)
 
 
@@ -161,7 +167,7 @@ def whole_hand(side: str) -> tuple[str, ...]:
     return f"{side}.palm", f"{side}.thumb_web"
 
 
-def lean_of(problem: Problem, scene: GripScene, leaning: Leaning) -> WristOffset:
+def lean_of(problem: HandProblem, scene: GripScene, leaning: Leaning) -> WristOffset:
     """A leaning as a difference to the wrist at home."""
     before, after = quaternion.from_matrix(scene.basis[0]), quaternion.from_matrix(leaning.scene.basis[0])
     return WristOffset(

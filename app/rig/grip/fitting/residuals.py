@@ -24,13 +24,13 @@ from app.rig.grip.fitting.hand_problem import (
     LIMIT_RAD,
     METRES,
     Elsewhere,
-    Problem,
+    HandProblem,
     finger_dofs,
     joint_angles,
     worked_dofs,
     wrist_transform,
 )
-from app.rig.grip.instrument_proxy import Bodies, Nodes, gradient, inside
+from app.rig.grip.instrument_proxy import Bodies, InstrumentNodes, gradient, inside
 from app.rig.ik import TWIST_SHARE
 
 # What a deviation of one unit of residual is.
@@ -52,7 +52,7 @@ ELSEWHERE_M, ELSEWHERE_NORMAL, ELSEWHERE_RELAXED = 0.006, 0.7, 1.5
 class Residuals:
     """Residuals and their Jacobian; keeps the last pose's distances to the proxy, which both need."""
 
-    def __init__(self, problem: Problem, soft: float, stiff: bool = False) -> None:
+    def __init__(self, problem: HandProblem, soft: float, stiff: bool = False) -> None:
         self.problem = problem
         self.soft = soft
         self.stiff = stiff
@@ -252,7 +252,7 @@ class Residuals:
         return off
 
 
-def _elbow_place(problem: Problem, wrist: FloatArray, swivel: FloatArray, shoulder_m: FloatArray) -> FloatArray:
+def _elbow_place(problem: HandProblem, wrist: FloatArray, swivel: FloatArray, shoulder_m: FloatArray) -> FloatArray:
     """Elbow (B, 3) for a wrist (B, 3) and swivel (B,) from straight down to the outside."""
     a, b = problem.upper_m, problem.lower_m
     line = wrist - shoulder_m
@@ -265,7 +265,7 @@ def _elbow_place(problem: Problem, wrist: FloatArray, swivel: FloatArray, should
     return elbow
 
 
-def _pole(problem: Problem, direction: FloatArray, swivel: FloatArray) -> FloatArray:
+def _pole(problem: HandProblem, direction: FloatArray, swivel: FloatArray) -> FloatArray:
     down, out = problem.swivel_frame
     pole = np.cos(swivel)[:, None] * down + np.sin(swivel)[:, None] * out
     pole = pole - direction * np.einsum("bi,bi->b", pole, direction)[:, None]
@@ -283,7 +283,7 @@ def inside_proxy(
     proxies: Bodies, node_place: FloatArray, node_turn: FloatArray, skin: FloatArray, radius: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
     """Depth (V,) of balls at (V, 3) below the proxy's surface, 0 outside, and the gradient (V, 3) of the distance."""
-    nodes = Nodes(node_place, node_turn)
+    nodes = InstrumentNodes(node_place, node_turn)
     depth, owner = inside(proxies, nodes, skin, radius)
     hit = np.flatnonzero(owner >= 0)
     slope = np.zeros(skin.shape)

@@ -9,7 +9,7 @@ import numpy as np
 
 from app.arrays import FloatArray
 from app.rig.grip.fitting.fit_terms import Progress, no_progress
-from app.rig.grip.fitting.hand_problem import Problem, home_controls, nodes_at, start_at, travel
+from app.rig.grip.fitting.hand_problem import HandProblem, home_controls, nodes_at, start_at, travel
 from app.rig.grip.fitting.residuals import Residuals
 from app.rig.model import InstrumentModel
 from instrument_maps.model import Control, InstrumentMap
@@ -35,7 +35,7 @@ TILTS = (
 """Turns of the seed (rotation vectors in the instrument's frame) that are tried."""
 
 
-def starts(problem: Problem, progress: Progress = no_progress) -> list[FloatArray]:
+def starts(problem: HandProblem, progress: Progress = no_progress) -> list[FloatArray]:
     """Start from the seed and from tilts of it with soft contacts; the best few go on with harder ones. Best first."""
     loose = []
     for number, tilt in enumerate(TILTS):
@@ -49,14 +49,14 @@ def starts(problem: Problem, progress: Progress = no_progress) -> list[FloatArra
     return [found.x for found in sorted(middle, key=lambda found: float(found.cost))]
 
 
-def finished(problem: Problem, start: FloatArray) -> FloatArray:
+def finished(problem: HandProblem, start: FloatArray) -> FloatArray:
     """Solve a start to its end: with contacts as hard as they are, then with skin as stiff as it is."""
     hard = solve(Residuals(problem, 1.0), start, 25)
     return np.asarray(solve(Residuals(problem, 1.0, stiff=True), hard.x, 12).x)
 
 
 def search_knots(
-    problem: Problem,
+    problem: HandProblem,
     model: InstrumentModel,
     instrument_map: InstrumentMap,
     carrier: Control,

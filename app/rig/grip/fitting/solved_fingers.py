@@ -21,7 +21,15 @@ from app.rig.grip.fitting.hand_model import (
     wrist_from_joint,
     wrist_from_mesh,
 )
-from app.rig.grip.fitting.hand_problem import COUPLING_RAD, Problem, Touch, contact_at, finger_dofs, nodes_at, touch_at
+from app.rig.grip.fitting.hand_problem import (
+    COUPLING_RAD,
+    HandProblem,
+    TouchTarget,
+    contact_at,
+    finger_dofs,
+    nodes_at,
+    touch_at,
+)
 from app.rig.grip.fitting.residuals import PENETRATION_M, STEP, WORKED_RAD, inside_proxy, pressed
 from app.rig.grip.grip_pose import Chain, FingerTable, StationTable
 
@@ -67,7 +75,7 @@ def values_of(scene: GripScene, station: Station) -> FloatArray:
 
 
 def solve_tables(
-    problem: Problem,
+    problem: HandProblem,
     scene: GripScene,
     angles: FloatArray,
     elsewhere: FloatArray,
@@ -111,7 +119,7 @@ def solve_tables(
     return tuple(result)
 
 
-def followed_table(problem: Problem, scene: GripScene, number: int, station: Station, angles: FloatArray) -> Solved:
+def followed_table(problem: HandProblem, scene: GripScene, number: int, station: Station, angles: FloatArray) -> Solved:
     """Solve one finger at a station, from the angles (16, 3) of a hand whose controls there are fully worked."""
     values = values_of(scene, station)
     pose = np.repeat(angles[None], len(values), axis=0)
@@ -123,7 +131,9 @@ def followed_table(problem: Problem, scene: GripScene, number: int, station: Sta
     return Solved(number, station, values, pose)
 
 
-def solved_about(problem: Problem, scene: GripScene, home: Solved, values: FloatArray, angles: FloatArray) -> Solved:
+def solved_about(
+    problem: HandProblem, scene: GripScene, home: Solved, values: FloatArray, angles: FloatArray
+) -> Solved:
     """Solve a finger at home again for another wrist, about the angles (16, 3) of a hand that works its controls there
     fully."""
     pose = home.angles[np.searchsorted(home.values, values)].copy()
@@ -136,7 +146,7 @@ def solved_about(problem: Problem, scene: GripScene, home: Solved, values: Float
     return Solved(home.number, home.station, values, pose)
 
 
-def missed_m(problem: Problem, scene: GripScene, one: Solved) -> float:
+def missed_m(problem: HandProblem, scene: GripScene, one: Solved) -> float:
     """How far a finger stays from its touch points while what it works is fully worked."""
     if not one.station.contacts:
         return 0.0
@@ -182,7 +192,7 @@ class _Finger:
 
     def __init__(
         self,
-        problem: Problem,
+        problem: HandProblem,
         scene: GripScene,
         number: int,
         station: Station,
@@ -329,7 +339,7 @@ class _Finger:
         return np.concatenate(parts, axis=2), scene.placed(flesh.reshape(shape))
 
 
-def _kept_open(problem: Problem, scene: GripScene, number: int, station: Station) -> list[tuple[str, FloatArray]]:
+def _kept_open(problem: HandProblem, scene: GripScene, number: int, station: Station) -> list[tuple[str, FloatArray]]:
     """Holes that a finger closes elsewhere and must leave open here: the part that would, and where they are."""
     instrument, found = scene.instrument_map, []
     for place in problem.stations[number]:
@@ -341,7 +351,7 @@ def _kept_open(problem: Problem, scene: GripScene, number: int, station: Station
     return found
 
 
-def touches_at(scene: GripScene, station: Station, values: FloatArray) -> list[Touch]:
+def touches_at(scene: GripScene, station: Station, values: FloatArray) -> list[TouchTarget]:
     """The touches of a finger at a station over values of what it works there."""
     instrument, moved = scene.instrument_map, frozenset(station.controls)
     return [
@@ -350,7 +360,7 @@ def touches_at(scene: GripScene, station: Station, values: FloatArray) -> list[T
     ]
 
 
-def finger_tables(problem: Problem, scene: GripScene, solved: Sequence[Solved]) -> tuple[FingerTable, ...]:
+def finger_tables(problem: HandProblem, scene: GripScene, solved: Sequence[Solved]) -> tuple[FingerTable, ...]:
     """The solved angles as rotations, finger by finger."""
     hand = problem.hand
     tables = []
@@ -368,7 +378,7 @@ def finger_tables(problem: Problem, scene: GripScene, solved: Sequence[Solved]) 
     return tuple(tables)
 
 
-def _tip(problem: Problem, scene: GripScene, one: Solved) -> tuple[int, FloatArray]:
+def _tip(problem: HandProblem, scene: GripScene, one: Solved) -> tuple[int, FloatArray]:
     """The joint of a finger that carries what touches at a station, and where that is in its frame."""
     if not one.station.contacts:
         return -1, np.zeros(3)
@@ -381,7 +391,7 @@ def _tip(problem: Problem, scene: GripScene, one: Solved) -> tuple[int, FloatArr
     return joint, (point - carrier[:, 3]) @ carrier[:, :3]
 
 
-def _chain(problem: Problem, number: int) -> Chain:
+def _chain(problem: HandProblem, number: int) -> Chain:
     hand, places = problem.hand, slice(1 + 3 * number, 4 + 3 * number)
     dofs = [problem.dofs[i] for i in finger_dofs(problem, number)]
     return Chain(

@@ -13,7 +13,7 @@ from app.rig.grip.finger_poses import LOW_HOVER, raised_way, solved_pose, with_w
 from app.rig.grip.finger_stations import MOST_HOVER_M, Station, hover_m
 from app.rig.grip.fitting.fit_terms import GripScene
 from app.rig.grip.fitting.hand_model import skinned, wrist_from_joint, wrist_from_mesh
-from app.rig.grip.fitting.hand_problem import HOVER_MORE, Problem, nodes_at
+from app.rig.grip.fitting.hand_problem import HOVER_MORE, HandProblem, nodes_at
 from app.rig.grip.fitting.residuals import inside_proxy
 from app.rig.grip.grip_pose import FingerTable, StationTable
 from app.rig.quaternion import interpolated, mixed
@@ -54,7 +54,7 @@ class _Height:
 
 
 def lifted_ways(
-    problem: Problem, scene: GripScene, tables: tuple[FingerTable, ...], wrists: Mapping[tuple[int, int], GripScene]
+    problem: HandProblem, scene: GripScene, tables: tuple[FingerTable, ...], wrists: Mapping[tuple[int, int], GripScene]
 ) -> tuple[FingerTable, ...]:
     """Find how high fingers are lifted on their ways between home and their other stations."""
     result = []
@@ -69,7 +69,13 @@ def lifted_ways(
 
 
 def _lifted(
-    problem: Problem, scene: GripScene, table: FingerTable, number: int, index: int, place: Station, wrist: GripScene
+    problem: HandProblem,
+    scene: GripScene,
+    table: FingerTable,
+    number: int,
+    index: int,
+    place: Station,
+    wrist: GripScene,
 ) -> StationTable:
     home, there = table.stations[0], table.stations[index]
     if table.chain is None or home.tip_joint < 0 or there.tip_joint < 0 or set(home.controls) & set(there.controls):
@@ -96,7 +102,7 @@ def _unit(vector: FloatArray) -> FloatArray:
 
 
 def _lifted_along(
-    problem: Problem,
+    problem: HandProblem,
     scenes: tuple[GripScene, GripScene],
     table: FingerTable,
     which: tuple[int, int],
@@ -147,7 +153,7 @@ def _waiting(station: StationTable) -> FloatArray:
 
 
 def _least_lift(
-    problem: Problem, scene: GripScene, number: int, lifted: Callable[[float], FloatArray], lifts_m: FloatArray
+    problem: HandProblem, scene: GripScene, number: int, lifted: Callable[[float], FloatArray], lifts_m: FloatArray
 ) -> tuple[float, float]:
     """The first of some heights at which a finger's poses (K, n, 4) all keep clear of the instrument, or the best; and
     how deep the deepest is there."""

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from app.contacts.judge import ContactJudge
-from app.export.request import Request
+from app.export.request import ExportRequest
 from app.export.run import export
 from app.messages import text
 from app.motion.model import Motion
@@ -186,7 +186,7 @@ def test_the_exported_file_keeps_fingers_lips_feet_and_bones(tmp_path: Path) -> 
         performance = Performance(project)
         span = bars_span(performance, Fraction(30), (4, 5), 1.0)
         chosen = (project.player(player.id),)
-        request = Request(
+        request = ExportRequest(
             performance, chosen, tmp_path / f"{amount}", frozenset(("fbx",)), span, (4, 5), "piece.mid", "test"
         )
         report = export(request, text)

@@ -166,9 +166,9 @@ def test_corrections_that_do_not_hold_are_problems(choreography: str, correction
 
 
 def test_corrections_go_to_the_nearest_place() -> None:
-    from app.choreography.sequence import Grid
+    from app.choreography.sequence import AccentGrid
 
-    grid = Grid(np.arange(9) * 0.25, np.arange(9) % 2 == 0)
+    grid = AccentGrid(np.arange(9) * 0.25, np.arange(9) % 2 == 0)
     tempo = played().score.tempo_map
     tick = round(tempo.ticks(0.55))
     found = assignments_of(

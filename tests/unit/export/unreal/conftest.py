@@ -13,9 +13,9 @@ import msgspec
 import pytest
 
 from app.choreography.model_file import write_model
-from app.export.request import Request
+from app.export.request import ExportRequest
 from app.export.unreal.project import UnrealProject, find_project
-from app.export.unreal.run import Written, export_into
+from app.export.unreal.run import UnrealExport, export_into
 from app.messages import text
 from app.performance.ensemble import Performance
 from app.performance.span import bars_span
@@ -52,13 +52,13 @@ def _planned_quartet() -> Performance:
 
 def request_of(
     project: Project, players: tuple[str, ...] = ("Trumpet 1",), source: str = "quartet.mid", last_bar: int = 1
-) -> Request:
+) -> ExportRequest:
     # What the project has in common with the quartet was planned once, as in an editor that played it before.
     performance = Performance(project, _planned_quartet())
     chosen = tuple(player for player in project.players if player.name in players)
     dancers = tuple(dancer for dancer in project.dancers if dancer.name in players)
     assert len(chosen) + len(dancers) == len(players)
-    return Request(
+    return ExportRequest(
         performance=performance,
         players=chosen,
         folder=Path("nowhere"),
@@ -130,7 +130,7 @@ def exported(unreal: UnrealProject, exported_files: dict[str, bytes]) -> UnrealP
     return unreal
 
 
-Export = Callable[[Request], Written]
+Export = Callable[[ExportRequest], UnrealExport]
 
 
 @pytest.fixture

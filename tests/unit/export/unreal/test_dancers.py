@@ -13,7 +13,7 @@ import pytest
 
 from app.choreography.performed.dancers import dancing_of
 from app.errors import FileError
-from app.export.playback import Playback
+from app.export.playback import ScenePlayback
 from app.export.unreal import run
 from app.export.unreal.layout import layout_of
 from app.export.unreal.project import UnrealProject
@@ -76,7 +76,7 @@ def test_the_file_holds_the_dance(unreal: UnrealProject, export: Export, danced:
     assert {"eyeBlinkLeft", "eyeBlinkRight"} <= set(scene.clip.morph_weights)
     dancing = dancing_of(request.performance, danced.dancers[0])
     motion, skeleton = dancing.motion(span.fps, span.first, span.count), dancing.character.skeleton
-    playback = Playback(scene, scene.clip)
+    playback = ScenePlayback(scene, scene.clip)
     world_m = playback.world(0, span.count)[..., :3, 3]
     joints = [skeleton.index(name) for name in ("hips", "leftFoot", "rightFoot", "head")]
     expected_m = forward(skeleton, motion.rotations, motion.hips_m).positions_m

@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from app.export.playback import Playback
+from app.export.playback import ScenePlayback
 from app.export.unreal.project import UnrealProject
 from app.formats.fbx.read import read_scene
 from app.performance.span import bars_span
@@ -24,7 +24,7 @@ def judge(file: Path, scratch: Path, asked: Sequence[str]) -> None:
     scene = read_scene(file)
     assert scene.clip is not None
     frames = [0, scene.clip.frames // 2, scene.clip.frames - 1]
-    playback = Playback(scene, scene.clip)
+    playback = ScenePlayback(scene, scene.clip)
     world_cm = playback.world(0, scene.clip.frames)[frames][..., :3, 3] * 100.0
     names = playback.bone_names
     expected = readers.Expected(

@@ -20,7 +20,7 @@ from app.formats.gltf.model import GltfModel, GltfPrimitive
 from app.formats.gltf.primitives import primitives
 from app.formats.gltf.read import decode_gltf
 from app.formats.gltf.write import write_glb
-from app.formats.scene import MorphTarget, Place, Scene, SkinnedMesh
+from app.formats.scene import MorphTarget, NodePlace, Scene, SkinnedMesh
 from app.formats.skin import influences
 from tests.support.encoded import encode_glb
 from tests.unit.formats import scenes
@@ -232,7 +232,7 @@ def test_normals_of_morphs_are_there_for_all_or_none() -> None:
 def test_a_mesh_whose_morphs_move_is_on_the_node_at_the_place() -> None:
     """Blender leaves an empty where another node with keys had a mesh; the joints alone move it, so it stays there."""
     scene = scenes.character(Fraction(24), frames=2)
-    placed = replace(scene, name="Ana", place=Place(np.array([10.0, 0.0, 5.0]), np.array([0.0, 0.0, 0.0, 1.0])))
+    placed = replace(scene, name="Ana", place=NodePlace(np.array([10.0, 0.0, 5.0]), np.array([0.0, 0.0, 0.0, 1.0])))
     top = _document(encode_glb(placed))["nodes"][0]
     assert (top["name"], top["mesh"], top["skin"], top["children"]) == ("Ana", 0, 0, [1])
     still = _document(encode_glb(replace(placed, clip=None)))["nodes"][0]

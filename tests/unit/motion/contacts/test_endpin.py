@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from app.motion.body_motion import BodyMotion
-from app.motion.contacts.carried_instrument import Carried
-from app.motion.contacts.endpin import Stand
+from app.motion.contacts.carried_instrument import InstrumentTransform
+from app.motion.contacts.endpin import EndpinStand
 from app.motion.perform import prepare
 from app.plan.parameters import PlayerParameters
 from app.rig import quaternion
@@ -24,8 +24,8 @@ from tests.unit.motion.events import fingerings, plan_of
 
 PIN = Endpin(node="pin", axis=(0.0, -1.0, 0.0), tip_m=(0.0, -1.0, 0.3), most_m=0.3)
 CARRIAGE = Carriage(pitch_down_deg=(-2.0, 0.0, 2.0), yaw_left_deg=(-9.0, 0.0, 9.0), roll_left_deg=(-1.0, 0.0, 1.0))
-USUAL = Carried(np.array([[0.0, 1.1, 0.2]]), np.array([[0.0, 0.0, 0.0, 1.0]]))
-SWAYING = Carried(
+USUAL = InstrumentTransform(np.array([[0.0, 1.1, 0.2]]), np.array([[0.0, 0.0, 0.0, 1.0]]))
+SWAYING = InstrumentTransform(
     np.array([[0.01, 1.08, 0.23], [-0.03, 1.12, 0.19], [0.0, 1.1, 0.2]]),
     quaternion.from_rotation_vector(np.array([[0.02, 0.01, 0.0], [-0.05, 0.0, 0.03], [0.0, 0.0, 0.0]])),
 )
@@ -37,14 +37,14 @@ def motion(**held: list[float]) -> BodyMotion:
     return replace(still, bell_rad=np.array([0.2, -0.1, 0.0]), bell_held_rad=angles if held else {})
 
 
-def tips_m(stood: Carried, stand: Stand) -> np.ndarray:
+def tips_m(stood: InstrumentTransform, stand: EndpinStand) -> np.ndarray:
     drawn_m = stand.endpin.most_m * stand.drawn_out(stood.position_m, stood.rotation)
     inside_m = np.asarray(PIN.tip_m) + np.outer(drawn_m, PIN.axis)
     return stood.position_m + quaternion.rotate(stood.rotation, inside_m)
 
 
 def test_the_tip_stays_where_it_is_and_the_mouthpiece_at_the_lips() -> None:
-    stand = Stand.of(PIN, CARRIAGE, USUAL)
+    stand = EndpinStand.of(PIN, CARRIAGE, USUAL)
     assert stand is not None
     stood = stand.stood(SWAYING, motion())
     np.testing.assert_array_equal(stood.position_m, SWAYING.position_m)
@@ -54,7 +54,7 @@ def test_the_tip_stays_where_it_is_and_the_mouthpiece_at_the_lips() -> None:
 
 
 def test_where_an_animator_turns_it_the_tip_goes_along_the_floor() -> None:
-    stand = Stand.of(PIN, CARRIAGE, USUAL)
+    stand = EndpinStand.of(PIN, CARRIAGE, USUAL)
     assert stand is not None
     found_m = tips_m(stand.stood(SWAYING, motion(yaw=[0.05, -0.05, 0.0])), stand)
     turned = 0.3 * np.sin([0.05, -0.05, 0.0])
@@ -64,11 +64,11 @@ def test_where_an_animator_turns_it_the_tip_goes_along_the_floor() -> None:
 
 @pytest.mark.parametrize("lips_y", [1.31, 2.0])
 def test_out_of_reach_of_the_floor_it_does_not_stand(lips_y: float) -> None:
-    assert Stand.of(PIN, CARRIAGE, replace(USUAL, position_m=np.array([[0.0, lips_y, 0.2]]))) is None
+    assert EndpinStand.of(PIN, CARRIAGE, replace(USUAL, position_m=np.array([[0.0, lips_y, 0.2]]))) is None
 
 
 def test_a_short_player_has_it_pushed_in_wholly() -> None:
-    stand = Stand.of(PIN, CARRIAGE, replace(USUAL, position_m=np.array([[0.0, 0.99, 0.2]])))
+    stand = EndpinStand.of(PIN, CARRIAGE, replace(USUAL, position_m=np.array([[0.0, 0.99, 0.2]])))
     assert stand is not None
     assert stand.drawn_out(stand.lips_m, USUAL.rotation).tolist() == [0.0]
 

@@ -8,7 +8,7 @@ import pytest
 
 from app.errors import Message
 from app.motion.faces.exertion import Lungs
-from app.motion.faces.face_curves import FACE, Face, breath_opening
+from app.motion.faces.face_curves import FACE, FaceCurves, breath_opening
 from app.motion.faces.gaze import GAZE, Watching, plan_gaze
 from app.motion.faces.morph_weights import face_morphs, face_sizes
 from app.plan.acting import Acting
@@ -31,8 +31,10 @@ def plan(**changes: object) -> PlayerPlan:
     return msgspec.structs.replace(made, **changes)
 
 
-def curves(made: PlayerPlan, tension: float = 1.0) -> Face:
-    return FACE.begin(plan=made, embouchure_tension=tension, face_motion=load_body().face, lungs=Lungs(9.0)).of(Face)
+def curves(made: PlayerPlan, tension: float = 1.0) -> FaceCurves:
+    return FACE.begin(plan=made, embouchure_tension=tension, face_motion=load_body().face, lungs=Lungs(9.0)).of(
+        FaceCurves
+    )
 
 
 def face(

@@ -15,7 +15,7 @@ from app.motion.faces.gaze import (
     MUSIC_PITCH_RAD,
     PLAYING_TURN_RAD,
     Gaze,
-    Look,
+    GazeFrames,
     Watching,
     plan_gaze,
     with_instrument,
@@ -234,7 +234,9 @@ def test_a_plan_without_notes_is_looked_through_too() -> None:
 def test_a_head_with_an_instrument_at_its_mouth_turns_little() -> None:
     yaw = np.linspace(-1.4, 1.4, 57)
     still = np.zeros(len(yaw))
-    look = Look(yaw_rad=yaw, pitch_rad=still, head_yaw_rad=yaw, head_pitch_rad=still, left_lid=still, right_lid=still)
+    look = GazeFrames(
+        yaw_rad=yaw, pitch_rad=still, head_yaw_rad=yaw, head_pitch_rad=still, left_lid=still, right_lid=still
+    )
     playing, lowered = (with_instrument(look, np.full(len(yaw), low)) for low in (0.0, 1.0))
     assert np.abs(playing.head_yaw_rad).max() < PLAYING_TURN_RAD
     assert np.all(np.diff(playing.head_yaw_rad) > 0.0)

@@ -13,7 +13,7 @@ from app.motion.fingering.control_curves import control_curves
 from app.motion.fingering.finger_curves import HOME_S, raised_curve, sampled, station_curves
 from app.plan.model import FingeringEvent
 from app.rig.grip.finger_stations import stations, stations_of_notes
-from app.rig.grip.grip_pose import Placed, giving_for
+from app.rig.grip.grip_pose import StationBlend, giving_for
 from instrument_maps.load import load_map
 from instrument_maps.model import InstrumentMap
 from tests.support import pipe
@@ -36,7 +36,7 @@ def little(
     return where, {name: curves[name].sample(times_s) for name in LITTLE}
 
 
-def share_at(where: Placed, place: int) -> np.ndarray:
+def share_at(where: StationBlend, place: int) -> np.ndarray:
     return (where.after == place) * where.share + (where.before == place) * (1.0 - where.share)
 
 

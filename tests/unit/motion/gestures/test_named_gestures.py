@@ -10,19 +10,19 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from app.motion.by_hand.pose_corrections import Offset
+from app.motion.by_hand.pose_corrections import PoseAngles
 from app.motion.gestures.named_gestures import Gestured, angles_deg, slopes_of, with_gestures
 from app.plan.by_hand.pose_corrections import GENTLE_RAD_S2, HANDS_FOLLOW_DEG
 from app.plan.model import GestureEvent
-from metadata.gestures import Gesture, Key, Track
+from metadata.gestures import AngleKey, AngleTrack, Gesture
 from metadata.library import bundled_gestures
 from metadata.tables import Title
 from tests.unit.motion.events import REASON
 from tests.unit.motion.test_perform import made, piece
 
-KEYS = (Key(0.0, 0.0), Key(0.3, 8.0), Key(0.6, 5.0), Key(1.0, 0.0))
-TRACK = Track("head", "up", KEYS)
-TILT = Gesture("tilt", Title("Tilt"), 2.0, (TRACK, Track("torso", "left", KEYS)))
+KEYS = (AngleKey(0.0, 0.0), AngleKey(0.3, 8.0), AngleKey(0.6, 5.0), AngleKey(1.0, 0.0))
+TRACK = AngleTrack("head", "up", KEYS)
+TILT = Gesture("tilt", Title("Tilt"), 2.0, (TRACK, AngleTrack("torso", "left", KEYS)))
 
 
 def event(start_s: float, end_s: float, gesture: Gesture = TILT, amount: float = 1.0, name: str = "x") -> GestureEvent:
@@ -44,7 +44,7 @@ def test_tangents_are_level_at_turns_onwards_between_and_as_given() -> None:
     slopes = slopes_of(TRACK)
     assert slopes[[0, 1, 3]].tolist() == [0.0, 0.0, 0.0]
     assert slopes[2] < 0.0
-    steep = Track("head", "up", (Key(0.0, 0.0), Key(0.5, 8.0, 40.0), Key(1.0, 0.0)))
+    steep = AngleTrack("head", "up", (AngleKey(0.0, 0.0), AngleKey(0.5, 8.0, 40.0), AngleKey(1.0, 0.0)))
     near = angles_deg(steep, np.array([0.5 - 1e-5, 0.5 + 1e-5]))
     assert np.diff(near)[0] / 2e-5 == pytest.approx(40.0, rel=1e-3)
 
@@ -52,7 +52,9 @@ def test_tangents_are_level_at_turns_onwards_between_and_as_given() -> None:
 @given(st.lists(st.floats(-20.0, 20.0), min_size=1, max_size=8))
 def test_speed_and_acceleration_have_no_jump(angles: list[float]) -> None:
     at = np.linspace(0.0, 1.0, len(angles) + 2)
-    track = Track("head", "up", tuple(Key(float(t), deg) for t, deg in zip(at, [0.0, *angles, 0.0], strict=True)))
+    track = AngleTrack(
+        "head", "up", tuple(AngleKey(float(t), deg) for t, deg in zip(at, [0.0, *angles, 0.0], strict=True))
+    )
     step = 1e-4
     curve = angles_deg(track, np.arange(-0.1, 1.1, step))
     speed = np.diff(curve) / step
@@ -95,7 +97,7 @@ def test_the_size_follows_amplitude_and_amount_up_to_the_largest() -> None:
 def test_with_what_the_animator_holds_it_goes_no_further_than_hands_follow() -> None:
     high = np.deg2rad(HANDS_FOLLOW_DEG["head"]["up_deg"][1])
     zero = np.zeros(1)
-    held = {"head": Offset(np.array([high - 0.02]), zero, zero)}
+    held = {"head": PoseAngles(np.array([high - 0.02]), zero, zero)}
     sums = Gestured.of((event(0.0, 2.0),)).sample(np.array([0.6]))
     both = with_gestures(held, sums, 1.0, 1.0)
     assert high - 0.02 < both["head"].up[0] <= high

@@ -14,7 +14,7 @@ from app.plan.generate import MonophonicPart, make_plans, time_frame
 from app.plan.gestures.gestures import ARCH, RELEASE
 from app.plan.model import PlayerPlan
 from app.plan.music.dynamics import grown, mean_around, vigour_of
-from app.plan.music.piece import ControllerInput, Steps
+from app.plan.music.piece import ControllerInput, ControllerSteps
 from app.score.metre_map import Metre
 from metadata.load import load_body
 from tests.support.plan import PlainClock, PlainNote, line_of, piece_of, valves
@@ -77,7 +77,7 @@ def test_a_start_to_play_softly_is_cued_softly() -> None:
 
 def test_a_curve_drawn_for_the_dynamics_counts_within_a_held_note() -> None:
     notes = line_of((0, 16 * Q, 67), (16 * Q, 4 * Q, 65))
-    swell = Steps(np.arange(0.0, 16.0 * Q, Q / 4), np.linspace(0.2, 1.0, 64))
+    swell = ControllerSteps(np.arange(0.0, 16.0 * Q, Q / 4), np.linspace(0.2, 1.0, 64))
     plan = plan_of(notes, loudness=(0.6, 1.0), controller=ControllerInput(breath=swell))
     assert sizes(plan, "sway", 5.0, 8.0) > 1.5 * sizes(plan, "sway", 0.0, 3.0)
 

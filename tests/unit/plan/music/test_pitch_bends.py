@@ -5,16 +5,16 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from app.plan.music.piece import Steps
+from app.plan.music.piece import ControllerSteps
 from app.plan.music.pitch_bends import bends
 from app.score.model import Note
 
 NOTE = Note("1:1", 480, 480, 67, 80)
 
 
-def steps(*rows: tuple[int, float]) -> Steps:
+def steps(*rows: tuple[int, float]) -> ControllerSteps:
     ticks, values = zip(*rows, strict=True)
-    return Steps(np.array(ticks, float), np.array(values, float))
+    return ControllerSteps(np.array(ticks, float), np.array(values, float))
 
 
 VIBRATO = [(480 + 10 * k, 0.2 * float(np.sin(k))) for k in range(48)]

@@ -12,7 +12,7 @@ from typing import Any
 
 import pytest
 
-from app.export.request import Request
+from app.export.request import ExportRequest
 from app.export.unreal.project import UnrealProject, find_project
 from app.export.unreal.run import export_into
 from app.messages import text
@@ -89,7 +89,7 @@ def exported(
     (folder / "Game.uproject").write_text('{"FileVersion": 3, "EngineAssociation": "5.6"}')
     unreal = find_project(folder)
     performance = Performance(project)
-    request = Request(
+    request = ExportRequest(
         performance=performance,
         players=tuple(player for player in project.players if player.name in players),
         folder=folder,

@@ -9,10 +9,10 @@ from hypothesis import strategies as st
 
 from app.rig.characters.character_library import character_named
 from app.rig.grip import finger_ik
-from app.rig.grip.finger_ik import Asked, brought, distinct_rows
+from app.rig.grip.finger_ik import ReachTarget, brought, distinct_rows
 from app.rig.grip.finger_poses import finger_rotations
 from app.rig.grip.fitting.grip_files import hold_for
-from app.rig.grip.grip_pose import Placed, giving_for
+from app.rig.grip.grip_pose import StationBlend, giving_for
 from instrument_maps.load import bundled_maps
 from metadata.load import load_body
 from tests.support.models import bundled_instrument
@@ -20,7 +20,7 @@ from tests.support.models import bundled_instrument
 PLACES = 40
 
 
-def _asked(rows: np.ndarray[tuple[int], np.dtype[np.intp]]) -> list[Asked]:
+def _asked(rows: np.ndarray[tuple[int], np.dtype[np.intp]]) -> list[ReachTarget]:
     """Two fingers of a clarinettist, each brought to some of 40 places about a centimetre around."""
     instrument = bundled_maps()["clarinet_Bb"]
     hold = hold_for(character_named("woman_adult"), bundled_instrument(instrument), instrument, load_body())
@@ -31,7 +31,7 @@ def _asked(rows: np.ndarray[tuple[int], np.dtype[np.intp]]) -> list[Asked]:
         rotations = table.stations[0].rotations[-1]
         tip_m = table.stations[0].tip_m
         at_m = table.chain.offsets_m.sum(axis=0) + offsets_m
-        found.append(Asked(table.chain, np.repeat(rotations[None], len(rows), axis=0), 2, tip_m, at_m[rows]))
+        found.append(ReachTarget(table.chain, np.repeat(rotations[None], len(rows), axis=0), 2, tip_m, at_m[rows]))
     return found
 
 
@@ -58,15 +58,15 @@ def test_fingers_wait_for_a_hand_that_does_not_give_way_as_frame_by_frame() -> N
     instrument = bundled_maps()["clarinet_bass_Bb"]
     hold = hold_for(character_named("woman_adult"), bundled_instrument(instrument), instrument, load_body())
     share = np.array([0.0, 0.3, 1.0, 1.0, 0.0])
-    home = Placed(np.zeros(5), np.zeros(5), np.ones(5))
+    home = StationBlend(np.zeros(5), np.zeros(5), np.ones(5))
     leans = [lean for hand in hold.hands for lean in hand.leans if not lean.beside]
     assert leans
     for lean in leans:
-        coming = Placed(np.zeros(5), np.full(5, float(lean.station)), share)
+        coming = StationBlend(np.zeros(5), np.full(5, float(lean.station)), share)
         together = finger_rotations(hold, {}, 5, {lean.finger: coming, giving_for(lean.finger): home})
         for frame in range(5):
             one = {
-                name: Placed(*(values[[frame]] for values in placed))
+                name: StationBlend(*(values[[frame]] for values in placed))
                 for name, placed in ((lean.finger, coming), (giving_for(lean.finger), home))
             }
             assert np.array_equal(together[[frame]], finger_rotations(hold, {}, 1, one))

@@ -16,7 +16,7 @@ from app.rig.grip import instrument_proxy
 from app.rig.grip.finger_poses import finger_rotations
 from app.rig.grip.finger_stations import aside_m, asked_together, only_at, stations, stations_of_notes, worked_by
 from app.rig.grip.fitting.grip_files import hold_for
-from app.rig.grip.grip_pose import FingerTable, GripPose, HandHold, Placed, giving_for, hand_targets, wrist_given
+from app.rig.grip.grip_pose import FingerTable, GripPose, HandHold, StationBlend, giving_for, hand_targets, wrist_given
 from app.rig.instrument import node_transforms
 from app.rig.model import Character, InstrumentModel
 from app.rig.skeleton import JointTransforms, forward
@@ -48,7 +48,7 @@ class Fingered:
     labels: list[str]
     working: dict[str, np.ndarray]
     controls: dict[str, np.ndarray]
-    placed: dict[str, Placed]
+    placed: dict[str, StationBlend]
 
     def __len__(self) -> int:
         return len(self.labels)
@@ -100,7 +100,7 @@ def fingered(request: pytest.FixtureRequest) -> Fingered:
         for control in instrument.controls
     }
     places = {finger: np.maximum(numbers, 0) for finger, numbers in working.items()}
-    placed = {finger: Placed(place, place, np.zeros(len(rows))) for finger, place in places.items()}
+    placed = {finger: StationBlend(place, place, np.zeros(len(rows))) for finger, place in places.items()}
     hold = hold_for(character, model, instrument, load_body())
     return Fingered(character, instrument, model, hold, [row.label for row in rows], working, controls, placed)
 
@@ -151,7 +151,7 @@ def test_a_hand_that_gives_way_for_two_fingers_stays_outside(fingered: Fingered)
         for lean in hand.leans:
             at = np.all([fingered.working[finger] == place for finger, place in lean.places], axis=0)
             for frame in np.flatnonzero(at if lean.beside else at & False):
-                placed = instrument_proxy.Nodes(nodes[frame], quaternion.to_matrix(turns[frame]))
+                placed = instrument_proxy.InstrumentNodes(nodes[frame], quaternion.to_matrix(turns[frame]))
                 depth, _ = instrument_proxy.inside(bodies, placed, skin[frame], np.zeros(len(skin[frame])))
                 assert depth.max() <= 0.003, (lean.places, fingered.labels[frame])
 
@@ -174,8 +174,8 @@ def test_giving_way_for_two_grows_with_both(fingered: Fingered) -> None:
             home = np.zeros(3)
             (first, a), (second, b) = lean.places
             placed = {
-                first: Placed(home, np.full(3, a), np.array([0.0, 0.5, 1.0])),
-                second: Placed(home, np.full(3, b), np.array([1.0, 0.5, 1.0])),
+                first: StationBlend(home, np.full(3, a), np.array([0.0, 0.5, 1.0])),
+                second: StationBlend(home, np.full(3, b), np.array([1.0, 0.5, 1.0])),
             }
             place, _ = hand_targets(alone, still, unturned, {}, placed)
             moved = place - wrist_given(hand, [])[0]
@@ -189,15 +189,15 @@ def test_fingers_keep_out_of_the_instrument_on_their_ways_and_where_they_wait(fi
     still = {one.name: np.full(len(shares), one.rest_value) for one in fingered.instrument.controls}
     bodies = instrument_proxy.bodies(fingered.instrument.proxy, fingered.model.node_names)
     nodes, turns = node_transforms(fingered.model, fingered.instrument, still, len(shares))
-    at_rest = instrument_proxy.Nodes(nodes[0], quaternion.to_matrix(turns[0]))
+    at_rest = instrument_proxy.InstrumentNodes(nodes[0], quaternion.to_matrix(turns[0]))
     for hand in fingered.hold.hands:
         for table in hand.fingers:
             skin = _skin_of(fingered.character, hand, table)
             for place in range(1, len(table.stations)):
                 home, there = np.zeros(len(shares)), np.full(len(shares), float(place))
                 placed = {
-                    table.finger: Placed(home, there, shares),
-                    giving_for(table.finger): Placed(home, there, home),
+                    table.finger: StationBlend(home, there, shares),
+                    giving_for(table.finger): StationBlend(home, there, home),
                 }
                 on_way = replace(fingered, labels=[f"{share:.2f}" for share in shares], controls=still, placed=placed)
                 for raised in (0.0, 1.0):
@@ -231,8 +231,8 @@ def test_no_finger_is_thrown_about_on_its_way(fingered: Fingered) -> None:
             for place in range(1, len(table.stations)):
                 there = np.full(len(shares), float(place))
                 placed = {
-                    table.finger: Placed(home, there, shares),
-                    giving_for(table.finger): Placed(home, there, home),
+                    table.finger: StationBlend(home, there, shares),
+                    giving_for(table.finger): StationBlend(home, there, home),
                 }
                 found = finger_rotations(fingered.hold, still, len(shares), placed)[:, columns]
                 steps = quaternion.multiply(quaternion.conjugate(found[:-1]), found[1:])

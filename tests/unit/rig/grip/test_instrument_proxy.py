@@ -15,7 +15,7 @@ SHAPES: list[Proxy] = [
 ]
 
 
-REST = instrument_proxy.Nodes(np.zeros((1, 3)), np.eye(3)[None])
+REST = instrument_proxy.InstrumentNodes(np.zeros((1, 3)), np.eye(3)[None])
 
 
 @pytest.mark.parametrize("shape", SHAPES, ids=lambda shape: type(shape).__name__)
@@ -48,7 +48,7 @@ def test_bodies_move_with_their_nodes() -> None:
     some = instrument_proxy.bodies([Capsule("a", (0.0, 0.0, 0.0), (0.0, 0.0, 0.1), 0.01)], ["root", "a"])
     places, turns = np.array([[0.0, 0.0, 0.0], [0.5, 0.0, 0.0]]), np.tile(np.eye(3), (2, 1, 1))
     turns[1] = [[0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [-1.0, 0.0, 0.0]]
-    nodes = instrument_proxy.Nodes(places, turns)
+    nodes = instrument_proxy.InstrumentNodes(places, turns)
     points = np.array([[0.55, 0.0, 0.0], [0.5, 0.0, 0.05], [0.55, 0.008, 0.0]])
     depth, owner = instrument_proxy.inside(some, nodes, points, np.zeros(3))
     np.testing.assert_allclose(depth, [0.01, 0.0, 0.002], atol=1e-12)

@@ -30,7 +30,7 @@ from widgets.timeline.lanes.acting.giver_menu import add_givers, add_takers
 from widgets.timeline.lanes.acting.style_menu import add_styles_menus
 from widgets.timeline.lanes.regions import RegionLane
 from widgets.timeline.lanes.row_names import RowNames
-from widgets.timeline.model.hand import Box, LaneMouse
+from widgets.timeline.model.hand import LaneMouse, PixelRect
 from widgets.timeline.model.regions.acting_regions import (
     BASE,
     CURVES,
@@ -211,7 +211,7 @@ class ActingLane(RegionLane):
             names.append((self.group_name(kind), top + height * count / 2))
         return names
 
-    def place(self, region: Region) -> Box:
+    def place(self, region: Region) -> PixelRect:
         box = super().place(region)
         return box._replace(top=box.bottom - BASE_PX) if region.event_id == BASE and not region.removed else box
 

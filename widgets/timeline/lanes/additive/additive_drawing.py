@@ -12,7 +12,7 @@ from app.arrays import FloatArray
 from app.plan.by_hand.additive_curve import Interpolation
 from widgets.common.channel_names import value_text
 from widgets.timeline.model.additive.additive_curves import KeyRef, ShownCurve
-from widgets.timeline.model.hand import Box
+from widgets.timeline.model.hand import PixelRect
 from widgets.timeline.plot.drawing import MARK_PX, draw_path, draw_text, polygon, shade, small_font
 from widgets.timeline.plot.plot import LaneItem, LaneView
 
@@ -22,7 +22,7 @@ BLEND_PX = 6.0
 LABEL_PX, SCALE_PX = 90.0, 48.0
 
 
-class Shown(LaneView, Protocol):
+class AdditiveLaneView(LaneView, Protocol):
     """What is drawn of the lane."""
 
     curves: tuple[ShownCurve, ...]
@@ -32,13 +32,13 @@ class Shown(LaneView, Protocol):
     generated: tuple[FloatArray, FloatArray] | None
 
     @property
-    def band(self) -> Box | None: ...
+    def band(self) -> PixelRect | None: ...
     @property
     def chosen_curves(self) -> frozenset[str]: ...
     def empty_text(self) -> str: ...
 
 
-class CurvesItem(LaneItem[Shown]):
+class CurvesItem(LaneItem[AdditiveLaneView]):
     """The generated value faint behind, the curves with their keys and handles in front."""
 
     def paint_px(self, painter: QPainter, exposed: QRectF) -> None:

@@ -31,8 +31,8 @@ from widgets.timeline.lanes.additive.additive_menu import add_curve_entries, add
 from widgets.timeline.model.additive import additive_curves as model
 from widgets.timeline.model.additive.additive_curves import Hit, KeyRef
 from widgets.timeline.model.additive.additive_gestures import DragBlend, DragHandle, DragKeys
-from widgets.timeline.model.gestures import Band, Gesture, either
-from widgets.timeline.model.hand import Box
+from widgets.timeline.model.gestures import Band, MouseGesture, either
+from widgets.timeline.model.hand import PixelRect
 from widgets.timeline.plot.time_axis import TimeAxis
 
 REACH_PX = 6.0
@@ -54,7 +54,7 @@ class AdditiveLane(CurveEditing):
         super().__init__(session, axis, parent)
         self.limits = (-180.0, 180.0)
         self._generated_of: tuple[PlayerPlan, str, PlayerParameters] | None = None
-        self._gesture: Gesture | None = None
+        self._gesture: MouseGesture | None = None
         self.choice = self.texted(
             named(QToolButton(self.header), "channel_choice"), tip="additive_lane.channel", name="additive_lane.channel"
         )
@@ -84,7 +84,7 @@ class AdditiveLane(CurveEditing):
     # What is shown
 
     @property
-    def band(self) -> Box | None:
+    def band(self) -> PixelRect | None:
         """The rubber band while it is drawn."""
         return self._gesture.box if isinstance(self._gesture, Band) else None
 
@@ -195,7 +195,7 @@ class AdditiveLane(CurveEditing):
         moving = self.selected | {key}
         self._gesture = DragKeys(self.session, None, mouse, player, self.channel, key, moving, self.follow_keys)
 
-    def _take(self, kept: frozenset[KeyRef], box: Box, _: LaneMouse) -> None:
+    def _take(self, kept: frozenset[KeyRef], box: PixelRect, _: LaneMouse) -> None:
         self.selected = kept | model.keys_in(self.curves, self, *box)
         self.update_items()
 

@@ -18,7 +18,7 @@ MARKED = "• "
 """Before the names of channels that have curves."""
 
 
-class Curves(Protocol):
+class AdditiveMenuTarget(Protocol):
     """What the menus ask for, and what they can do."""
 
     def chosen(self) -> tuple[CurveKey, ...]: ...
@@ -61,7 +61,7 @@ def fill_channels(menu: QMenu, channel: str, used: Collection[str], chosen: Call
         offer(face.addMenu(marked(name, channels)), channels)
 
 
-def add_key_entries(menu: QMenu, lane: Curves) -> None:
+def add_key_entries(menu: QMenu, lane: AdditiveMenuTarget) -> None:
     """Entries about the selected keys."""
     keys = lane.chosen()
     names = {
@@ -87,7 +87,7 @@ def add_key_entries(menu: QMenu, lane: Curves) -> None:
     add_entry(menu, "delete_keys", tr("additive_lane.delete_keys"), lane.delete)
 
 
-def add_curve_entries(menu: QMenu, lane: Curves, curve: AdditiveCurve) -> None:
+def add_curve_entries(menu: QMenu, lane: AdditiveMenuTarget, curve: AdditiveCurve) -> None:
     """Entries about a whole curve."""
     name = curve.name
     menu.addSeparator()

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from app.score.tempo import TempoMap
-from widgets.timeline.model.gestures import DRAG_PX, Gesture, along
+from widgets.timeline.model.gestures import DRAG_PX, MouseGesture, along
 from widgets.timeline.model.hand import LaneMouse
 from widgets.timeline.model.view import Scale
 
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from app.choreography.performed.dance_steps import DanceSteps
 
 
-class MoveStep(Gesture):
+class MoveStep(MouseGesture):
     """The accent of a step goes as far as the mouse does, to the nearest place where one can be.
 
     Attributes

@@ -24,7 +24,7 @@ from widgets.timeline.lane import Lane, LaneItem, LaneMouse
 from widgets.timeline.lanes.fingering.alternates import Alternates
 from widgets.timeline.lanes.problems import ProblemMarks
 from widgets.timeline.lanes.row_names import RowNames
-from widgets.timeline.model.geometry import Spans
+from widgets.timeline.model.geometry import TimeSpans
 from widgets.timeline.plot.drawing import draw_mark, draw_path, draw_rects, draw_text, shade, small_font
 from widgets.timeline.plot.time_axis import TimeAxis
 
@@ -50,7 +50,7 @@ class Fingerings:
     end_s: FloatArray
     pressed: FloatArray
     slides: FloatArray
-    spans: Spans
+    spans: TimeSpans
 
 
 def fingerings(plan: PlayerPlan, pressable: tuple[Control, ...], slides: tuple[Control, ...]) -> Fingerings:
@@ -63,7 +63,7 @@ def fingerings(plan: PlayerPlan, pressable: tuple[Control, ...], slides: tuple[C
         rows = [[event.controls.get(control.name, control.rest_value) for event in events] for control in controls]
         return np.array(rows, np.float64).reshape(len(controls), len(events))
 
-    return Fingerings(events, start_s, end_s, values(pressable), values(slides), Spans(start_s, end_s))
+    return Fingerings(events, start_s, end_s, values(pressable), values(slides), TimeSpans(start_s, end_s))
 
 
 def slide_places(instrument: InstrumentMap, slide: Control) -> tuple[tuple[float, str], ...]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Final, Literal, NamedTuple, Protocol
+from typing import Final, Literal, NamedTuple
 
 import msgspec
 import numpy as np
@@ -19,7 +19,7 @@ from app.plan.model import CurveSegment
 from app.project.edit.additive import Side, curves_of
 from app.project.model import Project
 from app.score.tempo import TempoMap
-from widgets.timeline.model.view import Scale
+from widgets.timeline.model.gestures import Plane
 
 REACH_PX: Final = 7.0
 """A key, a handle or a blend is hit within this distance ..."""
@@ -39,14 +39,6 @@ class KeyRef(NamedTuple):
 
     name: str
     tick: int
-
-
-class Plane(Protocol):
-    """Where times and values lie."""
-
-    @property
-    def axis(self) -> Scale: ...
-    def y_px(self, value: float) -> float: ...
 
 
 class Hit(NamedTuple):

@@ -12,7 +12,7 @@ from app.project.edit.additive import Side
 from app.project.model import Project
 from app.score.tempo import TempoMap
 from widgets.timeline.model.additive.additive_curves import KeyRef, ShownCurve, by_curve, rounded
-from widgets.timeline.model.gestures import DRAG_PX, Editing, Gesture, Step, either, snapped
+from widgets.timeline.model.gestures import DRAG_PX, Editing, LiveEdit, MouseGesture, either, snapped
 from widgets.timeline.model.hand import LaneMouse
 
 FINE: Final = 0.2
@@ -21,7 +21,7 @@ ALIGNED: Final = 1e-3
 """Handles whose slopes differ by no more than this share turn together."""
 
 
-class DragKeys(Gesture):
+class DragKeys(MouseGesture):
     """The selected keys go with the mouse: in time to the grid, Alt free of it, Ctrl in one direction only.
 
     Parameters
@@ -46,7 +46,7 @@ class DragKeys(Gesture):
         moved: Callable[[frozenset[KeyRef]], None],
     ) -> None:
         super().__init__(at, either(DRAG_PX))
-        self._session, self._step = session, Step(session, origin)
+        self._session, self._step = session, LiveEdit(session, origin)
         self._player_id, self._channel, self._grabbed, self._keys = player_id, channel, grabbed, keys
         self._moved = moved
 
@@ -79,7 +79,7 @@ class DragKeys(Gesture):
             self._moved(self._keys)
 
 
-class DragHandle(Gesture):
+class DragHandle(MouseGesture):
     """A handle goes with the mouse; the other one turns with it while both are in line, unless Ctrl is held.
 
     Parameters
@@ -101,7 +101,7 @@ class DragHandle(Gesture):
         side: Side,
     ) -> None:
         super().__init__(at, either(1.0))
-        self._session, self._step = session, Step(session, origin)
+        self._session, self._step = session, LiveEdit(session, origin)
         self._player_id, self._name, self._side = player_id, shown.curve.name, side
         self._key = shown.curve.keys[at_key]
         clock = session.project.score.tempo_map
@@ -149,14 +149,14 @@ def in_line(tangents: dict[Side, Tangent]) -> bool:
     return abs(one + other) <= ALIGNED * max(abs(one), abs(other)) + 1e-9
 
 
-class DragBlend(Gesture):
+class DragBlend(MouseGesture):
     """A curve comes in earlier or later, or goes so, to the grid; Alt is free of it."""
 
     def __init__(
         self, session: Editing, origin: object, at: LaneMouse, player_id: str, name: str, key_tick: int, at_start: bool
     ) -> None:
         super().__init__(at, either(DRAG_PX))
-        self._session, self._step = session, Step(session, origin)
+        self._session, self._step = session, LiveEdit(session, origin)
         self._player_id, self._name, self._key_tick, self._at_start = player_id, name, key_tick, at_start
 
     def follow(self, mouse: LaneMouse) -> None:

@@ -14,8 +14,8 @@ from app.plan.by_hand.corrections import SetBreath
 from app.plan.model import PlayerPlan
 from app.project.edit.events import Edited, corrections_of, move, resize, set_amounts, set_fades
 from app.project.model import Project
-from widgets.timeline.model.gestures import DRAG_PX, Band, Editing, Gesture, Plane, Step, either, moved_edge
-from widgets.timeline.model.hand import Box, LaneMouse
+from widgets.timeline.model.gestures import DRAG_PX, Band, Editing, LiveEdit, MouseGesture, Plane, either, moved_edge
+from widgets.timeline.model.hand import LaneMouse, PixelRect
 from widgets.timeline.model.regions.shown_event import Region
 
 MOST_FADE_S = 30.0
@@ -32,13 +32,13 @@ class RegionPlane(Plane, Protocol):
     def session(self) -> Editing: ...
     @property
     def regions(self) -> Sequence[Region]: ...
-    def place(self, region: Region) -> Box: ...
+    def place(self, region: Region) -> PixelRect: ...
     def row_box(self, row: int) -> tuple[float, float]: ...
     def snap(self, tick: float, mouse: LaneMouse) -> int: ...
     def snapped_move(self, region: Region, ticks: float, mouse: LaneMouse) -> int: ...
 
 
-class RegionDrag(Gesture):
+class RegionDrag(MouseGesture):
     """A press that may become a drag of all selected regions, or a lasso.
 
     Parameters
@@ -71,7 +71,7 @@ class RegionDrag(Gesture):
         self.region = region
         self._zone = zone
         self._before = before
-        self._step = Step(session, lane)
+        self._step = LiveEdit(session, lane)
         self._band = Band(lane, mouse, either(DRAG_PX), self._select_inside)
         self._plans: Mapping[str, PlayerPlan] = session.performance.plans if session.performance.planned else {}
         self._shown = {item.key: item for item in lane.regions if item.key in selected and not item.removed}
@@ -84,7 +84,7 @@ class RegionDrag(Gesture):
         self.hidden: frozenset[EventKey] = frozenset()
 
     @property
-    def lasso(self) -> Box | None:
+    def lasso(self) -> PixelRect | None:
         """The box that selects."""
         return self._band.box
 
@@ -138,7 +138,7 @@ class RegionDrag(Gesture):
             return "none" if region.steady else "amount"
         return "move"
 
-    def _select_inside(self, box: Box, _mouse: LaneMouse) -> None:
+    def _select_inside(self, box: PixelRect, _mouse: LaneMouse) -> None:
         lane = self._lane
         inside = {region.key for region in lane.regions if not region.guest and lane.place(region).meets(box)}
         if self.at.ctrl or self.at.shift:

@@ -10,7 +10,7 @@ import numpy as np
 from app.editor.selection import EventKey
 from app.errors import Message
 from app.plan.event_id import EventId
-from widgets.timeline.model.geometry import Spans
+from widgets.timeline.model.geometry import TimeSpans
 
 
 class Region(msgspec.Struct):
@@ -76,9 +76,9 @@ class Region(msgspec.Struct):
         return EventKey(self.player_id, self.event_id)
 
 
-def spans_of(regions: Sequence[Region]) -> Spans:
+def spans_of(regions: Sequence[Region]) -> TimeSpans:
     """Where regions are, to be found by time."""
-    return Spans(
+    return TimeSpans(
         np.array([region.first_s for region in regions], np.float64),
         np.array([region.last_s for region in regions], np.float64),
     )

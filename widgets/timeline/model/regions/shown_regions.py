@@ -8,7 +8,7 @@ import numpy as np
 
 from app.arrays import AnyIntArray, IntArray
 from app.editor.selection import EventKey
-from widgets.timeline.model.hand import Box, LaneMouse
+from widgets.timeline.model.hand import LaneMouse, PixelRect
 from widgets.timeline.model.regions.shown_event import Region, spans_of
 from widgets.timeline.model.view import Scale
 
@@ -37,16 +37,16 @@ def most_scrolled(count: int, height_px: float, room_px: float) -> float:
     return max(max(count, 1) * height_px - room_px, 0.0)
 
 
-def region_box(region: Region, scale: Scale, row: tuple[float, float]) -> Box:
+def region_box(region: Region, scale: Scale, row: tuple[float, float]) -> PixelRect:
     """Where a region lies in its row (top and height)."""
     top, height = row
     left = scale.x_px(region.start_s)
     width = GLYPH_PX if region.removed else max(scale.x_px(region.end_s) - left, LEAST_REGION_PX)
     left = left - GLYPH_PX / 2 if region.removed else left
-    return Box(left, top + 1.0, left + width, top + 1.0 + max(height - 2.0, 1.0))
+    return PixelRect(left, top + 1.0, left + width, top + 1.0 + max(height - 2.0, 1.0))
 
 
-def fade_handles(region: Region, box: Box, scale: Scale) -> tuple[Handle, Handle]:
+def fade_handles(region: Region, box: PixelRect, scale: Scale) -> tuple[Handle, Handle]:
     """Where the fades are taken hold of."""
     fade_in, fade_out = region.fade_in_s * scale.px_per_s, region.fade_out_s * scale.px_per_s
     if region.fades_outside:
@@ -59,14 +59,14 @@ def fade_handles(region: Region, box: Box, scale: Scale) -> tuple[Handle, Handle
     )
 
 
-def _fade_zone(region: Region, box: Box, mouse: LaneMouse, scale: Scale) -> str:
+def _fade_zone(region: Region, box: PixelRect, mouse: LaneMouse, scale: Scale) -> str:
     for zone, (x, y) in fade_handles(region, box, scale):
         if abs(mouse.x_px - x) <= EDGE_PX and abs(mouse.y_px - y) <= EDGE_PX:
             return zone
     return ""
 
 
-def _zone(region: Region, box: Box, mouse: LaneMouse) -> str:
+def _zone(region: Region, box: PixelRect, mouse: LaneMouse) -> str:
     if not region.removed and not region.fixed and box.width >= 3 * EDGE_PX:
         if mouse.x_px <= box.left + EDGE_PX:
             return "start"
@@ -137,7 +137,7 @@ class RegionTable:
         return np.sort(np.concatenate((found[~narrow], crowded[order[first]])))
 
     def at(
-        self, mouse: LaneMouse, scale: Scale, place: Callable[[Region], Box], selected: Collection[EventKey]
+        self, mouse: LaneMouse, scale: Scale, place: Callable[[Region], PixelRect], selected: Collection[EventKey]
     ) -> tuple[Region | None, str]:
         """The region at a place, and its zone: ``start``, ``end``, ``fade_in``, ``fade_out`` or ``body``.
 

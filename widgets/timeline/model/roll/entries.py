@@ -13,10 +13,10 @@ from app.project.edit.events import Edited
 from app.project.edit.givers import hand_over, set_giver
 from app.project.model import Project
 from app.project.performers import Player
-from widgets.timeline.model.gestures import Gesture, Plane, either, snapped
+from widgets.timeline.model.gestures import MouseGesture, Plane, either, snapped
 from widgets.timeline.model.hand import LaneMouse
 from widgets.timeline.model.roll.note_table import NoteTable
-from widgets.timeline.model.roll.shown_notes import Ensemble, RollModel
+from widgets.timeline.model.roll.shown_notes import RollModel, RollSession
 
 End: TypeAlias = Literal["tail", "head"]
 HEAD_PX: Final = 9.0
@@ -79,7 +79,7 @@ class EntryPlane(Plane, Protocol):
     """The roll under the mouse."""
 
     @property
-    def session(self) -> Ensemble: ...
+    def session(self) -> RollSession: ...
     @property
     def plans(self) -> Mapping[str, PlayerPlan]: ...
     @property
@@ -99,7 +99,7 @@ def end_at(plane: Plane, arrows: Iterable[EntryArrow], mouse: LaneMouse) -> tupl
     return None
 
 
-class EntryDrag(Gesture):
+class EntryDrag(MouseGesture):
     """Drag the tail of an arrow to another giver or time, its head to another player's note.
 
     Nothing of the piece changes before the button goes up: `shown` is the arrow as it would be then.

@@ -14,7 +14,7 @@ from app.score.model import Part
 from app.score.tempo import TempoMap
 
 
-class Sounding:
+class TimedNotes:
     """Notes in time, ordered by onset.
 
     Parameters
@@ -34,7 +34,7 @@ class Sounding:
         return slice(first, max(first, last))
 
 
-class NoteTable(Sounding):
+class NoteTable(TimedNotes):
     """Arrays with an entry for every note of a part, ordered by onset."""
 
     def __init__(self, part: Part, tempo: TempoMap) -> None:
@@ -87,7 +87,7 @@ class NoteTable(Sounding):
         return [self.part.notes[place].id for place in (np.flatnonzero(hit) + near.start).tolist()]
 
 
-class Together(Sounding):
+class Together(TimedNotes):
     """The notes of several tables as one: what is visible of fifty players is found at once.
 
     Attributes

@@ -9,9 +9,9 @@ from app.errors import Message
 from app.project.edit import notes
 from app.project.model import Project
 from app.score.model import Note
-from widgets.timeline.model.gestures import Band, Far, Gesture, Plane, Step, snapped, together
-from widgets.timeline.model.hand import Box, LaneMouse
-from widgets.timeline.model.roll.shown_notes import Ensemble, RollModel, cell
+from widgets.timeline.model.gestures import Band, Far, LiveEdit, MouseGesture, Plane, snapped, together
+from widgets.timeline.model.hand import LaneMouse, PixelRect
+from widgets.timeline.model.roll.shown_notes import RollModel, RollSession, cell
 
 VELOCITY_A_PX = 0.5
 
@@ -20,14 +20,14 @@ class RollPlane(Plane, Protocol):
     """The roll under the mouse; ``drag_px``: the mouse moves this far before a press becomes a drag."""
 
     @property
-    def session(self) -> Ensemble: ...
+    def session(self) -> RollSession: ...
     @property
     def model(self) -> RollModel: ...
     @property
     def drag_px(self) -> float: ...
 
 
-class RollGesture(Gesture):
+class RollGesture(MouseGesture):
     """A press on the roll, one step from its beginning to its end.
 
     Parameters
@@ -49,7 +49,7 @@ class RollGesture(Gesture):
         super().__init__(mouse, far)
         self.roll = roll
         self.session = roll.session
-        self.step = Step(self.session, roll)
+        self.step = LiveEdit(self.session, roll)
         self._selected = self.session.selection
         self.moved = self.sounded = ""
 
@@ -232,7 +232,7 @@ class LassoNotes(Band):
         self._roll, self._before = roll, roll.session.selection
         self._kept = self._before.notes if mouse.shift or mouse.ctrl else frozenset[str]()
 
-    def _select_inside(self, _box: Box, mouse: LaneMouse) -> None:
+    def _select_inside(self, _box: PixelRect, mouse: LaneMouse) -> None:
         times = sorted((self.at.time_s, mouse.time_s))
         low, high = sorted((int(self.at.value // 1), int(mouse.value // 1)))
         inside = self._roll.model.notes_within(times[0], times[1], low, high)

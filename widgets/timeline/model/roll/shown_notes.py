@@ -17,7 +17,7 @@ from app.project.performers import Player
 from app.score.model import Note, Score
 from widgets.timeline.model.gestures import Editing
 from widgets.timeline.model.hand import LaneMouse
-from widgets.timeline.model.roll.note_table import Behind, NoteTable, Sounding
+from widgets.timeline.model.roll.note_table import Behind, NoteTable, TimedNotes
 from widgets.timeline.model.view import Scale
 
 EDGE_PX = 6.0
@@ -32,7 +32,7 @@ AIR_ROWS = 4.0
 NO_GHOSTS = Behind((), ())
 
 
-class Ensemble(Editing, Protocol):
+class RollSession(Editing, Protocol):
     """What the roll needs of the session."""
 
     @property
@@ -63,7 +63,7 @@ def zoomed_pitches(pitches: tuple[float, float], factor: float, at: float) -> tu
     return kept_pitches(at - (at - bottom) / (top - bottom) * rows, rows)
 
 
-def visible(table: Sounding, start_s: float, end_s: float, pitches: tuple[float, float]) -> IntArray:
+def visible(table: TimedNotes, start_s: float, end_s: float, pitches: tuple[float, float]) -> IntArray:
     """Places of the notes that may show in a range of time and pitch."""
     found = table.visible(start_s, end_s)
     bottom, top = pitches
@@ -74,7 +74,7 @@ def visible(table: Sounding, start_s: float, end_s: float, pitches: tuple[float,
 
 
 def boxes(
-    table: Sounding, rows: IntArray, scale: Scale, highest: float, row_px: float
+    table: TimedNotes, rows: IntArray, scale: Scale, highest: float, row_px: float
 ) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
     """Left, top, width and height of notes, in whole pixels so that edges are sharp."""
     left = np.floor(scale.x_px(table.onset_s[rows]))
@@ -110,7 +110,7 @@ def cell(score: Score, grid: Grid, mouse: LaneMouse) -> tuple[int, int]:
 class RollModel:
     """Every player's notes as arrays; the one in front answers the mouse."""
 
-    def __init__(self, session: Ensemble, axis: Scale) -> None:
+    def __init__(self, session: RollSession, axis: Scale) -> None:
         self._session, self._axis = session, axis
         self.ghosts_mode = Ghosts.GHOSTS
         """How the players behind are seen."""

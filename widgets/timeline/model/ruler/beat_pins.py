@@ -12,7 +12,7 @@ from app.errors import Message
 from app.project.edit.pins import pin_beat, recording_second
 from app.project.model import Project
 from app.project.recording import BeatPin, Doubt
-from widgets.timeline.model.gestures import DRAG_PX, Editing, Gesture, Step, along
+from widgets.timeline.model.gestures import DRAG_PX, Editing, LiveEdit, MouseGesture, along
 from widgets.timeline.model.hand import LaneMouse
 from widgets.timeline.model.lines import Lines
 from widgets.timeline.model.view import Scale
@@ -83,12 +83,12 @@ def doubt_at(project: Project, tick: float) -> Doubt | None:
     return next((doubt for doubt in doubts if doubt.start_tick <= tick < doubt.end_tick), None)
 
 
-class DragAnchor(Gesture):
+class DragAnchor(MouseGesture):
     """A bar line or a beat goes to where it sounds, and is pinned there."""
 
     def __init__(self, session: Editing, origin: object, at: LaneMouse, project: Project, tick: int) -> None:
         super().__init__(at, along(DRAG_PX))
-        self._step = Step(session, origin)
+        self._step = LiveEdit(session, origin)
         self._tick, self._from_s = tick, recording_second(project, tick)
 
     def follow(self, mouse: LaneMouse) -> None:

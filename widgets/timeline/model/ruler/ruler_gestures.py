@@ -9,13 +9,13 @@ from typing import TypeVar
 from app.editor.selection import Selection
 from app.errors import Message
 from app.project.edit import tempo as tempo_edit
-from widgets.timeline.model.gestures import Editing, Far, Gesture, Step, snapped
+from widgets.timeline.model.gestures import Editing, Far, LiveEdit, MouseGesture, snapped
 from widgets.timeline.model.hand import LaneMouse
 
 Place = TypeVar("Place", int, float)
 
 
-class Seek(Gesture):
+class Seek(MouseGesture):
     """A span is selected from the press on; a press alone lets go of one."""
 
     def __init__(self, session: Editing, at: LaneMouse, far: Far, tick_at: Callable[[LaneMouse, bool], int]) -> None:
@@ -34,7 +34,7 @@ class Seek(Gesture):
         self._session.select(self._before)
 
 
-class HoldPlayhead(Gesture):
+class HoldPlayhead(MouseGesture):
     """The playhead goes along; Escape leaves it where it is."""
 
     def __init__(self, session: Editing, at: LaneMouse, far: Far, seek: Callable[[float], None]) -> None:
@@ -48,7 +48,7 @@ class HoldPlayhead(Gesture):
         drop_span(self._session)
 
 
-class HoldEdge(Gesture):
+class HoldEdge(MouseGesture):
     """One edge of a span goes along, as far as the other one.
 
     Parameters
@@ -90,7 +90,7 @@ class HoldEdge(Gesture):
         self._restore()
 
 
-class HoldMark(Gesture):
+class HoldMark(MouseGesture):
     """A tempo goes to the grid, a metre to the bars that there are without it; what began the piece stays.
 
     Attributes
@@ -110,7 +110,7 @@ class HoldMark(Gesture):
     ) -> None:
         super().__init__(at, far)
         self._session, self._mark, self._refuse = session, mark, refuse
-        self._step = Step(session, origin)
+        self._step = LiveEdit(session, origin)
         self.chosen = mark
 
     def follow(self, mouse: LaneMouse) -> None:

@@ -13,9 +13,9 @@ from app.errors import Message
 from app.project.edit import tempo as tempo_edit
 from app.project.model import Project
 from app.score.model import Score
-from widgets.timeline.model.hand import Box
+from widgets.timeline.model.hand import PixelRect
 from widgets.timeline.model.lines import Lines
-from widgets.timeline.model.view import Scale, Span
+from widgets.timeline.model.view import Scale, VisibleSpan
 
 LEAST_LABEL_PX = 64.0
 STEPS_S = (0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 15.0, 30.0, 60.0, 120.0, 300.0, 600.0, 1800.0, 3600.0)
@@ -34,7 +34,7 @@ def bar_labels(score: Score, lines: Lines) -> Labels:
     ]
 
 
-def frame_labels(axis: Span, fps: Fraction) -> Labels:
+def frame_labels(axis: VisibleSpan, fps: Fraction) -> Labels:
     """Round numbers of frames, no denser than can be read; frame 0 is at second 0."""
     step = next(
         (step for step in STEPS_FRAMES if step / float(fps) * axis.px_per_s >= LEAST_LABEL_PX), STEPS_FRAMES[-1]
@@ -43,7 +43,7 @@ def frame_labels(axis: Span, fps: Fraction) -> Labels:
     return [(float(Fraction(number * step) / fps), str(number * step)) for number in range(first, last + 1)]
 
 
-def clock_labels(axis: Span) -> Labels:
+def clock_labels(axis: VisibleSpan) -> Labels:
     """Round times, no denser than can be read."""
     step_s = next((step for step in STEPS_S if step * axis.px_per_s >= LEAST_LABEL_PX), STEPS_S[-1])
     first, last = int(axis.start_s // step_s), int(axis.end_s // step_s) + 1
@@ -69,18 +69,18 @@ class Metrics(Protocol):
 
 
 @dataclass(frozen=True)
-class Mark:
+class RulerMark:
     """A tempo (``"tempo"``) or a metre (``"metre"``), where it is drawn."""
 
     kind: str
     tick: int
     text: str
-    box: Box
+    box: PixelRect
 
 
 def lay_marks(
     score: Score, axis: Scale, metrics: Metrics, left_px: float, right_px: float, height_px: float
-) -> list[Mark]:
+) -> list[RulerMark]:
     """Where the marks stand: metres before tempi, none over another. What holds at the left edge stays in view.
 
     Parameters
@@ -110,12 +110,12 @@ def lay_marks(
         ]
     inside.sort()
     room_px = inside[0][2] if inside else right_px
-    marks: list[Mark] = []
+    marks: list[RulerMark] = []
     free_px = left_px
 
     def put(x: float, kind: str, tick: int, text: str) -> float:
         width = metrics.horizontalAdvance(text) + 12.0
-        marks.append(Mark(kind, tick, text, Box(x, 1.0, x + width, height_px - 2.0)))
+        marks.append(RulerMark(kind, tick, text, PixelRect(x, 1.0, x + width, height_px - 2.0)))
         return x + width + 2.0
 
     for kind in ("metre", "tempo"):

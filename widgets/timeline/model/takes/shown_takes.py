@@ -13,7 +13,7 @@ from app.project.performers import Player
 from app.score.metre_map import Metre
 from app.score.take import Take
 from app.score.tempo import TempoMap
-from widgets.timeline.model.gestures import DRAG_PX, Editing, Gesture, along
+from widgets.timeline.model.gestures import DRAG_PX, Editing, MouseGesture, along
 from widgets.timeline.model.hand import LaneMouse
 from widgets.timeline.model.takes.take_rows import TakeRow, comp_of, edges, pitch_range, rows_of, span_at
 from widgets.timeline.model.view import Limited
@@ -32,7 +32,7 @@ class Recorded(Editing, Protocol):
     def colour(self, player: Player) -> str: ...
 
 
-class Swipe(Gesture):
+class Swipe(MouseGesture):
     """Over a row, or of an edge: then ``edge`` says what meets there, and the take is that on the side it leaves."""
 
     def __init__(self, at: LaneMouse, take_id: str, tick: int, edge: tuple[CompSpan, CompSpan] | None = None) -> None:

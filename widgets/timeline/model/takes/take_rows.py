@@ -17,11 +17,11 @@ from app.score.clean import Cleaned, Fault
 from app.score.model import ControllerCurve, Note
 from app.score.take import Played, Take
 from app.score.tempo import TempoMap
-from widgets.timeline.model.geometry import Spans, Steps
+from widgets.timeline.model.geometry import StepCurve, TimeSpans
 
-_KEPT: Final[IdentityCache[tuple[Spans, IntArray, IntArray]]] = IdentityCache(128)
-_LEFT_OUT: Final[IdentityCache[tuple[Spans, IntArray, tuple[Fault, ...]]]] = IdentityCache(128)
-_BREATH: Final[IdentityCache[Steps | None]] = IdentityCache(128)
+_KEPT: Final[IdentityCache[tuple[TimeSpans, IntArray, IntArray]]] = IdentityCache(128)
+_LEFT_OUT: Final[IdentityCache[tuple[TimeSpans, IntArray, tuple[Fault, ...]]]] = IdentityCache(128)
+_BREATH: Final[IdentityCache[StepCurve | None]] = IdentityCache(128)
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,26 +32,26 @@ class TakeRow:
     ----------
     take : Take or None
         None: what was there before the first.
-    kept : Spans
+    kept : TimeSpans
         The notes as the part would have them, seconds.
     pitches, onset_ticks : int64, as long
-    left_out : Spans
+    left_out : TimeSpans
         What cleaning leaves out, as it was played.
     left_out_pitches : int64
     faults : tuple of Fault
         Why.
-    breath : Steps or None
+    breath : StepCurve or None
         0..1; None where none was sent.
     """
 
     take: Take | None
-    kept: Spans
+    kept: TimeSpans
     pitches: IntArray
     onset_ticks: IntArray
-    left_out: Spans
+    left_out: TimeSpans
     left_out_pitches: IntArray
     faults: tuple[Fault, ...]
-    breath: Steps | None
+    breath: StepCurve | None
 
     @property
     def take_id(self) -> str:
@@ -117,7 +117,7 @@ def _before(recorded: PlayerTakes, clock: TempoMap) -> TakeRow:
     breath = next((curve for curve in recorded.before_curves if curve.kind == "breath"), None)
     steps = None if breath is None else _BREATH.step(_drawn_breath, breath, clock)
     none = np.empty(0, np.float64)
-    return TakeRow(None, kept, pitches, ticks, Spans(none, none), np.empty(0, np.int64), (), steps)
+    return TakeRow(None, kept, pitches, ticks, TimeSpans(none, none), np.empty(0, np.int64), (), steps)
 
 
 def _row(project: Project, player_id: str, take: Take, clock: TempoMap) -> TakeRow:
@@ -128,30 +128,30 @@ def _row(project: Project, player_id: str, take: Take, clock: TempoMap) -> TakeR
     return TakeRow(take, kept, pitches, ticks, left_out, left_pitches, faults, breath)
 
 
-def _kept(notes: tuple[Note, ...], clock: TempoMap) -> tuple[Spans, IntArray, IntArray]:
+def _kept(notes: tuple[Note, ...], clock: TempoMap) -> tuple[TimeSpans, IntArray, IntArray]:
     return _KEPT.step(_kept_arrays, notes, clock)
 
 
-def _kept_arrays(notes: tuple[Note, ...], clock: TempoMap) -> tuple[Spans, IntArray, IntArray]:
+def _kept_arrays(notes: tuple[Note, ...], clock: TempoMap) -> tuple[TimeSpans, IntArray, IntArray]:
     onsets = np.array([note.onset_tick for note in notes], np.int64)
     ends = np.array([note.end_tick for note in notes], np.int64)
     pitches = np.array([note.pitch for note in notes], np.int64)
-    return Spans(clock.seconds(onsets), clock.seconds(ends)), pitches, onsets
+    return TimeSpans(clock.seconds(onsets), clock.seconds(ends)), pitches, onsets
 
 
-def _left_out(clean: Cleaned, own: TempoMap, clock: TempoMap) -> tuple[Spans, IntArray, tuple[Fault, ...]]:
+def _left_out(clean: Cleaned, own: TempoMap, clock: TempoMap) -> tuple[TimeSpans, IntArray, tuple[Fault, ...]]:
     index = [number for number, fault in enumerate(clean.faults) if fault]
-    spans = Spans(_moved(clean.onsets_s[index], own, clock), _moved(clean.ends_s[index], own, clock))
+    spans = TimeSpans(_moved(clean.onsets_s[index], own, clock), _moved(clean.ends_s[index], own, clock))
     return spans, clean.pitches[index], tuple(clean.faults[number] for number in index)
 
 
-def _played_breath(played: Played, own: TempoMap, clock: TempoMap) -> Steps | None:
+def _played_breath(played: Played, own: TempoMap, clock: TempoMap) -> StepCurve | None:
     curve = played.curves.get("breath")
-    return None if curve is None else Steps(_moved(curve.times_s, own, clock), curve.values)
+    return None if curve is None else StepCurve(_moved(curve.times_s, own, clock), curve.values)
 
 
-def _drawn_breath(curve: ControllerCurve, clock: TempoMap) -> Steps:
-    return Steps(clock.seconds(np.array(curve.ticks, np.float64)), np.array(curve.values, np.float64))
+def _drawn_breath(curve: ControllerCurve, clock: TempoMap) -> StepCurve:
+    return StepCurve(clock.seconds(np.array(curve.ticks, np.float64)), np.array(curve.values, np.float64))
 
 
 def _moved(seconds: FloatArray, own: TempoMap, clock: TempoMap) -> FloatArray:

@@ -16,7 +16,7 @@ from app.rig.grip.finger_stations import Station, stations
 from app.rig.grip.fitting import fit, search, solved_fingers
 from app.rig.grip.fitting.fit import fit_hold
 from app.rig.grip.fitting.grip_files import hold_for
-from app.rig.grip.grip_pose import GripPose, HandHold, Placed, hand_targets
+from app.rig.grip.grip_pose import GripPose, HandHold, StationBlend, hand_targets
 from app.rig.grip.lips import fit_lips, lip_places
 from app.rig.instrument import node_transforms, part_transform
 from app.rig.model import Character, InstrumentModel
@@ -77,12 +77,12 @@ def _at(held: SettingBinding, place: int) -> dict[str, Station]:
     return {finger: stations(held.instrument)[finger][number] for finger, number in _numbers(held, place).items()}
 
 
-def _placed(held: SettingBinding, place: int) -> dict[str, Placed]:
+def _placed(held: SettingBinding, place: int) -> dict[str, StationBlend]:
     """The same, as the hold takes it."""
     found = {}
     for finger, number in _numbers(held, place).items():
         index = np.full(len(GRID), number)
-        found[finger] = Placed(index, index, np.zeros(len(GRID)))
+        found[finger] = StationBlend(index, index, np.zeros(len(GRID)))
     return found
 
 
@@ -173,7 +173,7 @@ def test_no_hand_is_inside_the_instrument(held: SettingBinding) -> None:
         for hand, part in zip(held.hold.hands, skins, strict=True):
             skin = _on_instrument(held, hand, transforms, deform(part, looked_at), place, frames)
             for frame, points in zip(range(*frames.indices(len(GRID))), skin, strict=True):
-                placed = instrument_proxy.Nodes(nodes[frame], bases[frame])
+                placed = instrument_proxy.InstrumentNodes(nodes[frame], bases[frame])
                 depth, _ = instrument_proxy.inside(bodies, placed, points, np.zeros(len(points)))
                 assert depth.max() <= 0.003, (hand.side, place, GRID[frame])
 
