@@ -22,14 +22,14 @@ from app.errors import AppError, Cancelled, MapError, Message, raise_if_stopped
 from app.performance.acting_problems import unfit_choreography, unknown_acting
 from app.performance.bodies import hold_now, is_held, suited_to
 from app.performance.body_problems import body_problems
-from app.performance.loudness import controller_input, note_loudness, note_marks, piece_reading, velocities_of
+from app.performance.loudness import controller_input, note_loudness, note_marks, velocities_of
 from app.plan.acting import Acting, acting_of, with_style
 from app.plan.by_hand.corrections import Correction, PlayStyle, RemoveEvent, SetBreath, SetCue, Vary
 from app.plan.doubling import InstrumentChange, changes, first_played, held_plan
 from app.plan.faces.glances import StagePlace
 from app.plan.generate import EnsemblePlan, MonophonicPart, Piece, frame_around, plan_ensemble
 from app.plan.model import CONDUCTOR, PlayerPlan, Problem, TimeFrame, no_events
-from app.plan.music.dynamics_from_velocities import VelocityReading
+from app.plan.music.dynamics_from_velocities import VelocityReading, read_velocities
 from app.plan.parameters import PlayerParameters, deciding
 from app.project.model import Project
 from app.project.performers import Player
@@ -145,7 +145,7 @@ class Performance:
     def velocity_reading(self) -> VelocityReading:
         """The reading of the velocities of all parts together."""
         with self._lock:
-            return self._whole.of(piece_reading)
+            return self._whole.of(read_velocities)
 
     def marks(self, player: Player) -> dict[str, str]:
         """The dynamic mark in force at each of a player's notes, by note id."""
@@ -483,7 +483,7 @@ def _with_parts(plan: PlayerPlan, parts: tuple[tuple[object, ...], ...]) -> Play
 
 WHOLE: Final = StepTable(
     piece=reading(Piece, accompaniment="accompaniment"),
-    velocity_reading=reading(piece_reading, parts="velocities"),
+    velocity_reading=reading(read_velocities, parts="velocities"),
     expressions=_all_expressions,
 )
 """What all players share."""

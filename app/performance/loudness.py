@@ -2,22 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import Final, TypeAlias
+from typing import Final
 
 import numpy as np
 
-from app.arrays import FloatArray, IntArray
+from app.arrays import FloatArray
 from app.identity_cache import IdentityCache
 from app.plan.music.breath_controller import STOPS_AT, step_means
 from app.plan.music.dynamics_from_velocities import (
+    Velocities,
     VelocityReading,
     is_level,
     nearest_marks,
     phrase_levels,
-    read_velocities,
-    velocity_loudness,
-    velocity_marks,
+    read_dynamics,
 )
 from app.plan.music.piece import MEZZOFORTE, ControllerInput, ControllerSteps
 from app.plan.music.velocity_ladders import DYNAMICS
@@ -34,18 +32,10 @@ _STEPS: Final[IdentityCache[ControllerSteps]] = IdentityCache(64)
 """A minute of a wind controller has ten thousand steps, and an edit of a note changes none of them."""
 
 
-Velocities: TypeAlias = tuple[bytes, int | None]
-"""The velocities of a part's notes in order, one byte each, and its General MIDI program."""
-
-
 def velocities_of(part: Part) -> Velocities:
-    """The velocities of a part; equal after every edit that changes none."""
-    return bytes(note.velocity for note in part.notes), part.program
-
-
-def piece_reading(parts: Sequence[Velocities]) -> VelocityReading:
-    """Return the reading of the velocities of all parts of a piece."""
-    return read_velocities((np.frombuffer(velocities, np.uint8), program) for velocities, program in parts)
+    """The velocities of a part; equal after every edit that changes neither them nor an onset."""
+    onsets = tuple(note.onset_tick for note in part.notes)
+    return Velocities(tuple(note.velocity for note in part.notes), part.program, onsets, part.track)
 
 
 def note_loudness(part: Part, reading: VelocityReading | None = None) -> tuple[float, ...]:
@@ -58,7 +48,7 @@ def note_loudness(part: Part, reading: VelocityReading | None = None) -> tuple[f
     Parameters
     ----------
     reading : VelocityReading, optional
-        Of the whole piece (`piece_reading`); by default that of the part alone.
+        Of the whole piece (`read_velocities`); by default that of the part alone.
     """
     curve = speaking_curve(part)
     found = _by_velocity(part, reading) if curve is None else _loudness(part, curve, reading)
@@ -69,8 +59,10 @@ def note_marks(part: Part, reading: VelocityReading | None = None) -> tuple[str,
     """The dynamic mark in force at every note: an accent is none."""
     curve = speaking_curve(part)
     if curve is None:
-        return velocity_marks(_velocity(part), part.program, reading)
-    return tuple(DYNAMICS[mark][0] for mark in nearest_marks(phrase_levels(_loudness(part, curve, reading))).tolist())
+        marks = read_dynamics(velocities_of(part), reading)[1]
+    else:
+        marks = nearest_marks(phrase_levels(_loudness(part, curve, reading)))
+    return tuple(DYNAMICS[mark][0] for mark in marks.tolist())
 
 
 def controller_input(part: Part) -> ControllerInput | None:
@@ -141,12 +133,8 @@ def _loudness(part: Part, curve: ControllerCurve, reading: VelocityReading | Non
     return np.where(played, blown, by_velocity)
 
 
-def _velocity(part: Part) -> IntArray:
-    return np.array([note.velocity for note in part.notes], np.int64)
-
-
 def _by_velocity(part: Part, reading: VelocityReading | None) -> FloatArray:
-    return velocity_loudness(_velocity(part), part.program, reading)
+    return read_dynamics(velocities_of(part), reading)[0]
 
 
 def _steps(curve: ControllerCurve) -> ControllerSteps:

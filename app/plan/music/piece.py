@@ -12,8 +12,9 @@ from app.arrays import BoolArray, FloatArray, IntArray
 from app.chance import begun, chance, share_of
 from app.plan.acting import Acting
 from app.plan.by_hand.corrections import Correction
-from app.plan.music.dynamics_from_velocities import LEVELS, velocity_loudness
-from app.plan.music.dynamics_from_velocities import MEZZOFORTE as MEZZOFORTE
+from app.plan.music.dynamics_from_velocities import Velocities, read_dynamics
+from app.plan.music.velocity_ladders import LEVELS
+from app.plan.music.velocity_ladders import MEZZOFORTE as MEZZOFORTE
 from app.plan.parameters import PlayerParameters
 from app.score.metre_map import MetreMap
 from app.score.model import Note
@@ -246,7 +247,7 @@ def note_times(notes: tuple[Note, ...], loudness: tuple[float, ...], clock: Temp
     played_end = np.maximum(np.minimum(end, following), onset)
     reach = np.maximum.accumulate(end) if count else end
     silence = np.maximum(onset - np.insert(reach[:-1], 0, -BEFORE_FIRST_TICK)[:count], 0)
-    loud = np.clip(np.asarray(loudness, dtype=np.float64), 0.0, 1.0) if loudness else velocity_loudness(velocity)
+    loud = np.asarray(loudness, np.float64) if loudness else read_dynamics(Velocities(velocity))[0]
     return LineTimes(
         onset_tick=onset,
         played_end_tick=played_end,
@@ -255,7 +256,7 @@ def note_times(notes: tuple[Note, ...], loudness: tuple[float, ...], clock: Temp
         onset_s=clock.seconds(onset.astype(np.float64)),
         played_end_s=clock.seconds(played_end.astype(np.float64)),
         pitch=pitch,
-        loudness=loud,
+        loudness=np.clip(loud, 0.0, 1.0),
     )
 
 

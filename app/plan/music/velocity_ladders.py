@@ -5,10 +5,22 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Final
 
+import numpy as np
+
+from app.arrays import FloatArray
+
 DYNAMICS: Final = (
     ("ppp", 16), ("pp", 33), ("p", 49), ("mp", 64), ("mf", 80), ("f", 96), ("ff", 112), ("fff", 126)
 )  # fmt: skip
 """Dynamic marks and the velocities that stand for them here; they are MuseScore's."""
+MARKS: Final = {mark: index for index, (mark, _) in enumerate(DYNAMICS)}
+MF: Final = MARKS["mf"]
+MEZZOFORTE: Final = 0.63
+"""Loudness 0..1 of mezzoforte: MIDI velocity 80 of 127."""
+LEVELS: Final[FloatArray] = np.array([MEZZOFORTE if mark == "mf" else at / 127.0 for mark, at in DYNAMICS])
+"""(8,): loudness of each mark, the softest first."""
+DEFAULTS: Final = frozenset({64, 80, 90, 96, 100, 127})
+"""Velocities that programs write where the music has no dynamics."""
 
 
 @dataclass(frozen=True)

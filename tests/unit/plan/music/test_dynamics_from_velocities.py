@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from pathlib import Path
 
 import mido
@@ -10,10 +11,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from app.plan.music.dynamics_from_velocities import MEZZOFORTE, read_velocities, velocity_loudness, velocity_marks
+from app.plan.music.dynamics_from_velocities import Velocities, VelocityReading, read_dynamics, read_velocities
+from app.plan.music.velocity_ladders import DYNAMICS, MEZZOFORTE
 
-DYNAMICS = Path(__file__).parents[3] / "data" / "midi" / "dynamics"
-ENSEMBLE = DYNAMICS.parent / "ensemble"
+FOLDER = Path(__file__).parents[3] / "data" / "midi" / "dynamics"
+ENSEMBLE = FOLDER.parent / "ensemble"
 MARKS = ("pp", "p", "mp", "mf", "f", "ff")
 WRITTEN = {
     # What each program wrote for pp, p, mp, mf, f and ff; LilyPond's by General MIDI program.
@@ -27,6 +29,22 @@ WRITTEN = {
     ("LilyPond", 56): (56, 61, 66, 73, 79, 83),
 }
 FILES = ("solo_horn_mozart_k447_mv1.mid", "concert_band_hall_tenth_regiment_march.mid")
+
+
+def velocity_marks(
+    velocities: np.ndarray, program: int | None = None, reading: VelocityReading | None = None
+) -> tuple[str, ...]:
+    return tuple(DYNAMICS[mark][0] for mark in read_dynamics(Velocities(velocities, program), reading)[1].tolist())
+
+
+def velocity_loudness(
+    velocities: np.ndarray, program: int | None = None, reading: VelocityReading | None = None
+) -> np.ndarray:
+    return read_dynamics(Velocities(velocities, program), reading)[0]
+
+
+def read(parts: Iterable[tuple[np.ndarray, int | None]]) -> VelocityReading:
+    return read_velocities([Velocities(*part) for part in parts])
 
 
 @st.composite
@@ -48,7 +66,7 @@ def scores(draw: st.DrawFn) -> tuple[list[tuple[np.ndarray, int | None]], list[l
 @settings(max_examples=60, deadline=None)
 def test_every_programs_marks_are_read_back(score: tuple[list[tuple[np.ndarray, int | None]], list[list[str]]]) -> None:
     parts, truth = score
-    reading = read_velocities(parts)
+    reading = read(parts)
     for (velocities, program), marks in zip(parts, truth, strict=True):
         assert list(velocity_marks(velocities, program, reading)) == marks
 
@@ -61,17 +79,17 @@ def test_files_that_lilypond_wrote_are_read_by_its_ladder(name: str) -> None:
         hits = [message for message in track if message.type == "note_on" and message.velocity]
         if hits and hits[0].channel != 9:
             parts.append((np.array([hit.velocity for hit in hits]), programs[0]))
-    assert read_velocities(parts).ladder == "LilyPond"
+    assert read(parts).ladder == "LilyPond"
 
 
 def test_an_engraved_duet_has_the_marks_of_its_score() -> None:
     """Mozart, K. 487 no. 8: *f*, *p* and hairpins, engraved with LilyPond, which writes 95 and 69."""
-    tracks = mido.MidiFile(DYNAMICS / "horn_duet_mozart_k487_no8.mid").tracks
+    tracks = mido.MidiFile(FOLDER / "horn_duet_mozart_k487_no8.mid").tracks
     hits = [
         [message.velocity for message in track if message.type == "note_on" and message.velocity] for track in tracks
     ]
     parts = [(np.array(velocities), None) for velocities in hits if velocities]
-    reading = read_velocities(parts)
+    reading = read(parts)
     for velocities, program in parts:
         marks = np.array(velocity_marks(velocities, program, reading))
         assert set(marks[velocities == 95]) == {"f"}
@@ -89,7 +107,7 @@ def test_a_programs_default_throughout_is_no_dynamic(velocity: int) -> None:
 @pytest.mark.parametrize(("program", "velocity"), [(73, 62), (70, 53), (60, 66), (56, 75), (57, 90)])
 def test_lilyponds_default_is_no_dynamic_on_any_instrument(program: int, velocity: int) -> None:
     others = (np.full(40, 90), 58)
-    reading = read_velocities([(np.full(40, velocity), program), others])
+    reading = read([(np.full(40, velocity), program), others])
     assert set(velocity_marks(np.full(40, velocity), program, reading)) == {"mf"}
 
 
@@ -138,7 +156,7 @@ def test_notes_without_a_mark_are_as_loud_as_their_mark() -> None:
     """LilyPond writes 90 for them, which is near its forte."""
     marked = np.array([62, 69, 77, 86, 95, 101, 62, 69, 77, 86, 95, 101] * 4).repeat(6)
     unmarked = np.full(60, 90)
-    reading = read_velocities([(marked, None), (unmarked, None)])
+    reading = read([(marked, None), (unmarked, None)])
     assert velocity_marks(unmarked, None, reading) == ("mf",) * 60
     assert velocity_loudness(unmarked, None, reading) == pytest.approx(MEZZOFORTE)
 
@@ -153,7 +171,7 @@ def test_what_lilypond_wrote_for_no_instruments_keeps_its_marks_under_any_progra
     """Four voices whose staves were given winds afterwards; *p* 69, and hairpins that lead to no mark end at 41, 98."""
     lines = [[69] * 40 + [55] * 8 + [41] * 30, [69] * 40 + [41] * 25 + [61, 60, 65], [69] * 30 + [98] * 6 + [69] * 12]
     parts = [(np.array(line), program) for line, program in zip(lines, (73, 71, 70), strict=True)]
-    reading = read_velocities(parts)
+    reading = read(parts)
     assert reading.ladder == "LilyPond"
     for velocities, program in parts:
         marks = np.array(velocity_marks(velocities, program, reading))
@@ -204,6 +222,57 @@ def test_played_phrases_are_read_by_the_pieces_own_distribution(softer: int) -> 
     assert (off == 0).mean() >= 0.6
 
 
+def hairpins(rng: np.random.Generator, notes: int) -> tuple[np.ndarray, list[str]]:
+    """A line of LilyPond's that hardly stays at a level: single notes at marks, and hairpins between them."""
+    row = WRITTEN["LilyPond", 73]
+    mark, velocities, truth = 2, list[int](), list[str]()
+    while len(velocities) < notes:
+        after = (mark + int(rng.integers(1, 6))) % 6
+        count = int(rng.integers(6, 12))
+        velocities += np.linspace(row[mark], row[after], count, endpoint=False).astype(int).tolist()
+        truth += [MARKS[mark], *[""] * (count - 1)]
+        mark = after
+    return np.array(velocities), truth
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_a_line_of_hairpins_is_written_not_played(seed: int) -> None:
+    velocities, truth = hairpins(np.random.default_rng(seed), 120)
+    others = (np.array([48] * 20 + [66] * 20 + [71] * 20 + [48] * 20), 73)
+    marks = velocity_marks(velocities, 73, read([others, (velocities, 73)]))
+    at = [(found, mark) for found, mark in zip(marks, truth, strict=True) if mark]
+    assert sum(found == mark for found, mark in at) >= 0.8 * len(at)
+
+
+def test_levels_between_marks_do_not_hide_the_ladder() -> None:
+    """LilyPond's written-out diminuendo may stay for bars at levels that are no marks, as in a dance from a ballet."""
+    dance = [level + more for level in (90, 84, 73, 67) for more in [0, 0, 0, 4, 4, 4, 20, 0, 4] * 4]
+    velocities = np.array(dance + [95, 95, 95, 99, 99] * 12)
+    assert velocity_marks(velocities)[len(dance) :] == ("f",) * 60
+
+
+def test_players_of_one_staff_read_one_mark() -> None:
+    """LilyPond writes the marks into the voice that has them, and 62 into the other voice of the flutes."""
+    onsets = np.arange(0, 36 * 480, 480)
+    first, second = np.array([48] * 12 + [66] * 12 + [48] * 12), np.full(36, 62)
+    second[:3] = 71
+    parts = [Velocities(first, 73, onsets, 1), Velocities(second, 73, onsets, 1), Velocities(second, 73, onsets, 2)]
+    reading = read_velocities(parts)
+    marks = [[DYNAMICS[mark][0] for mark in read_dynamics(part, reading)[1].tolist()] for part in parts]
+    assert marks[0] == ["p"] * 12 + ["f"] * 12 + ["p"] * 12
+    assert marks[1] == ["ff"] * 3 + ["p"] * 9 + ["f"] * 12 + ["p"] * 12
+    assert marks[2] == ["ff"] * 36
+
+
+def test_a_line_without_a_mark_plays_as_most_others_do() -> None:
+    onsets = np.arange(0, 24 * 480, 480)
+    parts = [Velocities(np.array([48] * 12 + [66] * 12), 73, onsets, staff) for staff in (1, 2)]
+    parts += [Velocities(np.full(24, 71), 73, onsets, 3), Velocities(np.full(20, 62), 73, onsets[4:], 4)]
+    reading = read_velocities(parts)
+    marks = [DYNAMICS[mark][0] for mark in read_dynamics(parts[-1], reading)[1].tolist()]
+    assert marks == ["p"] * 8 + ["f"] * 12
+
+
 def test_no_notes_have_no_dynamics() -> None:
     assert velocity_marks(np.zeros(0, np.int64)) == ()
-    assert read_velocities([]).ladder == ""
+    assert read([]).ladder == ""

@@ -1,0 +1,247 @@
+"""The marks of what a notation program wrote: which program it was, and the mark in force at each note."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from functools import lru_cache
+from typing import Final, NamedTuple
+
+import numpy as np
+
+from app.arrays import BoolArray, FloatArray, IntArray
+from app.plan.music.velocity_ladders import (
+    DEFAULTS,
+    LADDERS,
+    LEVELS,
+    LILYPOND,
+    LILYPOND_RANGES,
+    MARKS,
+    MF,
+    SHARES,
+    UNMARKED_STEP,
+    articulated,
+    ladder_of,
+)
+
+STROKES: Final = 5
+"""In a line of more than four times as many notes, one that differs from so many around it is no dynamic."""
+UNMARKED: Final = 0.95
+"""This share of a part without dynamic marks has the default, or what articulations make of it."""
+RUN, HAIRPIN, SHARED, APART = 3, 6, 0.3, 4
+"""Levels are written, not played, where this share of the notes stands in runs of so many alike or so many in a row
+that grow or fade, or where they are so many velocities apart."""
+
+_OWN_RANGE: Final = 6.0
+"""By so much (a logarithm of likelihood) another instrument's range must explain a part better than its own; that of no
+instrument a whole piece."""
+_PASSED: Final = 0.1
+"""Share of the notes that stand at the end of a hairpin which leads to no mark."""
+
+
+def is_written(velocity: IntArray) -> bool:
+    """Decide whether a part's velocities are levels that notes share and hairpins, not strokes of a hand."""
+    steps = np.sign(np.diff(velocity))
+    edges = np.flatnonzero(np.append(True, steps[1:] != steps[:-1])) if len(steps) else steps
+    lengths = np.diff(np.append(edges, len(steps))) + 1
+    long = lengths >= np.where(steps[edges] == 0, RUN, HAIRPIN)
+    if lengths[long].sum() >= SHARED * len(velocity):
+        return True
+    values, counts = np.unique(velocity, return_counts=True)
+    common = values[counts > len(velocity) * 0.02]
+    return len(velocity) < 2 * STROKES or (len(common) * 4 <= len(velocity) and bool((np.diff(common) >= APART).all()))
+
+
+def _levels(velocity: IntArray) -> dict[int, int]:
+    """Velocities at which the music stays, with the number of their notes; hairpins pass through all others."""
+    edges = np.flatnonzero(np.append(True, velocity[1:] != velocity[:-1]))
+    lengths = np.diff(np.append(edges, len(velocity)))
+    for least in (3, 1):
+        stays: dict[int, int] = {}
+        for value, length in zip(velocity[edges].tolist(), lengths.tolist(), strict=True):
+            if length >= least:
+                stays[value] = stays.get(value, 0) + length
+        if stays:
+            return stays
+    return {}
+
+
+def recognised(written: Sequence[tuple[IntArray, int | None]]) -> tuple[str, bool]:
+    """Name of the ladder that explains the levels of all parts best, and whether it does so in the whole range; empty
+    where any velocity would do as well."""
+    levels = [(_levels(velocities), program) for velocities, program in written]
+    best, name, whole = 0.0, "", False
+    for one in LADDERS:
+        total = ladder_of(one, None).usual
+        for found, program in levels:
+            wrote = _written_as(one, found, program)
+            total += _gain(one, wrote, found) - (_OWN_RANGE if wrote != program else 0.0)
+        if total > best:
+            best, name, whole = total, one, False
+    if any(program in LILYPOND_RANGES for _, program in levels):
+        total = sum(_gain(LILYPOND, None, found) for found, _ in levels) - _OWN_RANGE
+        if total > best:
+            return LILYPOND, True
+    return name, whole
+
+
+def _gain(name: str, program: int | None, levels: dict[int, int]) -> float:
+    """Return how much likelier the levels of a part are on a ladder than anywhere, as a logarithm."""
+    gains = _gains(name, program)
+    return sum(gains[value] * math.log1p(count) for value, count in levels.items())
+
+
+def _written_as(name: str, levels: dict[int, int], program: int | None, whole_range: bool = False) -> int | None:
+    """The program in whose range LilyPond wrote a part: its own, or that of an instrument it was written for before."""
+    if name != LILYPOND:
+        return program
+    if whole_range:
+        return None
+    own = _gain(name, program, levels) + _OWN_RANGE
+    other = max((None, *LILYPOND_RANGES), key=lambda one: _gain(name, one, levels))
+    return other if _gain(name, other, levels) > own else program
+
+
+@lru_cache(maxsize=128)
+def _gains(name: str, program: int | None) -> tuple[float, ...]:
+    """(128,): logarithm of how much likelier each velocity is on a ladder than anywhere."""
+    ladder = ladder_of(name, program)
+    likely = np.full(128, 0.2 / 60.0)
+    for mark, velocity in ladder.steps:
+        for more, share in articulated(ladder, velocity):
+            for off, near in ((0, 0.9), (-1, 0.05), (1, 0.05)):
+                place = min(max(velocity + more + off, 0), 127)
+                likely[place] += SHARES[mark] * share * near
+    likely[list(ladder.passed)] += _PASSED / max(len(ladder.passed), 1)
+    if ladder.default is not None:
+        likely[ladder.default] += 0.1
+    return tuple(np.log(likely * 60.0).tolist())
+
+
+def has_no_marks(name: str, written: Sequence[tuple[IntArray, int | None]], whole_range: bool) -> bool:
+    """Decide whether all parts stay at what a program writes without dynamic marks, but for articulations and slips."""
+    default: int | None = None
+    for velocities, program in written:
+        values, counts = np.unique(velocities, return_counts=True)
+        usual = int(values[counts.argmax()])
+        ladder = ladder_of(name, _written_as(name, _levels(velocities), program, whole_range))
+        if usual != ladder.default and (ladder.default is not None or usual not in DEFAULTS):
+            return False
+        if ladder.default is None and default not in (None, usual):
+            return False
+        default = usual
+        as_usual = {usual + more for more, _ in articulated(ladder, usual)}
+        if counts[[int(value) in as_usual for value in values]].sum() < UNMARKED * len(velocities):
+            return False
+    return True
+
+
+STRESS: Final = 12
+"""An articulation that adds so much is an accent; less is staccato's."""
+_ACCENT: Final = 0.16
+"""Loudness that an accent adds, 0..1: about a mark."""
+_CHANGE_COST, _FURTHER_COST = 0.8, 0.15
+"""Cost of a change of level, and of each mark more that it goes."""
+_NEAR_COST, _OFF_COST, _STEP_COST, _MOST_COST = 0.6, 1.2, 0.6, 3.0
+"""Cost of a note whose velocity is beside the step, or off it (more for every mark away, at most so much)."""
+_ARTICULATION_COST, _ADDED_COST = 0.25, 0.03
+"""What a note costs that an articulation makes louder, and each velocity that this adds."""
+_MARK_COST = _CHANGE_COST
+"""Cost of a note with the velocity of a mark that is read as an articulation of one without a mark, at least."""
+
+
+@lru_cache(maxsize=64)
+def _costs(name: str, program: int | None) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """(128, S) each: cost and accent of every velocity on every step of a ladder; (S, S): cost of a change."""
+    ladder = ladder_of(name, program)
+    values = np.array([velocity for _, velocity in ladder.steps])
+    loud = np.array([LEVELS[MARKS.get("fff" if mark == "sf" else mark, MF)] for mark, _ in ladder.steps])
+    has = np.array([mark != UNMARKED_STEP for mark, _ in ladder.steps])
+    between = np.interp(np.arange(128), values[has], loud[has])
+    cost = np.minimum(_OFF_COST + _STEP_COST * np.abs(between[:, None] - loud) / 0.126, _MOST_COST)
+    accent = np.clip(between[:, None] - np.where(has, loud, between[values]), -_ACCENT, _ACCENT)
+    for step, (mark, velocity) in enumerate(ladder.steps):
+        more = [added for added, _ in articulated(ladder, velocity)]
+        rows = [(added, _ARTICULATION_COST + _ADDED_COST * abs(added)) for added in more[1:]]
+        # A hairpin passes by the level without a mark.
+        if mark == UNMARKED_STEP:
+            # What a mark has exactly is rather that mark than an articulation of what has none.
+            rows = [(added, max(paid, _MARK_COST) if velocity + added in values[has] else paid) for added, paid in rows]
+        near = () if mark == UNMARKED_STEP else ((-1, _NEAR_COST), (1, _NEAR_COST))
+        for added, paid in (*near, *rows, (0, 0.0)):
+            place = min(max(velocity + added, 0), 127)
+            if paid <= cost[place, step]:
+                cost[place, step] = paid
+                # What a program writes without a mark is as loud as the mark in force, whatever its number is near.
+                plain = added < -1 or (added == 0 and mark == UNMARKED_STEP)
+                accent[place, step] = _ACCENT if added >= STRESS else 0.0 if plain else accent[place, step]
+    if ladder.default is not None and ladder.default not in values:
+        cost[ladder.default, MF], accent[ladder.default, MF] = 0.0, 0.0
+    marks = np.array([MARKS.get(mark, MF) for mark, _ in ladder.steps])
+    further = np.maximum(np.abs(marks[:, None] - marks) - 1, 0)
+    change = np.where(np.eye(len(marks), dtype=bool), 0.0, _CHANGE_COST + _FURTHER_COST * further)
+    return cost, accent, change
+
+
+class LadderMarks(NamedTuple):
+    """The marks of a part on a ladder.
+
+    Attributes
+    ----------
+    marks : (N,) int
+        Rows of `DYNAMICS`; -1: the note was written without a mark.
+    stressed : (N,) bool
+        Notes at a step that is no level: LilyPond stays at a *sf* until the next mark, players do not.
+    accents : (N,) float64
+        Loudness that they have more than their marks.
+    """
+
+    marks: IntArray
+    stressed: BoolArray
+    accents: FloatArray
+
+    def read(self, unmarked: IntArray | None = None) -> tuple[FloatArray, IntArray]:
+        """Loudness 0..1 and mark of every note.
+
+        Parameters
+        ----------
+        unmarked : (N,) int, optional
+            The mark of each note that has none of its own; by default that of the note before.
+        """
+        if unmarked is None:
+            known = np.maximum.accumulate(np.where(self.marks < 0, -1, np.arange(len(self.marks))))
+            unmarked = np.where(known < 0, MF, self.marks[np.maximum(known, 0)])
+        marks = np.where(self.marks < 0, unmarked, self.marks)
+        # Of several stressed notes the first has an accent.
+        first = self.stressed & ~np.insert(self.stressed[:-1], 0, False)
+        more = np.where(self.stressed, np.where(first, _ACCENT, 0.0), self.accents)
+        return np.clip(LEVELS[marks] + more, 0.0, 1.0), marks
+
+
+def ladder_marks(velocity: IntArray, name: str, program: int | None, whole_range: bool) -> LadderMarks:
+    """Return the marks of a part by its velocities (N,) on a ladder."""
+    return _along(velocity.astype(np.uint8).tobytes(), name, program, whole_range)
+
+
+@lru_cache(maxsize=128)
+def _along(velocities: bytes, name: str, program: int | None, whole_range: bool) -> LadderMarks:
+    """The cheapest way along the steps, where each change of level costs; kept, since most edits change no velocity."""
+    velocity = np.frombuffer(velocities, np.uint8).astype(np.int64)
+    program = _written_as(name, _levels(velocity), program, whole_range)
+    cost, accent, change = _costs(name, program)
+    edges = np.flatnonzero(np.append(True, velocity[1:] != velocity[:-1]))
+    lengths = np.diff(np.append(edges, len(velocity)))
+    paid = cost[velocity[edges]] * lengths[:, None]
+    total, back, each = paid[0], np.zeros(paid.shape, np.int64), np.arange(paid.shape[1])
+    for run in range(1, len(paid)):
+        ways = total[:, None] + change
+        back[run] = ways.argmin(axis=0)
+        total = ways[back[run], each] + paid[run]
+    steps = np.zeros(len(paid), np.int64)
+    steps[-1] = int(total.argmin())
+    for run in range(len(paid) - 1, 0, -1):
+        steps[run - 1] = back[run, steps[run]]
+    along = np.repeat(steps, lengths)
+    names = np.array([mark for mark, _ in ladder_of(name, program).steps])
+    rows = np.array([MARKS.get(mark, -1) for mark in names.tolist()], np.int64)
+    return LadderMarks(rows[along], (names == "sf")[along], accent[velocity, along])

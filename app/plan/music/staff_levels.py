@@ -1,0 +1,73 @@
+"""The mark in force on a staff, and in the whole piece, at any time: that of notes which were written without one."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import msgspec
+import numpy as np
+
+from app.arrays import IntArray
+from app.plan.music.velocity_ladders import DYNAMICS, MF
+
+
+class MarkChanges(msgspec.Struct, frozen=True):
+    """Changes of the mark in force.
+
+    Attributes
+    ----------
+    ticks : tuple of int
+        Ascending.
+    marks : tuple of int
+        Rows of `DYNAMICS`.
+    """
+
+    ticks: tuple[int, ...] = ()
+    marks: tuple[int, ...] = ()
+
+    def at(self, onsets: IntArray) -> IntArray:
+        """(N,): the mark in force at each tick; -1 before the first."""
+        return np.array((-1, *self.marks), np.int64)[np.searchsorted(self.ticks, onsets, side="right")]
+
+
+class StaffLevels(msgspec.Struct, frozen=True):
+    """The marks in force on every staff, and those that most staves have."""
+
+    staves: dict[int, MarkChanges]
+    most: MarkChanges
+
+    def at(self, staff: int, onsets: IntArray) -> IntArray:
+        """(N,): the mark of a staff, before its first one that of most others; mezzoforte before any."""
+        marks = self.staves.get(staff, MarkChanges()).at(onsets)
+        marks = np.where(marks < 0, self.most.at(onsets), marks)
+        return np.where(marks < 0, MF, marks)
+
+
+def staff_levels(parts: Sequence[tuple[int, IntArray, IntArray]]) -> StaffLevels | None:
+    """Return the marks in force in a piece; None if every note has a mark of its own.
+
+    Players of one staff read one mark, though a program may have written it into the first voice only; and who has
+    none yet plays as loud as most others.
+
+    Parameters
+    ----------
+    parts : sequence of (staff, onsets (N,) in ticks, marks (N,))
+        Marks as rows of `DYNAMICS`; -1: none.
+    """
+    if not any((marks < 0).any() for _, _, marks in parts):
+        return None
+    staves = {
+        staff: _changes(*(np.concatenate([part[row] for part in parts if part[0] == staff]) for row in (1, 2)))
+        for staff in sorted({staff for staff, _, _ in parts})
+    }
+    times = np.unique(np.concatenate([np.array(changes.ticks, np.int64) for changes in staves.values()]))
+    at = np.array([changes.at(times) for changes in staves.values()])
+    most = np.array([(at == mark).sum(axis=0) for mark in range(len(DYNAMICS))]).argmax(axis=0)
+    return StaffLevels(staves, _changes(times, most))
+
+
+def _changes(ticks: IntArray, marks: IntArray) -> MarkChanges:
+    known = np.flatnonzero(marks >= 0)
+    known = known[np.argsort(ticks[known], kind="stable")]
+    known = known[np.flatnonzero(np.diff(marks[known], prepend=-1))]
+    return MarkChanges(tuple(ticks[known].tolist()), tuple(marks[known].tolist()))
