@@ -502,6 +502,8 @@ LINE: Final = StepTable(
     loudness=reading(note_loudness, reading="velocity_reading"),
     muted="part.muted",
     stopped="part.stopped",
+    marks="part.marks",
+    source="part.source",
     line=reading(
         MonophonicPart,
         instrument_map="instrument",
@@ -515,6 +517,8 @@ LINE: Final = StepTable(
         styles_known="styles_known",
         muted="muted",
         stopped="stopped",
+        marks="marks",
+        source="source",
     ),
 )
 """The line of a player who has an instrument."""

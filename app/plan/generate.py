@@ -22,6 +22,7 @@ from app.plan.music.felt_bars import lowest, with_felt_bars
 from app.plan.music.fermatas import fermatas
 from app.plan.music.one_note_at_a_time import one_at_a_time
 from app.plan.music.piece import LineTimes, MonophonicPart, NoteTimes, Piece, note_times
+from app.plan.music.written_marks import written_marks
 from app.plan.parameters import PlayerParameters, restricted
 from app.plan.player import AMONG_OTHERS, PLAYER
 from app.score.model import Note
@@ -207,6 +208,7 @@ def plan_ensemble(
             **{name: among[name] for name in AMONG_OTHERS.functions},
             times=all_times[done],
             reported=results["reported"],
+            written=results.of(written_marks),
             shared_line=together[done],
             alone=musicians[line.musician or line.player_id] == 1,
         )
@@ -274,7 +276,9 @@ LINE: Final = StepTable(
     played_notes="single.line.notes",
     played_loudness="single.line.loudness",
     apart="single.problems",
-    times=reading(note_times, notes="played_notes", loudness="played_loudness"),
+    quarter="clock.ticks_per_quarter",
+    written=reading(written_marks, notes="played_notes", ticks_per_quarter="quarter"),
+    times=reading(note_times, notes="played_notes", loudness="played_loudness", written="written"),
     reported=_reported,
     leading=_leading,
 )

@@ -212,7 +212,7 @@ PLAYER: Final = StepTable(
     early_end_s="planned_breaths.early_end_s",
     catches="planned_breaths.catches",
     left_out="planned_breaths.left_out",
-    tongues=plan_tongues,
+    tongues=reading(plan_tongues, written="written"),
     embouchure_tension="parameters.embouchure_tension",
     embouchure_corrections=partial(of_kinds, kinds=(SetEmbouchure,)),
     from_breath=_from_breath,

@@ -5,11 +5,12 @@ Up to a speed the tip of the tongue makes every stroke (*ta*). Beyond it the bac
 minute are where players change over; who plays a reed goes on longer with the tip, since the reed is in the way.
 
 Messages: ``tongue.attack``, ``tongue.staccato``, ``tongue.accent``, ``tongue.marcato``, ``tongue.tenuto``,
-``tongue.slide``, ``tongue.double``, ``tongue.triple``.
+``tongue.slide``, ``tongue.double``, ``tongue.triple``, and ``tongue.written_`` with a kind of mark.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import lru_cache
 from typing import Final
 
@@ -21,6 +22,7 @@ from app.plan.model import Articulation, FingeringEvent, Stroke, TongueEvent
 from app.plan.music.dynamics import ACCENT, louder_by
 from app.plan.music.piece import DETACHED_GATES, EPSILON, TOUCHING_GATE, LineTimes, Piece, Seeds, staccato
 from app.plan.music.rests import rest_ticks
+from app.plan.music.written_marks import WrittenMarks, unwritten
 from app.score.metre_map import Metre
 from app.score.model import Note
 from instrument_maps.model import InstrumentMap
@@ -50,6 +52,14 @@ SMEAR: Final = 0.6
 """Size of the soft stroke that hides a slide's way."""
 BEFORE_REST_S: Final = 0.5
 """Sounding time from which on a note before a rest is not staccato: its written length is as short."""
+OF_MARK: Final[dict[str, Articulation]] = {
+    "staccatissimo": "staccato", "staccato": "staccato", "tenuto": "tenuto", "accent": "accent", "marcato": "marcato"
+}  # fmt: skip
+"""Articulation of a note with a mark."""
+WRITTEN: Final = "written:"
+"""Begins why a stroke is as it is where a mark says so."""
+BACK_IN: Final = {"double_tongue": 2, "triple_tongue": 3}
+"""Of so many strokes the last is the back's."""
 MARCATO_GATE: Final = 0.8
 """An accented note that ends before this share of the time to the next one is marcato."""
 
@@ -61,8 +71,9 @@ def plan_tongues(
     fingerings: tuple[FingeringEvent, ...],
     piece: Piece,
     seeds: Seeds,
+    written: WrittenMarks | None = None,
 ) -> tuple[TongueEvent, ...]:
-    """The tongue's stroke before every attacked note.
+    """The tongue's stroke before every attacked note. What is written wins over what is heard.
 
     Attacked is every note but one that is slurred to (`app.plan.music.piece.slurs_next`), at another pitch, and no
     slide has to move far.
@@ -71,9 +82,13 @@ def plan_tongues(
         return ()
     slurred, smeared = _slurred(times, instrument, fingerings)
     attacked = np.flatnonzero(~slurred)
-    kinds = _articulations(notes, times, slurred, piece)
+    written = written or unwritten(len(notes))
+    kinds = _with_marks(
+        written, ["tongued"] * len(notes) if written.is_score else _articulations(notes, times, slurred, piece)
+    )
     limit_s = single_limit_s(instrument, seeds)
     strokes, why = _strokes(times, attacked, piece, limit_s)
+    _write_strokes(written.tonguing, attacked, strokes, why)
     smears = smeared.tolist()
     onset_s = times.onset_s[attacked].tolist()
     events = []
@@ -87,11 +102,34 @@ def plan_tongues(
             strength *= BACK
         elif smears[at]:
             stroke, strength = "da", SMEAR
-        elif kind == "tenuto":
+        elif kind == "tenuto" or written.divided[at]:
             stroke = "da"
-        reason = _reason("slide" if smears[at] else group or kind, rate, round(1.0 / limit_s, 1))
+        mark = WRITTEN + written.stroke[at] if written.stroke[at] else kind
+        reason = _reason("slide" if smears[at] else group or mark, rate, round(1.0 / limit_s, 1))
         events.append(TongueEvent(notes[at].id, start_s - TONGUE_S, start_s, stroke, kind, round(strength, 3), reason))
     return tuple(events)
+
+
+def _with_marks(written: WrittenMarks, kinds: list[Articulation]) -> list[Articulation]:
+    """Return the articulation of each note, where it has a mark as this says; a sforzando is an accent."""
+    marked = [OF_MARK.get(mark, kind) for mark, kind in zip(written.stroke, kinds, strict=True)]
+    struck = written.struck.tolist()
+    return ["accent" if own and kind == "tongued" else kind for own, kind in zip(struck, marked, strict=True)]
+
+
+def _write_strokes(
+    tonguing: Sequence[str], attacked: IntArray, strokes: list[Stroke], why: list[tuple[str, float]]
+) -> None:
+    """Set the strokes of notes that the score has double, triple and flutter tonguing for."""
+    since, before = 0, ""
+    for place, at in enumerate(attacked.tolist()):
+        mark = tonguing[at]
+        since = since + 1 if mark == before else 0
+        before = mark
+        if mark:
+            turn = BACK_IN.get(mark, 0)
+            strokes[place] = "ka" if turn and since % turn == turn - 1 else "ta"
+            why[place] = (WRITTEN + mark, 0.0)
 
 
 def single_limit_s(instrument: InstrumentMap, seeds: Seeds) -> float:
@@ -108,6 +146,8 @@ def _reason(kind: str, rate: float, limit: float) -> Message:
     """Equal ones are kept once."""
     if kind in ("double", "triple"):
         return Message(f"tongue.{kind}", {"rate": rate, "limit": limit})
+    if kind.startswith(WRITTEN):
+        return Message(f"tongue.written_{kind.removeprefix(WRITTEN)}")
     return Message("tongue.attack" if kind == "tongued" else f"tongue.{kind}")
 
 

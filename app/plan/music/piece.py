@@ -15,7 +15,9 @@ from app.plan.by_hand.corrections import Correction
 from app.plan.music.dynamics_from_velocities import Velocities, read_dynamics
 from app.plan.music.velocity_ladders import LEVELS
 from app.plan.music.velocity_ladders import MEZZOFORTE as MEZZOFORTE
+from app.plan.music.written_marks import WrittenMarks, written_marks
 from app.plan.parameters import PlayerParameters
+from app.score.marks import Mark, Source
 from app.score.metre_map import MetreMap
 from app.score.model import Note
 from app.score.tempo import TempoMap
@@ -91,6 +93,10 @@ class MonophonicPart(msgspec.Struct, frozen=True):
         What the player and the styles there are are called, for what is reported.
     muted, stopped : tuple of (start tick, end tick)
         Where it is played with a mute, and where among these the hand stops the bell.
+    marks : tuple of Mark
+        What is written over the notes.
+    source : {"sound", "score"}
+        What the notes were read from.
     """
 
     player_id: str
@@ -106,6 +112,8 @@ class MonophonicPart(msgspec.Struct, frozen=True):
     styles_known: str = ""
     muted: tuple[tuple[int, int], ...] = ()
     stopped: tuple[tuple[int, int], ...] = ()
+    marks: tuple[Mark, ...] = ()
+    source: Source = "sound"
 
 
 class Piece(msgspec.Struct, frozen=True):
@@ -232,11 +240,20 @@ def staccato(onset_tick: IntArray, end_tick: IntArray, quarter_ticks: int) -> Bo
 
 def line_times(line: MonophonicPart, clock: TempoMap) -> LineTimes:
     """The times of a line's notes. A line without notes gives empty arrays."""
-    return note_times(line.notes, line.loudness, clock)
+    written = written_marks(line.notes, line.marks, line.source, clock.ticks_per_quarter)
+    return note_times(line.notes, line.loudness, clock, written)
 
 
-def note_times(notes: tuple[Note, ...], loudness: tuple[float, ...], clock: TempoMap) -> LineTimes:
-    """The same of notes, with the loudness that is known of them (see `MonophonicPart`)."""
+def note_times(
+    notes: tuple[Note, ...], loudness: tuple[float, ...], clock: TempoMap, written: WrittenMarks | None = None
+) -> LineTimes:
+    """The same of notes, with the loudness that is known of them (see `MonophonicPart`).
+
+    Parameters
+    ----------
+    written : WrittenMarks, optional
+        Slurs and dynamics in the score, which win over what the sound says.
+    """
     count = len(notes)
     onset = np.fromiter((note.onset_tick for note in notes), np.int64, count)
     duration = np.fromiter((note.duration_tick for note in notes), np.int64, count)
@@ -248,10 +265,14 @@ def note_times(notes: tuple[Note, ...], loudness: tuple[float, ...], clock: Temp
     reach = np.maximum.accumulate(end) if count else end
     silence = np.maximum(onset - np.insert(reach[:-1], 0, -BEFORE_FIRST_TICK)[:count], 0)
     loud = np.asarray(loudness, np.float64) if loudness else read_dynamics(Velocities(velocity))[0]
+    slurred = slurs_next(onset, end)
+    if written is not None:
+        loud = np.where(np.isnan(written.level), loud, written.level)
+        slurred = written.slurred if written.is_score else (slurred | written.slurred) & ~written.tongued_next
     return LineTimes(
         onset_tick=onset,
         played_end_tick=played_end,
-        slurs_next=slurs_next(onset, end),
+        slurs_next=slurred,
         silence_tick=silence,
         onset_s=clock.seconds(onset.astype(np.float64)),
         played_end_s=clock.seconds(played_end.astype(np.float64)),

@@ -6,6 +6,7 @@ import pytest
 
 from app.plan.generate import MonophonicPart, make_plans, time_frame
 from app.plan.model import PlayerPlan, TongueEvent
+from app.score.marks import Mark
 from app.score.metre_map import Metre
 from instrument_maps.load import bundled_maps
 from tests.support.plan import PlainClock, PlainNote, line_of, piece_of
@@ -116,3 +117,30 @@ def test_strokes_differ_in_size() -> None:
 
 def test_strokes_keep_their_ids() -> None:
     assert TongueEvent("1:1", 0.0, 0.1).id == "tongue:1:1"
+
+
+def scored(notes: tuple[PlainNote, ...], *marks: Mark) -> PlayerPlan:
+    clock = PlainClock(((0, 90.0),))
+    line = MonophonicPart("p", notes, bundled_maps()["trumpet_Bb"], marks=marks, source="score")
+    return make_plans(piece_of(clock, (COMMON,)), (line,), time_frame((line,), clock))["p"]
+
+
+def test_what_a_score_says_of_tongue_and_slurs_is_done() -> None:
+    notes = line_of(*((place * Q, Q if place % 2 else Q // 2, 60 + place) for place in range(12)))
+    id_of = [note.id for note in notes]
+    found = scored(
+        notes,
+        Mark("slur", id_of[0], id_of[2]), Mark("accent", id_of[4]), Mark("staccato", id_of[5]),
+        Mark("slur", id_of[6], id_of[7]), Mark("tenuto", id_of[7]),
+        *(Mark("double_tongue", id_of[place]) for place in (8, 9)), Mark("flutter_tongue", id_of[10]),
+    )  # fmt: skip
+    by_note = {event.note_id: event for event in found.tongues}
+    assert [id_of.index(id) for id in by_note] == [0, 3, 4, 5, 6, 7, 8, 9, 10, 11]
+    said = [(event.stroke, event.articulation, event.reason.id) for event in by_note.values()]
+    # Every other note is short: in a score without dots that is no staccato.
+    plain = ("ta", "tongued", "tongue.attack")
+    assert said == [
+        plain, plain, ("ta", "accent", "tongue.written_accent"), ("ta", "staccato", "tongue.written_staccato"),
+        plain, ("da", "tenuto", "tongue.written_tenuto"), ("ta", "tongued", "tongue.written_double_tongue"),
+        ("ka", "tongued", "tongue.written_double_tongue"), ("ta", "tongued", "tongue.written_flutter_tongue"), plain,
+    ]  # fmt: skip
