@@ -450,7 +450,7 @@ def turn_of(rod: Rod, point: ArrayLike, normal: ArrayLike, travel_m: float) -> t
     speed = np.cross(rod.axis, np.asarray(point, float) - rod.a) @ unit(normal)
     if abs(speed) < 0.002:
         raise ValueError("the rod passes under the touch piece: pressing it would turn nothing")
-    return (rod.axis if speed < 0 else -rod.axis), travel_m / abs(speed)
+    return (rod.axis if speed < 0 else -rod.axis), float(travel_m / abs(speed))
 
 
 def sink_of(rod: Rod, axis: Array, angle_rad: float, point: ArrayLike, normal: ArrayLike) -> float:
@@ -616,8 +616,8 @@ class Keywork:
         known = next(row for row in self.contacts if row["control"] == control)
         self.contact(
             part,
-            known["point"] if point is None else point,  # type: ignore[arg-type]
-            known["normal"] if normal is None else normal,  # type: ignore[arg-type]
+            known["point"] if point is None else point,
+            known["normal"] if normal is None else normal,
             node=str(known["node"]),
             control=control,
             together=together,
@@ -691,6 +691,6 @@ def toml(value: object) -> str:
         return "{ " + ", ".join(f"{key} = {toml(inner)}" for key, inner in value.items()) + " }"
     if isinstance(value, list | tuple | np.ndarray):
         return "[" + ", ".join(toml(inner) for inner in value) + "]"
-    text = f"{float(value):.5f}".rstrip("0")  # type: ignore[arg-type]
+    text = f"{float(value):.5f}".rstrip("0")
     text = text if not text.endswith(".") else f"{text}0"
     return "0.0" if text == "-0.0" else text

@@ -18,7 +18,9 @@ from resources.build.instrument_mesh import Array, Shape, plate, solid, tube, tu
 X, Y, Z = np.eye(3)
 
 
-def creased(points: ArrayLike, faces: ArrayLike, hard_deg: float = 32.0, proxies: Sequence[dict] = ()) -> Shape:
+def creased(
+    points: ArrayLike, faces: ArrayLike, hard_deg: float = 32.0, proxies: Sequence[dict[str, object]] = ()
+) -> Shape:
     """A shape of a bare mesh: smooth normals, but edges sharper than ``hard_deg`` stay edges."""
     places, corners = np.asarray(points, float), np.asarray(faces, np.int64)
     sides = np.cross(places[corners[:, 1]] - places[corners[:, 0]], places[corners[:, 2]] - places[corners[:, 0]])
@@ -52,7 +54,9 @@ def creased(points: ArrayLike, faces: ArrayLike, hard_deg: float = 32.0, proxies
     return Shape(vertices, np.array(out_normals), uvs, np.array(out_faces, np.int64), tuple(proxies))
 
 
-def loft(rings: Sequence[Array], *, hard_deg: float = 32.0, proxies: Sequence[dict] = (), caps: bool = True) -> Shape:
+def loft(
+    rings: Sequence[Array], *, hard_deg: float = 32.0, proxies: Sequence[dict[str, object]] = (), caps: bool = True
+) -> Shape:
     """A skin over closed outlines of the same number of points, one after the other; ends closed by fans.
 
     Seen against the direction they follow one another, the points of a ring run counterclockwise.

@@ -68,7 +68,7 @@ def long_plan() -> PlayerPlan:
 
 @pytest.mark.bench
 @pytest.mark.parametrize("slide_m", [0.0, 0.4])
-def test_motion_is_far_faster_than_real_time(slide_m) -> None:
+def test_motion_is_far_faster_than_real_time(slide_m: float) -> None:
     plan, body, character = long_plan(), load_body(), figure.character()
     hold, instrument = figure.hold(character.skeleton, slide_m), figure.instrument_map(press(), slide())
 

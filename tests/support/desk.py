@@ -6,7 +6,7 @@ import dataclasses
 from collections.abc import Callable
 from fractions import Fraction
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import msgspec
 import numpy as np
@@ -48,7 +48,7 @@ class Desk:
         self.answers = answers
         self.folder = folder
         self.before: Project = self.session.project
-        self.seen: dict[str, object] = {}
+        self.seen: dict[str, Any] = {}
 
     @property
     def project(self) -> Project:

@@ -16,7 +16,7 @@ from dataclasses import dataclass, field
 from enum import Enum
 from functools import cache
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import soundfile
 
@@ -265,7 +265,7 @@ def _classes(studio: Studio, module: Any) -> dict[str, type]:
         def __enter__(self) -> ScopedSlowTask:
             return self
 
-        def __exit__(self, type: Any, value: Any, traceback: Any) -> bool:
+        def __exit__(self, type: Any, value: Any, traceback: Any) -> Literal[False]:
             if type is None:
                 assert self._left == 0, "the progress does not come to its end"
             return False

@@ -6,6 +6,7 @@ What such a character does is known exactly, because it is one of ours underneat
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 from scipy.spatial.transform import Rotation
@@ -61,7 +62,7 @@ def foreign(
         t_pose.append(in_t)
         return len(names) - 1
 
-    def hung(parent: int, offset: np.ndarray, turn: Rotation) -> tuple[tuple, tuple]:
+    def hung(parent: int, offset: np.ndarray, turn: Rotation) -> tuple[Any, ...]:
         """A bone that keeps its place on its parent, at rest and in the T-pose."""
         return tuple(
             (place[parent][0] + place[parent][1].apply(offset), place[parent][1] * turn) for place in (rest, t_pose)

@@ -344,7 +344,7 @@ def leaves_out(breath: Mapping[str, Any], note: Mapping[str, Any], following: Ma
 
 def _named_pitch(name: str) -> int:
     """The MIDI number of a pitch as it is named where middle C is C4."""
-    letter, accidental, octave = re.fullmatch(r"([A-G])([♯♭]?)(-?\d+)", name).groups()  # type: ignore[union-attr]
+    letter, accidental, octave = re.fullmatch(r"([A-G])([♯♭]?)(-?\d+)", name).groups()
     return (
         12 * (int(octave) + 1)
         + {"C": 0, "D": 2, "E": 4, "F": 5, "G": 7, "A": 9, "B": 11}[letter]

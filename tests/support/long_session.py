@@ -186,7 +186,7 @@ class LongDay:
         """A second is heard, or would be."""
         self.session.set_playhead(2.0)
         for source in ("synthesiser", "recording"):
-            self.session.listening.set(source=source)  # type: ignore[arg-type]
+            self.session.listening.set(source=source)
             self.session.set_playing(True)
             self.wait(0.3)
             self.session.set_playing(False)

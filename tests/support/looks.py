@@ -166,7 +166,7 @@ class Look:
         self.window.resize(*size)
         # Where things are does not depend on the players' motion.
         live = self.program.generator.live
-        live.work = live.judge = lambda stop_requested: False  # type: ignore[method-assign]
+        live.work = live.judge = lambda stop_requested: False
         # Composing the window with a picture by OpenGL takes most of the time where the processor does its work.
         canvas = self.window.viewport.canvas_widget()
         assert canvas is not None
@@ -218,7 +218,7 @@ class Look:
         self.program.editor.settings.add_recent(LUTKIN)
         lost = Recoverable(self.folder / "a.suisou", None, LUTKIN.name, 1.0e9, 400)
         older = replace(lost, is_file_changed=True)
-        self.program.editor.files.find_recoverable = lambda found: found((lost, older))  # type: ignore[method-assign]
+        self.program.editor.files.find_recoverable = lambda found: found((lost, older))
         self.window.start_page.refresh()
         self.both("start_full")
 

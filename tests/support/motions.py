@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Callable, Collection
 from dataclasses import dataclass, field
 from fractions import Fraction
-from typing import Final
+from typing import Any, Final
 from weakref import WeakKeyDictionary
 
 import pytest
@@ -48,7 +48,7 @@ class _Prepared(IdentityCache[PerformanceCurves]):
         super().__init__(size)
         self._plans = plans
 
-    def helped(self, function, help, *inputs):  # type: ignore[no-untyped-def]
+    def helped(self, function: Any, help: Any, *inputs: Any) -> Any:  # type: ignore[override]
         """As of any other cache."""
         if any(inputs[0] is plan for plan in self._plans()):
             made = _CURVES.helped(function, help, *inputs)

@@ -94,9 +94,9 @@ def frames(packets: list[tuple[float, bytes]]) -> list[Frame]:
                 found[-1].applied = True
                 continue
             name, *rest = message.arguments
-            values = tuple(float(value) for value in rest)  # type: ignore[arg-type]
+            values = tuple(float(value) for value in rest)
             if message.address == "/VMC/Ext/T":
-                found[-1].time_s = float(name)  # type: ignore[arg-type]
+                found[-1].time_s = float(name)
             elif message.address == "/VMC/Ext/Root/Pos":
                 assert name == "root"
                 found[-1].root = values

@@ -155,7 +155,8 @@ def _ring(centre: list[float], radius: float) -> Shape:
 
 
 def _model() -> tuple[Model, list[dict[str, object]]]:
-    model, contacts = Model(), []
+    model = Model()
+    contacts: list[dict[str, object]] = []
     up = np.array([0.0, 1.0, 0.0])
 
     def touch(part: str, node: str, point: list[float], normal: np.ndarray, *controls: str) -> None:

@@ -127,7 +127,7 @@ class Film:
         image = Image.open(path).convert("RGB")
         width, height = image.size
         box = (crop[0] * width, crop[1] * height, crop[2] * width, crop[3] * height)
-        image = image.crop(tuple(round(edge) for edge in box))  # type: ignore[arg-type]
+        image = image.crop(tuple(round(edge) for edge in box))
         image.save(path, optimize=True)
         print(f"{path.relative_to(ROOT)}: {image.width} x {image.height}, {path.stat().st_size // 1024} KB")
 
@@ -254,7 +254,7 @@ def record(film: Film) -> None:
         film.wait(lambda: session.playhead_s >= end_s)
         actions(session)["record.toggle"].trigger()
         count = number + 1
-        film.wait(lambda count=count: len(_takes(film, player)) == count)  # type: ignore[misc]
+        film.wait(lambda count=count: len(_takes(film, player)) == count)
     session.set_playhead(start_s)
 
 

@@ -48,7 +48,7 @@ def answer_of(clip: str = "c01", **changes: object) -> Answer:
         "answer": 3,
         "seconds": 9.5,
     }
-    return Answer(**(values | changes))  # type: ignore[arg-type]
+    return Answer(**(values | changes))
 
 
 def viewer_of(answers: Sequence[Answer], name: str = "answers.csv") -> ViewerFile:

@@ -434,8 +434,8 @@ def unreal_description(path: Path, folder: Path) -> None:
     plugin = str(seeds.ROOT / "resources/unreal/Suisou/Content/Python")
     if plugin not in sys.path:
         sys.path.append(plugin)
-    from suisou_import import performance  # type: ignore[import-not-found]
-    from suisou_import.problem import Problem  # type: ignore[import-not-found]
+    from suisou_import import performance
+    from suisou_import.problem import Problem
 
     (folder / performance.DESCRIPTION).write_bytes(path.read_bytes())
     try:

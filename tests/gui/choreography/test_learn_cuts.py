@@ -224,5 +224,5 @@ def test_the_pose_under_the_mouse_is_drawn(dialog: LearnDialog) -> None:
     assert after is not None
     hand = SEGMENTS.index("leftHand")
     assert after[hand, 1] > before[hand, 1] + 0.2
-    clip = read_motion(dialog.drafts[0].motion).clip  # type: ignore[arg-type]
+    clip = read_motion(dialog.drafts[0].motion).clip
     assert after == pytest.approx(pose_of(clip, plot(dialog).frame_at(place.x())), abs=1e-4)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from pathlib import Path
+from typing import TypeVar
 
 import pytest
 from PySide6.QtCore import QMimeData, QPoint, QPointF, Qt
@@ -62,7 +63,10 @@ def shown(session: Session, qtbot: QtBot, folder: Path) -> LearnDialog:
     return made
 
 
-def child(dialog: QWidget, kind: type, name: str) -> QWidget:
+_W = TypeVar("_W", bound=QWidget)
+
+
+def child(dialog: QWidget, kind: type[_W], name: str) -> _W:
     found = dialog.findChild(kind, name)
     assert found is not None
     return found
@@ -229,12 +233,11 @@ def test_cancelled_it_leaves_the_file_as_it_was(
     qtbot.waitUntil(start.isEnabled)
     (folder / "choreography.choreography").write_text("before", encoding="utf-8")
     before = sorted(folder.iterdir())
-    whole = learn_dialog.learn
 
     def slow(*args: object, **options: object) -> object:
         """Learns once it was cancelled."""
         dialog._stop.wait(60.0)
-        return whole(*args, **options)  # type: ignore[arg-type]
+        return learn(*args, **options)
 
     monkeypatch.setattr(learn_dialog, "learn", slow)
     press(dialog, "learn_start")

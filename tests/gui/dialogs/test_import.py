@@ -352,7 +352,7 @@ def shown(dialog: ImportDialog) -> list[tuple[bool, str]]:
         assert play is not None
         assert instrument is not None
         assert instrument.isEnabled()
-        rows.append((play.isChecked(), instrument.currentText()))
+        rows.append((play.isChecked(), instrument.currentText()))  # type: ignore[attr-defined]
     return rows
 
 

@@ -40,7 +40,9 @@ class Page:
         self.problem = self.dialog.findChild(QLabel, "instruments_problem")
 
     def button(self, name: str) -> QPushButton:
-        return self.dialog.findChild(QPushButton, f"instruments_{name}")
+        button = self.dialog.findChild(QPushButton, f"instruments_{name}")
+        assert button is not None
+        return button
 
     def click(self, name: str) -> None:
         assert self.button(name).isEnabled(), name

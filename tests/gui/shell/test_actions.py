@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QContextMenuEvent, QKeySequence
-from PySide6.QtWidgets import QApplication, QMenu, QPushButton
+from PySide6.QtWidgets import QAbstractButton, QApplication, QMenu, QPushButton, QWidget
 from pytestqt.qtbot import QtBot
 
 from app.editor.settings import Settings
@@ -201,7 +201,7 @@ def test_the_preferences_hold_at_once(program: Program, settings: Settings, qtbo
 
     dialog = show_preferences(program.editor, "general")
     for name in ("preferences_theme_light", "preferences_middle_c_octave_3", "preferences_time_display_frames"):
-        dialog.findChild(object, name).click()
+        dialog.findChild(QAbstractButton, name).click()
     assert program.session.tokens.name == "light"
     assert program.session.pitch_display.middle_c_octave == 3
     assert program.session.time_display == "frames"
@@ -230,7 +230,7 @@ def focus(window: Window, panel: str, qtbot: QtBot) -> None:
     """Bring the keyboard into a panel."""
     show_in_front(window)
     widget = window.panels[panel]
-    for candidate in (widget, *widget.findChildren(QPushButton), *widget.findChildren(object)):
+    for candidate in (widget, *widget.findChildren(QPushButton), *widget.findChildren(QWidget)):
         if getattr(candidate, "focusPolicy", lambda: Qt.FocusPolicy.NoFocus)() != Qt.FocusPolicy.NoFocus:
             candidate.setFocus()
             if QApplication.focusWidget() is not None and widget.isAncestorOf(QApplication.focusWidget()):

@@ -23,7 +23,8 @@ from app.shell.licences_dialog import LicencesDialog
 from app.shell.questions import DialogQuestions
 from app.shell.recording_dialogs import show_latency
 from tests.gui.conftest import QUARTET, delete_now
-from tests.gui.shell.conftest import Studio, trigger
+from tests.gui.shell.conftest import trigger
+from tests.support.studio import Studio
 from tests.unit.cli.test_main import ROOT
 from widgets.common.actions import actions
 from widgets.dialogs.character_draft import CharacterDraft

@@ -16,6 +16,7 @@ from PySide6.QtWidgets import QApplication, QColorDialog, QComboBox, QFileDialog
 
 from app.editor.selection import Selection
 from app.editor.tokens import LIGHT
+from app.editor.viewport_state import SHOWN
 from app.errors import Message
 from app.performance.ensemble import Performance
 from app.project.casting import StagePosition
@@ -44,7 +45,6 @@ from widgets.common.number_slider import NumberSlider
 from widgets.common.section import SectionHeader
 from widgets.inspector.correction_list import CorrectionList
 from widgets.inspector.face_picture import FacePicture
-from widgets.viewport.header import SHOWN
 from widgets.viewport.panel import ViewportPanel
 
 

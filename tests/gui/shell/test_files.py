@@ -30,7 +30,7 @@ from app.project.model import Project
 from app.project.presence import Presence
 from app.project.recording import AudioTrack
 from app.project.recovery import Recoverable, load_work, recoverable
-from app.project.storage import load, save
+from app.project.storage import encode_autosave, load, save
 from tests.gui.shell.conftest import Answers
 from tests.support.tasks import ImmediateTasks
 
@@ -240,11 +240,10 @@ def test_autosaves_are_made_beside_the_window(
     desk: Desk, clock: Clock, monkeypatch: pytest.MonkeyPatch, qtbot: QtBot
 ) -> None:
     threads: list[int] = []
-    encode = autosave_module.encode_autosave
 
     def noted(*arguments: Any) -> bytes:
         threads.append(threading.get_ident())
-        return encode(*arguments)
+        return encode_autosave(*arguments)
 
     monkeypatch.setattr(autosave_module, "encode_autosave", noted)
     tasks = ThreadTasks()

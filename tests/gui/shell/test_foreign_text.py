@@ -120,7 +120,7 @@ def close_others(program: Program) -> None:
 
 def start_page(program: Program, judge: Judge, folder: Path) -> None:
     lost = Recoverable(folder / "a.suisou", None, judge.canary.name("lost"), 1.0e9, 400)
-    program.editor.files.find_recoverable = lambda found: found((lost,))  # type: ignore[method-assign]
+    program.editor.files.find_recoverable = lambda found: found((lost,))
     program.window.start_page.refresh()
     judge.look("start page")
 
@@ -150,7 +150,7 @@ def selections(program: Program, judge: Judge) -> None:
     notes, plan = session.project.part(player).notes, session.performance.plan(player)
     events = (*plan.breaths[:1], *plan.expressions[:1], *plan.gestures[:1])
     chosen = [Selection(), Selection(frozenset({notes[2].id})), Selection(take="take:1")]
-    chosen += [Selection(events=frozenset({EventKey(player.id, event.id)})) for event in events]
+    chosen += [Selection(events=frozenset({EventKey(player.id, event.id)})) for event in events]  # type: ignore[attr-defined]
     for selection in chosen:
         session.select(selection)
         judge.look(f"selected: {selection}")

@@ -25,6 +25,7 @@ from app.plan.model import Problem
 from app.project.edit import players
 from app.project.edit.corrections import put
 from app.rig.characters.character_library import character_named
+from app.rig.grip.fitting.grip_files import hold_for
 from app.shell.commands.problems import go_to_problem
 from tests.support.bodies import playing as odd_bodies
 from widgets.common.text import message_text
@@ -148,7 +149,7 @@ def test_motion_is_made_by_itself_and_again_where_an_edit_touched_it(
     assert before is not None
     assert after is not None
     assert after.morphs != before.morphs
-    assert generator.live.pose(player.id, at_s + 20.0).morphs == other.morphs  # type: ignore[union-attr]
+    assert generator.live.pose(player.id, at_s + 20.0).morphs == other.morphs
 
 
 def test_the_viewport_is_reported_only_of_poses_at_the_playhead(
@@ -215,7 +216,7 @@ def test_motion_that_no_one_waits_for_gives_way(
     """Where others had the processor the worker rests longer than they did, unless someone waits for what it makes."""
     generator.close()
     clock = Clock()
-    worker = module._Worker(Work(clock, others_s, is_seen), generator._worker._report, clock)  # type: ignore[arg-type]
+    worker = module._Worker(Work(clock, others_s, is_seen), generator._worker._report, clock)
     rested: list[float] = []
     monkeypatch.setattr(worker, "_rest", lambda rest_s, requests: rested.append(rest_s))
     for _ in range(3):
@@ -350,7 +351,7 @@ def test_how_a_new_body_holds_an_instrument_is_found_beside_the_window(
     session: Session, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     here, where, go = threading.current_thread(), list[threading.Thread](), threading.Event()
-    ours = bodies.hold_for
+    ours = hold_for
 
     def slow(character, model, instrument, body, reported=lambda share: None):  # type: ignore[no-untyped-def]
         if character.id != "unmarked":

@@ -14,8 +14,9 @@ from app.errors import Message
 from app.performance.ensemble import Performance
 from app.project.edit.dancers import add_dancer
 from tests.gui.conftest import QUARTET, delete_now
-from tests.gui.shell.conftest import Studio, trigger
+from tests.gui.shell.conftest import trigger
 from tests.support.dances import model
+from tests.support.studio import Studio
 from tests.support.windows import wait_until
 from widgets.common.combo import Combo
 from widgets.dialogs.choreography.learn import LearnDialog

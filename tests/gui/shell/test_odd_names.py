@@ -156,7 +156,7 @@ def test_dialogs_give_the_bytes_and_begin_where_qt_can_be(
 
     for name in ("getOpenFileUrl", "getSaveFileUrl"):
         monkeypatch.setattr(QFileDialog, name, chosen)
-    monkeypatch.setattr(QFileDialog, "getExistingDirectoryUrl", lambda *given, **more: chosen(*given, **more)[0])  # type: ignore[index]
+    monkeypatch.setattr(QFileDialog, "getExistingDirectoryUrl", lambda *given, **more: chosen(*given, **more)[0])
     assert DialogQuestions().open_file("Open", str(folder), "*") == odd(folder, ".suisou")
     assert DialogQuestions().save_file("Save", str(odd(folder, ".suisou")), "*", (".suisou",)) == odd(folder, ".suisou")
     assert ask_for_folder(None, "Folder", folder) == odd(folder, ".suisou")
@@ -208,7 +208,7 @@ def test_a_name_is_proposed_that_a_file_can_have(empty: Program, answers: Answer
     def save_file(title: str, proposal: str, filters: str, suffixes: Sequence[str]) -> None:
         proposals.append(proposal)
 
-    answers.save_file = save_file  # type: ignore[assignment]
+    answers.save_file = save_file
     empty.editor.files.open(QUARTET, ask=False)
     empty.session.document.apply(Message("edit.set_tempo"), replace(empty.session.project, source=""))
     empty.session.attempt(Message("edit.set_tempo"), lambda project: set_title(project, "a/../\\:*" + "長" * 300))

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from PySide6.QtWidgets import QApplication, QPushButton
+from PySide6.QtWidgets import QApplication, QLabel, QPushButton
 
 from app.editor.settings import Settings
 from app.project.storage import save
@@ -52,7 +52,7 @@ def test_the_window_asks_before_it_looks(program: Program, tmp_path: Path, touch
     assert found >= {recording, video, moves, dance}
     # It is not there: the window asks where it is.
     assert banner.isVisible()
-    assert "take.wav" in banner.findChild(object, "banner_text").text().replace("\u200b", "")
+    assert "take.wav" in banner.findChild(QLabel, "banner_text").text().replace("\u200b", "")
 
 
 def test_who_does_not_connect_is_not_asked_again(program: Program, tmp_path: Path, touched: Touched) -> None:

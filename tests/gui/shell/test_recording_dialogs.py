@@ -359,7 +359,7 @@ def blow_on_clicks(studio: Studio, dialog: LatencyDialog, late_s: float, jitter_
         if number < LEAD or number % every:
             continue
         at_ns = begin_ns + round((click_s + late_s + chance.gauss(0.0, jitter_s)) * 1e9)
-        studio.wait(lambda at_ns=at_ns: studio.clock.ns >= at_ns)  # type: ignore[misc]
+        studio.wait(lambda at_ns=at_ns: studio.clock.ns >= at_ns)
         studio.link.play_at(at_ns, bytes((0x90, 60, 90)))
         studio.link.play_at(at_ns + 50_000_000, bytes((0x80, 60, 0)))
     studio.wait(lambda: part(dialog, QPushButton, "latency_start").text() == "Start")

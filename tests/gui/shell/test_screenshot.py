@@ -30,7 +30,7 @@ def suisou(*arguments: str, **environment: str) -> subprocess.CompletedProcess[s
     )
 
 
-def pixels(image: QImage) -> np.ndarray:  # type: ignore[type-arg]
+def pixels(image: QImage) -> np.ndarray:
     image = image.convertToFormat(QImage.Format.Format_RGB888)
     rows = np.frombuffer(image.constBits(), np.uint8).reshape(image.height(), image.bytesPerLine())
     # A copy: the rows are the picture's own memory.

@@ -146,7 +146,7 @@ def type_case(sign: str) -> Case:
             # No instrument here has it: nothing happens, and the user is informed or it is the beginning of a longer
             # one.
             return desk.project is desk.before
-        player_id, note_id = desk.seen["typed"]  # type: ignore[misc]
+        player_id, note_id = desk.seen["typed"]
         return PinFingering(note_id, sign) in desk.project.corrections[player_id]
 
     return Case(right, lambda desk: typed(desk, sign))
@@ -188,7 +188,7 @@ def axis(ready: Deed, right: Callable[[float, float], bool]) -> Case:
         ready(desk)
         desk.seen["span"] = span_s(desk)
 
-    return Case(lambda d: right(d.seen["span"], span_s(d)), begin)  # type: ignore[arg-type]
+    return Case(lambda d: right(d.seen["span"], span_s(d)), begin)
 
 
 def playing(desk: Desk) -> bool:
@@ -598,7 +598,7 @@ CASES: dict[str, Case] = {
         lambda d: (
             d.timeline.axis.start_s <= onset_s(d, 3)
             and onset_s(d, 5) < d.timeline.axis.end_s
-            and span_s(d) < d.seen["span"]  # type: ignore[operator]
+            and span_s(d) < d.seen["span"]
         ),
         lambda d: (d.timeline.fit(), d.seen.update(span=span_s(d))),
     ),
@@ -614,7 +614,7 @@ CASES: dict[str, Case] = {
     # The felt beat
     "beat.automatic": Case(lambda d: d.project.felt_beat_quarters is None, command("beat.half"), edits=True),
     **{
-        f"beat.{name}": Case(lambda d, quarters=quarters: d.project.felt_beat_quarters == quarters, edits=True)  # type: ignore[misc]
+        f"beat.{name}": Case(lambda d, quarters=quarters: d.project.felt_beat_quarters == quarters, edits=True)
         for name, quarters in FELT.items()
     },
     # The viewport
@@ -622,7 +622,7 @@ CASES: dict[str, Case] = {
     "viewport.frame": Case(lambda d: d.seen["framed"] == [True], lambda d: framed(d)),
     "viewport.frame_all": Case(lambda d: d.seen["framed"] == [False], lambda d: framed(d)),
     **{
-        f"viewport.{name}": toggled(f"viewport.{name}", lambda d, name=name: d.session.viewport.shows(name))  # type: ignore[misc]
+        f"viewport.{name}": toggled(f"viewport.{name}", lambda d, name=name: d.session.viewport.shows(name))
         for name in ("names", "skeleton", "contacts", "wireframe")
     },
     "viewport.pose": toggled("viewport.pose", lambda d: d.session.viewport.posing),
@@ -654,7 +654,7 @@ CASES: dict[str, Case] = {
         f"play.source_{source}": becomes(
             lambda d: d.session.listening.source,
             source,
-            lambda d, source=source: (  # type: ignore[misc]
+            lambda d, source=source: (
                 has_recording(d),
                 d.session.listening.set(source="both" if source == "recording" else "recording"),
             ),
@@ -677,7 +677,7 @@ CASES: dict[str, Case] = {
     "video.behind": Case(lambda d: d.session.video.placement == "behind", has_video),
     "video.hidden": Case(lambda d: d.session.video.placement == "hidden", has_video),
     "video.estimate_offset": Case(
-        lambda d: works(d) == d.seen["works"] + 1 and "estimate" in last_work(d),  # type: ignore[operator]
+        lambda d: works(d) == d.seen["works"] + 1 and "estimate" in last_work(d),
         lambda d: (has_video(d), QApplication.processEvents(), d.seen.update(works=works(d))),
     ),
     "video.remove": Case(lambda d: d.project.video is None, has_video, edits=True),
@@ -734,11 +734,11 @@ CASES: dict[str, Case] = {
         lambda d: d.program.window.is_full_screen and not d.program.window.docks["timeline"].isVisible()
     ),
     **{
-        f"panel.{name}": toggled(f"panel.{name}", lambda d, name=name: d.program.window.is_panel_shown(name))  # type: ignore[misc]
+        f"panel.{name}": toggled(f"panel.{name}", lambda d, name=name: d.program.window.is_panel_shown(name))
         for name in ("players", "inspector", "timeline", "recording")
     },
     **{
-        f"lanes.{name}": toggled(f"lanes.{name}", lambda d, name=name: d.program.window.timeline.is_lane_open(name))  # type: ignore[misc]
+        f"lanes.{name}": toggled(f"lanes.{name}", lambda d, name=name: d.program.window.timeline.is_lane_open(name))
         for name in LANES
     },
     "lanes.fold_all": becomes(lambda d: any(map(d.program.window.timeline.is_lane_open, LANES)), False),

@@ -118,7 +118,7 @@ def test_closing_with_unsaved_changes_asks(
 ) -> None:
     edit(program)
     answers.path = tmp_path / "kept.suisou"
-    answers.answer = answer  # type: ignore[assignment]
+    answers.answer = answer
     program.window.close()
     qtbot.wait(10)
     assert answers.asked[0] == "unsaved"

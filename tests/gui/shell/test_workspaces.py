@@ -162,11 +162,11 @@ def test_reset_workspace_brings_everything_back(start: Start) -> None:
 def test_the_switch_shows_the_workspace_and_goes_with_the_start_page(program: Program) -> None:
     window = program.window
     switch_to(program, "record")
-    down = [id for id in SHOWN if window.findChild(QToolButton, f"workspace_{id}").isChecked()]  # type: ignore[union-attr]
+    down = [id for id in SHOWN if window.findChild(QToolButton, f"workspace_{id}").isChecked()]
     assert down == ["record"]
     # A click on the one that is shown leaves it down.
     switch_to(program, "record")
-    assert window.findChild(QToolButton, "workspace_record").isChecked()  # type: ignore[union-attr]
+    assert window.findChild(QToolButton, "workspace_record").isChecked()
     trigger(program, "file.close")
     settle()
     assert not window.workspace_switch.isVisible()

@@ -79,12 +79,12 @@ def place(lane: AdditiveLane, tick: float, value: float) -> QPointF:
 
 def given(lane: AdditiveLane, *keys: CurveKey, name: str = "own-1", channel: str = "head.up", **more: object) -> None:
     """A curve of the player in front, put there without the mouse."""
-    curve = AdditiveCurve(name, channel, keys, QUARTER, QUARTER, **more)  # type: ignore[arg-type]
+    curve = AdditiveCurve(name, channel, keys, QUARTER, QUARTER, **more)
     lane.session.attempt(Message("edit.change_curve"), lambda project: put(project, player_of(lane), (curve,)))
 
 
 def key(tick: int, value: float, **more: object) -> CurveKey:
-    return CurveKey(tick, value, **more)  # type: ignore[arg-type]
+    return CurveKey(tick, value, **more)
 
 
 def menu_at(lane: AdditiveLane, at: QPointF) -> QMenu:
@@ -241,7 +241,7 @@ def test_the_menu_changes_interpolation_and_tangents(lane: AdditiveLane) -> None
     assert one(lane).keys[1].arrive is None
     entry(menu_at(lane, place(lane, 10 * QUARTER, 1.0)), "tangents_flat").trigger()
     assert one(lane).keys[1].arrive is not None
-    assert one(lane).keys[1].arrive.value == 0.0  # type: ignore[union-attr]
+    assert one(lane).keys[1].arrive.value == 0.0
 
 
 def test_a_curve_is_switched_off_weighted_named_and_deleted(lane: AdditiveLane) -> None:

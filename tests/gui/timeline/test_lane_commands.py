@@ -272,7 +272,7 @@ def test_f8_walks_through_the_problems_of_all_players(panel: TimelinePanel, sess
         requested.append((player.id, note.id))
         session.attempt(
             Message("edit.pin_fingerings", {"count": 1}),
-            lambda project, player=player, note=note: edit.pin_fingerings(project, player.id, {note.id: "99"}),  # type: ignore[misc]
+            lambda project, player=player, note=note: edit.pin_fingerings(project, player.id, {note.id: "99"}),
         )
     all_of_them = problems.problems(session)
     assert {(player, problem.note_id) for player, problem in all_of_them} >= set(requested)

@@ -115,7 +115,7 @@ def test_the_chips_bring_the_generators_choice_back(panel: TimelinePanel, sessio
     )
     click(lane, place_of(lane, event.start_s, event.end_s))
     back = next(child for child in lane.alternates.children() if child.objectName() == "give_back")
-    QTest.mouseClick(back, Qt.MouseButton.LeftButton)  # type: ignore[call-overload]
+    QTest.mouseClick(back, Qt.MouseButton.LeftButton)
     assert not session.project.corrections
 
 

@@ -187,7 +187,7 @@ def test_several_selected_move_together(panel: TimelinePanel, session: Session) 
     drag(lane, middle(lane, sways[1].id), dx=25, modifiers=ALT)
     changed = {item.event_id: item for item in corrections(session) if isinstance(item, ChangeGesture)}
     assert set(changed) == {event.id for event in sways}
-    moved = {changed[event.id].start_tick - event.start_tick for event in sways}  # type: ignore[operator]
+    moved = {changed[event.id].start_tick - event.start_tick for event in sways}
     assert len(moved) == 1
     assert moved.pop() > 0
     assert len(session.document.done) == 1
@@ -232,8 +232,8 @@ def test_another_expression_from_the_menu(panel: TimelinePanel, session: Session
     menu = lane.context_menu(lane.mouse_at(lane.box(brows).center()))
     assert menu is not None
     other = next(action.menu() for action in menu.actions() if action.menu() is not None)
-    assert {action.text() for action in other.actions()} >= {"Smile", "Strained", "Brows up"}  # type: ignore[union-attr]
-    next(action for action in other.actions() if action.text() == "Smile").trigger()  # type: ignore[union-attr]
+    assert {action.text() for action in other.actions()} >= {"Smile", "Strained", "Brows up"}  # type: ignore[attr-defined]
+    next(action for action in other.actions() if action.text() == "Smile").trigger()  # type: ignore[attr-defined]
     (change,) = corrections(session)
     assert isinstance(change, ChangeExpression)
     assert change.expression == "smile"
@@ -298,7 +298,7 @@ def test_regions_of_one_kind_never_lie_over_one_another(panel: TimelinePanel, se
     for start in (0, 480, 960, 2400):
         session.attempt(
             Message("edit.add_gesture"),
-            lambda p, start=start: edit.add_gesture(p, player, "bell_height", start, start + 1500, 0.5).project,  # type: ignore[misc]
+            lambda p, start=start: edit.add_gesture(p, player, "bell_height", start, start + 1500, 0.5).project,
         )
     by_row: dict[int, list[tuple[int, int]]] = {}
     for region in lane.regions:

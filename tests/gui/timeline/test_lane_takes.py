@@ -69,7 +69,7 @@ def place(lane: TakesLane, beat: float, row: int) -> QPointF:
 
 def swipe(lane: TakesLane, first: float, last: float, row: int, **more: object) -> None:
     start, end = place(lane, first, row), place(lane, last, row)
-    drag(lane, start, dx=end.x() - start.x(), **more)  # type: ignore[arg-type]
+    drag(lane, start, dx=end.x() - start.x(), **more)
 
 
 def pitches(lane: TakesLane) -> list[int]:
@@ -231,7 +231,7 @@ def edge_at(lane: TakesLane, beat: float, row: int | None = None) -> QPointF:
 
 def drag_edge(lane: TakesLane, beat: float, to: float, row: int | None = None, **more: object) -> None:
     start, end = edge_at(lane, beat, row), edge_at(lane, to, row)
-    drag(lane, start, dx=end.x() - start.x(), **more)  # type: ignore[arg-type]
+    drag(lane, start, dx=end.x() - start.x(), **more)
 
 
 def test_an_edge_of_the_comp_is_dragged_in_one_step(lane: TakesLane) -> None:

@@ -64,11 +64,11 @@ def test_its_session_plays_by_it(session: Session, sound: EditorSound) -> None:
 
 
 def test_playing_moves_the_playhead(ready: EditorSound, session: Session, elapse: Elapse, qtbot: QtBot) -> None:
-    session.playback.play(0.0)  # type: ignore[union-attr]
+    session.playback.play(0.0)
     assert session.playing
     elapse(0.5)
     qtbot.waitUntil(lambda: session.playhead_s == pytest.approx(0.5, abs=0.003))
-    session.playback.stop()  # type: ignore[union-attr]
+    session.playback.stop()
     assert not session.playing
     assert session.playhead_s == pytest.approx(0.5, abs=0.003)
 
@@ -392,7 +392,7 @@ def test_an_auditioned_take_replaces_the_part_until_playback_stops(
     assert np.abs(excerpt(recorded, 1.0, 1.9) - before[RATE_HZ : round(1.9 * RATE_HZ)]).max() > 0.01
     assert loudness(recorded, 2.2, 2.9) > 0.01, "the others play on"
     assert session.project is project, "nothing was taken"
-    session.playback.stop()  # type: ignore[union-attr]
+    session.playback.stop()
     assert session.listening.take is None
     wait_ready(recorded, qtbot)
     assert excerpt(recorded, 0.0, 3.0) == pytest.approx(before, abs=1e-6)

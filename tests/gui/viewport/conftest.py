@@ -75,6 +75,6 @@ def shot(viewport: ViewportPanel) -> Callable[..., Picture]:
     """A small picture of a view at a time."""
 
     def take(view: str | None = None, time_s: float = AT_S) -> Picture:
-        return viewport.render_image(320, 180, time_s, view)  # type: ignore[arg-type]
+        return viewport.render_image(320, 180, time_s, view)
 
     return take

@@ -122,7 +122,7 @@ def test_a_valve_that_goes_down_is_seen(session: Session, viewport: ViewportPane
             return replace(found, controls={**found.controls, "valve_1": self.value, "valve_2": self.value})
 
     pressed = Pressed()
-    viewport.set_poses(pressed)  # type: ignore[arg-type]
+    viewport.set_poses(pressed)
     up = viewport.render_image(640, 360, AT_S, "hands")
     pressed.value = 1.0
     down = viewport.render_image(640, 360, AT_S, "hands")
@@ -142,7 +142,7 @@ def test_a_face_that_opens_its_mouth_is_seen(viewport: ViewportPanel, poses: Mad
             return replace(found, morphs={**found.morphs, "jawOpen": self.jaw})
 
     agape = Agape()
-    viewport.set_poses(agape)  # type: ignore[arg-type]
+    viewport.set_poses(agape)
     shut = viewport.render_image(640, 360, AT_S, "mouth")
     agape.jaw = 1.0
     wide = viewport.render_image(640, 360, AT_S, "mouth")
@@ -191,10 +191,10 @@ def test_who_is_selected_is_seen(shot: Shot, session: Session) -> None:
 
 @pytest.mark.parametrize("what", ["wireframe", "skeleton", "contacts", "names"])
 def test_what_is_shown_beside_the_players_is_seen(what: str, shot: Shot, session: Session) -> None:
-    session.viewport.show(what, False)  # type: ignore[arg-type]
+    session.viewport.show(what, False)
     view = "hands" if what == "contacts" else "ensemble"
     without = shot(view)
-    session.viewport.show(what, True)  # type: ignore[arg-type]
+    session.viewport.show(what, True)
     assert differing(without, shot(view)) > 60
 
 
@@ -275,7 +275,7 @@ def test_keys_and_buttons_choose_views(qtbot: QtBot, viewport: ViewportPanel, se
         assert session.viewport.view == view
         assert button.isChecked()
     session.viewport.set_view("side")
-    assert viewport.findChild(QToolButton, "viewport_view_side").isChecked()  # type: ignore[union-attr]
+    assert viewport.findChild(QToolButton, "viewport_view_side").isChecked()
 
 
 def test_dragging_orbits_pans_and_the_wheel_dollies(viewport: ViewportPanel) -> None:
@@ -325,7 +325,7 @@ def test_a_close_up_follows_the_hands_while_playing(qtbot: QtBot, viewport: View
     session.viewport.set_view("hands")
     qtbot.wait(500)
     session.set_playing(True)
-    stage = viewport.scene.stage  # type: ignore[union-attr]
+    stage = viewport.scene.stage
     before = np.asarray(viewport.camera.target_m)
     for time_s in np.arange(6.0, 9.0, 0.1):
         session.set_playhead(float(time_s))
@@ -517,7 +517,7 @@ def test_dragging_the_bell_up_is_one_step_that_can_be_undone(posing: ViewportPan
 
 
 def test_the_player_follows_the_drag(posing: ViewportPanel, session: Session, poses: MadeNow) -> None:
-    stage = posing.scene.stage  # type: ignore[union-attr]
+    stage = posing.scene.stage
     before = stage.node_matrix(0)[:, 2].copy()
     drag(canvas(posing), posing.handle_places()["bell"], QPointF(0, -12), release=False)
     assert stage.node_matrix(0)[1, 2] > before[1] + 0.01

@@ -200,5 +200,5 @@ def test_sound_and_picture_of_one_file_keep_together(session: Session) -> None:
     assert project.audio is not None
     assert (project.audio.offset_s, project.audio.confidence) == (3.0, None)
     project = relocate(project, "/nowhere/a.mp4", "/here/b.mp4")
-    assert (project.audio.path, project.video) == ("/here/b.mp4", VideoTrack("/here/b.mp4", 3.0))  # type: ignore[union-attr]
+    assert (project.audio.path, project.video) == ("/here/b.mp4", VideoTrack("/here/b.mp4", 3.0))
     assert relocate(project, "/here/b.mp4", None).video is None

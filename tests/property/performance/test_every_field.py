@@ -86,7 +86,7 @@ def variants(name: str, value: Any) -> Iterator[tuple[str, Any]]:
         change = msgspec.structs.replace if isinstance(value, msgspec.Struct) else replace
         names = (
             value.__struct_fields__ if isinstance(value, msgspec.Struct) else [field.name for field in fields(value)]
-        )  # type: ignore[arg-type]
+        )
         for field in names:
             for path, changed in variants(field, getattr(value, field)):
                 yield f"{field}.{path}".rstrip("."), change(value, **{field: changed})

@@ -145,13 +145,13 @@ def test_the_same_notes_a_bar_later_are_fingered_and_breathed_alike(
     drawn: tuple[Piece, tuple[MonophonicPart, ...]], bars: int
 ) -> None:
     piece, lines = drawn
-    steady = Piece(PlainClock(piece.clock.changes[:1]), piece.metre_map)  # type: ignore[attr-defined]
+    steady = Piece(PlainClock(piece.clock.changes[:1]), piece.metre_map)
     metre = piece.metre_map.metres[0]
     shift = bars * 1920 * metre.numerator // metre.denominator
     moved = tuple(
         MonophonicPart(
             line.player_id,
-            tuple(dataclasses.replace(note, onset_tick=note.onset_tick + shift) for note in line.notes),  # type: ignore[type-var]
+            tuple(dataclasses.replace(note, onset_tick=note.onset_tick + shift) for note in line.notes),
             line.instrument_map,
             line.parameters,
         )

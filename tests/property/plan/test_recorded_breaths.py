@@ -36,7 +36,7 @@ def parts(draw: st.DrawFn) -> Part:
     for kind in draw(st.sets(st.sampled_from(("breath", "pitch_bend", "bite")), min_size=1)):
         ticks = sorted(draw(st.sets(st.integers(0, at + 500), min_size=1, max_size=40)))
         values = tuple(draw(st.sampled_from(LEVELS)) for _ in ticks)
-        curves.append(ControllerCurve(kind, tuple(ticks), values))  # type: ignore[arg-type]
+        curves.append(ControllerCurve(kind, tuple(ticks), values))
     return Part("1.1.1", "x", 0, 0, 0, 56, "trumpet", "trumpet_Bb", tuple(notes), tuple(curves))
 
 

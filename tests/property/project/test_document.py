@@ -574,7 +574,7 @@ def is_done(correction: Correction, plan: PlayerPlan, others: tuple[Correction, 
         by_hand = any(item.about == correction.event_id for item in others if item is not correction)
         return event is None or by_hand
     if event is not None and event.corrected:
-        return not isinstance(correction, PinFingering) or event.label == correction.label  # type: ignore[union-attr]
+        return not isinstance(correction, PinFingering) or event.label == correction.label
     taken_out = any(isinstance(item, RemoveEvent) and item.event_id == correction.about for item in others) or any(
         getattr(item, "moved_from", None) == getattr(correction, "note_id", "") for item in others
     )

@@ -125,25 +125,25 @@ def test_unchanged_all_are_accepted(folder: Path) -> None:
 @given(changes(METADATA))
 @example({**METADATA, "ticks_per_quarter": 32767})
 @example({**METADATA, "expressions": METADATA["expressions"] * 2})
-@settings(max_examples=150, **SLOW)  # type: ignore[arg-type]
+@settings(max_examples=150, **SLOW)
 def test_metadata(folder: Path, table: Any) -> None:
     check(lambda: with_metadata(PROJECT, load_metadata(written(folder, "piece.toml", table))).project)
 
 
 @given(changes({"name": PRESET["name"], **PRESET["parameters"]}))
-@settings(max_examples=100, **SLOW)  # type: ignore[arg-type]
+@settings(max_examples=100, **SLOW)
 def test_presets(folder: Path, table: Any) -> None:
     written(folder, "presets/one.toml", table)
     for preset in presets.presets(folder / "presets").items.values():
-        check(lambda preset=preset: set_parameters(PROJECT, ("1.1.1",), **preset.parameters))  # type: ignore[misc]
+        check(lambda preset=preset: set_parameters(PROJECT, ("1.1.1",), **preset.parameters))
 
 
 @given(changes(EXPRESSION))
-@settings(max_examples=100, **SLOW)  # type: ignore[arg-type]
+@settings(max_examples=100, **SLOW)
 def test_expressions(folder: Path, table: Any) -> None:
     written(folder, "expressions/one.toml", table)
     for expression in presets.expressions(folder / "expressions").items.values():
-        check(lambda expression=expression: put_expression(PROJECT, expression))  # type: ignore[misc]
+        check(lambda expression=expression: put_expression(PROJECT, expression))
 
 
 def pasted_notes(content: bytes) -> Project:
@@ -156,13 +156,13 @@ def pasted_keys(content: bytes, at_tick: int = 0) -> Project:
 
 
 @given(changes(CLIP))
-@settings(max_examples=100, **SLOW)  # type: ignore[arg-type]
+@settings(max_examples=100, **SLOW)
 def test_notes_of_the_clipboard(clip: Any) -> None:
     check(lambda: pasted_notes(json.dumps(clip).encode()))
 
 
 @given(changes(KEYS), st.sampled_from([0, 960, 2**31 - 1]))
-@settings(max_examples=100, **SLOW)  # type: ignore[arg-type]
+@settings(max_examples=100, **SLOW)
 def test_keys_of_the_clipboard(keys: Any, at_tick: int) -> None:
     check(lambda: pasted_keys(json.dumps(keys).encode(), at_tick))
 
@@ -174,7 +174,7 @@ def test_what_another_program_has_put_on_the_clipboard_is_nothing(content: bytes
 
 
 @given(st.sampled_from(parameter_names()), st.sampled_from([*TEXTS, *map(str, NUMBERS)]) | st.text(max_size=20))
-@settings(max_examples=200, **SLOW)  # type: ignore[arg-type]
+@settings(max_examples=200, **SLOW)
 def test_settings_of_the_command_line(parameter: str, value: str) -> None:
     maps, names = all_maps(), [player.name for player in PROJECT.players]
 
@@ -185,7 +185,7 @@ def test_settings_of_the_command_line(parameter: str, value: str) -> None:
 
 
 @given(st.sampled_from(TEXTS) | st.text(max_size=20))
-@settings(max_examples=30, **SLOW)  # type: ignore[arg-type]
+@settings(max_examples=30, **SLOW)
 def test_names_and_paths_from_the_window(name: str) -> None:
     check(lambda: rename(PROJECT, "1.1.1", name))
     check(lambda: set_audio(PROJECT, f"/music/{name}.wav"))
@@ -209,7 +209,7 @@ end 1000000000
         max_size=2,
     )
 )
-@settings(max_examples=150, **SLOW)  # type: ignore[arg-type]
+@settings(max_examples=150, **SLOW)
 def test_journals_of_takes(folder: Path, drawn: list[tuple[int, bytes]]) -> None:
     words = JOURNAL.split(b" ")
     for place, word in drawn:
@@ -259,13 +259,13 @@ def imported(file: Path, content: bytes) -> Project:
 
 
 @given(contents_of_midi)
-@settings(max_examples=40, **SLOW)  # type: ignore[arg-type]
+@settings(max_examples=40, **SLOW)
 def test_midi_files(folder: Path, content: bytes) -> None:
     check(lambda: imported(folder / "piece.mid", content))
 
 
 @given(contents_of_midi, contents_of_midi)
-@settings(max_examples=15, **SLOW)  # type: ignore[arg-type]
+@settings(max_examples=15, **SLOW)
 def test_midi_files_that_take_the_place_of_others(folder: Path, content: bytes, later: bytes) -> None:
     def read_again() -> Project:
         project = imported(folder / "piece.mid", content)
@@ -279,7 +279,7 @@ def test_midi_files_that_take_the_place_of_others(folder: Path, content: bytes, 
     st.lists(
         st.builds(
             CurveKey,
-            st.sampled_from([0, 1, 480, 2**31 - 1, 2**40, 480.0]),  # type: ignore[arg-type]
+            st.sampled_from([0, 1, 480, 2**31 - 1, 2**40, 480.0]),
             st.sampled_from([0.0, 1.0, float("nan"), 1e308, 181.0, 2**70]),
         ),
         max_size=2,
@@ -287,7 +287,7 @@ def test_midi_files_that_take_the_place_of_others(folder: Path, content: bytes, 
     st.sampled_from(["bell.up", "bell.upp", "\ud800", "x" * 10_000]),
     st.sampled_from(["a", "", "\ud800", "x" * 10_000]),
 )
-@settings(max_examples=100, **SLOW)  # type: ignore[arg-type]
+@settings(max_examples=100, **SLOW)
 def test_an_edit_that_makes_what_cannot_be_saved_is_refused(keys: list[CurveKey], channel: str, name: str) -> None:
     curve = AdditiveCurve(name, channel, tuple(keys))
 

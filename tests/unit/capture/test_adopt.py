@@ -18,7 +18,7 @@ def journal(events: list[tuple[float, str]], syncs: list[tuple[float, float, int
         times_ns=tuple(round(at * S) for at, _ in events),
         messages=tuple(bytes.fromhex(raw) for _, raw in events),
         syncs=tuple(SyncPoint(round(at * S), position_s, pass_) for at, position_s, pass_ in syncs),
-        **values,  # type: ignore[arg-type]
+        **values,
     )
 
 

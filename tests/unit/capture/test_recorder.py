@@ -177,7 +177,7 @@ def test_a_port_that_is_not_there_yet_is_reported_once_and_opened_when_it_is(mon
 def test_a_system_that_comes_later_is_found(monkeypatch: pytest.MonkeyPatch) -> None:
     now_s = [100.0]
     bench = Bench(monkeypatch, None)
-    monkeypatch.setattr(recording.time, "perf_counter", lambda: now_s[0])
+    monkeypatch.setattr("app.capture.recorder.time.perf_counter", lambda: now_s[0])
     for _ in range(4):
         bench.recorder.look()
         now_s[0] += 0.5
@@ -193,7 +193,7 @@ def test_a_jack_server_without_ports_is_asked_anew(monkeypatch: pytest.MonkeyPat
     dead = System()
     dead.name = "jack"
     bench = Bench(monkeypatch, dead)
-    monkeypatch.setattr(recording.time, "perf_counter", lambda: now_s[0])
+    monkeypatch.setattr("app.capture.recorder.time.perf_counter", lambda: now_s[0])
     bench.recorder.look()
     bench.systems.append(System("EWI"))
     now_s[0] += 2.0

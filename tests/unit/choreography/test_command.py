@@ -198,7 +198,9 @@ def steps(tmp_path: Path) -> Path:
     return tmp_path / "steps.choreography"
 
 
-def test_a_dance_is_written_and_reported(steps: Path, drums: Path, tmp_path: Path, capsys) -> None:
+def test_a_dance_is_written_and_reported(
+    steps: Path, drums: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     assert (
         main(["choreography", "generate", str(steps), str(drums), "--to", str(tmp_path / "out"), "--fps", "30"]) == DONE
     )
@@ -210,7 +212,9 @@ def test_a_dance_is_written_and_reported(steps: Path, drums: Path, tmp_path: Pat
     assert "out.bvh" in row
 
 
-def test_several_dancers_have_a_file_each(steps: Path, drums: Path, tmp_path: Path, capsys) -> None:
+def test_several_dancers_have_a_file_each(
+    steps: Path, drums: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     typed = ["choreography", "generate", str(steps), str(drums), "--dancers", "2", "--formation", "mirror"]
     assert main([*typed, "--to", str(tmp_path / "out.bvh")]) == DONE
     one, other = (read_motion(tmp_path / f"out_{number}.bvh").clip for number in (1, 2))
@@ -218,13 +222,17 @@ def test_several_dancers_have_a_file_each(steps: Path, drums: Path, tmp_path: Pa
     assert len(capsys.readouterr().out.splitlines()) == 3
 
 
-def test_a_piece_without_percussion_is_danced_by_its_melody(steps: Path, tmp_path: Path, capsys) -> None:
+def test_a_piece_without_percussion_is_danced_by_its_melody(
+    steps: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     tune = write_drums(tmp_path / "tune.mid", channel=0)
     assert main(["choreography", "generate", str(steps), str(tune), "--to", str(tmp_path / "out.bvh")]) == DONE
     assert "no percussion" in capsys.readouterr().out
 
 
-def test_what_cannot_be_generated_is_said(steps: Path, drums: Path, tmp_path: Path, capsys) -> None:
+def test_what_cannot_be_generated_is_said(
+    steps: Path, drums: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     typed = ["choreography", "generate", str(steps), str(drums), "--to", str(tmp_path / "out.bvh")]
     assert main([*typed, "--prefer", "x.bvh"]) == BAD_USE
     assert "one.bvh, other.bvh" in capsys.readouterr().err

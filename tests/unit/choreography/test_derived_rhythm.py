@@ -43,7 +43,7 @@ def rhythm_of(score: Score) -> list[tuple[float, int]]:
     return [(2.0 * time_s, SYMBOLS[symbol]) for time_s, symbol in zip(rhythm.hits_s, rhythm.symbols, strict=True)]
 
 
-def test_melody_bass_and_leaps_have_their_sounds(tmp_path):
+def test_melody_bass_and_leaps_have_their_sounds(tmp_path: Path) -> None:
     melody = [(0, 0.5, 72, 80), (0.5, 0.5, 74, 80), (1, 1, 79, 80), (2, 1, 77, 80), (3, 1, 70, 80)]
     bass = [(0, 2, 48, 80), (2, 2, 50, 80)]
     found = rhythm_of(piece(tmp_path, melody, bass))
@@ -53,7 +53,7 @@ def test_melody_bass_and_leaps_have_their_sounds(tmp_path):
     assert [hit for hit in found if hit[1] == 49] == [(0.0, 49)]
 
 
-def test_a_middle_voice_gives_no_rhythm(tmp_path):
+def test_a_middle_voice_gives_no_rhythm(tmp_path: Path) -> None:
     outer = [(0, 4, 76, 80)], [(0, 4, 48, 80)]
     inner = [(1, 1, 60, 80), (2, 1, 62, 80), (3, 1, 64, 80)]
     assert {time for time, _ in rhythm_of(piece(tmp_path, *outer, inner))} == {0.0}
@@ -67,31 +67,33 @@ def test_a_middle_voice_gives_no_rhythm(tmp_path):
         pytest.param([(4, 2.0, 74, 80)], id="longer"),
     ],
 )
-def test_what_is_louder_fuller_or_longer_is_an_accent(tmp_path, accented):
+def test_what_is_louder_fuller_or_longer_is_an_accent(
+    tmp_path: Path, accented: list[tuple[float, float, int, int]]
+) -> None:
     even = [(at, 0.5, 72, 80) for at in range(8) if at != 4]
     found = rhythm_of(piece(tmp_path, [*even, *accented]))
     assert [time for time, sound in found if sound == 38] == [4.0]
     assert not [sound for _, sound in rhythm_of(piece(tmp_path, [*even, (4, 0.5, 72, 80)])) if sound == 38]
 
 
-def test_a_phrase_begins_after_a_beat_of_silence(tmp_path):
+def test_a_phrase_begins_after_a_beat_of_silence(tmp_path: Path) -> None:
     notes = [(at, 0.5, 72, 80) for at in (0, 1, 3, 4, 4.5, 6)]
     assert [time for time, sound in rhythm_of(piece(tmp_path, notes)) if sound == 49] == [0.0, 3.0, 6.0]
 
 
-def test_a_low_note_of_one_voice_is_its_bass(tmp_path):
+def test_a_low_note_of_one_voice_is_its_bass(tmp_path: Path) -> None:
     notes = [(at, 0.5, pitch, 80) for at, pitch in zip(np.arange(8) / 2.0, [60, 67, 72, 67] * 2, strict=True)]
     assert [time for time, sound in rhythm_of(piece(tmp_path, notes)) if sound == 36] == [0.0, 2.0]
 
 
-def test_notes_of_a_chord_that_is_not_quite_together_are_one_moment(tmp_path):
+def test_notes_of_a_chord_that_is_not_quite_together_are_one_moment(tmp_path: Path) -> None:
     found = rhythm_of(piece(tmp_path, [(0, 1, 60, 60), (0.03, 1, 64, 100), (0.05, 1, 72, 50)]))
     assert found == [(0.0, 36), (0.0, 46), (0.0, 49)]
     rhythm = derived_rhythm(uncast_score(read_contents(tmp_path / "piece.mid")))
     assert rhythm.strengths == pytest.approx([100 / 127] * 3)
 
 
-def test_percussion_is_used_where_there_is_any(tmp_path):
+def test_percussion_is_used_where_there_is_any(tmp_path: Path) -> None:
     notes = [(0, 1, 60, 80)]
     with_drums = audible_rhythm(piece(tmp_path, notes, drums=(1.0,)))
     assert not with_drums.derived
@@ -102,7 +104,7 @@ def test_percussion_is_used_where_there_is_any(tmp_path):
 
 @pytest.mark.skipif(not ENSEMBLE.is_dir(), reason="needs the shared pieces")
 @pytest.mark.parametrize("file", ["brass_quartet_lutkin_2tpt_tbn_tuba.mid", "solo_flute_bach_partita_corrente.mid"])
-def test_real_pieces_have_a_pulse_and_several_sounds(file):
+def test_real_pieces_have_a_pulse_and_several_sounds(file: str) -> None:
     rhythm = derived_rhythm(uncast_score(read_contents(ENSEMBLE / file)))
     assert (np.diff(rhythm.hits_s) >= 0.0).all()
     assert 0.5 < len(rhythm.hits_s) / len(rhythm.beats_s) < 6.0

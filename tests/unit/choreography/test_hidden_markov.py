@@ -11,7 +11,7 @@ from app.choreography.hidden_markov import count
 from app.choreography.rhythm import SYMBOLS
 
 
-def test_count_is_the_slow_count():
+def test_count_is_the_slow_count() -> None:
     rng = np.random.default_rng(5)
     n_states = 6
     states = [rng.integers(0, n_states - 1, length) for length in (0, 1, 2, 40)]
@@ -39,7 +39,7 @@ def test_count_is_the_slow_count():
         assert initial[i] == pytest.approx((first.count(i) + 0.7 / n_states) / (len(first) + 0.7), rel=1e-12)
 
 
-def test_a_state_never_seen_may_lead_anywhere():
+def test_a_state_never_seen_may_lead_anywhere() -> None:
     transition, emission, initial = count([np.array([0, 0])], [[np.array([3]), np.array([], int)]], 4, smoothing=0.1)
     np.testing.assert_allclose(transition[3], 0.25)
     np.testing.assert_allclose(emission[3], 1 / len(SYMBOLS))
@@ -47,11 +47,11 @@ def test_a_state_never_seen_may_lead_anywhere():
 
 
 @pytest.mark.parametrize("smoothing", [0.0, -1.0, float("nan")])
-def test_smoothing_must_leave_every_outcome_possible(smoothing):
+def test_smoothing_must_leave_every_outcome_possible(smoothing: float) -> None:
     with pytest.raises(ValueError, match="smoothing"):
         count([], [], 2, smoothing=smoothing)
 
 
-def test_segments_and_symbols_must_agree():
+def test_segments_and_symbols_must_agree() -> None:
     with pytest.raises(ValueError, match="argument"):
         count([np.array([0, 1])], [[np.array([1])]], 2, smoothing=1.0)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 
 import mido
@@ -9,14 +10,22 @@ import numpy as np
 import pytest
 
 from app.choreography.percussion import score_rhythm
-from app.choreography.rhythm import SYMBOLS
+from app.choreography.rhythm import SYMBOLS, Rhythm
 from app.score.read import read_contents, uncast_score
 
 QUARTER = 480
 DRUMS = Path(__file__).parents[4] / "shared" / "data" / "midi" / "drums"
 
 
-def rhythm_of(tmp_path, hits, *, metres=((0, 4, 4),), bpm=120.0, channel=9, name=""):
+def rhythm_of(
+    tmp_path: Path,
+    hits: Sequence[tuple[int, int, int]],
+    *,
+    metres: Sequence[tuple[int, int, int]] = ((0, 4, 4),),
+    bpm: float = 120.0,
+    channel: int = 9,
+    name: str = "",
+) -> Rhythm:
     """The rhythm of hits (tick, note, velocity), each 10 ticks long."""
     events = [(tick, mido.MetaMessage("time_signature", numerator=n, denominator=d)) for tick, n, d in metres]
     events.append((0, mido.MetaMessage("set_tempo", tempo=mido.bpm2tempo(bpm))))
@@ -35,11 +44,11 @@ def rhythm_of(tmp_path, hits, *, metres=((0, 4, 4),), bpm=120.0, channel=9, name
     return score_rhythm(uncast_score(read_contents(path)))
 
 
-def notes(rhythm):
+def notes(rhythm: Rhythm) -> list[int]:
     return [SYMBOLS[symbol] for symbol in rhythm.symbols]
 
 
-def test_hits_are_the_notes_of_the_drums_in_seconds(tmp_path):
+def test_hits_are_the_notes_of_the_drums_in_seconds(tmp_path: Path) -> None:
     rhythm = rhythm_of(tmp_path, [(0, 36, 127), (480, 38, 64), (720, 81, 1)])
     assert notes(rhythm) == [36, 38, 81]
     np.testing.assert_allclose(rhythm.hits_s, [0.0, 0.5, 0.75])
@@ -47,19 +56,19 @@ def test_hits_are_the_notes_of_the_drums_in_seconds(tmp_path):
     assert not rhythm.derived
 
 
-def test_edges_of_the_hi_hat_are_the_hi_hat_and_unknown_sounds_are_left_out(tmp_path):
+def test_edges_of_the_hi_hat_are_the_hi_hat_and_unknown_sounds_are_left_out(tmp_path: Path) -> None:
     rhythm = rhythm_of(tmp_path, [(0, 22, 90), (480, 26, 90), (960, 34, 90), (1440, 82, 90), (1920, 0, 90)])
     assert notes(rhythm) == [42, 46]
 
 
-def test_hits_at_one_time_are_kept_and_a_doubled_sound_counts_once(tmp_path):
+def test_hits_at_one_time_are_kept_and_a_doubled_sound_counts_once(tmp_path: Path) -> None:
     rhythm = rhythm_of(tmp_path, [(480, 49, 80), (480, 22, 100), (480, 42, 40), (480, 36, 60)])
     assert notes(rhythm) == [36, 42, 49]
     np.testing.assert_allclose(rhythm.strengths * 127, [60, 100, 80])
 
 
 @pytest.mark.parametrize(("channel", "name"), [(0, ""), (0, "Drums"), (9, "Trumpet")])
-def test_other_tracks_are_no_percussion(tmp_path, channel, name):
+def test_other_tracks_are_no_percussion(tmp_path: Path, channel: int, name: str) -> None:
     rhythm = rhythm_of(tmp_path, [(0, 60, 90), (480, 62, 90)], channel=channel, name=name)
     assert len(rhythm.hits_s) == 0
     assert len(rhythm.beats_s) == 4
@@ -74,7 +83,9 @@ def test_other_tracks_are_no_percussion(tmp_path, channel, name):
         ((5, 4), 110.0, [0, 1, 2, 3, 4], 60 / 110),
     ],
 )
-def test_beats_are_those_felt_and_each_bar_begins_with_one(tmp_path, metre, bpm, places, beat_s):
+def test_beats_are_those_felt_and_each_bar_begins_with_one(
+    tmp_path: Path, metre: tuple[int, int], bpm: float, places: list[float], beat_s: float
+) -> None:
     bar = QUARTER * 4 * metre[0] // metre[1]
     rhythm = rhythm_of(tmp_path, [(0, 36, 90), (2 * bar - 10, 36, 90)], metres=[(0, *metre)], bpm=bpm)
     assert rhythm.bar_beats.tolist() == 2 * places
@@ -82,14 +93,14 @@ def test_beats_are_those_felt_and_each_bar_begins_with_one(tmp_path, metre, bpm,
     assert rhythm.beats_s[0] == 0.0
 
 
-def test_a_pickup_has_the_last_beats_of_its_bar(tmp_path):
+def test_a_pickup_has_the_last_beats_of_its_bar(tmp_path: Path) -> None:
     rhythm = rhythm_of(tmp_path, [(0, 36, 90), (480, 36, 90)], metres=[(0, 1, 4), (480, 4, 4)])
     assert rhythm.bar_beats.tolist() == [3, 0, 1, 2, 3]
     np.testing.assert_allclose(rhythm.beats_s, 0.5 * np.arange(5))
 
 
 @pytest.mark.skipif(not DRUMS.is_dir(), reason="no drum recordings here")
-def test_recorded_drums_are_used_whole():
+def test_recorded_drums_are_used_whole() -> None:
     """Every note of these recordings is a sound of General MIDI or an edge of the hi-hat."""
     files = sorted(DRUMS.glob("*.mid"), key=lambda path: path.stat().st_size)[:3]
     assert files

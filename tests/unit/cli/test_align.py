@@ -110,7 +110,7 @@ def test_pinned_beats_stay_where_they_are(quartet: Path, concert: Path, tmp_path
     save(pin_beat(project, tick, at_s), target)
     assert main(["align", str(target), str(concert), "--from", "2", "--to", str(again)]) == DONE
     assert recording_second(load(again), tick) == pytest.approx(at_s, abs=2e-3)
-    assert load(again).audio.pins == load(target).audio.pins  # type: ignore[union-attr]
+    assert load(again).audio.pins == load(target).audio.pins
 
 
 @pytest.mark.parametrize(

@@ -16,6 +16,7 @@ import pytest
 
 from app.cli import main
 from app.cli.status import STOPPED
+from app.identity_cache import IdentityCache
 from app.performance import bodies, ensemble
 from app.performance.body_problems import body_problems
 from app.plan.parameters import PlayerParameters
@@ -64,7 +65,7 @@ def test_the_search_shows_progress_and_ends_at_ctrl_c(
 
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(bodies, "hold_for", stopped)
-    monkeypatch.setattr(bodies, "_HOLDS", bodies.IdentityCache(8))
+    monkeypatch.setattr(bodies, "_HOLDS", IdentityCache(8))
     monkeypatch.setattr(ensemble, "is_held", lambda player, instrument: False)
     terminal = Terminal()
     monkeypatch.setattr(sys, "stderr", terminal)
@@ -91,7 +92,7 @@ def off_by_20_mm(character: Any, model: Any, instrument: Any, body: Any, progres
 def _missing(monkeypatch: pytest.MonkeyPatch) -> None:
     """No hold is known yet, and all that are found out miss a touch."""
     monkeypatch.setattr(bodies, "hold_for", off_by_20_mm)
-    monkeypatch.setattr(bodies, "_HOLDS", bodies.IdentityCache(8))
+    monkeypatch.setattr(bodies, "_HOLDS", IdentityCache(8))
     monkeypatch.setattr(bodies, "_HELD", set())
 
 

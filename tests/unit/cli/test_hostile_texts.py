@@ -171,7 +171,7 @@ def test_progress_is_one_line(capsys: pytest.CaptureFixture[str]) -> None:
             pass
 
     terminal = Terminal()
-    Progress(terminal)(0.5, HOSTILE)  # type: ignore[arg-type]
+    Progress(terminal)(0.5, HOSTILE)
     harmless(terminal.written.removeprefix("\r"))
     say("\udcff", stream=sys.stderr)
     assert capsys.readouterr().err == "ÿ\n"

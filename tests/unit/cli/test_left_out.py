@@ -14,6 +14,7 @@ from app.identity_cache import IdentityCache
 from app.performance import bodies
 from app.project.model import Project
 from app.project.storage import save
+from app.rig.grip.fitting.grip_files import hold_for
 from tests.support.bad_players import (
     BAD_CHARACTERS,
     BAD_INSTRUMENTS,
@@ -72,7 +73,6 @@ def test_a_hold_that_cannot_be_found_concerns_one(
         raise np.linalg.LinAlgError("singular matrix")
 
     project = with_instrument(small_project(), 0, own.add_instrument())
-    hold_for = bodies.hold_for
     monkeypatch.setattr(
         bodies,
         "hold_for",

@@ -15,7 +15,7 @@ from app.project.casting import conductor_place
 from app.project.edit.players import set_parameters
 from app.project.storage import load, save
 from metadata.library import FOLDERS, STYLES
-from metadata.load import ROOT
+from metadata.tables import ROOT
 from tests.unit.project.pieces import small_project
 
 Run = Callable[..., tuple[int, str, str]]

@@ -77,8 +77,8 @@ def test_a_correction_that_breaks_a_contact_is_reported_where_it_does(
     assert problems
     seconds = project.score.tempo_map.seconds
     for problem in problems:
-        assert problem.start_s >= seconds(correction.start_tick) - 1.0  # type: ignore[union-attr]
-        assert problem.end_s <= seconds(correction.end_tick) + 1.0  # type: ignore[union-attr]
+        assert problem.start_s >= seconds(correction.start_tick) - 1.0
+        assert problem.end_s <= seconds(correction.end_tick) + 1.0
         assert problem.note_id in {note.id for note in project.part(player).notes}
 
 

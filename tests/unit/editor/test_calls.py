@@ -16,7 +16,7 @@ def test_they_are_made_here_in_order(qtbot: QtBot) -> None:
 
     def thread() -> None:
         for number in range(2000):
-            calls.ask(lambda number=number: made.append((number, threading.get_ident())))  # type: ignore[misc]
+            calls.ask(lambda number=number: made.append((number, threading.get_ident())))
 
     worker = threading.Thread(target=thread)
     worker.start()

@@ -50,7 +50,7 @@ class Sending:
         self.thread._changed = Waiting(clock)
         self.sent_s: list[float] = []
         self.places_s: list[float] = []
-        self.thread._send = self.send  # type: ignore[method-assign]
+        self.thread._send = self.send
         self.thread.request(_Request(cast(Any, None), (), (), (), (), cast(Any, None), RATE_HZ, False))
         self.due_s = clock.now_s - LATE_S
         self.busy_s = 0.0

@@ -146,7 +146,7 @@ def test_what_the_work_knew_dies_in_the_window_s_thread_alone(qtbot: QtBot) -> N
                 raise outcome
             return held
 
-        tasks.run(NAME, work, lambda result, held=held: None)  # type: ignore[misc]
+        tasks.run(NAME, work, lambda result, held=held: None)
 
     ends = [threading.Event() for _ in range(20)]
     for number, end in enumerate(ends):

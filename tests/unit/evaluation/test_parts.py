@@ -64,7 +64,7 @@ def test_only_the_fingers_are_late() -> None:
     player, fps = project.players[0], Fraction(50)
     made = {}
     for variant in ("generated", "shifted"):
-        performance = performance_of(project, variant)  # type: ignore[arg-type]
+        performance = performance_of(project, variant)
         performer = performers_of(performance, (player,)).made[player.id]
         made[variant] = playing_of(performance, performer).motion(fps, 150, 400)
     late = round(LATE_S * fps)

@@ -141,7 +141,7 @@ def test_variants_are_compared_in_the_same_excerpts() -> None:
     """A viewer who could not judge one excerpt of a variant is compared in the others: excerpts differ."""
     given = {("film", 1): 5, ("film", 2): 2, ("generated", 1): 4, ("generated", 2): None}
     answers = [
-        answer_of(CODE[place], position=position, answer=answer)  # type: ignore[index]
+        answer_of(CODE[place], position=position, answer=answer)
         for position, (place, answer) in enumerate(given.items(), start=1)
     ]
     results = tabulate(KEY, [viewer_of(answers)])
@@ -155,7 +155,7 @@ def test_variants_are_compared_in_the_same_excerpts() -> None:
 def test_pairs_are_compared_side_by_side() -> None:
     def pair(position: int, **answers: int) -> list[Answer]:
         return [
-            answer_of(CODE[variant, 1], position=position, presentation="pair", side=side, answer=answer)  # type: ignore[index]
+            answer_of(CODE[variant, 1], position=position, presentation="pair", side=side, answer=answer)
             for side, (variant, answer) in zip(("left", "right"), answers.items(), strict=True)
         ]
 

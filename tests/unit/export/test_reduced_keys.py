@@ -106,7 +106,7 @@ def _landmarks_mm(scene: Scene, character: Character, target: TargetSkeleton, pl
     assert played.clip is not None
     frames, result, found = scene.clip.frames, {}, []
     for one in (scene, played):
-        playback = ScenePlayback(one, one.clip)  # type: ignore[arg-type]
+        playback = ScenePlayback(one, one.clip)
         joints, world = JointPlayback(playback, target, character), playback.world(0, frames)
         found.append(
             {

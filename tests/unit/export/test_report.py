@@ -12,7 +12,8 @@ import pytest
 from app.cli.summary import columns, summary
 from app.contacts.bounds import Spread
 from app.contacts.controls import ControlMeasure
-from app.export.measure import BreathMeasure, JointMeasure, PlayerMeasures
+from app.export.joint_measures import JointMeasure
+from app.export.measure import BreathMeasure, PlayerMeasures
 from app.export.report import (
     DancerMeasures,
     PlaceReport,

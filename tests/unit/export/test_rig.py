@@ -232,7 +232,7 @@ def test_an_edited_hand_takes_the_instrument_along(
     made: Made, choice: SkeletonChoice, attachment: str, hand: str, socket: str
 ) -> None:
     """In two files, and in one scene of both: the instrument goes round the wrist as the hand does."""
-    _, target, character, held = made.scenes(choice, RigOptions(attachment))  # type: ignore[arg-type]
+    _, target, character, held = made.scenes(choice, RigOptions(attachment))
     assert socket_names(target) == [socket]
     read, read_held = made.file(character), made.file(held)
     together = made.file(attached(character, [held], target))
@@ -288,7 +288,7 @@ def test_ik_targets_are_where_hands_and_feet_are(made: Made) -> None:
         ("suisou", ("leftHand", "rightHand", "leftFoot", "rightFoot", "rightHand")),
         ("ue5", ("hand_l", "hand_r", "foot_l", "foot_r", "hand_r")),
     ):
-        scene = made.read(choice, RigOptions("ik")).scene  # type: ignore[arg-type]
+        scene = made.read(choice, RigOptions("ik")).scene
         world, bones = world_m(scene), [bone.name for bone in scene.bones]
         targets = ("ik_hand_l", "ik_hand_r", "ik_foot_l", "ik_foot_r", "ik_hand_gun")
         for target, name in zip(targets, names, strict=True):
@@ -339,7 +339,7 @@ def test_the_root_bone_goes_below_the_hips(made: Made, choice: SkeletonChoice) -
 @pytest.mark.parametrize("choice", ["suisou", "ue5"])
 @pytest.mark.parametrize(("pose", "down_deg"), [("t", 0.0), ("a", 45.0)])
 def test_arms_at_rest(made: Made, choice: SkeletonChoice, pose: str, down_deg: float) -> None:
-    found = made.read(choice, RigOptions(rest_pose=pose))  # type: ignore[arg-type]
+    found = made.read(choice, RigOptions(rest_pose=pose))
     rest, joints = rest_m(found.scene), found.joints
     names = [bone.name for bone in found.scene.bones]
     for side, out in (("left", 1.0), ("right", -1.0)):

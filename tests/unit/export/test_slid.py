@@ -17,7 +17,7 @@ PLAN = PlayerPlan("p", TimeFrame(0.0, 10.0), (), (), (), (), (), (), (), ())
 
 
 def plan(*rows: tuple[str, float, float, float]) -> PlayerPlan:
-    events = [GestureEvent(f"{i}", kind, 0, 1, a, b, amount, REASON) for i, (kind, a, b, amount) in enumerate(rows)]  # type: ignore[arg-type]
+    events = [GestureEvent(f"{i}", kind, 0, 1, a, b, amount, REASON) for i, (kind, a, b, amount) in enumerate(rows)]
     return msgspec.structs.replace(PLAN, gestures=tuple(events))
 
 

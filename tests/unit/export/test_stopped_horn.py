@@ -51,7 +51,7 @@ def test_the_palm_closes_the_bell_for_the_stopped_notes_and_comes_back(folder: P
     body, held = (read_scene(folder / player["files"][f"{name}_fbx"]) for name in ("character", "instrument"))
     assert body.clip is not None
     assert held.clip is not None
-    worlds = [ScenePlayback(scene, scene.clip).world(0, scene.clip.frames) for scene in (body, held)]  # type: ignore[arg-type]
+    worlds = [ScenePlayback(scene, scene.clip).world(0, scene.clip.frames) for scene in (body, held)]
     names = [bone.name for bone in body.bones]
     horn = worlds[1][:, 0]
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import resource
 import signal
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -25,7 +26,7 @@ class TooMuch(Exception):
     """What a check raises."""
 
 
-def at_most(seconds: float):
+def at_most(seconds: float) -> Callable[[float], None]:
     def check(reached_s: float) -> None:
         if reached_s > seconds:
             raise TooMuch

@@ -38,9 +38,10 @@ def readings(path: Path) -> Iterator[tuple[str, int]]:
     if not MENTIONED.search(source):
         return
     for node in ast.walk(ast.parse(source)):
-        name = getattr(node, "attr", getattr(node, "id", None)) if isinstance(node, ast.Attribute | ast.Name) else None
-        if name in READING:
-            yield str(name), node.lineno
+        if isinstance(node, ast.Attribute | ast.Name):
+            name = node.attr if isinstance(node, ast.Attribute) else node.id
+            if name in READING:
+                yield name, node.lineno
         if isinstance(node, ast.Call):
             function = getattr(node.func, "attr", getattr(node.func, "id", None))
             texts = [one.value for one in node.args if isinstance(one, ast.Constant) and isinstance(one.value, str)]

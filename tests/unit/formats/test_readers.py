@@ -105,7 +105,7 @@ for bone in armature.pose.bones:
 def test_blender_keeps_the_places_of_moving_bones_without_any_repair(make: object, tmp_path: Path) -> None:
     """Blender's importer drops the location keys of bones that it connects to a parent; so none may look connected."""
     _needed("blender")
-    scene = make(Fraction(60))  # type: ignore[operator]
+    scene = make(Fraction(60))
     write_scene(tmp_path / "scene.fbx", scene)
     requested = scenes.expected(scene)
     frame = requested.sampled[3]

@@ -11,7 +11,6 @@ from pathlib import Path
 import pytest
 
 from app.errors import FileError
-from app.formats import scratch
 from app.formats.cache import CACHE_VARIABLE
 from app.formats.scratch import abandoned_folders, scratch_folder, scratch_places
 
@@ -72,7 +71,7 @@ def test_one_that_was_killed_before_it_had_its_lock_is_removed_and_others_are_no
 def test_where_the_first_place_refuses_there_is_a_second(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (tmp_path / "cache").write_text("no folder")
     second = tmp_path / "second"
-    monkeypatch.setattr(scratch.tempfile, "gettempdir", lambda: str(second))
+    monkeypatch.setattr("app.formats.scratch.tempfile.gettempdir", lambda: str(second))
     with scratch_folder() as folder:
         assert folder.parent.parent == second
     second.rename(tmp_path / "away")

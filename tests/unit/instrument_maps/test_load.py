@@ -12,6 +12,7 @@ from app.formats.cache import CACHE_VARIABLE
 from app.formats.kept import digest_of
 from instrument_maps import load
 from instrument_maps.load import bundled_maps, named_map
+from instrument_maps.model import InstrumentMap
 
 
 @pytest.fixture
@@ -54,7 +55,7 @@ def test_a_map_that_changed_is_read_anew_and_what_was_kept_goes(maps: Path, tmp_
 
 
 def bundled_name(instrument: object) -> str:
-    assert isinstance(instrument, load.InstrumentMap)
+    assert isinstance(instrument, InstrumentMap)
     return instrument.name.en
 
 

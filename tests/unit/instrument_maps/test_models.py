@@ -19,7 +19,7 @@ from instrument_maps.load import bundled_maps, model_path
 from instrument_maps.model import ROOT, InstrumentMap
 from instrument_maps.surface import nearest_point
 from resources.build import build_instruments
-from resources.build.instrument_glb import MATERIALS
+from resources.build.instrument_glb import MATERIALS, write
 
 pytestmark = pytest.mark.slow
 
@@ -285,7 +285,7 @@ def test_models_are_small_enough_to_ship() -> None:
 def test_models_and_maps_are_what_the_script_builds(instrument: InstrumentMap, tmp_path: Path) -> None:
     build, requested_contacts, *_ = build_instruments.INSTRUMENTS[instrument.id]
     built = build()
-    build_instruments.write(built, tmp_path / "again.glb")
+    write(built, tmp_path / "again.glb")
     again, shipped = node_triangles(instrument, read_glb(tmp_path / "again.glb")), surfaces_of(instrument.id)
     assert again.keys() == shipped.keys()
     for name, triangles in shipped.items():

@@ -14,9 +14,8 @@ from app.plan.parameters import PARAMETERS
 from metadata.acting import AMOUNTS, SECTION_PLAYER, Factors, as_text, names_in, read_habit, read_style
 from metadata.gestures import read_gesture
 from metadata.library import FOLDERS, READERS, metadata_library
-from metadata.load import ROOT
 from metadata.rules import When, read_rules
-from metadata.tables import Title
+from metadata.tables import ROOT, Title
 
 STYLE = 'name = "mine"\ntitle = { en = "Mine" }\ndescription = { en = "" }\n'
 HABIT = STYLE + "[factors]\nsway = 2.0\n"
@@ -49,10 +48,10 @@ def test_the_bundled_ones_are_sound_and_a_section_player_changes_nothing() -> No
     assert library.styles.items[SECTION_PLAYER].variation == 0.2
     assert PARAMETERS["style"].default == SECTION_PLAYER
     for table in (*library.styles.items.values(), *library.habits.items.values(), *library.gestures.items.values()):
-        assert table.title.en
-        assert table.title.ja
-        assert table.description.en
-        assert table.description.ja
+        assert table.title.en  # type: ignore[attr-defined]
+        assert table.title.ja  # type: ignore[attr-defined]
+        assert table.description.en  # type: ignore[attr-defined]
+        assert table.description.ja  # type: ignore[attr-defined]
 
 
 def test_rules_name_what_there_is() -> None:

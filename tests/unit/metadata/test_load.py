@@ -11,7 +11,6 @@ import pytest
 from app.errors import FileError, MapError
 from metadata.load import (
     GENERIC_CONTROLLER,
-    ROOT,
     load_body,
     load_controllers,
     load_expression,
@@ -38,6 +37,7 @@ from metadata.model import (
     bone_key,
     morph_key,
 )
+from metadata.tables import ROOT
 
 READERS = {
     "bodies": read_body,

@@ -28,7 +28,7 @@ def press(name: str = "valve_1", **changes: object) -> Control:
         "motion": ControlMotion(axis=(0.0, -1.0, 0.0), travel_m=0.016),
         "finger": "right.index",
     }
-    return Control(name=name, **(settings | changes))  # type: ignore[arg-type]
+    return Control(name=name, **(settings | changes))
 
 
 def slide(name: str = "slide", **changes: object) -> Control:
@@ -42,7 +42,7 @@ def slide(name: str = "slide", **changes: object) -> Control:
         "move_note_share": 0.5,
         "max_speed_m_s": 2.5,
     }
-    return Control(name=name, **(settings | changes))  # type: ignore[arg-type]
+    return Control(name=name, **(settings | changes))
 
 
 def fingerings(rows: list[tuple[float, float, dict[str, float]]], quarter_s: float = 0.5) -> tuple[FingeringEvent, ...]:
@@ -95,7 +95,7 @@ def plan_of(
 def breath(start_s: float, end_s: float, depth: float = 0.8, kind: str = "breath") -> BreathEvent:
     """A breath at these times."""
     ticks = (round(start_s * 2 * TICKS), round(end_s * 2 * TICKS))
-    return BreathEvent(f"b{start_s}", kind, *ticks, start_s, end_s, depth, REASON)  # type: ignore[arg-type]
+    return BreathEvent(f"b{start_s}", kind, *ticks, start_s, end_s, depth, REASON)
 
 
 def cue(entry_s: float, beat_s: float = 0.5) -> CueEvent:

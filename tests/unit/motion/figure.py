@@ -77,7 +77,7 @@ def hold(bones: Skeleton, slide_m: float = 0.0, sliding: str = "right") -> GripP
         moving = slide if side == sliding else None
         hands.append(
             HandHold(
-                side=side,  # type: ignore[arg-type]
+                side=side,
                 node="slide" if moving else "root",
                 motion=moving,
                 instrument_from_hand_m=np.array([sign * 0.06, -0.07, 0.11]),

@@ -45,7 +45,7 @@ def gestures(end_s: float, seed: int = 0, beat_s: float = 0.5) -> tuple[GestureE
     rows += [("lower_instrument", 10.5, 14.5, 1.0)]
     rows.sort(key=lambda row: row[1])
     return tuple(
-        GestureEvent(f"g{i}", kind, round(start * 960), round(end * 960), float(start), float(end), amount, REASON)  # type: ignore[arg-type]
+        GestureEvent(f"g{i}", kind, round(start * 960), round(end * 960), float(start), float(end), amount, REASON)
         for i, (kind, start, end, amount) in enumerate(rows)
     )
 
@@ -77,7 +77,7 @@ def piece(player_id: str = "player", seed: int = 0) -> PlayerPlan:
 
 def made(plan: PlayerPlan | None = None, fps: Fraction = FPS, **changes: object) -> Motion:
     window = {name: changes.pop(name) for name in ("frames", "first_frame") if name in changes}
-    parameters = PlayerParameters(**changes)  # type: ignore[arg-type]
+    parameters = PlayerParameters(**changes)
     return perform(
         piece() if plan is None else plan,
         parameters,
@@ -87,7 +87,7 @@ def made(plan: PlayerPlan | None = None, fps: Fraction = FPS, **changes: object)
         BODY,
         felt_beats=((0, TICKS),),
         fps=fps,
-        **window,  # type: ignore[arg-type]
+        **window,
     )
 
 
@@ -103,7 +103,7 @@ def times(motion: Motion) -> np.ndarray:
 
 @pytest.mark.parametrize("posture", ["standing", "seated"])
 @pytest.mark.parametrize("amplitude", [0.0, 0.5, 1.0])
-def test_planted_feet_stay(posture, amplitude) -> None:
+def test_planted_feet_stay(posture: str, amplitude: float) -> None:
     motion = made(posture=posture, amplitude=amplitude)
     ankle_m = rest_positions(CHARACTER.skeleton)[CHARACTER.skeleton.index("leftFoot")]
     for position_m, _ in world(motion, "leftFoot", "rightFoot", "leftToes", "rightToes"):
@@ -126,7 +126,7 @@ def test_seated_hips_stay_on_the_chair() -> None:
 def with_gestures(*rows: tuple[str, float, float, float]) -> PlayerPlan:
     """The piece with more gestures."""
     more = [
-        GestureEvent(f"more{i}", kind, round(start * 960), round(end * 960), start, end, amount, REASON)  # type: ignore[arg-type]
+        GestureEvent(f"more{i}", kind, round(start * 960), round(end * 960), start, end, amount, REASON)
         for i, (kind, start, end, amount) in enumerate(rows)
     ]
     return msgspec.structs.replace(
@@ -144,13 +144,13 @@ FOOTWORK = with_gestures(
 
 
 @pytest.mark.parametrize("posture", ["standing", "seated"])
-def test_feet_leave_the_ground_as_planned_and_else_stand(posture) -> None:
+def test_feet_leave_the_ground_as_planned_and_else_stand(posture: str) -> None:
     motion = made(FOOTWORK, posture=posture, amplitude=1.0)
     t = times(motion)
     ankle_m = rest_positions(CHARACTER.skeleton)[CHARACTER.skeleton.index("leftFoot")]
     for foot in ("left", "right"):
         lifted = np.zeros(len(t), np.bool_)
-        for start_s, end_s in lifted_s(FOOTWORK.gestures, foot, BODY.footwork.step_s):  # type: ignore[arg-type]
+        for start_s, end_s in lifted_s(FOOTWORK.gestures, foot, BODY.footwork.step_s):
             here = (t > start_s) & (t < end_s)
             lifted |= here
         for name in (f"{foot}Foot", f"{foot}Toes"):
@@ -185,7 +185,7 @@ def test_the_weight_goes_over_before_a_foot_steps() -> None:
 
 
 @pytest.mark.parametrize("posture", ["standing", "seated"])
-def test_hips_begin_and_chest_head_and_elbows_follow(posture) -> None:
+def test_hips_begin_and_chest_head_and_elbows_follow(posture: str) -> None:
     """A lean and a swing, alone: each part does what the one before did, 40 to 120 ms later."""
     rows = [("sway", 1.0 + 1.2 * i, 2.2 + 1.2 * i, (-1.0) ** i) for i in range(8)]
     rows = [(kind, start_s, end_s, amount) for kind, start_s, end_s, amount in rows]
@@ -208,7 +208,7 @@ def test_hips_begin_and_chest_head_and_elbows_follow(posture) -> None:
 
 
 @pytest.mark.parametrize("posture", ["standing", "seated"])
-def test_hands_are_where_the_hold_puts_them(posture) -> None:
+def test_hands_are_where_the_hold_puts_them(posture: str) -> None:
     motion = made(posture=posture)
     instrument = motion.instrument_position_m.astype(np.float64), motion.instrument_rotation.astype(np.float64)
     for hand in HOLD.hands:
@@ -257,7 +257,7 @@ def test_every_breath_shows() -> None:
 
 
 @pytest.mark.parametrize("fps", [Fraction(24), Fraction(60)])
-def test_the_nod_accelerates_most_on_the_downbeat(fps) -> None:
+def test_the_nod_accelerates_most_on_the_downbeat(fps: Fraction) -> None:
     motion = made(fps=fps, amplitude=1.0)
     t = times(motion)
     for event in piece().cues:
@@ -293,7 +293,7 @@ def test_a_second_run_is_identical_to_the_bit_and_another_seed_is_not() -> None:
 
 
 @pytest.mark.parametrize("fps", [Fraction(24), Fraction(30000, 1001)])
-def test_a_part_equals_the_same_frames_of_the_whole(fps) -> None:
+def test_a_part_equals_the_same_frames_of_the_whole(fps: Fraction) -> None:
     whole = made(fps=fps)
     part = made(fps=fps, first_frame=101, frames=97)
     here = slice(101, 198)
@@ -316,7 +316,7 @@ def test_rotations_are_unit_and_morphs_stay_in_range() -> None:
 
 
 @pytest.mark.parametrize("amplitude", [0.5, 1.0])
-def test_no_joint_accelerates_beyond_the_human_bound(amplitude) -> None:
+def test_no_joint_accelerates_beyond_the_human_bound(amplitude: float) -> None:
     motion = made(amplitude=amplitude)
     for name in CHARACTER.skeleton.names[1:]:
         local = motion.rotations[:, CHARACTER.skeleton.index(name)].astype(np.float64)
@@ -328,5 +328,5 @@ def test_no_joint_accelerates_beyond_the_human_bound(amplitude) -> None:
 @pytest.mark.parametrize(
     ("end_s", "fps", "frames"), [(1.0, Fraction(24), 72), (1.01, Fraction(24), 73), (0.1, Fraction(30000, 1001), 63)]
 )
-def test_frames_cover_the_performance(end_s, fps, frames) -> None:
+def test_frames_cover_the_performance(end_s: float, fps: Fraction, frames: int) -> None:
     assert frame_count(TimeFrame(-2.0, end_s), fps) == frames

@@ -126,10 +126,10 @@ def test_nothing_is_planned_for_what_lies_aside_and_no_one_cues_themselves() -> 
     flute, piccolo = (performance.plan(player) for player in performance.project.players[:2])
     _, (there, back) = changes_of(performance, performance.project.players[:2])
     for event in (*flute.expressions, *(one for one in flute.gestures if one.kind != "lower_instrument")):
-        assert event.start_s < there.put_s or event.end_s > back.taken_s
+        assert event.start_s < there.put_s or event.end_s > back.taken_s  # type: ignore[attr-defined]
     for event in (*piccolo.expressions, *(one for one in piccolo.gestures if one.kind != "lower_instrument")):
-        assert event.end_s > there.taken_s
-        assert event.start_s < back.put_s
+        assert event.end_s > there.taken_s  # type: ignore[attr-defined]
+        assert event.start_s < back.put_s  # type: ignore[attr-defined]
     # After two bars of rest a soloist needs no cue; two players would have been given one here.
     assert piccolo.cues == ()
     apart = Performance(edit.separate(performance.project, (performance.project.players[1].id,)))

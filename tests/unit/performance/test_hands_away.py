@@ -71,7 +71,7 @@ def made(performance: Performance, from_s: float, to_s: float) -> tuple[Performa
 def fingertip_m(playing: PerformanceCurves, motion: Motion, side: str, finger: str) -> FloatArray:
     """A finger's pad in the world, by the joints of the motion."""
     skeleton = playing.player.skeleton
-    last = finger_joints(skeleton, side, finger)[-1]  # type: ignore[arg-type]
+    last = finger_joints(skeleton, side, finger)[-1]
     place_m, turned = forward(skeleton, motion.rotations, motion.hips_m, [last]).of(last)
     pad_m = TIP_SHARE * skeleton.offsets_m[last] + np.array([0.0, -PAD_M, 0.0])
     return np.asarray(place_m + quaternion.rotate(turned, pad_m))
@@ -181,7 +181,7 @@ def _other_hand_and_feet_stay(playing: PerformanceCurves, motion: Motion, side: 
     for foot in ("left", "right"):
         ankle = skeleton.index(f"{foot}Foot")
         there_m, _ = forward(skeleton, motion.rotations, motion.hips_m, [ankle]).of(ankle)
-        assert np.linalg.norm(there_m - meant_m[foot], axis=1).max() < 1e-3  # type: ignore[index]
+        assert np.linalg.norm(there_m - meant_m[foot], axis=1).max() < 1e-3
 
 
 def _within_bounds(motion: Motion, without: Motion, playing: PerformanceCurves) -> None:

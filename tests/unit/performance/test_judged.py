@@ -15,6 +15,7 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
+from app.contacts.breaks import JUDGED_PER_S
 from app.performance import judged
 from app.performance.cast import performer_of
 from app.performance.ensemble import Performance
@@ -44,11 +45,10 @@ def piece(quarters: int, players: int = 1) -> Project:
 def rates(monkeypatch: pytest.MonkeyPatch) -> list[tuple[Fraction, int]]:
     """Frame rate and number of the frames that are made."""
     found: list[tuple[Fraction, int]] = []
-    playing_of = judged.playing_of
 
     class Counted:
         def __init__(self, *arguments: object) -> None:
-            self._made = playing_of(*arguments)  # type: ignore[arg-type]
+            self._made = playing_of(*arguments)
 
         def __getattr__(self, name: str) -> object:
             return getattr(self._made, name)
@@ -124,7 +124,7 @@ def test_the_work_on_a_piece_is_bounded(players: list[int], notes: int, seconds:
     if count < len(players):
         # One musician more could not be looked at even as sparsely as anyone is, at every so many-th usual frame.
         few = judged.SPARSE_FRAMES + judged.SPARSE_PER_NOTE * sum(each)
-        usual = float(fps) / max(1, round(float(fps) / judged.JUDGED_PER_S))
+        usual = float(fps) / max(1, round(float(fps) / JUDGED_PER_S))
         assert work(usual / (usual // judged.LEAST_PER_S), count + 1) > min(judged.MOST_WORK, few)
 
 

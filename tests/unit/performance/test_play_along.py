@@ -99,8 +99,8 @@ def test_lips_fingers_and_feet_stay_where_they_belong(instrument_id: str) -> Non
 
 
 def breaks(of: object, player: Player, motion: object) -> list[Break]:
-    judge = ContactJudge(of, character_of(player), model_of(of.instrument_map))  # type: ignore[arg-type,attr-defined]
-    return joined(judge.breaks(motion))  # type: ignore[arg-type]
+    judge = ContactJudge(of, character_of(player), model_of(of.instrument_map))  # type: ignore[attr-defined]
+    return joined(judge.breaks(motion))
 
 
 @pytest.mark.parametrize("instrument_id", KINDS)

@@ -133,7 +133,7 @@ def test_a_gesture_starts_only_where_it_may(
     gesture = replace(NOD, may_start=may_start)
 
     def count(when: When, **do: object) -> int:
-        made = plan(Rule("here", when, Do(gesture="nodding", **do)), gesture=gesture)  # type: ignore[arg-type]
+        made = plan(Rule("here", when, Do(gesture="nodding", **do)), gesture=gesture)
         assert not made.problems
         return sum(event.kind == "named" for event in made.gestures)
 
@@ -212,7 +212,7 @@ def test_a_gesture_is_no_larger_than_hands_follow_and_no_quicker_than_a_body() -
 
 def test_bundled_rules_leave_a_usual_player_alone() -> None:
     usual = make_plans(PIECE, (LINE,), time_frame((LINE,), CLOCK))["p"]
-    placed = [event.id for event in (*usual.expressions, *usual.gestures) if ":rule:" in event.id]
+    placed = [event.id for event in (*usual.expressions, *usual.gestures) if ":rule:" in event.id]  # type: ignore[attr-defined]
     # In its rest of six seconds a player listens to the others.
     assert not [event_id for event_id in placed if ":rule:listens_" not in event_id]
     jazz = replace(LINE, parameters=PlayerParameters(style="soloist"))
@@ -259,7 +259,7 @@ def _unpuffed() -> MonophonicPart:
 
 def test_moments_are_those_of_cues_breaths_and_the_end() -> None:
     def of(moment: str, **more: float) -> list[tuple[str, float]]:
-        return shown(Rule("here", When(moment=moment, **more), Do(expression="brows_up", strength=0.5)))  # type: ignore[arg-type]
+        return shown(Rule("here", When(moment=moment, **more), Do(expression="brows_up", strength=0.5)))
 
     assert [id for id, _ in of("gives_entry")] == [f"expression:rule:here:{cue.id}" for cue in plan().cues]
     assert of("takes_entry", rest_longer_s=60.0) == []

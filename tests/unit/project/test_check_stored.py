@@ -21,7 +21,7 @@ PLAINLY_CHECKED = {"source", "fps"}
 
 
 def test_every_field_of_a_project_is_written_and_read() -> None:
-    names = {re.match(r"\w+", group.place)[0] for group in _groups(PROJECT)}  # type: ignore[index]
+    names = {re.match(r"\w+", group.place)[0] for group in _groups(PROJECT)}
     called = {"edited_notes": "read_notes", "edited_curves": "read_curves"}
     assert {called.get(name, name) for name in names} | PLAINLY_CHECKED == {field.name for field in fields(Project)}
 
@@ -50,7 +50,7 @@ def test_a_value_of_any_field_that_no_file_holds_is_found(value: Any) -> None:
 
 
 def test_numbers_of_numpy_are_numbers_and_a_tick_that_is_no_whole_number_is_found() -> None:
-    curve = AdditiveCurve("a", "bell.up", (CurveKey(np.int64(480), np.float64(0.1)),))  # type: ignore[arg-type]
+    curve = AdditiveCurve("a", "bell.up", (CurveKey(np.int64(480), np.float64(0.1)),))
     assert places(replace(PROJECT, corrections={"1.1.1": (curve,)})) == []
-    halves = AdditiveCurve("a", "bell.up", (CurveKey(480.0, 0.1),))  # type: ignore[arg-type]
+    halves = AdditiveCurve("a", "bell.up", (CurveKey(480.0, 0.1),))
     assert places(replace(PROJECT, corrections={"1.1.1": (halves,)})) == ["corrections['1.1.1'][0].keys[0].tick"]

@@ -74,7 +74,7 @@ def test_tempi_are_set_moved_and_removed(project: Project) -> None:
 )
 def test_what_makes_no_sense_is_refused(project: Project, edit: object) -> None:
     with pytest.raises(UsageError):
-        edit(project)  # type: ignore[operator]
+        edit(project)
 
 
 def test_scaling_keeps_the_shape_of_the_tempo(project: Project) -> None:
@@ -142,7 +142,7 @@ def test_a_new_piece() -> None:
     assert Performance(new).plans == {}
     for wrong in ({"bpm": 0.0}, {"metre": (4, 0)}, {"ticks_per_quarter": 0}):
         with pytest.raises(UsageError):
-            edit.new_piece(**wrong)  # type: ignore[arg-type]
+            edit.new_piece(**wrong)
 
 
 def test_settings_of_the_piece(project: Project) -> None:

@@ -107,8 +107,8 @@ def test_a_moved_gesture_or_expression_is_where_it_was_put(event_id: str, ticks:
         assert project is piece()
         return
     after = event(plan_of(project), event_id)
-    assert (after.start_tick, after.end_tick) == (before.start_tick + ticks, before.end_tick + ticks)  # type: ignore[union-attr]
-    assert after.corrected  # type: ignore[union-attr]
+    assert (after.start_tick, after.end_tick) == (before.start_tick + ticks, before.end_tick + ticks)
+    assert after.corrected
     back = edit.give_back(project, player_id(), ids)
     assert back.corrections == {}
     assert event(plan_of(back), event_id) == before
@@ -119,10 +119,10 @@ def test_a_moved_gesture_or_expression_is_where_it_was_put(event_id: str, ticks:
 def test_a_resized_event_has_the_ends_it_was_given_and_never_turns_round(event_id: str, start: int, end: int) -> None:
     before = event(made(), event_id)
     after = event(plan_of(edit.resize(piece(), made(), (event_id,), start, end)), event_id)
-    requested = (before.start_tick + start, before.end_tick + end)  # type: ignore[union-attr]
-    assert after.start_tick < after.end_tick  # type: ignore[union-attr]
+    requested = (before.start_tick + start, before.end_tick + end)
+    assert after.start_tick < after.end_tick
     if requested[0] < requested[1]:
-        assert (after.start_tick, after.end_tick) == requested  # type: ignore[union-attr]
+        assert (after.start_tick, after.end_tick) == requested
 
 
 @fast
@@ -156,10 +156,10 @@ def test_a_breath_dragged_there_and_back_is_where_it_was(event_id: str, there: i
     plan = plan_of(project)
     moved = event(plan, new_id)
     home = event(made(), event_id)
-    back, (last_id,) = edit.move(project, plan, (new_id,), home.end_tick - moved.end_tick)  # type: ignore[union-attr]
+    back, (last_id,) = edit.move(project, plan, (new_id,), home.end_tick - moved.end_tick)
     after = event(plan_of(back), last_id)
     assert last_id == event_id
-    assert (after.start_tick, after.end_tick) == (home.start_tick, home.end_tick)  # type: ignore[union-attr]
+    assert (after.start_tick, after.end_tick) == (home.start_tick, home.end_tick)
     assert all(item.moved_from is None for item in back.corrections.get(player_id(), ()) if isinstance(item, SetBreath))
 
 
@@ -170,12 +170,12 @@ def test_an_amount_is_what_was_set_within_what_there_is(event_id: str, amount: f
     after = event(plan_of(project), event_id)
     least = -1.0 if isinstance(after, GestureEvent) else 0.0
     value = {
-        BreathEvent: lambda: after.depth,  # type: ignore[union-attr]
-        GestureEvent: lambda: after.amount,  # type: ignore[union-attr]
-        ExpressionEvent: lambda: after.strength,  # type: ignore[union-attr]
-    }[type(after)]()  # type: ignore[index]
+        BreathEvent: lambda: after.depth,
+        GestureEvent: lambda: after.amount,
+        ExpressionEvent: lambda: after.strength,
+    }[type(after)]()
     assert value == pytest.approx(min(max(amount, least), 1.0), abs=1e-4)
-    assert after.corrected  # type: ignore[union-attr]
+    assert after.corrected
     assert plan_of(edit.give_back(project, player_id(), (event_id,))) == made()
 
 
@@ -187,8 +187,8 @@ def test_several_changes_of_one_event_are_one_correction() -> None:
     (correction,) = project.corrections[player_id()]
     before, after = event(made(), event_id), event(plan_of(project), event_id)
     assert correction.about == event_id
-    assert (after.start_tick, after.end_tick) == (before.start_tick + 100, before.end_tick + 150)  # type: ignore[union-attr]
-    assert after.amount == -0.25  # type: ignore[union-attr]
+    assert (after.start_tick, after.end_tick) == (before.start_tick + 100, before.end_tick + 150)
+    assert after.amount == -0.25
 
 
 def test_several_events_move_together() -> None:
@@ -197,7 +197,7 @@ def test_several_events_move_together() -> None:
     plan = plan_of(project)
     assert new_ids == tuple(ids)
     for event_id in ids:
-        assert event(plan, event_id).start_tick == event(made(), event_id).start_tick + 33  # type: ignore[union-attr]
+        assert event(plan, event_id).start_tick == event(made(), event_id).start_tick + 33
     assert same_but(plan, made(), *ids)
 
 
@@ -221,8 +221,8 @@ def test_embouchures_keep_what_else_was_set() -> None:
     project = edit.set_embouchure(piece(), player_id(), (note,), tension=0.9)
     project = edit.set_embouchure(project, player_id(), (note,), air=1.5)
     lips = event(plan_of(project), f"embouchure:{note}")
-    assert (lips.tension, lips.air) == (0.9, 1.0)  # type: ignore[union-attr]
-    assert lips.effort == event(made(), f"embouchure:{note}").effort  # type: ignore[union-attr]
+    assert (lips.tension, lips.air) == (0.9, 1.0)
+    assert lips.effort == event(made(), f"embouchure:{note}").effort
     assert plan_of(edit.give_back(project, player_id(), note_ids=(note,))) == made()
 
 
@@ -257,7 +257,7 @@ def test_what_was_added_is_forgotten_when_deleted() -> None:
     ids = (*breath.event_ids, *gesture.event_ids, *smile.event_ids, *cue.event_ids)
     full = plan_of(cue.project)
     assert set(ids) <= set(edit.events_of(full))
-    assert all(event(full, event_id).corrected for event_id in ids)  # type: ignore[union-attr]
+    assert all(event(full, event_id).corrected for event_id in ids)
     assert edit.remove(cue.project, full, ids).corrections == {}
 
 
@@ -307,7 +307,7 @@ def test_preparations_go_and_come() -> None:
     )
     added = edit.toggle_preparation(piece(), made(), bare)
     preparation = event(plan_of(added.project), f"preparation:{bare}")
-    assert preparation.end_tick == event(made(), f"breath:{bare}").start_tick  # type: ignore[union-attr]
+    assert preparation.end_tick == event(made(), f"breath:{bare}").start_tick
     assert edit.toggle_preparation(added.project, plan_of(added.project), bare).project.corrections == {}
 
 
@@ -318,11 +318,11 @@ def test_a_cue_moves_to_another_entry_or_to_a_bare_tick() -> None:
     project, ids = edit.move(piece(), made(), (cue.id,), ticks)
     assert ids == (f"cue:{target.id}",)
     moved = event(plan_of(project), ids[0])
-    assert (moved.end_tick, moved.corrected) == (target.onset_tick, True)  # type: ignore[union-attr]
+    assert (moved.end_tick, moved.corrected) == (target.onset_tick, True)
     assert cue.id not in edit.events_of(plan_of(project))
     project, ids = edit.move(project, plan_of(project), ids, 7)
     assert ids == (f"cue:@{target.onset_tick + 7}",)
-    assert event(plan_of(project), ids[0]).end_tick == target.onset_tick + 7  # type: ignore[union-attr]
+    assert event(plan_of(project), ids[0]).end_tick == target.onset_tick + 7
     assert not plan_of(project).problems
     assert plan_of(edit.give_back(project, player_id(), ids)) == made()
 
@@ -331,8 +331,8 @@ def test_the_preparatory_beat_of_a_cue_is_drawn_out() -> None:
     cue = made().cues[0]
     project = edit.resize(piece(), made(), (cue.id,), -(cue.end_tick - cue.start_tick))
     longer = event(plan_of(project), cue.id)
-    assert longer.end_tick == cue.end_tick  # type: ignore[union-attr]
-    assert longer.end_tick - longer.start_tick == pytest.approx(2 * (cue.end_tick - cue.start_tick), abs=2)  # type: ignore[union-attr]
+    assert longer.end_tick == cue.end_tick
+    assert longer.end_tick - longer.start_tick == pytest.approx(2 * (cue.end_tick - cue.start_tick), abs=2)
     (correction,) = project.corrections[player_id()]
     assert isinstance(correction, SetCue)
     assert correction.beats == pytest.approx(2.0, abs=0.01)

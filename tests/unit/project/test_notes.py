@@ -142,7 +142,7 @@ def test_split(given: tuple[Project, frozenset[str]], tick: int) -> None:
     names = {row[1]: name for row, name in zip(cut, new, strict=True)}
     expected = [(p, i, on, tick if i in names else end, *more) for p, i, on, end, *more in rows(project)]
     expected += [(p, names[i], tick, end, *more) for p, i, _, end, *more in cut]
-    agrees(result, expected)  # type: ignore[arg-type]
+    agrees(result, expected)
 
 
 @given(

@@ -482,7 +482,7 @@ def test_what_could_not_be_read_again_is_not_written(tmp_path: Path) -> None:
 
 
 def test_numbers_of_calculations_are_numbers(tmp_path: Path) -> None:
-    project = replace(small_project(), seed=np.int64(4), preroll_beats=np.float64(2.5), fps=Fraction(25))  # type: ignore[arg-type]
+    project = replace(small_project(), seed=np.int64(4), preroll_beats=np.float64(2.5), fps=Fraction(25))
     save(project, tmp_path / "piece.suisou")
     back = load(tmp_path / "piece.suisou")
     assert (type(back.seed), type(back.preroll_beats)) == (int, float)

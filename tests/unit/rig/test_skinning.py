@@ -1,5 +1,7 @@
 """Skinning against a loop over vertices and joints."""
 
+from typing import Any
+
 import numpy as np
 import pytest
 
@@ -43,7 +45,7 @@ def _slow(
     return result
 
 
-def test_vertices_and_morphs_are_where_the_loop_puts_them(posed: tuple) -> None:
+def test_vertices_and_morphs_are_where_the_loop_puts_them(posed: tuple[Any, ...]) -> None:
     character, transforms, morphs = posed
     body = skinning.mesh_named(character, "body")
     moved = next(morph for morph in body.morphs if morph.name == "jawOpen")
@@ -54,7 +56,7 @@ def test_vertices_and_morphs_are_where_the_loop_puts_them(posed: tuple) -> None:
         np.testing.assert_allclose(found[frame], expected, atol=1e-6)
 
 
-def test_a_landmark_is_the_mean_of_its_vertices(posed: tuple) -> None:
+def test_a_landmark_is_the_mean_of_its_vertices(posed: tuple[Any, ...]) -> None:
     character, transforms, morphs = posed
     names = tuple(character.landmarks)
     found = skinning.landmark_positions(character, names, transforms, morphs)
@@ -65,7 +67,7 @@ def test_a_landmark_is_the_mean_of_its_vertices(posed: tuple) -> None:
         np.testing.assert_allclose(found[:, place], mean, atol=1e-9)
 
 
-def test_the_joints_a_landmark_needs_are_enough(posed: tuple) -> None:
+def test_the_joints_a_landmark_needs_are_enough(posed: tuple[Any, ...]) -> None:
     character, transforms, _ = posed
     names = ("lips.contact", "left.index.pad")
     needed = skinning.landmark_joints(character, names)

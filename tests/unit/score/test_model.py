@@ -58,4 +58,4 @@ def test_a_note_ends_where_its_duration_says() -> None:
 
 def test_the_values_cannot_be_changed() -> None:
     with pytest.raises(AttributeError):
-        score(Metre(0, 4, 4)).title = "other"  # type: ignore[misc]
+        score(Metre(0, 4, 4)).title = "other"

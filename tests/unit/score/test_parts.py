@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 
 from app.score.choose import MapChoice
+from app.score.model import Score
 from tests.unit.score.midi_bytes import END, MAPS, TROMBONE, TRUMPET, chunk, header, ids, meta, note, score_of
 
 
@@ -15,7 +16,7 @@ def one_part(
     program: int | None = None,
     channel: int = 0,
     maps: tuple[MapChoice, ...] = MAPS,
-):  # type: ignore[no-untyped-def]
+) -> Score:
     """A score of one track of players."""
     events = meta(3, name.encode()) + meta(4, instrument.encode())
     if program is not None:

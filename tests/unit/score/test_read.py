@@ -436,7 +436,7 @@ def test_a_piece_that_is_too_long_is_refused_with_what_it_has_and_may_have(
     arguments = error.message.arguments
     assert error.message.id == "midi.too_long"
     assert arguments["track"] == 2
-    long = [kind for kind in ("hours", "quarters", "bars") if arguments[kind] > arguments[f"most_{kind}"]]  # type: ignore[operator]
+    long = [kind for kind in ("hours", "quarters", "bars") if arguments[kind] > arguments[f"most_{kind}"]]
     assert most in long
 
 

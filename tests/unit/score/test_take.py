@@ -73,7 +73,7 @@ def test_any_bytes_are_read_without_a_fault(messages: list[str]) -> None:
 
 
 def faults(notes: list[PlayedNote], cleaning: Cleaning | None = None, **more: bool) -> tuple[str, ...]:
-    return cleaned(take_of(notes, cleaning=cleaning, **more)).faults  # type: ignore[arg-type]
+    return cleaned(take_of(notes, cleaning=cleaning, **more)).faults
 
 
 def test_a_short_soft_note_is_a_ghost_and_a_short_loud_one_is_not() -> None:

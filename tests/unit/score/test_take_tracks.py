@@ -44,7 +44,7 @@ def notes(contents: MidiContents, clean: bool | None = None) -> tuple[Note, ...]
     ],
 )
 def test_what_looks_like_a_take(tmp_path: Path, changed: dict[str, object], expected: str) -> None:
-    assert reason(take_file(tmp_path / "a.mid", **changed)) == expected  # type: ignore[arg-type]
+    assert reason(take_file(tmp_path / "a.mid", **changed)) == expected
 
 
 def test_a_take_is_imported_clean_and_says_so_and_as_played_where_requested(tmp_path: Path) -> None:

@@ -20,7 +20,7 @@ from tests.unit.score.midi_bytes import MAPS, TROMBONE, TRUMPET
 def part(name: str = "Trumpet", *, channel: int = 0, notes: tuple[Note, ...] | None = None, **fields: object) -> Part:
     given = (Note("2:1", 0, 96, 60, 64),) if notes is None else notes
     values = {"program": 56, "instrument": "trumpet", "map_id": "trumpet", "curves": ()} | fields
-    return Part("p", name, 1, 0, channel, notes=given, **values)  # type: ignore[arg-type]
+    return Part("p", name, 1, 0, channel, notes=given, **values)
 
 
 def score(*parts: Part, division: int = 96, tempo: float = 500_000.0) -> Score:

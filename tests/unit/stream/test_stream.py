@@ -252,7 +252,7 @@ def test_faces_in_the_names_that_a_receiver_knows() -> None:
     pose = dataclasses.replace(pose, morphs={"jawOpen": 0.4, "eyeBlinkLeft": 1.0, "mouthSmileLeft": 0.6})
 
     def face(naming: str) -> dict[str, float]:
-        sent = Sent(character, "horn", naming)  # type: ignore[arg-type]
+        sent = Sent(character, "horn", naming)
         (frame,) = frames([(0.0, packet) for packet in sent.datagrams(pose, 0.0)])
         return frame.face
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from fractions import Fraction
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -27,7 +28,7 @@ from tests.support.dance_measures import (
 from tests.support.dances import stepping, still
 
 
-def test_a_joint_that_starts_at_once_is_a_jump_of_its_speed():
+def test_a_joint_that_starts_at_once_is_a_jump_of_its_speed() -> None:
     clip = still(20)
     rotations = clip.rotations.copy()
     angle = 2.0 / 60.0 * np.maximum(np.arange(20) - 9, 0)
@@ -38,7 +39,7 @@ def test_a_joint_that_starts_at_once_is_a_jump_of_its_speed():
     assert usual_jump_rad_s([clip], Fraction(60)) == 0.0
 
 
-def test_a_foot_that_slides_slides_at_its_speed():
+def test_a_foot_that_slides_slides_at_its_speed() -> None:
     clip = still(60)
     sliding = replace(clip, hips_m=clip.hips_m + np.arange(60)[:, None] / 60.0 * (0.3, 0.0, 0.4))
     standing = np.zeros((60, 2), bool)
@@ -50,7 +51,7 @@ def test_a_foot_that_slides_slides_at_its_speed():
     assert skating_m_s(high) < 0.02
 
 
-def test_beats_that_meet_are_aligned_and_shifted_ones_by_chance():
+def test_beats_that_meet_are_aligned_and_shifted_ones_by_chance() -> None:
     music_s = 0.5 * np.arange(100)
     assert alignment(music_s, music_s) == pytest.approx((1.0, 1.0))
     # A motion's beat on every other beat of the music: all of the motion's meet, half of the music's.
@@ -64,7 +65,7 @@ def test_beats_that_meet_are_aligned_and_shifted_ones_by_chance():
     assert alignment(np.zeros(0), music_s) == (0.0, 0.0)
 
 
-def test_motion_stops_where_its_beats_are():
+def test_motion_stops_where_its_beats_are() -> None:
     clip = still(241)
     rotations = clip.rotations.copy()
     # Down and up again, a beat each way.
@@ -73,7 +74,7 @@ def test_motion_stops_where_its_beats_are():
     assert kinematic_beats_s(replace(clip, rotations=rotations)) == pytest.approx(0.5 * np.arange(1, 8))
 
 
-def test_poses_are_near_to_where_they_are_from_wherever_they_face():
+def test_poses_are_near_to_where_they_are_from_wherever_they_face() -> None:
     clip = stepping(6)
     turn = quaternion.from_axis_angle(np.array([0.0, 1.0, 0.0]), 1.0)
     rotations = clip.rotations.copy()
@@ -83,11 +84,11 @@ def test_poses_are_near_to_where_they_are_from_wherever_they_face():
     assert nearest_m(still(2), [clip]).min() > 0.05
 
 
-def test_a_run_is_as_long_as_it_is():
+def test_a_run_is_as_long_as_it_is() -> None:
     assert [longest_run(values) for values in ([], [1], [1, 2, 2, 2, 1, 1])] == [0, 1, 3]
 
 
-def test_what_is_written_is_read_back(tmp_path):
+def test_what_is_written_is_read_back(tmp_path: Path) -> None:
     clip = stepping(4)
     write_motion(tmp_path / "a.bvh", clip)
     again = read_back(tmp_path / "a.bvh")

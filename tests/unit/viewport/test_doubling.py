@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from app.project.casting import StagePosition
 from app.project.edit import players as edit
 from app.project.model import Project
 from tests.support.doubled import flutist
@@ -51,7 +52,7 @@ def test_separating_asks_for_another_stage_and_moving_does_not() -> None:
     apart = edit.separate(project, (piccolo.id,))
     assert not same_figures(cast_key(project), cast_key(apart))
     before = loaded(project)
-    after = edit.place(project, {piccolo.id: edit.StagePosition(1.0, 1.0, 0.0)})
+    after = edit.place(project, {piccolo.id: StagePosition(1.0, 1.0, 0.0)})
     assert same_figures(cast_key(project), cast_key(after))
     stage = moved(after, before).stage
     assert [member.has_body for member in stage.members] == [True, False, True]

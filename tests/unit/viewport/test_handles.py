@@ -158,7 +158,7 @@ def test_no_one_is_turned_farther_than_the_plan_lets_them(target: PoseTarget, po
         start = PoseCorrection("x", target, 0, 1920)
         for angle in limits:
             for way in (-500.0, 500.0):
-                held = turned(start, {angle: way}, limits)  # type: ignore[dict-item]
+                held = turned(start, {angle: way}, limits)
                 assert getattr(held, angle) != 0.0
                 changed = replace(
                     project,
@@ -181,7 +181,7 @@ def test_views_show_what_they_are_called_after(row: int) -> None:
         "feet": "leftFoot",
     }
     for view, joint in shown.items():
-        camera = view_camera(view, stage, [row], Camera(), 16.0 / 9.0)  # type: ignore[arg-type]
+        camera = view_camera(view, stage, [row], Camera(), 16.0 / 9.0)
         (place,), (depth,) = camera.project(stage.joint_m(row, joint), 1600.0, 900.0)
         assert 0.0 < place[0] < 1600.0, view
         assert -80.0 < place[1] < 980.0, view

@@ -33,7 +33,7 @@ def level(count: int, face: bool, shared: bool) -> Geometry:
 
 
 LEVELS = (level(40, True, False), level(21, False, True))
-MESH = Mesh(
+MESH = Mesh(  # type: ignore[call-arg]
     "thing",
     *(np.zeros((3, size), np.float32) for size in (3, 3, 2)),
     np.array([[0, 1, 2]], np.int32),

@@ -149,7 +149,9 @@ def test_corrections_hold_at_their_ticks(choreography: str) -> None:
         ),
     ],
 )
-def test_corrections_that_do_not_hold_are_problems(choreography: str, corrections, problems) -> None:
+def test_corrections_that_do_not_hold_are_problems(
+    choreography: str, corrections: tuple[object, ...], problems: tuple[str, ...]
+) -> None:
     project = replace(with_dancers(choreography), dance_corrections={"dancer:1": corrections})
     live = LiveMotion(Performance(project))
     while live.work():

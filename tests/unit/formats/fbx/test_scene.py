@@ -60,7 +60,7 @@ def _assert_same_mesh(given: SkinnedMesh, found: SkinnedMesh, bones: int) -> Non
 @pytest.mark.parametrize("make", [scenes.character, scenes.instrument])
 @pytest.mark.parametrize("fps", [Fraction(60), Fraction(30000, 1001), Fraction(37, 2)], ids=str)
 def test_a_scene_comes_back(make: object, fps: Fraction, tmp_path: Path) -> None:
-    scene = make(fps)  # type: ignore[operator]
+    scene = make(fps)
     write_scene(tmp_path / "scene.fbx", scene)
     found = read_scene(tmp_path / "scene.fbx")
     assert found.creator == scene.creator
@@ -119,12 +119,12 @@ def test_moving_bones_are_bound_beside_their_parents_axis_and_others_stay() -> N
 
 
 def _mesh(scene: Scene, **changes: object) -> Scene:
-    return replace(scene, meshes=(replace(scene.meshes[0], **changes),))  # type: ignore[arg-type]
+    return replace(scene, meshes=(replace(scene.meshes[0], **changes),))
 
 
 def _clip(scene: Scene, **changes: object) -> Scene:
     assert scene.clip is not None
-    return replace(scene, clip=replace(scene.clip, **changes))  # type: ignore[arg-type]
+    return replace(scene, clip=replace(scene.clip, **changes))
 
 
 GOOD = scenes.instrument(Fraction(24), frames=4)

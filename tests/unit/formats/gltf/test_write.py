@@ -83,7 +83,7 @@ def test_a_scene_comes_back(make: Any) -> None:
     scene: Scene = make(Fraction(30))
     model = decode_gltf(encode_glb(scene), "scene.glb")
     bones = len(scene.bones)
-    assert [node.name for node in model.nodes] == [thing.name for thing in (*scene.bones, *scene.meshes)]
+    assert [node.name for node in model.nodes] == [thing.name for thing in (*scene.bones, *scene.meshes)]  # type: ignore[attr-defined]
     assert [node.parent for node in model.nodes[:bones]] == [bone.parent for bone in scene.bones]
     for bone, node in zip(scene.bones, model.nodes[:bones], strict=True):
         np.testing.assert_allclose(node.translation * 100, bone.translation_cm, atol=1e-9)

@@ -131,9 +131,9 @@ def test_left_is_left_and_up_is_up() -> None:
     frame = _middle(plain)
     for target, joint in (("head", "head"), ("torso", "chest")):
         ((_, before),) = world(plain, joint)
-        ((_, left),) = world(made(held(target, left_deg=10.0)), joint)  # type: ignore[arg-type]
-        ((_, up),) = world(made(held(target, up_deg=10.0)), joint)  # type: ignore[arg-type]
-        ((_, roll),) = world(made(held(target, roll_deg=8.0)), joint)  # type: ignore[arg-type]
+        ((_, left),) = world(made(held(target, left_deg=10.0)), joint)
+        ((_, up),) = world(made(held(target, up_deg=10.0)), joint)
+        ((_, roll),) = world(made(held(target, roll_deg=8.0)), joint)
         assert forwards(left)[frame, 0] > forwards(before)[frame, 0] + 0.1
         assert forwards(up)[frame, 1] > forwards(before)[frame, 1] + 0.08
         assert forwards(roll, (0, 1, 0))[frame, 0] > forwards(before, (0, 1, 0))[frame, 0] + 0.08
@@ -146,7 +146,7 @@ def test_left_is_left_and_up_is_up() -> None:
     )
     for side, sign in (("left", 1.0), ("right", -1.0)):
         ((before_m, _),) = world(plain, f"{side}LowerArm")
-        ((after_m, _),) = world(made(held(f"{side}_elbow", up_deg=25.0)), f"{side}LowerArm")  # type: ignore[arg-type]
+        ((after_m, _),) = world(made(held(f"{side}_elbow", up_deg=25.0)), f"{side}LowerArm")
         assert sign * (after_m - before_m)[frame, 0] > 0.03
         assert (after_m - before_m)[frame, 1] > 0.0
 

@@ -38,7 +38,7 @@ def made(instrument: InstrumentMap, amplitude: float = 1.0, lowered: bool = Fals
     if lowered:
         rows += [("lower_instrument", 13.0, 18.0, 1.0)]
     gestures = tuple(
-        GestureEvent(f"g{i}", kind, round(start * 960), round(end * 960), float(start), float(end), amount, REASON)  # type: ignore[arg-type]
+        GestureEvent(f"g{i}", kind, round(start * 960), round(end * 960), float(start), float(end), amount, REASON)
         for i, (kind, start, end, amount) in enumerate(rows)
     )
     notes = fingerings([(0.5 * i, 0.5 * i + 0.5, {}) for i in range(24)] + [(20.0, 21.0, {})])

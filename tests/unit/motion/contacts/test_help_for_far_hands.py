@@ -9,7 +9,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from app.motion.contacts.help_for_far_hands import TURNS_ALONG_RAD, softly_capped, softly_over
+from app.motion.contacts.help_for_far_hands import TURNS_ALONG_RAD
+from app.motion.curves.soft_bounds import softly_capped, softly_over
 from app.motion.model import Motion
 from app.plan.parameters import PlayerParameters
 from app.rig import quaternion
@@ -41,7 +42,7 @@ def chest_yaw_rad(motion: Motion) -> np.ndarray:
 
 
 @given(st.lists(st.floats(-1.0, 1.0), min_size=1), st.floats(0.001, 0.5))
-def test_soft_bounds_are_the_hard_ones_away_from_the_bend(values, ease) -> None:
+def test_soft_bounds_are_the_hard_ones_away_from_the_bend(values: list[float], ease: float) -> None:
     x = np.array(values)
     soft, hard = softly_over(x, ease), np.maximum(x, 0.0)
     np.testing.assert_array_equal(soft[np.abs(x) >= ease], hard[np.abs(x) >= ease])
@@ -51,7 +52,7 @@ def test_soft_bounds_are_the_hard_ones_away_from_the_bend(values, ease) -> None:
 
 @pytest.mark.parametrize("note_s", [0.6, 2.0])
 @pytest.mark.parametrize("slide_m", [0.2, 0.35, 0.42])
-def test_far_places_are_reached(slide_m, note_s) -> None:
+def test_far_places_are_reached(slide_m: float, note_s: float) -> None:
     motion = played(slide_m, note_s)
     hand = figure.hold(CHARACTER.skeleton, slide_m).hands[1]
     instrument = motion.instrument_position_m.astype(np.float64), motion.instrument_rotation.astype(np.float64)

@@ -7,6 +7,7 @@ from typing import Any, cast
 import numpy as np
 import pytest
 
+from app.arrays import FloatArray
 from app.motion.body_motion import BodyMotion
 from app.motion.contacts.trunk_and_legs import SIDES, STRAIGHTEST, hips_path, stance
 from app.rig import quaternion
@@ -18,6 +19,8 @@ FRAMES = 400
 
 class _Hips:
     """Of a body's motion what moves the hips."""
+
+    knee_rad: FloatArray
 
     def __init__(self, **moved: Any) -> None:
         still = np.zeros(FRAMES)

@@ -40,7 +40,9 @@ def slow_value(segments: list[tuple[float, float, float]], initial: float, time_
     st.floats(-1.0, 1.0),
     st.lists(st.floats(-1.0, 10.0), max_size=30),
 )
-def test_a_curve_equals_the_obvious_way(rows, initial, times) -> None:
+def test_a_curve_equals_the_obvious_way(
+    rows: list[tuple[float, float, float]], initial: float, times: list[float]
+) -> None:
     segments, time_s = [], 0.0
     for gap_s, length_s, value in rows:
         segments.append((time_s + gap_s, time_s + gap_s + length_s, value))

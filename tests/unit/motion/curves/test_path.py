@@ -14,7 +14,7 @@ from tests.unit.motion.events import REASON, breath
 
 
 def gesture(kind: str, start_s: float, end_s: float, amount: float = 1.0) -> GestureEvent:
-    return GestureEvent(f"{kind}:{start_s}", kind, 0, 1, start_s, end_s, amount, REASON)  # type: ignore[arg-type]
+    return GestureEvent(f"{kind}:{start_s}", kind, 0, 1, start_s, end_s, amount, REASON)
 
 
 def test_a_path_passes_what_it_does_not_turn_at_and_rests_where_it_turns() -> None:
@@ -50,7 +50,7 @@ def test_two_paths_differ_where_they_say_so(place: int) -> None:
 
 def _differ_only_there(one: Path | Accents, other: Path | Accents) -> None:
     times_s = np.linspace(-3.0, 12.0, 3001)
-    spans = one.changed_s(other)  # type: ignore[arg-type]
+    spans = one.changed_s(other)
     inside = np.zeros(len(times_s), np.bool_)
     for start_s, end_s in spans:
         inside |= (times_s >= start_s) & (times_s <= end_s)

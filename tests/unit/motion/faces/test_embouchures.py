@@ -87,7 +87,7 @@ def instrument_of(name: str) -> InstrumentMap:
     carriage = Carriage((pitch_deg - 6.0, pitch_deg, pitch_deg + 6.0), (-5.0, 0.0, 5.0), (-5.0, 0.0, 5.0))
     return msgspec.structs.replace(
         trumpet,
-        embouchure=Embouchure(kind, apart_m),  # type: ignore[arg-type]
+        embouchure=Embouchure(kind, apart_m),
         hold=msgspec.structs.replace(trumpet.hold, standing=carriage, seated=carriage),
     )
 
@@ -125,7 +125,7 @@ def test_the_mouthpiece_is_at_the_lips_while_notes_sound(name: str, character_id
 def test_the_lips_close_around_what_is_between_them_and_open_for_the_air(name: str, character_id: str) -> None:
     case = played(name, character_id)
     kind, apart_m, _ = KINDS[name]
-    opening_m = BODY.embouchure[kind].opening_m  # type: ignore[index]
+    opening_m = BODY.embouchure[kind].opening_m
     if apart_m + opening_m == 0.0:
         return
     places = lip_places(case.character, case.instrument, BODY)

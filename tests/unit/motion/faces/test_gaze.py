@@ -33,7 +33,7 @@ def gaze_of(made: PlayerPlan, watching: Watching) -> Gaze:
 
 
 def gazes(made: PlayerPlan, **watching: object) -> list[Gaze]:
-    return [gaze_of(made, Watching(seed, **watching)) for seed in SEEDS]  # type: ignore[arg-type]
+    return [gaze_of(made, Watching(seed, **watching)) for seed in SEEDS]
 
 
 def starts_s(made: PlayerPlan) -> np.ndarray:

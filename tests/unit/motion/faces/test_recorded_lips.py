@@ -99,7 +99,7 @@ def test_cheeks_follow_the_breath_and_the_breath_is_seen_with_every_contact_kept
 def test_a_vibrato_shows_at_its_own_rate_and_by_its_depth(kind: str, rate_hz: float) -> None:
     sizes = []
     for depth in (0.05, 0.15):
-        curve = vibrato_curve(6.2, 8.6, depth, rate_hz, kind, 0.0 if kind == "pitch_bend" else 0.5)  # type: ignore[arg-type]
+        curve = vibrato_curve(6.2, 8.6, depth, rate_hz, kind, 0.0 if kind == "pitch_bend" else 0.5)
         lips = seen(BLOWN, curve).between("mouthPressLeft", 6.5, 8.5)
         spectrum = np.abs(np.fft.rfft((lips - lips.mean()) * np.hanning(len(lips))))
         found_hz = np.fft.rfftfreq(len(lips), 1.0 / float(FPS))[spectrum[2:].argmax() + 2]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 import math
+from collections.abc import Sequence
 from fractions import Fraction
 
 import numpy as np
@@ -11,8 +12,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from app.motion.curves.curve import frame_times
+from app.arrays import FloatArray
+from app.motion.curves.curve import Curve, frame_times
 from app.motion.fingering.control_curves import control_curves, window_s
+from app.plan.model import FingeringEvent
+from instrument_maps.model import Control
 from tests.unit.motion.events import TICKS, fingerings, press, slide
 
 RATES = [Fraction(24), Fraction(25), Fraction(30000, 1001), Fraction(30), Fraction(60)]
@@ -20,7 +24,9 @@ FIRST_FRAME_S = -2.0
 
 
 @st.composite
-def passages(draw: st.DrawFn, name: str, values: st.SearchStrategy[float], shortest_s: float):
+def passages(
+    draw: st.DrawFn, name: str, values: st.SearchStrategy[float], shortest_s: float
+) -> tuple[FingeringEvent, ...]:
     """Notes of a line: (onset_s, end_s, controls), with gaps below a beat and rests of a beat or more."""
     rows = []
     time_s = draw(st.floats(0.0, 1.0))
@@ -32,7 +38,7 @@ def passages(draw: st.DrawFn, name: str, values: st.SearchStrategy[float], short
     return fingerings(rows)
 
 
-def control_curve(events, control, felt_beats):
+def control_curve(events: Sequence[FingeringEvent], control: Control, felt_beats: tuple[tuple[int, int], ...]) -> Curve:
     return control_curves(events, (control,), felt_beats)[control.name]
 
 
@@ -40,7 +46,7 @@ def judged_frame(onset_s: float, fps: Fraction) -> int:
     return math.ceil(round((onset_s - FIRST_FRAME_S) * fps.numerator / fps.denominator, 9))
 
 
-def sampled(events, control, fps):
+def sampled(events: Sequence[FingeringEvent], control: Control, fps: Fraction) -> tuple[FloatArray, FloatArray]:
     frames = int((events[-1].end_s + 3.0 - FIRST_FRAME_S) * fps) + 1
     times_s = frame_times(FIRST_FRAME_S, fps, 0, frames)
     return times_s, control_curve(events, control, ((0, TICKS),)).sample(times_s)
@@ -49,7 +55,9 @@ def sampled(events, control, fps):
 @pytest.mark.parametrize("fps", RATES)
 @given(events=passages("valve_1", st.sampled_from([0.0, 1.0]), 2 / 24 + 0.001))
 @settings(max_examples=60, deadline=None)
-def test_a_press_is_exact_at_the_judged_frame_and_until_its_window(fps, events) -> None:
+def test_a_press_is_exact_at_the_judged_frame_and_until_its_window(
+    fps: Fraction, events: Sequence[FingeringEvent]
+) -> None:
     times_s, values = sampled(events, press(), fps)
     for event, following in zip(events, [*events[1:], None], strict=True):
         target = event.controls["valve_1"]
@@ -65,7 +73,9 @@ def test_a_press_is_exact_at_the_judged_frame_and_until_its_window(fps, events) 
 @pytest.mark.parametrize("fps", RATES)
 @given(events=passages("slide", st.sampled_from([0.0, 0.14, 0.29, 0.31, 0.6, 1.0]), 0.5))
 @settings(max_examples=60, deadline=None)
-def test_a_slide_is_exact_at_the_judged_frame_and_until_its_window(fps, events) -> None:
+def test_a_slide_is_exact_at_the_judged_frame_and_until_its_window(
+    fps: Fraction, events: Sequence[FingeringEvent]
+) -> None:
     times_s, values = sampled(events, slide(), fps)
     for event, following in zip(events, [*events[1:], None], strict=True):
         target = event.controls["slide"]
@@ -82,7 +92,7 @@ def test_a_slide_is_exact_at_the_judged_frame_and_until_its_window(fps, events) 
 
 @given(events=passages("slide", st.floats(0.0, 1.0), 0.06))
 @settings(max_examples=100, deadline=None)
-def test_between_two_notes_a_control_goes_one_way_and_no_further(events) -> None:
+def test_between_two_notes_a_control_goes_one_way_and_no_further(events: Sequence[FingeringEvent]) -> None:
     curve = control_curve(events, slide(), ((0, TICKS),))
     for event, following in itertools.pairwise(events):
         if following.start_tick - event.end_tick >= TICKS:
@@ -96,7 +106,7 @@ def test_between_two_notes_a_control_goes_one_way_and_no_further(events) -> None
 @pytest.mark.parametrize("control", [press(), slide(name="valve_1")])
 @pytest.mark.parametrize("beats", [1.0, 1.5, 4.0])
 @pytest.mark.parametrize("quarter_s", [0.22, 0.5, 1.5])
-def test_in_a_rest_of_a_beat_or_more_a_control_is_at_rest(control, beats, quarter_s) -> None:
+def test_in_a_rest_of_a_beat_or_more_a_control_is_at_rest(control: Control, beats: float, quarter_s: float) -> None:
     onset_s = 1.0 + beats * quarter_s
     events = fingerings([(0.0, 1.0, {"valve_1": 1.0}), (onset_s, onset_s + 1.0, {"valve_1": 0.8})], quarter_s)
     curve = control_curve(events, control, ((0, TICKS),))

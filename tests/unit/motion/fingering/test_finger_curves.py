@@ -9,6 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from app.arrays import FloatArray
 from app.motion.fingering.control_curves import control_curves
 from app.motion.fingering.finger_curves import HOME_S, raised_curve, sampled, station_curves
 from app.plan.model import FingeringEvent
@@ -30,7 +31,7 @@ def made_up(tmp_path_factory: pytest.TempPathFactory) -> InstrumentMap:
 
 def little(
     events: tuple[FingeringEvent, ...], instrument: InstrumentMap, times_s: np.ndarray, name: str = "right.little"
-):
+) -> tuple[StationBlend, dict[str, FloatArray]]:
     curves = control_curves(events, instrument.controls, ((0, TICKS),))
     where = sampled(station_curves(events, instrument, curves)[name], times_s)
     return where, {name: curves[name].sample(times_s) for name in LITTLE}
@@ -40,7 +41,7 @@ def share_at(where: StationBlend, place: int) -> np.ndarray:
     return (where.after == place) * where.share + (where.before == place) * (1.0 - where.share)
 
 
-def steps_of(steps) -> list[tuple[float, float, dict[str, float]]]:
+def steps_of(steps: list[tuple[str | None, float, float]]) -> list[tuple[float, float, dict[str, float]]]:
     rows, time_s = [], 0.2
     for key, length_s, gap_s in steps:
         rows.append((time_s, time_s + length_s, {} if key is None else {key: 1.0}))
@@ -86,7 +87,9 @@ STEPS = st.lists(
 
 @given(steps=STEPS)
 @settings(max_examples=80, deadline=None)
-def test_a_key_that_is_down_has_its_finger_on_it(made_up: InstrumentMap, steps) -> None:
+def test_a_key_that_is_down_has_its_finger_on_it(
+    made_up: InstrumentMap, steps: list[tuple[str | None, float, float]]
+) -> None:
     events = fingerings(steps_of(steps))
     times_s = np.arange(-1.0, events[-1].end_s + 3.5, 1.0 / 240.0)
     where, values = little(events, made_up, times_s)
@@ -98,7 +101,9 @@ def test_a_key_that_is_down_has_its_finger_on_it(made_up: InstrumentMap, steps) 
 
 @given(steps=STEPS)
 @settings(max_examples=80, deadline=None)
-def test_a_hand_gives_way_while_the_key_is_down_and_for_nothing_else(made_up: InstrumentMap, steps) -> None:
+def test_a_hand_gives_way_while_the_key_is_down_and_for_nothing_else(
+    made_up: InstrumentMap, steps: list[tuple[str | None, float, float]]
+) -> None:
     events = fingerings(steps_of(steps))
     times_s = np.arange(-1.0, events[-1].end_s + 3.5, 1.0 / 240.0)
     giving, values = little(events, made_up, times_s, giving_for("right.little"))

@@ -19,7 +19,7 @@ FELT = ((0, TICKS),)
 
 def event(kind: str, start_s: float, end_s: float, amount: float = 1.0) -> GestureEvent:
     ticks = round(start_s * 2 * TICKS), round(end_s * 2 * TICKS)
-    return GestureEvent(f"{kind}:{start_s}", kind, *ticks, start_s, end_s, amount, REASON)  # type: ignore[arg-type]
+    return GestureEvent(f"{kind}:{start_s}", kind, *ticks, start_s, end_s, amount, REASON)
 
 
 def test_counting_is_lowest_on_each_beat_and_still_between() -> None:
@@ -60,7 +60,7 @@ class Levels:
 
 def waving(times_s: np.ndarray) -> Levels:
     wave = np.sin(3.0 * times_s)
-    return Levels(*(Overlapped(wave, 0.5 * wave, wave, wave) for _ in range(4)), wave, wave)
+    return Levels(*(Overlapped(wave, 0.5 * wave, wave, wave) for _ in range(4)), wave, wave)  # type: ignore[call-arg]
 
 
 def test_a_hold_keeps_what_is_held_where_it_is() -> None:

@@ -13,7 +13,7 @@ from tests.unit.motion.events import REASON, TICKS, breath
 
 def gesture(kind: str, start_s: float, end_s: float, amount: float = 1.0) -> GestureEvent:
     ticks = round(start_s * 2 * TICKS), round(end_s * 2 * TICKS)
-    return GestureEvent(f"{kind}{start_s}", kind, *ticks, start_s, end_s, amount, REASON)  # type: ignore[arg-type]
+    return GestureEvent(f"{kind}{start_s}", kind, *ticks, start_s, end_s, amount, REASON)
 
 
 def test_a_sway_is_where_it_goes_at_its_end() -> None:

@@ -15,7 +15,7 @@ from tests.unit.motion.test_perform import BODY, CHARACTER, HOLD, PROFILE, made,
 
 
 def event(kind: str, start_s: float, end_s: float) -> GestureEvent:
-    return GestureEvent(f"{kind}:x", kind, round(start_s * 960), round(end_s * 960), start_s, end_s, 1.0, REASON)  # type: ignore[arg-type]
+    return GestureEvent(f"{kind}:x", kind, round(start_s * 960), round(end_s * 960), start_s, end_s, 1.0, REASON)
 
 
 def plan() -> PlayerPlan:

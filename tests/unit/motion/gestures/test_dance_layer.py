@@ -31,7 +31,7 @@ def dance(seed: int = 1) -> BodyLayer:
 def playing(layer: BodyLayer | None, **parameters: object) -> PerformanceCurves:
     return prepare(
         piece(),
-        PlayerParameters(**parameters),  # type: ignore[arg-type]
+        PlayerParameters(**parameters),
         MAP,
         CHARACTER,
         HOLD,

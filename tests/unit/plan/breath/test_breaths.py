@@ -31,7 +31,7 @@ def plan(
 ) -> PlayerPlan:
     clock = clock or PlainClock()
     piece = piece_of(clock, METRE, felt)
-    line = MonophonicPart("p", notes, valves(), PlayerParameters(**{"breath_need": 0.0, **parameters}))  # type: ignore[arg-type]
+    line = MonophonicPart("p", notes, valves(), PlayerParameters(**{"breath_need": 0.0, **parameters}))
     return make_plans(piece, (line,), time_frame((line,), clock, preroll, felt))["p"]
 
 
@@ -229,7 +229,7 @@ def test_loud_playing_needs_more_breaths_and_big_lungs_fewer() -> None:
     loud = with_velocities(notes, 127, 95)
 
     def count(notes_: tuple[PlainNote, ...], **parameters: object) -> int:
-        return len(plan(notes_, **parameters).breaths)  # type: ignore[arg-type]
+        return len(plan(notes_, **parameters).breaths)
 
     assert count(loud) > count(notes) > count(notes, lung_s=14.0)
 

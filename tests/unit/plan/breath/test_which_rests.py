@@ -37,7 +37,7 @@ def planned(
     notes: tuple[PlainNote, ...], bpm: float, instrument: InstrumentMap | None = None, **parameters: float
 ) -> PlayerPlan:
     clock = PlainClock(((0, bpm),))
-    part = MonophonicPart("p", notes, valves() if instrument is None else instrument, PlayerParameters(**parameters))  # type: ignore[arg-type]
+    part = MonophonicPart("p", notes, valves() if instrument is None else instrument, PlayerParameters(**parameters))
     return make_plans(piece_of(clock), (part,), time_frame((part,), clock))["p"]
 
 

@@ -37,7 +37,7 @@ class Row:
     expected: tuple[tuple[float, str, float], ...]
     """Every cue: the quarter of the entry, who gives it, and how long before the entry it peaks, s."""
     tempi: tuple[tuple[float, float], ...] = ((0, 120),)
-    unplayed: Notes = ()  # type: ignore[assignment]
+    unplayed: Notes = ()
     metre: tuple[int, int] = (4, 4)
     pickup: float = 0.0
 

@@ -15,7 +15,7 @@ TENTHS = st.integers(0, 400)
 
 def gesture(kind: str, start: int, length: int) -> GestureEvent:
     start_s, end_s = start / 10.0, (start + length) / 10.0
-    return GestureEvent(f"{kind}:{start}", kind, start, start + length, start_s, end_s, 1.0, Message("gesture.lean"))  # type: ignore[arg-type]
+    return GestureEvent(f"{kind}:{start}", kind, start, start + length, start_s, end_s, 1.0, Message("gesture.lean"))
 
 
 @given(lowered=st.lists(st.tuples(TENTHS, st.integers(1, 100)), max_size=8), look=TENTHS, length=st.integers(20, 40))

@@ -38,7 +38,7 @@ def plan(
 
 
 def labels(notes: tuple[PlainNote, ...], instrument: InstrumentMap, **more: object) -> list[str]:
-    return [event.label for event in plan(notes, instrument, **more)[0]]  # type: ignore[arg-type]
+    return [event.label for event in plan(notes, instrument, **more)[0]]
 
 
 @pytest.mark.parametrize(("pitch", "valve_label", "slide_label"), TABLE_3_1)

@@ -114,7 +114,7 @@ def test_feet_are_never_both_off_the_ground_and_each_does_one_thing_at_a_time() 
     kinds = {event.kind for plan in plans for event in plan.gestures}
     assert set(FOOT_KINDS) <= kinds
     for plan in plans:
-        spans = sorted(span for foot in ("left", "right") for span in lifted_s(plan.gestures, foot, 0.55))  # type: ignore[arg-type]
+        spans = sorted(span for foot in ("left", "right") for span in lifted_s(plan.gestures, foot, 0.55))
         for (_, end_s), (start_s, _) in itertools.pairwise(spans):
             assert start_s >= end_s - 1e-9
 

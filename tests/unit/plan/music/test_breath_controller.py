@@ -29,8 +29,8 @@ def plan_of(part: Part, corrections: tuple[object, ...] = (), **parameters: floa
         "p",
         part.notes,
         TRUMPET,
-        PlayerParameters(**parameters),  # type: ignore[arg-type]
-        corrections,  # type: ignore[arg-type]
+        PlayerParameters(**parameters),
+        corrections,
         note_loudness(part),
         controller_input(part),
     )

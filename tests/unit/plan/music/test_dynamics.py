@@ -28,7 +28,7 @@ FELT = PIECE.metre_map.felt_beats
 
 
 def plan_of(notes: tuple[PlainNote, ...], **more: object) -> PlayerPlan:
-    line = MonophonicPart("p", notes, valves(), **more)  # type: ignore[arg-type]
+    line = MonophonicPart("p", notes, valves(), **more)
     return make_plans(PIECE, (line,), time_frame((line,), CLOCK))["p"]
 
 

@@ -18,7 +18,7 @@ Q = 480
 def rests(notes: tuple[PlainNote, ...], bpm: float = 120.0) -> list[int]:
     clock = PlainClock(((0, bpm),))
     times = line_times(MonophonicPart("p", notes, valves()), clock)
-    return rest_ticks(times, piece_of(clock).beat_ticks_at(times.onset_tick)).tolist()[1:]  # type: ignore[no-any-return]
+    return rest_ticks(times, piece_of(clock).beat_ticks_at(times.onset_tick)).tolist()[1:]
 
 
 def line(*pairs: tuple[float, float]) -> tuple[PlainNote, ...]:

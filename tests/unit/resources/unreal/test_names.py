@@ -106,7 +106,7 @@ def test_python_3_9_understands_it(path: Path) -> None:
 
 
 def test_every_text_is_in_both_languages(editor: Editor) -> None:
-    from suisou_import.problem import TEXTS  # type: ignore[import-not-found]
+    from suisou_import.problem import TEXTS
 
     used = {
         node.args[0].value

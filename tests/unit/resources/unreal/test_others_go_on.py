@@ -37,8 +37,8 @@ def changed(change: Callable[[dict[str, Any]], None]) -> Callable[[Path], None]:
     return damage
 
 
-def replaced(data: bytes) -> Callable[[Path], None]:
-    return lambda path: path.write_bytes(data) and None
+def replaced(data: bytes) -> Callable[[Path], object]:
+    return lambda path: path.write_bytes(data)
 
 
 DAMAGE: dict[str, Callable[[Path], None]] = {

@@ -26,8 +26,8 @@ def damage_json(change: Callable[[dict[str, Any]], None]) -> Callable[[Editor], 
     return damage
 
 
-def write(name: str, content: bytes) -> Callable[[Editor], None]:
-    return lambda editor: (editor.folder / SOURCES / name).write_bytes(content) and None
+def write(name: str, content: bytes) -> Callable[[Editor], object]:
+    return lambda editor: (editor.folder / SOURCES / name).write_bytes(content)
 
 
 def without(name: str) -> Callable[[Editor], None]:
@@ -139,7 +139,7 @@ def test_it_is_cancelled(editor: Editor) -> None:
 
 
 def test_a_fault_of_ours_is_a_dialog_too(editor: Editor, monkeypatch: pytest.MonkeyPatch) -> None:
-    from suisou_import import sequence  # type: ignore[import-not-found]
+    from suisou_import import sequence
 
     monkeypatch.setattr(sequence, "build", lambda *arguments: 1 / 0)
     exec(editor.studio.commands["Import Performance"], {})

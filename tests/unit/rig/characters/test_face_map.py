@@ -16,7 +16,7 @@ from app.rig.characters.face_map import map_morphs
 from app.rig.characters.load_character import load_character
 from app.rig.characters.read_figure import read_figure
 from metadata.load import load_face_names
-from metadata.model import ARKIT_MORPHS
+from metadata.model import ARKIT_MORPHS, FaceNames
 from tests.support.skeletons import face_of
 
 CHARACTERS = Path(__file__).parents[3] / "data" / "characters"
@@ -58,7 +58,7 @@ def test_arkit_shapes_are_known_in_every_spelling(spelling: Callable[[str], str]
 
 
 @pytest.mark.parametrize("table", load_face_names().values(), ids=lambda table: table.name)
-def test_every_table_makes_all_its_shapes(table) -> None:
+def test_every_table_makes_all_its_shapes(table: FaceNames) -> None:
     ways = {shape: {way: 1.0} if isinstance(way, str) else way for shape, (way, *_) in table.morphs.items()}
     names = list(dict.fromkeys(name for way in ways.values() for name in way))
     if table.of == "expressions":

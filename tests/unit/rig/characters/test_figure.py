@@ -14,7 +14,6 @@ from PIL import Image
 from scipy.spatial.transform import Rotation
 
 from app.errors import FileError
-from app.formats.fbx import foreign as foreign_fbx
 from app.rig import quaternion
 from app.rig.characters import figure_build
 from app.rig.characters.character_library import character_named
@@ -284,7 +283,7 @@ def test_a_reader_that_dies_is_an_error_of_the_file(tmp_path: Path, monkeypatch:
     path = tmp_path / "x.fbx"
     path.write_bytes(b"Kaydara FBX Binary  \0")
     died = subprocess.CompletedProcess([], -11, b"", b"")
-    monkeypatch.setattr(foreign_fbx.subprocess, "run", lambda *args, **kwargs: died)
+    monkeypatch.setattr("app.formats.fbx.foreign.subprocess.run", lambda *args, **kwargs: died)
     with pytest.raises(FileError, match="foreign_damaged"):
         read_figure(path)
 
@@ -429,7 +428,7 @@ def test_a_figure_of_a_wrong_unit_is_reported_and_corrected(ours: Character, tmp
 def test_damage_is_a_file_error(ours: Character, tmp_path: Path, kind: str) -> None:
     small = replace(ours, meshes=tuple(replace(mesh, morphs=()) for mesh in ours.meshes if mesh.name == "teeth"))
     path = tmp_path / f"x.{kind}"
-    (write_fbx if kind == "fbx" else write_glb)(path, foreign(small))  # type: ignore[operator]
+    (write_fbx if kind == "fbx" else write_glb)(path, foreign(small))
     whole = path.read_bytes()
     generator = np.random.default_rng(5)
     for number in range(12 if kind == "fbx" else 80):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import random
+from collections.abc import Callable
 from dataclasses import replace
 
 import pytest
@@ -13,7 +14,7 @@ from app.errors import FileError
 from app.messages import WORDINGS
 from app.rig.characters.joint_mapping import JointMapping, map_joints
 from metadata.load import load_bone_names, load_skeleton
-from metadata.model import REQUIRED_JOINTS
+from metadata.model import REQUIRED_JOINTS, BoneNames
 from tests.support.skeletons import FOLDER, ListedBone, figure_of, listed
 
 LISTS = sorted(path.stem for path in FOLDER.glob("*.tsv"))
@@ -65,7 +66,7 @@ def test_a_skeleton_whose_names_say_nothing_is_known_by_its_shape(name: str) -> 
 
 
 @pytest.mark.parametrize("table", load_bone_names().values(), ids=lambda table: table.name)
-def test_every_table_maps_all_its_joints_on_both_sides(table) -> None:
+def test_every_table_maps_all_its_joints_on_both_sides(table: BoneNames) -> None:
     """A skeleton with the first name of each of the table's joints, on a body of another maker."""
     body = {bone.joint: bone for bone in listed("rigify") if bone.joint}
     firsts = {joint: names[0] for joint, names in table.keys().items()}
@@ -129,7 +130,7 @@ def shuffled(bones: list[ListedBone], dice: random.Random) -> list[ListedBone]:
     ],
 )
 @pytest.mark.parametrize("name", ["unreal5", "mixamo"])
-def test_case_and_separators_do_not_matter(name: str, rename) -> None:
+def test_case_and_separators_do_not_matter(name: str, rename: Callable[[str], str]) -> None:
     bones = listed(name)
     assert by_name(bones, map_joints(figure_of(bones, rename=rename))) == known(bones)
 

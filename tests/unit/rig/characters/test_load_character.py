@@ -3,6 +3,7 @@
 import json
 import struct
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -60,7 +61,7 @@ def _humanoid(tmp_path: Path, turned: bool, drop: str = "") -> Path:
     ours = character_named("man_adult").skeleton
     places = dict(zip(ours.names, rest_positions(ours), strict=True))
     generator = np.random.default_rng(8)
-    nodes: list[dict] = []
+    nodes: list[dict[str, Any]] = []
     place: dict[str, int] = {}
     world: list[np.ndarray] = []
     for joint in profile.joints:

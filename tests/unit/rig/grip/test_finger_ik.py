@@ -41,9 +41,9 @@ def test_a_place_that_is_asked_for_often_is_solved_once(monkeypatch: pytest.Monk
     solved = []
     solve = finger_ik._brought
 
-    def counted(chains: object, rotations: np.ndarray, *others: object) -> object:  # type: ignore[type-arg]
+    def counted(chains: object, rotations: np.ndarray, *others: object) -> object:
         solved.append(len(rotations))
-        return solve(chains, rotations, *others)  # type: ignore[arg-type]
+        return solve(chains, rotations, *others)
 
     monkeypatch.setattr(finger_ik, "_brought", counted)
     together = brought(_asked(rows))

@@ -125,8 +125,8 @@ def test_a_shoulder_without_a_clavicle_moves_no_one_anywhere() -> None:
         offsets_m[arm] = 0.0
     skeleton = replace(body.skeleton, offsets_m=offsets_m)
     for side, sign in (("left", -1.0), ("right", 1.0)):
-        np.testing.assert_array_equal(forwards_axis(skeleton, side), [0.0, sign, 0.0])  # type: ignore[arg-type]
-        usual = forwards_axis(body.skeleton, side)  # type: ignore[arg-type]
+        np.testing.assert_array_equal(forwards_axis(skeleton, side), [0.0, sign, 0.0])
+        usual = forwards_axis(body.skeleton, side)
         assert usual @ np.array([0.0, sign, 0.0]) > 0.9
 
 
