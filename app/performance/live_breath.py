@@ -27,6 +27,7 @@ from app.motion.gestures.body_lag import Overlapped
 from app.motion.gestures.layers import LayerSamples
 from app.motion.perform import PerformanceCurves
 from app.performance.live_hands import FRAMES
+from app.performance.live_tongue import LiveTongue
 from app.plan.breath.lungs import FULL_BREATH_S, air_rate, lungful_s
 from app.plan.faces.live_expressions import faces_now, live_rules
 from app.plan.lips.embouchure import strain_of, tension_of
@@ -57,8 +58,6 @@ WORKS_S, STRAINS_S = 0.35, 3.0
 """How quickly brows and cheeks go with what a note costs, and with a strain that lasts."""
 USUAL_BITE_S = 8.0
 """The bite counts by how far it is from what it usually is: that settles in this time."""
-TONGUE_UP_S, TONGUE_DOWN_S = 0.015, 0.06
-"""The tongue's stroke: it is seen as it leaves the reed or the teeth."""
 OTHER_LID = 0.95
 """The eyes do not close quite alike."""
 BELL_RISES = 0.5
@@ -103,8 +102,8 @@ class LiveBreath:
         self._inhaled_s = math.inf
         """When the breath that is being drawn in is complete; inf where none is."""
         self._rested = True
-        self._at_lips, self._mouth, self._full, self._tongue = (Reach.at_rest(0.0) for _ in range(4))
-        self._tongue_falls_s = math.inf
+        self._at_lips, self._mouth, self._full = (Reach.at_rest(0.0) for _ in range(3))
+        self._tongue = LiveTongue(playing)
         self._tension = Spring(float(tension_of(np.array([float(self._middle)]), self._instrument)[0]), TENSION_S)
         self._air, self._effort = Spring(0.0, AIR_S), Spring(0.0, EFFORT_S)
         self._bell = Spring(0.0, RAISES_S)
@@ -134,8 +133,7 @@ class LiveBreath:
         self._pitch, self._struck = float(pitch), velocity / 127.0
         self._onset_s, self._sounding = now_s, True
         if attacked:
-            self._tongue = self._tongue.toward(now_s, 1.0, TONGUE_UP_S)
-            self._tongue_falls_s = now_s + TONGUE_UP_S
+            self._tongue.strike(now_s, self._struck)
         self._turn(now_s)
 
     def rest(self, now_s: float) -> None:
@@ -187,9 +185,6 @@ class LiveBreath:
         if math.isinf(elapsed_s):
             elapsed_s = 0.0
         self._now_s = max(now_s, self._now_s)
-        if now_s >= self._tongue_falls_s:
-            self._tongue = self._tongue.toward(self._tongue_falls_s, 0.0, TONGUE_DOWN_S)
-            self._tongue_falls_s = math.inf
         if self._blown:
             rate = float(air_rate(np.array([self.loudness]), self._instrument.air)[0])
             self._spent = min(self._spent + elapsed_s * rate / self._lung_s, 1.0)
@@ -253,14 +248,15 @@ class LiveBreath:
         expressions: dict[str, FloatArray] = {name: pair(spring.value) for name, spring in self._shown.items()}
         if self._neutral:
             expressions["neutral"] = np.ones(FRAMES)
+        tip, back, push = (np.full(FRAMES, value) for value in self._tongue.at(now_s))
         face = Drivers(
             at_lips=pair(self._at_lips.at(now_s)),
             tension=pair(self._tension.value + self._pressed.value),
             effort=pair(self._effort.value),
             air=pair(self._air.value),
-            tongue=pair(self._tongue.at(now_s)),
-            tongue_back=nothing,
-            push=nothing,
+            tongue=tip,
+            tongue_back=back,
+            push=push,
             mouth_open=pair(self._mouth.at(now_s)),
             firm=nothing,
             eased=nothing,

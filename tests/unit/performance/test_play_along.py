@@ -196,6 +196,31 @@ def test_where_the_breath_pauses_long_enough_one_breathes_in_and_shuts_the_mouth
     assert max(np.abs(np.diff([pose.morphs["jawOpen"] for pose in (*paused, *again)]))) < 0.3
 
 
+def strokes(step_s: float, velocities: list[int]) -> list[tuple[float, float, float]]:
+    """How far tip and back of the tongue come up, and how hard the breath pushes, in each of some attacked notes."""
+    breath, found = breathing(), list[tuple[float, float, float]]()
+    for place, velocity in enumerate(velocities):
+        onset_s = 1.0 + place * step_s
+        breath.play(onset_s, 60, velocity, attacked=True)
+        times_s = np.linspace(onset_s, onset_s + 0.9 * step_s, 40)
+        shown = [(face.tongue[0], face.tongue_back[0], face.push[0]) for face in (faces(breath, at) for at in times_s)]
+        # What is left of the stroke before sinks; a stroke of its own comes up.
+        tip, back, push = np.maximum(np.array(shown) - np.array(shown[0]), 0.0).max(axis=0).tolist()
+        found.append((tip, back, push))
+    return found
+
+
+def test_the_back_of_the_tongue_takes_turns_with_its_tip_in_quick_strokes_only() -> None:
+    quick = strokes(0.08, [80] * 8)
+    assert ["ka" if back > 0.3 else "ta" for _, back, _ in quick] == ["ta", "ta"] + ["ka", "ta"] * 3
+    assert all(tip > 0.8 for tip, back, _ in quick if back <= 0.3)
+    assert all(back == 0.0 and tip > 0.9 for tip, back, _ in strokes(0.3, [80] * 4))
+
+
+def test_the_breath_pushes_who_is_struck_harder_than_before() -> None:
+    assert [push > 0.5 for *_, push in strokes(0.4, [80, 78, 83, 112, 80, 70])] == [False] * 3 + [True] + [False] * 2
+
+
 def test_in_a_long_pause_the_mouth_shuts_after_the_breath_and_at_last_the_lips_let_go() -> None:
     breath = breathing()
     breath.play(1.0, 61, 90, True)
