@@ -23,6 +23,7 @@ from app.performance.cast import attempt
 from app.performance.ensemble import Performance
 from app.performance.judged import all_problems
 from app.performance.loudness import controller_input
+from app.plan.kinds import BREATH_KINDS
 from app.plan.model import (
     AdditiveEvent,
     BreathEvent,
@@ -341,7 +342,7 @@ FIRST, FIRST_WORDS = 10, 3
 def _row(player: Table) -> tuple[str, ...]:
     pitches = [note["pitch"] for note in player["notes"]]
     span = f"{pitch_name(min(pitches))}-{pitch_name(max(pitches))}" if pitches else "-"
-    breaths = sum(breath["kind"] == "breath" for breath in player["breaths"])
+    breaths = sum(BREATH_KINDS[breath["kind"]].draws_air for breath in player["breaths"])
     return (
         player["name"],
         player["instrument"],

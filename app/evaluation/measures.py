@@ -216,7 +216,7 @@ def _breath_visibility(
     places: Mapping[str, FloatArray],
     morphs: Mapping[str, SingleArray],
 ) -> BreathVisibility:
-    drawn = [event for event in breaths if event.kind == "breath"]
+    drawn = [event for event in breaths if event.draws_air]
     spans, rests = [], []
     for event, following in zip(drawn, [*drawn[1:], None], strict=True):
         begin_s, end_s = event.start_s - _AROUND_BREATH_S, event.end_s + _AROUND_BREATH_S

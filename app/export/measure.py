@@ -153,7 +153,7 @@ def measure_player(
     sounding = notes.sounding
     # A catch breath comes out of a note's tail: the note sounds on, but the lips have stopped.
     blowing = sounding & ~notes.within((event.start_s, event.end_s) for event in plan.breaths)
-    inhaling = notes.within((event.start_s, event.end_s) for event in plan.breaths if event.kind == "breath")
+    inhaling = notes.within((event.start_s, event.end_s) for event in plan.breaths if event.draws_air)
     joints = JointPlayback(player, target or normalised_target(character.skeleton), character)
     of_joints: list[tuple[JointMeasure, JointMeasure]] = []
 
@@ -291,7 +291,7 @@ def _breaths(
     planned = opened = back = shown = 0
     for event in events:
         first, last = np.searchsorted(times_s, [event.start_s - 1e-9, event.end_s + 1e-9])
-        if event.kind != "breath" or first == 0 or last >= len(times_s) or last - first < 1:
+        if not event.draws_air or first == 0 or last >= len(times_s) or last - first < 1:
             continue
         planned += 1
         opens = bool(jaw[first:last].max() - jaw[first - 1] >= JAW_OPENS)

@@ -209,7 +209,7 @@ def _lowered(playing: PerformanceCurves, ways: Sequence[tuple[float, float, floa
     rows += [
         (event.start_s, event.end_s, bell.lower_s / LOWERS, bell.raise_s / LOWERS, event.amount)
         for event in playing.plan.gestures
-        if event.kind == "lower_instrument" and event.end_s > event.start_s
+        if event.part == "lowering" and event.end_s > event.start_s
     ]
     united: list[tuple[float, float, float, float, float]] = []
     for row in sorted(rows):

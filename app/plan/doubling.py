@@ -71,10 +71,7 @@ def changes(played: Mapping[str, PlayerPlan]) -> tuple[InstrumentChange, ...]:
         for place, (player, plan) in enumerate(played.items())
         for event in plan.fingerings
     ]
-    drawn = {
-        player: [breath.start_s for breath in plan.breaths if breath.kind == "breath"]
-        for player, plan in played.items()
-    }
+    drawn = {player: [breath.start_s for breath in plan.breaths if breath.draws_air] for player, plan in played.items()}
     notes = sorted(rows, key=lambda row: row[:3])
     found: list[InstrumentChange] = []
     free_s = float("-inf")
@@ -154,8 +151,8 @@ def held_plan(plan: PlayerPlan, first: str, found: Sequence[InstrumentChange], n
         first = bisect_right(ends_s, start_s)
         return first < len(spans) and spans[first][0] < end_s
 
-    lowered = [event for event in plan.gestures if event.kind == "lower_instrument"]
-    others = _within([event for event in plan.gestures if event.kind != "lower_instrument"], meets)
+    lowered = [event for event in plan.gestures if event.part == "lowering"]
+    others = _within([event for event in plan.gestures if event.part != "lowering"], meets)
     gestures: list[GestureEvent] = sorted((*lowered, *others), key=lambda event: event.start_s)
     reported = [
         _problem(change, names) for change in found if change.after == plan.player_id and change.rest_s < NEEDED_S

@@ -9,9 +9,24 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Final, Literal, NamedTuple, TypeAlias
 
 Part: TypeAlias = Literal[
-    "sway", "lean", "accent", "weight", "bell", "lowering", "feet", "nod", "beside", "eyes", "tracks"
+    "sway",
+    "lean",
+    "accent",
+    "weight",
+    "bell",
+    "lowering",
+    "feet",
+    "nod",
+    "count",
+    "settle",
+    "still",
+    "glance",
+    "audience",
+    "bow",
+    "tracks",
 ]
-"""Of the body's motion, what answers a gesture (`app.motion.gestures.body_layers`)."""
+"""What answers a gesture: a layer of the body (`app.motion.gestures.layers`), eyes (`app.plan.faces.glances`), or
+both."""
 
 
 class GestureRow(NamedTuple):
@@ -26,7 +41,7 @@ class GestureRow(NamedTuple):
     command : str
         English title of the command that adds one; empty: there is none.
     part : str
-        The part of the body's motion that answers it.
+        What answers it.
     layer : str
         The field of `app.plan.acting.Acting` that scales its amount in another style, where one gesture has one size.
     signed : bool
@@ -63,10 +78,24 @@ class BreathRow(NamedTuple):
         First part of its events' ids; also in users' files.
     names : (str, str)
         Of an event, in English and Japanese.
+    draws_air : bool
+        It fills the lungs; else it is the motion that leads to a breath.
+    within : bool
+        It is taken within a note, of which there may be several; else before one.
+    shown_as : str
+        The kind of its events in plans, where that is another.
     """
 
     id: str
     names: tuple[str, str]
+    draws_air: bool = True
+    within: bool = False
+    shown_as: str = ""
+
+    @property
+    def event_kind(self) -> str:
+        """The kind of its events in plans."""
+        return self.shown_as or self.id
 
 
 GESTURES: Final = (
@@ -89,22 +118,22 @@ GESTURES: Final = (
     GestureRow("tap", ("Toe tap", "つま先タップ"), "Toe Tap", "feet", "footwork", True, "feet"),
     GestureRow("heel", ("Heel lift", "かかと上げ"), "Heel Lift", "feet", "footwork", True, "feet"),
     GestureRow("nod", ("Nod", "うなずき"), "Nod", "nod", "cue", row="beside"),
-    GestureRow("count", ("Counts the bars", "小節を数える"), "Count the Bars", "beside", row="beside", idle=True),
+    GestureRow("count", ("Counts the bars", "小節を数える"), "Count the Bars", "count", row="beside", idle=True),
     GestureRow(
-        "look_about", ("Looks about", "周りを見る"), "Look About", "eyes", row="beside", moves_eyes=True, idle=True
+        "look_about", ("Looks about", "周りを見る"), "Look About", "glance", row="beside", moves_eyes=True, idle=True
     ),
-    GestureRow("settle_grip", ("Settles the grip", "持ち直す"), "Settle the Grip", "beside", row="beside", idle=True),
-    GestureRow("hold_still", ("Holds still", "静止"), "Hold Still", "beside", row="beside"),
-    GestureRow("look_up", ("Looks up", "客席を見る"), "Look Up", "beside", row="beside", moves_eyes=True),
-    GestureRow("bow", ("Bow", "お辞儀"), "Bow", "beside", row="beside"),
+    GestureRow("settle_grip", ("Settles the grip", "持ち直す"), "Settle the Grip", "settle", row="beside", idle=True),
+    GestureRow("hold_still", ("Holds still", "静止"), "Hold Still", "still", row="beside"),
+    GestureRow("look_up", ("Looks up", "客席を見る"), "Look Up", "audience", row="beside", moves_eyes=True),
+    GestureRow("bow", ("Bow", "お辞儀"), "Bow", "bow", row="beside"),
     # Of tables (`metadata.gestures`): each has a name of its own.
     GestureRow("named", ("Gesture", "ジェスチャー"), "", "tracks", row="beside"),
 )
 """What a body does beside playing, in the order of menus."""
 BREATHS: Final = (
     BreathRow("breath", ("Breath", "ブレス")),
-    BreathRow("preparation", ("Breath preparation", "ブレスの準備動作")),
-    BreathRow("within", ("Breath", "ブレス")),
+    BreathRow("preparation", ("Breath preparation", "ブレスの準備動作"), draws_air=False),
+    BreathRow("within", ("Breath", "ブレス"), within=True, shown_as="breath"),
 )
 GESTURE_KINDS: Final[Mapping[str, GestureRow]] = {kind.id: kind for kind in GESTURES}
 BREATH_KINDS: Final[Mapping[str, BreathRow]] = {kind.id: kind for kind in BREATHS}
@@ -115,11 +144,12 @@ else:
     # Readers of files refuse all others.
     GestureKind = Literal[tuple(GESTURE_KINDS)]
     BreathKind = Literal[tuple(BREATH_KINDS)]
+BEFORE_NOTES: Final = tuple(kind.id for kind in BREATHS if not kind.within)
 EVENT_TEXTS: Final = {f"event.{kind.id}": kind.names for kind in (*GESTURES, *BREATHS)}
 COMMAND_TEXTS: Final = {f"action.gesture.{kind.id}": (kind.command, kind.names[1]) for kind in GESTURES if kind.command}
 """Names of events and of the commands that add them, by id, in English and Japanese."""
 
 
 def answered_by(part: Part) -> tuple[str, ...]:
-    """Return the kinds of gestures that a part of the body's motion answers."""
+    """Return the kinds of gestures that one part of the motion answers."""
     return tuple(kind.id for kind in GESTURES if kind.part == part)

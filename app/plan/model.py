@@ -17,7 +17,8 @@ from app.arrays import FloatArray
 from app.errors import Message
 from app.identity_cache import IdentityCache
 from app.plan.acting import Acting
-from app.plan.kinds import GestureKind
+from app.plan.event_id import EventId
+from app.plan.kinds import BREATH_KINDS, GESTURE_KINDS, BreathKind, GestureKind, Part
 from metadata.gestures import Gesture
 
 E = TypeVar("E")
@@ -63,7 +64,7 @@ class BreathEvent(msgspec.Struct, frozen=True, gc=False):
     """An inhalation, or the motion that prepares it. ``depth`` is 0..1 of a full lung; a catch breath is shallow."""
 
     id: str
-    kind: Literal["preparation", "breath"]
+    kind: BreathKind
     start_tick: int
     end_tick: int
     start_s: float
@@ -71,6 +72,16 @@ class BreathEvent(msgspec.Struct, frozen=True, gc=False):
     depth: float
     reason: Message
     corrected: bool = False
+
+    @property
+    def draws_air(self) -> bool:
+        """Whether it fills the lungs; else it leads to a breath."""
+        return BREATH_KINDS[self.kind].draws_air
+
+    @property
+    def is_within(self) -> bool:
+        """Whether it is taken within a note, not before it."""
+        return BREATH_KINDS[EventId.parse(self.id).kind].within
 
 
 Stroke: TypeAlias = Literal["ta", "ka", "da"]
@@ -199,6 +210,11 @@ class GestureEvent(msgspec.Struct, frozen=True, gc=False):
     corrected: bool = False
     name: str = ""
     gesture: Gesture | None = None
+
+    @property
+    def part(self) -> Part:
+        """What answers it."""
+        return GESTURE_KINDS[self.kind].part
 
 
 class ExpressionEvent(msgspec.Struct, frozen=True, gc=False):

@@ -435,4 +435,4 @@ def _is_overruled(event: GestureEvent | ExpressionEvent, spans: Mapping[str, Spa
 
 def lowered_spans_s(gestures: tuple[GestureEvent, ...]) -> tuple[tuple[float, float], ...]:
     """Where the instrument is off the lips."""
-    return tuple((event.start_s, event.end_s) for event in gestures if event.kind == "lower_instrument")
+    return tuple((event.start_s, event.end_s) for event in gestures if event.part == "lowering")

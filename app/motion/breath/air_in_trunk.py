@@ -56,7 +56,7 @@ def lungs(breaths: Sequence[BreathEvent]) -> LungCurves:
     full: list[tuple[float, float, float]] = []
     lean: list[tuple[float, float, float]] = []
     level = 0.0
-    drawn = sorted((breath for breath in breaths if breath.kind == "breath"), key=lambda breath: breath.start_s)
+    drawn = sorted((breath for breath in breaths if breath.draws_air), key=lambda breath: breath.start_s)
     for breath, following in zip_longest(drawn, drawn[1:]):
         # Breaths that were moved onto each other by hand: the later one goes on from where the one before is full.
         start_s = max(breath.start_s, full[-1][1]) if full else breath.start_s
@@ -72,7 +72,7 @@ def lungs(breaths: Sequence[BreathEvent]) -> LungCurves:
             full.append((breath.end_s, until_s, level))
     free_s = -np.inf
     for breath in breaths:
-        if breath.kind == "preparation" and breath.end_s > max(breath.start_s, free_s):
+        if not breath.draws_air and breath.end_s > max(breath.start_s, free_s):
             start_s = max(breath.start_s, free_s)
             free_s = breath.end_s + 0.6 * (breath.end_s - start_s)
             lean += [(start_s, breath.end_s, 1.0), (breath.end_s, free_s, 0.0)]
@@ -81,7 +81,7 @@ def lungs(breaths: Sequence[BreathEvent]) -> LungCurves:
 
 def air(breaths: Sequence[BreathEvent]) -> Curve:
     """Return how much air there is, 0..1: up over each breath, down through the whole phrase after it."""
-    drawn = sorted((breath for breath in breaths if breath.kind == "breath"), key=lambda breath: breath.start_s)
+    drawn = sorted((breath for breath in breaths if breath.draws_air), key=lambda breath: breath.start_s)
     rows: list[tuple[float, float, float]] = []
     level = FLAT
     for breath, following in zip_longest(drawn, drawn[1:]):
@@ -116,7 +116,7 @@ def quiet_breaths(gestures: Sequence[GestureEvent]) -> Curve:
     rows: list[tuple[float, float, float]] = []
     free_s = -float("inf")
     for event in sorted(gestures, key=lambda event: event.start_s):
-        if event.kind != "lower_instrument" or event.end_s - event.start_s < RESTS_S:
+        if event.part != "lowering" or event.end_s - event.start_s < RESTS_S:
             continue
         at_s = max(event.start_s + QUIET_FROM_S, free_s)
         for number in range(MOST_QUIET):

@@ -39,7 +39,7 @@ def leaning_further(
         Lean of the torso forward (F,), radians, at ascending times (F,): without what breaths do, and with it.
     """
     drawn = sorted(
-        (event for event in breaths if event.kind == "breath" and event.end_s > event.start_s),
+        (event for event in breaths if event.draws_air and event.end_s > event.start_s),
         key=lambda event: event.start_s,
     )
     if not drawn:

@@ -59,7 +59,7 @@ def _starts(
     frame = plan.time_frame
     breaths_s = silences.breaths_s
     # By the place in the score: another breath has another chance.
-    ticks = np.array([event.start_tick for event in plan.breaths if event.kind == "breath"], dtype=np.int64)
+    ticks = np.array([event.start_tick for event in plan.breaths if event.draws_air], dtype=np.int64)
     drawn = table[(ticks * 2654435761 >> 7) % len(table)]
     phrase_s = breaths_s[:, 0] - BREATH_LEAD_S + BREATH_SPREAD_S * drawn[:, 0]
     phrase_s = np.minimum(phrase_s, breaths_s[:, 1] - BLINK_S - 0.02)

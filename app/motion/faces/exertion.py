@@ -189,7 +189,7 @@ def _emptying(plan: PlayerPlan, lungs: Lungs, loudness: FloatArray, sounds: Bool
     """How much of the last breath's air is used up."""
     rate = _whole(np.where(sounds, air_rate(loudness, lungs.air), 0.0))
     used = np.cumsum(rate, dtype=np.int64)
-    breaths = [event for event in plan.breaths if event.kind == "breath"]
+    breaths = [event for event in plan.breaths if event.draws_air]
     if not breaths:
         return np.zeros(len(at_s), np.int32)
     ends_s = np.maximum.accumulate(np.array([event.end_s for event in breaths]))
@@ -205,7 +205,7 @@ def _emptying(plan: PlayerPlan, lungs: Lungs, loudness: FloatArray, sounds: Bool
 
 def _arch(plan: PlayerPlan, starts_s: FloatArray, ends_s: FloatArray, at_s: FloatArray) -> FloatArray:
     """Up to a phrase's peak and down to its end, 0..1."""
-    breaths_s = np.array([event.end_s for event in plan.breaths if event.kind == "breath"])
+    breaths_s = np.array([event.end_s for event in plan.breaths if event.draws_air])
     rested = np.append(True, starts_s[1:] - ends_s[:-1] >= PHRASE_REST_S)
     rested[np.minimum(np.searchsorted(starts_s, breaths_s - 1e-6), len(starts_s) - 1)] = True
     begins = np.flatnonzero(rested)

@@ -111,7 +111,7 @@ def breath_opening(plan: PlayerPlan) -> Envelopes:
     """How far the mouth is open for air: up through a breath's first part, shut again at its end."""
     rows = []
     for breath in plan.breaths:
-        if breath.kind != "breath":
+        if not breath.draws_air:
             continue
         length_s = breath.end_s - breath.start_s
         shut_s = min(0.35 * length_s, 0.22)

@@ -51,7 +51,7 @@ class Silences:
         silent = to_s - from_s >= REST_S
         silent[-1] = True
         short = np.diff(starts_s) < QUICK_S
-        breaths_s = np.array([(event.start_s, event.end_s) for event in plan.breaths if event.kind == "breath"])
+        breaths_s = np.array([(event.start_s, event.end_s) for event in plan.breaths if event.draws_air])
         return cls(
             starts_s,
             ends_s,
@@ -86,7 +86,7 @@ def _carried_s(plan: PlayerPlan) -> FloatArray:
 
 
 def _lowered_s(plan: PlayerPlan) -> list[tuple[float, float]]:
-    return [(event.start_s, event.end_s) for event in plan.gestures if event.kind == "lower_instrument"]
+    return [(event.start_s, event.end_s) for event in plan.gestures if event.part == "lowering"]
 
 
 def holds(spans_s: FloatArray, times_s: FloatArray) -> BoolArray:

@@ -91,11 +91,11 @@ class Counting:
 
     @classmethod
     def of(cls, events: Sequence[GestureEvent], felt_beats: FeltBeats) -> Counting:
-        """From the counts among a player's gestures; what overlaps the one before is not counted twice."""
+        """From a player's counts; what overlaps the one before is not counted twice."""
         rows: list[tuple[float, float, int, int, float]] = []
         for event in events:
             free_s = rows[-1][0] + rows[-1][1] if rows else -np.inf
-            if event.kind == "count" and event.end_s > event.start_s >= free_s:
+            if event.end_s > event.start_s >= free_s:
                 ticks = event.start_tick, event.end_tick - event.start_tick
                 rows.append((event.start_s, event.end_s - event.start_s, *ticks, max(event.amount, 0.0)))
         table = np.array(rows, dtype=np.float64).reshape(-1, 5)
@@ -136,10 +136,10 @@ class Concert:
     def of(cls, gestures: Sequence[GestureEvent], felt_beats: FeltBeats) -> Concert:
         """From a player's gestures."""
         return cls(
-            bow=Envelopes.of([_at_shares(event, *BOW) for event in gestures if event.kind == "bow"]),
-            up=Envelopes.of([_eased(event, LOOK_UP_S) for event in gestures if event.kind == "look_up"]),
-            settle=Envelopes.of([_at_shares(event, 0.4, 0.5) for event in gestures if event.kind == "settle_grip"]),
-            count=Counting.of(gestures, felt_beats),
+            bow=Envelopes.of([_at_shares(event, *BOW) for event in gestures if event.part == "bow"]),
+            up=Envelopes.of([_eased(event, LOOK_UP_S) for event in gestures if event.part == "audience"]),
+            settle=Envelopes.of([_at_shares(event, 0.4, 0.5) for event in gestures if event.part == "settle"]),
+            count=Counting.of([event for event in gestures if event.part == "count"], felt_beats),
         )
 
     def sample(self, times_s: FloatArray) -> ConcertSamples:

@@ -78,7 +78,7 @@ _NOD: Final = CHANNELS.index("trunk_forward_rad")
 
 def inhaling(breaths: Sequence[BreathEvent]) -> Envelopes:
     """When a dance gives way to breaths, and how far, 0..1."""
-    drawn = [breath for breath in breaths if breath.kind == "breath"]
+    drawn = [breath for breath in breaths if breath.draws_air]
     return Envelopes.of(
         [
             (breath.start_s - BREATH_EASE_S, breath.start_s, breath.end_s, breath.end_s + BREATH_EASE_S, BREATH_ROOM)

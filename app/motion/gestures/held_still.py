@@ -24,10 +24,10 @@ HELD: Final = ("sway", "lean", "accent", "weight", "giving", "height")
 
 
 def holds_of(gestures: Sequence[GestureEvent]) -> Envelopes:
-    """How much of what a body does is held, from a player's gestures."""
+    """How much of what a body does is held, from the gestures that hold it."""
     rows = []
     for event in gestures:
-        if event.kind == "hold_still" and event.end_s > event.start_s:
+        if event.end_s > event.start_s:
             share = min(1.0, (event.end_s - event.start_s) / (COMES_S + GOES_S))
             full_s, fall_s = event.start_s + share * COMES_S, event.end_s - share * GOES_S
             rows.append((event.start_s, full_s, fall_s, event.end_s, event.amount))

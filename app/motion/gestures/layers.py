@@ -23,7 +23,7 @@ from app.motion.gestures.hand_gestures import Reaches, Reaching
 from app.motion.gestures.held_still import held_still, holds_of
 from app.motion.gestures.named_gestures import Gestured, Sums
 from app.motion.gestures.nods import Nods
-from app.plan.kinds import Part, answered_by
+from app.plan.kinds import Part
 from app.plan.model import GestureEvent, PoseTarget
 from app.plan.styles import shown_in_style
 from app.steps import StepTable, reading
@@ -149,10 +149,9 @@ def lowering(gestures: Sequence[GestureEvent], lower_s: float, raise_s: float) -
     return moves(segments)
 
 
-def _of_part(gestures: tuple[GestureEvent, ...], part: Part) -> tuple[GestureEvent, ...]:
-    """Return the gestures that a part of the body's motion answers."""
-    kinds = answered_by(part)
-    return tuple(event for event in gestures if event.kind in kinds)
+def _of_parts(gestures: tuple[GestureEvent, ...], parts: tuple[Part, ...]) -> tuple[GestureEvent, ...]:
+    """Return the gestures that some parts of the body's motion answer."""
+    return tuple(event for event in gestures if event.part in parts)
 
 
 LAYERS: Final = StepTable(
@@ -164,34 +163,35 @@ LAYERS: Final = StepTable(
     leaning="lung_curves.leaning",
     air=air,
     cues="styled.cues",
-    nodding=partial(_of_part, part="nod"),
+    nodding=partial(_of_parts, parts=("nod",)),
     nods=reading(Nods.of, answers="nodding"),
-    swaying=partial(_of_part, part="sway"),
+    swaying=partial(_of_parts, parts=("sway",)),
     sway=reading(path, events="swaying"),
-    leant=partial(_of_part, part="lean"),
+    leant=partial(_of_parts, parts=("lean",)),
     lean=reading(path, events="leant"),
-    accented=partial(_of_part, part="accent"),
+    accented=partial(_of_parts, parts=("accent",)),
     accent=reading(Accents.of, events="accented"),
-    shifting=partial(_of_part, part="weight"),
+    shifting=partial(_of_parts, parts=("weight",)),
     shift_s="body.weight_shift.transition_s",
     weight=reading(follow, events="shifting", transition_s="shift_s"),
-    carrying=partial(_of_part, part="bell"),
+    carrying=partial(_of_parts, parts=("bell",)),
     height=reading(partial(follow, transition_s=BELL_S), events="carrying"),
-    putting_down=partial(_of_part, part="lowering"),
+    putting_down=partial(_of_parts, parts=("lowering",)),
     lower_s="body.bell.lower_s",
     raise_s="body.bell.raise_s",
     lowered=reading(lowering, gestures="putting_down"),
     quiet=reading(quiet_breaths, gestures="putting_down"),
-    stepping=partial(_of_part, part="feet"),
+    stepping=partial(_of_parts, parts=("feet",)),
     step_s="body.footwork.step_s",
     feet=reading(Feet.of, events="stepping"),
     posed="styled.poses",
     held=reading(PoseCorrectionTable.of, events="posed"),
     gestured=reading(Gestured.of, events="gestures"),
     reached=reading(Reaching.of, events="gestures"),
-    beside=partial(_of_part, part="beside"),
+    beside=partial(_of_parts, parts=("bow", "audience", "settle", "count")),
     concert=reading(Concert.of, gestures="beside"),
-    still=reading(holds_of, gestures="beside"),
+    holding=partial(_of_parts, parts=("still",)),
+    still=reading(holds_of, gestures="holding"),
     overlap="body.overlap",
     leads=reading(Leads.of, overlap="overlap"),
     layers=Layers,

@@ -13,7 +13,6 @@ import numpy as np
 from app.arrays import FloatArray, IntArray
 from app.errors import Message
 from app.plan.breath.lungs import drawn, levels
-from app.plan.by_hand.corrections import WITHIN
 from app.plan.event_id import EventId
 from app.plan.model import BreathEvent, Problem
 from app.plan.music.piece import EPSILON, LineTimes
@@ -33,8 +32,8 @@ def with_depths(
             index = index_of[EventId.parse(event.id).of]
             until = breaths[bisect_right(breaths, index)]
             # What the rest of a note needs is not known within it: there the time says it.
-            need = 1.0 if is_within(event) else (used_s[until] - used_s[index]) / lung_s
-            most = 1.0 if event.kind == "preparation" else drawn(event.end_s - event.start_s)
+            need = 1.0 if event.is_within else (used_s[until] - used_s[index]) / lung_s
+            most = drawn(event.end_s - event.start_s) if event.draws_air else 1.0
             depth = min(max(LEAST_DEPTH + (1.0 - LEAST_DEPTH) * need, LEAST_DEPTH), max(most, LEAST_DEPTH), 1.0)
             event = msgspec.structs.replace(event, depth=round(depth, 4))
         result.append(event)
@@ -61,8 +60,3 @@ def too_long(
             }
             problems.append(Problem(Message("breath.too_long", arguments), notes[start].id, start_s, end_s))
     return problems
-
-
-def is_within(event: BreathEvent) -> bool:
-    """Whether a breath is taken within a note, not before it."""
-    return EventId.parse(event.id).kind == WITHIN

@@ -23,7 +23,7 @@ import numpy as np
 
 from app.arrays import BoolArray, FloatArray, IntArray
 from app.errors import Argument, Message
-from app.plan.breath.breath_depths import is_within, too_long, with_depths
+from app.plan.breath.breath_depths import too_long, with_depths
 from app.plan.breath.breaths_in_rests import AIR_SHORT, because, blown_breaths, blown_catch, rest_breaths, within_note
 from app.plan.breath.catch_breath_lengths import CATCH_MIN_S, Room, catch_lengths_s, drop_lengths_s
 from app.plan.breath.catch_breath_places import catch_places
@@ -40,6 +40,7 @@ from app.plan.breath.staggered_breaths import BreathConstraints, within_held
 from app.plan.breath.which_rests import ALWAYS_S, Decided, RestNeeds, breathed_in, rest_needs, why
 from app.plan.by_hand.corrections import BY_HAND, Correction, SetBreath, removed_ids, without_removed
 from app.plan.event_id import EventId
+from app.plan.kinds import BEFORE_NOTES, BREATH_KINDS
 from app.plan.model import BreathEvent, Problem, TimeFrame
 from app.plan.music.breath_controller import BreathEnvelope, BreathGaps, gaps_within, silences
 from app.plan.music.notation import at_score_tempo, heard_rests_s, notated, usual_release
@@ -111,7 +112,7 @@ def plan_breaths(
     in_rests = _in_rests(line, score, given, rests, catches)
     refill = stock.refill.copy()
     for event in (*caught, *in_rests):
-        if event.kind == "breath" and not is_within(event) and refill[line.number_of(event)] == 0.0:
+        if event.draws_air and not event.is_within and refill[line.number_of(event)] == 0.0:
             refill[line.number_of(event)] = drawn(event.end_s - event.start_s)
     events = tuple(sorted([*in_rests, *given.by_hand, *caught], key=lambda event: (event.start_s, event.end_s)))
     early_end_s, cut = _cut_notes(line, events)
@@ -281,12 +282,12 @@ def _given(
     kept = [event for event in without_removed(generated, removed) if event.id not in hand_ids]
     if score.gaps is None and parameters.breath_need > 0.0:
         # In a rest too short for it no one breathes unless the note before is shortened too: a catch breath.
-        gasps = {line.number_of(event) for event in kept if event.kind == "breath"
+        gasps = {line.number_of(event) for event in kept if event.draws_air
                  and event.end_s - event.start_s < CATCH_MIN_S - EPSILON}  # fmt: skip
         kept = [event for event in kept if line.number_of(event) not in gasps]
     may = np.ones(len(notes), dtype=bool)
-    ids = (id.removeprefix("breath:") for id in removed | hand_ids if id.startswith("breath:"))
-    may[[line.index_of[id] for id in ids if id in line.index_of]] = False
+    ids = [id for id in map(EventId.parse, removed | hand_ids) if id.kind in BEFORE_NOTES and id.of in line.index_of]
+    may[[line.index_of[id.of] for id in ids if BREATH_KINDS[id.kind].draws_air]] = False
     return _Given(generated, tuple(kept), by_hand, may)
 
 
@@ -319,9 +320,9 @@ def _taken(
     for event in (*given.kept, *given.by_hand):
         index = line.number_of(event)
         share = max(0.0, drawn(_lasts_s(score, line, event)) * (event.depth if event.corrected else 1.0))
-        if is_within(event):
+        if event.is_within:
             within.setdefault(index, []).append(_Within(event.start_s, event.end_s, share))
-        elif event.kind == "breath" and index not in spare:
+        elif event.draws_air and index not in spare:
             refill[index] = share
     if not within:
         return score.used, score.steady_used, refill
@@ -368,7 +369,7 @@ def _breathe_within(
 def _lasts_s(score: _Score, line: _Breather, event: BreathEvent) -> float:
     """How long a breath is, as the score would have it where a rest gives it."""
     index, length_s = line.number_of(event), event.end_s - event.start_s
-    if index == 0 or event.corrected or score.gaps is not None or is_within(event):
+    if index == 0 or event.corrected or score.gaps is not None or event.is_within:
         return length_s
     rest_s = float(score.written.onset_s[index] - score.written.played_end_s[index - 1])
     return min(length_s, rest_s) if rest_s > 0.0 else length_s
@@ -380,14 +381,15 @@ def _rests_used(line: _Breather, score: _Score, given: _Given) -> _RestsUsed:
     needs = rest_needs(score.rests.lasts_s, line.parameters.breath_need, score.lung_s)
     certain = [line.number_of(event) for event in given.by_hand]
     # No rest is needed for a breath within a note.
-    certain += [index for index in map(line.number_of, filter(is_within, given.kept)) if not score.rests.lasts_s[index]]
+    within = [line.number_of(event) for event in given.kept if event.is_within]
+    certain += [index for index in within if not score.rests.lasts_s[index]]
     for column in needs:
         column[[0, *certain]] = 0.0
     played_s = np.concatenate(([0.0], np.cumsum(score.sounded_s)))
     decided = breathed_in(steady_used, played_s, score.lung_s, refill, needs)
     if score.gaps is not None:
         return _RestsUsed(needs, decided, {})
-    kept = [event for event in given.kept if event.kind == "breath" and not is_within(event)]
+    kept = [event for event in given.kept if event.draws_air and not event.is_within]
     spare = {line.number_of(event): event for event in kept if not decided.breathed[line.number_of(event)]}
     return _RestsUsed(needs, decided, spare)
 
@@ -400,11 +402,11 @@ def _in_rests(
     result = []
     for event in given.kept:
         index = line.number_of(event)
-        if is_within(event) or index == 0 or score.gaps is not None:
+        if event.is_within or index == 0 or score.gaps is not None:
             result.append(event)
         elif index not in unused:
             reason = AIR_SHORT if index in rests.spare else why(index, score.rests.lasts_s, rests.needs, rests.decided)
-            if event.kind == "breath":
+            if event.draws_air:
                 event = msgspec.structs.replace(event, reason=because(event.reason, reason))
             result.append(event)
     return result
@@ -478,7 +480,7 @@ def _cut_notes(line: _Breather, events: tuple[BreathEvent, ...]) -> tuple[dict[i
     for event in events:
         index = line.number_of(event)
         before = index - 1
-        if event.kind != "breath" or before < 0 or event.start_s >= times.played_end_s[before]:
+        if not event.draws_air or before < 0 or event.start_s >= times.played_end_s[before]:
             continue
         if event.corrected:
             note_id = line.notes[before].id
@@ -579,7 +581,7 @@ def _by_hand(item: SetBreath, times: LineTimes, index: int, piece: Piece) -> Bre
     start_tick, end_tick = onset_tick + item.start_offset_tick, onset_tick + item.end_offset_tick
     return BreathEvent(
         id=item.about,
-        kind="preparation" if item.kind == "preparation" else "breath",
+        kind=BREATH_KINDS[item.kind].event_kind,
         start_tick=start_tick,
         end_tick=end_tick,
         start_s=piece.clock.seconds(float(start_tick)),

@@ -7,14 +7,15 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from functools import lru_cache
-from typing import Final, Literal, NamedTuple
+from typing import Final, NamedTuple
 
 import numpy as np
 
 from app.arrays import FloatArray, IntArray
 from app.errors import Argument, Message
 from app.plan.breath.which_rests import LONG_S
-from app.plan.by_hand.corrections import WITHIN
+from app.plan.event_id import EventId
+from app.plan.kinds import BREATH_KINDS
 from app.plan.model import BreathEvent, TimeFrame
 from app.plan.music.breath_controller import BREATH_S, BreathGaps
 from app.plan.music.piece import EPSILON, LineTimes, Piece
@@ -145,17 +146,16 @@ def _in_silences(
         if prepared[place] and preparations[place] < starts[place]:
             begins = round(preparations[place]), float(preparation_s[place])
             reason = reported.preparation(index, rest)
-            events.append(_event("preparation", f"preparation:{note_id}", begins, (tick, at_s), reason))
+            events.append(_event(f"preparation:{note_id}", begins, (tick, at_s), reason))
         ends = int(end_tick[index]), float(end_s[index])
         reason = reported.breath(index, rest, bool(long[place]), bool(prepared[place]))
-        events.append(_event("breath", f"breath:{note_id}", (tick, at_s), ends, reason))
+        events.append(_event(f"breath:{note_id}", (tick, at_s), ends, reason))
     return tuple(events)
 
 
-def _event(
-    kind: Literal["preparation", "breath"], id: str, start: tuple[int, float], end: tuple[int, float], reason: Message
-) -> BreathEvent:
+def _event(id: str, start: tuple[int, float], end: tuple[int, float], reason: Message) -> BreathEvent:
     """From one tick and second to another."""
+    kind = BREATH_KINDS[EventId.parse(id).kind].event_kind
     return BreathEvent(
         id=id, kind=kind, start_tick=start[0], end_tick=end[0], start_s=start[1], end_s=end[1], depth=1.0, reason=reason
     )
@@ -164,7 +164,7 @@ def _event(
 def breath_at(id: str, piece: Piece, start_s: float, end_s: float, reason: Message) -> BreathEvent:
     """A breath from one second to another."""
     start, end = ((round(piece.clock.ticks(at_s)), at_s) for at_s in (start_s, end_s))
-    return _event("breath", id, start, end, reason)
+    return _event(id, start, end, reason)
 
 
 def _blown_reason(id: str, gaps: BreathGaps, index: int) -> Message:
@@ -201,7 +201,7 @@ def blown_catch(note: Note, piece: Piece, gaps: BreathGaps, index: int) -> Breat
 
 def within_note(note: Note, piece: Piece, start_s: float, end_s: float) -> BreathEvent:
     reason = Message("breath.blown", {"gap_s": round(end_s - start_s, 2)})
-    return breath_at(f"{WITHIN}:{note.id}", piece, start_s, end_s, reason)
+    return breath_at(f"within:{note.id}", piece, start_s, end_s, reason)
 
 
 @lru_cache(maxsize=1024, typed=True)

@@ -23,7 +23,6 @@ from app.arrays import FloatArray
 from app.errors import Message
 from app.plan.breath.breaths_in_rests import breath_at
 from app.plan.breath.lungs import FULL_BREATH_S
-from app.plan.by_hand.corrections import WITHIN
 from app.plan.event_id import EventId
 from app.plan.model import BreathEvent
 from app.plan.music.fermatas import Fermata
@@ -275,7 +274,7 @@ def within_held(
         begun_s = lungful_s if index == 0 or times.silence_tick[index] > 0 else LED_TO_SHARE * lungful_s
         starts_s = _handed_on(first_s, last_s, lungful_s, begun_s, others_s)
         for number, start_s in enumerate(starts_s, 1):
-            id = str(EventId(WITHIN, notes[index].id, number))
+            id = str(EventId("within", notes[index].id, number))
             events.append(breath_at(id, piece, start_s, start_s + FULL_BREATH_S, reason))
     return tuple(events)
 
@@ -322,7 +321,7 @@ def breathed_of(
     events : sequence of BreathEvent
         All breaths of the player.
     """
-    within = [(id.of, event.start_s) for event in events if (id := EventId.parse(event.id)).kind == WITHIN]
+    within = [(EventId.parse(event.id).of, event.start_s) for event in events if event.is_within]
     index_of = {note.id: index for index, note in enumerate(notes)} if within else {}
     return Breathed(
         line,

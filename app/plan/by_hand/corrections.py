@@ -10,7 +10,7 @@ Messages: ``correction.orphaned``, ``correction.no_such_fingering``, ``breath.in
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
-from typing import ClassVar, Final, TypeAlias, TypeVar
+from typing import ClassVar, TypeAlias, TypeVar
 
 import msgspec
 
@@ -78,7 +78,7 @@ class SetBreath(OfNote, frozen=True, tag="set_breath"):
     @property
     def about(self) -> str:
         """The id of the breath."""
-        return str(EventId(self.kind, self.note_id, self.number if self.kind == WITHIN else 1))
+        return str(EventId(self.kind, self.note_id, self.number if BREATH_KINDS[self.kind].within else 1))
 
     @property
     def is_empty(self) -> bool:
@@ -259,8 +259,6 @@ E = TypeVar("E", BreathEvent, CueEvent, GestureEvent, ExpressionEvent)
 Span = TypeVar("Span", GestureEvent, ExpressionEvent)
 
 
-WITHIN: Final = "within"
-"""The kind of breaths within a note, of which there may be several."""
 REMOVABLE = (*BREATH_KINDS, "cue", *GESTURE_KINDS, "expression")
 """Kinds of event a `RemoveEvent` may leave out: see `EventId`."""
 

@@ -114,7 +114,7 @@ def _taken(
     found = []
     for breath in breaths:
         index = places.get(breath.id)
-        if index is None or breath.kind != "breath" or breath.end_s in given_s:
+        if index is None or not breath.draws_air or breath.end_s in given_s:
             continue
         rest_s = float(times.onset_s[index] - times.played_end_s[index - 1])
         why = Message("expression.takes_entry", {"rest_s": round(rest_s, 2)})

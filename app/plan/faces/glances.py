@@ -80,9 +80,9 @@ def glances_of(
         elif player_id in cue.takers:
             found += _to_giver(cue, player_id, places, seeds)
     for event in gestures:
-        if event.kind == "look_about":
+        if event.part == "glance":
             found += _about(event, seeds)
-        elif event.kind == "look_up" and player_id in places:
+        elif event.part == "audience" and player_id in places:
             yaw_rad = _wrapped(-places[player_id].turn_rad)
             found.append(_glance(f"glance:{event.id}", AUDIENCE, event.start_s, event.end_s, yaw_rad))
         elif event.gesture is not None and event.gesture.gaze is not None and event.amount > 0.0:
@@ -90,7 +90,7 @@ def glances_of(
     taken = Spans((one.start_s, one.end_s) for one in found)
     # What is asked for anyway is more than a look up from the music.
     found += [one for one in up if not taken.meet(one.start_s, one.end_s)]
-    lowered = Spans((event.start_s, event.end_s) for event in gestures if event.kind == "lower_instrument")
+    lowered = Spans((event.start_s, event.end_s) for event in gestures if event.part == "lowering")
     return tuple(_in_turn([_turned(one, lowered) for one in found]))
 
 

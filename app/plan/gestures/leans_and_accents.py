@@ -87,7 +87,7 @@ def phrases(times: NoteTimes, breaths: Sequence[BreathEvent]) -> tuple[Phrase, .
 
 def _after_breaths(times: NoteTimes, breaths: Sequence[BreathEvent]) -> IntArray:
     """The note after each breath; their number for none."""
-    drawn_s = [breath.end_s for breath in breaths if breath.kind == "breath"]
+    drawn_s = [breath.end_s for breath in breaths if breath.draws_air]
     return np.asarray(np.searchsorted(times.onset_s, np.array(drawn_s) - ON_BEAT_S))
 
 

@@ -93,7 +93,7 @@ def _before_first(
     starts_s = [event.start_s for event in events if event.end_s > frame.first_frame_s and event.start_s < onset_s]
     up_s, rule = min(starts_s, default=onset_s) - BEFORE_BREATH_S, "gesture.lower_at_start"
     if up_s - RAISE_S - LOWERED_LEAST_S < frame.first_frame_s:
-        needed_s = [event.start_s for event in breaths if event.kind == "breath"] + [cue.start_s for cue in cues]
+        needed_s = [event.start_s for event in breaths if event.draws_air] + [cue.start_s for cue in cues]
         up_s, rule = min((at_s for at_s in needed_s if at_s >= frame.first_frame_s), default=onset_s), "gesture.come_up"
         if up_s - RAISE_S - LOW_AT_START_S < frame.first_frame_s:
             return []

@@ -42,7 +42,7 @@ def with_definitions(
     """The events, those of the kind ``"named"`` with the gesture as it is made here; the very same tuple where there is
     none. One that is not known does nothing; one of the animator's that is where it should not be is done and reported.
     """
-    if all(event.kind != "named" for event in events):
+    if all(event.part != "tracks" for event in events):
         return Defined(events, ())
     result: list[GestureEvent] = []
     problems: list[Problem] = []
@@ -51,7 +51,7 @@ def with_definitions(
     busy_s = -np.inf
     for event in events:
         definition = definitions.get(event.name)
-        if event.kind != "named":
+        if event.part != "tracks":
             result.append(event)
             continue
         if definition is None:

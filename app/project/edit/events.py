@@ -17,7 +17,6 @@ import msgspec
 from app.errors import AppError
 from app.plan.by_hand.additive_curve import AdditiveCurve
 from app.plan.by_hand.corrections import (
-    WITHIN,
     AddExpression,
     AddGesture,
     ChangeExpression,
@@ -34,7 +33,7 @@ from app.plan.by_hand.corrections import (
 )
 from app.plan.cues.cues import LEAD_BEATS
 from app.plan.event_id import EventId
-from app.plan.kinds import BreathKind, GestureKind
+from app.plan.kinds import BREATH_KINDS, BreathKind, GestureKind
 from app.plan.model import (
     BreathEvent,
     CueEvent,
@@ -182,7 +181,7 @@ def add_breath(project: Project, plan: PlayerPlan, tick: int, kind: BreathKind =
         return Edited(project, (event_id,))
     removed = [item for item in corrections_of(project, plan.player_id, (event_id,)) if isinstance(item, RemoveEvent)]
     end = note.onset_tick
-    if kind == "preparation":
+    if not BREATH_KINDS[kind].draws_air:
         beat = project.metre_map.felt_ticks_at(end)
         breath = there.get(f"breath:{note.id}")
         end = breath.start_tick if breath is not None else end - beat
@@ -411,7 +410,7 @@ def _breath_at(
     before = _breath(project, player_id, event)
     notes = _notes(project, player_id)
     index = next(index for index, note in enumerate(notes) if note.id == before.note_id)
-    if before.kind == WITHIN:
+    if BREATH_KINDS[before.kind].within:
         return _breath_within(before, notes[index], start, end, may_change_note)
     if may_change_note:
         index = _note_after(notes, end)

@@ -23,7 +23,7 @@ from app.editor.selection import EventKey, Selection
 from app.editor.session import Session
 from app.errors import Message
 from app.plan.event_id import EventId
-from app.plan.kinds import GESTURES, GestureRow
+from app.plan.kinds import BEFORE_NOTES, GESTURES, GestureRow
 from app.plan.model import PlayerPlan
 from app.project.edit.events import (
     give_back,
@@ -200,7 +200,7 @@ def _breathing_notes(session: Session) -> dict[str, list[str]]:
     for player_id, ids in events_by_player(session).items():
         for event_id in ids:
             kind, note_id, _ = EventId.parse(event_id)
-            if kind in ("breath", "preparation") and note_id not in result[player_id]:
+            if kind in BEFORE_NOTES and note_id not in result[player_id]:
                 result[player_id].append(note_id)
     if not any(result.values()):
         for player, notes in notes_by_player(session).items():
@@ -210,9 +210,7 @@ def _breathing_notes(session: Session) -> dict[str, list[str]]:
 
 def _has_breaths(session: Session) -> bool:
     selection = session.selection
-    return bool(selection.notes) or any(
-        key.event_id.startswith(("breath:", "preparation:")) for key in selection.events
-    )
+    return bool(selection.notes) or any(EventId.parse(key.event_id).kind in BEFORE_NOTES for key in selection.events)
 
 
 def prepare(session: Session) -> None:

@@ -60,7 +60,7 @@ class BreathLane(RegionLane):
         if player is None:
             return
         colour = tokens.accent if selected else self.session.colour(player)
-        breath = region.kind == "breath"
+        breath = BREATH_KINDS[region.kind].draws_air
         if box.width() < LEAST_SHAPE_PX and not selected:
             high = box.height() * (region.amount if breath else PREPARATION_SHARE * region.amount)
             bar = QRectF(box.left(), box.bottom() - high, box.width(), high)
@@ -103,7 +103,7 @@ class BreathLane(RegionLane):
 
     def menu_entries(self, menu: QMenu, region: Region | None, mouse: LaneMouse) -> None:
         on_click(menu.addAction(self.tr("breath_lane.add_breath_here")), lambda: self.add_at(mouse))
-        if region is None or (region.removed and region.kind == "breath"):
+        if region is None or (region.removed and BREATH_KINDS[region.kind].draws_air):
             return
         note_id = EventId.parse(region.event_id).of
         plan = self.session.plans.get(region.player_id)

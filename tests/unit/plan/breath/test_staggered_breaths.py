@@ -12,7 +12,6 @@ from hypothesis import Phase, given, settings
 from hypothesis import strategies as st
 
 from app.plan.breath import staggered_breaths
-from app.plan.breath.breath_depths import is_within
 from app.plan.breath.staggered_breaths import Place, SharedLine, caught_in_unison
 from app.plan.by_hand.corrections import Correction, PinFingering, RemoveEvent, SetBreath
 from app.plan.generate import MonophonicPart, make_plans, plan_ensemble, time_frame
@@ -60,7 +59,7 @@ def caught(plan: PlayerPlan) -> set[float]:
 
 
 def within(plan: PlayerPlan) -> list[float]:
-    return [event.start_s for event in plan.breaths if is_within(event)]
+    return [event.start_s for event in plan.breaths if event.is_within]
 
 
 def test_a_unison_in_a_part_of_the_piece_is_staggered() -> None:
@@ -289,7 +288,7 @@ def test_four_who_hold_a_pedal_for_a_minute_breathe_four_or_five_times_each() ->
 def test_a_later_breath_in_a_held_note_is_removed_and_set_by_its_number() -> None:
     rows = [(0, 107 * Q, 62)]
     plain = plans(rows, rows, lung_s=12.0)[0]
-    second = sorted((one for one in plain.breaths if is_within(one)), key=lambda one: one.start_s)[1]
+    second = sorted((one for one in plain.breaths if one.is_within), key=lambda one: one.start_s)[1]
     assert second.id == "within.2:1:1"
     without = plans(rows, rows, corrections=(RemoveEvent(second.id, "1:1"),), lung_s=12.0)[0]
     assert set(within(without)) == set(within(plain)) - {second.start_s}

@@ -107,7 +107,7 @@ def expression_region(player_id: str, event: ExpressionEvent, names: Names) -> R
 
 def gesture_region(player_id: str, event: GestureEvent, names: Names) -> Region:
     """A gesture."""
-    label = names.gesture(event.name) if event.kind == "named" else names.kind(event.kind)
+    label = names.gesture(event.name) if event.part == "tracks" else names.kind(event.kind)
     return Region(
         player_id, event.id, event.kind, event.start_tick, event.end_tick, event.start_s, event.end_s,
         amount=event.amount, label=label, reason=event.reason, by_hand=event.corrected,
