@@ -19,7 +19,7 @@ from app.errors import MapError, Message
 from app.formats.atomic import atomic_write
 from app.formats.toml import header, read_toml, shaped, toml
 from app.plan.by_hand.additive_curve import AdditiveCurve
-from app.plan.by_hand.corrections import Correction, RemoveEvent
+from app.plan.by_hand.corrections import Correction
 from app.plan.event_id import EventId
 from app.plan.kinds import BREATH_KINDS
 from app.project import limits
@@ -36,12 +36,8 @@ VERSION: Final = 2
 SUFFIX: Final = ".toml"
 PARAMETER_NAMES: Final = ("amplitude", "style", "habits", "layers_off", *AMOUNTS)
 """What of a player's parameters is acting."""
-KINDS: Final = frozenset(
-    {"add_gesture", "change_gesture", "add_expression", "change_expression", "pose", "vary", "additive", "play_style"}
-)
-"""Tags of the corrections that are acting."""
-_NOT_ACTING: Final = frozenset({*BREATH_KINDS, "cue"})
-"""Removed events of these kinds belong to the playing."""
+_NOT_ACTING: Final = frozenset({*BREATH_KINDS, "cue", "fingering", "embouchure"})
+"""Events of these kinds belong to the playing."""
 
 
 class PlayerMetadata(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
@@ -86,9 +82,7 @@ class MetadataDifference(NamedTuple):
 
 def is_acting(correction: Correction) -> bool:
     """Whether a correction is about gestures, expressions or poses."""
-    if isinstance(correction, RemoveEvent):
-        return EventId.parse(correction.event_id).kind not in _NOT_ACTING
-    return correction.tag in KINDS
+    return EventId.parse(correction.about).kind not in _NOT_ACTING
 
 
 def metadata_of(project: Project) -> PieceMetadata:

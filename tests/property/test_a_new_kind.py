@@ -18,7 +18,7 @@ from app.plan.kinds import BREATH_KINDS, GESTURE_KINDS
 ROOT = Path(__file__).parents[2]
 ROW = """    GestureRow("stomp", ("Stomps", "足踏み"), "Stomp", "accent", "phrase", True, look="strip"),
 """
-FUNCTION = '''def stomps(times: Rhythm) -> list[GestureEvent]:
+FUNCTION = '''def stomps(times: NoteTimes) -> list[GestureEvent]:
     """Stomp with the first note."""
     tick, start_s = int(times.onset_tick[0]), float(times.onset_s[0])
     return [GestureEvent(f"stomp:@{tick}", "stomp", tick, tick + 480, start_s, start_s + 0.5, 0.8, Message("a.b"))]
@@ -147,7 +147,7 @@ def grown(tmp_path_factory: pytest.TempPathFactory) -> Path:
     put_in(root / "app/plan/kinds.py", "    # Of tables", ROW)
     put_in(root / "app/plan/player.py", "BY_MUSIC: Final", FUNCTION)
     put_in(root / "app/plan/player.py", '    "sways": sways,\n', '    "stomps": reading(stomps, times="rhythm"),\n')
-    imports = "from app.errors import Message\nfrom app.plan.music.piece import Rhythm\n"
+    imports = "from app.errors import Message\nfrom app.plan.music.piece import NoteTimes\n"
     put_in(root / "app/plan/player.py", "from app.plan.acting import", imports)
     put_in(root / "app/plan/kinds.py", '    BreathRow("within"', BREATH_ROW)
     put_in(root / "app/plan/breath/breaths.py", "    placed = {", SNIFFS)

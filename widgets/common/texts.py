@@ -48,6 +48,7 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
     "colour_swatch.vermilion": ("Vermilion", "朱色"),
     "colour_swatch.yellow": ("Yellow", "黄"),
     "event.cue": ("Cue", "合図"),
+    "event.embouchure": ("Embouchure", "アンブシュア"),
     "event.expression": ("Expression", "表情"),
     "event.style": ("Style", "演奏スタイル"),
     "event.vary": ("Regenerated", "再生成"),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Final
 
 from PySide6.QtCore import QEvent, Qt
 from PySide6.QtWidgets import QWidget
@@ -10,8 +11,7 @@ from PySide6.QtWidgets import QWidget
 from app.editor.selection import EventKey, Selection
 from app.editor.session import Session
 from app.errors import Message
-from app.plan.by_hand.additive_curve import AdditiveCurve
-from app.plan.by_hand.corrections import Correction, PinFingering, SetEmbouchure, Vary
+from app.plan.by_hand.corrections import Correction
 from app.plan.model import Event, PlayerPlan
 from app.project.edit import events as edit
 from app.project.edit.corrections import take_back
@@ -23,9 +23,14 @@ from widgets.common.layouts import in_column, in_row
 from widgets.common.text import message_text
 from widgets.inspector.generated import Generated
 from widgets.inspector.rows import LineList, ListRow
-from widgets.inspector.words import correction_title, embouchure_text, event_text
+from widgets.inspector.words import correction_title, event_text
 
 LATE_TICK = 2**62
+_STRETCHES: Final = {
+    "vary": "correction_list.with_other_chances_up_to",
+    "additive": "correction_list.curve_up_to",
+}
+"""Texts of corrections without events, by tag."""
 
 
 @dataclass(frozen=True)
@@ -117,14 +122,10 @@ class CorrectionList(Retranslated, QWidget):
 
     def _tick(self, place: CorrectionRow) -> int:
         event = place.event or place.generated
-        if isinstance(place.correction, Vary | AdditiveCurve):
-            return place.correction.start_tick
-        if event is None:
-            return LATE_TICK
-        start = getattr(event, "start_tick", None)
+        start: int | None = getattr(event if place.correction.has_event else place.correction, "start_tick", None)
         if start is not None:
-            return int(start)
-        return round(self._session.project.score.tempo_map.ticks(event.start_s))
+            return start
+        return LATE_TICK if event is None else round(self._session.project.score.tempo_map.ticks(event.start_s))
 
     def _line(self, place: CorrectionRow, several: bool) -> ListRow:
         score, player = self._session.project.score, self._session.project.player(place.player_id)
@@ -134,49 +135,29 @@ class CorrectionList(Retranslated, QWidget):
         if place.orphan:
             detail = self.tr("correction_list.lost_its_place_it_does")
             return ListRow(place, title, "", detail, self._session.colour(player), "warning")
-        if isinstance(place.correction, Vary):
-            start, end = (
-                score.metre_map.label(tick) for tick in (place.correction.start_tick, place.correction.end_tick)
-            )
-            return ListRow(
-                place,
-                title,
-                start,
-                self.tr("correction_list.with_other_chances_up_to").format(end=end),
-                self._session.colour(player),
-                "by_hand",
-            )
-        if isinstance(place.correction, AdditiveCurve):
-            curve = place.correction
-            start, end = (score.metre_map.label(tick) for tick in (curve.start_tick, curve.end_tick))
-            detail = self.tr("correction_list.curve_up_to").format(end=end, count=len(curve.keys))
-            if not curve.enabled:
-                detail = self.tr("correction_list.curve_off").format(detail=detail)
-            return ListRow(place, title, start, detail, self._session.colour(player), "by_hand")
-        now, before = self._value(place.correction, place.event), self._value(place.correction, place.generated)
-        if place.generated is None:
-            detail = (
-                self.tr("correction_list.added_by_hand").format(yours=now)
-                if now
-                else self.tr("correction_list.added_by_hand_2")
-            )
-        else:
-            reason = (
-                message_text(place.generated.reason, self._session, player.id)
-                if hasattr(place.generated, "reason")
-                else ""
-            )
-            detail = self.tr("correction_list.generated").format(before=before, reason=reason)
-            if now and now != before:
-                detail = self.tr("correction_list.yours").format(now=now, generated=detail)
         tick = self._tick(place)
         where = score.metre_map.label(tick) if tick != LATE_TICK else ""
+        detail = self._change(place) if place.correction.has_event else self._stretch(place.correction)
         return ListRow(place, title, where, detail, self._session.colour(player), "by_hand")
 
-    def _value(self, correction: Correction, event: Event | None) -> str:
-        if isinstance(correction, SetEmbouchure) and event is not None:
-            return embouchure_text(correction, event)
-        return event_text(self._session.project.score, event)
+    def _stretch(self, item: Correction) -> str:
+        """Up to where it goes, and what of it there is."""
+        end = self._session.project.metre_map.label(getattr(item, "end_tick", LATE_TICK))
+        detail = self.tr(_STRETCHES[item.tag]).format(end=end, count=len(getattr(item, "keys", ())))
+        return detail if getattr(item, "enabled", True) else self.tr("correction_list.curve_off").format(detail=detail)
+
+    def _change(self, place: CorrectionRow) -> str:
+        """What is there now, and what was generated."""
+        score = self._session.project.score
+        now, before = (event_text(score, event, place.correction) for event in (place.event, place.generated))
+        if place.generated is None:
+            return self.tr("correction_list.added_by_hand" if now else "correction_list.added_by_hand_2").format(
+                yours=now
+            )
+        reason: Message | None = getattr(place.generated, "reason", None)
+        told = "" if reason is None else message_text(reason, self._session, place.player_id)
+        detail = self.tr("correction_list.generated").format(before=before, reason=told)
+        return self.tr("correction_list.yours").format(now=now, generated=detail) if now and now != before else detail
 
     def _show_buttons(self, *_: object) -> None:
         chosen = [key for key in self.list.selected_keys() if isinstance(key, CorrectionRow)]
@@ -191,11 +172,11 @@ class CorrectionList(Retranslated, QWidget):
     def _open(self, key: object) -> None:
         assert isinstance(key, CorrectionRow)
         item, event = key.correction, key.event or key.generated
-        if isinstance(item, PinFingering | SetEmbouchure):
-            self._session.select(Selection(notes=frozenset((item.note_id,))))
-        elif isinstance(item, Vary | AdditiveCurve):
+        if item.event_kind in ("fingering", "embouchure"):
+            self._session.select(Selection(notes=frozenset((item.anchor,))))
+        elif not item.has_event:
             self._session.select(Selection(events=frozenset((EventKey(key.player_id, item.about),))))
-            self._session.reveal(self._session.project.score.tempo_map.seconds(float(item.start_tick)))
+            self._session.reveal(self._session.project.score.tempo_map.seconds(float(self._tick(key))))
         elif key.event is not None:
             self._session.select(Selection(events=frozenset((EventKey(key.player_id, key.event.id),))))
         if event is not None:

@@ -2,23 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
+from typing import Final
+
 from app.editor.translated import tr
-from app.plan.by_hand.additive_curve import AdditiveCurve
-from app.plan.by_hand.corrections import (
-    AddExpression,
-    AddGesture,
-    ChangeExpression,
-    ChangeGesture,
-    Correction,
-    PinFingering,
-    PlayStyle,
-    PoseCorrection,
-    RemoveEvent,
-    SetBreath,
-    SetCue,
-    SetEmbouchure,
-    Vary,
-)
+from app.plan.by_hand.corrections import Correction
 from app.plan.event_id import EventId
 from app.plan.model import (
     BreathEvent,
@@ -54,15 +42,22 @@ def event_title(event: Event) -> str:
     return kind_name(EventId.parse(event.id).kind)
 
 
-def event_text(score: Score, event: Event | None) -> str:
-    """Where an event is and how much of it there is: ``"12.3–12.4, 0.80"``."""
+def event_text(score: Score, event: Event | None, correction: Correction | None = None) -> str:
+    """Where an event is and how much of it there is: ``"12.3–12.4, 0.80"``; of an embouchure what a correction sets."""
     match event:
         case None:
             return ""
         case Fingered():
             return event.label
         case EmbouchureEvent():
-            return " ".join(f"{value:.2f}" for value in (event.tension, event.effort, event.air))
+            if correction is None:
+                return " ".join(f"{value:.2f}" for value in (event.tension, event.effort, event.air))
+            names = {"tension": tr("inspector.tension"), "effort": tr("inspector.effort"), "air": tr("inspector.air")}
+            return ", ".join(
+                f"{word} {getattr(event, name):.2f}"
+                for name, word in names.items()
+                if getattr(correction, name) is not None
+            )
         case CueEvent():
             return tr("inspector.entry_beat_s").format(
                 place=score.metre_map.label(event.end_tick), seconds=f"{event.beat_s:.2f}"
@@ -82,43 +77,27 @@ def event_text(score: Score, event: Event | None) -> str:
             return ""
 
 
-def embouchure_text(correction: SetEmbouchure, event: Event) -> str:
-    """The values of an embouchure that were set by hand."""
-    names = {"tension": tr("inspector.tension"), "effort": tr("inspector.effort"), "air": tr("inspector.air")}
-    return ", ".join(
-        f"{word} {getattr(event, name):.2f}" for name, word in names.items() if getattr(correction, name) is not None
-    )
+_NAMES: Final[Mapping[str, Callable[[str], str]]] = {
+    "event": kind_name,
+    "expression": expression_name,
+    "pose": pose_name,
+    "style": style_name,
+    "channel": channel_name,
+    "fingering": str,
+}
+_TITLES: Final = {
+    "pin_fingering": "inspector.fingering",
+    "remove": "inspector.removed",
+    "play_style": "inspector.style",
+    "additive": "inspector.additive_curve",
+    "pose": "inspector.pose",
+}
 
 
 def correction_title(item: Correction) -> str:
     """What was done by hand."""
-    match item:
-        case PinFingering():
-            return tr("inspector.fingering").format(label=item.label)
-        case RemoveEvent():
-            return tr("inspector.removed").format(what=kind_name(EventId.parse(item.event_id).kind))
-        case SetBreath():
-            return kind_name(item.kind)
-        case SetCue():
-            return kind_name("cue")
-        case SetEmbouchure():
-            return tr("inspector.embouchure")
-        case ChangeGesture():
-            return kind_name(EventId.parse(item.event_id).kind)
-        case AddGesture():
-            return kind_name(item.kind)
-        case ChangeExpression():
-            if item.expression is not None:
-                return expression_name(item.expression)
-            return kind_name("expression")
-        case AddExpression():
-            return expression_name(item.expression)
-        case Vary():
-            return kind_name("vary")
-        case PlayStyle():
-            return tr("inspector.style").format(name=style_name(item.style))
-        case AdditiveCurve():
-            name = channel_name(item.channel)
-            return f"{item.title} ({name})" if item.title else tr("inspector.additive_curve").format(name=name)
-        case PoseCorrection():
-            return tr("inspector.pose").format(name=pose_name(item.target))
+    kind, name = item.named
+    shown = _NAMES[kind](name)
+    if item.title:
+        return f"{item.title} ({shown})"
+    return tr(_TITLES[item.tag]).format(name=shown) if item.tag in _TITLES else shown

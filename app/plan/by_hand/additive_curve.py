@@ -116,6 +116,7 @@ class AdditiveCurve(Own, frozen=True, tag="additive"):
     """
 
     event_kind: ClassVar[str] = "additive"
+    has_event: ClassVar[bool] = False
     channel: str
     keys: tuple[CurveKey, ...]
     blend_in_ticks: int = 0

@@ -17,14 +17,37 @@ class Correcting(msgspec.Struct, frozen=True, forbid_unknown_fields=True, tag_fi
     ----------
     event_kind : str
         The kind of the events that it is about, where all are of one.
+    has_event : bool
+        Plans have an event of it, which may be moved and deleted as others.
     """
 
     event_kind: ClassVar[str] = ""
+    has_event: ClassVar[bool] = True
 
     @property
     def tag(self) -> str:
         """The kind of correction, as in files."""
         return str(self.__struct_config__.tag)
+
+    @property
+    def anchor(self) -> str:
+        """The note, event or name that it is bound to: its first field."""
+        return str(getattr(self, self.__struct_fields__[0]))
+
+    @property
+    def about(self) -> str:
+        """The id of the event."""
+        return str(EventId(self.event_kind, self.anchor))
+
+    @property
+    def named(self) -> tuple[str, str]:
+        """The name by which it is listed, after the kind of name: an event's kind."""
+        return "event", EventId.parse(self.about).kind
+
+    @property
+    def title(self) -> str:
+        """The name that the user gave it."""
+        return ""
 
     @property
     def is_empty(self) -> bool:
@@ -53,16 +76,6 @@ class OfNote(Correcting, frozen=True):
     note_id: str
 
     @property
-    def anchor(self) -> str:
-        """The note."""
-        return self.note_id
-
-    @property
-    def about(self) -> str:
-        """The id of the event."""
-        return str(EventId(self.event_kind, self.note_id))
-
-    @property
     def is_added(self) -> bool:
         """Whether the generator had none here, where the correction says so."""
         return bool(getattr(self, "added", False))
@@ -84,11 +97,6 @@ class OfEvent(Correcting, frozen=True):
     event_id: str
 
     @property
-    def anchor(self) -> str:
-        """The event."""
-        return self.event_id
-
-    @property
     def about(self) -> str:
         """The id of the event."""
         return self.event_id
@@ -102,16 +110,6 @@ class Own(Correcting, frozen=True):
     """Something of the animator's own; ``name`` makes its event id unique."""
 
     name: str
-
-    @property
-    def anchor(self) -> str:
-        """The name."""
-        return self.name
-
-    @property
-    def about(self) -> str:
-        """The id of the event."""
-        return str(EventId(self.event_kind, self.name))
 
     @property
     def is_added(self) -> bool:

@@ -40,6 +40,11 @@ class PinFingering(OfNote, frozen=True, tag="pin_fingering"):
     event_kind: ClassVar[str] = "fingering"
     label: str
 
+    @property
+    def named(self) -> tuple[str, str]:
+        """The fingering."""
+        return "fingering", self.label
+
 
 class RemoveEvent(OfEvent, frozen=True, tag="remove"):
     """Leave out a generated breath, preparation, cue, gesture or expression. ``note_id`` is the note it belongs to,
@@ -165,6 +170,11 @@ class ChangeExpression(OfEvent, frozen=True, tag="change_expression"):
     fade_in_s: float | None = None
     fade_out_s: float | None = None
 
+    @property
+    def named(self) -> tuple[str, str]:
+        """The other expression, if it is replaced."""
+        return super().named if self.expression is None else ("expression", self.expression)
+
 
 class AddExpression(Own, frozen=True, tag="add_expression"):
     """An expression of the animator's own, at a place of the score. ``name`` makes its event id unique."""
@@ -176,6 +186,11 @@ class AddExpression(Own, frozen=True, tag="add_expression"):
     strength: float = 1.0
     fade_in_s: float = 0.2
     fade_out_s: float = 0.3
+
+    @property
+    def named(self) -> tuple[str, str]:
+        """The expression."""
+        return "expression", self.expression
 
     def event(self, clock: TempoMap) -> ExpressionEvent:
         """The expression."""
@@ -215,6 +230,11 @@ class PoseCorrection(Own, frozen=True, tag="pose"):
     fade_in_ticks: int = 0
     fade_out_ticks: int = 0
 
+    @property
+    def named(self) -> tuple[str, str]:
+        """What is held differently."""
+        return "pose", self.target
+
 
 class Vary(Own, frozen=True, tag="vary"):
     """Another random variation of the player between two ticks: another performance of these bars. Where the
@@ -222,6 +242,7 @@ class Vary(Own, frozen=True, tag="vary"):
     last counts."""
 
     event_kind: ClassVar[str] = "vary"
+    has_event: ClassVar[bool] = False
     start_tick: int
     end_tick: int
     seed: int
@@ -237,6 +258,11 @@ class PlayStyle(Own, frozen=True, tag="play_style"):
     end_tick: int
     fade_in_ticks: int = 0
     fade_out_ticks: int = 0
+
+    @property
+    def named(self) -> tuple[str, str]:
+        """The style."""
+        return "style", self.style
 
 
 Correction: TypeAlias = (

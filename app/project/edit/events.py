@@ -15,7 +15,6 @@ from typing import Final, NamedTuple
 import msgspec
 
 from app.errors import AppError
-from app.plan.by_hand.additive_curve import AdditiveCurve
 from app.plan.by_hand.corrections import (
     AddExpression,
     AddGesture,
@@ -29,7 +28,6 @@ from app.plan.by_hand.corrections import (
     SetBreath,
     SetCue,
     SetEmbouchure,
-    Vary,
 )
 from app.plan.cues.cues import LEAD_BEATS
 from app.plan.event_id import EventId
@@ -179,7 +177,6 @@ def add_breath(project: Project, plan: PlayerPlan, tick: int, kind: BreathKind =
     there = {event.id: event for event in plan.breaths}
     if event_id in there:
         return Edited(project, (event_id,))
-    removed = [item for item in corrections_of(project, plan.player_id, (event_id,)) if isinstance(item, RemoveEvent)]
     end = note.onset_tick
     if not BREATH_KINDS[kind].draws_air:
         beat = project.metre_map.felt_ticks_at(end)
@@ -188,8 +185,9 @@ def add_breath(project: Project, plan: PlayerPlan, tick: int, kind: BreathKind =
         start = end - beat
     else:
         start = _room_before(project, notes, index)
-    added = SetBreath(note.id, start - note.onset_tick, end - note.onset_tick, 1.0, kind, added=not removed)
-    return Edited(put(take_back(project, plan.player_id, removed), plan.player_id, (added,)), (event_id,))
+    return _added(
+        project, plan.player_id, SetBreath(note.id, start - note.onset_tick, end - note.onset_tick, 1.0, kind)
+    )
 
 
 def toggle_preparation(project: Project, plan: PlayerPlan, note_id: str) -> Edited:
@@ -197,7 +195,7 @@ def toggle_preparation(project: Project, plan: PlayerPlan, note_id: str) -> Edit
     event_id = f"preparation:{note_id}"
     if any(event.id == event_id for event in plan.breaths):
         return Edited(remove(project, plan, (event_id,)), ())
-    removed = [item for item in corrections_of(project, plan.player_id, (event_id,)) if isinstance(item, RemoveEvent)]
+    removed = _removals(project, plan.player_id, event_id)
     if removed:
         return Edited(take_back(project, plan.player_id, removed), (event_id,))
     note = next((note for note in _notes(project, plan.player_id) if note.id == note_id), None)
@@ -213,9 +211,7 @@ def add_cue(project: Project, plan: PlayerPlan, tick: int) -> Edited:
     event_id = f"cue:{notes[index].id}"
     if any(event.id == event_id for event in plan.cues):
         return Edited(project, (event_id,))
-    removed = [item for item in corrections_of(project, plan.player_id, (event_id,)) if isinstance(item, RemoveEvent)]
-    added = SetCue(notes[index].id, 1.0, added=not removed)
-    return Edited(put(take_back(project, plan.player_id, removed), plan.player_id, (added,)), (event_id,))
+    return _added(project, plan.player_id, SetCue(notes[index].id))
 
 
 def add_gesture(
@@ -273,7 +269,7 @@ def remove(project: Project, plan: PlayerPlan, event_ids: Iterable[str]) -> Proj
     note_ids = frozenset(note.id for note in _notes(project, player_id))
     event_ids = tuple(event_ids)
     # Bars performed anew and curves are no events of the plan.
-    added = [item for item in corrections_of(project, player_id, event_ids) if isinstance(item, Vary | AdditiveCurve)]
+    added = [item for item in corrections_of(project, player_id, event_ids) if not item.has_event]
     project = take_back(project, player_id, added) if added else project
     for event in _current(project, plan, event_ids):
         said = corrections_of(project, player_id, (event.id,))
@@ -365,10 +361,21 @@ def _notes(project: Project, player_id: str) -> tuple[Note, ...]:
     return project.part(project.player(player_id)).notes
 
 
+def _removals(project: Project, player_id: str, event_id: str) -> tuple[Correction, ...]:
+    """The corrections that leave an event out, and do nothing else."""
+    return tuple(item for item in corrections_of(project, player_id, (event_id,)) if item.left_out == event_id)
+
+
+def _added(project: Project, player_id: str, item: SetBreath | SetCue) -> Edited:
+    """The project with something added, or back in place of what was removed there."""
+    removed = _removals(project, player_id, item.about)
+    item = msgspec.structs.replace(item, added=not removed)
+    return Edited(put(take_back(project, player_id, removed), player_id, (item,)), (item.about,))
+
+
 def _new_name(project: Project, player_id: str) -> str:
     """The first ``own-n`` that no added event of the player has."""
-    said, kinds = project.corrections.get(player_id, ()), AddGesture | AddExpression | PoseCorrection | PlayStyle
-    taken = {item.name for item in said if isinstance(item, kinds)}
+    taken = {item.anchor for item in project.corrections.get(player_id, ())}
     number = 1
     while f"{OWN}{number}" in taken:
         number += 1

@@ -23,7 +23,7 @@ FUNCTIONS = frozenset(
     {"tr", "Caption", "Button", "Check", "ColumnList", "IconButton", "OkCancel", "PictureButton", "in_form"}
 )
 """What is given ids as positional arguments; `texted` has them by keyword."""
-KINDS = {*REMOVABLE, "pose", "additive", "vary", "style"}
+KINDS = {*REMOVABLE, "embouchure", "pose", "additive", "vary", "style"}
 """First parts of the ids of events that a person may select."""
 NAMES = {f"expression_name.{name}" for name in load_expressions()} | {
     f"pose_name.{target}" for target in get_args(PoseTarget)
