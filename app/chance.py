@@ -29,7 +29,7 @@ def performed_seed(seed: int, piece_seed: int) -> int:
 
 
 @lru_cache(maxsize=4096)
-def begun(parts: tuple[str | int, ...]) -> hashlib.blake2b:
+def partial_digest(parts: tuple[str | int, ...]) -> hashlib.blake2b:
     """The digest of what comes before the last part: thousands of places of a line have it in common. Copy it, add the
     last part, and `share_of` is the chance of all."""
     return hashlib.blake2b(_BETWEEN.join([*map(str, parts), ""]).encode(), digest_size=8)

@@ -15,7 +15,7 @@ import msgspec
 
 from app.errors import AppError, MapError, Message
 from app.formats.files import files_in
-from app.formats.kept import kept
+from app.formats.table_cache import kept
 from app.formats.toml import parse_toml, shaped, toml_text
 from instrument_maps.extend import BASE, WITHOUT, extended, not_there
 from instrument_maps.fingering_label import controls_of

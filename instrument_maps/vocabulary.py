@@ -19,7 +19,7 @@ from typing import Literal, NamedTuple
 import msgspec
 
 from app.errors import MapError
-from app.formats.kept import kept
+from app.formats.table_cache import kept
 from app.formats.toml import read_toml, shaped
 from instrument_maps.name_words import is_katakana, is_wide, words_of
 

@@ -10,7 +10,7 @@ from typing import Any, TypeVar
 import msgspec
 
 from app.errors import MapError
-from app.formats.kept import kept
+from app.formats.table_cache import kept
 from app.formats.toml import read_toml, shaped
 
 T = TypeVar("T")

@@ -31,11 +31,11 @@ from app.audio.score_sound import (
     score_chroma,
     sounds_to_compare,
 )
-from app.audio.steady import steady_line
+from app.audio.steady_tempo import steady_line
 from app.audio.track import Samples
-from app.audio.warping import MISSING_S, NO_PINS, Jump, Pins, Warped, along, played, warped
+from app.audio.warping import MISSING_S, NO_PINS, Jump, Pins, Warped, along, dynamic_time_warping, played_passages
 from app.errors import AppError, stoppable
-from app.score.following import Following, RunnerUp, UnmatchedSpan
+from app.score.beat_following import Following, RunnerUp, UnmatchedSpan
 from app.score.metre_map import MetreMap
 from app.score.model import Score
 
@@ -150,7 +150,7 @@ def _found(prepared: _Prepared, reached: Callable[[float], None]) -> tuple[Follo
     result = _followed(prepared, slice(0, shapes.shape[1]))
     reached(0.4)
     if result is None or result.mean_confidence < _WHOLE or result.missing or result.added:
-        there = played(shapes, recorded.chroma)
+        there = played_passages(shapes, recorded.chroma)
         part, jumps = _parts(there, shapes.shape[1], prepared.pins)
         if jumps or part.stop - part.start < _PARTIAL * shapes.shape[1]:
             reached(0.6)
@@ -246,7 +246,9 @@ def _followed(prepared: _Prepared, part: slice, jumps: Sequence[Jump] = ()) -> F
     recorded = prepared.recorded
     start_s, end_s = part.start * CHROMA_S, part.stop * CHROMA_S
     pins = prepared.pins.within(start_s, end_s)
-    rough = warped(prepared.shapes[:, part], recorded.chroma, pins, [jump.later(-start_s) for jump in jumps])
+    rough = dynamic_time_warping(
+        prepared.shapes[:, part], recorded.chroma, pins, [jump.later(-start_s) for jump in jumps]
+    )
     if len(rough.score_s) < 2:
         return None
     rough, pins = (

@@ -13,7 +13,7 @@ import numpy as np
 
 from app.arrays import FloatArray
 from app.audio.features import Sound, tuning
-from app.audio.score_sound import ANALYSIS_RATE_HZ, analysed
+from app.audio.score_sound import ANALYSIS_RATE_HZ, analysis_sound
 from app.audio.track import Samples
 from app.score.model import Score
 
@@ -59,7 +59,7 @@ def note_onsets(
     progress : callable
         Called now and then with the share 0..1 that is done.
     """
-    sound = analysed(samples, rate_hz)
+    sound = analysis_sound(samples, rate_hz)
     middle = len(sound) // 2
     tuned = tuning(sound[max(middle - 30 * ANALYSIS_RATE_HZ, 0) : middle + 30 * ANALYSIS_RATE_HZ], ANALYSIS_RATE_HZ)
     notes = [note for part in score.parts for note in part.notes]

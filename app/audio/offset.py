@@ -13,7 +13,7 @@ from typing import Final
 
 import numpy as np
 
-from app.audio.onset_path import alike
+from app.audio.onset_path import chroma_similarity
 from app.audio.places import TEMPO_RATIOS, RecordingPlace, is_other, places, usual_ratios
 from app.audio.score_sound import (
     CHROMA_S,
@@ -29,7 +29,7 @@ from app.audio.score_sound import (
 )
 from app.audio.track import Samples
 from app.errors import stoppable
-from app.score.following import RunnerUp
+from app.score.beat_following import RunnerUp
 from app.score.model import Score
 
 _SURE: Final = 0.6
@@ -137,7 +137,7 @@ def _by_onsets(recorded: RecordedSound, expected: ExpectedSound, rough: Recordin
             strength = np.where(inside, np.interp(frames, np.arange(len(edges)), edges), 0.0)
             if pitched:
                 # Onsets alone do not tell a run of equal notes from the same run a note later.
-                strength += pitched * alike(times, there_s, shifts, shapes, recorded.chroma).T
+                strength += pitched * chroma_similarity(times, there_s, shifts, shapes, recorded.chroma).T
             total = (strength * weights).sum(axis=1) / weights.sum()
             top = int(total.argmax())
             if total[top] > best[0]:

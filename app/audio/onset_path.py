@@ -56,7 +56,7 @@ def on_onsets(
         at = (found[:, None] + shifts) / ONSET_S
         strength = np.interp(at.ravel(), np.arange(len(edges)), edges, left=0.0, right=0.0).reshape(at.shape)
         if pitched:
-            strength += pitched * alike(times, found, shifts, shapes, recorded.chroma)
+            strength += pitched * chroma_similarity(times, found, shifts, shapes, recorded.chroma)
         strength *= weights[:, None]
         strength[np.ix_(at_pins, np.abs(shifts) > step_s / 2)] = -np.inf
         chosen = _even_path(strength, shifts, gaps_s, uneven)
@@ -64,7 +64,7 @@ def on_onsets(
     return times, found
 
 
-def alike(
+def chroma_similarity(
     times: FloatArray, found: FloatArray, shifts: FloatArray, shapes: FloatArray, chroma: FloatArray
 ) -> FloatArray:
     """Compare the pitch classes after each onset in the score and in the recording.

@@ -82,7 +82,7 @@ def sounds_to_compare(
     return expected, recorded_sound(samples, rate_hz, progress)
 
 
-def analysed(samples: Samples, rate_hz: int) -> Sound:
+def analysis_sound(samples: Samples, rate_hz: int) -> Sound:
     """One channel at `ANALYSIS_RATE_HZ`, from -1 to 1.
 
     Parameters
@@ -105,7 +105,7 @@ def recorded_sound(samples: Samples, rate_hz: int, progress: Callable[[float], N
     progress : callable
         Called with the share 0..1 that is done.
     """
-    sound = analysed(samples, rate_hz)
+    sound = analysis_sound(samples, rate_hz)
     sound = np.pad(sound, (0, max(_LEAST_SAMPLES - len(sound), 0)))
     progress(0.2)
     sounding = np.flatnonzero(np.abs(sound) > 1e-3)
@@ -118,7 +118,7 @@ def recorded_sound(samples: Samples, rate_hz: int, progress: Callable[[float], N
     progress(0.5)
     onsets = onset_strength(sound, ANALYSIS_RATE_HZ, 1024, _ONSET_HOP)
     progress(1.0)
-    return RecordedSound(shape(classes), evened(onsets), len(sound) / ANALYSIS_RATE_HZ)
+    return RecordedSound(shape(classes), levelled_onsets(onsets), len(sound) / ANALYSIS_RATE_HZ)
 
 
 def shape(chroma: FloatArray) -> FloatArray:
@@ -132,7 +132,7 @@ def shape(chroma: FloatArray) -> FloatArray:
     return result
 
 
-def evened(onsets: FloatArray) -> FloatArray:
+def levelled_onsets(onsets: FloatArray) -> FloatArray:
     """Onset strength above its surroundings, in units of its own spread."""
     width = round(1.5 / ONSET_S)
     around = np.convolve(onsets, np.ones(width) / width, "same")

@@ -92,10 +92,10 @@ class Mix:
         out = np.zeros((count, 2), np.float32)
         for track in self.tracks:
             track.add_to(out, start)
-        return softened(out)
+        return soft_clipped(out)
 
 
-def softened(block: Block) -> Block:
+def soft_clipped(block: Block) -> Block:
     """A block whose peaks are bent below full scale; quieter ones stay as they are."""
     size = np.abs(block)
     if block.size == 0 or size.max() <= _KNEE:

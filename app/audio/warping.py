@@ -19,7 +19,7 @@ from dtaidistance import dtw
 from app.arrays import BoolArray, FloatArray, IntArray
 from app.audio.passages import Passage, passages
 from app.audio.score_sound import CHROMA_S
-from app.score.following import UnmatchedSpan
+from app.score.beat_following import UnmatchedSpan
 
 _MOST_CELLS: Final = 60_000_000
 """Largest matrix of the warping, 8 bytes a cell: longer pieces are warped with coarser frames."""
@@ -115,7 +115,9 @@ class Warped:
         return result
 
 
-def warped(score: FloatArray, recording: FloatArray, pins: Pins = NO_PINS, jumps: Sequence[Jump] = ()) -> Warped:
+def dynamic_time_warping(
+    score: FloatArray, recording: FloatArray, pins: Pins = NO_PINS, jumps: Sequence[Jump] = ()
+) -> Warped:
     """Which frames belong together, by dynamic time warping.
 
     Parameters
@@ -149,8 +151,8 @@ def warped(score: FloatArray, recording: FloatArray, pins: Pins = NO_PINS, jumps
     return Warped(*_through(pins, score_s, recording_s), missing, inside, length_s)
 
 
-def played(score: FloatArray, recording: FloatArray) -> tuple[Passage, ...]:
-    """The passages of a score that a recording plays; arguments as of `warped`."""
+def played_passages(score: FloatArray, recording: FloatArray) -> tuple[Passage, ...]:
+    """The passages of a score that a recording plays; arguments as of `dynamic_time_warping`."""
     pool = int(np.ceil(np.sqrt(max(score.shape[1] * recording.shape[1] / _MOST_CELLS, 1.0))))
     return passages(_pooled(score, pool), _pooled(recording, pool), pool * CHROMA_S)
 

@@ -51,7 +51,7 @@ class LatencyMeasurement(msgspec.Struct, frozen=True):
     fault: Fault
 
 
-def measured(clicks_s: Sequence[float], hits_s: Sequence[float]) -> LatencyMeasurement:
+def measured_latency(clicks_s: Sequence[float], hits_s: Sequence[float]) -> LatencyMeasurement:
     """The latency, from when clicks sounded and when hits came in; both on one clock, ascending.
 
     Each click is given the hit that lies most like the others; missing and double ones do no harm.
@@ -112,7 +112,9 @@ def hits(events: Iterable[tuple[float, bytes]], breath: BreathSource) -> tuple[f
     return tuple(found)
 
 
-def placed(events: Iterable[tuple[int, bytes]], positions: Sequence[tuple[int, float]]) -> list[tuple[float, bytes]]:
+def events_on_time_line(
+    events: Iterable[tuple[int, bytes]], positions: Sequence[tuple[int, float]]
+) -> list[tuple[float, bytes]]:
     """Events on the time line of playback.
 
     Parameters

@@ -29,7 +29,7 @@ class Learned(msgspec.Struct, frozen=True):
     channel: int
 
 
-def learned(events: Iterable[tuple[int, bytes]], trusted: Sequence[BreathSource] = ()) -> Learned | None:
+def recognised_controller(events: Iterable[tuple[int, bytes]], trusted: Sequence[BreathSource] = ()) -> Learned | None:
     """What moves most and without jumps; None where nothing was blown.
 
     Some instruments send one breath by two messages: of those that move about as much as the most moved, the most

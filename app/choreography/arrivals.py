@@ -18,7 +18,7 @@ from app.choreography.clip import MotionClip
 from app.choreography.features import points_m
 from app.choreography.music_offset import speed_minima
 from app.choreography.sequence import AccentGrid
-from app.choreography.warp import TimeMap, arriving
+from app.choreography.warp import TimeMap, map_with_arrivals
 
 SMOOTHING_S: Final = 5.0 / 60.0
 """Standard deviation of the Gaussian over which speed is averaged to find where the body arrives (Li et al., "AI
@@ -61,7 +61,7 @@ def alignment(arrivals_s: FloatArray, beats_s: FloatArray) -> float:
     return float(fits.max(axis=1).mean() + fits.max(axis=0).mean())
 
 
-def settled(draft: MotionClip, first_s: float, shown: TimeMap, plain: TimeMap, grid: AccentGrid) -> TimeMap:
+def best_arrival_map(draft: MotionClip, first_s: float, shown: TimeMap, plain: TimeMap, grid: AccentGrid) -> TimeMap:
     """The map by which a dance arrives best, of a few that follow from one another.
 
     Parameters
@@ -73,7 +73,7 @@ def settled(draft: MotionClip, first_s: float, shown: TimeMap, plain: TimeMap, g
     shown : TimeMap
         That map.
     plain : TimeMap
-        With a knot at each segment's place: see `app.choreography.warp.arriving`.
+        With a knot at each segment's place: see `app.choreography.warp.map_with_arrivals`.
     """
     along, speeds = shown.at(first_s + np.arange(len(draft)) / float(draft.fps))
     seen = speeds > LEAST_SPEED
@@ -90,5 +90,5 @@ def settled(draft: MotionClip, first_s: float, shown: TimeMap, plain: TimeMap, g
         if value > best_value:
             best, best_value = tried, value
         if number < TRIES:
-            tried = arriving(plain, places[frames], grid)
+            tried = map_with_arrivals(plain, places[frames], grid)
     return best

@@ -14,7 +14,7 @@ import numpy as np
 from scipy.ndimage import gaussian_filter1d, maximum_filter1d
 
 from app.arrays import BoolArray, FloatArray, IntArray
-from app.choreography.arrivals import FPS, arrival_frames, joint_speed_m_s, settled, smoothed
+from app.choreography.arrivals import FPS, arrival_frames, best_arrival_map, joint_speed_m_s, smoothed
 from app.choreography.body import SEGMENTS
 from app.choreography.clip import MotionClip
 from app.choreography.dance import Dance, Manner, SegmentStep
@@ -34,7 +34,7 @@ from app.choreography.sequence import (
     symbol_scores,
 )
 from app.choreography.stitch import STAGE_M, Frames, Stitcher
-from app.choreography.warp import REST_S, TimeMap, arriving
+from app.choreography.warp import REST_S, TimeMap, map_with_arrivals
 from app.rig import quaternion
 
 DRAFT_FPS: Final = Fraction(30)
@@ -211,14 +211,14 @@ class Choreographer:
             )
             return _Plan(tuple(steps), times, hits)
 
-        first = arriving(plain, self._arrivals_s(segments, hits), grid)
+        first = map_with_arrivals(plain, self._arrivals_s(segments, hits), grid)
         first_s = float(plain.times_s[0])
         count = math.ceil((float(plain.times_s[-1]) - first_s) * float(DRAFT_FPS))
         if count < 2:
             return planned(first)
         draft = self._motion(planned(first), body, DRAFT_FPS, first_s + np.arange(count) / float(DRAFT_FPS))
         clip = planted(draft.clip, stands(draft.clip, draft.contacts))
-        return planned(settled(clip, first_s, first, plain, grid))
+        return planned(best_arrival_map(clip, first_s, first, plain, grid))
 
     def _slowest_s(self) -> FloatArray:
         """(S,) time in its clip at which each segment arrives: where the body is slowest from the accent to the end."""

@@ -78,7 +78,7 @@ def best_turn_rad(before: ComplexArray, after: ComplexArray) -> float:
     return float(np.angle((after.conj() * before) @ _WEIGHTS))
 
 
-def faded(value: FloatArray, slope: FloatArray, times_s: FloatArray, fade_s: float = FADE_S) -> FloatArray:
+def fading_difference(value: FloatArray, slope: FloatArray, times_s: FloatArray, fade_s: float = FADE_S) -> FloatArray:
     """A difference that fades out.
 
     Parameters

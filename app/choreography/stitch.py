@@ -16,7 +16,7 @@ from app.choreography.body import SEGMENTS
 from app.choreography.clip import MotionClip
 from app.choreography.contacts import foot_contacts
 from app.choreography.features import facing, height_m
-from app.choreography.joins import FADE_S, STATURE_M, Clouds, best_turn_rad, faded
+from app.choreography.joins import FADE_S, STATURE_M, Clouds, best_turn_rad, fading_difference
 from app.choreography.model import ChoreographyModel
 from app.rig import quaternion
 
@@ -235,8 +235,8 @@ class _Output:
             self._fades_until, self._carried = start + length, carried
             fading = slice(0, min(count, length))
             times_s = np.arange(fading.stop) / self._rate
-            hips[fading] += faded(off[0], (off[1] - off[0]) * self._rate, times_s)
-            off_turns = quaternion.from_rotation_vector(faded(turned[0], spin * self._rate, times_s))
+            hips[fading] += fading_difference(off[0], (off[1] - off[0]) * self._rate, times_s)
+            off_turns = quaternion.from_rotation_vector(fading_difference(turned[0], spin * self._rate, times_s))
             rotations[fading, :carried] = quaternion.multiply(off_turns, rotations[fading, :carried])
         here = slice(start, start + count)
         self.hips[here], self.rotations[here] = hips[:-1], rotations[:-1]

@@ -83,7 +83,7 @@ class TimeMap:
         return np.asarray(np.interp(along_s, along, times_s))
 
 
-def arriving(plain: TimeMap, arrivals: FloatArray, grid: AccentGrid) -> TimeMap:
+def map_with_arrivals(plain: TimeMap, arrivals: FloatArray, grid: AccentGrid) -> TimeMap:
     """The map that puts arrivals on beats, where the limits of speed allow it.
 
     Parameters

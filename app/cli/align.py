@@ -7,21 +7,21 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
-from app.cli.options import LONGEST_S, add_file_options, open_project, within
+from app.cli.options import LONGEST_S, add_file_options, bounded_number, open_project
 from app.cli.progress import Progress
 from app.cli.terminal import say, warn
 from app.errors import Argument, FileError, Message, UsageError
 from app.messages import filled, text
 
 if TYPE_CHECKING:
-    from app.audio.followed import Followed
+    from app.audio.followed_recording import Followed
     from app.project.model import Project
-    from app.score.following import Following
+    from app.score.beat_following import Following
 
 _MIDI: Final = (".mid", ".midi")
 _PROJECT: Final = ".suisou"
 
-_seconds = within(0.0, LONGEST_S, "a number of seconds", float)
+_seconds = bounded_number(0.0, LONGEST_S, "a number of seconds", float)
 
 
 def add_arguments(command: argparse.ArgumentParser) -> None:
@@ -76,10 +76,10 @@ def align(arguments: argparse.Namespace) -> None:
     Raises
     ------
     AppError
-        Those of reading and writing and of `app.audio.followed`; ``align.kind``, ``align.onto_itself``,
+        Those of reading and writing and of `app.audio.followed_recording`; ``align.kind``, ``align.onto_itself``,
         ``align.nothing_between``, ``align.no_such_player``.
     """
-    from app.audio.followed import take_over
+    from app.audio.followed_recording import take_over
     from app.project.midi_out import export_midi
     from app.project.storage import save
     from instrument_maps.library import library
@@ -111,7 +111,7 @@ def _same(one: Path, other: Path) -> bool:
 def _follow(project: Project, arguments: argparse.Namespace) -> Followed:
     """What the recording says, in seconds of the whole recording, whatever part of it was asked for."""
     from app.audio.decode import decode
-    from app.audio.followed import FollowOptions, listen
+    from app.audio.followed_recording import FollowOptions, listen
     from app.audio.track import RATE_HZ
 
     stems = dict(_stem(project, text) for text in arguments.stems)
@@ -150,7 +150,7 @@ def _stem(project: Project, given: str) -> tuple[str, str]:
 
 def _report(project: Project, following: Following, target: Path) -> None:
     """What was written, bars that are doubtful, and what only one of the two has."""
-    from app.score.following import bars_named
+    from app.score.beat_following import bars_named
 
     changes = project.score.tempo_map.bpm
     say(

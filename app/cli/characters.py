@@ -7,13 +7,13 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from app.cli.options import within
+from app.cli.options import bounded_number
 from app.cli.terminal import say, say_json
 from app.encoding import restored, shown, stored
 from app.errors import AppError, Message, UsageError
 from app.messages import filled, text
 
-_weight = within(-10.0, 10.0, "a weight", float)
+_weight = bounded_number(-10.0, 10.0, "a weight", float)
 
 
 class CannotPlayError(AppError):
@@ -179,14 +179,14 @@ def checked(path: Path, joints: Mapping[str, str], morphs: Mapping[str, Mapping[
 
 def _reported(character: Any) -> tuple[Message, ...]:
     """What an animator should know of the character with an instrument."""
-    from app.rig.grip.fitting.fitted_instrument import suited
+    from app.rig.grip.fitting.fitted_instrument import fitted_to_body
     from app.rig.instrument import load_instrument
     from instrument_maps.library import find_map, model_path
     from metadata.load import load_body
 
     body = load_body()
     played = find_map(body.checked_with)
-    return suited(character, played, body, lambda: load_instrument(model_path(played), played)).reported
+    return fitted_to_body(character, played, body, lambda: load_instrument(model_path(played), played)).reported
 
 
 def as_text(found: Mapping[str, Any]) -> list[str]:

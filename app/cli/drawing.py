@@ -26,7 +26,7 @@ _OF_PLAYERS: Final = ("hands", "mouth")
 """Views that need an instrument."""
 
 
-def seen(arguments: argparse.Namespace, project: Project) -> tuple[View, tuple[str, ...]]:
+def parsed_view(arguments: argparse.Namespace, project: Project) -> tuple[View, tuple[str, ...]]:
     """The view, and ids of whom it is about. Raises UsageError (``player.unknown``, ``picture.dancer_view``)."""
     everyone = project.performers
     view: View = arguments.view or ("front" if arguments.players else "ensemble")

@@ -15,8 +15,8 @@ from app.cli.options import (
     add_rate_option,
     add_source_options,
     add_title_option,
+    bounded_number,
     open_project,
-    within,
 )
 from app.cli.progress import Progress, find_holds
 from app.cli.status import report_left_out
@@ -175,7 +175,7 @@ def add_rig_options(command: argparse.ArgumentParser) -> None:
     )
 
 
-jobs = within(1, 256, "a number of processes", int)
+jobs = bounded_number(1, 256, "a number of processes", int)
 
 
 def file_formats(text: str) -> list[Format]:

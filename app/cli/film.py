@@ -14,15 +14,15 @@ from typing import TYPE_CHECKING, Final, Literal, TypeAlias
 
 from app.cli.bars import add_bar_options, requested_span
 from app.cli.display import virtual, why_no_display
-from app.cli.drawing import StopRequested, nearest, require_writable, seen, stoppable
+from app.cli.drawing import StopRequested, nearest, parsed_view, require_writable, stoppable
 from app.cli.edit import MOST_PX, THEMES, VIEWS
 from app.cli.options import (
     add_players_option,
     add_source_options,
+    bounded_number,
     frame_rate,
     open_project,
     picture_size,
-    within,
 )
 from app.cli.progress import Progress, find_holds
 from app.cli.status import NO_DISPLAY, report_left_out
@@ -45,8 +45,8 @@ MOST_COLUMNS: Final = 200
 
 Kind: TypeAlias = Literal["mp4", "folder", "sheet"]
 
-_every = within(Fraction(1, 120), Fraction(3600), "a number of seconds", exact_number)
-_columns = within(1, MOST_COLUMNS, "a number of columns", int)
+_every = bounded_number(Fraction(1, 120), Fraction(3600), "a number of seconds", exact_number)
+_columns = bounded_number(1, MOST_COLUMNS, "a number of columns", int)
 
 
 def add_arguments(command: argparse.ArgumentParser) -> None:
@@ -154,7 +154,7 @@ def film(arguments: argparse.Namespace) -> int:
     _check_options(arguments, kind)
     clean_up()
     project = open_project(arguments, if_empty="picture.no_players")
-    view, player_ids = seen(arguments, project)
+    view, player_ids = parsed_view(arguments, project)
     performance = Performance(project)
     span = requested_span(performance, arguments, _rate(arguments, project, kind))
     size = arguments.size or (SHEET_PX if kind == "sheet" else FILM_PX)

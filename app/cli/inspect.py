@@ -21,8 +21,8 @@ from app.messages import filled, text
 from app.messages.pitches import pitch_name
 from app.performance.cast import attempt
 from app.performance.ensemble import Performance
-from app.performance.judged import all_problems
 from app.performance.loudness import controller_input
+from app.performance.performance_problems import all_problems
 from app.plan.kinds import BREATH_KINDS
 from app.plan.model import (
     AdditiveEvent,

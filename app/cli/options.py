@@ -40,7 +40,7 @@ _MOST_SHOWN = 40
 N = TypeVar("N", int, float, Fraction)
 
 
-def within(least: N, most: N, what: str, parse: Callable[[str], N]) -> Callable[[str], N]:
+def bounded_number(least: N, most: N, what: str, parse: Callable[[str], N]) -> Callable[[str], N]:
     """The type of an option that takes a number: every numeric option has one of these.
 
     Parameters
@@ -81,20 +81,20 @@ def _plain(number: float | Fraction) -> str:
 LONGEST_S: Final = 24 * 3600.0
 """A day: no piece and no recording is longer."""
 
-frame_rate = within(*limits.FPS, "a number of frames per second such as 24, 29.97 or 30000/1001", typed_rate)
-whole_number = within(0, 2**63 - 1, "a whole number", int)
-beats = within(*limits.PREROLL_BEATS, "a number of beats", float)
-section_intensity = within(*limits.SECTION_INTENSITY, "a multiplier", float)
-_felt_quarters = within(
+frame_rate = bounded_number(*limits.FPS, "a number of frames per second such as 24, 29.97 or 30000/1001", typed_rate)
+whole_number = bounded_number(0, 2**63 - 1, "a whole number", int)
+beats = bounded_number(*limits.PREROLL_BEATS, "a number of beats", float)
+section_intensity = bounded_number(*limits.SECTION_INTENSITY, "a multiplier", float)
+_felt_quarters = bounded_number(
     *limits.FELT_BEAT_QUARTERS,
     "auto or a length in quarters such as 1, 1.5 or 1/2",
     lambda text: float(exact_number(text)),
 )
-_stage_m = within(*limits.STAGE_M, "a number of metres", float)
+_stage_m = bounded_number(*limits.STAGE_M, "a number of metres", float)
 AUTOMATIC: Final = "auto"
 NO_CONDUCTOR: Final = "none"
 USUAL_CONDUCTOR: Final = "usual"
-seconds = within(-LONGEST_S, LONGEST_S, "a number of seconds", float)
+seconds = bounded_number(-LONGEST_S, LONGEST_S, "a number of seconds", float)
 """Seconds of the performance; negative before the first beat."""
 
 

@@ -26,7 +26,7 @@ from app.capture.protocol import (
     RequestRefused,
     Restarted,
 )
-from app.cli.options import LONGEST_S, within
+from app.cli.options import LONGEST_S, bounded_number
 from app.cli.ports import NoDevice, PortMonitor
 from app.cli.status import DONE, PARTIAL
 from app.cli.terminal import count, say, warn
@@ -43,9 +43,9 @@ _LEAD_S: Final = 0.2
 _BEATS_IN_BAR: Final = 4
 _USUAL_TEMPO: Final = 120.0
 
-_seconds = within(0.1, LONGEST_S, "a number of seconds", float)
-_tempo = within(20.0, 400.0, "a number of beats in a minute", float)
-_bars = within(0, 16, "a whole number of bars", int)
+_seconds = bounded_number(0.1, LONGEST_S, "a number of seconds", float)
+_tempo = bounded_number(20.0, 400.0, "a number of beats in a minute", float)
+_bars = bounded_number(0, 16, "a whole number of bars", int)
 
 
 class RecordError(AppError):

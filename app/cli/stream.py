@@ -9,7 +9,7 @@ from collections.abc import Mapping
 from fractions import Fraction
 from typing import TYPE_CHECKING, Final
 
-from app.cli.options import add_players_option, add_source_options, frame_rate, open_project, seconds, within
+from app.cli.options import add_players_option, add_source_options, bounded_number, frame_rate, open_project, seconds
 from app.cli.progress import Progress, find_holds
 from app.cli.status import report_left_out
 from app.cli.summary import look_at
@@ -63,7 +63,7 @@ def add_arguments(command: argparse.ArgumentParser) -> None:
     )
     command.add_argument(
         "--port",
-        type=within(LEAST_PORT, MOST_PORT, "a port", int),
+        type=bounded_number(LEAST_PORT, MOST_PORT, "a port", int),
         default=PORT,
         help=f"of the first performer (default: {PORT})",
     )
@@ -178,8 +178,8 @@ class _Streamed:
         alone: bool,
     ) -> None:
         from app.performance.cast import Performer
-        from app.performance.judged import judged_problems
         from app.performance.motion import player_motion
+        from app.performance.performance_problems import judged_problems
         from app.plan.problem_lines import problem_lines
         from app.stream.vmc import IN_THE_MIDDLE, Sent
 

@@ -69,8 +69,8 @@ def bound_mm(contact: Contact) -> float:
 
 
 def allowed_mm(name: str, bound_mm: float, missed: Mapping[str, float]) -> float:
-    """How far off a contact may be before it is reported: what its hold misses was reported (`app.contacts.hold`), and
-    moving hands may add the bound."""
+    """How far off a contact may be before it is reported: what its hold misses was reported
+    (`app.contacts.missed_contacts`), and moving hands may add the bound."""
     return bound_mm + missed.get(name, 0.0)
 
 

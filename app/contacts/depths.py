@@ -17,9 +17,17 @@ from functools import lru_cache
 import numpy as np
 
 from app.arrays import AnyFloatArray, BoolArray, FloatArray, IndexArray, SingleArray
-from app.contacts.alike import alike
 from app.contacts.distance_field import DistanceField
-from app.contacts.hand_poses import NodePoints, Parts, VertexPoses, carried, joints_in_node, moving_parts_m, steadiest
+from app.contacts.hand_poses import (
+    NodePoints,
+    Parts,
+    VertexPoses,
+    joints_in_node,
+    moving_parts_m,
+    skinned_vertices,
+    steadiest,
+)
+from app.contacts.similar_frames import order_by_similarity
 from app.rig.skinning import Skin
 from instrument_maps.model import Proxy
 
@@ -53,7 +61,7 @@ class HandDepths:
     """
 
     def __init__(self, hand: Skin, bodies: Sequence[Proxy]) -> None:
-        self._hand = carried(hand)
+        self._hand = skinned_vertices(hand)
         self.joints = self._hand.joints
         strongest = np.argmax(hand.weights, axis=1).astype(np.int32)
         self._groups = _groups(hand.positions_m.tobytes(), strongest.tobytes())
@@ -98,7 +106,7 @@ class HandDepths:
         local = joints_in_node(world_from_node[self._nodes[base]], joints)
         features = (local[:, 3] + local[:, 0] * np.float32(_ARM_M)).transpose(1, 0, 2).reshape(frames, -1)
         parts_m = moving_parts_m([world_from_node[node] for node in self._nodes], base, local[:, 3].mean(axis=(1, 2)))
-        order = order[alike(np.concatenate([features, parts_m], axis=1)[order], sizes[0], 4)]
+        order = order[order_by_similarity(np.concatenate([features, parts_m], axis=1)[order], sizes[0], 4)]
         depths_m = np.zeros(len(order), dtype=np.float32)
         if least_m is not None:
             depths_m[:] = least_m[order]

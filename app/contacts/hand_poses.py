@@ -45,7 +45,7 @@ class SkinnedVertices:
     morphs: Mapping[str, SingleArray]
 
 
-def carried(skin: Skin) -> SkinnedVertices:
+def skinned_vertices(skin: Skin) -> SkinnedVertices:
     """The vertices of a skin."""
     count = int(np.count_nonzero(skin.weights, axis=1).max())
     carriers = np.argsort(-skin.weights, axis=1, kind="stable")[:, :count]

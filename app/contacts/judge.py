@@ -10,14 +10,14 @@ from app.arrays import BoolArray, FloatArray, IndexArray
 from app.contacts.bounds import FEET_MM, GRIP_MM, LIPS_MM, MOVED_MM, SLIDE_M, allowed_mm, bound_mm, contact_name
 from app.contacts.breaks import JUDGED_PER_S, Break, runs
 from app.contacts.controls import NoteFrames
-from app.contacts.hold import missed_mm
+from app.contacts.missed_contacts import missed_mm
 from app.contacts.touches import LIPS, TouchJudge, Traces, distance_m, hand_gaps_m, world_from_nodes
 from app.motion.contacts.carried_instrument import InstrumentTransform
-from app.motion.contacts.hand_in_bell import shifted
+from app.motion.contacts.hand_in_bell import wrist_shift
 from app.motion.model import Motion
 from app.motion.perform import PerformanceCurves
 from app.rig.grip.grip_pose import hand_targets
-from app.rig.grip.lips import meeting
+from app.rig.grip.lips import with_lip_landmarks
 from app.rig.instrument import node_transforms
 from app.rig.model import Character, InstrumentModel
 from app.rig.skeleton import forward
@@ -37,7 +37,7 @@ class ContactJudge:
     def __init__(self, playing: PerformanceCurves, character: Character, model: InstrumentModel) -> None:
         plan, instrument = playing.plan, playing.instrument_map
         self._playing, self._model = playing, model
-        self._character = meeting(character, instrument, playing.body)
+        self._character = with_lip_landmarks(character, instrument, playing.body)
         self._missed = missed_mm(playing.player.hold)
         self._starts_s = np.array([event.start_s for event in plan.grips])
         self._until_s = np.maximum.accumulate(np.array([event.end_s for event in plan.grips]))
@@ -103,7 +103,7 @@ class ContactJudge:
             wrist_m = joints.of(self._wrists[hand.side])[0]
             gaps_m = hand_gaps_m(hand, wrist_m, place_m, turn, controls, placed)
             if stopped is not None and hand.side == stopped.hand and stopping.any():
-                shift = shifted(self._character.skeleton, stopped, stopping, InstrumentTransform(place_m, turn))
+                shift = wrist_shift(self._character.skeleton, stopped, stopping, InstrumentTransform(place_m, turn))
                 gaps_m = distance_m(wrist_m, shift.target(*hand_targets(hand, place_m, turn, controls, placed))[0])
             bounds_mm = [bound_mm(contact) for contact in instrument.contacts if contact.part.startswith(hand.side)]
             off[hand.side] = gaps_m * 1000.0 > MOVED_MM

@@ -62,7 +62,7 @@ class Reached:
     problems: tuple[Problem, ...]
 
 
-def unreached(problems: Iterable[Problem]) -> frozenset[str | None]:
+def notes_out_of_reach(problems: Iterable[Problem]) -> frozenset[str | None]:
     """Ids of the notes that are out of reach."""
     return frozenset(problem.note_id for problem in problems if problem.message.id == OUT_OF_REACH)
 
@@ -72,7 +72,7 @@ def carried_controls(instrument: InstrumentMap) -> frozenset[str]:
     return frozenset(control.name for control in instrument.controls if control.finger.endswith(".hand"))
 
 
-def reached(
+def hand_reach(
     before: Reached | None,
     player: object,
     instrument: InstrumentMap,

@@ -20,8 +20,8 @@ import msgspec
 from PySide6.QtCore import QObject, Qt, QTimer, Signal
 
 from app.audio.playback import Playback
-from app.capture.adopt import takes_of
 from app.capture.journal import LARGEST_LATENCY_S, Journal, JournalHeader, read_journal
+from app.capture.journal_to_takes import takes_of
 from app.capture.link import RecorderLink
 from app.capture.port_names import matching
 from app.capture.protocol import (
@@ -52,7 +52,7 @@ from app.project.journals import in_second_places, journal_path, journals_of, se
 from app.project.model import Project
 from app.project.storage import file_named
 from app.score.sounding import SoundingNotes
-from app.score.take import ControllerMapping, Take, decoded, is_wired, said
+from app.score.take import ControllerMapping, Take, curve_values, decoded, is_wired
 from metadata.load import load_controllers, recognised_controller
 from metadata.model import Controller
 
@@ -312,7 +312,7 @@ class Recorder(QObject):
             if message is None or not is_wired(message, wiring):
                 continue
             self._sounding.receive(raw, None)
-            breath = next((value for kind, value in said(message, wiring) if kind == "breath"), breath)
+            breath = next((value for kind, value in curve_values(message, wiring) if kind == "breath"), breath)
             self._live.report(ns / 1e9, raw.hex(), wiring)
         self._state.set_played(breath, next((pitch for _, pitch in reversed(self._sounding.notes)), None))
         self._state.received.emit(events)

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from app.audio.decode import AudioRecording
-from app.audio.followed import Followed, FollowOptions, listen, take_over
+from app.audio.followed_recording import Followed, FollowOptions, listen, take_over
 from app.editor.session import Session, Severity
 from app.editor.tasks import Progress, StopRequested
 from app.errors import Message
-from app.score.following import bars_named, message_of_place
+from app.score.beat_following import bars_named, message_of_place
 
 
 def follow_in_background(session: Session, recording: AudioRecording, options: FollowOptions) -> None:

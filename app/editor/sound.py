@@ -11,7 +11,7 @@ from PySide6.QtCore import QObject, Qt, QTimer
 
 from app.audio.click import click_track
 from app.audio.decode import AudioRecording, decode
-from app.audio.followed import FollowOptions
+from app.audio.followed_recording import FollowOptions
 from app.audio.mix import recording_track
 from app.audio.offset import Estimate, estimate_offset
 from app.audio.peaks import Peaks
@@ -32,7 +32,7 @@ from app.project.edit.players import change as change_players
 from app.project.edit.takes import comp_whole
 from app.project.edit.tempo import scale_tempo
 from app.project.model import Project
-from app.score.following import message_of_place
+from app.score.beat_following import message_of_place
 
 _FRAME_MS = 16
 _TAKE_WAIT_MS = 1000

@@ -22,7 +22,7 @@ from app.formats.other_computers import may_touch
 from app.formats.video import VideoFacts, video_facts
 from app.project.document import Change
 from app.project.edit.piece import set_video_offset
-from app.score.following import message_of_place
+from app.score.beat_following import message_of_place
 
 MOST_PX: Final = (1280, 720)
 """Pictures are read no larger."""

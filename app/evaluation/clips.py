@@ -13,7 +13,7 @@ import numpy.typing as npt
 
 from app.audio.track import RATE_HZ, Block
 from app.errors import raise_if_stopped
-from app.evaluation.imported import ImportedVideo, pictures_of
+from app.evaluation.imported_videos import ImportedVideo, pictures_of
 from app.evaluation.key import Variant
 from app.evaluation.variants import performance_of
 from app.export.video import video_into

@@ -24,7 +24,7 @@ import numpy as np
 from app.arrays import FloatArray
 from app.errors import FileError
 from app.evaluation.excerpts import Excerpt
-from app.evaluation.imported import require_covered
+from app.evaluation.imported_videos import require_covered
 from app.export.bind_pose import rest_transforms
 from app.export.file_names import REPORT, figure_stems
 from app.export.target import normalised_target

@@ -21,7 +21,7 @@ from app.errors import AppError, FileError, Message, raise_if_stopped
 from app.evaluation.clips import CRF, ClipScene, Framing, Stages, cut_video, draw_ours
 from app.evaluation.design import codes, new_id, orders, pairs_of
 from app.evaluation.excerpts import Excerpt, choose_excerpts, practice_of
-from app.evaluation.imported import ImportedVideo, import_video
+from app.evaluation.imported_videos import ImportedVideo, import_video
 from app.evaluation.key import KEY_FILE, VERSION, EvaluationClip, EvaluationKey, Variant, write_key
 from app.evaluation.keyframes import Keyframes, holds_motion, read_keyframes
 from app.evaluation.loudness import equally_loud
@@ -29,7 +29,7 @@ from app.evaluation.measures import MEASURES_FILE, measure_variants, write_measu
 from app.evaluation.page import PAGE_FILE, page
 from app.evaluation.request import EvaluationRequest, aspects_of, variants_of
 from app.export.folder import files_into
-from app.export.video import beside
+from app.export.video import side_by_side
 from app.performance.cast import LeftOut, require_players
 from app.performance.ensemble import Performance
 from app.performance.span import FrameSpan, bars_span, cut_span
@@ -121,7 +121,7 @@ def make_evaluation(
         )
         for number, (left, right) in enumerate(pairs):
             report(0.9 + 0.05 * number / len(pairs), Message("evaluate.step_pairs"))
-            beside(clips / f"{left}-{right}.mp4", clips / f"{left}.mp4", clips / f"{right}.mp4", CRF)
+            side_by_side(clips / f"{left}-{right}.mp4", clips / f"{left}.mp4", clips / f"{right}.mp4", CRF)
         report(0.95, Message("evaluate.step_page"))
         (new / PAGE_FILE).write_bytes(page(key, table, clips))
         measured = _measured(report, stop_requested)

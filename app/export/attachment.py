@@ -8,9 +8,9 @@ from dataclasses import replace
 import numpy as np
 
 from app.arrays import FloatArray
-from app.export.equip import socket_names
+from app.export.equipped_skeleton import socket_names
 from app.export.playback import METRES, ScenePlayback
-from app.export.target import TargetSkeleton, Trajectory, instrument_path, placed, still
+from app.export.target import TargetSkeleton, Trajectory, instrument_path, placed_trajectory, trajectory_at_origin
 from app.formats.names import numbered
 from app.formats.scene import Clip, NodePlace, Scene, SkinnedMesh
 from app.motion.model import Motion
@@ -19,7 +19,11 @@ from app.rig import quaternion
 
 def own_path(target: TargetSkeleton, motion: Motion) -> Trajectory:
     """Where the root bone is in an instrument's own file: in the world, or on the socket, where it does not move."""
-    return still(motion.frames) if target.sockets else placed(instrument_path(motion), target.place)
+    return (
+        trajectory_at_origin(motion.frames)
+        if target.sockets
+        else placed_trajectory(instrument_path(motion), target.place)
+    )
 
 
 def attached(character: Scene, instruments: Sequence[Scene], target: TargetSkeleton) -> Scene:
@@ -100,7 +104,7 @@ def without_place(scene: Scene, place: NodePlace | None) -> Scene:
         return scene
     back = quaternion.conjugate(place.rotation_xyzw)
     there = NodePlace(-quaternion.rotate(back, place.translation_cm), back)
-    return _carried(scene, placed(still(scene.clip.frames), there))
+    return _carried(scene, placed_trajectory(trajectory_at_origin(scene.clip.frames), there))
 
 
 def _carried(scene: Scene, path: Trajectory) -> Scene:

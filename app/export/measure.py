@@ -28,19 +28,19 @@ from app.contacts.bounds import (
 )
 from app.contacts.controls import ControlMeasure, NoteFrames, notes_of
 from app.contacts.touches import TouchJudge, Traces, distance_m, hole_values
+from app.export.frame_blocks import SOLES, Walk, bone_deviation_m
 from app.export.joint_measures import JointMeasure, measure_joints
 from app.export.joint_playback import JointPlayback
 from app.export.playback import ScenePlayback
 from app.export.target import TargetSkeleton, normalised_target
 from app.export.threads import in_threads
-from app.export.walk import SOLES, Walk, bone_deviation_m
 from app.formats.scene import Scene
-from app.motion.contacts.hand_in_bell import stopping
+from app.motion.contacts.hand_in_bell import bell_closing
 from app.plan.gestures.feet import Foot, foot_of, lifted_s
 from app.plan.model import BreathEvent, PlayerPlan
 from app.rig import quaternion
 from app.rig.grip.fitting.fitted_instrument import mouth_opens
-from app.rig.grip.lips import meeting
+from app.rig.grip.lips import with_lip_landmarks
 from app.rig.model import Character
 from instrument_maps.model import InstrumentMap
 from metadata.model import Body, SkeletonProfile
@@ -144,7 +144,7 @@ def measure_player(
     """
     if player_scene.clip is None or instrument_scene.clip is None:
         raise ValueError("a file without a clip cannot be measured")
-    character = meeting(character, instrument, body)
+    character = with_lip_landmarks(character, instrument, body)
     player = ScenePlayback(player_scene, player_scene.clip)
     held = ScenePlayback(instrument_scene, instrument_scene.clip)
     fps = float(player.clip.fps)
@@ -164,7 +164,7 @@ def measure_player(
     ((limits, acceleration),) = of_joints
     traces = found.traces
     values = _control_values(instrument, held) | hole_values(instrument, traces)
-    closing = notes.within(map(tuple, stopping(plan.mutes, instrument.stopped).spans_s.tolist()))
+    closing = notes.within(map(tuple, bell_closing(plan.mutes, instrument.stopped).spans_s.tolist()))
     judge = TouchJudge(instrument, traces, values, notes, closing)
     touches = [
         (contact, Spread.of(judge.gap_m(index)[judge.asked(index)], bound_mm(contact)))

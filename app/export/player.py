@@ -10,13 +10,13 @@ from typing import Any
 
 import msgspec
 
-from app.contacts.hold import missed_mm
-from app.contacts.reach import unreached
+from app.contacts.missed_contacts import missed_mm
+from app.contacts.reach import notes_out_of_reach
 from app.encoding import shown
 from app.export.attachment import in_world, own_path, without_place
 from app.export.bone_names import profile_names
 from app.export.character import character_scene
-from app.export.equip import socket_names
+from app.export.equipped_skeleton import socket_names
 from app.export.file_names import figure_stems, file_names, sound_name
 from app.export.formats import FILE_FORMATS, FileContent, FileFormat, Format, WriteOptions
 from app.export.instrument import instrument_scene
@@ -32,8 +32,8 @@ from app.formats.scene import Scene
 from app.motion.model import Motion
 from app.performance.cast import Performer
 from app.performance.ensemble import Performance, changes_of
-from app.performance.judged import judged_problems
 from app.performance.motion import player_motion
+from app.performance.performance_problems import judged_problems
 from app.plan.model import Problem
 from app.rig.model import Character
 from metadata.load import load_skeleton
@@ -207,7 +207,7 @@ class _Judging:
             reported,
             self.target,
             self.changing,
-            unreached(self.request.performance.problems(performer.player.id)),
+            notes_out_of_reach(self.request.performance.problems(performer.player.id)),
         )
 
 

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from app.export.attachment import attached, own_path
 from app.export.character import character_scene
-from app.export.equip import socket_names
+from app.export.equipped_skeleton import socket_names
 from app.export.file_names import figure_stems, sound_name, stage_names
 from app.export.formats import FILE_FORMATS, Format, WriteOptions
 from app.export.instrument import instrument_scene

@@ -159,12 +159,12 @@ def instrument_path(motion: Motion) -> Trajectory:
     return Trajectory(motion.instrument_position_m, motion.instrument_rotation)
 
 
-def still(frames: int) -> Trajectory:
+def trajectory_at_origin(frames: int) -> Trajectory:
     """What stays at the origin."""
     return Trajectory(np.zeros((frames, 3)), np.tile(quaternion.IDENTITY, (frames, 1)))
 
 
-def placed(path: Trajectory, place: NodePlace | None) -> Trajectory:
+def placed_trajectory(path: Trajectory, place: NodePlace | None) -> Trajectory:
     """A trajectory in a space that stands at a place; None: at the origin."""
     if place is None:
         return path
@@ -262,7 +262,7 @@ def _bones(
         back = quaternion.conjugate(above[1])
         local = quaternion.multiply(back, place[1]), quaternion.rotate(back, place[0] - above[0])
         if bone == 0 and target.place is not None:
-            there = placed(Trajectory(local[1], local[0]), target.place)
+            there = placed_trajectory(Trajectory(local[1], local[0]), target.place)
             local = np.asarray(there.rotations, np.float64), np.asarray(there.positions_m, np.float64)
         result.append((bone, *local))
     return result

@@ -11,7 +11,7 @@ import numpy as np
 from app.errors import Argument, Message
 from app.export.bind_pose import CENTIMETRES, bound_meshes, rest_transforms
 from app.export.check_skeleton import SkeletonDifference, check_skeleton, reported
-from app.export.equip import equipped
+from app.export.equipped_skeleton import equipped
 from app.export.mannequin import mannequin_axes, mannequin_target
 from app.export.own_skeleton import own_target
 from app.export.rig import Rig

@@ -136,7 +136,7 @@ def video_into(
                 raise FileError("video.failed", file=str(path), detail=detail or f"status {status}")
 
 
-def beside(path: Path, left: Path, right: Path, crf: int = QUALITY_CRF) -> None:
+def side_by_side(path: Path, left: Path, right: Path, crf: int = QUALITY_CRF) -> None:
     """Two films of the same height and length side by side in one, with the sound of the left one.
 
     Raises

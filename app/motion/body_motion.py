@@ -57,7 +57,8 @@ class BodyMotion:
     feet : dict of str to array
         What feet do that do not stand (`app.motion.gestures.feet.feet_moved`); empty: they stand.
     hands : dict of str to array
-        Where hands are that leave the instrument (`app.motion.gestures.hand_gestures.reached`); empty: they stay.
+        Where hands are that leave the instrument (`app.motion.gestures.hand_gestures.limited_hand_gestures`); empty:
+        they stay.
     """
 
     forward_rad: dict[str, FloatArray]

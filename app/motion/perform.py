@@ -15,10 +15,10 @@ from app.motion.body_motion import BodyMotion
 from app.motion.breath.air_in_trunk import widened
 from app.motion.breath.breaths_that_show import leaning_further
 from app.motion.by_hand.additive_curves import NOTHING, Additive, with_added, with_added_morphs, with_held
-from app.motion.contacts.carried_instrument import settled, shown_by
-from app.motion.contacts.hand_in_bell import STOPPING, stopping
+from app.motion.contacts.carried_instrument import limited_to_carriage, shown_by
+from app.motion.contacts.hand_in_bell import STOPPING, bell_closing
 from app.motion.contacts.ready_player import player_body
-from app.motion.contacts.solve import PlayerBody, padding, solve
+from app.motion.contacts.solve import PlayerBody, padding_frames, solve
 from app.motion.contacts.still_player import ContactCurves
 from app.motion.contacts.trunk_and_legs import SIDES, Side, footing, hips_path, torso_forward
 from app.motion.curves.curve import EVERYWHERE, Curve, Envelopes, frame_times
@@ -29,7 +29,7 @@ from app.motion.faces.morph_weights import FaceSizes, face_morphs, face_sizes
 from app.motion.fingering.finger_curves import sampled
 from app.motion.fingering.fingers import FINGERS, fingers_of
 from app.motion.gestures.body_layers import QUIET_AIR, StyleShares, body_motion
-from app.motion.gestures.dance_layer import BodyLayer, giving_way, inhaling, with_dance
+from app.motion.gestures.dance_layer import BodyLayer, breath_envelopes, giving_way, with_dance
 from app.motion.gestures.feet import feet_moved
 from app.motion.gestures.held_still import with_holds
 from app.motion.gestures.layers import LAYERS, Layers, LayerSamples
@@ -38,7 +38,7 @@ from app.motion.model import Motion
 from app.motion.played_frames import PlayedFrames
 from app.plan.acting import Acting, acting_of
 from app.plan.model import PlayerPlan
-from app.plan.parameters import PlayerParameters, deciding
+from app.plan.parameters import PlayerParameters, deciding_values
 from app.plan.styles import differing_s, most_shown, share_at
 from app.rig.grip.carriage import carrying
 from app.rig.grip.grip_pose import GripPose, StationBlend, giving_for
@@ -141,7 +141,7 @@ class PerformanceCurves:
     def motion(self, fps: Fraction, first_frame: int, frames: int, every: int = 1) -> Motion:
         """Make some frames of the motion, or every how many-th of them, at the rate that makes. The same frames are the
         same in every span."""
-        pad = padding(fps)
+        pad = padding_frames(fps)
         times_s = frame_times(self.start_s, fps, first_frame - pad, frames + 2 * pad)
         curves = self.curves(self.frames(times_s))
         return solve(self.player, curves, fps, float(frame_times(self.start_s, fps, first_frame, 1)[0]), every)
@@ -254,7 +254,7 @@ class PerformanceCurves:
         return {side: footing(self.player.place, side, moved, len(times_s)).ankle_m for side in SIDES}
 
     def changed_s(self, other: PerformanceCurves) -> FloatArray:
-        """Spans (K, 2) of seconds, outside of which (and of `padding` frames around) both make the very same frames."""
+        """Spans (K, 2) of seconds outside of which, and of `padding_frames` around them, both make the same frames."""
         mine, others = self._settings, other._settings
         if mine[0] != others[0] or any(a is not b for a, b in zip(mine[1:], others[1:], strict=True)):
             return EVERYWHERE
@@ -296,7 +296,7 @@ class PerformanceCurves:
         """What every frame depends on: values first, the others by identity."""
         still = self.player
         endpin = None if still.stand is None else still.stand.endpin
-        shown, put = deciding(self.parameters, "motion"), (still.aside, self.stowed is None)
+        shown, put = deciding_values(self.parameters, "motion"), (still.aside, self.stowed is None)
         values = (
             self.player_id,
             self.start_s,
@@ -340,7 +340,7 @@ def prepare(
         dance = None
     most = most_shown(plan.styles, acting_of(parameters))
     acting = shown_by(parameters, carriage, most, dancing=dance is not None)
-    parameters = settled(parameters, carriage)
+    parameters = limited_to_carriage(parameters, carriage)
     posture = carrying(body, instrument_map.hold.possible(parameters.posture), carriage)
     player = player_body(parameters, instrument_map, character, hold, body)
     steps = CurveSteps.begin(
@@ -373,8 +373,8 @@ def prepare(
         stations=fingers.stations,
         raised=fingers.raised,
         dance=dance,
-        inhaling=NOT_SHOWN if dance is None else inhaling(plan.breaths),
-        stopping=stopping(plan.mutes, instrument_map.stopped),
+        inhaling=NOT_SHOWN if dance is None else breath_envelopes(plan.breaths),
+        stopping=bell_closing(plan.mutes, instrument_map.stopped),
         additive=steps.fingers.of(Additive.of),
         steps=steps,
     )

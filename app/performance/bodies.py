@@ -13,12 +13,12 @@ from functools import cache, lru_cache
 from app.arrays import FloatArray
 from app.errors import FileError, MapError, UsageError, shortened
 from app.identity_cache import IdentityCache
-from app.motion.contacts.ready_player import lying
+from app.motion.contacts.ready_player import put_aside_transform
 from app.project.performers import Player
 from app.rig.characters.character_library import bundled_characters, character_named, character_revision
 from app.rig.grip.body_size import leg_size, sized_body, sized_model
 from app.rig.grip.fitting.fit_terms import Progress, no_progress
-from app.rig.grip.fitting.fitted_instrument import FittedInstrument, suited
+from app.rig.grip.fitting.fitted_instrument import FittedInstrument, fitted_to_body
 from app.rig.grip.fitting.grip_files import bundled_path, hold_for
 from app.rig.grip.grip_pose import GripPose
 from app.rig.instrument import load_instrument
@@ -71,7 +71,7 @@ def suited_to(player: Player, instrument: InstrumentMap) -> FittedInstrument:
 
 def _suited(character: Character, instrument: InstrumentMap, body: Body) -> FittedInstrument:
     with _worked_out(character, instrument):
-        return suited(character, instrument, body, lambda: model_of(instrument))
+        return fitted_to_body(character, instrument, body, lambda: model_of(instrument))
 
 
 def hold_of(player: Player, instrument: InstrumentMap, progress: Progress = no_progress) -> GripPose:
@@ -104,7 +104,7 @@ def lies_at(player: Player, instrument: InstrumentMap, number: int) -> tuple[Flo
         return None
     suitable = suited_to(player, instrument).instrument
     hold = hold_of(player, suitable)
-    rest = lying(player.parameters, suitable, character_of(player), hold, body_of(player), number)
+    rest = put_aside_transform(player.parameters, suitable, character_of(player), hold, body_of(player), number)
     return rest.position_m[0], rest.rotation[0]
 
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Final, NamedTuple
 
-from app.contacts.hold import missed_message
-from app.contacts.reach import Holding, Reached, reached
+from app.contacts.missed_contacts import missed_message
+from app.contacts.reach import Holding, Reached, hand_reach
 from app.errors import AppError, Message
 from app.performance.bodies import body_of, character_of, hold_of, is_held, suited_to
 from app.plan.model import FingeringEvent, Problem
@@ -91,7 +91,7 @@ def _reached(
         posture = player.parameters.posture
         return Holding(player.id, character_of(player), hold_of(player, instrument), body_of(player), posture)
 
-    return reached(before, (player, revision), instrument, fingerings, holding)
+    return hand_reach(before, (player, revision), instrument, fingerings, holding)
 
 
 REACH: Final = StepTable(reached=_reached)

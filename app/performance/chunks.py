@@ -11,7 +11,7 @@ from typing import TypeAlias
 import numpy as np
 
 from app.arrays import FloatArray, IndexArray, SingleArray
-from app.motion.contacts.solve import padding
+from app.motion.contacts.solve import padding_frames
 from app.motion.model import Motion, frame_count
 from app.plan.model import TimeFrame
 
@@ -186,7 +186,7 @@ class FrameGrid:
     def touched(self, spans_s: FloatArray) -> list[bool]:
         """For every chunk whether one of the spans (N, 2) lies in it, or in the frames around that it is made from."""
         rate = self.fps.numerator / self.fps.denominator
-        pad = padding(self.fps) + 2
+        pad = padding_frames(self.fps) + 2
         result = np.zeros(self.chunks + 1, np.int64)
         first = np.clip((spans_s[:, 0] - self.start_s) * rate - pad, -1.0, self.frames)
         last = np.clip((spans_s[:, 1] - self.start_s) * rate + pad, -1.0, self.frames)

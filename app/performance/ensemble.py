@@ -30,7 +30,7 @@ from app.plan.faces.glances import StagePlace
 from app.plan.generate import EnsemblePlan, MonophonicPart, Piece, frame_around, plan_ensemble
 from app.plan.model import CONDUCTOR, PlayerPlan, Problem, TimeFrame, no_events
 from app.plan.music.dynamics_from_velocities import VelocityReading, read_velocities
-from app.plan.parameters import PlayerParameters, deciding
+from app.plan.parameters import PlayerParameters, deciding_values
 from app.project.model import Project
 from app.project.performers import Player
 from app.rig.characters.character_library import character_library
@@ -433,7 +433,7 @@ def _work(line: MonophonicPart, before: MonophonicPart | None) -> int:
         return 0
     if before is None or line.notes is not before.notes or line.instrument_map is not before.instrument_map:
         return len(line.notes)
-    same = deciding(line.parameters, "breaths", "cues") == deciding(before.parameters, "breaths", "cues")
+    same = deciding_values(line.parameters, "breaths", "cues") == deciding_values(before.parameters, "breaths", "cues")
     kept, said = set(before.corrections), set(line.corrections)
     if not same or any(isinstance(item, RemoveEvent | SetBreath | SetCue | Vary) for item in kept ^ said):
         return len(line.notes)

@@ -18,7 +18,7 @@ from app.arrays import SingleArray
 from app.motion.by_hand.additive_curves import Additive
 from app.motion.by_hand.pose_corrections import PoseCorrectionTable
 from app.motion.contacts.help_for_far_hands import Help
-from app.motion.contacts.solve import helped, needs, poses
+from app.motion.contacts.solve import body_with_help, needs, poses
 from app.motion.contacts.still_player import ContactCurves
 from app.motion.doubling import Doubling
 from app.motion.perform import PerformanceCurves
@@ -30,7 +30,7 @@ from app.performance.live_help import LiveHelp
 from app.plan.model import AdditiveEvent, PoseEvent
 from app.score.bend_range import BendRanges
 from app.score.sounding import SILENCING, SoundingNotes, begins
-from app.score.take import ControllerMapping, decoded, is_wired, said
+from app.score.take import ControllerMapping, curve_values, decoded, is_wired
 from instrument_maps.model import Fingering
 from metadata.load import load_expressions
 from metadata.model import Expression
@@ -175,7 +175,7 @@ class PlayAlong:
             for (_, pitch), _ in ended:
                 if pitch not in held:
                     self.note_off(time_s, pitch)
-        for kind, value in said(message, wiring, self._ranges):
+        for kind, value in curve_values(message, wiring, self._ranges):
             if kind == "breath":
                 self.breath(time_s, value)
             elif kind == "bite":
@@ -201,7 +201,7 @@ class PlayAlong:
         self._at_s = self._at_s if at_s is None else at_s
         curves, given = self._solved(now_s)
         player, now = self._playing.player, curves[:1]
-        motion = poses(player, replace(now, body=helped(player, now.body, given)), ONE_FRAME, now_s)
+        motion = poses(player, replace(now, body=body_with_help(player, now.body, given)), ONE_FRAME, now_s)
         return Pose.of(motion, 0)
 
     def _sound(self, now_s: float, pitch: int, velocity: int, attacked: bool) -> None:

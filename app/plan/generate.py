@@ -23,7 +23,7 @@ from app.plan.music.fermatas import fermatas
 from app.plan.music.one_note_at_a_time import one_at_a_time
 from app.plan.music.piece import LineTimes, MonophonicPart, NoteTimes, Piece, note_times
 from app.plan.music.written_marks import written_marks
-from app.plan.parameters import PlayerParameters, restricted
+from app.plan.parameters import PlayerParameters, parameters_deciding
 from app.plan.player import AMONG_OTHERS, PLAYER
 from app.score.model import Note
 from app.score.tempo import TempoMap
@@ -243,7 +243,7 @@ def _leading(
     """Return the line as far as cues depend on it."""
     corrections = of_kinds(sound_corrections, (SetCue, RemoveEvent, SetBreath))
     return MonophonicPart(
-        player_id, played_notes, instrument, restricted(parameters, "cues"), corrections, musician=musician
+        player_id, played_notes, instrument, parameters_deciding(parameters, "cues"), corrections, musician=musician
     )
 
 

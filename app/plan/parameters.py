@@ -230,8 +230,8 @@ class PlayerParameters(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
         "parameter.breath_need_tip",
         bounds=_SHARE, section="breath", decides=_BREATHS, since=6, before=0.0,
     )] = 0.35
-    """Scale of the playing and the air that a rest needs to be breathed in (`app.plan.breath.which_rests`); 0: every
-    rest is breathed in (T6), 1: only when out of air."""
+    """Scale of the playing and the air that a rest needs to be breathed in (`app.plan.breath.rests_for_breath`); 0:
+    every rest is breathed in (T6), 1: only when out of air."""
     circular_breathing: Annotated[bool, Parameter(
         "parameter.circular_breathing",
         "parameter.circular_breathing_tip",
@@ -325,11 +325,11 @@ _DECIDING: Final = {
 }
 
 
-def restricted(parameters: PlayerParameters, kind: Decided) -> PlayerParameters:
+def parameters_deciding(parameters: PlayerParameters, kind: Decided) -> PlayerParameters:
     """Return those parameters that decide this; the others have their defaults."""
     return PlayerParameters(**{name: getattr(parameters, name) for name in _DECIDING[kind]})
 
 
-def deciding(parameters: PlayerParameters, *kinds: Decided) -> tuple[Value, ...]:
+def deciding_values(parameters: PlayerParameters, *kinds: Decided) -> tuple[Value, ...]:
     """The values of those parameters that decide any of this: equal ones give the same."""
     return tuple(getattr(parameters, name) for kind in kinds for name in _DECIDING[kind])

@@ -11,7 +11,7 @@ import msgspec
 
 from app.plan.acting import acting_of
 from app.plan.breath.breaths import BreathPlan, plan_breaths
-from app.plan.breath.staggered_breaths import after_holds, breathed_of, met, shared_with
+from app.plan.breath.staggered_breaths import after_holds, breathed_of, compared_with_others, shared_with
 from app.plan.by_hand.additive_curve import AdditiveCurve
 from app.plan.by_hand.additive_events import plan_additive
 from app.plan.by_hand.corrections import (
@@ -42,12 +42,12 @@ from app.plan.faces.glances import StagePlace, glances_of
 from app.plan.faces.looks_at_conductor import looks_up
 from app.plan.fingering.fingerings import plan_fingerings
 from app.plan.fingering.mutes import plan_mutes
-from app.plan.gestures.beside_playing import after_the_end, holding_at_end, in_long_rests
 from app.plan.gestures.feet import footwork
 from app.plan.gestures.gestures import bell_heights, in_order, weight_shifts
+from app.plan.gestures.idle_gestures import after_the_end, holding_at_end, in_long_rests
 from app.plan.gestures.leans_and_accents import accents, leans, phrases
 from app.plan.gestures.lowered_instrument import lowered_spans
-from app.plan.gestures.named_gestures import undisturbed, with_definitions
+from app.plan.gestures.named_gestures import with_definitions, without_idle_hands
 from app.plan.gestures.sways import sways, swings_of
 from app.plan.kinds import GESTURE_KINDS
 from app.plan.lips.embouchure import plan_embouchures
@@ -66,7 +66,7 @@ from app.plan.music.breath_controller import BreathEnvelope, blown
 from app.plan.music.dynamics import dynamics_of
 from app.plan.music.ending import Ending
 from app.plan.music.piece import ControllerInput, Piece, Seeds, without_sound
-from app.plan.parameters import restricted
+from app.plan.parameters import parameters_deciding
 from app.plan.rules import facts_of, lowered_spans_s, plan_by_rules, with_ruled, without_overruled
 from app.plan.styles import plan_styles
 from app.score.model import Note
@@ -164,7 +164,7 @@ AMONG_OTHERS: Final = StepTable(
     answered=_answered,
     places=_seen,
     after_hold=reading(after_holds, held="fermatas"),
-    met=reading(met, line="shared_line"),
+    met=reading(compared_with_others, line="shared_line"),
     shared=reading(shared_with, line="shared_line"),
 )
 """What one player's plan depends on of the others'."""
@@ -197,7 +197,7 @@ PLAYER: Final = StepTable(
     # What is blown and tongued.
     envelope=_envelope,
     air="instrument.air",
-    breath_parameters=partial(restricted, kind="breaths"),
+    breath_parameters=partial(parameters_deciding, kind="breaths"),
     breath_corrections=partial(of_kinds, kinds=(SetBreath, RemoveEvent, SetCue)),
     bare_notes=without_sound,
     planned_breaths=reading(
@@ -253,7 +253,7 @@ PLAYER: Final = StepTable(
     gesture_corrections=partial(of_kinds, kinds=(ChangeGesture, AddGesture, RemoveEvent, SetBreath, SetCue)),
     corrected_gestures=reading(correct_gestures, events="made_gestures", corrections="gesture_corrections"),
     allowed_gestures=reading(without_overruled, events="corrected_gestures"),
-    posing=partial(restricted, kind="poses"),
+    posing=partial(parameters_deciding, kind="poses"),
     defined=reading(
         with_definitions,
         events="allowed_gestures",
@@ -263,7 +263,7 @@ PLAYER: Final = StepTable(
     ),
     defined_gestures="defined.gestures",
     definition_problems="defined.problems",
-    gestures=reading(undisturbed, events="defined_gestures"),
+    gestures=reading(without_idle_hands, events="defined_gestures"),
     # What eyes and face show.
     looking=_looking,
     looks_up=reading(looks_up, amount="gaze"),

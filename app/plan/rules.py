@@ -17,7 +17,7 @@ import numpy as np
 from app.arrays import BoolArray, FloatArray, IntArray
 from app.errors import Argument, Message
 from app.plan.event_id import EventId
-from app.plan.gestures.when_possible import LoweredSpans, belongs, comes_up, may_start
+from app.plan.gestures.possible_gestures import LoweredSpans, belongs, comes_up, may_start
 from app.plan.lips.embouchure import efforts_of
 from app.plan.model import EmbouchureEvent, ExpressionEvent, GestureEvent, Problem, StyleEvent, TimeFrame
 from app.plan.music.dynamics import Dynamics

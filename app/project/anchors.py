@@ -34,7 +34,7 @@ def note_of(correction: Correction) -> str | None:
     return found.group() if found else None
 
 
-def moved(
+def moved_correction(
     correction: C, note_ids: Mapping[str, str], place: Callable[[int], int] | None = None, scale: Fraction = Fraction(1)
 ) -> C:
     """The correction about other notes and places; the same value where nothing changes.

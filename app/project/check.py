@@ -23,17 +23,17 @@ from app.project.fault import (
     COLOUR,
     Fault,
     about,
-    between,
+    faults_at_key,
+    faults_of_bounds,
     id_faults,
     in_order,
     look_faults,
     path_faults,
     text_faults,
     unique,
-    within,
 )
 from app.project.frame_rate import is_storable_rate
-from app.project.imported import ReadTiming
+from app.project.import_decisions import ReadTiming
 from app.project.model import PlayerTakes, Project
 from app.project.parameters import is_possible, range_text
 from app.project.performers import Player
@@ -59,7 +59,7 @@ def faults(project: Project, before: Project | None = None) -> Iterator[Fault]:
         costs what it changes.
     """
     if before is None or project.score is not before.score:
-        yield from within("score", _score_faults(project.score, None if before is None else before.score))
+        yield from faults_at_key("score", _score_faults(project.score, None if before is None else before.score))
     yield from _player_faults(project, before)
     yield from project_correction_faults(project, before)
     yield from dancer_faults(project)
@@ -101,21 +101,23 @@ def _read_faults(project: Project, before: Project | None) -> Iterator[Fault]:
                 yield from _curve_faults(curve, f"edited_curves[{part_id!r}][{index}]")
     timing, imported = project.read_timing, project.imported
     if timing is not None and (before is None or timing is not before.read_timing):
-        yield from within("read_timing", _timing_faults(timing))
+        yield from faults_at_key("read_timing", _timing_faults(timing))
     if imported is not None and (before is None or imported is not before.imported):
-        yield from within("imported", import_faults(imported))
+        yield from faults_at_key("imported", import_faults(imported))
 
 
 def _timing_faults(timing: ReadTiming) -> Iterator[Fault]:
-    yield from between("tempo_map.ticks_per_quarter", timing.tempo_map.ticks_per_quarter, limits.TICKS_PER_QUARTER)
+    yield from faults_of_bounds(
+        "tempo_map.ticks_per_quarter", timing.tempo_map.ticks_per_quarter, limits.TICKS_PER_QUARTER
+    )
     yield from _tempo_faults(timing.tempo_map.changes)
     yield from _metre_faults(timing.metres)
-    yield from between("pickup_ticks", timing.pickup_ticks, (0, limits.LAST_TICK))
+    yield from faults_of_bounds("pickup_ticks", timing.pickup_ticks, (0, limits.LAST_TICK))
 
 
 def _score_faults(score: Score, before: Score | None) -> Iterator[Fault]:
     yield from text_faults("title", score.title)
-    yield from between("ticks_per_quarter", score.ticks_per_quarter, limits.TICKS_PER_QUARTER)
+    yield from faults_of_bounds("ticks_per_quarter", score.ticks_per_quarter, limits.TICKS_PER_QUARTER)
     if score.tempo_map.ticks_per_quarter != score.ticks_per_quarter:
         yield "tempo_map.ticks_per_quarter", "differs from the score's"
     yield from _tempo_faults(score.tempo_map.changes)
@@ -126,7 +128,7 @@ def _score_faults(score: Score, before: Score | None) -> Iterator[Fault]:
     if not score.metres or score.metres[0].tick != 0 or not score.tempo_map.changes or score.ticks_per_quarter < 1:
         # How long anything is cannot be said.
         return
-    yield from between("pickup_ticks", score.pickup_ticks, (0, limits.LAST_TICK))
+    yield from faults_of_bounds("pickup_ticks", score.pickup_ticks, (0, limits.LAST_TICK))
     if score.pickup_ticks and (len(score.metres) < 2 or score.metres[1].tick != score.pickup_ticks):
         yield "pickup_ticks", "no metre begins after the pickup"
     yield from unique("parts", (part.id for part in score.parts))
@@ -137,13 +139,13 @@ def _score_faults(score: Score, before: Score | None) -> Iterator[Fault]:
     yield from _note_id_faults(score.parts, () if before is None else before.parts)
     for index, unplayed in enumerate(score.unplayed):
         yield from text_faults(f"unplayed[{index}].name", unplayed.name)
-        yield from between(f"unplayed[{index}].end_tick", unplayed.end_tick, (0, limits.LAST_TICK))
-        yield from between(f"unplayed[{index}].note_count", unplayed.note_count, (0, limits.LAST_TICK))
+        yield from faults_of_bounds(f"unplayed[{index}].end_tick", unplayed.end_tick, (0, limits.LAST_TICK))
+        yield from faults_of_bounds(f"unplayed[{index}].note_count", unplayed.note_count, (0, limits.LAST_TICK))
         spans = f"unplayed[{index}].sounding"
         free = 0
         for number, (start, end) in enumerate(unplayed.sounding):
-            yield from between(f"{spans}[{number}][0]", start, (free, limits.LAST_TICK))
-            yield from between(f"{spans}[{number}][1]", end, (start, limits.LAST_TICK))
+            yield from faults_of_bounds(f"{spans}[{number}][0]", start, (free, limits.LAST_TICK))
+            yield from faults_of_bounds(f"{spans}[{number}][1]", end, (start, limits.LAST_TICK))
             free = end
     long = too_long(score)
     if long is not None:
@@ -172,7 +174,7 @@ def _tempo_faults(changes: Sequence[TempoChange]) -> Iterator[Fault]:
     place = "tempo_map.changes"
     yield from in_order(place, [change.tick for change in changes])
     for index, change in enumerate(changes):
-        yield from between(
+        yield from faults_of_bounds(
             f"{place}[{index}].microseconds_per_quarter",
             change.microseconds_per_quarter,
             limits.MICROSECONDS_PER_QUARTER,
@@ -183,14 +185,14 @@ def _metre_faults(metres: Sequence[Metre]) -> Iterator[Fault]:
     yield from in_order("metres", [metre.tick for metre in metres])
     for index, metre in enumerate(metres):
         place = f"metres[{index}]"
-        yield from between(f"{place}.numerator", metre.numerator, limits.METRE_NUMERATOR)
+        yield from faults_of_bounds(f"{place}.numerator", metre.numerator, limits.METRE_NUMERATOR)
         if metre.denominator not in limits.METRE_DENOMINATORS:
             yield f"{place}.denominator", f"must be one of {', '.join(map(str, limits.METRE_DENOMINATORS))}"
 
 
 def _marker_faults(markers: Sequence[Marker]) -> Iterator[Fault]:
     for index, marker in enumerate(markers):
-        yield from between(f"markers[{index}].tick", marker.tick, (0, limits.LAST_TICK))
+        yield from faults_of_bounds(f"markers[{index}].tick", marker.tick, (0, limits.LAST_TICK))
         yield from text_faults(f"markers[{index}].text", marker.text)
         if index and marker.tick < markers[index - 1].tick:
             yield f"markers[{index}].tick", "markers must be ordered by tick"
@@ -208,9 +210,9 @@ def _percussion_faults(hits: Sequence[PercussionHit]) -> Iterator[Fault]:
         ):
             continue
         place = f"percussion[{index}]"
-        yield from between(f"{place}.tick", hit.tick, (0, limits.LAST_TICK))
-        yield from between(f"{place}.pitch", hit.pitch, (0, 127))
-        yield from between(f"{place}.velocity", hit.velocity, (1, 127))
+        yield from faults_of_bounds(f"{place}.tick", hit.tick, (0, limits.LAST_TICK))
+        yield from faults_of_bounds(f"{place}.pitch", hit.pitch, (0, 127))
+        yield from faults_of_bounds(f"{place}.velocity", hit.velocity, (1, 127))
         if (hit.tick, hit.pitch) < (before.tick, before.pitch):
             yield f"{place}.tick", "hits must be ordered by tick, then pitch"
 
@@ -219,21 +221,21 @@ def _part_faults(part: Part, place: str) -> Iterator[Fault]:
     yield from id_faults(f"{place}.id", part.id)
     yield from text_faults(f"{place}.name", part.name)
     yield from id_faults(f"{place}.map_id", part.map_id)
-    yield from between(f"{place}.channel", part.channel, (0, 15))
-    yield from between(f"{place}.track", part.track, (0, limits.LAST_TICK))
-    yield from between(f"{place}.voice", part.voice, (0, limits.LAST_TICK))
-    yield from between(f"{place}.transposed_semitones", part.transposed_semitones, (-127, 127))
+    yield from faults_of_bounds(f"{place}.channel", part.channel, (0, 15))
+    yield from faults_of_bounds(f"{place}.track", part.track, (0, limits.LAST_TICK))
+    yield from faults_of_bounds(f"{place}.voice", part.voice, (0, limits.LAST_TICK))
+    yield from faults_of_bounds(f"{place}.transposed_semitones", part.transposed_semitones, (-127, 127))
     if part.program is not None:
-        yield from between(f"{place}.program", part.program, (0, 127))
+        yield from faults_of_bounds(f"{place}.program", part.program, (0, 127))
     for name, spans in (("muted", part.muted), ("stopped", part.stopped)):
         for index, (start, end) in enumerate(spans):
-            yield from between(f"{place}.{name}[{index}][0]", start, (0, limits.LAST_TICK))
-            yield from between(f"{place}.{name}[{index}][1]", end, (start, limits.LAST_TICK))
+            yield from faults_of_bounds(f"{place}.{name}[{index}][0]", start, (0, limits.LAST_TICK))
+            yield from faults_of_bounds(f"{place}.{name}[{index}][1]", end, (start, limits.LAST_TICK))
         if spans != tuple(sorted(spans)):
             yield f"{place}.{name}", "spans must be ordered by start"
     yield from _note_faults(part.notes, f"{place}.notes")
     for index, mark in enumerate(part.marks):
-        yield from within(f"{place}.marks[{index}]", _mark_faults(mark))
+        yield from faults_at_key(f"{place}.marks[{index}]", _mark_faults(mark))
     for index, curve in enumerate(part.curves):
         yield from _curve_faults(curve, f"{place}.curves[{index}]")
 
@@ -241,9 +243,9 @@ def _part_faults(part: Part, place: str) -> Iterator[Fault]:
 def _mark_faults(mark: Mark) -> Iterator[Fault]:
     yield from id_faults("note_id", mark.note_id, least=0)
     yield from id_faults("last_note_id", mark.last_note_id, least=0)
-    yield from between("tick", mark.tick, (0, limits.LAST_TICK))
+    yield from faults_of_bounds("tick", mark.tick, (0, limits.LAST_TICK))
     if mark.end_tick:
-        yield from between("end_tick", mark.end_tick, (mark.tick, limits.LAST_TICK))
+        yield from faults_of_bounds("end_tick", mark.end_tick, (mark.tick, limits.LAST_TICK))
     yield from text_faults("text", mark.text, limits.MOST_NAME)
 
 
@@ -259,10 +261,10 @@ def _note_faults(notes: Sequence[Note], place: str) -> Iterator[Fault]:
             continue
         at = f"{place}[{index}]"
         yield from id_faults(f"{at}.id", note.id)
-        yield from between(f"{at}.onset_tick", note.onset_tick, (0, limits.LAST_TICK))
-        yield from between(f"{at}.duration_tick", note.duration_tick, (1, limits.LAST_TICK - note.onset_tick))
-        yield from between(f"{at}.pitch", note.pitch, (0, 127))
-        yield from between(f"{at}.velocity", note.velocity, (1, 127))
+        yield from faults_of_bounds(f"{at}.onset_tick", note.onset_tick, (0, limits.LAST_TICK))
+        yield from faults_of_bounds(f"{at}.duration_tick", note.duration_tick, (1, limits.LAST_TICK - note.onset_tick))
+        yield from faults_of_bounds(f"{at}.pitch", note.pitch, (0, 127))
+        yield from faults_of_bounds(f"{at}.velocity", note.velocity, (1, 127))
     for index, (note, following) in enumerate(pairwise(notes), 1):
         if (following.onset_tick, following.pitch) < (note.onset_tick, note.pitch):
             yield f"{place}[{index}].onset_tick", "notes must be ordered by onset, then pitch"
@@ -347,11 +349,11 @@ def take_faults(take: Take, place: str) -> Iterator[Fault]:
     yield from text_faults(f"{place}.recorded", take.recorded)
     if take.colour and not COLOUR.fullmatch(take.colour):
         yield f"{place}.colour", 'must be empty or like "#3366cc"'
-    yield from between(f"{place}.wiring.channel", take.wiring.channel, (0, 16))
+    yield from faults_of_bounds(f"{place}.wiring.channel", take.wiring.channel, (0, 16))
     for field, bounds in limits.CLEANING.items():
-        yield from between(f"{place}.cleaning.{field}", getattr(take.cleaning, field), bounds)
-    yield from within(place, _tempo_faults(take.tempo_map.changes))
-    yield from between(
+        yield from faults_of_bounds(f"{place}.cleaning.{field}", getattr(take.cleaning, field), bounds)
+    yield from faults_at_key(place, _tempo_faults(take.tempo_map.changes))
+    yield from faults_of_bounds(
         f"{place}.tempo_map.ticks_per_quarter", take.tempo_map.ticks_per_quarter, limits.TICKS_PER_QUARTER
     )
     times = take.times_us
@@ -360,7 +362,7 @@ def take_faults(take: Take, place: str) -> Iterator[Fault]:
     if len(times) > limits.MOST_TAKE_EVENTS:
         yield f"{place}.times_us", f"at most {limits.MOST_TAKE_EVENTS}"
     for value in (take.start_us, take.end_us, *times[:1], *times[-1:]):
-        yield from between(f"{place}.times_us", value, limits.TAKE_US)
+        yield from faults_of_bounds(f"{place}.times_us", value, limits.TAKE_US)
     if take.start_us > take.end_us:
         yield f"{place}.end_us", "must not be before the start"
     if any(following < time for time, following in pairwise(times)):
@@ -383,23 +385,23 @@ def _comp_faults(recorded: PlayerTakes, place: str) -> Iterator[Fault]:
 
 
 def _setting_faults(project: Project) -> Iterator[Fault]:
-    yield from between("seed", project.seed, limits.SEED)
-    yield from between("preroll_beats", project.preroll_beats, limits.PREROLL_BEATS)
-    yield from between("section_intensity", project.section_intensity, limits.SECTION_INTENSITY)
+    yield from faults_of_bounds("seed", project.seed, limits.SEED)
+    yield from faults_of_bounds("preroll_beats", project.preroll_beats, limits.PREROLL_BEATS)
+    yield from faults_of_bounds("section_intensity", project.section_intensity, limits.SECTION_INTENSITY)
     if project.conductor is not None:
-        yield from between("conductor.x_m", project.conductor.x_m, limits.STAGE_M)
-        yield from between("conductor.z_m", project.conductor.z_m, limits.STAGE_M)
+        yield from faults_of_bounds("conductor.x_m", project.conductor.x_m, limits.STAGE_M)
+        yield from faults_of_bounds("conductor.z_m", project.conductor.z_m, limits.STAGE_M)
     if project.felt_beat_quarters is not None:
-        yield from between("felt_beat_quarters", project.felt_beat_quarters, limits.FELT_BEAT_QUARTERS)
+        yield from faults_of_bounds("felt_beat_quarters", project.felt_beat_quarters, limits.FELT_BEAT_QUARTERS)
     if not limits.FPS[0] <= project.fps <= limits.FPS[1]:
         yield "fps", f"must be from {limits.FPS[0]} to {limits.FPS[1]}"
     if not is_storable_rate(project.fps):
         yield "fps", "must be a fraction of whole numbers of at most nine digits"
     yield from path_faults("source", project.source)
     if project.audio is not None:
-        yield from within("audio", audio_faults(project.audio))
+        yield from faults_at_key("audio", audio_faults(project.audio))
     if project.video is not None:
-        yield from within("video", track_faults(project.video))
+        yield from faults_at_key("video", track_faults(project.video))
     yield from unique("expressions", (expression.name for expression in project.expressions), "name")
     for index, expression in enumerate(project.expressions):
         yield from expression_faults(expression, f"expressions[{index}]")
@@ -412,7 +414,7 @@ def expression_faults(expression: Expression, place: str) -> Iterator[Fault]:
     for morph, weight in expression.weights.items():
         if morph not in _MORPHS:
             yield f"{place}.weights.{morph}", "not one of the 52 ARKit morph targets"
-        yield from between(f"{place}.weights.{morph}", weight, (0.0, 1.0))
+        yield from faults_of_bounds(f"{place}.weights.{morph}", weight, (0.0, 1.0))
     for field in ("fade_in_s", "fade_out_s"):
         value = getattr(expression, field)
         if not 0.0 < value <= 60.0:

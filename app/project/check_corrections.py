@@ -13,7 +13,7 @@ from app.plan.by_hand.additive_curve import AdditiveCurve
 from app.plan.by_hand.corrections import Correction
 from app.project import limits
 from app.project.check_curves import curve_faults
-from app.project.fault import Fault, about, between, id_faults, text_faults
+from app.project.fault import Fault, about, faults_of_bounds, id_faults, text_faults
 from app.project.model import Project
 
 _KEY: Final = re.compile(r"\.keys\[(\d+)\]")
@@ -86,9 +86,9 @@ def _plain_faults(place: str, value: Any) -> Iterator[Fault]:
         yield from text_faults(place, value, limits.MOST_ID)
     elif isinstance(value, int | float):
         if place.endswith(("_tick", "_ticks")):
-            yield from between(place, value, _TICKS)
+            yield from faults_of_bounds(place, value, _TICKS)
         elif isinstance(value, float):
-            yield from between(place, value, (-limits.MOST_NUMBER, limits.MOST_NUMBER))
+            yield from faults_of_bounds(place, value, (-limits.MOST_NUMBER, limits.MOST_NUMBER))
         elif abs(value) > limits.SEED[1]:
             yield place, f"must be from {-limits.SEED[1]} to {limits.SEED[1]}"
     elif isinstance(value, tuple | list):

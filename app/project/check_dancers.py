@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from app.project import limits
 from app.project.choreography_files import SUFFIX, is_choreography
 from app.project.dance_corrections import DanceCorrection, ForbidState, PinState
-from app.project.fault import Fault, about, between, id_faults, look_faults, path_faults, text_faults, unique
+from app.project.fault import Fault, about, faults_of_bounds, id_faults, look_faults, path_faults, text_faults, unique
 from app.project.model import DANCER_PARAMETERS, Project
 from app.project.performers import Dancer
 
@@ -41,17 +41,19 @@ def _one_dancer_faults(dancer: Dancer, place: str) -> Iterator[Fault]:
     yield from look_faults(dancer, place)
     for name, parameter in DANCER_PARAMETERS.items():
         if parameter.bounds is not None:
-            yield from between(f"{place}.{name}", getattr(dancer, name), parameter.bounds)
+            yield from faults_of_bounds(f"{place}.{name}", getattr(dancer, name), parameter.bounds)
 
 
 def _dance_correction_faults(correction: DanceCorrection, place: str) -> Iterator[Fault]:
     ticks = (-limits.LAST_TICK, limits.LAST_TICK)
     if isinstance(correction, ForbidState):
-        yield from between(f"{place}.start_tick", correction.start_tick, ticks)
-        yield from between(f"{place}.end_tick", correction.end_tick, (correction.start_tick + 1, limits.LAST_TICK))
+        yield from faults_of_bounds(f"{place}.start_tick", correction.start_tick, ticks)
+        yield from faults_of_bounds(
+            f"{place}.end_tick", correction.end_tick, (correction.start_tick + 1, limits.LAST_TICK)
+        )
     else:
-        yield from between(f"{place}.tick", correction.tick, ticks)
+        yield from faults_of_bounds(f"{place}.tick", correction.tick, ticks)
     if isinstance(correction, PinState | ForbidState):
-        yield from between(f"{place}.state", correction.state, limits.CHOREOGRAPHY_INDEX)
+        yield from faults_of_bounds(f"{place}.state", correction.state, limits.CHOREOGRAPHY_INDEX)
     else:
-        yield from between(f"{place}.segment", correction.segment, limits.CHOREOGRAPHY_INDEX)
+        yield from faults_of_bounds(f"{place}.segment", correction.segment, limits.CHOREOGRAPHY_INDEX)

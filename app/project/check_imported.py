@@ -6,8 +6,8 @@ from collections.abc import Iterator
 
 from app.encoding import is_encoding
 from app.project import limits
-from app.project.fault import Fault, between, id_faults, text_faults
-from app.project.imported import MOST_ROWS, ImportDecisions, RowDecision, TrackMark
+from app.project.fault import Fault, faults_of_bounds, id_faults, text_faults
+from app.project.import_decisions import MOST_ROWS, ImportDecisions, RowDecision, TrackMark
 from app.project.likeness import SKETCH, SKETCH_BITS
 
 
@@ -38,10 +38,10 @@ def _row_faults(row: RowDecision, place: str) -> Iterator[Fault]:
 
 def _mark_faults(mark: TrackMark, place: str) -> Iterator[Fault]:
     for field in ("track", "change"):
-        yield from between(f"{place}.{field}", getattr(mark, field), (0, limits.LAST_TICK))
-    yield from between(f"{place}.channel", mark.channel, (0, 15))
+        yield from faults_of_bounds(f"{place}.{field}", getattr(mark, field), (0, limits.LAST_TICK))
+    yield from faults_of_bounds(f"{place}.channel", mark.channel, (0, 15))
     if mark.program is not None:
-        yield from between(f"{place}.program", mark.program, (0, 127))
+        yield from faults_of_bounds(f"{place}.program", mark.program, (0, 127))
     for field in ("name", "instrument_name", "called"):
         yield from text_faults(f"{place}.{field}", getattr(mark, field))
     if len(mark.reported) > limits.MOST_ID:
@@ -51,4 +51,4 @@ def _mark_faults(mark: TrackMark, place: str) -> Iterator[Fault]:
     if len(mark.melody) > SKETCH:
         yield f"{place}.melody", f"at most {SKETCH} numbers"
     for index, number in enumerate(mark.melody):
-        yield from between(f"{place}.melody[{index}]", number, (0, 2**SKETCH_BITS - 1))
+        yield from faults_of_bounds(f"{place}.melody[{index}]", number, (0, 2**SKETCH_BITS - 1))

@@ -10,7 +10,7 @@ from collections.abc import Iterator, Mapping, Sequence
 import msgspec
 
 from app.project.ids import MADE_PART, is_made_here
-from app.project.imported import ImportDecisions, Place, RowDecision, TrackMark, mark_of, melody_of
+from app.project.import_decisions import ImportDecisions, Place, RowDecision, TrackMark, mark_of, melody_of
 from app.project.likeness import shares, sketch, turns
 from app.project.model import Project
 from app.project.part_matching import turns_of

@@ -38,13 +38,13 @@ def about(
         yield place, f"{detail} ({said})" if said else detail
 
 
-def within(prefix: str, found: Iterable[Fault]) -> Iterator[Fault]:
+def faults_at_key(prefix: str, found: Iterable[Fault]) -> Iterator[Fault]:
     """Faults of what lies at a key."""
     for place, detail in found:
         yield f"{prefix}.{place}", detail
 
 
-def between(place: str, value: float, bounds: Bounds) -> Iterator[Fault]:
+def faults_of_bounds(place: str, value: float, bounds: Bounds) -> Iterator[Fault]:
     """A number outside its bounds."""
     # Also not where it is no number at all, or a whole one that no float can hold.
     if not bounds[0] <= value <= bounds[1]:
@@ -103,6 +103,6 @@ def look_faults(performer: Player | Dancer, place: str) -> Iterator[Fault]:
     """Of where a performer is on the stage, and of the colour."""
     if performer.colour and not COLOUR.fullmatch(performer.colour):
         yield f"{place}.colour", 'must be empty or like "#3366cc"'
-    yield from between(f"{place}.stage.x_m", performer.stage.x_m, limits.STAGE_M)
-    yield from between(f"{place}.stage.z_m", performer.stage.z_m, limits.STAGE_M)
-    yield from between(f"{place}.stage.turn_rad", performer.stage.turn_rad, limits.TURN_RAD)
+    yield from faults_of_bounds(f"{place}.stage.x_m", performer.stage.x_m, limits.STAGE_M)
+    yield from faults_of_bounds(f"{place}.stage.z_m", performer.stage.z_m, limits.STAGE_M)
+    yield from faults_of_bounds(f"{place}.stage.turn_rad", performer.stage.turn_rad, limits.TURN_RAD)

@@ -9,7 +9,7 @@ from typing import Literal, TypeAlias
 
 import msgspec
 
-from app.project.imported import ReadTiming
+from app.project.import_decisions import ReadTiming
 from app.project.model import Project
 from app.score.metre_map import Metre
 from app.score.model import Score

@@ -16,7 +16,7 @@ import numpy as np
 from app.project.alignment import AlignmentPart, align
 from app.project.derived_decisions import held_by_file, is_read
 from app.project.ids import MADE_PART, READ_NOTE, READ_PART, fresh_note_ids, fresh_part_ids, is_made_here
-from app.project.imported import Place
+from app.project.import_decisions import Place
 from app.project.model import Project
 from app.project.moved_ticks import place_map
 from app.project.part_matching import matched_parts

@@ -9,7 +9,7 @@ import msgspec
 
 from app.errors import Message
 from app.project.doubling import doubled_parts
-from app.project.imported import ImportDecisions, RowDecision, TrackMark, mark_of
+from app.project.import_decisions import ImportDecisions, RowDecision, TrackMark, mark_of
 from app.project.model import Project, map_choices, project_from_score
 from app.score.model import Score, UnplayedPart
 from app.score.parts import PERCUSSION, PartAssignment, suggestions

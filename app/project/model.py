@@ -26,7 +26,7 @@ from app.project.casting import (
 from app.project.dance_corrections import DanceCorrection
 from app.project.doubling import common_postures, doubled_parts, embodied
 from app.project.footprint import footprint, together
-from app.project.imported import ImportDecisions, ReadTiming
+from app.project.import_decisions import ImportDecisions, ReadTiming
 from app.project.names import unique_names
 from app.project.parameters import ParameterSetting
 from app.project.parameters import with_settings as parameters_with

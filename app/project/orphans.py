@@ -9,8 +9,8 @@ from dataclasses import dataclass
 
 from app.errors import UsageError
 from app.plan.by_hand.corrections import Correction
-from app.project.anchors import moved, note_of
-from app.project.edit.corrections import put, take_back
+from app.project.anchors import moved_correction, note_of
+from app.project.edit.corrections import take_back, with_corrections
 from app.project.model import Project
 
 
@@ -48,4 +48,4 @@ def reattached(project: Project, player_id: str, correction: Correction, note_id
     if former == note_id:
         return project
     without = take_back(project, player_id, [correction])
-    return put(without, player_id, [moved(correction, {former: note_id})])
+    return with_corrections(without, player_id, [moved_correction(correction, {former: note_id})])

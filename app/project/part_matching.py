@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from app.arrays import FloatArray
-from app.project.imported import Place
+from app.project.import_decisions import Place
 from app.project.likeness import ALIKE, shares, turns
 from app.score.model import Part, Score
 

@@ -26,7 +26,7 @@ from app.project import limits
 from app.project.check import expression_faults, require_sound
 from app.project.check_corrections import correction_faults
 from app.project.edit.players import set_parameters
-from app.project.fault import Fault, between, text_faults, unique
+from app.project.fault import Fault, faults_of_bounds, text_faults, unique
 from app.project.model import Project
 from app.project.parameters import is_possible, range_text
 from metadata.acting import AMOUNTS
@@ -240,8 +240,8 @@ def _player(name: str, table: object, file: str) -> PlayerMetadata:
 
 
 def _faults(metadata: PieceMetadata) -> Iterator[Fault]:
-    yield from between("ticks_per_quarter", metadata.ticks_per_quarter, limits.TICKS_PER_QUARTER)
-    yield from between("section_intensity", metadata.section_intensity, limits.SECTION_INTENSITY)
+    yield from faults_of_bounds("ticks_per_quarter", metadata.ticks_per_quarter, limits.TICKS_PER_QUARTER)
+    yield from faults_of_bounds("section_intensity", metadata.section_intensity, limits.SECTION_INTENSITY)
     for name, player in metadata.players.items():
         yield from text_faults(f"players.{name}", name)
         for parameter, value in player.parameters.items():

@@ -28,7 +28,7 @@ from typing import Any, Literal, TypeAlias
 import msgspec
 
 from app.plan.by_hand.corrections import Correction
-from app.project.anchors import moved
+from app.project.anchors import moved_correction
 from app.project.derived_decisions import derived_decisions, is_read
 from app.project.doubling import doubled_parts
 from app.project.edit.length import with_score
@@ -41,7 +41,7 @@ from app.project.ids import (
     fresh_part_ids,
     fresh_player_ids,
 )
-from app.project.imported import Place
+from app.project.import_decisions import Place
 from app.project.importing import score_of_rows
 from app.project.model import Project, map_choices
 from app.project.moved_ticks import place_map
@@ -262,10 +262,10 @@ def _with_players(
         if own:
             here = None if found.still else found.places.get(player.part_id)
             place = place_map(here, scale) if here else everywhere
-            corrections[player.id] = tuple(moved(correction, {}, place, scale) for correction in own)
+            corrections[player.id] = tuple(moved_correction(correction, {}, place, scale) for correction in own)
     whole = msgspec.structs.replace(score, title=project.score.title, parts=tuple(parts))
     danced = {
-        dancer: tuple(moved(correction, {}, everywhere, scale) for correction in own)
+        dancer: tuple(moved_correction(correction, {}, everywhere, scale) for correction in own)
         for dancer, own in project.dance_corrections.items()
     }
     return replace(

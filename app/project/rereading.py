@@ -14,7 +14,7 @@ from typing import Final
 import msgspec
 import numpy as np
 
-from app.project.imported import (
+from app.project.import_decisions import (
     MOST_ROWS,
     ImportDecisions,
     Place,

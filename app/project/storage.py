@@ -33,7 +33,7 @@ from app.project.choreography_files import bundled_choreographies, choreography_
 from app.project.dance_corrections import DanceCorrection
 from app.project.frame_rate import stored_rate
 from app.project.ids import is_made_here
-from app.project.imported import ImportDecisions, ReadTiming
+from app.project.import_decisions import ImportDecisions, ReadTiming
 from app.project.migrations import CURRENT, VERSION_KEY, Raw, migrated
 from app.project.model import PlayerTakes, Project
 from app.project.performers import Dancer, Player

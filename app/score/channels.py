@@ -118,7 +118,7 @@ def players_channels(
     return [(channel,) for channel in channels]
 
 
-def leading(events: TrackEvents, channels: Collection[int]) -> int:
+def leading_channel(events: TrackEvents, channels: Collection[int]) -> int:
     """The channel that stands for some: that of their first note; one of a rhythm part only where all are."""
     played = list(filter(events.is_melodic, channels)) or channels
     return min(played, key=lambda channel: events.channels[channel].numbers[0])

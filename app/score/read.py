@@ -34,7 +34,7 @@ midi.too_many_parts : file, parts, most
 midi.too_long : file, track, and as `app.score.limits.too_long` says it
     "{file}: the last note of track {track} ends after {hours} hours, {quarters} quarter notes and {bars} bars ..."
 
-The warnings are those of `app.score.chunks`, `app.score.repair`, `app.score.stuck` and `app.score.parts`, and:
+The warnings are those of `app.score.chunks`, `app.score.repair`, `app.score.stuck_notes` and `app.score.parts`, and:
 
 midi.smpte_rate : rate
     "The file counts time in frames of 1/{rate} s, which is no SMPTE rate; it was taken literally"
@@ -76,7 +76,7 @@ import msgspec
 
 from app.encoding import shown
 from app.errors import FileError, Message
-from app.score.channels import curves_of, leading, players_channels, settle_bends, sounding_channels
+from app.score.channels import curves_of, leading_channel, players_channels, settle_bends, sounding_channels
 from app.score.choose import MapChoice, TrackChannel, is_no_name, named_by_title, use_of
 from app.score.chunks import Container, TrackChunk, read_container
 from app.score.doublings import doubled_instruments
@@ -92,7 +92,7 @@ from app.score.repair import Repaired, last_suspicious, repaired
 from app.score.solos import words_of_players
 from app.score.sound_module import FIRST_PORT, Port, Use, channel_sounds
 from app.score.spread import spread_lines
-from app.score.stuck import cut_stuck_notes
+from app.score.stuck_notes import cut_stuck_notes
 from app.score.take_tracks import RECORDED
 from app.score.tempo import TempoChange, TempoMap
 from app.score.texts import TextDecoder
@@ -518,14 +518,14 @@ def _streams(
         recorded = any(text == RECORDED.encode() for _, text in events.texts)
         for channels in groups:
             notes = events.notes(channels)
-            first = leading(events, channels)
+            first = leading_channel(events, channels)
             heard, among = (events, channels) if spread is None else (spread.events, spread.channels)
             sounding = sounding_channels(first, among, zones[index])
             curves = curves_of(heard, among, zones[index])
             played_on = doubled_instruments(events, channels, name, said if len(groups) == 1 else (), notes.onset_ticks)
             muted, stopped = mutes_of(events, channels, name, said if len(groups) == 1 else ())
             solos = words_of_players(said) if len(groups) == 1 else ()
-            lead = leading(heard, among)
+            lead = leading_channel(heard, among)
             sounds = [heard.sound_at(lead, tick) for tick in notes.onset_ticks]
             kinds = [(sound.use, instrument) for sound, instrument in zip(sounds, played_on, strict=True)]
             for change, kind in enumerate(sorted(dict.fromkeys(kinds), key=_kind_order)):

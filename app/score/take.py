@@ -187,7 +187,7 @@ def _played(times_us: tuple[int, ...], messages: tuple[str, ...], wiring: Contro
         data = bytes.fromhex(raw)
         ended = sounding.receive(data, (time_s, data[-1]))
         notes += [(onset_s, time_s, pitch, velocity) for (_, pitch), (onset_s, velocity) in ended]
-        for curve, value in said(message, wiring, ranges):
+        for curve, value in curve_values(message, wiring, ranges):
             times, values = sent.setdefault(curve, ([], []))
             if times and times[-1] == time_s:
                 values[-1] = value
@@ -232,7 +232,7 @@ def is_message(raw: str) -> bool:
     return True
 
 
-def said(
+def curve_values(
     message: mido.Message, wiring: ControllerMapping, ranges: BendRanges | None = None
 ) -> Iterator[tuple[CurveKind, float]]:
     """Return what a message says of breath, bite and bend, as values of a part's curves.

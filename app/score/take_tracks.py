@@ -49,7 +49,7 @@ def take_reason(stream: TrackChannel, tempo_map: TempoMap) -> TakeReason:
         return "recorded"
     if stream.use != "melodic" or len(stream.pitches) < _LEAST_NOTES:
         return ""
-    notes = played(stream, tempo_map)
+    notes = notes_as_played(stream, tempo_map)
     breath = notes.curves.get("breath")
     if breath is None or not _is_one_line(notes) or not _is_blown(notes, breath):
         return ""
@@ -67,7 +67,7 @@ def _is_named(name: str) -> bool:
 
 def without_faults(stream: TrackChannel, tempo_map: TempoMap) -> tuple[TrackChannel, dict[Fault, list[Note]]]:
     """A stream with its notes cleaned as a take's, and the notes that are left out by why, as they were played."""
-    clean = clean_notes(played(stream, tempo_map), Cleaning())
+    clean = clean_notes(notes_as_played(stream, tempo_map), Cleaning())
     before = stream.notes()
     found: dict[Fault, list[Note]] = {}
     for fault, note in zip(clean.faults, before, strict=True):
@@ -82,7 +82,7 @@ def without_faults(stream: TrackChannel, tempo_map: TempoMap) -> tuple[TrackChan
     return msgspec.structs.replace(stream, onset_ticks=onsets.tolist(), end_ticks=ends.tolist(), **columns), found
 
 
-def played(stream: TrackChannel, tempo_map: TempoMap) -> Played:
+def notes_as_played(stream: TrackChannel, tempo_map: TempoMap) -> Played:
     """A stream as a take has its notes, with the curve that carries its breath."""
 
     def seconds(ticks: list[int]) -> FloatArray:

@@ -13,7 +13,7 @@ from app.performance.ensemble import Performance
 from app.performance.span import FrameSpan
 from app.plan.by_hand.corrections import PinFingering
 from app.plan.model import PlayerPlan
-from app.project.edit.corrections import put
+from app.project.edit.corrections import with_corrections
 from app.project.model import Project
 from app.project.performers import Player
 from app.score.metre_map import FeltBeats
@@ -46,4 +46,4 @@ def perform(
 def in_seventh(project: Project, player: Player) -> Project:
     """The project with a tenor trombone's low E and B natural pinned to the seventh position, as without a trigger."""
     pins = [PinFingering(note.id, "7") for note in project.part(player).notes if note.pitch in (40, 47)]
-    return put(project, player.id, pins)
+    return with_corrections(project, player.id, pins)

@@ -15,7 +15,7 @@ from app.plan.parameters import PARAMETERS, Bounds, PlayerParameters
 from app.project import limits
 from app.project.casting import StagePosition
 from app.project.dance_corrections import ForbidState, PinState, UseSegment
-from app.project.imported import ImportDecisions, ReadTiming, RowDecision, TrackMark
+from app.project.import_decisions import ImportDecisions, ReadTiming, RowDecision, TrackMark
 from app.project.model import DANCER_PARAMETERS, Project
 from app.project.performers import Dancer, Player
 from app.project.recording import AudioTrack

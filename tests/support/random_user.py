@@ -39,7 +39,7 @@ from app.plan.by_hand.corrections import AddExpression
 from app.project import storage
 from app.project.autosave import Autosave
 from app.project.document import Change
-from app.project.edit.corrections import put
+from app.project.edit.corrections import with_corrections
 from app.project.edit.dance_corrections import pin_state
 from app.project.edit.dancers import add_dancer, remove_dancers
 from app.project.edit.generation import vary_everyone
@@ -190,7 +190,9 @@ class RandomUser(Restless):
             lambda project: set_title(project, text),
             lambda project: rename(project, player.id, text),
             lambda project: set_parameters(project, [player.id], amplitude=chance.choice((0.1, 0.5, 1.9))),
-            lambda project: put(project, player.id, [AddExpression(f"x{chance.randrange(9)}", "strained", 0, 960)]),
+            lambda project: with_corrections(
+                project, player.id, [AddExpression(f"x{chance.randrange(9)}", "strained", 0, 960)]
+            ),
             lambda project: vary_everyone(project),
             lambda project: dancing(project, text, chance.randrange(5), self.folder),
         ]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from app.chance import begun, chance, next_seed, performed_seed, seed_of, share_of
+from app.chance import chance, next_seed, partial_digest, performed_seed, seed_of, share_of
 
 
 def test_the_numbers_are_those_of_every_version() -> None:
@@ -12,7 +12,7 @@ def test_the_numbers_are_those_of_every_version() -> None:
 
 
 def test_a_begun_chance_goes_on_as_the_whole() -> None:
-    digest = begun(("a", 7, "b")).copy()
+    digest = partial_digest(("a", 7, "b")).copy()
     digest.update(b"%d" % 480)
     assert share_of(digest.digest()) == chance("a", 7, "b", 480)
 

@@ -8,7 +8,7 @@ from pathlib import Path
 from PySide6.QtCore import QSize, Qt, Signal
 from PySide6.QtWidgets import QDialog, QGridLayout, QScrollArea, QWidget
 
-from app.audio.followed import FollowOptions
+from app.audio.followed_recording import FollowOptions
 from app.editor.files import AUDIO_SUFFIXES
 from app.editor.session import Session
 from widgets.common.controls import Button, Caption, Check, OkCancel, Retranslated, named, wrapped

@@ -12,7 +12,7 @@ from PySide6.QtWidgets import QDialog, QDoubleSpinBox, QPushButton, QWidget
 from app.audio.click import steady_clicks
 from app.audio.playback import Playback
 from app.audio.track import Mix
-from app.capture.latency import LATEST_S, LEAST_HITS, LatencyMeasurement, hits, measured, placed
+from app.capture.latency import LATEST_S, LEAST_HITS, LatencyMeasurement, events_on_time_line, hits, measured_latency
 from app.capture.protocol import Events
 from app.editor.session import Session
 from widgets.common.clicks import on_click
@@ -165,12 +165,12 @@ class LatencyDialog(Retranslated, QDialog):
             self._positions.append((ns, position_s))
         last = sum(click_s <= position_s for click_s in CLICKS_S) - 1
         self.chart.show_click(last - LEAD, last >= 0 and position_s - CLICKS_S[last] < _FLASH_S)
-        found = hits(placed(self._events, self._positions), self._session.recording.wiring.breath)
+        found = hits(events_on_time_line(self._events, self._positions), self._session.recording.wiring.breath)
         # A click that may still be hit is not missed.
         over = sum(click_s + LATEST_S <= position_s for click_s in CLICKS_S)
-        self.chart.show_measured(measured(CLICKS_S[LEAD : max(over, LEAD)], found))
+        self.chart.show_measured(measured_latency(CLICKS_S[LEAD : max(over, LEAD)], found))
         if position_s > CLICKS_S[-1] + _AFTER_S:
-            self._found = measured(CLICKS_S[LEAD:], found)
+            self._found = measured_latency(CLICKS_S[LEAD:], found)
             self.chart.show_measured(self._found)
             if not self._found.fault:
                 self.value.setValue(round(1000.0 * self._found.latency_s))

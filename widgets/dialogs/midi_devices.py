@@ -13,7 +13,7 @@ from PySide6.QtWidgets import QDialog, QGroupBox, QPushButton, QTreeWidgetItem, 
 from app.audio.beep import BEEP_S, beep_track
 from app.audio.playback import Playback
 from app.audio.track import Mix
-from app.capture.learn import Learned, learned, learned_bite
+from app.capture.learn import Learned, learned_bite, recognised_controller
 from app.capture.protocol import Events
 from app.editor.session import Session
 from metadata.load import load_controllers
@@ -202,7 +202,7 @@ class MidiDevicesDialog(Retranslated, QDialog):
         if blown is not None:
             self._learn_bite(blown[0], learned_bite(events, blown[1], blown[0]))
             return
-        found = learned(events, load_controllers()[recording.controller].breath)
+        found = recognised_controller(events, load_controllers()[recording.controller].breath)
         if found is None:
             why = self.tr("midi_devices_dialog.no_breath_came_in_blow")
             if not events:

@@ -10,7 +10,7 @@ from app.capture.message_log import MessageLog, MessageRow
 from app.capture.protocol import Events
 from app.editor.session import Session
 from app.editor.translated import tr
-from app.score.take import decoded, is_wired, said
+from app.score.take import curve_values, decoded, is_wired
 from instrument_maps.library import all_maps
 from widgets.common.controls import Retranslated, named
 from widgets.common.layouts import in_column, in_row
@@ -77,7 +77,7 @@ class MidiMonitor(Retranslated, QWidget):
             message = decoded(raw.hex())
             if message is not None and is_wired(message, wiring):
                 self._bite_now = next(
-                    (value for kind, value in said(message, wiring) if kind == "bite"), self._bite_now
+                    (value for kind, value in curve_values(message, wiring) if kind == "bite"), self._bite_now
                 )
         self._show_soon()
 

@@ -21,7 +21,7 @@ from app.project.performers import Player
 from widgets.common.controls import Button, Caption, PictureButton, Retranslated, named, wrapped
 from widgets.common.layouts import in_column, in_row
 from widgets.common.text import message_text
-from widgets.inspector.generated import Generated
+from widgets.inspector.generated_values import Generated
 from widgets.inspector.rows import LineList, ListRow
 from widgets.inspector.words import correction_title, event_text
 

@@ -17,7 +17,7 @@ from app.plan.event_id import EventId
 from app.plan.kinds import GESTURE_KINDS
 from app.plan.model import CueEvent, ExpressionEvent, GestureEvent, PlayerPlan, PoseEvent, StyleEvent
 from app.project.edit import events as edit
-from app.project.edit.corrections import put
+from app.project.edit.corrections import with_corrections
 from app.project.edit.events import Placed
 from app.project.model import Project
 from widgets.common.combo import Combo, Option
@@ -29,8 +29,8 @@ from widgets.common.plain import Label
 from widgets.common.section import Section
 from widgets.common.text import message_text
 from widgets.inspector.by_hand import ByHandLine
-from widgets.inspector.generated import Generated
-from widgets.inspector.selected import selected_events
+from widgets.inspector.generated_values import Generated
+from widgets.inspector.inspected_selection import selected_events
 from widgets.inspector.words import amount_field, event_text, event_title
 
 EARLIEST, LATEST = -(2.0**31), 2.0**31
@@ -311,7 +311,7 @@ class EventSection(Retranslated, QWidget):
             poses = [
                 msgspec.structs.replace(item, **{name: value}) for item in said if isinstance(item, PoseCorrection)
             ]
-            return put(project, plan.player_id, poses)
+            return with_corrections(project, plan.player_id, poses)
 
         self._edit("edit.set_event_amount", changed, token)
 

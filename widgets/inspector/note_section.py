@@ -31,9 +31,9 @@ from widgets.common.plain import Label
 from widgets.common.section import Section
 from widgets.common.text import message_text, sentence
 from widgets.inspector.by_hand import ByHandLine
-from widgets.inspector.generated import Generated
+from widgets.inspector.generated_values import Generated
+from widgets.inspector.inspected_selection import NoteFinder, SelectedNotes, fingering_of, selected_notes
 from widgets.inspector.pitch_reading import pitch_from
-from widgets.inspector.selected import NoteFinder, SelectedNotes, fingering_of, selected_notes
 
 LATEST_TICK = float(2**31 - 1)
 EMBOUCHURE = ("tension", "effort", "air")

@@ -19,7 +19,7 @@ from widgets.common.plain import Label
 from widgets.inspector.correction_list import CorrectionList
 from widgets.inspector.event_section import EventSection
 from widgets.inspector.expression_maker import ExpressionMaker
-from widgets.inspector.generated import Generated
+from widgets.inspector.generated_values import Generated
 from widgets.inspector.history_list import HistoryList
 from widgets.inspector.note_section import NoteSection
 from widgets.inspector.problem_list import ProblemList

@@ -25,7 +25,7 @@ from app.rig.skeleton import rest_positions
 from instrument_maps.library import find_map
 from instrument_maps.model import InstrumentMap
 from metadata.model import Posture
-from widgets.viewport.held import Instruments
+from widgets.viewport.held_instruments import Instruments
 
 
 @dataclass(frozen=True, eq=False)

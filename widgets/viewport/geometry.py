@@ -16,7 +16,7 @@ import numpy.typing as npt
 from app.arrays import AnyIntArray, FloatArray, IntArray, SingleArray
 from app.rig.mesh import Mesh
 from app.rig.model import Character, InstrumentModel
-from widgets.viewport.kept_shapes import kept
+from widgets.viewport.shape_cache import kept
 from widgets.viewport.shape_model import BONES_PER_VERTEX, SHAPE, SURFACE, Geometry, MorphTargets, numbers
 
 BODY_CELLS_M = (0.0, 0.0055, 0.02)

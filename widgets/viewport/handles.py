@@ -212,10 +212,10 @@ def with_correction(project: Project, player_id: str, before: PoseCorrection, af
     """The project with a pose held so; one that does nothing is none."""
     if _is_nothing(after):
         return edit.take_back(project, player_id, (before,))
-    return edit.put(project, player_id, (after,))
+    return edit.with_corrections(project, player_id, (after,))
 
 
-def without(project: Project, player_id: str, corrections: Sequence[Correction]) -> Project:
+def without_corrections(project: Project, player_id: str, corrections: Sequence[Correction]) -> Project:
     """The project without these."""
     return edit.take_back(project, player_id, corrections)
 

@@ -24,7 +24,7 @@ from widgets.viewport.handles import (
     span_of,
     turned,
     with_correction,
-    without,
+    without_corrections,
 )
 
 _NAMES: dict[PoseTarget, Message] = {
@@ -134,7 +134,7 @@ class PoseTool:
             owner, correction = player_id, found
             self._session.attempt(
                 Message("edit.release_pose"),
-                lambda project: without(project, owner, (correction,)),
+                lambda project: without_corrections(project, owner, (correction,)),
             )
 
     def _player_id(self) -> str | None:

@@ -13,8 +13,8 @@ from app.editor.viewport_state import View
 from app.rig.grip.body_size import face_size, hand_size
 from widgets.viewport.camera import Camera, frame
 from widgets.viewport.cast import Stage
+from widgets.viewport.finger_visibility import clearest, directions, visible_finger_shares
 from widgets.viewport.limbs import model_bounds
-from widgets.viewport.sight import clearest, directions, seen
 
 # Turn from the player's front towards their left, height of the eye, both in degrees; of the hands: the usual ones.
 _DIRECTIONS_DEG: dict[View, tuple[float, float]] = {
@@ -68,7 +68,7 @@ def steady_camera(view: View, posed: Iterable[Stage], rows: Sequence[int], camer
             continue
         turn = 0.0 if view == "ensemble" else turn_rad(stage, chosen[0])
         if view == "hands":
-            clear.append(seen(stage, chosen[0], directions(usual), turn))
+            clear.append(visible_finger_shares(stage, chosen[0], directions(usual), turn))
         middle = tracked(view, stage, chosen[0])
         if middle is None:
             boxes.append(bounds(stage, chosen))
@@ -107,7 +107,7 @@ def tracked(view: View, stage: Stage, row: int) -> FloatArray | None:
         return mouth
     if view == "feet":
         feet = np.array([stage.joint_m(row, "leftFoot"), stage.joint_m(row, "rightFoot")])
-        low: FloatArray = feet.mean(axis=0) + np.array([0.0, 0.05, 0.0]) + 0.08 * ahead(stage, row)
+        low: FloatArray = feet.mean(axis=0) + np.array([0.0, 0.05, 0.0]) + 0.08 * front_direction(stage, row)
         return low
     return None
 
@@ -155,11 +155,11 @@ def bounds(stage: Stage, rows: Sequence[int]) -> tuple[FloatArray, FloatArray]:
 
 def turn_rad(stage: Stage, row: int) -> float:
     """Which way a player faces: from +Z towards +X."""
-    forward = ahead(stage, row)
+    forward = front_direction(stage, row)
     return math.atan2(forward[0], forward[2])
 
 
-def ahead(stage: Stage, row: int) -> FloatArray:
+def front_direction(stage: Stage, row: int) -> FloatArray:
     """The player's front, a unit vector."""
     return stage.members[row].world_from_player[:, 2]
 

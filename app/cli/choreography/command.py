@@ -10,7 +10,7 @@ from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
-from app.cli.options import frame_rate, seconds, whole_number, within
+from app.cli.options import bounded_number, frame_rate, seconds, whole_number
 from app.cli.progress import Progress
 from app.cli.summary import columns
 from app.cli.terminal import say, warn
@@ -126,7 +126,7 @@ def _add_learn(actions: Actions) -> None:
     )
     command.add_argument(
         "--states",
-        type=within(1, MOST_STATES, "a number of basic motions", int),
+        type=bounded_number(1, MOST_STATES, "a number of basic motions", int),
         metavar="K",
         help="number of basic motions (default: as many as are needed for those of one kind to look alike)",
     )
@@ -228,7 +228,7 @@ def _add_generate(actions: Actions) -> None:
     )
     command.add_argument(
         "--dancers",
-        type=within(1, MOST_DANCERS, "a number of dancers", int),
+        type=bounded_number(1, MOST_DANCERS, "a number of dancers", int),
         default=1,
         metavar="N",
         help="in a row, from the audience's left (default: 1)",
@@ -247,14 +247,14 @@ def _add_generate(actions: Actions) -> None:
     )
     command.add_argument(
         "--size",
-        type=within(0.0, 1.5, "a size", float),
+        type=bounded_number(0.0, 1.5, "a size", float),
         default=1.0,
         metavar="FACTOR",
         help="of the motion of trunk and arms (default: 1, as captured)",
     )
     command.add_argument(
         "--weight",
-        type=within(-1.0, 1.0, "a weight", float),
+        type=bounded_number(-1.0, 1.0, "a weight", float),
         default=0.0,
         metavar="WEIGHT",
         help="from -1, light, to 1, heavy: how deep knees bend (default: 0, as captured)",

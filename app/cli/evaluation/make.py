@@ -11,17 +11,17 @@ from typing import TYPE_CHECKING, Final
 
 from app.cli.bars import add_bar_options, requested_bars
 from app.cli.display import virtual, why_no_display
-from app.cli.drawing import nearest, require_writable, seen, stoppable
+from app.cli.drawing import nearest, parsed_view, require_writable, stoppable
 from app.cli.edit import THEMES, VIEWS
 from app.cli.options import (
     add_players_option,
     add_source_options,
+    bounded_number,
     frame_rate,
     open_project,
     picture_size,
     seconds,
     whole_number,
-    within,
 )
 from app.cli.progress import Progress
 from app.cli.status import NO_DISPLAY, report_left_out
@@ -49,8 +49,8 @@ if TYPE_CHECKING:
 
 LEAST_PX, MOST_PX = (64, 64), (1920, 1920)
 
-_excerpts = within(1, MOST_EXCERPTS, "a number of excerpts", int)
-_length = within(LEAST_S, MOST_S, "a number of seconds", float)
+_excerpts = bounded_number(1, MOST_EXCERPTS, "a number of excerpts", int)
+_length = bounded_number(LEAST_S, MOST_S, "a number of seconds", float)
 
 
 def variants(said: str) -> tuple[Variant, ...]:
@@ -198,7 +198,7 @@ def _check_options(arguments: argparse.Namespace) -> None:
 
 
 def _request(arguments: argparse.Namespace, project: Project) -> EvaluationRequest:
-    view, player_ids = seen(arguments, project)
+    view, player_ids = parsed_view(arguments, project)
     if arguments.view is None and not arguments.players and len(project.seen) == 1:
         view, player_ids = "front", (project.seen[0].id,)
     return EvaluationRequest(

@@ -42,12 +42,12 @@ def results(arguments: argparse.Namespace) -> None:
     Raises
     ------
     AppError
-        Those of `app.evaluation.gathered`, and of writing.
+        Those of `app.evaluation.viewer_files`, and of writing.
     """
     from app.evaluation.conclusions import conclude
-    from app.evaluation.gathered import gather
     from app.evaluation.report import write_results
     from app.evaluation.tables import tables
+    from app.evaluation.viewer_files import gather
 
     gathered = gather(arguments.files, arguments.key)
     found, measured = gathered.results, gathered.measures

@@ -21,7 +21,7 @@ import numpy as np
 from app.audio.track import RATE_HZ
 from app.errors import Message, raise_if_stopped
 from app.export.bind_pose import CENTIMETRES
-from app.export.equip import socket_names
+from app.export.equipped_skeleton import socket_names
 from app.export.file_names import REPORT as EXPORTED_REPORT
 from app.export.instrument import instrument_bones
 from app.export.report import Report, encode_report

@@ -97,7 +97,7 @@ def going_along(with_head: FloatArray, carriage: Carriage) -> FloatArray:
     return quaternion.from_rotation_vector(turn)
 
 
-def settled(parameters: PlayerParameters, carriage: Carriage) -> PlayerParameters:
+def limited_to_carriage(parameters: PlayerParameters, carriage: Carriage) -> PlayerParameters:
     """Parameters with the motion of the instrument limited as its carriage says: the lips must stay with it."""
     share = _settling(carriage)
     if share == 1.0:

@@ -58,7 +58,7 @@ class _Seen:
         return low
 
 
-def stopped(player: StillPlayer, curves: ContactCurves, upper: UpperBody) -> dict[str, FloatArray]:
+def controls_within_reach(player: StillPlayer, curves: ContactCurves, upper: UpperBody) -> dict[str, FloatArray]:
     """The controls, those that carry a hand no farther out than it comes.
 
     Where a hand comes everywhere they are the very arrays given.

@@ -9,7 +9,7 @@ import numpy as np
 
 from app.arrays import FloatArray
 from app.motion.contacts.carried_instrument import InstrumentTransform
-from app.motion.contacts.hand_in_bell import STOPPING, shifted
+from app.motion.contacts.hand_in_bell import STOPPING, wrist_shift
 from app.motion.contacts.hands_away import Away
 from app.motion.contacts.help_for_far_hands import clavicle_of
 from app.motion.contacts.trunk_and_legs import SIDES, Side, Trunk
@@ -34,7 +34,7 @@ KEY_ELBOW: Final = 0.4
 """How far that holds for a hand at the water key."""
 
 
-def away(
+def hands_off_instrument(
     skeleton: Skeleton,
     base: Trunk,
     hands: Mapping[str, FloatArray],
@@ -49,11 +49,12 @@ def away(
     base : Trunk
         Before any motion, one frame.
     hands : mapping of str to array
-        As of `app.motion.gestures.hand_gestures.reached`, and how far a hand closes the bell (`STOPPING`).
+        As of `app.motion.gestures.hand_gestures.limited_hand_gestures`, and how far a hand closes the bell
+        (`STOPPING`).
     """
     found = Away({}, {}, {})
     if stopped is not None and STOPPING in hands:
-        found.shifts[stopped.hand] = shifted(skeleton, stopped, hands[STOPPING], carried)
+        found.shifts[stopped.hand] = wrist_shift(skeleton, stopped, hands[STOPPING], carried)
     for side in SIDES:
         if f"{side}.m" not in hands:
             continue

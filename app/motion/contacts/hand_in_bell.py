@@ -29,7 +29,7 @@ READY_S: Final = 0.03
 """It is in place so long before the first note of a passage."""
 
 
-def stopping(mutes: Sequence[MuteEvent], stopped: Stopped | None) -> Envelopes:
+def bell_closing(mutes: Sequence[MuteEvent], stopped: Stopped | None) -> Envelopes:
     """How far the hand closes the bell, 0..1."""
     if stopped is None:
         return Envelopes.of(())
@@ -42,7 +42,7 @@ def stopping(mutes: Sequence[MuteEvent], stopped: Stopped | None) -> Envelopes:
     )
 
 
-def shifted(skeleton: Skeleton, stopped: Stopped, share: FloatArray, carried: InstrumentTransform) -> Shift:
+def wrist_shift(skeleton: Skeleton, stopped: Stopped, share: FloatArray, carried: InstrumentTransform) -> Shift:
     """How a wrist leaves its grip for shares (F,) of the whole way: the palm turns about the knuckles."""
     turned_rad = quaternion.rotate(carried.rotation, np.deg2rad(np.asarray(stopped.turned_deg)))
     # About the first finger's knuckle, which is held against the wall.

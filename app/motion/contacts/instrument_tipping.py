@@ -10,7 +10,7 @@ from app.arrays import FloatArray
 from app.motion.contacts.arms import solve_arms
 from app.motion.contacts.carried_instrument import tips_freely
 from app.motion.contacts.help_for_far_hands import clavicle_of
-from app.motion.contacts.solve import PlayerBody, helped, needs
+from app.motion.contacts.solve import PlayerBody, body_with_help, needs
 from app.motion.contacts.still_player import ContactCurves
 from app.motion.contacts.upper_body import upper_body
 from app.motion.contacts.wrists import LOST_RAD, BellRoom
@@ -54,7 +54,7 @@ def _wrists_and_elbows(
     shoulder, (F,) each; the bell is down by so much (F,)."""
     still = replace(player.still.for_frames(len(tipped_rad)), bell_down_rad=tipped_rad)
     curves = ContactCurves(still, {}, {}, np.zeros(len(tipped_rad)), placed)
-    curves = replace(curves, body=helped(player, still, needs(player, curves)))
+    curves = replace(curves, body=body_with_help(player, still, needs(player, curves)))
     arms = solve_arms(player, curves, upper_body(player, curves))
     bent, raised = np.zeros(len(tipped_rad)), np.full(len(tipped_rad), -np.inf)
     for hand in player.hold.hands:

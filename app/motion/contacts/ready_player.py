@@ -33,7 +33,7 @@ _PLAYERS: IdentityCache[PlayerBody] = IdentityCache(128)
 """Holds with curved fingers, and what of players does not change with time: a player goes on with the very same."""
 
 
-def lying(
+def put_aside_transform(
     parameters: PlayerParameters,
     instrument_map: InstrumentMap,
     character: Character,

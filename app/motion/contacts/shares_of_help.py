@@ -31,7 +31,7 @@ DRAW_DOWN_RAD, DRAW_RIGHT_RAD = float(np.deg2rad(6.0)), float(np.deg2rad(8.0))
 """... and the bell sinks and turns towards the far hand's shoulder."""
 
 
-def spread(parts: list[Help], half: int) -> Help:
+def smoothed_help(parts: list[Help], half: int) -> Help:
     """Help that comes slowly and early enough, and goes slowly, from what is needed in stretches of frames."""
     quick = max(1, round(ROOM_EASE_S / HELP_EASE_S * half))
     swift = max(1, round(SHOULDER_EASE_S / HELP_EASE_S * half))
@@ -49,7 +49,7 @@ def spread(parts: list[Help], half: int) -> Help:
     )
 
 
-def turned(motion: BodyMotion, turn: FloatArray, aside_per_turn: float) -> BodyMotion:
+def turned_to_far_hand(motion: BodyMotion, turn: FloatArray, aside_per_turn: float) -> BodyMotion:
     """Hips and trunk turned to the left, neck and head back; where the head is steadied the trunk leans the other way
     by ``aside_per_turn``, the head upright."""
     turns, leans = dict(motion.turn_rad), dict(motion.left_rad)
@@ -63,7 +63,7 @@ def turned(motion: BodyMotion, turn: FloatArray, aside_per_turn: float) -> BodyM
     return replace(motion, hips_turn_rad=motion.hips_turn_rad + HIPS_TURN * turn, turn_rad=turns, left_rad=leans)
 
 
-def drawn(motion: BodyMotion, draw: FloatArray, right: FloatArray) -> BodyMotion:
+def leaned_to_far_hand(motion: BodyMotion, draw: FloatArray, right: FloatArray) -> BodyMotion:
     """Head and instrument giving way, 0..1, towards a far hand on the right (1) or the left (-1)."""
     forward = dict(motion.forward_rad)
     for joint, angle_rad in DRAWS_RAD.items():

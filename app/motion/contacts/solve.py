@@ -14,13 +14,19 @@ from app.arrays import FloatArray
 from app.motion.body_motion import BodyMotion
 from app.motion.contacts.arms import solve_arms
 from app.motion.contacts.carried_instrument import InstrumentTransform
-from app.motion.contacts.controls_within_reach import stopped
+from app.motion.contacts.controls_within_reach import controls_within_reach
 from app.motion.contacts.endpin import EndpinStand
 from app.motion.contacts.hand_destinations import with_shapes
 from app.motion.contacts.hand_in_bell import STOPPING, with_fingers_kept
 from app.motion.contacts.help_for_far_hands import TURN_RAD, Help, needed_help, shoulder_distance_m
 from app.motion.contacts.instrument_put_aside import AsidePlace
-from app.motion.contacts.shares_of_help import HELP_EASE_S, drawn, spread, turned, with_room
+from app.motion.contacts.shares_of_help import (
+    HELP_EASE_S,
+    leaned_to_far_hand,
+    smoothed_help,
+    turned_to_far_hand,
+    with_room,
+)
 from app.motion.contacts.still_player import ContactCurves, StillPlayer
 from app.motion.contacts.trunk_and_legs import hips_path, solve_legs, trunk
 from app.motion.contacts.upper_body import UpperBody, joined, upper_body
@@ -77,7 +83,7 @@ class PlayerBody(StillPlayer):
         return _farthest(self)
 
 
-def padding(fps: Fraction) -> int:
+def padding_frames(fps: Fraction) -> int:
     """Frames before and after the requested ones that `solve` needs to look ahead and back."""
     return 2 * math.ceil(HELP_EASE_S * fps)
 
@@ -88,17 +94,17 @@ def solve(player: PlayerBody, curves: ContactCurves, fps: Fraction, first_frame_
     Parameters
     ----------
     curves : ContactCurves
-        With `padding` frames more at both ends than are requested.
+        With `padding_frames` frames more at both ends than are requested.
     first_frame_s : float
         Time of the first requested frame.
     every : int
         Poses are made of every how many-th frame only; what needs the frames around it is made of all.
     """
-    pad = padding(fps)
+    pad = padding_frames(fps)
     uppers = [upper_body(player, curves[part]) for part in _parts(len(curves))]
     needed = [_needs(player, curves[part], upper) for part, upper in zip(_parts(len(curves)), uppers, strict=True)]
-    given = spread(needed, pad // 2)
-    curves = replace(curves, body=helped(player, curves.body, given))
+    given = smoothed_help(needed, pad // 2)
+    curves = replace(curves, body=body_with_help(player, curves.body, given))
     asked = slice(pad, len(curves) - pad, every)
     known = None if given.moves_trunk else joined(uppers)[asked]
     return poses(player, curves[asked], fps / every, first_frame_s, known)
@@ -163,7 +169,7 @@ def _pose(
     """Hips, local rotations by joint (fingers apart), instrument, and the controls as far as hands carry them."""
     skeleton, motion = player.skeleton, curves.body
     local = {skeleton.index("hips"): known.hips} | known.trunk.local
-    curves = replace(curves, controls=stopped(player, curves, known))
+    curves = replace(curves, controls=controls_within_reach(player, curves, known))
     late, carried = _late(motion), known.carried
     arms = solve_arms(player, curves, known, late, player.away(motion, carried))
     if player.put_aside is not None and curves.stowed is not None and np.any(curves.stowed):
@@ -204,7 +210,7 @@ def _needs(player: PlayerBody, curves: ContactCurves, upper: UpperBody) -> Help:
     return replace(needed, turn_rad=needed.turn_rad * turning, short_m=needed.short_m * turning)
 
 
-def helped(player: PlayerBody, motion: BodyMotion, help_given: Help) -> BodyMotion:
+def body_with_help(player: PlayerBody, motion: BodyMotion, help_given: Help) -> BodyMotion:
     """The body with trunk and shoulders brought towards far hands; neck and head turn back, so that the lips stay
     where they are."""
     asked, most, short_m = help_given.turn_rad, help_given.most_turn_rad, help_given.short_m
@@ -214,13 +220,13 @@ def helped(player: PlayerBody, motion: BodyMotion, help_given: Help) -> BodyMoti
         turn -= with_room(np.maximum(-asked, 0.0), most["left"])
     if np.any(short_m):
         draw = softly_capped(short_m / player.drawn_m, 1.0, 0.1) * np.abs(turn) / np.maximum(np.abs(asked), 1e-6)
-        motion = drawn(motion, draw, np.sign(asked))
+        motion = leaned_to_far_hand(motion, draw, np.sign(asked))
     protraction = {
         side: with_room(needed, help_given.most_protraction_rad[side]) if np.any(needed) else needed
         for side, needed in help_given.protraction_rad.items()
     }
     if np.any(turn):
-        motion = turned(motion, turn, player.aside_per_turn)
+        motion = turned_to_far_hand(motion, turn, player.aside_per_turn)
     return replace(motion, protraction_rad=protraction)
 
 
@@ -232,11 +238,11 @@ def _drawn_m(player: PlayerBody) -> float:
         if hand.motion is None:
             continue
         right = 1.0 if hand.side == "right" else -1.0
-        far = turned(player.still, right * TURN_RAD * one, player.aside_per_turn)
+        far = turned_to_far_hand(player.still, right * TURN_RAD * one, player.aside_per_turn)
         farthest = {hand.motion.control: one}
         distances_m = []
         for draw in (0.0, 1.0):
-            motion = drawn(far, draw * one, right * one)
+            motion = leaned_to_far_hand(far, draw * one, right * one)
             upper = upper_body(player, ContactCurves(motion, farthest, {}, nothing))
             carried = upper.carried
             target_m, _ = hand_targets(hand, carried.position_m, carried.rotation, farthest)
@@ -248,7 +254,7 @@ def _drawn_m(player: PlayerBody) -> float:
 def _aside_per_turn(player: PlayerBody) -> float:
     """From where a body that keeps still has its head after a small turn, and after a small lean of the trunk."""
     still, small = replace(player.still, steadied=np.ones(1)), np.array([0.1])
-    without, leaning = turned(still, small, 0.0), turned(still, small, 1.0)
+    without, leaning = turned_to_far_hand(still, small, 0.0), turned_to_far_hand(still, small, 1.0)
     at_m = [
         float(trunk(player.skeleton, *hips_path(player.place, player.skeleton, motion), motion).head_m[0, 0])
         for motion in (still, without, leaning)
@@ -263,7 +269,7 @@ def _farthest(player: PlayerBody) -> dict[str, float]:
         if hand.motion is None:
             continue
         curves = ContactCurves(player.still, {hand.motion.control: one}, {}, np.zeros(1))
-        curves = replace(curves, body=helped(player, player.still, needs(player, curves)))
-        reached = stopped(player, curves, upper_body(player, curves))
+        curves = replace(curves, body=body_with_help(player, player.still, needs(player, curves)))
+        reached = controls_within_reach(player, curves, upper_body(player, curves))
         result[hand.motion.control] = float(reached[hand.motion.control][0])
     return result

@@ -9,7 +9,7 @@ from app.arrays import FloatArray
 from app.motion.body_motion import BodyMotion
 from app.motion.contacts.carried_instrument import InstrumentTransform
 from app.motion.contacts.endpin import EndpinStand
-from app.motion.contacts.hand_destinations import away
+from app.motion.contacts.hand_destinations import hands_off_instrument
 from app.motion.contacts.hands_away import Away
 from app.motion.contacts.instrument_put_aside import Aside
 from app.motion.contacts.trunk_and_legs import Side, Stance, Trunk
@@ -58,7 +58,7 @@ class StillPlayer:
         """Where hands are that leave the instrument; None where all stay."""
         if not motion.hands:
             return None
-        return away(self.skeleton, self.base, motion.hands, carried, self.water, self.stopped)
+        return hands_off_instrument(self.skeleton, self.base, motion.hands, carried, self.water, self.stopped)
 
 
 @dataclass(frozen=True)

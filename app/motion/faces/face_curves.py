@@ -15,7 +15,7 @@ from app.arrays import FloatArray
 from app.motion.curves.curve import Curve, Envelopes, Trace, moves, moves_to
 from app.motion.curves.spline import Spline
 from app.motion.faces.exertion import Exertion, exertion_of
-from app.motion.faces.lips_within_notes import easing, firmness, vibrato_size
+from app.motion.faces.lips_within_notes import firmness, tension_release, vibrato_size
 from app.motion.faces.tongue_strokes import attack_pushes, back_strokes, tip_strokes
 from app.plan.model import EmbouchureEvent, PlayerPlan, SampledCurves, only
 from app.steps import StepTable, reading
@@ -213,7 +213,7 @@ FACE: Final = StepTable(
     push=reading(attack_pushes, plan="plan_of_tongue"),
     mouth_open=reading(breath_opening, plan="plan_of_breaths"),
     firm=reading(firmness, plan="plan_of_attacks"),
-    eased=reading(easing, plan="plan_of_lips"),
+    eased=reading(tension_release, plan="plan_of_lips"),
     vibrato=reading(vibrato_size, plan="plan_of_lips"),
     exertion=reading(exertion_of, plan="plan_of_effort", face="face_motion"),
     expressions=reading(_shown, plan="plan_of_expressions"),

@@ -69,7 +69,7 @@ def firmness(plan: PlayerPlan) -> Curve:
     return moves_to(table[:, 0], table[:, 1], table[:, 2])
 
 
-def easing(plan: PlayerPlan) -> Curve:
+def tension_release(plan: PlayerPlan) -> Curve:
     """How far the tension lets go between notes, and after the last one."""
     starts_s, ends_s, _ = _notes(plan)
     # All notes may be too short to be seen.

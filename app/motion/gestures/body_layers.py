@@ -16,9 +16,9 @@ from app.arrays import FloatArray
 from app.motion.body_motion import BodyMotion
 from app.motion.by_hand.pose_corrections import PoseAngles, hold_body
 from app.motion.faces.gaze import GazeFrames, with_instrument
-from app.motion.gestures.beside_playing import beside_playing
 from app.motion.gestures.feet import feet_moved
-from app.motion.gestures.hand_gestures import reached
+from app.motion.gestures.hand_gestures import limited_hand_gestures
+from app.motion.gestures.idle_gestures import beside_playing
 from app.motion.gestures.layers import LayerSamples
 from app.motion.gestures.named_gestures import with_gestures
 from app.motion.gestures.summed_angles import Angles, Sizes, Sum
@@ -58,7 +58,7 @@ def body_motion(
     body, acting, amplitude = sizes.body, sizes.acting, sizes.parameters.amplitude
     shown, wandering = acting.gestures * shares.gestures, shares.sway * acting.sway
     uneasy, frames = shares.weight_shift * acting.weight_shift, len(times_s)
-    hands, raised = reached(levels.reached or {}, amplitude, acting.gestures)
+    hands, raised = limited_hand_gestures(levels.reached or {}, amplitude, acting.gestures)
     lowered = levels.lowered if raised is None else levels.lowered * (1.0 - raised)
     look, total = with_instrument(look, lowered), Sum(frames)
     aside_rad = _hold_posture(total, sizes.posture, lowered)

@@ -76,7 +76,7 @@ class BodyLayer:
 _NOD: Final = CHANNELS.index("trunk_forward_rad")
 
 
-def inhaling(breaths: Sequence[BreathEvent]) -> Envelopes:
+def breath_envelopes(breaths: Sequence[BreathEvent]) -> Envelopes:
     """When a dance gives way to breaths, and how far, 0..1."""
     drawn = [breath for breath in breaths if breath.draws_air]
     return Envelopes.of(

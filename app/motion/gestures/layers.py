@@ -16,11 +16,11 @@ from app.motion.curves.curve import Curve, Envelopes, moves
 from app.motion.curves.following_gestures import follow, path
 from app.motion.curves.path import Path
 from app.motion.gestures.accents import Accents
-from app.motion.gestures.beside_playing import NOTHING_BESIDE, Concert, ConcertSamples
 from app.motion.gestures.body_lag import Leads, Overlapped
 from app.motion.gestures.feet import Feet
 from app.motion.gestures.hand_gestures import Reaches, Reaching
 from app.motion.gestures.held_still import held_still, holds_of
+from app.motion.gestures.idle_gestures import NOTHING_BESIDE, Concert, ConcertSamples
 from app.motion.gestures.named_gestures import Gestured, Sums
 from app.motion.gestures.nods import Nods
 from app.plan.kinds import Part
@@ -128,7 +128,7 @@ ALIKE: Final = tuple(
 """... and what they have at once."""
 
 
-def lowering(gestures: Sequence[GestureEvent], lower_s: float, raise_s: float) -> Curve:
+def lowering_curve(gestures: Sequence[GestureEvent], lower_s: float, raise_s: float) -> Curve:
     """0 with the instrument at the lips, 1 with it lowered; it is up again when the gesture ends.
 
     Gestures that overlap are one: the instrument stays down from the first to the last, as low as the lowest of them.
@@ -179,7 +179,7 @@ LAYERS: Final = StepTable(
     putting_down=partial(_of_parts, parts=("lowering",)),
     lower_s="body.bell.lower_s",
     raise_s="body.bell.raise_s",
-    lowered=reading(lowering, gestures="putting_down"),
+    lowered=reading(lowering_curve, gestures="putting_down"),
     quiet=reading(quiet_breaths, gestures="putting_down"),
     stepping=partial(_of_parts, parts=("feet",)),
     step_s="body.footwork.step_s",

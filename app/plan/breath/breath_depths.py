@@ -12,7 +12,7 @@ import numpy as np
 
 from app.arrays import FloatArray, IntArray
 from app.errors import Message
-from app.plan.breath.lungs import drawn, levels
+from app.plan.breath.lungs import drawn_share, levels
 from app.plan.event_id import EventId
 from app.plan.model import BreathEvent, Problem
 from app.plan.music.piece import EPSILON, LineTimes
@@ -33,7 +33,7 @@ def with_depths(
             until = breaths[bisect_right(breaths, index)]
             # What the rest of a note needs is not known within it: there the time says it.
             need = 1.0 if event.is_within else (used_s[until] - used_s[index]) / lung_s
-            most = drawn(event.end_s - event.start_s) if event.draws_air else 1.0
+            most = drawn_share(event.end_s - event.start_s) if event.draws_air else 1.0
             depth = min(max(LEAST_DEPTH + (1.0 - LEAST_DEPTH) * need, LEAST_DEPTH), max(most, LEAST_DEPTH), 1.0)
             event = msgspec.structs.replace(event, depth=round(depth, 4))
         result.append(event)

@@ -1,12 +1,12 @@
 """Where a player breathes.
 
-Which rests are breathed in says `app.plan.breath.which_rests`: by seconds, playing and air. How, says the length of the
-rest in felt beats (T6 of the 2018 thesis; the thresholds are the player's): below last_beat the breath takes the whole
-rest; in [last_beat, prepare) the last beat; from prepare on a preparatory motion comes in the beat before that. Every
-breath ends at the onset it serves. Where no rest serves within the lungs' budget, and at clear ends of phrases once
-some of the air is used, a catch breath is taken: in the short silence there, or out of the tail of the note before,
-whose lips then leave early while its sound stays. In runs whose notes are too short for that the player leaves out a
-note: its lips leave at once.
+Which rests are breathed in says `app.plan.breath.rests_for_breath`: by seconds, playing and air. How, says the length
+of the rest in felt beats (T6 of the 2018 thesis; the thresholds are the player's): below last_beat the breath takes the
+whole rest; in [last_beat, prepare) the last beat; from prepare on a preparatory motion comes in the beat before that.
+Every breath ends at the onset it serves. Where no rest serves within the lungs' budget, and at clear ends of phrases
+once some of the air is used, a catch breath is taken: in the short silence there, or out of the tail of the note
+before, whose lips then leave early while its sound stays. In runs whose notes are too short for that the player leaves
+out a note: its lips leave at once.
 
 Messages: ``breath.first``, ``breath.rest_whole``, ``breath.last_beat``, ``breath.prepared``, ``breath.preparation``,
 ``breath.catch``, ``breath.catch_dropped``, ``breath.catch_dropped_two``, ``breath.phrase_end``, ``breath.after_hold``,
@@ -30,14 +30,14 @@ from app.plan.breath.catch_breath_places import catch_places
 from app.plan.breath.lungs import (
     FULL_BREATH_S,
     air_used_s,
-    drawn,
+    drawn_share,
     levels,
     lungful_s,
-    where_short,
+    short_catches,
     with_circular_breathing,
 )
+from app.plan.breath.rests_for_breath import ALWAYS_S, Decided, RestNeeds, breathed_in, rest_needs, why
 from app.plan.breath.staggered_breaths import BreathConstraints, within_held
-from app.plan.breath.which_rests import ALWAYS_S, Decided, RestNeeds, breathed_in, rest_needs, why
 from app.plan.by_hand.corrections import BY_HAND, Correction, SetBreath, removed_ids, without_removed
 from app.plan.event_id import EventId
 from app.plan.kinds import BEFORE_NOTES, BREATH_KINDS
@@ -113,7 +113,7 @@ def plan_breaths(
     refill = stock.refill.copy()
     for event in (*caught, *in_rests):
         if event.draws_air and not event.is_within and refill[line.number_of(event)] == 0.0:
-            refill[line.number_of(event)] = drawn(event.end_s - event.start_s)
+            refill[line.number_of(event)] = drawn_share(event.end_s - event.start_s)
     events = tuple(sorted([*in_rests, *given.by_hand, *caught], key=lambda event: (event.start_s, event.end_s)))
     early_end_s, cut = _cut_notes(line, events)
     return BreathPlan(
@@ -319,7 +319,7 @@ def _taken(
     within: dict[int, list[_Within]] = {}
     for event in (*given.kept, *given.by_hand):
         index = line.number_of(event)
-        share = max(0.0, drawn(_lasts_s(score, line, event)) * (event.depth if event.corrected else 1.0))
+        share = max(0.0, drawn_share(_lasts_s(score, line, event)) * (event.depth if event.corrected else 1.0))
         if event.is_within:
             within.setdefault(index, []).append(_Within(event.start_s, event.end_s, share))
         elif event.draws_air and index not in spare:
@@ -454,7 +454,7 @@ def _catches(
         return stock.room.apart(sorted((*first, *catches)))
     filled = given.copy()
     filled[catches] = np.minimum(stock.room.lasts_s[catches] / FULL_BREATH_S, 1.0)
-    again = where_short(stock.used, score.lung_s, given, filled)
+    again = short_catches(stock.used, score.lung_s, given, filled)
     filled[again] = given[again]
     more = between(score.written, stock.used, filled, np.inf)
     return stock.room.apart(sorted({*first, *catches} - {*again.tolist()} | {*more}))

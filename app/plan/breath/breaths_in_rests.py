@@ -13,7 +13,7 @@ import numpy as np
 
 from app.arrays import FloatArray, IntArray
 from app.errors import Argument, Message
-from app.plan.breath.which_rests import LONG_S
+from app.plan.breath.rests_for_breath import LONG_S
 from app.plan.event_id import EventId
 from app.plan.kinds import BREATH_KINDS
 from app.plan.model import BreathEvent, TimeFrame

@@ -10,7 +10,7 @@ from app.arrays import BoolArray, FloatArray, IntArray
 from app.plan.breath.catch_breath_lengths import MOST_DROPPED, Room
 from app.plan.breath.lungs import FULL_BREATH_S, HASTY_SHARE
 from app.plan.breath.phrase_ends import place_costs, slur_costs
-from app.plan.breath.which_rests import LEAST_PLAYED_S
+from app.plan.breath.rests_for_breath import LEAST_PLAYED_S
 from app.plan.music.piece import EPSILON, LineTimes, Piece, Seeds
 
 LEAST_COST = 0.2
@@ -109,8 +109,8 @@ def catch_places(
         )
         return places[list(found)].tolist(), is_enough
 
-    # Where the air lasts only a phrase's end is worth a breath, and in no rest: `app.plan.breath.which_rests` says in
-    # which.
+    # Where the air lasts only a phrase's end is worth a breath, and in no rest: `app.plan.breath.rests_for_breath` says
+    # in which.
     ends_phrase = open_ & (cost < 0.0) & (rests == 0)
     result: list[int] = []
     for start, end, is_short in stretches:

@@ -7,7 +7,7 @@ import numpy as np
 from app.arrays import FloatArray, IntArray
 from app.plan.music.breath_controller import STOPS_AT, BreathEnvelope, step_means
 from app.plan.music.dynamics import mean_around
-from app.plan.music.piece import EPSILON, MEZZOFORTE, LineTimes, marked
+from app.plan.music.piece import EPSILON, MEZZOFORTE, LineTimes, marked_loudness
 from app.plan.parameters import PlayerParameters
 from instrument_maps.model import Air
 
@@ -42,7 +42,9 @@ def air_used_s(times: LineTimes, air: Air | None = None, envelope: BreathEnvelop
     """
     lasts_s = times.duration_s
     # The dynamic of the phrases takes the air, not how each of their notes turned out.
-    loudness = marked(mean_around(times.onset_s, lasts_s, times.loudness, times.onset_s + lasts_s / 2.0, PHRASE_S))
+    loudness = marked_loudness(
+        mean_around(times.onset_s, lasts_s, times.loudness, times.onset_s + lasts_s / 2.0, PHRASE_S)
+    )
     noted_s = lasts_s * air_rate(loudness, air)
     if envelope is None:
         return np.concatenate(([0.0], np.cumsum(noted_s)))
@@ -85,7 +87,7 @@ def levels(used: FloatArray, lung_s: float, refill: FloatArray) -> FloatArray:
     return np.asarray(np.maximum(np.array(full)[last] - (used[: len(refill)] - since) / lung_s, 0.0))
 
 
-def where_short(used: FloatArray, lung_s: float, refill: FloatArray, filled: FloatArray) -> IntArray:
+def short_catches(used: FloatArray, lung_s: float, refill: FloatArray, filled: FloatArray) -> IntArray:
     """(K,): before which notes the catch breaths are not where the air lasts.
 
     From the one before the first stretch that takes more air than there is to the next rest that gives a breath.
@@ -122,6 +124,6 @@ def with_circular_breathing(used: FloatArray, lung_s: float, refill: FloatArray)
     return result
 
 
-def drawn(length_s: float) -> float:
+def drawn_share(length_s: float) -> float:
     """Part of the lungs that a breath of this length fills."""
     return min(length_s / FULL_BREATH_S, 1.0)

@@ -168,7 +168,7 @@ class Met(NamedTuple):
 NO_NOTES: Final = frozenset[int]()
 
 
-def met(line: SharedLine, breathed: tuple[Breathed, ...], before: Met | None) -> Met:
+def compared_with_others(line: SharedLine, breathed: tuple[Breathed, ...], before: Met | None) -> Met:
     """Compare a line with those of players whose breaths are placed already; only those compare anew who changed."""
     known = () if before is None or before.line != line else before.breathed
     caught, left_out = [], []

@@ -1,7 +1,7 @@
 """Body motion as gestures: sway, lean and accents (`app.plan.gestures.sways`, `app.plan.gestures.leans_and_accents`),
 weight shifts, the bell's height, the instrument lowered (`app.plan.gestures.lowered_instrument`), what feet do
 (`app.plan.gestures.feet`) and what is done beside playing (`app.plan.cues.answering_nods`,
-`app.plan.gestures.beside_playing`).
+`app.plan.gestures.idle_gestures`).
 
 How to read the events: sway, lean, weight_shift and bell_height each lie end to end, and an event's ``amount`` is where
 the body goes: at the end of a sway or lean, and for as long as it lasts for the other two.
@@ -29,9 +29,9 @@ import numpy as np
 
 from app.arrays import BoolArray, FloatArray, IntArray
 from app.errors import Message
-from app.plan.gestures.sways import STIR_S, Pulse, stirring
+from app.plan.gestures.sways import STIR_S, Pulse, spans_near_notes
 from app.plan.model import GestureEvent, TimeFrame
-from app.plan.music.dynamics import Dynamics, grown
+from app.plan.music.dynamics import Dynamics, amount_at_vigour
 from app.plan.music.piece import LineTimes, NoteTimes, Piece, Seeds
 from app.score.model import Note
 from app.score.tempo import TempoMap
@@ -68,7 +68,7 @@ def weight_shifts(
     times: NoteTimes, pulse: Pulse, frame: TimeFrame, seeds: Seeds, clock: TempoMap, dynamics: Dynamics
 ) -> list[GestureEvent]:
     """Shifts of weight at arbitrary times (T7), about every `SHIFT_MEAN_S`: bar by bar a player shifts or not."""
-    places = stirring(times, frame, pulse.bars_s)
+    places = spans_near_notes(times, frame, pulse.bars_s)
     ticks, ends = pulse.bar_ticks[places], pulse.bar_ticks[places + 1]
     chances = np.minimum((pulse.bars_s[places + 1] - pulse.bars_s[places]) / SHIFT_MEAN_S, 0.9)
     shifts = seeds.chances_at("shift", ticks) < chances
@@ -87,7 +87,7 @@ def weight_shifts(
             continue
         amount = 2.0 * seeds.chance_at("shift to", tick) - 1.0
         amount = float(np.copysign(0.25 + 0.75 * abs(amount), amount))
-        amount = grown(amount, vigour)
+        amount = amount_at_vigour(amount, vigour)
         reason = _shifted("left" if amount > 0.0 else "right")
         events.append(
             GestureEvent(
@@ -135,7 +135,7 @@ def bell_heights(notes: tuple[Note, ...], times: LineTimes, piece: Piece, dynami
     first_of_bar = np.insert(np.diff(bar[starts]) > 0, 0, True)
     arches, turns = _arches(times.onset_s[starts], heights, loud, first_of_bar, apart)
     arches = arches * np.minimum(vigour, 1.5)
-    amounts = grown(heights, vigour) + arches + np.minimum(ACCENT_LIFT * accents, MOST_ACCENT_LIFT)
+    amounts = amount_at_vigour(heights, vigour) + arches + np.minimum(ACCENT_LIFT * accents, MOST_ACCENT_LIFT)
     # Plain lists: a loop over single numbers of an array costs several times as much.
     accented = accents.tolist()
     breaks = (apart | turns | (accents > 0.0)).tolist()

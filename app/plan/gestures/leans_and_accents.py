@@ -19,7 +19,7 @@ from app.arrays import BoolArray, FloatArray, IntArray
 from app.errors import Message
 from app.plan.gestures.sways import Pulse, Swings
 from app.plan.model import ACCENT_AT, BreathEvent, CueEvent, GestureEvent
-from app.plan.music.dynamics import Dynamics, grown
+from app.plan.music.dynamics import Dynamics, amount_at_vigour
 from app.plan.music.piece import LineTimes, NoteTimes, Piece, Seeds
 from app.score.tempo import TempoMap
 
@@ -108,7 +108,7 @@ def leans(
     back = seeds.chances_at("lean back", ticks) < BACK_CHANCE
     vigours = dynamics.at((starts_s + ends_s) / 2.0)
     sizes = sizes * np.minimum(1.0, (ends_s - starts_s) / WHOLE_S)
-    amounts = grown(np.where(back, -0.5 * sizes, sizes), vigours)
+    amounts = amount_at_vigour(np.where(back, -0.5 * sizes, sizes), vigours)
     rests = seeds.chances_at("lean rest", ticks)
     for place, (first, last) in enumerate(zip(firsts.tolist(), lasts.tolist(), strict=True)):
         start_s, end_s = float(starts_s[place]), float(ends_s[place])
@@ -184,7 +184,9 @@ def accents(
     nodded = np.minimum(at_s - cued_s[following - 1], cued_s[following] - at_s) < CUED_S
     scores = strength + CHANCE * chances - 10.0 * ((still & ~loud[candidates]) | nodded)
     chosen = _apart(at_s, scores, loud[candidates], beat_s[candidates])
-    amounts = grown(np.clip(LEAST_ACCENT + 0.4 * strength + 0.6 * sizes * sizes, 0.0, 1.0), dynamics.at(at_s))
+    amounts = amount_at_vigour(
+        np.clip(LEAST_ACCENT + 0.4 * strength + 0.6 * sizes * sizes, 0.0, 1.0), dynamics.at(at_s)
+    )
     inhaled = np.isin(candidates, _after_breaths(times, breaths))
     amounts = np.where(inhaled, AFTER_BREATH * amounts, amounts)
     lengths_s = np.clip(ACCENT_BEATS * beat_s[candidates], SHORTEST_ACCENT_S, ACCENT_S)

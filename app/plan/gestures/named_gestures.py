@@ -13,7 +13,7 @@ import numpy as np
 
 from app.errors import Message
 from app.plan.by_hand.pose_corrections import GENTLE_RAD_S2, pose_limits
-from app.plan.gestures.when_possible import LoweredSpans, impossible, may_start
+from app.plan.gestures.possible_gestures import LoweredSpans, impossible, may_start
 from app.plan.kinds import GESTURE_KINDS
 from app.plan.model import GestureEvent, Problem
 from app.plan.music.piece import LineTimes
@@ -114,7 +114,7 @@ def _in_hand(gesture: Gesture, instrument: InstrumentMap) -> Gesture:
     return msgspec.structs.replace(gesture, hand=HandTrack(gesture.hand.keys, instrument.hold.leaving_hand or "free"))
 
 
-def undisturbed(events: tuple[GestureEvent, ...]) -> tuple[GestureEvent, ...]:
+def without_idle_hands(events: tuple[GestureEvent, ...]) -> tuple[GestureEvent, ...]:
     """Events without what is generated for idle hands while one is away; the very same tuple where there is none."""
     away = [(one.start_s, one.end_s) for one in events if one.gesture is not None and one.gesture.needs_lowered]
     if not away:

@@ -13,7 +13,7 @@ import numpy as np
 from app.arrays import BoolArray, FloatArray, IntArray
 from app.errors import Message
 from app.plan.model import GestureEvent, StyleEvent, TimeFrame
-from app.plan.music.dynamics import Dynamics, grown
+from app.plan.music.dynamics import Dynamics, amount_at_vigour
 from app.plan.music.piece import NoteTimes, Piece, Seeds
 from app.plan.styles import amount_at
 
@@ -139,14 +139,14 @@ def swings_of(
     phase = (int(np.searchsorted(pulse.beat_ticks, 0)) + int(seeds.chance("phase") * beats)) % beats
     every_tick, every_s = pulse.beat_ticks[phase::beats], pulse.beats_s[phase::beats]
     origin = int(np.searchsorted(every_tick, 0))
-    places = stirring(times, frame, every_s)
+    places = spans_near_notes(times, frame, every_s)
     places = places[(every_s[places + 1] > frame.first_frame_s) & (every_s[places] < frame.end_s)]
     ticks, ends, starts_s, ends_s = every_tick[places], every_tick[places + 1], every_s[places], every_s[places + 1]
     still = np.broadcast_to(amount_at(styles, "stillness", stillness, starts_s), len(starts_s))
     amounts, lasts = _shaped(places - origin, ticks, ends, dynamics.at(starts_s), seeds, still)
     playing = _sounding_share(times, starts_s, ends_s)
     amounts = amounts * (RESTING + (1.0 - RESTING) * playing)
-    amounts = grown(amounts, dynamics.at((starts_s + ends_s) / 2.0))
+    amounts = amount_at_vigour(amounts, dynamics.at((starts_s + ends_s) / 2.0))
     return Swings(beats, ticks, ends, starts_s, ends_s, amounts, lasts)
 
 
@@ -244,7 +244,7 @@ def _sounding_share(times: NoteTimes, starts_s: FloatArray, ends_s: FloatArray) 
     return share
 
 
-def stirring(times: NoteTimes, frame: TimeFrame, edges_s: FloatArray) -> IntArray:
+def spans_near_notes(times: NoteTimes, frame: TimeFrame, edges_s: FloatArray) -> IntArray:
     """Which spans between neighbouring edges lie near the begin or end of a note, or near the frame's ends; ascending.
 
     What it costs depends on how many these are, not on how many spans there are.

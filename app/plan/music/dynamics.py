@@ -82,7 +82,7 @@ def vigour_of(loudness: FloatArray) -> FloatArray:
 Size = TypeVar("Size", float, FloatArray)
 
 
-def grown(amount: Size, vigour: Size) -> Size:
+def amount_at_vigour(amount: Size, vigour: Size) -> Size:
     """An amount -1..1 at a vigour: smaller in proportion below 1; above 1 what is small grows more, and 1 stays 1."""
     return amount * vigour / (1.0 + abs(amount) * (vigour - 1.0) * (vigour > 1.0))
 

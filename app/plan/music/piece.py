@@ -9,7 +9,7 @@ import msgspec
 import numpy as np
 
 from app.arrays import BoolArray, FloatArray, IntArray
-from app.chance import begun, chance, share_of
+from app.chance import chance, partial_digest, share_of
 from app.plan.acting import Acting
 from app.plan.by_hand.corrections import Correction
 from app.plan.music.dynamics_from_velocities import Velocities, read_dynamics
@@ -27,7 +27,7 @@ EPSILON = 1e-6
 """Rounding of air summed over an hour of notes, seconds."""
 
 
-def marked(loudness: FloatArray) -> FloatArray:
+def marked_loudness(loudness: FloatArray) -> FloatArray:
     """(N,): the loudness of the dynamic mark nearest to each; mezzoforte is exactly that."""
     return np.asarray(LEVELS[np.searchsorted((LEVELS[1:] + LEVELS[:-1]) / 2.0, loudness)])
 
@@ -289,7 +289,7 @@ def without_sound(notes: tuple[Note, ...]) -> tuple[Note, ...]:
 @lru_cache(maxsize=64)
 def _digests(parts: tuple[str | int, ...], places: bytes) -> bytes:
     """Of the parts with each place (int64) after them. Kept, since an edit of a pitch moves no note of its line."""
-    head = begun(parts)
+    head = partial_digest(parts)
     digests = []
     for place in np.frombuffer(places, np.int64).tolist():
         digest = head.copy()
@@ -321,7 +321,7 @@ class Seeds(msgspec.Struct, frozen=True):
         for start_tick, end_tick, seed in reversed(self.varied):
             if start_tick <= tick < end_tick:
                 return chance(*self.names, "varied", seed, purpose, tick)
-        digest = begun((*self.names, purpose)).copy()
+        digest = partial_digest((*self.names, purpose)).copy()
         digest.update(b"%d" % tick)
         return share_of(digest.digest())
 

@@ -13,7 +13,7 @@ import msgspec
 
 from app.plan.by_hand.additive_curve import CHANNELS, MOST_KEYS, AdditiveCurve, CurveKey, Interpolation, Tangent
 from app.project import limits
-from app.project.edit.corrections import put, take_back
+from app.project.edit.corrections import take_back, with_corrections
 from app.project.edit.found_events import OWN
 from app.project.model import Project
 
@@ -41,7 +41,7 @@ def add_curve(
     made = tuple(CurveKey(tick, _bounded(channel, value)) for tick, value in sorted(dict(keys).items()))
     blend = BLEND_BEATS * project.score.ticks_per_quarter
     curve = AdditiveCurve(_new_name(project, player_id), channel, made, blend, blend, title=title)
-    return put(project, player_id, (curve,)), curve.name
+    return with_corrections(project, player_id, (curve,)), curve.name
 
 
 def add_key(project: Project, player_id: str, name: str, tick: int, value: float) -> Project:
@@ -138,7 +138,7 @@ def delete_keys(project: Project, player_id: str, keys: Keys) -> Project:
         curve = _curve(project, player_id, name)
         left = [key for key in curve.keys if key.tick not in frozenset(chosen)]
         if left:
-            project = put(project, player_id, (_with_keys(curve, left),))
+            project = with_corrections(project, player_id, (_with_keys(curve, left),))
         else:
             project = take_back(project, player_id, (curve,))
     return project
@@ -177,7 +177,9 @@ def change_curves(project: Project, player_id: str, names: Iterable[str], **valu
     if "title" in values:
         values["title"] = str(values["title"]).strip()[: limits.MOST_NAME]
     for name in names:
-        project = put(project, player_id, (msgspec.structs.replace(_curve(project, player_id, name), **values),))
+        project = with_corrections(
+            project, player_id, (msgspec.structs.replace(_curve(project, player_id, name), **values),)
+        )
     return project
 
 
@@ -192,7 +194,7 @@ def _curve(project: Project, player_id: str, name: str) -> AdditiveCurve:
 
 
 def _changed(project: Project, player_id: str, name: str, change: Callable[[AdditiveCurve], AdditiveCurve]) -> Project:
-    return put(project, player_id, (change(_curve(project, player_id, name)),))
+    return with_corrections(project, player_id, (change(_curve(project, player_id, name)),))
 
 
 def _each_key(project: Project, player_id: str, keys: Keys, change: Callable[[CurveKey, str], CurveKey]) -> Project:

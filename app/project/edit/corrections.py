@@ -15,7 +15,7 @@ def place(correction: Correction) -> tuple[str, ...]:
     return (correction.tag, correction.anchor, *more)
 
 
-def put(project: Project, player_id: str, corrections: Iterable[Correction]) -> Project:
+def with_corrections(project: Project, player_id: str, corrections: Iterable[Correction]) -> Project:
     """Add corrections; each takes the place of one about the same place. KeyError where there is no such player."""
     before = project.corrections.get(project.player(player_id).id, ())
     kept = {place(correction): correction for correction in before}

@@ -42,7 +42,7 @@ from app.plan.model import (
     PoseEvent,
     StyleEvent,
 )
-from app.project.edit.corrections import put, take_back
+from app.project.edit.corrections import take_back, with_corrections
 from app.project.edit.found_events import OWN as OWN
 from app.project.edit.found_events import Placed as Placed
 from app.project.edit.found_events import corrections_of as corrections_of
@@ -100,7 +100,7 @@ def set_amounts(project: Project, plan: PlayerPlan, amounts: Mapping[str, float]
         if type(event) in AMOUNTS:
             field, least = AMOUNTS[type(event)]
             corrections += _changed(project, plan, event, **{field: min(max(round(amounts[event.id], 4), least), 1.0)})
-    return put(project, plan.player_id, corrections)
+    return with_corrections(project, plan.player_id, corrections)
 
 
 def set_fades(
@@ -130,7 +130,7 @@ def set_fades(
         else:
             continue
         corrections += _changed(project, plan, event, **fades)
-    return put(project, plan.player_id, corrections)
+    return with_corrections(project, plan.player_id, corrections)
 
 
 def set_expression(project: Project, plan: PlayerPlan, event_ids: Iterable[str], expression: str) -> Project:
@@ -147,7 +147,7 @@ def set_embouchure(project: Project, player_id: str, note_ids: Iterable[str], **
     """Set ``tension``, ``effort`` or ``air`` of notes, 0..1; what else was set by hand stays."""
     before = {item.note_id: item for item in project.corrections.get(player_id, ()) if isinstance(item, SetEmbouchure)}
     clipped = {name: round(min(max(value, 0.0), 1.0), 4) for name, value in values.items()}
-    return put(
+    return with_corrections(
         project,
         player_id,
         [msgspec.structs.replace(before.get(note_id, SetEmbouchure(note_id)), **clipped) for note_id in note_ids],
@@ -156,7 +156,7 @@ def set_embouchure(project: Project, player_id: str, note_ids: Iterable[str], **
 
 def pin_fingerings(project: Project, player_id: str, labels: Mapping[str, str]) -> Project:
     """Play notes (by id) with the fingerings of these labels."""
-    return put(project, player_id, [PinFingering(note_id, label) for note_id, label in labels.items()])
+    return with_corrections(project, player_id, [PinFingering(note_id, label) for note_id, label in labels.items()])
 
 
 # Adding
@@ -226,7 +226,7 @@ def add_gesture(
     """A gesture custom; ``gesture`` is the name of one of the kind ``"named"``."""
     end_tick = max(end_tick, start_tick + 1)
     added = AddGesture(_new_name(project, player_id), kind, start_tick, end_tick, amount, gesture)
-    return Edited(put(project, player_id, (added,)), (added.about,))
+    return Edited(with_corrections(project, player_id, (added,)), (added.about,))
 
 
 def add_expression(
@@ -249,7 +249,7 @@ def add_expression(
         fade_in_s,
         fade_out_s,
     )
-    return Edited(put(project, player_id, (added,)), (added.about,))
+    return Edited(with_corrections(project, player_id, (added,)), (added.about,))
 
 
 def add_style(project: Project, player_id: str, style: str, start_tick: int, end_tick: int) -> Edited:
@@ -257,7 +257,7 @@ def add_style(project: Project, player_id: str, style: str, start_tick: int, end
     end_tick = max(end_tick, start_tick + 1)
     fade = min(project.metre_map.felt_ticks_at(start_tick), (end_tick - start_tick) // 4)
     added = PlayStyle(_new_name(project, player_id), style, start_tick, end_tick, fade, fade)
-    return Edited(put(project, player_id, (added,)), (added.about,))
+    return Edited(with_corrections(project, player_id, (added,)), (added.about,))
 
 
 # Taking away
@@ -279,7 +279,7 @@ def remove(project: Project, plan: PlayerPlan, event_ids: Iterable[str]) -> Proj
         former = [item.left_out for item in said if item.left_out not in (None, event.id)]
         gone = former[-1] or event.id if former else event.id
         note_id = next((place for place in EventId.parse(gone).places if place in note_ids), None)
-        project = put(project, player_id, (RemoveEvent(gone, note_id),))
+        project = with_corrections(project, player_id, (RemoveEvent(gone, note_id),))
     return project
 
 
@@ -305,7 +305,7 @@ def forget(
         if field is not None and isinstance(item, SetEmbouchure):
             left = msgspec.structs.replace(item, **{field: None})
             if left != SetEmbouchure(item.note_id):
-                project = put(project, player_id, (left,))
+                project = with_corrections(project, player_id, (left,))
                 continue
         project = take_back(project, player_id, (item,))
     return project
@@ -348,7 +348,7 @@ def _placed(project: Project, plan: PlayerPlan, event_ids: Sequence[str], start_
         fresh += made
         for item in made:
             new_ids[event.id] = item.about
-    project = put(take_back(project, player_id, stale), player_id, fresh)
+    project = with_corrections(take_back(project, player_id, stale), player_id, fresh)
     return Edited(project, tuple(new_ids.get(event_id, event_id) for event_id in event_ids))
 
 
@@ -370,7 +370,7 @@ def _added(project: Project, player_id: str, item: SetBreath | SetCue) -> Edited
     """The project with something added, or back in place of what was removed there."""
     removed = _removals(project, player_id, item.about)
     item = msgspec.structs.replace(item, added=not removed)
-    return Edited(put(take_back(project, player_id, removed), player_id, (item,)), (item.about,))
+    return Edited(with_corrections(take_back(project, player_id, removed), player_id, (item,)), (item.about,))
 
 
 def _new_name(project: Project, player_id: str) -> str:
@@ -397,7 +397,9 @@ def _all_changed(
 ) -> Project:
     """With the events of a kind changed."""
     chosen = [event for event in _current(project, plan, event_ids) if isinstance(event, kind)]
-    return put(project, plan.player_id, [item for one in chosen for item in _changed(project, plan, one, **values)])
+    return with_corrections(
+        project, plan.player_id, [item for one in chosen for item in _changed(project, plan, one, **values)]
+    )
 
 
 def _breath(project: Project, player_id: str, event: BreathEvent) -> SetBreath:

@@ -17,7 +17,7 @@ from app.project.edit.piece import set_audio, set_offset
 from app.project.edit.tempo import set_beats
 from app.project.model import Project
 from app.project.recording import BeatPin, Doubt
-from app.score.following import SURE, Following, UnmatchedSpan
+from app.score.beat_following import SURE, Following, UnmatchedSpan
 
 _LEAST_TIME: Final = 0.7
 """Of the usual time of bars: with less, the recording leaves some out."""

@@ -9,7 +9,7 @@ import msgspec
 
 from app.chance import next_seed
 from app.plan.by_hand.corrections import Correction, Vary
-from app.project.edit.corrections import put, take_back
+from app.project.edit.corrections import take_back, with_corrections
 from app.project.edit.players import musicians_of
 from app.project.model import Project
 from app.project.performers import Player
@@ -46,7 +46,7 @@ def vary_span(project: Project, player_ids: Iterable[str], start_tick: int, end_
             names = {item.name for item in said}
             name = next(name for number in range(1, len(names) + 2) if (name := f"{NAME}{number}") not in names)
             seed = next_seed(player_id, len(said))
-        project = put(project, player_id, [Vary(name, start_tick, end_tick, seed)])
+        project = with_corrections(project, player_id, [Vary(name, start_tick, end_tick, seed)])
     return project
 
 

@@ -15,7 +15,7 @@ from app.plan.by_hand.corrections import RemoveEvent, SetCue
 from app.plan.cues.cues import LEAD_BEATS
 from app.plan.event_id import EventId
 from app.plan.model import CueEvent, PlayerPlan
-from app.project.edit.corrections import put, take_back
+from app.project.edit.corrections import take_back, with_corrections
 from app.project.edit.events import Edited, corrections_of, is_there, move, remove
 from app.project.model import Project
 
@@ -43,7 +43,7 @@ def set_giver(project: Project, plan: PlayerPlan, cue_id: str, giver_id: str, pe
         if peak_tick is None:
             return Edited(project, (cue_id,))
         changed = msgspec.structs.replace(_said(project, plan.player_id, cue), beats=beats)
-        return Edited(put(project, plan.player_id, (changed,)), (cue_id,))
+        return Edited(with_corrections(project, plan.player_id, (changed,)), (cue_id,))
     notes = project.part(project.player(giver_id)).notes
     at = bisect_left(notes, cue.end_tick, key=lambda note: note.onset_tick)
     plays = at < len(notes) and notes[at].onset_tick == cue.end_tick
@@ -56,7 +56,7 @@ def set_giver(project: Project, plan: PlayerPlan, cue_id: str, giver_id: str, pe
     said = corrections_of(project, giver_id, (given.about,))
     project = take_back(project, giver_id, said)
     if peak_tick is not None or chosen is not None or not any(isinstance(item, RemoveEvent) for item in said):
-        project = put(project, giver_id, (given,))
+        project = with_corrections(project, giver_id, (given,))
     return Edited(project, (given.about,))
 
 
@@ -67,7 +67,7 @@ def set_takers(project: Project, plan: PlayerPlan, cue_id: str, takers: Collecti
         return project
     ordered = None if takers is None else tuple(player.id for player in project.players if player.id in takers)
     changed = msgspec.structs.replace(_said(project, plan.player_id, cue), takers=ordered)
-    return put(project, plan.player_id, (changed,))
+    return with_corrections(project, plan.player_id, (changed,))
 
 
 def hand_over(project: Project, plan: PlayerPlan, cue_id: str, taker_id: str, other_id: str, entry_tick: int) -> Edited:

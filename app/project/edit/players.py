@@ -15,7 +15,7 @@ from app.chance import chance, next_seed
 from app.errors import AppError, MapError, Message
 from app.plan.parameters import PARAMETERS, PlayerParameters, Value
 from app.project import limits
-from app.project.anchors import moved
+from app.project.anchors import moved_correction
 from app.project.casting import (
     DANCER_ROOM_M,
     SPACING_M,
@@ -282,7 +282,7 @@ def duplicate_players(project: Project, player_ids: Sequence[str]) -> tuple[Proj
         marks = renamed_marks(part.marks, copied)
         parts.append(msgspec.structs.replace(part, id=part_id, name=name, notes=notes, marks=marks))
         if player.id in corrections:
-            corrections[new_id] = tuple(moved(correction, copied) for correction in corrections[player.id])
+            corrections[new_id] = tuple(moved_correction(correction, copied) for correction in corrections[player.id])
     score = msgspec.structs.replace(project.score, parts=(*project.score.parts, *parts))
     result = with_newcomers(replace(project, score=score, corrections=corrections), tuple(copies.values()))
     order: list[Player] = []

@@ -128,7 +128,7 @@ def build_figure(
     return _in_metres(figure)
 
 
-def apart(a: FloatArray, b: FloatArray) -> bool:
+def transforms_differ(a: FloatArray, b: FloatArray) -> bool:
     """Whether two transforms (4, 4) are so different that they cannot be one bone's in one pose."""
     return bool(np.abs(a - b).max() > AGREEMENT * max(1e-6, float(np.abs(a[:3]).max())))
 

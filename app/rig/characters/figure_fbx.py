@@ -18,7 +18,14 @@ from app.arrays import FloatArray, IntArray, SingleArray
 from app.errors import FileError
 from app.formats.fbx.foreign import FbxCluster, FbxContent, FbxMesh, FbxNode, read_foreign_fbx
 from app.formats.scene import Material
-from app.rig.characters.figure_build import SINGULAR, FigurePart, NodeHierarchy, apart, build_figure, rest_pose
+from app.rig.characters.figure_build import (
+    SINGULAR,
+    FigurePart,
+    NodeHierarchy,
+    build_figure,
+    rest_pose,
+    transforms_differ,
+)
 from app.rig.figure import Figure
 from app.rig.mesh import Mesh, Morph
 
@@ -61,7 +68,7 @@ def _bind_pose(content: FbxContent) -> Mapping[int, FloatArray]:
                 known = bound.setdefault(cluster.node, cluster.world_from_bone)
                 placed = cluster.world_from_bone @ cluster.bone_from_mesh
                 whole = placed if whole is None else whole
-                if apart(known, cluster.world_from_bone) or apart(whole, placed):
+                if transforms_differ(known, cluster.world_from_bone) or transforms_differ(whole, placed):
                     return {}
     return bound
 

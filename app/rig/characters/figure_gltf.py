@@ -15,7 +15,15 @@ from typing import Any, Final
 import numpy as np
 
 from app.arrays import FloatArray
-from app.rig.characters.figure_build import SINGULAR, FigurePart, NodeHierarchy, apart, build_figure, rest_pose, turned
+from app.rig.characters.figure_build import (
+    SINGULAR,
+    FigurePart,
+    NodeHierarchy,
+    build_figure,
+    rest_pose,
+    transforms_differ,
+    turned,
+)
 from app.rig.characters.texture_color import Textures, coloured
 from app.rig.figure import Figure, Origin
 from app.rig.gltf_source import GltfSource, build_mesh, read_source
@@ -83,7 +91,7 @@ def bind_pose(source: GltfSource) -> Mapping[int, FloatArray]:
             top = min(range(len(skin.joints)), key=lambda place: depths[skin.joints[place]])
             world_from_mesh = source.world_from_node[skin.joints[top]] @ skin.joint_from_mesh_bind[top]
         for joint, placed in zip(skin.joints, world_from_mesh @ mesh_from_joint, strict=True):
-            if apart(bound.setdefault(joint, placed), placed):
+            if transforms_differ(bound.setdefault(joint, placed), placed):
                 return {}
     return bound
 

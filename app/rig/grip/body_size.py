@@ -28,7 +28,7 @@ HAND_M, KNUCKLES_M, ARM_M, LEGS_M, EYES_M = (0.155, 0.173), (0.062, 0.070), (0.4
 _Value = TypeVar("_Value")
 
 
-def beside(length_m: float, grown_up_m: Range) -> float:
+def ratio_to_grown_up(length_m: float, grown_up_m: Range) -> float:
     """A length as a multiple of the nearest of a grown-up's; 1 for one that a grown-up may have."""
     return length_m / min(max(length_m, grown_up_m[0]), grown_up_m[1])
 
@@ -44,8 +44,8 @@ def hand_size(skeleton: Skeleton) -> float:
     sizes = [
         float(
             np.sqrt(
-                beside(apart_m(f"{side}Hand", f"{side}MiddleDistal"), HAND_M)
-                * beside(apart_m(f"{side}IndexProximal", f"{side}LittleProximal"), KNUCKLES_M)
+                ratio_to_grown_up(apart_m(f"{side}Hand", f"{side}MiddleDistal"), HAND_M)
+                * ratio_to_grown_up(apart_m(f"{side}IndexProximal", f"{side}LittleProximal"), KNUCKLES_M)
             )
         )
         for side in ("left", "right")
@@ -61,20 +61,20 @@ def arm_m(skeleton: Skeleton, side: Side) -> float:
 
 def arm_size(skeleton: Skeleton, side: Side) -> float:
     """How long an arm is."""
-    return beside(arm_m(skeleton, side), ARM_M)
+    return ratio_to_grown_up(arm_m(skeleton, side), ARM_M)
 
 
 @lru_cache(maxsize=64)
 def leg_size(skeleton: Skeleton) -> float:
     """How long the legs are: what a body's sway goes with."""
     rest = rest_positions(skeleton)
-    return beside(float(rest[skeleton.index("hips")][1] - min(0.0, float(rest[:, 1].min()))), LEGS_M)
+    return ratio_to_grown_up(float(rest[skeleton.index("hips")][1] - min(0.0, float(rest[:, 1].min()))), LEGS_M)
 
 
 @lru_cache(maxsize=64)
 def face_size(character: Character) -> float:
     """How large the face is."""
-    return beside(eye_distance(character), EYES_M)
+    return ratio_to_grown_up(eye_distance(character), EYES_M)
 
 
 def sized_body(body: Body, size: float) -> Body:

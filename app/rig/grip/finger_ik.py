@@ -83,7 +83,7 @@ class _Rows:
         )
 
 
-def brought(asked: Sequence[ReachTarget]) -> list[FloatArray]:
+def fingers_at_targets(asked: Sequence[ReachTarget]) -> list[FloatArray]:
     """Rotations (K, n, 4) of each, with the point at its place, within the limits of the joints."""
     result: list[FloatArray] = [one.rotations for one in asked]
     lengths = [len(one.chain.offsets_m) for one in asked]

@@ -9,7 +9,7 @@ import numpy as np
 
 from app.arrays import AnyFloatArray, BoolArray, FloatArray, IndexArray
 from app.rig import quaternion
-from app.rig.grip.finger_ik import ReachTarget, brought
+from app.rig.grip.finger_ik import ReachTarget, fingers_at_targets
 from app.rig.grip.grip_pose import (
     FingerTable,
     GripPose,
@@ -185,7 +185,7 @@ def _posed(
 def _solved(asked: Sequence[FloatArray | ReachTarget]) -> list[FloatArray]:
     """Poses, with those that are asked for brought there; what is the same is brought once."""
     requested = {id(one): one for one in asked if isinstance(one, ReachTarget)}
-    found = dict(zip(requested, brought(list(requested.values())), strict=True))
+    found = dict(zip(requested, fingers_at_targets(list(requested.values())), strict=True))
     return [found[id(one)] if isinstance(one, ReachTarget) else one for one in asked]
 
 

@@ -126,7 +126,7 @@ def fit_lips(character: Character, instrument_map: InstrumentMap, body: Body) ->
     )
 
 
-def meeting(character: Character, instrument_map: InstrumentMap, body: Body) -> Character:
+def with_lip_landmarks(character: Character, instrument_map: InstrumentMap, body: Body) -> Character:
     """The character with its landmarks ``lips.contact`` and ``lips.upper`` where the instrument is played, and where it
     stays while the mouth is open: what a judge of contacts measures. Of a cup they are there already; a character
     without lips stays without."""

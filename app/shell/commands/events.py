@@ -34,7 +34,7 @@ from app.project.edit.events import (
 from app.project.edit.notes import erase
 from app.project.model import Project
 from app.shell.action import Action
-from app.shell.commands.chosen import events_by_player, has_player, has_something, notes_by_player
+from app.shell.commands.command_targets import events_by_player, has_player, has_something, notes_by_player
 from widgets.common.actions import actions
 from widgets.common.clicks import on_click
 from widgets.common.controls import named

@@ -12,7 +12,7 @@ from app.project.model import Project
 from app.project.performers import Player
 from app.score.model import Note
 from app.shell.action import Action
-from app.shell.commands.chosen import has_notes, notes_by_player
+from app.shell.commands.command_targets import has_notes, notes_by_player
 from instrument_maps.model import Fingering
 
 TYPED_TOGETHER_S = 0.6

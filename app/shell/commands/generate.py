@@ -6,7 +6,7 @@ from app.editor.session import Session
 from app.errors import Message
 from app.project.edit import generation
 from app.shell.action import Action
-from app.shell.commands.chosen import has_everyone, selected_ticks
+from app.shell.commands.command_targets import has_everyone, selected_ticks
 
 LOST = "correction.orphaned"
 

@@ -17,7 +17,7 @@ from app.project.edit import events as event_edits
 from app.project.edit import notes
 from app.project.model import Project
 from app.shell.action import Action
-from app.shell.commands.chosen import has_notes, has_player, has_something, on_timeline
+from app.shell.commands.command_targets import has_notes, has_player, has_something, on_timeline
 
 MIME_TYPE = "application/x-suisou-notes+json"
 VELOCITY_STEP = 8

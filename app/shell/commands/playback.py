@@ -10,7 +10,7 @@ from app.editor.session import Session
 from app.errors import Message
 from app.project.edit.piece import set_audio
 from app.shell.action import Action
-from app.shell.commands.chosen import selected_ticks
+from app.shell.commands.command_targets import selected_ticks
 from app.shell.editor import Editor, EditorAction
 
 if TYPE_CHECKING:

@@ -6,7 +6,7 @@ from math import ceil, floor
 
 from app.editor.session import Session
 from app.shell.action import Action
-from app.shell.commands.chosen import selected_ticks
+from app.shell.commands.command_targets import selected_ticks
 from app.shell.editor import Editor, EditorAction
 
 

@@ -18,7 +18,7 @@ from app.project.model import Project
 from app.project.performers import Player
 from app.score.take import Cleaning, Take
 from app.shell.action import Action
-from app.shell.commands.chosen import on_timeline
+from app.shell.commands.command_targets import on_timeline
 from app.shell.editor import Editor, EditorAction
 
 

@@ -8,7 +8,7 @@ from typing import Final
 from app.editor.session import Session, TimeDisplay
 from app.editor.timeline_view import Ghosts, TimelineView
 from app.shell.action import Action
-from app.shell.commands.chosen import on_timeline
+from app.shell.commands.command_targets import on_timeline
 from widgets.timeline.lanes import LANES as BELOW
 
 

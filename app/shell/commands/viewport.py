@@ -7,7 +7,7 @@ from collections.abc import Callable
 from app.editor.session import Session
 from app.editor.viewport_state import Shown, View
 from app.shell.action import Action
-from app.shell.commands.chosen import has_everyone
+from app.shell.commands.command_targets import has_everyone
 
 
 def _row(

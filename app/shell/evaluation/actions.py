@@ -31,7 +31,7 @@ def make(editor: Editor) -> None:
 
 def show_results(editor: Editor) -> None:
     """Show what viewers answered."""
-    from app.evaluation.gathered import gather
+    from app.evaluation.viewer_files import gather
     from widgets.dialogs.evaluation.results import EvaluationResultsDialog
 
     EvaluationResultsDialog(gather, Path(editor.files.folder), editor.window).show()

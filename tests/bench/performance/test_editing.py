@@ -19,7 +19,7 @@ from app.plan.by_hand.corrections import (
     SetCue,
     SetEmbouchure,
 )
-from app.project.edit.corrections import put
+from app.project.edit.corrections import with_corrections
 from app.project.model import Project
 from app.rig.characters.character_library import bundled_characters
 from app.rig.characters.load_character import load_character
@@ -66,7 +66,10 @@ def test_plans_and_picture_after_one_edit(planned: tuple[Performance, float]) ->
     performance, unit_s = planned
     player = performance.project.players[3]
     at_s = performance.plan(player).fingerings[1000].start_s + 0.1
-    edits = {name: put(performance.project, player.id, [item]) for name, item in corrections(performance).items()}
+    edits = {
+        name: with_corrections(performance.project, player.id, [item])
+        for name, item in corrections(performance).items()
+    }
     edits["a note's pitch"] = note_moved(performance.project)
     for name, project in edits.items():
         live = LiveMotion(performance)

@@ -14,7 +14,7 @@ from app.editor.selection import Selection
 from app.errors import Message
 from app.plan.by_hand.corrections import AddExpression, Correction, PinFingering, SetBreath
 from app.project.edit import notes
-from app.project.edit.corrections import put
+from app.project.edit.corrections import with_corrections
 from app.project.model import Project
 from tests.bench.window.editor import LargeEditor, Turn, calibration_s, memory_mb
 
@@ -130,7 +130,7 @@ def correction(make: Callable[[LargeEditor, int], Correction]) -> Edit:
         player = editor.session.player
         assert player is not None
         made = make(editor, number)
-        return lambda project: put(project, player.id, [made])
+        return lambda project: with_corrections(project, player.id, [made])
 
     return edit
 

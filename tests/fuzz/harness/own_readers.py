@@ -42,8 +42,8 @@ def answers(path: Path, folder: Path) -> None:
 
 
 def _results(content: bytes, folder: Path) -> None:
-    from app.evaluation.gathered import gather
     from app.evaluation.report import write_results
+    from app.evaluation.viewer_files import gather
 
     file = folder / "answers.csv"
     file.write_bytes(content)

@@ -200,8 +200,8 @@ def presence(path: Path, folder: Path) -> None:
 
 def journal(path: Path, folder: Path) -> None:
     """A journal becomes takes, which are cleaned, brought into the part and saved."""
-    from app.capture.adopt import takes_of
     from app.capture.journal import passes, read_journal
+    from app.capture.journal_to_takes import takes_of
     from app.project.edit.takes import add_takes, comp_whole
     from app.score.take import ControllerMapping
 
@@ -400,7 +400,7 @@ def audio(path: Path, folder: Path) -> None:
 def followed(path: Path, folder: Path) -> None:
     """Listen to a recording for all that it can say of a piece."""
     from app.audio.decode import decode
-    from app.audio.followed import FollowOptions, listen
+    from app.audio.followed_recording import FollowOptions, listen
 
     listen(_quartet(), decode(str(path)).samples, path, FollowOptions(notes=True, dynamics=True))
 

@@ -10,7 +10,7 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QPushButton
 from pytestqt.qtbot import QtBot
 
-from app.audio.followed import FollowOptions
+from app.audio.followed_recording import FollowOptions
 from app.editor.session import Session
 from tests.support.tasks import ImmediateTasks
 from tests.unit.audio.pieces import quartet

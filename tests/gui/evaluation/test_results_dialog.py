@@ -8,9 +8,9 @@ import pytest
 from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import QLabel, QListWidget, QPlainTextEdit, QPushButton, QTabWidget
 
-from app.evaluation.gathered import gather
 from app.evaluation.key import write_key
 from app.evaluation.measures import write_measures
+from app.evaluation.viewer_files import gather
 from tests.support.viewers import key_of, viewers, write_viewers
 from tests.unit.evaluation.test_report import MEASURES
 from widgets.dialogs.evaluation.results import EvaluationResultsDialog

@@ -13,7 +13,7 @@ from app.errors import Message
 from app.plan.by_hand.corrections import ChangeExpression, ChangeGesture, PinFingering, PoseCorrection, SetBreath
 from app.plan.model import PlayerPlan
 from app.project.edit import events as edit
-from app.project.edit.corrections import put
+from app.project.edit.corrections import with_corrections
 from app.project.performers import Player
 from tests.gui.inspector.hands import child, click, click_line, drag, number, show_tab, type_into
 from widgets.inspector.by_hand import ByHandLine
@@ -114,7 +114,9 @@ def test_a_cue_comes_earlier(panel: InspectorPanel, planned: Session) -> None:
 
 def test_a_pose_is_turned_and_faded(panel: InspectorPanel, planned: Session) -> None:
     owner = player(planned)
-    planned.attempt(NAME, lambda p: put(p, owner.id, [PoseCorrection("own-1", "bell", 960, 1920, up_deg=5.0)]))
+    planned.attempt(
+        NAME, lambda p: with_corrections(p, owner.id, [PoseCorrection("own-1", "bell", 960, 1920, up_deg=5.0)])
+    )
     select(planned, "pose:own-1")
     type_into(number(panel, "event_up_deg"), "-8")
     type_into(number(panel, "event_fade_in_s"), "0.5")
@@ -158,7 +160,7 @@ def test_handwork_is_listed_opened_and_reverted(panel: InspectorPanel, planned: 
 def test_a_lost_correction_is_attached_to_another_note(panel: InspectorPanel, planned: Session) -> None:
     owner = player(planned)
     note = planned.project.part(owner).notes[7]
-    planned.attempt(NAME, lambda p: put(p, owner.id, [PinFingering("77:7", "12")]))
+    planned.attempt(NAME, lambda p: with_corrections(p, owner.id, [PinFingering("77:7", "12")]))
     show_tab(panel, 1)
     view = lines(panel, "correction_list")
     assert view.lines.lines[0].tone == "warning"
@@ -173,8 +175,8 @@ def test_problems_are_counted_filtered_and_opened(panel: InspectorPanel, planned
     owner, other = planned.project.players[:2]
     note = planned.project.part(other).notes[4]
     before = sum(len(planned.problems(player.id)) for player in planned.project.players)
-    planned.attempt(NAME, lambda p: put(p, other.id, [PinFingering(note.id, "no such")]))
-    planned.attempt(NAME, lambda p: put(p, owner.id, [PinFingering("77:7", "12")]))
+    planned.attempt(NAME, lambda p: with_corrections(p, other.id, [PinFingering(note.id, "no such")]))
+    planned.attempt(NAME, lambda p: with_corrections(p, owner.id, [PinFingering("77:7", "12")]))
     tabs = child(panel, QTabWidget, "inspector_tabs")
     assert str(before + 2) in tabs.tabText(0)
     show_tab(panel, 0)
@@ -196,7 +198,7 @@ def test_the_history_goes_back_and_forth(panel: InspectorPanel, planned: Session
     for label in ("1", "2", "3"):
         planned.attempt(
             Message("edit.rename_player", {"player": label}),
-            lambda p, label=label: put(p, owner.id, [PinFingering("1:1", label)]),
+            lambda p, label=label: with_corrections(p, owner.id, [PinFingering("1:1", label)]),
         )
     last = planned.project
     show_tab(panel, 2)

@@ -11,7 +11,7 @@ from app.editor.selection import EventKey, Selection
 from app.editor.session import Session
 from app.errors import Message
 from app.plan.by_hand.corrections import PinFingering, SetEmbouchure
-from app.project.edit.corrections import put
+from app.project.edit.corrections import with_corrections
 from app.project.performers import Player
 from app.score.model import Note
 from instrument_maps.library import find_map
@@ -160,7 +160,7 @@ def test_a_pin_of_a_user_else_is_left_alone(panel: InspectorPanel, planned: Sess
     player, other = planned.project.players[:2]
     note = with_alternates(planned, player)
     pin = PinFingering(planned.project.part(other).notes[0].id, "13")
-    planned.attempt(_name(), lambda project: put(project, other.id, [pin]))
+    planned.attempt(_name(), lambda project: with_corrections(project, other.id, [pin]))
     select(planned, note)
     label = find_map(player.instrument_id).fingerings_for(note.pitch)[1].label
     click(panel, f"chip_{label}")

@@ -11,7 +11,7 @@ from app.editor.selection import Selection
 from app.editor.session import Session
 from app.errors import Message
 from app.plan.by_hand.corrections import SetEmbouchure, Vary
-from app.project.edit.corrections import put
+from app.project.edit.corrections import with_corrections
 from app.shell.commands import generate
 
 
@@ -23,7 +23,7 @@ def test_it_says_how_many_corrections_it_kept(
     player = session.project.players[0]
     note = session.project.part(player).notes[3]
     said = [SetEmbouchure(note.id, tension=0.4), SetEmbouchure("9:99", tension=0.4)]
-    session.apply(Message("edit.test"), put(session.project, player.id, said))
+    session.apply(Message("edit.test"), with_corrections(session.project, player.id, said))
     reported: list[Message] = []
     session.noticed.connect(lambda message, severity: reported.append(message))
     generator = Generator(session, session.tasks)

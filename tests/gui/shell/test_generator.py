@@ -23,7 +23,7 @@ from app.performance.live import LiveMotion
 from app.plan.by_hand.corrections import AddExpression, AddGesture, SetEmbouchure
 from app.plan.model import Problem
 from app.project.edit import players
-from app.project.edit.corrections import put
+from app.project.edit.corrections import with_corrections
 from app.rig.characters.character_library import character_named
 from app.rig.grip.fitting.grip_files import hold_for
 from app.shell.commands.problems import go_to_problem
@@ -47,7 +47,7 @@ def generator(session: Session) -> Iterator[Generator]:
 def _correct(session: Session, tension: float) -> None:
     player = session.project.players[0]
     note = session.project.part(player).notes[20]
-    session.apply(EDIT, put(session.project, player.id, [SetEmbouchure(note.id, tension=tension)]))
+    session.apply(EDIT, with_corrections(session.project, player.id, [SetEmbouchure(note.id, tension=tension)]))
 
 
 def test_a_small_edit_is_planned_before_it_returns(session: Session, generator: Generator) -> None:
@@ -142,7 +142,7 @@ def test_motion_is_made_by_itself_and_again_where_an_edit_touched_it(
     before = generator.live.pose(player.id, at_s)
     other = generator.live.pose(player.id, at_s + 20.0)
     start, end = (round(session.project.score.tempo_map.ticks(at_s + offset)) for offset in (-1.0, 1.0))
-    session.apply(EDIT, put(session.project, player.id, [AddExpression("mine", "strained", start, end)]))
+    session.apply(EDIT, with_corrections(session.project, player.id, [AddExpression("mine", "strained", start, end)]))
     assert generator.ready_share < 1.0
     qtbot.waitUntil(lambda: generator.ready_share == 1.0)
     after = generator.live.pose(player.id, at_s)
@@ -166,7 +166,9 @@ def test_the_viewport_is_reported_only_of_poses_at_the_playhead(
     for player, at_s, expected in ((front, 30.0, 1), (front, 4.5, 1), (other, 30.0, 1), (other, 4.5, 2)):
         reported.clear()
         start = round(score.tempo_map.ticks(at_s))
-        session.apply(EDIT, put(session.project, player.id, [AddExpression("x", "strained", start, start + 480)]))
+        session.apply(
+            EDIT, with_corrections(session.project, player.id, [AddExpression("x", "strained", start, start + 480)])
+        )
         qtbot.waitUntil(lambda: generator.ready_share == 1.0)
         qtbot.wait(100)
         # Once that there are other plans: the player in front is right by then. Then that the pose of another is, where
@@ -332,7 +334,7 @@ def test_a_broken_contact_is_listed_walked_and_gone_when_it_is_mended(
     def lips_off() -> list[Problem]:
         return [problem for problem in session.problems(player.id) if problem.message.id == "contact.lips_off"]
 
-    session.apply(EDIT, put(session.project, player.id, [gesture]))
+    session.apply(EDIT, with_corrections(session.project, player.id, [gesture]))
     qtbot.waitUntil(lambda: len(lips_off()) == 1)
     broken = lips_off()
     assert [problem for problem in session.problems(player.id) if problem not in broken] == list(before)

@@ -15,7 +15,7 @@ from app.editor.questions import ReadAgain
 from app.editor.tasks import Tasks
 from app.editor.tokens import Tokens
 from app.plan.by_hand.corrections import Correction, PinFingering, SetBreath, SetCue
-from app.project.edit.corrections import put
+from app.project.edit.corrections import with_corrections
 from app.project.importing import ImportRequest, ImportRow
 from app.project.reimport import reimported
 from app.score.parts import PartAssignment
@@ -36,7 +36,7 @@ def program(request: pytest.FixtureRequest, start: Start, tmp_path: Path) -> Pro
         items: list[Correction] = [SetBreath(notes[4].id, -60, -10), SetCue(notes[8].id, 1.0)]
         if number < 3:
             items.append(PinFingering(notes[16].id, "1"))
-        project = put(project, player.id, items)
+        project = with_corrections(project, player.id, items)
     assert sum(map(len, project.corrections.values())) == 13
     if request.param != "kept":
         project = replace(project, imported=None, read_timing=None)

@@ -15,7 +15,7 @@ from app.editor.session import Session
 from app.errors import Message
 from app.plan.by_hand.additive_curve import AdditiveCurve, CurveKey, Tangent
 from app.project.edit import additive as edit
-from app.project.edit.corrections import put
+from app.project.edit.corrections import with_corrections
 from app.project.edit.generation import vary_everyone
 from tests.gui.timeline.conftest import Stage
 from tests.gui.timeline.lane_hands import (
@@ -80,7 +80,9 @@ def place(lane: AdditiveLane, tick: float, value: float) -> QPointF:
 def given(lane: AdditiveLane, *keys: CurveKey, name: str = "own-1", channel: str = "head.up", **more: object) -> None:
     """A curve of the player in front, put there without the mouse."""
     curve = AdditiveCurve(name, channel, keys, QUARTER, QUARTER, **more)
-    lane.session.attempt(Message("edit.change_curve"), lambda project: put(project, player_of(lane), (curve,)))
+    lane.session.attempt(
+        Message("edit.change_curve"), lambda project: with_corrections(project, player_of(lane), (curve,))
+    )
 
 
 def key(tick: int, value: float, **more: object) -> CurveKey:
@@ -402,7 +404,7 @@ def test_what_a_body_cannot_do_is_marked_where_it_is(lane: AdditiveLane, session
     keys = (CurveKey(0, 0.0), CurveKey(4 * QUARTER, high + 20.0), CurveKey(8 * QUARTER, 0.0))
     session.attempt(
         Message("edit.add_curve_key"),
-        lambda project: put(project, player, (AdditiveCurve("own-1", lane.channel, keys),)),
+        lambda project: with_corrections(project, player, (AdditiveCurve("own-1", lane.channel, keys),)),
     )
     clock = session.project.score.tempo_map
     ((start_s, end_s),) = lane.curves[0].beyond_s(lane.limits)
@@ -422,5 +424,5 @@ def test_what_a_body_cannot_do_is_marked_where_it_is(lane: AdditiveLane, session
     lane.hover(lane.mouse_at(QPointF(lane.axis.x_px(clock.seconds(0.0)) + 1.0, lane.y_px(0.0))))
     assert len(lane.plot.toolTip().splitlines()) == 2
     quiet = AdditiveCurve("own-1", lane.channel, keys, weight=0.5 * high / (high + 20.0))
-    session.attempt(Message("edit.change_curve"), lambda project: put(project, player, (quiet,)))
+    session.attempt(Message("edit.change_curve"), lambda project: with_corrections(project, player, (quiet,)))
     assert lane.curves[0].beyond_s(lane.limits) == []

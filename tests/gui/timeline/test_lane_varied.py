@@ -17,14 +17,14 @@ from app.editor.settings import Settings
 from app.errors import Message
 from app.performance.ensemble import Performance
 from app.plan.by_hand.corrections import AddExpression, Vary
-from app.project.edit.corrections import put
+from app.project.edit.corrections import with_corrections
 from app.shell.actions import ActionTable
 from app.shell.commands import edit, events, generate
 from tests.gui.timeline.lane_hands import click, drag, middle, region_of, shown_panel
 from tests.support.windows import show_in_front
 from widgets.common.actions import actions
 from widgets.inspector.correction_list import CorrectionList
-from widgets.inspector.generated import Generated
+from widgets.inspector.generated_values import Generated
 from widgets.timeline.lanes.acting.acting_lane import ActingLane
 from widgets.timeline.model.regions.acting_regions import VARIED
 from widgets.timeline.panel import TimelinePanel
@@ -118,11 +118,11 @@ def test_what_did_not_change_is_known_again_and_all_is_as_if_made_anew(session: 
     assert player is not None
 
     def smile() -> None:
-        project = put(session.project, player.id, [AddExpression("x", "smile", 1920, 3840)])
+        project = with_corrections(session.project, player.id, [AddExpression("x", "smile", 1920, 3840)])
         session.apply(Message("edit.add_expression"), project)
 
     def vary() -> None:
-        project = put(session.project, player.id, [Vary("varied-1", *SPAN, 5)])
+        project = with_corrections(session.project, player.id, [Vary("varied-1", *SPAN, 5)])
         session.apply(Message("edit.vary_everyone"), project)
 
     def plan() -> None:

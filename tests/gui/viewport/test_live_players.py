@@ -14,7 +14,7 @@ from app.performance.chunks import Pose
 from app.performance.ensemble import Performance
 from app.performance.play_along import PlayAlong
 from app.plan.by_hand.corrections import PoseCorrection
-from app.project.edit.corrections import put
+from app.project.edit.corrections import with_corrections
 from app.score.take import ControllerMapping
 from tests.support.performed import playing_of
 from widgets.viewport.panel import ViewportPanel
@@ -169,7 +169,7 @@ def away(one: Pose, other: Pose) -> float:
 def test_what_an_animator_holds_differently_is_held_so_by_who_plays(session: Session) -> None:
     player = session.project.players[0]
     lift = PoseCorrection("own-1", "head", 960, 3840, up_deg=-10.0)
-    project = put(session.project, player.id, (lift,))
+    project = with_corrections(session.project, player.id, (lift,))
     clock, performance = project.score.tempo_map, Performance(project)
     inside, outside = clock.seconds(2400.0), clock.seconds(9600.0)
     plain, held = play_along(session), PlayAlong(playing_of(performance, project.players[0]))

@@ -11,8 +11,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from app.capture.adopt import takes_of
 from app.capture.journal import JournalHeader, JournalWriter, read_journal
+from app.capture.journal_to_takes import takes_of
 from app.cli import main
 from app.performance.play_along import PlayAlong
 from app.project.model import map_choices

@@ -28,7 +28,7 @@ from app.plan.by_hand.corrections import (
 )
 from app.plan.parameters import PARAMETERS
 from app.project.casting import StagePosition
-from app.project.edit.corrections import put
+from app.project.edit.corrections import with_corrections
 from app.project.model import Project, project_from_score
 from app.project.performers import Player
 from app.score.model import ControllerCurve, Note, Part, Score
@@ -132,7 +132,7 @@ def edits(draw: st.DrawFn, project: Project) -> Project:
     part = project.part(player)
     kind = draw(st.sampled_from(_KINDS))
     if kind == "correct" or not part.notes:
-        return put(project, player.id, [draw(_corrections(project, player))])
+        return with_corrections(project, player.id, [draw(_corrections(project, player))])
     if kind == "take back":
         return replace(project, corrections={key: said[1:] for key, said in project.corrections.items()})
     if kind in ("pitch", "move", "length", "delete", "draw"):

@@ -15,7 +15,7 @@ from hypothesis.extra.numpy import arrays
 
 from app.plan.by_hand.corrections import PinFingering
 from app.project.alignment import GAP_COST, SWITCH_COST, AlignmentPart, align, cheapest, pair_costs
-from app.project.edit.corrections import put
+from app.project.edit.corrections import with_corrections
 from app.project.model import Project, map_choices, project_from_score
 from app.project.reimport import reimport
 from app.score.model import Note, Score
@@ -162,7 +162,9 @@ def test_survivors_are_found(case: tuple[list[Note], tuple[list[Note], set[str]]
 def piece(path: Path) -> Project:
     project = project_from_score(read_midi(path, maps=map_choices(MAPS.values())), MAPS)
     for player in project.players:
-        project = put(project, player.id, [PinFingering(note.id, "1") for note in project.part(player).notes])
+        project = with_corrections(
+            project, player.id, [PinFingering(note.id, "1") for note in project.part(player).notes]
+        )
     return project
 
 

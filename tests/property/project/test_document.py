@@ -39,7 +39,7 @@ from app.project.casting import StagePosition
 from app.project.check import faults
 from app.project.document import Change, Document
 from app.project.edit import dance_corrections, dancers, events, generation, notes, piece, players, takes, tempo
-from app.project.edit.corrections import put, take_back
+from app.project.edit.corrections import take_back, with_corrections
 from app.project.edit.found_events import events_of
 from app.project.model import Project
 from app.project.orphans import orphaned, reattached
@@ -101,7 +101,7 @@ def a_correction(data: st.DataObject, project: Project) -> tuple[str, Correction
 
 def add_correction(data: st.DataObject, project: Project) -> Project:
     drawn = a_correction(data, project)
-    return project if drawn is None else put(project, drawn[0], [drawn[1]])
+    return project if drawn is None else with_corrections(project, drawn[0], [drawn[1]])
 
 
 def forget_correction(data: st.DataObject, project: Project) -> Project:

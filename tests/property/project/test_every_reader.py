@@ -13,8 +13,8 @@ import pytest
 from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 
-from app.capture.adopt import takes_of
 from app.capture.journal import read_journal
+from app.capture.journal_to_takes import takes_of
 from app.errors import AppError, Message
 from app.formats.toml import toml
 from app.messages import LANGUAGES, text

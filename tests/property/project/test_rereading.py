@@ -15,12 +15,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from app.plan.by_hand.corrections import AddGesture, Correction, PinFingering, SetBreath, SetCue
-from app.project.edit.corrections import put
+from app.project.edit.corrections import with_corrections
 from app.project.edit.dynamics import set_dynamics
 from app.project.edit.notes import add_note, erase, set_velocity
 from app.project.edit.players import change, set_parameters
 from app.project.edit.tempo import set_tempo
-from app.project.imported import ImportDecisions
+from app.project.import_decisions import ImportDecisions
 from app.project.importing import ImportRow, import_project, usual_rows
 from app.project.model import Project
 from app.project.reimport import reimported
@@ -110,7 +110,7 @@ def edited(draw: st.DrawFn, project: Project) -> Project:
             for note in chosen
         ]
         items.append(AddGesture(f"own-{player.id}", "sway", draw(st.integers(0, 16)) * BAR, 17 * BAR, 0.5))
-        project = put(project, player.id, items)
+        project = with_corrections(project, player.id, items)
         if draw(st.booleans()):
             project = set_parameters(project, [player.id], amplitude=draw(st.sampled_from([0.25, 0.75])))
         if draw(st.booleans()):

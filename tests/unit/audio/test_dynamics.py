@@ -13,7 +13,7 @@ from scipy.stats import spearmanr
 
 from app.audio.dynamics import Loudness, dynamics, loudness
 from app.audio.mix import mixdown
-from app.audio.score_sound import analysed
+from app.audio.score_sound import analysis_sound
 from app.audio.track import RATE_HZ
 from app.errors import AppError
 from app.performance.ensemble import Performance
@@ -141,7 +141,7 @@ def test_listening_takes_little_more_memory_than_the_recording() -> None:
     """All of an hour in double precision would take gigabytes."""
     samples = np.random.default_rng(1).integers(-9000, 9000, (60 * RATE_HZ, 2)).astype(np.int16)
     loudness(samples[:RATE_HZ], RATE_HZ)  # Libraries are loaded.
-    for listen in (loudness, analysed):
+    for listen in (loudness, analysis_sound):
         tracemalloc.start()
         try:
             listen(samples, RATE_HZ)

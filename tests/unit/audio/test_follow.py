@@ -18,7 +18,7 @@ from app.errors import AppError, Cancelled, UsageError
 from app.project.edit.follow import follow_recording
 from app.project.edit.tempo import scale_tempo
 from app.project.model import Project
-from app.score.following import Following
+from app.score.beat_following import Following
 from app.score.tempo import TempoChange, TempoMap
 from tests.unit.audio.pieces import quartet, steady_run
 from tests.unit.audio.test_offset import as_samples, end_s, other_piece

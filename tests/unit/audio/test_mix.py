@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 
 from app.audio.mix import mixdown, place_gains, player_tracks
 from app.audio.synth import Synthesiser, drum_phrases
-from app.audio.track import RATE_HZ, AudioSegment, MixTrack, softened
+from app.audio.track import RATE_HZ, AudioSegment, MixTrack, soft_clipped
 from app.errors import Cancelled, FileError
 from app.project.recording import AudioTrack
 from app.score.model import PercussionHit
@@ -41,9 +41,9 @@ def test_a_block_is_the_plain_sum(pieces: list[tuple[int, int, int]], start: int
 
 def test_loud_sums_are_bent_and_soft_ones_are_not() -> None:
     soft = np.linspace(-0.79, 0.79, 100, dtype=np.float32).reshape(50, 2)
-    assert softened(soft) is soft
+    assert soft_clipped(soft) is soft
     loud = np.linspace(-4.0, 4.0, 1000, dtype=np.float32).reshape(500, 2)
-    bent = softened(loud)
+    bent = soft_clipped(loud)
     assert np.abs(bent).max() <= 1.0
     assert (np.diff(bent.ravel()) >= 0).all()
     same = np.abs(loud) < 0.8

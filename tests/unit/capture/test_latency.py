@@ -7,7 +7,7 @@ from statistics import NormalDist
 
 import pytest
 
-from app.capture.latency import LEAST_HITS, LatencyMeasurement, hits, measured, placed
+from app.capture.latency import LEAST_HITS, LatencyMeasurement, events_on_time_line, hits, measured_latency
 
 CLICKS_S = tuple(0.6 * index for index in range(12))
 
@@ -33,27 +33,27 @@ def most_wrong_s(jitter_s: float, count: int) -> float:
 @pytest.mark.parametrize("jitter_s", [0.0, 0.008, 0.015])
 def test_the_latency_of_an_even_player_is_found(latency_s: float, jitter_s: float) -> None:
     for seed in range(20):
-        found = measured(CLICKS_S, player(latency_s, jitter_s, seed))
+        found = measured_latency(CLICKS_S, player(latency_s, jitter_s, seed))
         assert not found.fault
         assert found.latency_s == pytest.approx(latency_s, abs=most_wrong_s(jitter_s, 12) + 1e-9)
 
 
 def test_missing_double_and_stray_hits_do_little_harm() -> None:
     for seed in range(40):
-        found = measured(CLICKS_S, player(0.06, 0.012, seed, missed=3, doubled=3, stray=2))
+        found = measured_latency(CLICKS_S, player(0.06, 0.012, seed, missed=3, doubled=3, stray=2))
         assert not found.fault
         assert found.latency_s == pytest.approx(0.06, abs=most_wrong_s(0.012, 7))
 
 
 def test_the_spread_is_the_player_s() -> None:
-    spreads = sorted(measured(CLICKS_S, player(0.05, 0.015, seed)).spread_s for seed in range(100))
+    spreads = sorted(measured_latency(CLICKS_S, player(0.05, 0.015, seed)).spread_s for seed in range(100))
     assert spreads[50] == pytest.approx(0.015, rel=0.25)
 
 
 def test_a_hit_far_off_is_shown_but_does_not_count() -> None:
     times = player(0.05, 0.005, 1)
     times[4] += 0.15
-    found = measured(CLICKS_S, times)
+    found = measured_latency(CLICKS_S, times)
     assert found.offsets_s[4] == pytest.approx(0.2, abs=0.03)
     assert not found.used[4]
     assert sum(found.used) == 11
@@ -63,11 +63,11 @@ def test_irregular_or_sparse_hits_are_refused() -> None:
     faults = []
     for seed in range(20):
         chance = random.Random(seed)
-        faults.append(measured(CLICKS_S, sorted(chance.uniform(0.0, 7.0) for _ in range(12))).fault)
+        faults.append(measured_latency(CLICKS_S, sorted(chance.uniform(0.0, 7.0) for _ in range(12))).fault)
     assert all(faults)
-    few = measured(CLICKS_S, player(0.05, 0.005, 1, missed=12 - LEAST_HITS + 1))
+    few = measured_latency(CLICKS_S, player(0.05, 0.005, 1, missed=12 - LEAST_HITS + 1))
     assert few.fault == "too_few"
-    assert measured(CLICKS_S, ()) == LatencyMeasurement((None,) * 12, (False,) * 12, 0.0, 0.0, "too_few")
+    assert measured_latency(CLICKS_S, ()) == LatencyMeasurement((None,) * 12, (False,) * 12, 0.0, 0.0, "too_few")
 
 
 def test_a_hit_is_a_note_and_what_follows_at_once_is_the_same() -> None:
@@ -92,6 +92,6 @@ def test_without_notes_a_hit_is_where_the_breath_begins() -> None:
 def test_events_lie_at_the_position_that_sounded() -> None:
     positions = [(1_000_000_000, 0.0), (2_000_000_000, 1.0), (3_000_000_000, 2.5)]
     moments = (500_000_000, 1_500_000_000, 2_500_000_000, 3_250_000_000)
-    found = placed([(moment, b"") for moment in moments], positions)
+    found = events_on_time_line([(moment, b"") for moment in moments], positions)
     assert [at_s for at_s, _ in found] == pytest.approx([-0.5, 0.5, 1.75, 2.75])
-    assert placed([(1, b"")], []) == []
+    assert events_on_time_line([(1, b"")], []) == []

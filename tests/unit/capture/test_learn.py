@@ -7,7 +7,7 @@ import random
 
 import pytest
 
-from app.capture.learn import Learned, breath_value, learned, learned_bite
+from app.capture.learn import Learned, breath_value, learned_bite, recognised_controller
 from metadata.load import load_controllers
 from metadata.model import BreathSource
 from tests.support.wind_player import phrase
@@ -31,7 +31,7 @@ def blown(source: str, channel: int = 1, loudest: int = 90, count: int = 120) ->
 @pytest.mark.parametrize("source", list(STATUS))
 @pytest.mark.parametrize("channel", [1, 7, 16])
 def test_every_source_on_every_channel(source: BreathSource, channel: int) -> None:
-    found = learned(blown(source, channel))
+    found = recognised_controller(blown(source, channel))
     assert found == Learned(source, channel)
     values = [breath_value(message, source) for _, message in blown(source, channel)]
     assert max(value for value in values if value is not None) == 90
@@ -44,28 +44,28 @@ def test_a_volume_that_is_set_and_notes_are_no_breath() -> None:
     notes = [(index, bytes([0x90, 60, by_chance.randrange(128)])) for index in range(200)]
     bends = [(index, bytes([0xE0, 0, index % 128])) for index in range(400)]
     others = still + switch + notes + bends
-    assert learned(others) is None
-    assert learned([*others, *blown("cc11", 3)]) == Learned("cc11", 3)
+    assert recognised_controller(others) is None
+    assert recognised_controller([*others, *blown("cc11", 3)]) == Learned("cc11", 3)
 
 
 def test_of_one_breath_sent_twice_the_trusted_one_is_taken() -> None:
     twice = [event for pair in zip(blown("channel_pressure"), blown("cc7"), strict=True) for event in pair]
-    assert learned(twice, ("cc7", "channel_pressure")) == Learned("cc7", 1)
-    assert learned(twice, ("channel_pressure", "cc7")) == Learned("channel_pressure", 1)
+    assert recognised_controller(twice, ("cc7", "channel_pressure")) == Learned("cc7", 1)
+    assert recognised_controller(twice, ("channel_pressure", "cc7")) == Learned("channel_pressure", 1)
     louder = blown("cc2", loudest=30) + blown("cc11", loudest=120)
-    assert learned(louder, ("cc2", "cc11")) == Learned("cc11", 1)
+    assert recognised_controller(louder, ("cc2", "cc11")) == Learned("cc11", 1)
 
 
 def test_nothing_blown_is_nothing_learned() -> None:
-    assert learned([]) is None
-    assert learned(blown("cc2", loudest=8)) is None
-    assert learned([(0, b"\xb0\x02\x40")]) is None
+    assert recognised_controller([]) is None
+    assert recognised_controller(blown("cc2", loudest=8)) is None
+    assert recognised_controller([(0, b"\xb0\x02\x40")]) is None
 
 
 @pytest.mark.parametrize("name", load_controllers())
 def test_the_synthetic_player_breathes_where_an_ewi_does(name: str) -> None:
     events = [(round(at_s * 1e9), message) for at_s, message in phrase([60, 62, 64, 65], ghosts=2)]
-    assert learned(events, load_controllers()[name].breath) == Learned("cc2", 1)
+    assert recognised_controller(events, load_controllers()[name].breath) == Learned("cc2", 1)
 
 
 def bends(channel: int = 1) -> list[tuple[int, bytes]]:

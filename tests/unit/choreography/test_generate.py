@@ -16,7 +16,7 @@ from app.choreography.clip import MotionClip
 from app.choreography.contacts import foot_contacts, tips_m
 from app.choreography.dance import Dance, Manner
 from app.choreography.generate import Choreographer, mirrored
-from app.choreography.joins import faded
+from app.choreography.joins import fading_difference
 from app.choreography.sequence import Constraints
 from app.choreography.stitch import STAGE_M
 from tests.support.dance_measures import alignments, kinematic_beats_s
@@ -167,7 +167,7 @@ def test_nothing_is_danced_to_nothing() -> None:
 
 def test_what_fades_begins_as_it_was_and_ends_at_rest() -> None:
     times = np.linspace(0.0, 0.6, 601)
-    curve = faded(np.array([1.0]), np.array([-2.0]), times, 0.5)[:, 0]
+    curve = fading_difference(np.array([1.0]), np.array([-2.0]), times, 0.5)[:, 0]
     slope = np.gradient(curve, times)
     assert curve[0] == 1.0
     assert slope[1] == pytest.approx(-2.0, abs=0.05)

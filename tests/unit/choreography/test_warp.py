@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from app.choreography.sequence import SPEEDS, AccentGrid, grid_of
-from app.choreography.warp import REST_S, TimeMap, arriving
+from app.choreography.warp import REST_S, TimeMap, map_with_arrivals
 from tests.support.dances import beaten
 
 
@@ -19,7 +19,7 @@ def even(length_s: float, every_s: float) -> TimeMap:
 def test_arrivals_beside_the_beats_come_on_them() -> None:
     grid = grid_of(beaten(21))
     arrivals = 0.5 * np.arange(1, 19) + np.random.default_rng(1).uniform(-0.08, 0.08, 18)
-    found = arriving(even(10.0, 2.0), arrivals, grid)
+    found = map_with_arrivals(even(10.0, 2.0), arrivals, grid)
     assert found.when(arrivals) == pytest.approx(0.5 * np.arange(1, 19), abs=1e-3)
     # Not so the map before.
     assert np.abs(even(10.0, 2.0).when(arrivals) - 0.5 * np.arange(1, 19)).max() > 0.05
@@ -28,7 +28,7 @@ def test_arrivals_beside_the_beats_come_on_them() -> None:
 def test_no_motion_is_hurried_or_held_beyond_the_limits() -> None:
     # Arrivals every 0.3 s to beats every second: most cannot meet one.
     arrivals = 0.3 * np.arange(1, 60) + np.random.default_rng(2).uniform(-0.1, 0.1, 59)
-    found = arriving(even(18.0, 1.0), arrivals, grid_of(beaten(19, 1.0)))
+    found = map_with_arrivals(even(18.0, 1.0), arrivals, grid_of(beaten(19, 1.0)))
     speeds = np.diff(found.along_s) / np.diff(found.times_s)
     assert speeds.min() > SPEEDS[0] / 1.03
     assert speeds.max() < SPEEDS[1] * 1.03
@@ -43,7 +43,7 @@ def test_without_beats_or_arrivals_it_goes_as_planned() -> None:
         (np.array([1.2]), AccentGrid(np.zeros(0), np.zeros(0, bool))),
     ):
         times_s = np.linspace(0.0, 4.0, 50)
-        assert arriving(plain, arrivals, grid).at(times_s)[0] == pytest.approx(times_s)
+        assert map_with_arrivals(plain, arrivals, grid).at(times_s)[0] == pytest.approx(times_s)
 
 
 def test_time_runs_out_before_and_after() -> None:

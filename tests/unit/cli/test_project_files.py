@@ -15,7 +15,7 @@ import pytest
 from app.cli import main
 from app.plan.by_hand.corrections import PinFingering
 from app.project.casting import StagePosition
-from app.project.edit.corrections import put
+from app.project.edit.corrections import with_corrections
 from app.project.edit.dancers import add_dancer, place_dancers
 from app.project.edit.events import add_style
 from app.project.storage import load, save
@@ -38,7 +38,7 @@ def run(capsys: pytest.CaptureFixture[str]) -> Run:
 
 @pytest.fixture
 def project(tmp_path: Path) -> Path:
-    project = put(small_project(), "1.1.1", [PinFingering("1:3", "3")])
+    project = with_corrections(small_project(), "1.1.1", [PinFingering("1:3", "3")])
     path = tmp_path / "piece.SUISOU"
     save(replace(project, fps=Fraction(24000, 1001)), path)
     return path

@@ -21,7 +21,7 @@ from app.performance.live import LiveMotion
 from app.performance.span import whole_span
 from app.plan.by_hand.corrections import AddGesture, Correction, PoseCorrection
 from app.plan.model import Problem
-from app.project.edit.corrections import put
+from app.project.edit.corrections import with_corrections
 from app.project.model import Project, map_choices, project_from_score
 from app.project.performers import Player
 from app.rig import quaternion
@@ -72,7 +72,7 @@ def test_a_correction_that_breaks_a_contact_is_reported_where_it_does(
 ) -> None:
     project = project_of(path)
     player = project.players[index]
-    performance = Performance(put(in_seventh(project, player), player.id, [correction]))
+    performance = Performance(with_corrections(in_seventh(project, player), player.id, [correction]))
     problems = judged(performance, player)
     assert problems
     seconds = project.score.tempo_map.seconds
@@ -86,7 +86,7 @@ def test_the_lips_gap_is_that_of_the_vertices() -> None:
     """Deformed vertex by vertex, the lips are as far from the rim as reported, and at no other sounding frame."""
     project = project_of(LUTKIN)
     player = project.players[0]
-    performance = Performance(put(project, player.id, [LOWERED]))
+    performance = Performance(with_corrections(project, player.id, [LOWERED]))
     problems = [item for item in judged(performance, player) if item.message.id == "contact.lips_off"]
     motion = player_motion(performance, player, whole_span(performance.time_frame, FPS))
     character, plan = character_of(player), performance.plan(player)
@@ -180,7 +180,7 @@ def test_live_motion_reports_as_it_is_made_and_again_after_an_edit(budget_bytes:
     live = LiveMotion(first, budget_bytes)
     all_made(live)
     assert live.broken == {}
-    lowered = Performance(put(project, player.id, [LOWERED]), first)
+    lowered = Performance(with_corrections(project, player.id, [LOWERED]), first)
     live.show(lowered)
     assert live.broken == {}
     all_made(live)
@@ -189,7 +189,7 @@ def test_live_motion_reports_as_it_is_made_and_again_after_an_edit(budget_bytes:
     assert reported == {player.id: judged(lowered, player, whole)}
     # What an edit elsewhere does not touch is not judged again, and stays.
     other = project.players[1]
-    again = Performance(put(lowered.project, other.id, [LOWERED]), lowered)
+    again = Performance(with_corrections(lowered.project, other.id, [LOWERED]), lowered)
     live.show(again)
     assert live.broken is reported
     all_made(live)
@@ -207,7 +207,7 @@ def test_what_an_edit_shows_at_once_is_judged_first() -> None:
     live = LiveMotion(first)
     live.request(at_s, 1.0, (player.id,))
     all_made(live)
-    live.show(Performance(put(project, player.id, [LOWERED]), first))
+    live.show(Performance(with_corrections(project, player.id, [LOWERED]), first))
     live.make_now(player.id, at_s)
     live.work()
     assert player.id in live.broken

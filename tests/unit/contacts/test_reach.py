@@ -16,7 +16,7 @@ from app.performance.bodies import character_of, hold_of
 from app.performance.ensemble import Performance
 from app.performance.span import whole_span
 from app.plan.by_hand.corrections import PinFingering
-from app.project.edit.corrections import put
+from app.project.edit.corrections import with_corrections
 from app.project.model import Project, map_choices, project_from_score
 from app.project.performers import Player
 from app.rig.grip.grip_pose import GripPose, hand_targets
@@ -48,7 +48,7 @@ def unreached(project: Project, player_id: str) -> set[str | None]:
 
 
 def unreached_at(performance: Performance, player: Player) -> set[str | None]:
-    return set(reach.unreached(performance.problems(player.id)))
+    return set(reach.notes_out_of_reach(performance.problems(player.id)))
 
 
 def test_long_arms_reach_everything() -> None:
@@ -101,7 +101,7 @@ def test_another_fingering_settles_it() -> None:
         and fingering.label.startswith("T")
     }
     assert near
-    pinned = put(project, player.id, [PinFingering(note_id, label) for note_id, label in near.items()])
+    pinned = with_corrections(project, player.id, [PinFingering(note_id, label) for note_id, label in near.items()])
     assert unreached(pinned, player.id) == before - set(near)
 
 
@@ -131,7 +131,7 @@ def test_after_an_edit_no_one_is_posed_again_for_places_that_were_judged(monkeyp
     other = next(note for note in project.part(player).notes if note.id not in reported)
     monkeypatch.setattr(reach, "_gaps_m", lambda *given: pytest.fail("these places are known"))
     event = next(event for event in performance.plan(player).fingerings if event.note_id == other.id)
-    pinned = put(project, player.id, [PinFingering(other.id, event.label)])
+    pinned = with_corrections(project, player.id, [PinFingering(other.id, event.label)])
     edited = Performance(pinned, performance)
     assert edited.plan(player).fingerings is not performance.plan(player).fingerings
     assert unreached_at(edited, player) == reported

@@ -10,7 +10,7 @@ import numpy as np
 from app.evaluation.design import Order, codes, orders, pairs_of
 from app.evaluation.key import VERSION, EvaluationClip, EvaluationKey, Variant
 from app.evaluation.page import PAGE_FILE, page
-from app.export.video import beside, video_into
+from app.export.video import side_by_side, video_into
 
 VARIANTS: tuple[Variant, ...] = ("film", "generated", "shifted")
 TITLE = "</script><script>alert(1)</script> & <b>\"film\"</b> 'C:\\n' 組曲\u2028"
@@ -29,7 +29,7 @@ def small_evaluation(folder: Path, title: str = TITLE) -> tuple[EvaluationKey, t
         _clip(made / f"{name}.mp4", number)
     pairs = pairs_of([(clip.code, clip.variant, clip.excerpt) for clip in clips])
     for left, right in pairs:
-        beside(made / f"{left}-{right}.mp4", made / f"{left}.mp4", made / f"{right}.mp4")
+        side_by_side(made / f"{left}-{right}.mp4", made / f"{left}.mp4", made / f"{right}.mp4")
     table = orders(drawn, pairs)
     (folder / PAGE_FILE).write_bytes(page(key, table, made))
     return key, table

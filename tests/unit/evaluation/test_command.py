@@ -13,7 +13,7 @@ from app.audio.mix import mixdown
 from app.audio.track import RATE_HZ, Block
 from app.cli import main
 from app.errors import FileError
-from app.evaluation.imported import import_video, pictures_of
+from app.evaluation.imported_videos import import_video, pictures_of
 from app.export.video import video_into
 from app.messages import error_text
 from tests.unit.audio.pieces import quartet as played

@@ -13,7 +13,7 @@ from app.cli import main
 from app.export.playback import ScenePlayback
 from app.formats.fbx.read import read_scene
 from app.plan.by_hand.corrections import PoseCorrection
-from app.project.edit.corrections import put
+from app.project.edit.corrections import with_corrections
 from app.project.storage import save
 from tests.gui.conftest import quartet_project
 
@@ -35,7 +35,7 @@ def test_a_lifted_bell_is_higher_in_the_files_and_only_then(tmp_path: Path, caps
     project = replace(quartet_project(), source="")
     player = next(player for player in project.players if player.name == PLAYER)
     found = []
-    for name, value in (("plain", project), ("lifted", put(project, player.id, [UP]))):
+    for name, value in (("plain", project), ("lifted", with_corrections(project, player.id, [UP]))):
         path = tmp_path / f"{name}.suisou"
         save(value, path)
         assert main(["export", str(path), "--to", str(tmp_path / name), *ARGUMENTS]) == 0

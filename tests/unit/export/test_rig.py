@@ -12,7 +12,7 @@ from scipy.spatial.transform import Rotation
 
 from app.export.attachment import attached, in_world, own_path, without_place
 from app.export.character import character_scene
-from app.export.equip import equipped, socket_names
+from app.export.equipped_skeleton import equipped, socket_names
 from app.export.instrument import instrument_scene
 from app.export.joint_playback import JointPlayback
 from app.export.keyed import key_count, keyed_character, keyed_instrument

@@ -15,7 +15,7 @@ OUR_OWN = {
     # Bundled with the program.
     "app/audio/rendering.py": {"read_bytes"},
     "app/export/unreal/plugin.py": {"read_bytes"},
-    "app/formats/kept.py": {"read_bytes"},
+    "app/formats/table_cache.py": {"read_bytes"},
     "app/evaluation/page.py": {"read_text", "read_bytes"},  # and clips that were drawn a moment ago
     "app/shell/theme.py": {"read_text"},
     "widgets/common/icons.py": {"read_text"},

@@ -21,7 +21,7 @@ from app.export.file_names import REPORT
 from app.export.unreal.layout import MANIFEST
 from app.export.unreal.manifest import read_manifest
 from app.formats.atomic import atomic_write
-from app.formats.kept import kept
+from app.formats.table_cache import kept
 from app.formats.user_folder import stamp_of
 from app.messages import LANGUAGES, text
 from app.project.piece_metadata import load_metadata
@@ -30,7 +30,7 @@ from app.project.recovery import recoverable
 from app.project.storage import autosave_facts, load
 from instrument_maps.load import load_map
 from metadata.load import read_expression
-from widgets.viewport.kept_shapes import _read as read_shapes
+from widgets.viewport.shape_cache import _read as read_shapes
 
 DEEP = 100_000
 BYTES = {
@@ -96,8 +96,8 @@ def test_reports_notes_and_caches(content: bytes, tmp_path: Path, monkeypatch: p
     with pytest.raises(FileError):
         read_manifest(tmp_path)
     assert read_shapes(tmp_path / REPORT) is None
-    monkeypatch.setattr("app.formats.kept.cache_folder", lambda kind: tmp_path)
-    monkeypatch.setattr("app.formats.kept.digest_of", lambda folder: "x")
+    monkeypatch.setattr("app.formats.table_cache.cache_folder", lambda kind: tmp_path)
+    monkeypatch.setattr("app.formats.table_cache.digest_of", lambda folder: "x")
     (tmp_path / "name-x.msgpack").write_bytes(content)
     decoder = msgspec.msgpack.Decoder(dict[str, list[str]])
     assert kept("kind", "name", tmp_path, decoder, lambda: {"made": ["again"]}) == {"made": ["again"]}

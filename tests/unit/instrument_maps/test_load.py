@@ -9,7 +9,7 @@ import pytest
 
 from app.errors import MapError
 from app.formats.cache import CACHE_VARIABLE
-from app.formats.kept import digest_of
+from app.formats.table_cache import digest_of
 from instrument_maps import load
 from instrument_maps.load import bundled_maps, named_map
 from instrument_maps.model import InstrumentMap

@@ -10,7 +10,7 @@ import pytest
 from app.errors import Cancelled
 from app.performance.ensemble import LIGHT, Performance
 from app.plan.by_hand.corrections import PoseCorrection, SetBreath
-from app.project.edit.corrections import put
+from app.project.edit.corrections import with_corrections
 from tests.property.performance.edits import piece
 
 
@@ -23,9 +23,9 @@ def test_what_has_to_be_planned_is_counted() -> None:
     assert performance.unplanned_notes == 0
     player = project.players[0]
     count = len(project.part(player).notes)
-    pose = put(project, player.id, [PoseCorrection("x", "head", 0, 960, up_deg=5.0)])
+    pose = with_corrections(project, player.id, [PoseCorrection("x", "head", 0, 960, up_deg=5.0)])
     assert Performance(pose, performance).unplanned_notes == count // LIGHT
-    breath = put(project, player.id, [SetBreath(project.part(player).notes[5].id, -120)])
+    breath = with_corrections(project, player.id, [SetBreath(project.part(player).notes[5].id, -120)])
     assert Performance(breath, performance).unplanned_notes == count
     assert Performance(replace(project, seed=3), performance).unplanned_notes == everything
     calm = msgspec.structs.replace(player, parameters=msgspec.structs.replace(player.parameters, amplitude=0.1))

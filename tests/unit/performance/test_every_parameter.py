@@ -9,14 +9,14 @@ from functools import cache
 import numpy as np
 import pytest
 
-from app.motion.contacts.solve import padding
+from app.motion.contacts.solve import padding_frames
 from app.motion.curves.curve import frame_times
 from app.motion.model import Motion, frame_count
 from app.motion.perform import PerformanceCurves
 from app.performance.ensemble import Performance
 from app.plan.by_hand.corrections import PoseCorrection
 from app.plan.parameters import PARAMETERS, Parameter
-from app.project.edit.corrections import put
+from app.project.edit.corrections import with_corrections
 from app.project.edit.players import set_parameters
 from tests.property.performance.edits import piece
 from tests.support.parameters import others
@@ -30,7 +30,7 @@ def before(danced: bool) -> Performance:
     """Two trumpets, who take turns to lead, and a trombone; the first may dance, and holds the bell up."""
     project = piece()
     first = project.players[0].id
-    project = put(project, first, [PoseCorrection("up", "bell", 0, 9600, up_deg=500.0)])
+    project = with_corrections(project, first, [PoseCorrection("up", "bell", 0, 9600, up_deg=500.0)])
     made = Performance(set_parameters(project, (first,), choreography="salsa") if danced else project)
     made.prepare()
     return made
@@ -67,7 +67,7 @@ def differing(one: Motion, other: Motion) -> np.ndarray:
 
 def within(spans_s: np.ndarray, start_s: float, count: int) -> np.ndarray:
     """Which of so many frames are in some spans or around them."""
-    times_s, room_s = frame_times(start_s, FPS, 0, count), float((padding(FPS) + 1) / FPS)
+    times_s, room_s = frame_times(start_s, FPS, 0, count), float((padding_frames(FPS) + 1) / FPS)
     found = np.zeros(count, bool)
     for first_s, last_s in spans_s:
         found |= (times_s >= first_s - room_s) & (times_s <= last_s + room_s)

@@ -14,7 +14,7 @@ from app.motion.model import Motion
 from app.motion.perform import PerformanceCurves
 from app.performance.ensemble import Performance
 from app.plan.by_hand.corrections import AddGesture, RemoveEvent
-from app.project.edit.corrections import put
+from app.project.edit.corrections import with_corrections
 from app.rig import quaternion
 from app.rig.grip.empty_hand_shapes import PAD_M, TIP_SHARE, finger_joints
 from app.rig.grip.grip_pose import hand_targets
@@ -43,7 +43,7 @@ def resting(instrument_id: str, *gestures: tuple[str, float]) -> Performance:
         AddGesture(f"a{index}", "named", _tick(start_s), _tick(start_s + bundled_gestures()[name].length_s), 1.0, name)
         for index, (name, start_s) in enumerate(gestures)
     ]
-    return Performance(put(project, player.id, [*corrections, *added]))
+    return Performance(with_corrections(project, player.id, [*corrections, *added]))
 
 
 def _steps() -> list[int]:

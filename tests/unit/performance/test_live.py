@@ -19,7 +19,7 @@ from app.performance.live import LiveMotion, PlayerFault
 from app.performance.span import whole_span
 from app.plan.by_hand.corrections import AddExpression
 from app.plan.model import PlayerPlan
-from app.project.edit.corrections import put
+from app.project.edit.corrections import with_corrections
 from app.project.edit.piece import piece_settings, set_piece_settings
 from app.rig.characters.character_library import character_named
 from tests.property.performance.edits import piece
@@ -117,7 +117,7 @@ def test_an_edit_is_awaited_only_until_what_is_looked_at_is_right(performance: P
     live = LiveMotion(performance)
     live.request(6.0, 2.0)
     all_made(live)
-    project = put(performance.project, player.id, [AddExpression("x", "strained", 6 * 960, 40 * 960)])
+    project = with_corrections(performance.project, player.id, [AddExpression("x", "strained", 6 * 960, 40 * 960)])
     live.show(Performance(project, performance))
     assert not live.is_seen
     assert live.work()
@@ -162,7 +162,7 @@ def test_after_an_edit_a_player_who_was_seen_is_made_at_once(performance: Perfor
     live.request(8.0, 1.0, (player.id,))
     live.work()
     shown = AddExpression("x", "strained", 6 * 960, 40 * 960)
-    after = Performance(put(performance.project, player.id, [shown]), performance)
+    after = Performance(with_corrections(performance.project, player.id, [shown]), performance)
     live.show(after)
     live.make_now(player.id, 8.0)
     fresh = LiveMotion(after)
@@ -182,12 +182,12 @@ def test_edits_that_follow_each_other_show_the_newest_pose_there_is(performance:
     live.request(8.0, 1.0, (player.id,))
     all_made(live)
     before = live.pose(player.id, 8.0)
-    strained = put(performance.project, player.id, [AddExpression("x", "strained", 6 * 960, 40 * 960)])
+    strained = with_corrections(performance.project, player.id, [AddExpression("x", "strained", 6 * 960, 40 * 960)])
     live.show(Performance(strained, performance))
     live.make_now(player.id, 8.0)
     made = live.pose(player.id, 8.0)
     # Another edit comes before the worker has compared anything.
-    smiling = put(strained, player.id, [AddExpression("y", "smile", 6 * 960, 40 * 960)])
+    smiling = with_corrections(strained, player.id, [AddExpression("y", "smile", 6 * 960, 40 * 960)])
     after = Performance(smiling, live.performance)
     live.show(after)
     shown = live.pose(player.id, 8.0)
@@ -224,7 +224,7 @@ def test_after_an_edit_the_player_in_front_does_not_wait_for_another_that_is_bei
     try:
         assert begun.wait(10.0)
         shown = AddExpression("x", "strained", 6 * 960, 40 * 960)
-        after = Performance(put(performance.project, first.id, [shown]), performance)
+        after = Performance(with_corrections(performance.project, first.id, [shown]), performance)
         live.show(after)
         live.make_now(first.id, 8.0)
         made = live.pose(first.id, 8.0)
@@ -313,7 +313,7 @@ def test_an_edit_leaves_what_it_did_not_touch_and_shows_the_old_until_the_new_is
     whole = all_made(live)
     player = performance.project.players[0]
     old = live.pose(player.id, 6.0)
-    project = put(performance.project, player.id, [AddExpression("x", "strained", 6 * 960, 7 * 960)])
+    project = with_corrections(performance.project, player.id, [AddExpression("x", "strained", 6 * 960, 7 * 960)])
     live.show(Performance(project, performance))
     shown = live.pose(player.id, 6.5)
     assert shown is not None
@@ -373,7 +373,7 @@ def test_it_is_asked_while_it_works(performance: Performance) -> None:
     thread.start()
     player, before = performance.project.players[0], performance
     for tick in range(0, 9600, 960):
-        project = put(before.project, player.id, [AddExpression("x", "smile", tick, tick + 480)])
+        project = with_corrections(before.project, player.id, [AddExpression("x", "smile", tick, tick + 480)])
         before = Performance(project, before)
         live.show(before)
         live.request(tick / 960.0)
@@ -453,7 +453,7 @@ def test_a_fault_in_one_players_motion_is_reported_once_and_the_others_are_made(
         pass
     monkeypatch.undo()
     # What is edited is tried again.
-    project = put(performance.project, first.id, [AddExpression("x", "smile", 0, 480)])
+    project = with_corrections(performance.project, first.id, [AddExpression("x", "smile", 0, 480)])
     live.show(Performance(project, performance))
     all_made(live)
     assert live.pose(first.id, 8.0) is not None

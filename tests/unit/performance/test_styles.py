@@ -16,7 +16,7 @@ from app.performance.ensemble import Performance
 from app.plan.acting import LAYERS, acting_of
 from app.plan.by_hand.corrections import PlayStyle
 from app.plan.styles import amount_at, shown_in_style, styles_at
-from app.project.edit.corrections import put
+from app.project.edit.corrections import with_corrections
 from app.project.edit.events import add_style, move, remove, resize, set_fades, set_style
 from app.project.edit.generation import vary_everyone
 from app.project.edit.players import set_parameters
@@ -160,7 +160,7 @@ def test_of_two_that_overlap_the_later_goes_over_the_other(styled: Project, span
     player = styled.players[0]
     start, end = span
     over = PlayStyle("own-9", "jazz", start + (end - start) // 2, end + 960)
-    events = Performance(put(styled, player.id, (over,))).plan(player).styles
+    events = Performance(with_corrections(styled, player.id, (over,))).plan(player).styles
     assert [event.style for event in events] == ["soloist", "jazz"]
     at_s = np.array([events[1].start_s + 0.5])
     assert np.allclose(amount_at(events, "sway", events[0].usual.sway, at_s), events[1].acting.sway)

@@ -25,7 +25,7 @@ from app.plan.by_hand.corrections import (
 from app.plan.parameters import PlayerParameters
 from app.project.casting import ConductorPlace, StagePosition, stage_arc
 from app.project.dance_corrections import ForbidState, PinState, UseSegment
-from app.project.imported import ImportDecisions, ReadTiming, RowDecision, TrackMark
+from app.project.import_decisions import ImportDecisions, ReadTiming, RowDecision, TrackMark
 from app.project.model import CompSpan, PlayerTakes, Project
 from app.project.performers import Dancer, Player
 from app.project.recording import AudioTrack, BeatPin, Doubt

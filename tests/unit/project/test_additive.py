@@ -10,9 +10,9 @@ import pytest
 
 from app.errors import FileError
 from app.plan.by_hand.additive_curve import AdditiveCurve, CurveKey, Tangent
-from app.project.anchors import moved
+from app.project.anchors import moved_correction
 from app.project.edit import additive as edit
-from app.project.edit.corrections import put
+from app.project.edit.corrections import with_corrections
 from app.project.edit.events import give_back
 from app.project.model import Project
 from app.project.storage import decode, encode
@@ -28,7 +28,7 @@ def project() -> Project:
     player = bare.players[0].id
     bare = edit.delete_curves(bare, player, [curve.name for curve in edit.curves_of(bare, player)])
     keys = (CurveKey(480, 1.0), CurveKey(960, 2.0, "linear"), CurveKey(1920, 3.0))
-    return put(bare, player, (AdditiveCurve("own-1", "head.up", keys, 240, 240),))
+    return with_corrections(bare, player, (AdditiveCurve("own-1", "head.up", keys, 240, 240),))
 
 
 def player_of(project: Project) -> str:
@@ -108,11 +108,11 @@ def test_a_curve_is_given_back_as_an_event(project: Project) -> None:
 def test_a_curve_moves_with_its_places_and_keeps_all_keys() -> None:
     keys = (CurveKey(0, 0.0), CurveKey(10, 1.0, leave=Tangent(4, 2.0)), CurveKey(20, 0.0))
     curve = AdditiveCurve("a", "head.up", keys, 6, 8)
-    after = moved(curve, {}, lambda tick: 100 + tick // 20, Fraction(2))
+    after = moved_correction(curve, {}, lambda tick: 100 + tick // 20, Fraction(2))
     assert [key.tick for key in after.keys] == [100, 101, 102]
     assert after.keys[1].leave == Tangent(8, 2.0)
     assert (after.blend_in_ticks, after.blend_out_ticks) == (12, 16)
-    assert moved(curve, {}) is curve
+    assert moved_correction(curve, {}) is curve
 
 
 @pytest.mark.parametrize(

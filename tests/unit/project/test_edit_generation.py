@@ -5,7 +5,7 @@ from __future__ import annotations
 from app.performance.ensemble import Performance
 from app.plan.by_hand.corrections import ChangeGesture
 from app.project.edit import generation
-from app.project.edit.corrections import put
+from app.project.edit.corrections import with_corrections
 from app.project.model import Project
 from tests.gui.conftest import quartet_project as quartet
 
@@ -49,7 +49,7 @@ def test_what_was_corrected_by_hand_stays_as_it_is() -> None:
     player = project.players[0]
     plan = Performance(project).plan(player)
     sway = next(event for event in plan.gestures if event.kind == "sway" and event.start_tick > 2000)
-    corrected = put(project, player.id, [ChangeGesture(sway.id, amount=0.123)])
+    corrected = with_corrections(project, player.id, [ChangeGesture(sway.id, amount=0.123)])
     for varied in (
         generation.vary_everyone(corrected),
         generation.vary_players(corrected, [player.id]),

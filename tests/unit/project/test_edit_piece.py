@@ -17,7 +17,7 @@ from app.project import storage
 from app.project.check import faults
 from app.project.edit import notes, tempo
 from app.project.edit import piece as edit
-from app.project.edit.corrections import put
+from app.project.edit.corrections import with_corrections
 from app.project.model import Project
 from app.score.metre_map import Metre
 from tests.unit.project.pieces import ANGRY, full_project, small_project
@@ -209,7 +209,7 @@ def test_recordings_and_their_offset(project: Project, tmp_path: Path) -> None:
 
 
 def test_own_expressions_reach_the_performance(project: Project) -> None:
-    shown = put(project, "1.1.1", [AddExpression("mine", "angry", 0, 960)])
+    shown = with_corrections(project, "1.1.1", [AddExpression("mine", "angry", 0, 960)])
     plan = Performance(shown).plan(shown.players[0])
     assert [problem.message.id for problem in plan.problems].count("correction.unknown_expression") == 1
     known = edit.put_expression(shown, ANGRY)

@@ -11,7 +11,7 @@ from app.errors import AppError
 from app.plan.by_hand.corrections import PinFingering
 from app.project.casting import StagePosition, stage_arc
 from app.project.edit import players as edit
-from app.project.edit.corrections import put
+from app.project.edit.corrections import with_corrections
 from app.project.model import Project, map_choices, project_from_score
 from app.score.choose import TrackChannel
 from app.score.model import Note, Part, Score
@@ -103,7 +103,7 @@ def test_a_newcomer_has_an_empty_part_and_joins_the_arc(trio: Project) -> None:
 
 def test_a_double_plays_the_same_part_as_a_user_else(trio: Project) -> None:
     first, second, _ = trio.players
-    pinned = put(trio, first.id, [PinFingering("1:1", "13")])
+    pinned = with_corrections(trio, first.id, [PinFingering("1:1", "13")])
     more, ids = edit.duplicate_players(pinned, (second.id, first.id))
     assert names(more) == ["First", "First 2", "Second", "Second 2", "Low"]
     double = more.players[1]
@@ -154,7 +154,7 @@ def test_the_empty_part_of_before_goes_with_several_players_too(trio: Project) -
 
 def test_who_leaves_takes_the_corrections_along_but_not_the_music(trio: Project) -> None:
     first = trio.players[0]
-    pinned = put(trio, first.id, [PinFingering("1:1", "13")])
+    pinned = with_corrections(trio, first.id, [PinFingering("1:1", "13")])
     fewer = edit.remove_players(pinned, (first.id,))
     assert names(fewer) == ["Second", "Low"]
     assert fewer.corrections == {}

@@ -24,7 +24,7 @@ from app.plan.model import (
     PlayerPlan,
 )
 from app.project.edit import events as edit
-from app.project.edit.corrections import put
+from app.project.edit.corrections import with_corrections
 from app.project.model import Project, map_choices, project_from_score
 from app.score.model import Note
 from app.score.read import read_midi
@@ -339,7 +339,7 @@ def test_the_preparatory_beat_of_a_cue_is_drawn_out() -> None:
 
 
 def test_names_of_added_events_are_the_first_free_ones() -> None:
-    project = put(piece(), player_id(), (AddGesture("own-2", "sway", 0, 10, 0.5),))
+    project = with_corrections(piece(), player_id(), (AddGesture("own-2", "sway", 0, 10, 0.5),))
     ids = []
     for _ in range(3):
         project, (event_id,) = edit.add_gesture(project, player_id(), "sway", 0, 100)
@@ -356,7 +356,7 @@ def test_a_changed_added_event_is_replaced_under_its_name() -> None:
 
 
 def test_a_pose_moves_and_fades() -> None:
-    project = put(piece(), player_id(), (PoseCorrection("lift", "bell", 480, 960, up_deg=5.0),))
+    project = with_corrections(piece(), player_id(), (PoseCorrection("lift", "bell", 480, 960, up_deg=5.0),))
     plan = plan_of(project)
     if not plan.poses:
         pytest.skip("poses are not planned yet")

@@ -11,7 +11,7 @@ import pytest
 from app.errors import FileError, MapError
 from app.plan.by_hand.additive_curve import AdditiveCurve
 from app.plan.by_hand.corrections import AddGesture, PinFingering, RemoveEvent, SetBreath
-from app.project.edit.corrections import put
+from app.project.edit.corrections import with_corrections
 from app.project.edit.piece import set_section_intensity
 from app.project.edit.players import rename, set_parameters
 from app.project.piece_metadata import (
@@ -58,7 +58,7 @@ def test_breaths_cues_and_fingerings_are_no_acting() -> None:
 def test_a_player_who_is_not_named_keeps_all_and_one_who_is_not_there_is_reported() -> None:
     project = small_project()
     first, second = project.players
-    other = put(rename(project, first.id, "Another"), second.id, [AddGesture("x", "sway", 0, 480, 0.5)])
+    other = with_corrections(rename(project, first.id, "Another"), second.id, [AddGesture("x", "sway", 0, 480, 0.5)])
     loaded = with_metadata(other, metadata_of(set_parameters(project, (second.id,), style="jazz")))
     assert [problem.id for problem in loaded.problems] == ["metadata.no_player"]
     assert loaded.problems[0].arguments["players"] == first.name
@@ -70,7 +70,7 @@ def test_a_player_who_is_not_named_keeps_all_and_one_who_is_not_there_is_reporte
 def test_ticks_are_those_of_the_piece_they_are_loaded_into() -> None:
     project = small_project()
     first = project.players[0]
-    said = metadata_of(put(project, first.id, [AddGesture("x", "named", 480, 960, 0.5, "shrug")]))
+    said = metadata_of(with_corrections(project, first.id, [AddGesture("x", "named", 480, 960, 0.5, "shrug")]))
     twice = msgspec.structs.replace(said, ticks_per_quarter=project.score.ticks_per_quarter * 2)
     [gesture] = with_metadata(project, twice).project.corrections[first.id]
     assert isinstance(gesture, AddGesture)
@@ -81,7 +81,7 @@ def test_differences_say_where_and_what() -> None:
     project = small_project()
     first = project.players[0]
     changed = set_section_intensity(set_parameters(project, (first.id,), style="jazz"), 0.5)
-    changed = put(changed, first.id, [AddGesture("x", "named", 480, 960, 0.5, "shrug")])
+    changed = with_corrections(changed, first.id, [AddGesture("x", "named", 480, 960, 0.5, "shrug")])
     found = {item.place: (item.one, item.other) for item in differences(metadata_of(project), metadata_of(changed))}
     assert found["section_intensity"] == ("1.0", "0.5")
     assert found[f"players.{first.name}.parameters.style"] == ("section_player", "jazz")
@@ -105,7 +105,7 @@ def test_what_is_wrong_in_a_file_is_reported_with_its_place(
 ) -> None:
     project = small_project()
     first = project.players[0]
-    project = put(rename(project, first.id, "A"), first.id, [AddGesture("x", "sway", 0, 480, 0.5)])
+    project = with_corrections(rename(project, first.id, "A"), first.id, [AddGesture("x", "sway", 0, 480, 0.5)])
     path = tmp_path / "piece.toml"
     save_metadata(metadata_of(project), path)
     text = path.read_text(encoding="utf-8")

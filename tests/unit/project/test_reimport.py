@@ -24,7 +24,7 @@ from app.plan.by_hand.corrections import (
 )
 from app.project.casting import StagePosition
 from app.project.dance_corrections import ForbidState, PinState, UseSegment
-from app.project.edit.corrections import put
+from app.project.edit.corrections import with_corrections
 from app.project.edit.length import with_score
 from app.project.edit.notes import add_note
 from app.project.edit.players import add_player, remove_players, set_parameters
@@ -117,14 +117,14 @@ def test_parts_read_as_written_pitches_are_read_so_again() -> None:
 
 
 def test_the_same_file_changes_nothing() -> None:
-    project = put(read(LUTKIN), read(LUTKIN).players[0].id, [PinFingering("1:1", "1")])
+    project = with_corrections(read(LUTKIN), read(LUTKIN).players[0].id, [PinFingering("1:1", "1")])
     result = reimport(project, from_file(project.score, parts=project.score.parts), MAPS)
     assert result.project is project
     assert (result.added, result.removed, result.new_players, result.gone_players) == ((), (), (), ())
 
 
 def test_inserted_bars_carry_everything_along() -> None:
-    project = put(
+    project = with_corrections(
         small_project(),
         "1.1.1",
         [
@@ -159,7 +159,7 @@ def test_inserted_bars_carry_everything_along() -> None:
 
 
 def test_a_region_across_inserted_bars_grows_and_across_cut_bars_shrinks() -> None:
-    project = put(small_project(), "1.1.1", [AddGesture("mine", "sway", 480, 1440, 0.5)])
+    project = with_corrections(small_project(), "1.1.1", [AddGesture("mine", "sway", 480, 1440, 0.5)])
     score = project.score
     notes = later(score.parts[0].notes, 960, BAR)
     grown = reimport(project, from_file(with_notes(score, 0, notes)), MAPS)
@@ -169,7 +169,9 @@ def test_a_region_across_inserted_bars_grows_and_across_cut_bars_shrinks() -> No
 
 
 def test_another_resolution_scales_ticks_and_lengths() -> None:
-    project = put(small_project(), "1.1.1", [SetBreath("1:2", -120, -24), AddGesture("mine", "sway", 0, 480, 0.5)])
+    project = with_corrections(
+        small_project(), "1.1.1", [SetBreath("1:2", -120, -24), AddGesture("mine", "sway", 0, 480, 0.5)]
+    )
     score = project.score
     parts = tuple(
         msgspec.structs.replace(
@@ -188,7 +190,7 @@ def test_another_resolution_scales_ticks_and_lengths() -> None:
 
 
 def test_a_note_that_is_gone_leaves_its_corrections_and_they_find_another() -> None:
-    project = put(
+    project = with_corrections(
         small_project(), "1.1.1", [SetBreath("1:2", -100, -10), RemoveEvent("breath:1:2", "1:2"), SetCue("1:1")]
     )
     gone = with_notes(project.score, 0, [note for note in project.score.parts[0].notes if note.id != "1:2"])
@@ -214,7 +216,7 @@ def test_a_note_that_is_gone_leaves_its_corrections_and_they_find_another() -> N
 
 
 def test_new_notes_never_take_an_id_that_something_waits_for() -> None:
-    project = put(small_project(), "1.1.1", [PinFingering("1:2", "1"), PinFingering("f:7", "1")])
+    project = with_corrections(small_project(), "1.1.1", [PinFingering("1:2", "1"), PinFingering("f:7", "1")])
     notes = [note for note in project.score.parts[0].notes if note.id != "1:2"]
     notes.append(Note("x", 3000, 480, 100, 80))
     result = reimport(project, from_file(with_notes(project.score, 0, notes)), MAPS)
@@ -260,7 +262,7 @@ def test_parts_that_play_the_same_are_known_by_their_names() -> None:
 
 
 def test_a_new_part_gets_a_player_and_players_whose_part_is_gone_can_be_removed() -> None:
-    project = put(small_project(), "2.1.1", [PinFingering("2:1", "1")])
+    project = with_corrections(small_project(), "2.1.1", [PinFingering("2:1", "1")])
     melody = tuple(Note(f"9:{n}", n * 240, 240, 80 - 3 * n, 90) for n in range(1, 9))
     new = Part("9.1.1", "Trumpet", 9, 0, 9, None, "Flugelhorn", "trumpet_Bb", melody)
     result = reimport(project, from_file(msgspec.structs.replace(project.score, parts=(new,))), MAPS)
@@ -296,7 +298,7 @@ def test_what_was_drawn_here_stays_where_there_is_room() -> None:
     project, player = add_player(project, MAPS["trumpet_Bb"], MAPS, "Mine")
     part = project.player(player).part_id
     project, own = add_note(project, part, 960, 480, 72, 80)
-    project = put(project, "1.1.1", [PinFingering(kept, "1")])
+    project = with_corrections(project, "1.1.1", [PinFingering(kept, "1")])
     score = small_project().score
     trumpet = [*later(score.parts[0].notes, 0, BAR), Note("x", 2700 + BAR, 500, 60, 80)]
     trombone = later(score.parts[1].notes, 0, BAR)

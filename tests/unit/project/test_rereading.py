@@ -11,7 +11,7 @@ import msgspec
 import pytest
 
 from app.plan.by_hand.corrections import AddGesture, Correction, PinFingering, SetBreath, SetCue
-from app.project.edit.corrections import put
+from app.project.edit.corrections import with_corrections
 from app.project.edit.dynamics import set_dynamics
 from app.project.edit.players import remove_players, set_parameters
 from app.project.edit.tempo import set_metre, set_tempo
@@ -76,7 +76,7 @@ def project(request: pytest.FixtureRequest, tmp_path: Path) -> Project:
     for player in result.players:
         note = result.part(player).notes[4]
         pinned: tuple[Correction, ...] = (SetBreath(note.id, -60, -10), SetCue(note.id, 1.0))
-        result = put(result, player.id, pinned)
+        result = with_corrections(result, player.id, pinned)
     result = set_parameters(result, [result.players[2].id], amplitude=0.9)
     if request.param != "kept":
         result = replace(result, imported=None, read_timing=None)
@@ -169,7 +169,7 @@ def test_merged_and_left_out_tracks_stay_so(tmp_path: Path) -> None:
         for row in rows
     )
     project = import_project(contents, rows, MAPS, str(path))
-    project = put(project, project.players[1].id, [PinFingering(project.score.parts[1].notes[3].id, "1")])
+    project = with_corrections(project, project.players[1].id, [PinFingering(project.score.parts[1].notes[3].id, "1")])
     for known in (project, replace(project, imported=None, read_timing=None)):
         assert reimported(known, path, MAPS).project is known
         content = tracks(("a", "b", "c", "d", "e"), BAR)
@@ -233,7 +233,7 @@ def test_usual_decisions_are_kept_too(tmp_path: Path) -> None:
     contents = read_contents(path)
     project = import_project(contents, usual_rows(contents, MAPS), MAPS, str(path))
     assert len(project.players) == 5
-    project = put(project, project.players[0].id, [AddGesture("mine", "sway", BAR, 2 * BAR, 0.5)])
+    project = with_corrections(project, project.players[0].id, [AddGesture("mine", "sway", BAR, 2 * BAR, 0.5)])
     assert reimported(project, path, MAPS).project is project
     renamed = tmp_path / "final_v2.mid"
     renamed.write_bytes(path.read_bytes())

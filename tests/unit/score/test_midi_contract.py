@@ -15,7 +15,7 @@ import pytest
 
 from app.capture.journal import is_whole
 from app.score.sounding import SoundingNotes
-from app.score.take import ControllerMapping, decoded, said
+from app.score.take import ControllerMapping, curve_values, decoded
 from app.score.tracks import TrackEvents, gather
 from metadata.model import BiteSource, BreathSource
 from tests.unit.score.midi_bytes import END, chunk, header, ids, meta, note, notes_of, score_of
@@ -188,7 +188,7 @@ def _kinds(raw: bytes, mapping: ControllerMapping) -> set[str]:
     sounding: SoundingNotes[None] = SoundingNotes()
     sounding.receive(bytes([0x90 | raw[0] & 0xF, 60, 64]), None)
     ended = bool(sounding.receive(raw, None)) and raw[0] >> 4 != 0x9
-    return {kind for kind, _ in said(message, mapping)} | ({"end"} if ended else set())
+    return {kind for kind, _ in curve_values(message, mapping)} | ({"end"} if ended else set())
 
 
 def test_of_a_take_every_status_is_recorded_or_passed_over() -> None:

@@ -25,10 +25,10 @@ from PySide6.QtWidgets import (
 from app.encoding import shown
 from app.errors import AppError, Message
 from app.evaluation.conclusions import conclude
-from app.evaluation.gathered import Gathered
 from app.evaluation.plot import plot
 from app.evaluation.report import write_results
 from app.evaluation.tables import ResultTable, tables
+from app.evaluation.viewer_files import Gathered
 from app.messages import text
 from widgets.common.controls import Button, Caption, Retranslated, named, selectable, wrapped
 from widgets.common.instrument_name import language
@@ -38,7 +38,7 @@ from widgets.common.plain import Label
 from widgets.common.text import message_text
 
 Gather: TypeAlias = Callable[[Sequence[Path], Path | None], Gathered]
-"""See `app.evaluation.gathered.gather`."""
+"""See `app.evaluation.viewer_files.gather`."""
 
 _AT_CONTROLS: Final = {
     "results.no_key": "results.no_key_here",

@@ -9,7 +9,7 @@ from PySide6.QtWidgets import QWidget
 from app.editor.session import Session
 from app.editor.tokens import LEAST_TEXT_PT
 from widgets.timeline.lane import GUTTER_PX
-from widgets.timeline.plot.pictured import Pictured
+from widgets.timeline.plot.cached_picture import Pictured
 from widgets.timeline.plot.time_axis import TimeAxis
 
 

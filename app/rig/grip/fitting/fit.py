@@ -31,10 +31,10 @@ from app.rig.grip.fitting.fit_terms import (
     no_progress,
     require_landmarks,
 )
+from app.rig.grip.fitting.grip_measures import judge
 from app.rig.grip.fitting.hand_problem import HandProblem, grip_problem, joint_angles, travel, wrist_transform
-from app.rig.grip.fitting.judged_grip import judge
 from app.rig.grip.fitting.leaning_hand import Leaning, lean_of, leanings, whole_hand
-from app.rig.grip.fitting.search import finished, search_knots, starts
+from app.rig.grip.fitting.search import refined_solution, search_knots, starts
 from app.rig.grip.fitting.solved_fingers import MOVED_VALUES, STILL_VALUES, finger_tables, solve_tables
 from app.rig.grip.fitting.two_fingers import leans_beside
 from app.rig.grip.fitting.ways_between_stations import lifted_ways
@@ -116,7 +116,7 @@ def _fit_hand(
     for number, start in enumerate(starts(problem, _part(progress, 0.0, 0.4))):
         part = _part(progress, 0.4 + 0.2 * number, 0.6 + 0.2 * number)
         part(0.0)
-        whole = finished(problem, start)
+        whole = refined_solution(problem, start)
         found = _held(problem, scene, whole, whole[None], seed, stand, part)
         if best is None or _missed(found, size) < _missed(best, size):
             best = found

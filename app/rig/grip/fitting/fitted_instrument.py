@@ -59,7 +59,7 @@ class FittedInstrument(NamedTuple):
     reported: tuple[Message, ...]
 
 
-def suited(
+def fitted_to_body(
     character: Character, instrument: InstrumentMap, body: Body, model: Callable[[], InstrumentModel]
 ) -> FittedInstrument:
     """Suit an instrument to a body. One that lacks nothing and is of a grown-up's size gets the very map.

@@ -115,7 +115,7 @@ class Residuals:
         return np.concatenate(parts, axis=1)
 
     def _counted(self, depth: FloatArray) -> tuple[FloatArray, FloatArray]:
-        return pressed(depth) if self.stiff else (depth, (depth > 0.0).astype(np.float64))
+        return pressure_cost(depth) if self.stiff else (depth, (depth > 0.0).astype(np.float64))
 
     def _depth(self, skin: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Depth (configs, V) of skin below the proxy's surface, and the gradient of the distance."""
@@ -273,7 +273,7 @@ def _pole(problem: HandProblem, direction: FloatArray, swivel: FloatArray) -> Fl
     return result
 
 
-def pressed(depth: FloatArray) -> tuple[FloatArray, FloatArray]:
+def pressure_cost(depth: FloatArray) -> tuple[FloatArray, FloatArray]:
     """What a depth counts, and its slope: flesh gives way a little, then resists."""
     deep = depth > GIVE_M
     return depth + (STIFFENING - 1.0) * np.maximum(depth - GIVE_M, 0.0), np.where(deep, STIFFENING, depth > 0.0)

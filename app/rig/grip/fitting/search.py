@@ -49,7 +49,7 @@ def starts(problem: HandProblem, progress: Progress = no_progress) -> list[Float
     return [found.x for found in sorted(middle, key=lambda found: float(found.cost))]
 
 
-def finished(problem: HandProblem, start: FloatArray) -> FloatArray:
+def refined_solution(problem: HandProblem, start: FloatArray) -> FloatArray:
     """Solve a start to its end: with contacts as hard as they are, then with skin as stiff as it is."""
     hard = solve(Residuals(problem, 1.0), start, 25)
     return np.asarray(solve(Residuals(problem, 1.0, stiff=True), hard.x, 12).x)
@@ -75,7 +75,7 @@ def search_knots(
             anchor=found[min(found, key=lambda other: abs(other - value))] if found else None,
         )
         if here.anchor is None:
-            found[value] = finished(here, starts(here, lambda share: progress(0.5 * share))[0])
+            found[value] = refined_solution(here, starts(here, lambda share: progress(0.5 * share))[0])
         else:
             progress(0.6 + 0.4 * len(found) / len(KNOTS))
             found[value] = np.asarray(solve(Residuals(here, 1.0, stiff=True), here.anchor, 20).x)

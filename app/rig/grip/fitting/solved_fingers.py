@@ -30,7 +30,7 @@ from app.rig.grip.fitting.hand_problem import (
     nodes_at,
     touch_at,
 )
-from app.rig.grip.fitting.residuals import PENETRATION_M, STEP, WORKED_RAD, inside_proxy, pressed
+from app.rig.grip.fitting.residuals import PENETRATION_M, STEP, WORKED_RAD, inside_proxy, pressure_cost
 from app.rig.grip.grip_pose import Chain, FingerTable, StationTable
 
 EXACTER = 0.3
@@ -286,7 +286,7 @@ class _Finger:
             inside_proxy(self.problem.proxies, place[s], turn[s], skin[0, k], self.radius) for k, s in enumerate(which)
         ]
         depth, slope = np.stack([depth for depth, _ in found]), np.stack([slope for _, slope in found])
-        cost = np.square(smooth[0]).sum(axis=1) + np.square(pressed(depth)[0] / PENETRATION_M).sum(axis=1)
+        cost = np.square(smooth[0]).sum(axis=1) + np.square(pressure_cost(depth)[0] / PENETRATION_M).sum(axis=1)
         return cost, depth, slope
 
     def _linear(
@@ -306,7 +306,7 @@ class _Finger:
         smooth, skin = self._residuals(tried, usual, usual_rad, which)
         slant = np.moveaxis((smooth[1:] - smooth[0]) / step[:, :, None], 0, 2)
         change = (skin[1:] - skin[0]) / step[:, :, None, None]
-        push, rise = pressed(depth)
+        push, rise = pressure_cost(depth)
         skin_slope = -np.einsum("nsvi,svi->svn", change, slope) * rise[..., None] / PENETRATION_M
         return (np.concatenate([slant, skin_slope], axis=1), np.concatenate([smooth[0], push / PENETRATION_M], axis=1))
 

@@ -11,7 +11,7 @@ import pytest
 from app.errors import Message
 from app.export.joints import anatomical_angles
 from app.motion.contacts.arms import solve_arms
-from app.motion.contacts.solve import helped, needs
+from app.motion.contacts.solve import body_with_help, needs
 from app.motion.contacts.still_player import ContactCurves
 from app.motion.contacts.trunk_and_legs import Side
 from app.motion.contacts.upper_body import upper_body
@@ -105,7 +105,7 @@ def test_seated_players_rest_with_wrists_within_their_range(instrument_id: str, 
     curves, _ = _shown(instrument_id, character_id, "seated")
     player = curves.player
     usual = ContactCurves(player.still, {}, {}, np.zeros(1))
-    helped_curves = replace(usual, body=helped(player, player.still, needs(player, usual)))
+    helped_curves = replace(usual, body=body_with_help(player, player.still, needs(player, usual)))
     arms = solve_arms(player, helped_curves, upper_body(player, helped_curves))
     for side, wrist in player.wrists.items():
         assert wrist.outside_rad(arms[arm(player.skeleton, side).end]).max() < np.deg2rad(0.5), side

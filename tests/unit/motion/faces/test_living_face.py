@@ -15,7 +15,7 @@ from scipy.stats import spearmanr
 from app.motion.curves.spline import Spline
 from app.motion.faces.exertion import Exertion, Lungs, exertion_of
 from app.motion.faces.individual_face import PAIRS, own_face
-from app.motion.faces.lips_within_notes import easing, firmness, vibrato_size
+from app.motion.faces.lips_within_notes import firmness, tension_release, vibrato_size
 from app.motion.model import Motion
 from app.performance.ensemble import Performance
 from app.performance.span import whole_span
@@ -152,7 +152,7 @@ def test_lips_are_firmest_at_an_attack_and_settle() -> None:
 
 
 def test_between_notes_the_tension_lets_go_and_is_back_at_the_next() -> None:
-    eased = easing(plan([(0.0, 1.0, 0.5, 0.8), (1.5, 2.0, 0.5, 0.8), (2.05, 3.0, 0.5, 0.8)]))
+    eased = tension_release(plan([(0.0, 1.0, 0.5, 0.8), (1.5, 2.0, 0.5, 0.8), (2.05, 3.0, 0.5, 0.8)]))
     found = eased.sample(np.array([-1.0, 0.0, 0.9, 1.25, 1.5, 2.02, 4.0]))
     np.testing.assert_array_equal(found[[1, 2, 4, 5]], 0.0)
     assert found[3] > 0.3
@@ -167,7 +167,7 @@ TOO_SHORT = plan([(1.0, 1.0005, 0.5, 0.8)])
 )
 def test_without_a_note_that_lasts_the_lips_stay_let_go(silent: PlayerPlan) -> None:
     times_s = np.array([-1.0, 1.0, 2.0])
-    eased = easing(silent).sample(times_s)
+    eased = tension_release(silent).sample(times_s)
     assert eased.min() == eased.max() > 0.5
     np.testing.assert_array_equal(firmness(silent).sample(times_s), 0.0)
     np.testing.assert_array_equal(vibrato_size(silent).sample(times_s), 0.0)

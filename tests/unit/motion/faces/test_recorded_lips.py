@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from app.arrays import BoolArray, FloatArray
 from app.contacts.breaks import joined
 from app.contacts.judge import ContactJudge
-from app.motion.contacts.solve import padding
+from app.motion.contacts.solve import padding_frames
 from app.motion.curves.curve import EVERYWHERE, Trace, moves
 from app.motion.model import Motion
 from app.performance.bodies import character_of, model_of
@@ -175,7 +175,7 @@ def test_after_an_edit_only_the_spans_that_are_reported_have_changed() -> None:
     old, new = (player_motion(one, player, span) for one in (first, second))
     times_s = new.first_frame_s + np.arange(new.frames) / float(FPS)
     reported_s = after.changed_s(before)
-    pad_s = (padding(FPS) + 1) / float(FPS)
+    pad_s = (padding_frames(FPS) + 1) / float(FPS)
     reported = np.any(
         [(times_s >= low_s - pad_s) & (times_s <= high_s + pad_s) for low_s, high_s in reported_s], axis=0
     )

@@ -6,7 +6,7 @@ from app.motion.breath.air_in_trunk import air, lungs
 from app.motion.curves.following_gestures import follow, path
 from app.motion.gestures.accents import Accents
 from app.motion.gestures.feet import Feet
-from app.motion.gestures.layers import lowering
+from app.motion.gestures.layers import lowering_curve
 from app.plan.model import GestureEvent
 from tests.unit.motion.events import REASON, TICKS, breath
 
@@ -35,12 +35,12 @@ def test_nothing_planned_is_nothing_done() -> None:
     assert not Accents.of(()).sample(times_s).any()
     assert not Feet.of((), 0.5).sample(times_s)
     assert not air(()).sample(times_s).any()
-    assert not lowering((), 1.0, 1.0).sample(times_s).any()
+    assert not lowering_curve((), 1.0, 1.0).sample(times_s).any()
     assert not lungs(())[0].sample(times_s).any()
 
 
 def test_the_instrument_is_up_again_when_the_gesture_ends() -> None:
-    curve = lowering([gesture("lower_instrument", 2.0, 8.0), gesture("lower_instrument", 10.0, 11.0)], 1.1, 1.2)
+    curve = lowering_curve([gesture("lower_instrument", 2.0, 8.0), gesture("lower_instrument", 10.0, 11.0)], 1.1, 1.2)
     values = curve.sample(np.array([2.0, 3.1, 5.0, 6.8, 8.0, 9.0, 10.0, 10.47, 11.0]))
     np.testing.assert_allclose(values[[0, 1, 2, 3, 4, 5, 6, 8]], [0, 1, 1, 1, 0, 0, 0, 0], atol=1e-9)
 
@@ -48,7 +48,7 @@ def test_the_instrument_is_up_again_when_the_gesture_ends() -> None:
 def test_lowerings_that_overlap_are_one() -> None:
     whole, within = gesture("lower_instrument", 0.0, 20.0, 0.4), gesture("lower_instrument", 0.0, 5.0)
     after = gesture("lower_instrument", 18.0, 25.0, 0.2)
-    curve = lowering([whole, within, after, gesture("lower_instrument", 30.0, 30.0)], 1.0, 1.0)
+    curve = lowering_curve([whole, within, after, gesture("lower_instrument", 30.0, 30.0)], 1.0, 1.0)
     values = curve.sample(np.array([0.0, 1.0, 5.0, 19.9, 24.0, 25.0, 30.0]))
     np.testing.assert_allclose(values, [0, 1, 1, 1, 1, 0, 0], atol=1e-9)
 

@@ -11,7 +11,7 @@ import pytest
 from app.plan.generate import MonophonicPart, make_plans, time_frame
 from app.plan.model import PlayerPlan
 from app.plan.music.notation import notated
-from app.plan.music.piece import MEZZOFORTE, line_times, marked
+from app.plan.music.piece import MEZZOFORTE, line_times, marked_loudness
 from app.plan.music.rests import rest_ticks
 from app.plan.parameters import PlayerParameters
 from tests.support.plan import PlainClock, PlainNote, line_of, piece_of, valves
@@ -84,7 +84,7 @@ def test_small_swells_move_no_breath() -> None:
 
 
 def test_the_mark_nearest_to_a_loudness() -> None:
-    assert marked(np.array([0.0, 0.60, MEZZOFORTE, 0.68, 1.0])).tolist() == pytest.approx(
+    assert marked_loudness(np.array([0.0, 0.60, MEZZOFORTE, 0.68, 1.0])).tolist() == pytest.approx(
         [16 / 127, MEZZOFORTE, MEZZOFORTE, MEZZOFORTE, 126 / 127]
     )
 

@@ -13,7 +13,7 @@ from app.motion.gestures.layers import LAYERS, Layers
 from app.plan.generate import MonophonicPart, make_plans, time_frame
 from app.plan.gestures.gestures import ARCH, RELEASE
 from app.plan.model import PlayerPlan
-from app.plan.music.dynamics import grown, mean_around, vigour_of
+from app.plan.music.dynamics import amount_at_vigour, mean_around, vigour_of
 from app.plan.music.piece import ControllerInput, ControllerSteps
 from app.score.metre_map import Metre
 from metadata.load import load_body
@@ -120,11 +120,11 @@ def test_the_bell_sinks_at_the_end_of_a_phrase() -> None:
 def test_amounts_stay_amounts_and_grow_with_loudness(amount: float, soft: float, loud: float) -> None:
     soft, loud = sorted((soft, loud))
     amounts, vigours = np.array([amount, amount]), vigour_of(np.array([soft, loud]))
-    small, large = grown(amounts, vigours)
+    small, large = amount_at_vigour(amounts, vigours)
     assert abs(small) <= abs(large) + 1e-9
     assert abs(large) <= 1.0 + 1e-9
     assert large * amount >= 0.0
-    assert grown(np.array([amount]), np.array([1.0]))[0] == pytest.approx(amount)
+    assert amount_at_vigour(np.array([amount]), np.array([1.0]))[0] == pytest.approx(amount)
 
 
 def test_loudness_around_a_time_is_the_mean_of_what_sounds_there() -> None:

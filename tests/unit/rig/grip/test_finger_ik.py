@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from app.rig.characters.character_library import character_named
 from app.rig.grip import finger_ik
-from app.rig.grip.finger_ik import ReachTarget, brought, distinct_rows
+from app.rig.grip.finger_ik import ReachTarget, distinct_rows, fingers_at_targets
 from app.rig.grip.finger_poses import finger_rotations
 from app.rig.grip.fitting.grip_files import hold_for
 from app.rig.grip.grip_pose import StationBlend, giving_for
@@ -37,7 +37,10 @@ def _asked(rows: np.ndarray[tuple[int], np.dtype[np.intp]]) -> list[ReachTarget]
 
 def test_a_place_that_is_asked_for_often_is_solved_once(monkeypatch: pytest.MonkeyPatch) -> None:
     rows = np.random.default_rng(5).integers(0, PLACES, 500)
-    alone = [np.concatenate(ways) for ways in zip(*(brought(_asked(rows[[row]])) for row in range(60)), strict=True)]
+    alone = [
+        np.concatenate(ways)
+        for ways in zip(*(fingers_at_targets(_asked(rows[[row]])) for row in range(60)), strict=True)
+    ]
     solved = []
     solve = finger_ik._brought
 
@@ -46,7 +49,7 @@ def test_a_place_that_is_asked_for_often_is_solved_once(monkeypatch: pytest.Monk
         return solve(chains, rotations, *others)
 
     monkeypatch.setattr(finger_ik, "_brought", counted)
-    together = brought(_asked(rows))
+    together = fingers_at_targets(_asked(rows))
     assert solved == [2 * len(set(rows.tolist()))]
     assert len(together) == 2
     for ours, single in zip(together, alone, strict=True):

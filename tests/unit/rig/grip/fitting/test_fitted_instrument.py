@@ -11,7 +11,7 @@ from app.motion.contacts.help_for_far_hands import forwards_axis
 from app.rig.characters.character_library import character_named, characters
 from app.rig.characters.landmarks import found_landmarks
 from app.rig.grip.body_size import sized_body, sized_character, sized_model
-from app.rig.grip.fitting.fitted_instrument import FittedInstrument, suited
+from app.rig.grip.fitting.fitted_instrument import FittedInstrument, fitted_to_body
 from app.rig.model import Character
 from app.rig.skeleton import forward
 from app.rig.skinning import landmark_positions
@@ -26,7 +26,7 @@ MAPS = bundled_maps()
 
 def suit(character: Character, instrument_id: str) -> FittedInstrument:
     instrument = MAPS[instrument_id]
-    return suited(character, instrument, load_body(), lambda: bundled_instrument(instrument))
+    return fitted_to_body(character, instrument, load_body(), lambda: bundled_instrument(instrument))
 
 
 def reported(found: FittedInstrument) -> list[str]:
@@ -62,7 +62,7 @@ def test_the_map_says_how_small_its_instrument_may_be() -> None:
 
     whole = MAPS["trumpet_Bb"]
     narrow = msgspec.structs.replace(whole, hold=msgspec.structs.replace(whole.hold, size_range=(0.9, 1.0)))
-    found = suited(odd_body("child"), narrow, load_body(), lambda: bundled_instrument(whole))
+    found = fitted_to_body(odd_body("child"), narrow, load_body(), lambda: bundled_instrument(whole))
     assert found.instrument.size == 0.9
 
 

@@ -16,7 +16,7 @@ from app.project.edit.dynamics import set_dynamics
 from app.project.edit.follow import follow_recording, pins_for
 from app.project.edit.note_times import shift_onsets
 from app.project.model import Project
-from app.score.following import Following
+from app.score.beat_following import Following
 from app.score.model import ControllerCurve, Score
 
 

@@ -16,11 +16,11 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 
 from app.contacts.breaks import JUDGED_PER_S
-from app.performance import judged
+from app.performance import performance_problems
 from app.performance.cast import performer_of
 from app.performance.ensemble import Performance
-from app.performance.judged import all_problems
 from app.performance.motion import playing_of
+from app.performance.performance_problems import all_problems
 from app.performance.span import whole_span
 from app.plan.model import TimeFrame
 from app.project.model import Project
@@ -58,7 +58,7 @@ def rates(monkeypatch: pytest.MonkeyPatch) -> list[tuple[Fraction, int]]:
             found.append((fps, made.frames))
             return made
 
-    monkeypatch.setattr(judged, "playing_of", Counted)
+    monkeypatch.setattr(performance_problems, "playing_of", Counted)
     return found
 
 
@@ -86,10 +86,10 @@ def test_frames_that_are_looked_at_are_those_of_the_whole_motion(project: Projec
 def test_hours_with_few_notes_are_looked_at_sparsely(
     rates: list[tuple[Fraction, int]], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(judged, "WHOLE_FRAMES", 2000)
-    monkeypatch.setattr(judged, "SPARSE_FRAMES", 2000)
-    monkeypatch.setattr(judged, "SPARSE_PER_NOTE", 0)
-    monkeypatch.setattr(judged, "PLAYER_WORK", 0)
+    monkeypatch.setattr(performance_problems, "WHOLE_FRAMES", 2000)
+    monkeypatch.setattr(performance_problems, "SPARSE_FRAMES", 2000)
+    monkeypatch.setattr(performance_problems, "SPARSE_PER_NOTE", 0)
+    monkeypatch.setattr(performance_problems, "PLAYER_WORK", 0)
     performance = Performance(piece(400))
     notice = all_problems(performance, performance.project.players).notice
     assert notice is not None
@@ -110,22 +110,26 @@ def test_hours_with_few_notes_are_looked_at_sparsely(
 @example(players=[1], notes=40_000, seconds=3000.0, fps=Fraction(60))
 def test_the_work_on_a_piece_is_bounded(players: list[int], notes: int, seconds: float, fps: Fraction) -> None:
     performance, each = of_length(seconds, fps), [notes // len(players)] * len(players)
-    looked, count = judged._looked(performance, players, each, judged.MOST_WORK)
+    looked, count = performance_problems._looked(performance, players, each, performance_problems.MOST_WORK)
     assert (looked is None) == (count == 0)
 
     def work(rate: float, some: int) -> float:
-        curves = judged.PLAYER_WORK * sum(players[:some]) + judged.CURVE_WORK * sum(each[:some])
-        return rate * seconds * sum(players[:some]) + curves + judged.NOTE_WORK * sum(each)
+        curves = performance_problems.PLAYER_WORK * sum(players[:some]) + performance_problems.CURVE_WORK * sum(
+            each[:some]
+        )
+        return rate * seconds * sum(players[:some]) + curves + performance_problems.NOTE_WORK * sum(each)
 
     if looked is not None:
         rate = float(looked.fps) / looked.every
-        assert rate >= judged.LEAST_PER_S
-        assert work(rate, count) <= judged.MOST_WORK + sum(players)
+        assert rate >= performance_problems.LEAST_PER_S
+        assert work(rate, count) <= performance_problems.MOST_WORK + sum(players)
     if count < len(players):
         # One musician more could not be looked at even as sparsely as anyone is, at every so many-th usual frame.
-        few = judged.SPARSE_FRAMES + judged.SPARSE_PER_NOTE * sum(each)
+        few = performance_problems.SPARSE_FRAMES + performance_problems.SPARSE_PER_NOTE * sum(each)
         usual = float(fps) / max(1, round(float(fps) / JUDGED_PER_S))
-        assert work(usual / (usual // judged.LEAST_PER_S), count + 1) > min(judged.MOST_WORK, few)
+        assert work(usual / (usual // performance_problems.LEAST_PER_S), count + 1) > min(
+            performance_problems.MOST_WORK, few
+        )
 
 
 @pytest.mark.parametrize(
@@ -135,7 +139,9 @@ def test_the_work_on_a_piece_is_bounded(players: list[int], notes: int, seconds:
 )
 def test_everyone_is_looked_at_in_known_pieces(players: int, notes: int, seconds: float, rate: float) -> None:
     each = [notes // players] * players
-    looked, count = judged._looked(of_length(seconds, Fraction(60)), [1] * players, each, judged.MOST_WORK)
+    looked, count = performance_problems._looked(
+        of_length(seconds, Fraction(60)), [1] * players, each, performance_problems.MOST_WORK
+    )
     assert count == players
     assert looked is not None
     assert float(looked.fps) / looked.every >= rate
@@ -151,9 +157,9 @@ def test_the_first_players_are_looked_at_where_all_are_too_many(
 ) -> None:
     project = piece(40, 4)
     seconds = whole_span(Performance(project).time_frame, Fraction(60)).count / 60.0
-    monkeypatch.setattr(judged, "NOTE_WORK", 0.0)
-    monkeypatch.setattr(judged, "CURVE_WORK", 0.0)
-    monkeypatch.setattr(judged, "MOST_WORK", 2 * (judged.PLAYER_WORK + 2.5 * seconds))
+    monkeypatch.setattr(performance_problems, "NOTE_WORK", 0.0)
+    monkeypatch.setattr(performance_problems, "CURVE_WORK", 0.0)
+    monkeypatch.setattr(performance_problems, "MOST_WORK", 2 * (performance_problems.PLAYER_WORK + 2.5 * seconds))
     performance = Performance(project)
     problems, notice = all_problems(performance, project.players)
     assert len(rates) == 2
@@ -167,7 +173,7 @@ def test_the_first_players_are_looked_at_where_all_are_too_many(
 def test_everyone_is_looked_at_on_request(
     rates: list[tuple[Fraction, int]], monkeypatch: pytest.MonkeyPatch, limited: bool
 ) -> None:
-    monkeypatch.setattr(judged, "MOST_WORK", 1.0)
+    monkeypatch.setattr(performance_problems, "MOST_WORK", 1.0)
     performance = Performance(piece(40, 4))
     _, notice = all_problems(performance, performance.project.players, without_limit=not limited)
     assert (notice is None) == (not limited)

@@ -9,7 +9,7 @@ import pytest
 
 from app.formats.cache import CACHE_VARIABLE
 from app.rig.mesh import Mesh
-from widgets.viewport.kept_shapes import kept
+from widgets.viewport.shape_cache import kept
 from widgets.viewport.shape_model import SHAPE, SURFACE, Geometry, MorphTargets
 
 

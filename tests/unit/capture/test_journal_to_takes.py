@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from app.capture.adopt import takes_of
 from app.capture.journal import Journal, JournalHeader, SyncPoint
+from app.capture.journal_to_takes import takes_of
 from app.score.take import ControllerMapping
 from app.score.tempo import TempoMap
 

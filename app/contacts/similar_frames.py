@@ -7,7 +7,7 @@ import numpy as np
 from app.arrays import IndexArray, SingleArray
 
 
-def alike(places_m: SingleArray, block: int, least: int) -> IndexArray:
+def order_by_similarity(places_m: SingleArray, block: int, least: int) -> IndexArray:
     """Order frames so that some points are near the same places throughout a block.
 
     The frames are halved again and again by the coordinate that differs most among them.

@@ -50,7 +50,7 @@ def clearest(gained: FloatArray, usual: Direction) -> Direction:
     return found[int(np.argmax(gained - _UNUSUAL * np.array(turned)))]
 
 
-def seen(stage: Stage, row: int, towards_deg: Sequence[Direction], turn_rad: float) -> FloatArray:
+def visible_finger_shares(stage: Stage, row: int, towards_deg: Sequence[Direction], turn_rad: float) -> FloatArray:
     """Which share (D,) of the player's fingers is seen from each direction past the instrument; ``turn_rad`` is which
     way the player faces, from +Z towards +X."""
     kit = stage.members[row].kit

@@ -7,7 +7,7 @@ import pytest
 
 from app.errors import Argument, Message
 from app.messages import text
-from app.score.following import Following, RunnerUp, bars_named, message_of_place
+from app.score.beat_following import Following, RunnerUp, bars_named, message_of_place
 from app.score.metre_map import MetreMap
 
 QUARTER = 480

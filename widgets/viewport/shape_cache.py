@@ -22,7 +22,7 @@ from app.formats.atomic import atomic_write
 from app.formats.cache import cache_folder
 from app.formats.files import open_file
 from app.formats.json_data import UNREADABLE
-from app.formats.kept import digest_of
+from app.formats.table_cache import digest_of
 from app.rig.mesh import Mesh
 from widgets.viewport.shape_model import SHAPE, SURFACE, Geometry, MorphTargets
 

@@ -16,7 +16,7 @@ from instrument_maps.load import bundled_maps
 from tests.unit.viewport.poses import AT_S, posed_stage, quartet
 from widgets.viewport.camera import Camera
 from widgets.viewport.cast import Stage, kit_of, member_of
-from widgets.viewport.sight import seen
+from widgets.viewport.finger_visibility import visible_finger_shares
 from widgets.viewport.views import tracked, turn_rad, view_camera
 
 USUAL = (-48.0, 14.0)
@@ -46,7 +46,7 @@ def directed_deg(stage: Stage, row: int) -> tuple[float, float]:
 def test_a_bell_before_the_hands_is_gone_round(map_id: str) -> None:
     stage = playing(map_id)
     turn = turn_rad(stage, 0)
-    before, after = seen(stage, 0, [USUAL, directed_deg(stage, 0)], turn)
+    before, after = visible_finger_shares(stage, 0, [USUAL, directed_deg(stage, 0)], turn)
     assert before < 0.5
     assert after > before + 0.3
     hands_m = tracked("hands", stage, 0)
@@ -63,7 +63,7 @@ def test_where_enough_is_seen_the_eye_is_where_it_always_is(row: int) -> None:
 def test_a_finger_behind_a_tube_is_not_seen() -> None:
     """Against a slow count: every line of sight against every vertex of the drawn model."""
     stage = playing("tuba_BBb")
-    share = seen(stage, 0, [USUAL], turn_rad(stage, 0))[0]
+    share = visible_finger_shares(stage, 0, [USUAL], turn_rad(stage, 0))[0]
     kit, held = stage.members[0].kit, stage.node_matrix(0)
     points = np.concatenate([mesh.positions_m for mesh in kit.instrument.meshes]) @ held[:, :3].T + held[:, 3]
     names = [

@@ -5,7 +5,7 @@ from __future__ import annotations
 from hypothesis import given
 from hypothesis import strategies as st
 
-from app.plan.gestures.when_possible import LoweredSpans
+from app.plan.gestures.possible_gestures import LoweredSpans
 
 TIMES = st.integers(0, 12).map(float)
 SPANS = st.lists(st.tuples(TIMES, TIMES), max_size=8).map(tuple)

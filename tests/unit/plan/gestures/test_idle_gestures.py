@@ -9,7 +9,7 @@ import pytest
 from app.plan.by_hand.corrections import AddGesture, ChangeGesture, Correction, RemoveEvent, SetCue
 from app.plan.faces.glances import StagePlace, bearing_rad
 from app.plan.generate import AFTER_LAST_S, COME_UP_S, plan_ensemble, time_frame, usual_preroll
-from app.plan.gestures.beside_playing import LONG_REST_S
+from app.plan.gestures.idle_gestures import LONG_REST_S
 from app.plan.gestures.lowered_instrument import LOWER_S, RAISE_S
 from app.plan.model import AUDIENCE, GestureEvent, PlayerPlan
 from app.plan.music.piece import MonophonicPart

@@ -12,7 +12,7 @@ from app.rig.model import InstrumentModel
 from app.rig.quaternion import rotate, to_matrix
 from instrument_maps.load import bundled_maps
 from instrument_maps.model import InstrumentMap
-from widgets.viewport.held import Instruments
+from widgets.viewport.held_instruments import Instruments
 
 Kit = tuple[InstrumentModel, InstrumentMap]
 

@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from app.messages import LANGUAGES, text
-from app.plan.breath.which_rests import breathed_in, rest_needs
+from app.plan.breath.rests_for_breath import breathed_in, rest_needs
 from app.plan.generate import MonophonicPart, make_plans, time_frame
 from app.plan.model import PlayerPlan
 from app.plan.music.piece import line_times

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
-from app.motion.gestures.beside_playing import Concert, Counting
 from app.motion.gestures.body_lag import Overlapped
 from app.motion.gestures.held_still import held_still, holds_of, with_holds
+from app.motion.gestures.idle_gestures import Concert, Counting
 from app.plan.model import GestureEvent
 from tests.unit.motion.events import REASON, TICKS
 
