@@ -14,7 +14,7 @@ from collections.abc import Mapping, Set
 from functools import cache, lru_cache
 from pathlib import Path
 from types import MappingProxyType
-from typing import Literal, NamedTuple
+from typing import Literal, NamedTuple, TypeVar
 
 import msgspec
 
@@ -22,6 +22,8 @@ from app.errors import MapError
 from app.formats.table_cache import kept
 from app.formats.toml import read_toml, shaped
 from instrument_maps.name_words import is_katakana, is_wide, words_of
+
+T = TypeVar("T")
 
 PATH = Path(__file__).with_name("vocabulary.toml")
 
@@ -151,6 +153,8 @@ class _Table(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     keys: dict[str, tuple[str, ...]]
     clefs: dict[str, tuple[str, ...]]
     prefixes: tuple[str, ...]
+    sounds: dict[str, str]
+    strokes: dict[str, int]
     instruments: tuple[Instrument, ...]
 
 
@@ -175,6 +179,10 @@ class Vocabulary:
         Concert pitches of the parts of ensembles, by instrument.
     prefixes : tuple of str
         Words that may be joined to a name and do not change its meaning ("Soloflöte", "ソロホルン").
+    sounds : mapping of str to str
+        Instruments of the standard list of sounds.
+    strokes : mapping of str to int
+        Keys of a drum kit, by such sounds and by ids of percussion.
     words_known : mapping of str to tuple of str
         What `words_of` says of names, where it is known already.
 
@@ -197,7 +205,10 @@ class Vocabulary:
         words_known: Mapping[str, tuple[str, ...]] = MappingProxyType({}),
         ensembles: tuple[Ensemble, ...] = (),
         ranges: Mapping[str, Compass] = MappingProxyType({}),
+        sounds: Mapping[str, str] = MappingProxyType({}),
+        strokes: Mapping[str, int] = MappingProxyType({}),
     ) -> None:
+        self._sounds, self._strokes = sounds, strokes
         self.ensembles, self.ranges = ensembles, ranges
         self.seating, self.score_order = seating, score_order
         self._meant = lru_cache(_MOST_MEANINGS)(self._by_name)
@@ -260,6 +271,10 @@ class Vocabulary:
             ):
                 detail = f"an ensemble of {', '.join(ensemble.parts)} has a part without instrument, range or pitch"
                 raise MapError("vocabulary.invalid", file=file, detail=detail)
+        for id in sounds.values():
+            if id not in self.instruments:
+                detail = f"'{id}' is a form that the table does not have"
+                raise MapError("vocabulary.invalid", file=file, detail=detail)
         families = {"", *(family for row in seating for family in row)}
         if families != {"", *score_order}:
             detail = "the seating and the score order have different families"
@@ -278,6 +293,20 @@ class Vocabulary:
     def by_program(self, program: int) -> Instrument | None:
         """The instrument of a General MIDI program, 0..127."""
         return self._by_program.get(program)
+
+    def by_sound(self, sound: str) -> Instrument | None:
+        """The instrument of an id in the standard list of sounds, or of the nearest that it is a sort of."""
+        id = _nearest(self._sounds, sound)
+        return None if id is None else self.instruments[id]
+
+    def stroke_by_sound(self, sound: str) -> int | None:
+        """The key of a drum kit that percussion of the standard list of sounds has."""
+        return _nearest(self._strokes, sound)
+
+    def stroke(self, text: str) -> int | None:
+        """The key of a drum kit that percussion of a name has."""
+        found = self.by_name(text)
+        return None if found is None else self._strokes.get(found.id)
 
     def is_sort(self, id: str, general: str) -> bool:
         """Whether an instrument is a sort of another one, over any number of steps."""
@@ -508,6 +537,13 @@ class Vocabulary:
         return found
 
 
+def _nearest(table: Mapping[str, T], sound: str) -> T | None:
+    """The value of an id of words with dots between, or else of as many of its first words as the table has."""
+    while sound and sound not in table:
+        sound = sound.rpartition(".")[0]
+    return table.get(sound)
+
+
 class _Kept(msgspec.Struct, frozen=True):
     """The table, and the words of everything named in it."""
 
@@ -538,6 +574,8 @@ def vocabulary() -> Vocabulary:
         found.words,
         table.ensembles,
         table.ranges,
+        table.sounds,
+        table.strokes,
     )
 
 

@@ -20,7 +20,8 @@ from app.choreography.read_motion import ReadMotion, read_motion
 from app.encoding import guessed, shown
 from app.errors import FileError
 from app.formats.files import read_file
-from app.score.read import read_contents, uncast_score
+from app.score.contents import uncast_score
+from app.score.read import read_contents
 
 CREDITS_SUFFIX: Final = ".txt"
 MOST_CREDITS_BYTES: Final = 2**20

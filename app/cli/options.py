@@ -28,8 +28,9 @@ from app.project.parameters import parameter_names, parse_settings, select_playe
 from app.project.storage import is_project_file, load
 from app.rig.characters.character_library import characters
 from app.score.choose import TrackChannel, require_map
+from app.score.contents import PieceContents
 from app.score.parts import PERCUSSION
-from app.score.read import MidiContents, read_contents
+from app.score.read import read_contents
 from instrument_maps.library import library
 from instrument_maps.model import InstrumentMap
 from metadata.library import metadata_library
@@ -353,7 +354,7 @@ def _opened(arguments: argparse.Namespace, maps: Mapping[str, InstrumentMap]) ->
 
 
 def _with_pitches(
-    contents: MidiContents,
+    contents: PieceContents,
     rows: Sequence[ImportRow],
     names: Sequence[str],
     written: bool,

@@ -32,7 +32,8 @@ from app.project.names import file_stem
 from app.project.recovery import Recoverable, discard, load_work, recoverable, recoverable_of
 from app.project.salvage import salvaged
 from app.rig.characters.character_library import reload_characters
-from app.score.read import MidiContents, read_contents
+from app.score.contents import PieceContents
+from app.score.read import read_contents
 from instrument_maps.library import all_maps, reload
 
 MIDI_SUFFIXES: Final = (".mid", ".midi", ".smf", ".kar", ".rmi")
@@ -277,14 +278,14 @@ class Files(QObject):
     def _read(self, path: Path, ask: bool, arranged: Callable[[Project], Project] = lambda project: project) -> None:
         source = str(path)
 
-        def read(progress: Callable[[float], None], stop_requested: Callable[[], bool]) -> MidiContents:
+        def read(progress: Callable[[float], None], stop_requested: Callable[[], bool]) -> PieceContents:
             _read_own()
             return read_contents(path)
 
-        def again(encoding: str | None) -> MidiContents:
+        def again(encoding: str | None) -> PieceContents:
             return read_contents(path, encoding=encoding)
 
-        def ask_who(contents: MidiContents) -> None:
+        def ask_who(contents: PieceContents) -> None:
             session = self.session
             assignment = self.questions.import_midi(contents, again, session.tokens, session.tasks) if ask else None
             if ask and assignment is None:

@@ -9,10 +9,10 @@ from typing import Literal, Protocol, TypeAlias
 from app.editor.tasks import Tasks
 from app.editor.tokens import Tokens
 from app.project.importing import ImportRequest
-from app.score.read import MidiContents
+from app.score.contents import PieceContents
 
 Answer = Literal["save", "discard", "cancel"]
-ReadAgain: TypeAlias = Callable[[str | None], MidiContents]
+ReadAgain: TypeAlias = Callable[[str | None], PieceContents]
 """Reads a file with its texts in another encoding; None: guessed."""
 
 
@@ -29,7 +29,7 @@ class Questions(Protocol):
         """What becomes of the changes that are in no file."""
 
     def import_midi(
-        self, contents: MidiContents, read_again: ReadAgain, tokens: Tokens, tasks: Tasks
+        self, contents: PieceContents, read_again: ReadAgain, tokens: Tokens, tasks: Tasks
     ) -> ImportRequest | None:
         """Who plays what in a MIDI file, and whether a dancer dances to it; None: it is not imported."""
 

@@ -16,9 +16,9 @@ from app.project.model import Project
 from app.project.part_matching import turns_of
 from app.project.rereading import recognised_streams
 from app.score.choose import MapChoice, TrackChannel
+from app.score.contents import PieceContents, assigned_score
 from app.score.model import Note, Part
 from app.score.parts import PartAssignment, Split, stream_name
-from app.score.read import MidiContents, assigned_score
 
 _FILE_NOTE = re.compile(r"([1-9]\d*):[1-9]\d*", re.ASCII)
 _SPLITS: tuple[Split, ...] = ("sustained", "never", "every")
@@ -40,12 +40,12 @@ def held_by_file(project: Project, part: Part) -> tuple[Note, ...]:
     return tuple(sorted((*read.values(), *more), key=lambda note: (note.onset_tick, note.pitch)))
 
 
-def derived_decisions(project: Project, contents: MidiContents, choices: Sequence[MapChoice]) -> ImportDecisions:
+def derived_decisions(project: Project, contents: PieceContents, choices: Sequence[MapChoice]) -> ImportDecisions:
     """The decisions that a project's parts tell.
 
     Parameters
     ----------
-    contents : MidiContents
+    contents : PieceContents
         What its file holds now: by it is known how tracks were split.
     """
     groups: dict[Place, list[Part]] = {}
@@ -80,7 +80,7 @@ def derived_decisions(project: Project, contents: MidiContents, choices: Sequenc
     return ImportDecisions(None, tuple(rows))
 
 
-def _owned(project: Project, groups: Mapping[Place, Sequence[Part]], contents: MidiContents) -> dict[Place, list[int]]:
+def _owned(project: Project, groups: Mapping[Place, Sequence[Part]], contents: PieceContents) -> dict[Place, list[int]]:
     """The streams that most notes of a group's parts were read from, where the file is much as it was then: their ids
     say which notes they are."""
     old, new = project.score.ticks_per_quarter, contents.tempo_map.ticks_per_quarter
@@ -139,7 +139,7 @@ def _row(
     parts: Sequence[Part],
     marks: Sequence[TrackMark],
     streams: Sequence[int],
-    contents: MidiContents,
+    contents: PieceContents,
     choices: Sequence[MapChoice],
     unchanged: bool,
 ) -> RowDecision:

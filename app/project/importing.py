@@ -11,9 +11,9 @@ from app.errors import Message
 from app.project.doubling import doubled_parts
 from app.project.import_decisions import ImportDecisions, RowDecision, TrackMark, mark_of
 from app.project.model import Project, map_choices, project_from_score
+from app.score.contents import PieceContents, assigned_score
 from app.score.model import Score, UnplayedPart
 from app.score.parts import PERCUSSION, PartAssignment, suggestions
-from app.score.read import MidiContents, assigned_score
 from app.score.take_tracks import take_reason
 from instrument_maps.model import InstrumentMap
 
@@ -42,7 +42,7 @@ class ImportRequest(msgspec.Struct, frozen=True):
     ----------
     dances : bool
         Whether a dancer is to move to its percussion.
-    contents : MidiContents or None
+    contents : PieceContents or None
         Those that the rows are of, where its texts were read in another encoding; None: as it was read first.
     encoding : str or None
         Of its texts; None: guessed.
@@ -50,11 +50,11 @@ class ImportRequest(msgspec.Struct, frozen=True):
 
     rows: tuple[ImportRow, ...]
     dances: bool = False
-    contents: MidiContents | None = None
+    contents: PieceContents | None = None
     encoding: str | None = None
 
 
-def usual_rows(contents: MidiContents, maps: Mapping[str, InstrumentMap]) -> tuple[ImportRow, ...]:
+def usual_rows(contents: PieceContents, maps: Mapping[str, InstrumentMap]) -> tuple[ImportRow, ...]:
     """A row for every track, or for the regions of one, as it is imported by default."""
     found = suggestions(contents.streams, map_choices(maps.values()))
     rows = []
@@ -86,8 +86,8 @@ def merged(rows: Sequence[ImportRow], places: Sequence[int]) -> tuple[ImportRow,
 def carried_over(
     rows: Sequence[ImportRow],
     usual: Sequence[ImportRow],
-    contents: MidiContents,
-    again: MidiContents,
+    contents: PieceContents,
+    again: PieceContents,
     usual_again: Sequence[ImportRow],
 ) -> tuple[ImportRow, ...]:
     """The rows of a file whose texts were read again in another encoding: those that were changed stay, the others are
@@ -145,7 +145,7 @@ class ImportPreview(msgspec.Struct, frozen=True):
 
 
 def outcome_of(
-    contents: MidiContents,
+    contents: PieceContents,
     rows: Sequence[ImportRow],
     maps: Mapping[str, InstrumentMap],
     before: ImportPreview | None = None,
@@ -183,7 +183,7 @@ def _unnamed(assignment: PartAssignment) -> PartAssignment:
 
 
 def _instruments(
-    contents: MidiContents,
+    contents: PieceContents,
     assignment: PartAssignment,
     maps: Mapping[str, InstrumentMap],
     stop_requested: Callable[[], bool],
@@ -196,7 +196,7 @@ def _instruments(
 
 
 def score_of_rows(
-    contents: MidiContents,
+    contents: PieceContents,
     rows: Sequence[ImportRow],
     maps: Mapping[str, InstrumentMap],
     stop_requested: Callable[[], bool] = lambda: False,
@@ -211,7 +211,7 @@ def score_of_rows(
 
 
 def import_project(
-    contents: MidiContents,
+    contents: PieceContents,
     rows: Sequence[ImportRow],
     maps: Mapping[str, InstrumentMap],
     source: str = "",
@@ -246,7 +246,7 @@ def import_project(
     return replace(project, players=tuple(players), source=source, imported=decisions_of(contents, rows, encoding))
 
 
-def decisions_of(contents: MidiContents, rows: Sequence[ImportRow], encoding: str | None = None) -> ImportDecisions:
+def decisions_of(contents: PieceContents, rows: Sequence[ImportRow], encoding: str | None = None) -> ImportDecisions:
     """The decisions of an import, to be kept."""
     quarter = contents.tempo_map.ticks_per_quarter
     return ImportDecisions(

@@ -26,8 +26,8 @@ from app.project.import_decisions import (
 from app.project.importing import ImportRow, decision_of, usual_rows
 from app.project.likeness import ALIKE, sketched_shares
 from app.score.choose import How, MapCandidates, MapChoice, TrackChannel, candidates, refusal
+from app.score.contents import PieceContents
 from app.score.parts import PERCUSSION, PartAssignment
-from app.score.read import MidiContents
 from instrument_maps.model import InstrumentMap
 from instrument_maps.vocabulary import vocabulary
 
@@ -41,7 +41,7 @@ class MidiReading:
 
     Attributes
     ----------
-    contents : MidiContents
+    contents : PieceContents
         Tracks that do not say (any more) what they were chosen by do so again.
     rows : tuple of ImportRow
         Of its streams.
@@ -51,14 +51,14 @@ class MidiReading:
         Where a part that was read from a place before is now.
     """
 
-    contents: MidiContents
+    contents: PieceContents
     rows: tuple[ImportRow, ...]
     decisions: ImportDecisions
     places: Mapping[Place, Place] = field(default_factory=dict)
 
 
 def read_as_decided(
-    contents: MidiContents,
+    contents: PieceContents,
     decisions: ImportDecisions,
     maps: Mapping[str, InstrumentMap],
     choices: Sequence[MapChoice],

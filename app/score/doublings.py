@@ -48,7 +48,7 @@ def doubled_instruments(
         for tick, program in sounds_of(programs, named)
         if (found := _doubling(vocabulary().by_program(program)))
     ]
-    changes += [(tick, 1, found) for tick, text in texts if (found := _requested(text))]
+    changes += [(tick, 1, found) for tick, text in texts if (found := requested_instrument(text))]
     changes.sort(key=lambda row: row[:2])
     if not changes:
         return [""] * len(onset_ticks)
@@ -71,7 +71,7 @@ def doubled_instruments(
     return played
 
 
-def _requested(text: str) -> Instrument | None:
+def requested_instrument(text: str) -> Instrument | None:
     """The instrument that a text asks the player to change to."""
     match = _CHANGE.fullmatch(" ".join(text[:MOST_NAME].split()).strip("()[]"))
     return _doubling(vocabulary().by_name(match["after"] or match["before"])) if match else None

@@ -81,7 +81,7 @@ def mutes_of(events: TrackEvents, channels: Collection[int], name: str, texts: S
         What the track says to the player of these channels.
     """
     always: How = "mute" if _IN_NAME.search(name) is not None else "open"
-    said = [(tick, how) for tick, text in sorted(texts) if (how := _says(text)) is not None]
+    said = [(tick, how) for tick, text in sorted(texts) if (how := said_of_mute(text)) is not None]
     signed = {tick for tick, text in texts if text.strip() == _STOPPED_NOTE}
     sounds = {program for channel in channels for _, program in events.programs.get(channel, [])}
     if not (always != "open" or said or signed or MUTED_TRUMPET in sounds):
@@ -101,10 +101,10 @@ def mutes_of(events: TrackEvents, channels: Collection[int], name: str, texts: S
                 how = "mute"
             rows.append((onset, end, how))
     rows.sort()
-    return Mutes(_spans(rows, ("mute", "hand")), _spans(rows, ("hand",)))
+    return Mutes(joined_spans(rows, ("mute", "hand")), joined_spans(rows, ("hand",)))
 
 
-def _spans(rows: Sequence[tuple[int, int, How]], ways: Collection[str]) -> tuple[Span, ...]:
+def joined_spans(rows: Sequence[tuple[int, int, How]], ways: Collection[str]) -> tuple[Span, ...]:
     """Notes in a row that are played in some ways, joined."""
     spans: list[Span] = []
     before = False
@@ -124,7 +124,7 @@ def is_muted(spans: Sequence[Span], tick: int) -> bool:
     return bool(place) and tick < spans[place - 1][1]
 
 
-def _says(text: str) -> How | None:
+def said_of_mute(text: str) -> How | None:
     """Whether a text puts a mute in, has the hand stop the bell, or ends both; None: it speaks of something else."""
     words = " ".join(text[:MOST_NAME].split()).strip("()[]")
     if _OFF.fullmatch(words):

@@ -66,7 +66,7 @@ from __future__ import annotations
 import codecs
 import io
 import re
-from collections.abc import Callable, Collection, Mapping, Sequence, Set
+from collections.abc import Collection, Mapping, Sequence, Set
 from fractions import Fraction
 from pathlib import Path
 from typing import Final
@@ -77,16 +77,19 @@ import msgspec
 from app.encoding import shown
 from app.errors import FileError, Message
 from app.score.channels import curves_of, leading_channel, players_channels, settle_bends, sounding_channels
-from app.score.choose import MapChoice, TrackChannel, is_no_name, named_by_title, use_of
+from app.score.choose import MapChoice, TrackChannel, is_no_name, named_by_title
 from app.score.chunks import Container, TrackChunk, read_container
+from app.score.contents import PieceContents, score_of
 from app.score.doublings import doubled_instruments
 from app.score.ensembles import named_by_ensemble
 from app.score.limits import MOST_NAME, MOST_STREAMS, too_long
 from app.score.metre_guess import Line, guessed_metres
 from app.score.metre_map import Metre
-from app.score.model import MOST_VOICES, Marker, Part, PercussionHit, Score, UnplayedPart
+from app.score.model import Marker, Score
+from app.score.musicxml.container import is_musicxml
+from app.score.musicxml.read import read_musicxml
 from app.score.mutes import mutes_of
-from app.score.parts import PartAssignment, assigned_parts, parts_of, rhythm_parts, stream_name
+from app.score.parts import parts_of
 from app.score.ports import split_by_port
 from app.score.repair import Repaired, last_suspicious, repaired
 from app.score.solos import words_of_players
@@ -131,31 +134,8 @@ class Assumed(msgspec.Struct, frozen=True):
         return placed, round(self.pickup_ticks * scale)
 
 
-class MidiContents(msgspec.Struct, frozen=True):
-    """What a MIDI file holds, before players are assigned.
-
-    Attributes
-    ----------
-    streams : tuple of TrackChannel
-        The notes of each track, by channel.
-    warnings : tuple of Message
-        What was repaired or skipped.
-    encoding : str
-        Of the texts that are not Unicode, given or guessed; empty where all are.
-    """
-
-    title: str
-    tempo_map: TempoMap
-    metres: tuple[Metre, ...]
-    pickup_ticks: int
-    streams: tuple[TrackChannel, ...]
-    warnings: tuple[Message, ...]
-    markers: tuple[Marker, ...] = ()
-    encoding: str = ""
-
-
 def read_midi(path: Path, *, encoding: str | None = None, maps: Sequence[MapChoice]) -> Score:
-    """Read a MIDI file; names, programs and ranges decide who plays what.
+    """Read a MIDI file or a score in MusicXML; names, programs and ranges decide who plays what.
 
     Parameters
     ----------
@@ -170,72 +150,8 @@ def read_midi(path: Path, *, encoding: str | None = None, maps: Sequence[MapChoi
         If it cannot be read; what can be read in part opens, and the score's warnings say what was left out.
     """
     contents = read_contents(path, encoding=encoding)
-    parts, unplayed, warnings = parts_of(contents.streams, maps, _score(contents))
-    return _score(contents, parts, unplayed, (*contents.warnings, *warnings))
-
-
-def assigned_score(
-    contents: MidiContents,
-    assignments: Sequence[PartAssignment],
-    maps: Sequence[MapChoice],
-    stop_requested: Callable[[], bool] = lambda: False,
-) -> Score:
-    """The score in which the parts are those that the user requests. Raises Cancelled as `assigned_parts`."""
-    parts, unplayed, warnings = assigned_parts(contents.streams, assignments, maps, _score(contents), stop_requested)
-    return _score(contents, parts, unplayed, (*contents.warnings, *warnings), assignments)
-
-
-def uncast_score(contents: MidiContents) -> Score:
-    """The score in which every track but percussion and sound effects is a part as it stands, without players, for
-    listening only. No part has an instrument map."""
-    parts = tuple(
-        Part(
-            id=f"{stream.track + 1}.{stream.channel + 1}.{stream.change + 1}",
-            name=stream_name(stream),
-            track=stream.track,
-            voice=MOST_VOICES * stream.change,
-            channel=stream.channel,
-            program=stream.program,
-            instrument=None,
-            map_id="",
-            notes=tuple(sorted(stream.notes(), key=lambda note: (note.onset_tick, note.pitch))),
-            curves=stream.curves,
-        )
-        for stream in contents.streams
-        if use_of(stream) == "melodic"
-    )
-    return _score(contents, parts)
-
-
-def _score(
-    contents: MidiContents,
-    parts: tuple[Part, ...] = (),
-    unplayed: tuple[UnplayedPart, ...] = (),
-    warnings: tuple[Message, ...] = (),
-    assignments: Sequence[PartAssignment] = (),
-) -> Score:
-    return Score(
-        title=contents.title,
-        ticks_per_quarter=contents.tempo_map.ticks_per_quarter,
-        tempo_map=contents.tempo_map,
-        metres=contents.metres,
-        pickup_ticks=contents.pickup_ticks,
-        parts=parts,
-        unplayed=unplayed,
-        warnings=warnings,
-        markers=contents.markers,
-        percussion=_percussion(rhythm_parts(contents.streams, assignments)),
-    )
-
-
-def _percussion(streams: Sequence[TrackChannel]) -> tuple[PercussionHit, ...]:
-    """Every note of some percussion tracks."""
-    hits = (
-        hit
-        for stream in streams
-        for hit in zip(stream.onset_ticks, stream.struck or stream.pitches, stream.velocities, strict=True)
-    )
-    return tuple(PercussionHit(tick, pitch, velocity) for tick, pitch, velocity in sorted(hits))
+    parts, unplayed, warnings = parts_of(contents.streams, maps, score_of(contents))
+    return score_of(contents, parts, unplayed, (*contents.warnings, *warnings))
 
 
 def read_contents(
@@ -244,8 +160,33 @@ def read_contents(
     encoding: str | None = None,
     apart: Collection[tuple[int, int]] = (),
     assumed: Assumed | None = None,
-) -> MidiContents:
-    """Read a MIDI file's notes, tempo, metres and markers. Raises as `read_midi`.
+) -> PieceContents:
+    """Read the notes, tempo, metres and markers of a MIDI file, or of a score in MusicXML, which says all else itself.
+
+    Parameters
+    ----------
+    encoding, apart, assumed
+        Of a MIDI file, as `_midi_contents` has them.
+
+    Raises
+    ------
+    FileError
+        As `read_midi` and `app.score.musicxml.read.read_musicxml` raise it.
+    """
+    if encoding is not None:
+        try:
+            codecs.lookup(encoding)
+        except LookupError as error:
+            raise FileError("midi.unknown_encoding", file=str(path), encoding=encoding) from error
+    if is_musicxml(path):
+        return read_musicxml(path)
+    return _midi_contents(path, encoding, apart, assumed)
+
+
+def _midi_contents(
+    path: Path, encoding: str | None, apart: Collection[tuple[int, int]], assumed: Assumed | None
+) -> PieceContents:
+    """Read a MIDI file.
 
     Parameters
     ----------
@@ -255,11 +196,6 @@ def read_contents(
         Track and channel of those that are players of their own, whatever the channels of a track have in common: those
         of a project that was made from the file.
     """
-    if encoding is not None:
-        try:
-            codecs.lookup(encoding)
-        except LookupError as error:
-            raise FileError("midi.unknown_encoding", file=str(path), encoding=encoding) from error
     container = read_container(path)
     ticks_per_quarter = container.division
     if ticks_per_quarter <= 0:
@@ -304,7 +240,7 @@ def read_contents(
     streams = _streams(tracks, settle_bends(tracks), texts, alone, frozenset(apart))
     _require_few(len(streams), str(path))
     title = _title(tracks[0], texts, alone)
-    return MidiContents(
+    return PieceContents(
         title=title or shown(path.stem),
         tempo_map=tempo_map,
         metres=metres,

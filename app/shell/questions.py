@@ -14,7 +14,7 @@ from app.editor.tokens import Tokens
 from app.editor.translated import tr
 from app.encoding import shown
 from app.project.importing import ImportRequest
-from app.score.read import MidiContents
+from app.score.contents import PieceContents
 from instrument_maps.library import all_maps
 from widgets.common.paths import ask_for_file, ask_where_to_save
 from widgets.common.plain import Role, ask
@@ -53,7 +53,7 @@ class DialogQuestions:
         return "save" if role == Role.AcceptRole else "discard" if role == Role.DestructiveRole else "cancel"
 
     def import_midi(
-        self, contents: MidiContents, read_again: ReadAgain, tokens: Tokens, tasks: Tasks
+        self, contents: PieceContents, read_again: ReadAgain, tokens: Tokens, tasks: Tasks
     ) -> ImportRequest | None:
         """See `Questions.import_midi`."""
         from widgets.dialogs.import_midi import ImportDialog

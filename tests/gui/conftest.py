@@ -17,7 +17,8 @@ from app.editor.tokens import DARK
 from app.errors import AppError
 from app.performance.ensemble import Performance
 from app.project.model import Project, map_choices, project_from_score
-from app.score.read import MidiContents, read_contents, read_midi
+from app.score.contents import PieceContents
+from app.score.read import read_contents, read_midi
 from app.shell.crash_handler import CrashHandler
 from app.shell.language import Language
 from app.shell.theme import apply_theme
@@ -45,7 +46,7 @@ def quartet_project() -> Project:
 
 
 @cache
-def _contents() -> MidiContents:
+def _contents() -> PieceContents:
     return read_contents(QUARTET)
 
 

@@ -41,7 +41,8 @@ from app.choreography.rhythm import Rhythm
 from app.choreography.sequence import Weights
 from app.choreography.write_motion import write_motion
 from app.rig import quaternion
-from app.score.read import read_contents, uncast_score
+from app.score.contents import uncast_score
+from app.score.read import read_contents
 
 STATURE_M: Final = 1.7
 SHARED: Final = Path(__file__).parents[3] / "shared" / "data"

@@ -17,7 +17,8 @@ from typing import Final, NamedTuple
 import mido
 import numpy as np
 
-from app.score.read import MidiContents, read_contents
+from app.score.contents import PieceContents
+from app.score.read import read_contents
 from app.score.tempo import TempoChange, TempoMap
 
 PERCUSSION: Final = 9
@@ -108,7 +109,7 @@ def played(path: Path, seed: int = 0, manner: Manner | None = None) -> bytes:
     return stored.getvalue()
 
 
-def _half_bars(onset_ticks: list[int], contents: MidiContents) -> list[int]:
+def _half_bars(onset_ticks: list[int], contents: PieceContents) -> list[int]:
     """Where the half bar of each onset begins, in ticks; a bar of an odd number of beats has a beat left over."""
     starts = [metre.tick for metre in contents.metres]
     result = []

@@ -42,9 +42,9 @@ from app.project.importing import (
 )
 from app.rig.characters.character_library import characters
 from app.score.choose import use_of
+from app.score.contents import PieceContents
 from app.score.model import UnplayedPart
 from app.score.parts import PERCUSSION, PartAssignment, stream_name
-from app.score.read import MidiContents
 from app.score.take_tracks import TakeReason, take_reason
 from instrument_maps.model import InstrumentMap
 from instrument_maps.score_order import in_score_order
@@ -77,7 +77,7 @@ class _ReadAgain(NamedTuple):
     """A file with its texts in another encoding, and what comes of the choices made for it."""
 
     encoding: str | None
-    contents: MidiContents
+    contents: PieceContents
     usual: tuple[ImportRow, ...]
     rows: tuple[ImportRow, ...]
     outcome: ImportPreview
@@ -98,7 +98,7 @@ class ImportDialog(Retranslated, QDialog):
 
     def __init__(
         self,
-        contents: MidiContents,
+        contents: PieceContents,
         maps: Mapping[str, InstrumentMap],
         tokens: Tokens,
         tasks: Tasks,

@@ -283,7 +283,8 @@ def generate(arguments: argparse.Namespace) -> None:
     from app.choreography.model_file import read_model
     from app.choreography.write_motion import write_motion
     from app.project.choreography_files import bundled_choreographies, choreography_path
-    from app.score.read import read_contents, uncast_score
+    from app.score.contents import uncast_score
+    from app.score.read import read_contents
 
     name: str = arguments.choreography
     model = read_model(choreography_path(name) if name in bundled_choreographies() else Path(name))

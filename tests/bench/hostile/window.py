@@ -29,7 +29,7 @@ from app.errors import AppError, Message
 from app.project.autosave import Autosave
 from app.project.importing import ImportRequest
 from app.project.presence import Presence
-from app.score.read import MidiContents
+from app.score.contents import PieceContents
 from app.shell.app import Program, make_application
 from app.shell.commands.exchange import reimport_from
 from app.shell.garbage import Garbage
@@ -75,7 +75,7 @@ class ImportAnswers(Answers):
     """Whoever imports a MIDI file looks at the dialog for a moment and agrees."""
 
     def import_midi(
-        self, contents: MidiContents, read_again: ReadAgain, tokens: Tokens, tasks: Tasks
+        self, contents: PieceContents, read_again: ReadAgain, tokens: Tokens, tasks: Tasks
     ) -> ImportRequest | None:
         """The real dialog."""
         timer = QTimer()

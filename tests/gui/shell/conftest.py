@@ -21,7 +21,7 @@ from app.editor.tokens import Tokens
 from app.project.autosave import Autosave
 from app.project.importing import ImportRequest, usual_rows
 from app.project.presence import Presence
-from app.score.read import MidiContents
+from app.score.contents import PieceContents
 from app.shell.app import Program
 from app.shell.questions import with_suffix
 from instrument_maps.load import bundled_maps
@@ -69,7 +69,7 @@ class Answers:
         return self.removes
 
     def import_midi(
-        self, contents: MidiContents, read_again: ReadAgain, tokens: Tokens, tasks: Tasks
+        self, contents: PieceContents, read_again: ReadAgain, tokens: Tokens, tasks: Tasks
     ) -> ImportRequest | None:
         """As if no one touched the dialog."""
         self.asked.append("import")

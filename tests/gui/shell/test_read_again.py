@@ -18,8 +18,8 @@ from app.plan.by_hand.corrections import Correction, PinFingering, SetBreath, Se
 from app.project.edit.corrections import with_corrections
 from app.project.importing import ImportRequest, ImportRow
 from app.project.reimport import reimported
+from app.score.contents import PieceContents
 from app.score.parts import PartAssignment
-from app.score.read import MidiContents
 from app.shell.app import Program
 from instrument_maps.load import bundled_maps
 from tests.gui.shell.conftest import Answers, Start, trigger
@@ -150,7 +150,7 @@ def test_the_encoding_chosen_at_the_import_is_used_again(
     path = written(tmp_path / "names.mid", tracks(("xx", "Voice B", "Lead", "Low", "Bottom")))
     path.write_bytes(path.read_bytes().replace(b"xx", "笛".encode("euc_jp")))
 
-    def chosen(contents: MidiContents, read_again: ReadAgain, tokens: Tokens, tasks: Tasks) -> ImportRequest:
+    def chosen(contents: PieceContents, read_again: ReadAgain, tokens: Tokens, tasks: Tasks) -> ImportRequest:
         rows = tuple(ImportRow(PartAssignment((place,), map_id)) for place, map_id in enumerate(QUINTET))
         return ImportRequest(rows, False, read_again("euc_jp"), "euc_jp")
 

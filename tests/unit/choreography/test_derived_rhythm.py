@@ -10,8 +10,9 @@ import pytest
 
 from app.choreography.derived_rhythm import audible_rhythm, derived_rhythm
 from app.choreography.rhythm import SYMBOLS
+from app.score.contents import uncast_score
 from app.score.model import Score
-from app.score.read import read_contents, uncast_score
+from app.score.read import read_contents
 
 QUARTER = 480
 ENSEMBLE = Path(__file__).parents[4] / "shared" / "data" / "midi" / "ensemble"

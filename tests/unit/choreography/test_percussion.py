@@ -11,7 +11,8 @@ import pytest
 
 from app.choreography.percussion import score_rhythm
 from app.choreography.rhythm import SYMBOLS, Rhythm
-from app.score.read import read_contents, uncast_score
+from app.score.contents import uncast_score
+from app.score.read import read_contents
 
 QUARTER = 480
 DRUMS = Path(__file__).parents[4] / "shared" / "data" / "midi" / "drums"

@@ -8,10 +8,11 @@ import pytest
 
 from app.errors import FileError, Message
 from app.messages import text
+from app.score.contents import uncast_score
 from app.score.limits import LAST_TICK, MOST_NAME, MOST_PARTS, MOST_PLAYER_HOURS, MOST_STREAMS
 from app.score.metre_map import Metre
 from app.score.model import MOST_VOICES, Marker, PercussionHit
-from app.score.read import read_contents, read_midi, uncast_score
+from app.score.read import read_contents, read_midi
 from tests.unit.score.midi_bytes import END, MAPS, chunk, header, ids, meta, note, notes_of, one_track, score_of
 
 SCALE = [60, 62, 64, 65]

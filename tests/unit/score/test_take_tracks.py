@@ -8,8 +8,9 @@ import pytest
 
 from app.project.importing import cleaning, import_project, score_of_rows, usual_rows
 from app.project.reimport import reimported
+from app.score.contents import PieceContents
 from app.score.model import Note
-from app.score.read import MidiContents, read_contents
+from app.score.read import read_contents
 from app.score.take_tracks import take_reason
 from app.score.write_take import write_take
 from instrument_maps.load import bundled_maps
@@ -24,7 +25,7 @@ def reason(path: Path) -> str:
     return take_reason(stream, contents.tempo_map)
 
 
-def notes(contents: MidiContents, clean: bool | None = None) -> tuple[Note, ...]:
+def notes(contents: PieceContents, clean: bool | None = None) -> tuple[Note, ...]:
     rows = usual_rows(contents, MAPS)
     score = score_of_rows(contents, rows if clean is None else cleaning(rows, clean), MAPS)
     return score.parts[0].notes

@@ -1,0 +1,101 @@
+"""What a file of music holds, whatever format it has, and the score that comes of it once players are assigned."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+import msgspec
+
+from app.errors import Message
+from app.score.choose import MapChoice, TrackChannel, use_of
+from app.score.metre_map import Metre
+from app.score.model import MOST_VOICES, Marker, Part, PercussionHit, Score, UnplayedPart
+from app.score.parts import PartAssignment, assigned_parts, rhythm_parts, stream_name
+from app.score.tempo import TempoMap
+
+
+class PieceContents(msgspec.Struct, frozen=True):
+    """What a file of music holds, before players are assigned.
+
+    Attributes
+    ----------
+    streams : tuple of TrackChannel
+        The notes of each track, by channel; of a score, of each part, by instrument.
+    warnings : tuple of Message
+        What was repaired or skipped.
+    encoding : str
+        Of the texts that are not Unicode, given or guessed; empty where all are.
+    """
+
+    title: str
+    tempo_map: TempoMap
+    metres: tuple[Metre, ...]
+    pickup_ticks: int
+    streams: tuple[TrackChannel, ...]
+    warnings: tuple[Message, ...]
+    markers: tuple[Marker, ...] = ()
+    encoding: str = ""
+
+
+def assigned_score(
+    contents: PieceContents,
+    assignments: Sequence[PartAssignment],
+    maps: Sequence[MapChoice],
+    stop_requested: Callable[[], bool] = lambda: False,
+) -> Score:
+    """The score in which the parts are those that the user requests. Raises Cancelled as `assigned_parts`."""
+    parts, unplayed, warnings = assigned_parts(contents.streams, assignments, maps, score_of(contents), stop_requested)
+    return score_of(contents, parts, unplayed, (*contents.warnings, *warnings), assignments)
+
+
+def uncast_score(contents: PieceContents) -> Score:
+    """The score in which every track but percussion and sound effects is a part as it stands, without players, for
+    listening only. No part has an instrument map."""
+    parts = tuple(
+        Part(
+            id=f"{stream.track + 1}.{stream.channel + 1}.{stream.change + 1}",
+            name=stream_name(stream),
+            track=stream.track,
+            voice=MOST_VOICES * stream.change,
+            channel=stream.channel,
+            program=stream.program,
+            instrument=None,
+            map_id="",
+            notes=tuple(sorted(stream.notes(), key=lambda note: (note.onset_tick, note.pitch))),
+            curves=stream.curves,
+        )
+        for stream in contents.streams
+        if use_of(stream) == "melodic"
+    )
+    return score_of(contents, parts)
+
+
+def score_of(
+    contents: PieceContents,
+    parts: tuple[Part, ...] = (),
+    unplayed: tuple[UnplayedPart, ...] = (),
+    warnings: tuple[Message, ...] = (),
+    assignments: Sequence[PartAssignment] = (),
+) -> Score:
+    return Score(
+        title=contents.title,
+        ticks_per_quarter=contents.tempo_map.ticks_per_quarter,
+        tempo_map=contents.tempo_map,
+        metres=contents.metres,
+        pickup_ticks=contents.pickup_ticks,
+        parts=parts,
+        unplayed=unplayed,
+        warnings=warnings,
+        markers=contents.markers,
+        percussion=_percussion(rhythm_parts(contents.streams, assignments)),
+    )
+
+
+def _percussion(streams: Sequence[TrackChannel]) -> tuple[PercussionHit, ...]:
+    """Every note of some percussion tracks."""
+    hits = (
+        hit
+        for stream in streams
+        for hit in zip(stream.onset_ticks, stream.struck or stream.pitches, stream.velocities, strict=True)
+    )
+    return tuple(PercussionHit(tick, pitch, velocity) for tick, pitch, velocity in sorted(hits))

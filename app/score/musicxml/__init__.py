@@ -1,0 +1,1 @@
+"""Reads scores in MusicXML, as notation programs write them."""

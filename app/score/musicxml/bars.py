@@ -1,0 +1,111 @@
+"""Bars of a score as it is played: how long each measure is, and the metres that number them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from fractions import Fraction
+from typing import NamedTuple
+
+from app.score.metre_map import Metre
+from app.score.musicxml.written import Bar, Measure, Time
+
+_FOUR = (4, 4)
+_MOST_NUMERATOR, _MOST_DENOMINATOR = 255, 64
+
+
+def measure_lengths(bars: Sequence[Bar], parts: Sequence[Sequence[Measure]], quarter: int) -> list[tuple[int, int]]:
+    """Give the measures their lengths, and return the metre that holds in each.
+
+    A measure is as long as what is longest in it, whatever the time signature says; one without notes has the length of
+    the signature.
+    """
+    metres = []
+    metre = _FOUR
+    for place, bar in enumerate(bars):
+        own = [part[place] for part in parts if place < len(part)]
+        length = max((measure.length for measure in own), default=0)
+        free = bar.metre is not None and bar.metre[1] == 0
+        if bar.metre is not None and not free:
+            metre = bar.metre
+        nominal = nominal_ticks(metre, quarter)
+        bar.length = length or nominal
+        if not any(measure.chords for measure in own) and length < nominal:
+            bar.length = nominal
+        metres.append(metre)
+    return metres
+
+
+def nominal_ticks(metre: tuple[int, int], quarter: int) -> Time:
+    """The ticks of a bar of a time signature."""
+    ticks = Fraction(4 * quarter * metre[0], metre[1])
+    return ticks.numerator if ticks.denominator == 1 else ticks
+
+
+class Metred(NamedTuple):
+    """The metres of a piece, and the length of its pickup."""
+
+    metres: tuple[Metre, ...]
+    pickup_ticks: int
+
+
+def metres_of(
+    order: Sequence[int], starts: Sequence[Time], bars: Sequence[Bar], written: Sequence[tuple[int, int]], quarter: int
+) -> Metred:
+    """The metres of a piece as it is played: those written, and others where a measure is shorter or longer. Short ones
+    that follow one another and make up a whole bar are one."""
+    found: list[Metre] = []
+    pickup = 0
+    place = 0
+    aligned = True
+    while place < len(order):
+        metre = written[order[place]]
+        nominal = nominal_ticks(metre, quarter)
+        first, length = place, bars[order[place]].length
+        while length < nominal and place + 1 < len(order):
+            following = bars[order[place + 1]].length
+            if first == 0 or written[order[place + 1]] != metre or length + following > nominal:
+                break
+            length += following
+            place += 1
+        place += 1
+        tick = round(starts[first])
+        if length == nominal:
+            if not found or not aligned or (found[-1].numerator, found[-1].denominator) != metre:
+                found.append(Metre(tick, *metre))
+            aligned = True
+            continue
+        fitting = _fitting(length, metre[1], quarter)
+        if first == 0 and length < nominal and len(order) > 1:
+            pickup = round(length)
+            fitting = metre
+        elif (
+            place == len(order)
+            and length < nominal
+            and aligned
+            and found
+            and written[order[first]]
+            == (
+                found[-1].numerator,
+                found[-1].denominator,
+            )
+        ):
+            # The last bar, which the pickup makes whole.
+            continue
+        found.append(Metre(tick, *(fitting or metre)))
+        aligned = False
+    return Metred(_once(found) or (Metre(0, *_FOUR),), pickup)
+
+
+def _fitting(length: Time, denominator: int, quarter: int) -> tuple[int, int] | None:
+    """A time signature of which one bar has a length; None: there is none."""
+    while denominator <= _MOST_DENOMINATOR:
+        beats = Fraction(length) * denominator / (4 * quarter)
+        if beats.denominator == 1:
+            return (int(beats), denominator) if 1 <= beats <= _MOST_NUMERATOR else None
+        denominator *= 2
+    return None
+
+
+def _once(metres: Sequence[Metre]) -> tuple[Metre, ...]:
+    """The metres by tick, one at each."""
+    return tuple({metre.tick: metre for metre in metres}.values())

@@ -1,0 +1,202 @@
+"""The document of a MusicXML file, plain or compressed, within bounds.
+
+A file is data: a document that declares entities is refused, one that names others outside it is read without them.
+Texts of any encoding are taken that a notation program wrote: UTF-8 and UTF-16 with or without their marks, what the
+declaration names, and characters that XML does not allow are dropped.
+
+Errors (all `FileError`)
+------------------------
+file.cannot_read, file.not_regular, file.too_large : file ...
+    See `app.formats.files`.
+musicxml.damaged_archive, musicxml.no_score_in_archive : file
+musicxml.archive_too_large : file, most_mb
+musicxml.damaged : file, line, detail
+musicxml.entities : file
+musicxml.too_deep : file, line, most
+musicxml.too_many_elements : file, most
+musicxml.not_a_score : file, root
+"""
+
+from __future__ import annotations
+
+import codecs
+import re
+import zipfile
+import zlib
+from io import BytesIO
+from pathlib import Path
+from typing import Final
+from xml.etree.ElementTree import Element, TreeBuilder
+from xml.parsers import expat
+
+from app.errors import FileError, shortened
+from app.formats.files import open_file, read_file
+
+SUFFIXES: Final = (".musicxml", ".mxl", ".xml")
+MOST_BYTES: Final = 2**26
+"""Of a file, and of what it unpacks to; a symphony has some tens of megabytes."""
+MOST_RATIO: Final = 200
+"""So many times larger a score may unpack to, beyond `_SMALL`: notes compress to a fortieth."""
+_SMALL: Final = 2**20
+MOST_DEPTH: Final = 64
+"""Elements within elements; the format has a dozen."""
+MOST_ELEMENTS: Final = 3_000_000
+_MOST_MEMBERS: Final = 10_000
+_INDEX: Final = "META-INF/container.xml"
+_ZIP: Final = b"PK\x03\x04"
+_START: Final = 1024
+_DECLARED: Final = re.compile(rb"""^\s*<\?xml[^>]*?encoding\s*=\s*["']([A-Za-z][\w.:-]*)["']""")
+_NO_XML: Final = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\ufffe\uffff\ud800-\udfff]")
+_BOMS: Final = (
+    (codecs.BOM_UTF8, "utf-8-sig"),
+    (codecs.BOM_UTF16_LE, "utf-16"),
+    (codecs.BOM_UTF16_BE, "utf-16"),
+    (b"<\0", "utf-16-le"),
+    (b"\0<", "utf-16-be"),
+)
+
+
+def is_musicxml(path: Path) -> bool:
+    """Return whether a file is to be read as MusicXML: by its first bytes, and by its name where they tell nothing.
+
+    Raises FileError as `open_file`.
+    """
+    with open_file(path) as stream:
+        try:
+            start = stream.read(_START)
+        except OSError:
+            # The reader of the file raises the reason.
+            return False
+    if start.startswith((b"MThd", b"RIFF")):
+        return False
+    if start.startswith(_ZIP) or start.removeprefix(codecs.BOM_UTF8).lstrip().startswith(b"<"):
+        return True
+    return start.startswith(tuple(mark for mark, _ in _BOMS)) or path.suffix.lower() in SUFFIXES
+
+
+def read_document(path: Path) -> Element:
+    """Read the document of a score.
+
+    Returns
+    -------
+    Element
+        ``score-partwise`` or ``score-timewise``.
+
+    Raises
+    ------
+    FileError
+    """
+    file = str(path)
+    content = read_file(path, MOST_BYTES)
+    if content.startswith(_ZIP):
+        content = _unpacked(content, file)
+    root = _parsed(_decoded(content), file)
+    if root.tag not in ("score-partwise", "score-timewise"):
+        raise FileError("musicxml.not_a_score", file=file, root=shortened(root.tag, 60))
+    return root
+
+
+def _unpacked(content: bytes, file: str) -> bytes:
+    """The score of a compressed file: the first one that its index names, else the first that looks like one."""
+    try:
+        with zipfile.ZipFile(BytesIO(content)) as archive:
+            names = archive.namelist()
+            if len(names) > _MOST_MEMBERS:
+                raise FileError("musicxml.damaged_archive", file=file)
+            name = _named(archive, names, file) or next(
+                (
+                    one
+                    for one in names
+                    if one.lower().endswith((".xml", ".musicxml")) and not one.startswith(("META-INF/", "__MACOSX/"))
+                ),
+                None,
+            )
+            if name is None:
+                raise FileError("musicxml.no_score_in_archive", file=file)
+            return _member(archive, name, file, max(_SMALL, MOST_RATIO * len(content)))
+    except (zipfile.BadZipFile, zlib.error, KeyError, NotImplementedError, RuntimeError, OSError, EOFError) as error:
+        raise FileError("musicxml.damaged_archive", file=file) from error
+    except ValueError as error:
+        raise FileError("musicxml.damaged_archive", file=file) from error
+
+
+def _named(archive: zipfile.ZipFile, names: list[str], file: str) -> str | None:
+    """The member that the index of a compressed file names."""
+    if _INDEX not in names:
+        return None
+    index = _parsed(_decoded(_member(archive, _INDEX, file, _SMALL)), file)
+    for one in index.iter():
+        if one.tag.rpartition("}")[2].rpartition(":")[2] != "rootfile":
+            continue
+        kind = one.get("media-type", "")
+        path = one.get("full-path", "").replace("\\", "/").removeprefix("./")
+        if path in names and (not kind or "musicxml" in kind or kind.endswith("xml")):
+            return path
+    return None
+
+
+def _member(archive: zipfile.ZipFile, name: str, file: str, most: int) -> bytes:
+    most = min(most, MOST_BYTES)
+    with archive.open(name) as stream:
+        content = stream.read(most + 1)
+    if len(content) > most:
+        raise FileError("musicxml.archive_too_large", file=file, most_mb=most >> 20)
+    return content
+
+
+def _decoded(content: bytes) -> str:
+    """The text of a document, without what XML does not allow."""
+    encoding = next((name for mark, name in _BOMS if content.startswith(mark)), None)
+    if encoding is None:
+        declared = _DECLARED.match(content[:_START])
+        name = "utf-8" if declared is None else declared[1].decode("ascii")
+        try:
+            encoding = codecs.lookup(name).name
+        except LookupError:
+            encoding = "utf-8"
+        # What begins with readable letters is in no encoding of several bytes, whatever it declares.
+        if encoding.startswith(("utf-16", "utf-32")):
+            encoding = "utf-8"
+    try:
+        text = content.decode(encoding)
+    except (UnicodeDecodeError, LookupError):
+        text = content.decode("utf-8" if encoding != "utf-8" else "cp1252", errors="replace")
+    return _NO_XML.sub("", text).lstrip("\ufeff \t\r\n")
+
+
+def _parsed(text: str, file: str) -> Element:
+    """The elements of a document."""
+    builder = TreeBuilder()
+    parser = expat.ParserCreate("utf-8")
+    depth = count = 0
+
+    def start(tag: str, attributes: dict[str, str]) -> None:
+        nonlocal depth, count
+        depth += 1
+        count += 1
+        if depth > MOST_DEPTH:
+            raise FileError("musicxml.too_deep", file=file, line=parser.CurrentLineNumber, most=MOST_DEPTH)
+        if count > MOST_ELEMENTS:
+            raise FileError("musicxml.too_many_elements", file=file, most=MOST_ELEMENTS)
+        builder.start(tag, attributes)
+
+    def end(tag: str) -> None:
+        nonlocal depth
+        depth -= 1
+        builder.end(tag)
+
+    def refuse(*_: object) -> None:
+        raise FileError("musicxml.entities", file=file)
+
+    parser.buffer_text = True
+    parser.StartElementHandler, parser.EndElementHandler = start, end
+    parser.CharacterDataHandler = builder.data
+    parser.EntityDeclHandler = parser.UnparsedEntityDeclHandler = refuse
+    try:
+        parser.Parse(text.encode(), True)
+    except expat.ExpatError as error:
+        line, detail = error.lineno, expat.errors.messages.get(error.code, str(error))
+        raise FileError("musicxml.damaged", file=file, line=line, detail=shortened(detail)) from error
+    root = builder.close()
+    assert isinstance(root, Element)
+    return root

@@ -1,0 +1,175 @@
+"""How loud a part is played: dynamics, hairpins and accents to velocities, and to marks.
+
+Velocities are those that MuseScore gives to the marks, so that a score sounds as it does there.
+"""
+
+from __future__ import annotations
+
+import re
+from bisect import bisect_right, insort
+from collections.abc import Iterable, Sequence
+from typing import Final, NamedTuple
+
+from app.score.marks import Mark
+from app.score.musicxml.written import Direction
+
+_SOFT: Final = (49, 33, 16, 10, 5, 1)
+_LOUD: Final = (96, 112, 126, 127)
+_USUAL: Final = 80.0
+_FORTE: Final = 90.0
+"""What a loudness of 1 is, as the format has it."""
+_STEP: Final = 16.0
+"""Of a hairpin that leads to no mark."""
+_MOST: Final = 127.0
+_SHARES: Final = {"accent": 1.2, "marcato": 1.3}
+_FORCED: Final = 112.0
+_GROWING: Final = re.compile(r"\bcresc", re.IGNORECASE)
+_FADING: Final = re.compile(r"\b(?:decresc|dim(?:\.|in|$))", re.IGNORECASE)
+_WORD_QUARTERS: Final = 16
+"""The longest that a hairpin in words lasts which nothing ends."""
+_MOST_HAIRPINS: Final = 20_000
+
+
+class Loudness(NamedTuple):
+    """Levels of a part over time: linear between points, and accents on the notes of single ticks."""
+
+    ticks: list[int]
+    levels: list[float]
+    after: list[float]
+    forced: dict[int, float]
+
+    def at(self, tick: int) -> float:
+        """The velocity of an ordinary note that begins at a tick."""
+        if tick in self.forced:
+            return self.forced[tick]
+        place = bisect_right(self.ticks, tick) - 1
+        if place < 0:
+            return _USUAL
+        start, level, goal = self.ticks[place], self.levels[place], self.after[place]
+        if place + 1 == len(self.ticks) or level == goal:
+            return level
+        return level + (goal - level) * (tick - start) / (self.ticks[place + 1] - start)
+
+
+def velocity_of(level: float, kinds: Iterable[str], loudness: float | None) -> int:
+    """The velocity of a note with marks of some kinds; ``loudness`` is what the file says of just this note."""
+    if loudness is not None:
+        return int(min(max(round(_FORTE * loudness), 1), _MOST))
+    share = max((_SHARES.get(kind, 1.0) for kind in kinds), default=1.0)
+    return int(min(max(round(level * share), 1), _MOST))
+
+
+def _level(text: str) -> float | None:
+    """The level that a dynamic sets for what follows; None where it is an accent alone."""
+    if text in ("mp", "mf"):
+        return 64.0 if text == "mp" else 80.0
+    if text == "n":
+        return 1.0
+    for sign, levels in (("p", _SOFT), ("f", _LOUD)):
+        if text.strip(sign) == "":
+            return float(levels[min(len(text), len(levels)) - 1])
+    if text == "pf":
+        return float(_LOUD[0])
+    # "fp", "sfp", "sffpp": what it falls to.
+    soft = len(text) - len(text.rstrip("p"))
+    return float(_SOFT[min(soft, len(_SOFT)) - 1]) if soft else None
+
+
+def _struck(text: str) -> float | None:
+    """The level of the notes at a dynamic itself, where it is another than afterwards."""
+    if text in ("mp", "mf", "n") or not text.strip("p") or not text.strip("f"):
+        return None
+    return float(_SOFT[0]) if text == "pf" else float(_LOUD[0]) if text == "fp" else _FORCED
+
+
+def hairpins(directions: Sequence[tuple[int, Direction]], quarter: int, end_tick: int) -> list[Mark]:
+    """Crescendos and diminuendos of a part as marks: hairpins, and words as far as a dash or the next dynamic.
+
+    Parameters
+    ----------
+    directions : sequence of (tick, Direction)
+        By tick.
+    """
+    found: list[Mark] = []
+    open_: dict[str, tuple[int, str]] = {}
+    dashes: dict[str, int] = {}
+    worded: list[tuple[int, str]] = []
+
+    def close(end: int) -> None:
+        for start, kind in worded:
+            if end > start:
+                found.append(Mark(kind, tick=start, end_tick=min(end, start + _WORD_QUARTERS * quarter, end_tick)))
+        worded.clear()
+
+    for tick, one in directions:
+        if one.kind == "wedge" and one.text != "stop":
+            close(tick)
+            open_[one.number] = tick, one.text
+        elif one.kind == "wedge":
+            number = one.number if one.number in open_ else next(iter(open_), "")
+            start, kind = open_.pop(number, (tick, ""))
+            if tick > start:
+                found.append(Mark(kind, tick=start, end_tick=tick))
+        elif one.kind == "words" and (_GROWING.search(one.text) or _FADING.search(one.text)):
+            close(tick)
+            worded.append((tick, "crescendo" if _GROWING.search(one.text) else "diminuendo"))
+        elif one.kind == "dynamic" and worded and tick > worded[0][0]:
+            close(tick)
+        elif one.kind == "dashes" and one.text == "start":
+            dashes[one.number] = tick
+        elif one.kind == "dashes" and worded and dashes.pop(one.number, -1) >= worded[0][0]:
+            close(tick)
+    close(end_tick)
+    return sorted(dict.fromkeys(found), key=lambda mark: (mark.tick, mark.end_tick))[:_MOST_HAIRPINS]
+
+
+def loudness_of(directions: Sequence[tuple[int, Direction]], spans: Sequence[Mark], quarter: int) -> Loudness:
+    """The levels of a part.
+
+    Parameters
+    ----------
+    directions : sequence of (tick, Direction)
+        By tick.
+    spans : sequence of Mark
+        Its hairpins, by tick.
+    """
+    written = {tick for tick, one in directions if one.kind == "dynamic"}
+    steps: dict[int, float] = {}
+    forced: dict[int, float] = {}
+    for tick, one in directions:
+        if one.kind == "dynamic":
+            level, struck = _level(one.text), _struck(one.text)
+            if level is not None:
+                steps[tick] = level
+            if struck is not None:
+                forced[tick] = struck
+        elif one.kind == "loudness" and tick not in written:
+            steps[tick] = min(max(_FORTE * one.value, 1.0), _MOST)
+    at = sorted(steps)
+    points: dict[int, tuple[float, float]] = {tick: (steps[tick], steps[tick]) for tick in at}
+    free = 0
+    for mark in spans:
+        start, end = max(mark.tick, free), mark.end_tick
+        if end <= start:
+            continue
+        place = bisect_right(at, start)
+        level = _now(points, at, start)
+        following = at[place] if place < len(at) else None
+        sign = 1.0 if mark.kind == "crescendo" else -1.0
+        goal = min(max(level + sign * _STEP, 1.0), _MOST)
+        if following is not None and following <= end + quarter and (steps[following] - level) * sign > 0:
+            goal, end = steps[following], min(end, following) if following > start else end
+        for tick in (start, end):
+            if tick not in points:
+                insort(at, tick)
+        points[start] = level, goal
+        points.setdefault(end, (goal, goal))
+        free = end
+    ticks = sorted(points)
+    return Loudness(ticks, [points[tick][0] for tick in ticks], [points[tick][1] for tick in ticks], forced)
+
+
+def _now(points: dict[int, tuple[float, float]], at: Sequence[int], tick: int) -> float:
+    """The level that has been reached at a tick."""
+    place = bisect_right(at, tick)
+    return points[at[place - 1]][0] if place else _USUAL

@@ -1,0 +1,183 @@
+"""The order in which measures are played: repeats, endings, *D.C.*, *D.S.*, *Fine* and *Coda*.
+
+After a jump repeats are not taken again, and of endings the last one is played, as players do.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import groupby
+from typing import Final, NamedTuple
+
+import msgspec
+
+from app.errors import FileError
+from app.score.limits import MOST_BARS
+from app.score.musicxml.written import Bar
+
+_ANY: Final = "*"
+"""The name of a place that a word means, where no sound names it."""
+
+
+class Order(msgspec.Struct, frozen=True):
+    """Places of measures in the order they are played, and the numbers of those whose jump leads nowhere."""
+
+    measures: tuple[int, ...]
+    lost: tuple[str, ...] = ()
+
+
+def playing_order(bars: Sequence[Bar], file: str) -> Order:
+    """Unroll the measures of a score.
+
+    Raises
+    ------
+    FileError
+        ``musicxml.too_many_repeats`` (file, most): more measures would be played than a piece may have.
+    """
+    _explain(bars)
+    return _Player(bars, file).play()
+
+
+def _explain(bars: Sequence[Bar]) -> None:
+    """Let words and signs mean what no sound says."""
+    jumps = any(bar.da_capo or bar.dal_segno for bar in bars)
+    for bar in bars:
+        said = bar.said
+        if "to_coda" in said and not any(one.to_coda for one in bars):
+            bar.to_coda = _ANY
+        if not jumps and "da_capo" in said:
+            bar.da_capo = True
+        elif not jumps and "dal_segno" in said:
+            bar.dal_segno = _ANY
+        if "fine" in said and bar.number and not any(one.fine for one in bars if one is not bar):
+            bar.fine = True
+        if "segno" in said and not any(one.segno for one in bars):
+            bar.segno = _ANY
+    signs = [bar for bar in bars if "coda" in bar.said]
+    if signs and not any(bar.coda for bar in bars):
+        signs[-1].coda = _ANY
+        if len(signs) > 1 and not any(bar.to_coda for bar in bars):
+            signs[0].to_coda = _ANY
+
+
+class _Player:
+    """Goes through the measures as a player does."""
+
+    def __init__(self, bars: Sequence[Bar], file: str) -> None:
+        self.bars, self.file = bars, file
+        self.endings = _endings(bars)
+        self.groups = _groups(bars, self.endings)
+        self.start, self.turn = 0, 1
+        self.jumped = False
+        self.done: set[tuple[str, int]] = set()
+        self.lost: list[str] = []
+
+    def play(self) -> Order:
+        """Return the order."""
+        order: list[int] = []
+        place = 0
+        while place < len(self.bars):
+            bar = self.bars[place]
+            if bar.forward and place != self.start:
+                self.start, self.turn = place, 1
+            if self._is_passed_over(place):
+                place += 1
+                continue
+            order.append(place)
+            if len(order) > MOST_BARS:
+                raise FileError("musicxml.too_many_repeats", file=self.file, most=MOST_BARS)
+            following = self._after(place, bar)
+            if following is None:
+                break
+            place = following
+        return Order(tuple(order), tuple(self.lost))
+
+    def _is_passed_over(self, place: int) -> bool:
+        """Return whether a measure belongs to an ending that is not played now."""
+        numbers, group = self.endings[place], self.groups[place]
+        if not numbers or group is None or (self.turn in numbers and not self.jumped):
+            return False
+        if self.jumped or self.turn > max(group.numbers):
+            # The last ending, unless that leads back too.
+            return max(group.numbers) not in numbers or (group.leads_back and not self.jumped)
+        return self.turn in group.numbers
+
+    def _after(self, place: int, bar: Bar) -> int | None:
+        """Where it goes on after a measure; None: it ends there."""
+        if bar.backward and (not self.jumped or bar.after_jump):
+            if self.turn < self._times(place, bar):
+                self.turn += 1
+                return self.start
+            self.start, self.turn = place + 1, 1
+        if self.jumped and bar.fine:
+            return None
+        if self.jumped and bar.to_coda and ("coda", place) not in self.done:
+            self.done.add(("coda", place))
+            target = self._find("coda", bar.to_coda, place)
+            if target is not None:
+                return self._jump(target)
+        if bar.da_capo and ("capo", place) not in self.done:
+            self.done.add(("capo", place))
+            return self._jump(0)
+        if bar.dal_segno and ("segno", place) not in self.done:
+            self.done.add(("segno", place))
+            target = self._find("segno", bar.dal_segno, place)
+            if target is not None:
+                return self._jump(target)
+        return place + 1
+
+    def _times(self, place: int, bar: Bar) -> int:
+        """How often a section is played that ends at a measure."""
+        group = self.groups[place]
+        if group is None:
+            return bar.backward
+        return max(group.numbers) + group.leads_back * (group.endings == 1)
+
+    def _jump(self, place: int) -> int:
+        self.jumped = True
+        self.start, self.turn = place, 1
+        return place
+
+    def _find(self, kind: str, name: str, place: int) -> int | None:
+        """The place that a jump is to; the one that a word means is the nearest."""
+        named = [one for one, bar in enumerate(self.bars) if getattr(bar, kind) and name in (getattr(bar, kind), _ANY)]
+        named = named or [one for one, bar in enumerate(self.bars) if getattr(bar, kind)]
+        if not named:
+            self.lost.append(self.bars[place].number)
+            return None
+        if kind == "segno":
+            return max((one for one in named if one <= place), default=named[0])
+        return next((one for one in named if one > place), named[-1])
+
+
+class _Group(NamedTuple):
+    """Endings that follow one another: their numbers, how many they are, and whether the last of them is repeated."""
+
+    numbers: frozenset[int]
+    endings: int
+    leads_back: bool
+
+
+def _groups(bars: Sequence[Bar], endings: Sequence[frozenset[int] | None]) -> list[_Group | None]:
+    """The endings to which each measure belongs; None: to none."""
+    found: list[_Group | None] = []
+    for is_ending, places in groupby(range(len(bars)), key=lambda place: bool(endings[place])):
+        own = list(places)
+        numbers = frozenset[int]().union(*(endings[place] or () for place in own))
+        count = sum(bool(bars[place].ending_start) for place in own)
+        group = _Group(numbers, count, bars[own[-1]].backward > 0) if is_ending else None
+        found += [group] * len(own)
+    return found
+
+
+def _endings(bars: Sequence[Bar]) -> list[frozenset[int] | None]:
+    """The numbers of the ending that each measure belongs to; None: to none."""
+    found: list[frozenset[int] | None] = []
+    current: frozenset[int] | None = None
+    for bar in bars:
+        if bar.ending_start:
+            current = bar.ending_start
+        found.append(current)
+        if bar.ending_stop or (bar.backward and current is not None):
+            current = None
+    return found

@@ -1,0 +1,182 @@
+"""Grace notes, trills, turns, mordents and tremolos as they are played, in the tempo that holds there."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from itertools import groupby
+from typing import Final
+
+from app.score.musicxml.played import PlayedChord, PlayedNote
+from app.score.tempo import TempoMap
+
+_GRACE_S: Final = 0.085
+"""A grace note; several share what is there."""
+_TRILL_S: Final = 0.085
+"""A note of a trill: six to a second are slow, fourteen the fastest that players do."""
+_SHORT_S: Final = 0.075
+"""The first notes of a mordent and of a turn."""
+_SHARE: Final = 0.5
+"""Of the note before, that grace notes may take."""
+_MOST_ROWS: Final = 400
+"""Notes of one ornament."""
+_UNMEASURED: Final = 3
+"""Strokes of a tremolo on one note from which a wind player flutters the tongue."""
+
+
+def place_graces(chords: Sequence[PlayedChord], tempo: TempoMap) -> None:
+    """Let grace notes sound before the notes that they lead to, from the time of what comes before; at the beginning of
+    the piece, from their own."""
+    voices: dict[str, list[PlayedChord]] = {}
+    for chord in chords:
+        voices.setdefault(chord.chord.voice, []).append(chord)
+    for own in voices.values():
+        before: list[PlayedChord] = []
+        for (grace, onset), group in groupby(own, key=lambda one: (one.chord.grace, one.onset)):
+            members = list(group)
+            if grace:
+                _place_group(members, onset, before, tempo)
+            else:
+                before = members
+        _lead_in(own)
+
+
+def _ticks(seconds: float, tick: int, tempo: TempoMap) -> int:
+    """How many ticks some seconds are at a tick."""
+    return max(round(tempo.ticks(tempo.seconds(float(tick)) + seconds) - tick), 1)
+
+
+def _place_group(graces: Sequence[PlayedChord], onset: int, before: Sequence[PlayedChord], tempo: TempoMap) -> None:
+    """Place grace notes that follow one another before a tick."""
+    notes = [note for chord in before for note in chord.notes]
+    start = max((note.onset for note in notes), default=-1)
+    room = onset if start < 0 else int((onset - start) * _SHARE)
+    each = min(_ticks(_GRACE_S, max(onset - 1, 0), tempo), room // len(graces) if room > 0 else 0)
+    each = each or (1 if onset >= len(graces) else 0)
+    for place, chord in enumerate(graces):
+        left = len(graces) - place
+        chord.onset, chord.end = max(onset - left * each, 0), max(onset - (left - 1) * each, 1)
+        for note in chord.begun:
+            note.onset, note.end = chord.onset, max(chord.end, chord.onset + 1)
+    first = graces[0].onset
+    for note in notes:
+        if note.onset < first < note.end:
+            note.end = first
+
+
+def _lead_in(own: Sequence[PlayedChord]) -> None:
+    """Grace notes before the first note of all take their time from it."""
+    graces = [chord for chord in own if chord.chord.grace and chord.onset == 0 and chord.end <= 1]
+    main = next((chord for chord in own if not chord.chord.grace), None)
+    if not graces or main is None or main.onset != 0:
+        return
+    each = max((main.end - main.onset) // (2 * len(graces) + 2), 1)
+    for place, chord in enumerate(graces):
+        chord.onset, chord.end = place * each, (place + 1) * each
+        for note in chord.begun:
+            note.onset, note.end = chord.onset, chord.end
+    for note in main.begun:
+        note.onset = len(graces) * each
+        note.end = max(note.end, note.onset + 1)
+
+
+def write_out(chords: Sequence[PlayedChord], tempo: TempoMap, quarter: int) -> None:
+    """Write the ornaments of notes out, into their rows."""
+    pairs = list(_pairs(chords))
+    for first, second in pairs:
+        _alternate(first, second, quarter, tempo)
+    paired = {id(note) for pair in pairs for chord in pair for note in chord.begun}
+    for chord in chords:
+        for note in chord.begun:
+            if id(note) in paired or note.rows:
+                continue
+            note.rows = _rows(note, tempo, quarter) or [(note.onset, max(note.end, note.onset + 1), note.tone.pitch)]
+
+
+def _rows(note: PlayedNote, tempo: TempoMap, quarter: int) -> list[tuple[int, int, int]]:
+    """What one note is written out in; nothing where it is just itself."""
+    kinds = note.chord.ornaments
+    pitch, onset, length = note.tone.pitch, note.onset, note.end - note.onset
+    if length < 2 or (not kinds and not note.chord.tremolo[1]):
+        return []
+    upper, lower = pitch + note.tone.upper, pitch + note.tone.lower
+    strokes = note.chord.tremolo[1] if note.chord.tremolo[0] == "single" else 0
+    if strokes and (strokes < _UNMEASURED or note.tone.struck):
+        note.marks.append(("tremolo", str(strokes)))
+        return _equal(onset, note.end, max(min(quarter, length) // 2**strokes, 1), [pitch])
+    if strokes:
+        note.marks += [("tremolo", str(strokes)), ("flutter_tongue", "")]
+        return []
+    if not kinds or note.tone.struck:
+        return []
+    kind = kinds[0]
+    short = _ticks(_SHORT_S, onset, tempo)
+    if kind == "trill":
+        note.marks.append(("trill", ""))
+        each = _ticks(_TRILL_S, onset, tempo)
+        count = max(min(round(length / each), _MOST_ROWS), 3) // 2 * 2 + 1
+        return _divided(onset, note.end, [(upper if place % 2 else pitch) for place in range(min(count, length))])
+    if kind.endswith("mordent"):
+        note.marks.append(("mordent", "" if kind == "mordent" else "inverted"))
+        return _before_main(onset, note.end, short, [pitch, lower if kind == "mordent" else upper], pitch)
+    note.marks.append(("turn", "inverted" if "inverted" in kind else ""))
+    turn = [lower, pitch, upper, pitch] if "inverted" in kind else [upper, pitch, lower, pitch]
+    if kind.startswith("delayed"):
+        at = onset + max(length // 2, length - 4 * short)
+        return [(onset, at, pitch), *_divided(at, note.end, turn)] if note.end - at >= 4 else []
+    return _before_main(onset, note.end, short, turn[:3], pitch)
+
+
+def _before_main(onset: int, end: int, short: int, first: Sequence[int], pitch: int) -> list[tuple[int, int, int]]:
+    """Short notes, then the main one, which has half of the time at least where that is."""
+    each = min(short, (end - onset) // (2 * len(first)))
+    if each < 1:
+        return []
+    at = onset + each * len(first)
+    return [*_divided(onset, at, first), (at, end, pitch)]
+
+
+def _divided(start: int, end: int, pitches: Sequence[int]) -> list[tuple[int, int, int]]:
+    """A time shared equally among notes."""
+    count = len(pitches)
+    bounds = [start + (end - start) * place // count for place in range(count + 1)]
+    return [
+        (one, other, min(max(pitch, 0), 127))
+        for one, other, pitch in zip(bounds[:-1], bounds[1:], pitches, strict=True)
+        if other > one
+    ]
+
+
+def _equal(start: int, end: int, each: int, pitches: Sequence[int]) -> list[tuple[int, int, int]]:
+    """Notes of one length, as many as fit."""
+    count = min(max(-(-(end - start) // each), 1), _MOST_ROWS, end - start)
+    return _divided(start, end, [pitches[place % len(pitches)] for place in range(count)])
+
+
+def _pairs(chords: Sequence[PlayedChord]) -> Iterator[tuple[PlayedChord, PlayedChord]]:
+    """Chords between which a tremolo alternates."""
+    open_: dict[str, PlayedChord] = {}
+    for chord in chords:
+        kind, voice = chord.chord.tremolo[0], chord.chord.voice
+        if kind == "start" and not chord.chord.grace:
+            open_[voice] = chord
+        elif kind == "stop":
+            first = open_.pop(voice, None)
+            if first is not None and first.begun and chord.begun and abs(first.end - chord.onset) <= 1:
+                yield first, chord
+
+
+def _alternate(first: PlayedChord, second: PlayedChord, quarter: int, tempo: TempoMap) -> None:
+    """Write out a tremolo between two chords: the notes of both, by turns, over the time of both."""
+    onset, end = first.onset, second.end
+    least = _ticks(_TRILL_S / 2, onset, tempo)
+    each = max(quarter // 2 ** max(first.chord.tremolo[1], 1), least, 1)
+    count = min(max((end - onset) // each // 2, 1), _MOST_ROWS) * 2
+    bounds = [onset + (end - onset) * place // count for place in range(count + 1)]
+    for turn, chord in enumerate((first, second)):
+        for note in chord.begun:
+            note.rows = [
+                (bounds[place], bounds[place + 1], note.tone.pitch)
+                for place in range(turn, count, 2)
+                if bounds[place + 1] > bounds[place]
+            ] or [(note.onset, max(note.end, note.onset + 1), note.tone.pitch)]
+            note.marks.append(("tremolo", str(first.chord.tremolo[1])))

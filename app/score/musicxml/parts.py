@@ -1,0 +1,156 @@
+"""The list of parts: names, instruments and the sounds of percussion; and the measures of each part."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass, field
+from xml.etree.ElementTree import Element
+
+from app.score.limits import MOST_NAME
+from app.score.musicxml.written import Place
+from instrument_maps.vocabulary import Instrument, vocabulary
+
+_NO_NAME = re.compile(r"(?:MusicXML Part|Part[_ ]?\d*|P\d+)", re.IGNORECASE)
+"""What converters call a part or an instrument that no one has named."""
+_KIT_CHANNEL = 10
+_KEYS = {10: "B♭", 9: "A", 3: "E♭", 5: "F", 2: "D", 7: "G"}
+"""Keys of instruments by what a written C sounds like, in semitones above C."""
+_DEFAULT_STROKE = 38
+"""A snare drum, where nothing says what percussion is struck."""
+
+
+@dataclass(slots=True)
+class PartInstrument:
+    """One instrument of a part.
+
+    Attributes
+    ----------
+    sound : str
+        Its id in the standard list of sounds; empty: the file does not say.
+    program : int or None
+        General MIDI, from 0.
+    stroke : int or None
+        The key of a drum kit.
+    """
+
+    name: str = ""
+    sound: str = ""
+    program: int | None = None
+    channel: int = 0
+    stroke: int | None = None
+
+
+@dataclass(slots=True)
+class WrittenPart:
+    """A part of the score.
+
+    Attributes
+    ----------
+    instruments : dict of str to PartInstrument
+        By id, in the order of the file.
+    measures : list of (Element, Element)
+        Each measure's attributes, and what is in it.
+    """
+
+    id: str
+    name: str = ""
+    instruments: dict[str, PartInstrument] = field(default_factory=dict)
+    measures: list[tuple[Element, Element]] = field(default_factory=list)
+
+
+def written_parts(root: Element, place: Place) -> list[WrittenPart]:
+    """The parts of a score in the order of their list, those that the list does not have behind them."""
+    found: dict[str, WrittenPart] = {}
+    listed = root.find("part-list")
+    for one in () if listed is None else listed.iter("score-part"):
+        id = one.get("id", "")
+        if id not in found:
+            found[id] = _listed(one, id, place)
+    if root.tag == "score-partwise":
+        for part in root.iterfind("part"):
+            own = found.setdefault(part.get("id", ""), WrittenPart(part.get("id", "")))
+            own.measures += [(measure, measure) for measure in part.iterfind("measure")]
+    else:
+        for number, measure in enumerate(root.iterfind("measure")):
+            for part in measure.iterfind("part"):
+                own = found.setdefault(part.get("id", ""), WrittenPart(part.get("id", "")))
+                # A part that is not in every measure rests there.
+                own.measures += [(measure, Element("part"))] * (number - len(own.measures))
+                own.measures.append((measure, part))
+    return list(found.values())
+
+
+def _listed(one: Element, id: str, place: Place) -> WrittenPart:
+    name = _text(one.find("part-name-display")) or _text(one.find("part-name"))
+    part = WrittenPart(id, "" if _NO_NAME.fullmatch(name) else name[:MOST_NAME])
+    for written in one.iterfind("score-instrument"):
+        called = _text(written.find("instrument-name"))
+        part.instruments[written.get("id", "")] = PartInstrument(
+            "" if _NO_NAME.fullmatch(called) else called[:MOST_NAME], _text(written.find("instrument-sound")).lower()
+        )
+    for midi in one.iterfind("midi-instrument"):
+        own = part.instruments.setdefault(midi.get("id", ""), PartInstrument())
+        own.program = _midi(midi, "midi-program", 128)
+        own.channel = (_midi(midi, "midi-channel", 16) or -1) + 1
+        own.stroke = _midi(midi, "midi-unpitched", 128)
+    return part
+
+
+def _midi(owner: Element, tag: str, most: int) -> int | None:
+    """A number of MIDI, from 0; None where the file has none that is possible."""
+    text = (owner.findtext(tag) or "").strip()
+    number = int(text) if text.isascii() and text.isdigit() and len(text) < 4 else 0
+    return number - 1 if 1 <= number <= most else None
+
+
+def _text(element: Element | None) -> str:
+    """All text of an element in one line; accidentals within names are written as signs."""
+    if element is None:
+        return ""
+    pieces: list[str] = []
+    for one in element.iter():
+        said = (one.text or "").strip() if one.tag != "accidental-text" else _SIGNS.get((one.text or "").strip(), "")
+        # The key of an instrument stands right beside its sign.
+        pieces.append(said if one.tag == "accidental-text" or not pieces or not said else f" {said}")
+    return " ".join("".join(pieces).split())
+
+
+_SIGNS = {"flat": "♭", "sharp": "♯"}
+
+
+def stroke_of(instrument: PartInstrument | None, part_name: str) -> int:
+    """The key of a drum kit that percussion without a pitch sounds as."""
+    if instrument is None:
+        return vocabulary().stroke(part_name) or _DEFAULT_STROKE
+    if instrument.stroke is not None:
+        return instrument.stroke
+    by_sound = vocabulary().stroke_by_sound(instrument.sound)
+    return by_sound or vocabulary().stroke(instrument.name) or vocabulary().stroke(part_name) or _DEFAULT_STROKE
+
+
+def is_kit(instrument: PartInstrument) -> bool:
+    """Return whether an instrument is on the channel of percussion."""
+    return instrument.channel == _KIT_CHANNEL
+
+
+def said_instrument(part_name: str, instrument: PartInstrument, transposition: int | None) -> Instrument | None:
+    """The instrument that the standard id of a sound means; its size and key as the part's name says them, or else its
+    transposition. None where names and programs are to tell.
+
+    Parameters
+    ----------
+    transposition : int or None
+        Semitones by which it sounds higher than it is written.
+    """
+    words = vocabulary()
+    said = words.by_sound(instrument.sound)
+    names = [found for text in (part_name, instrument.name) if text and (found := words.by_name(text)) is not None]
+    named = next((found for found in names if not found.vague), None)
+    if said is None or (said.kind == "other" and named is not None and named.kind == "wind"):
+        # A piano is what many programs write where nothing is known.
+        return None
+    if named is not None and words.is_kind(named, said):
+        return named
+    # At concert pitch the whole score may be written; a size has its key already.
+    key = _KEYS.get((transposition or 0) % 12)
+    return (words.within(f"in {key}", said) if key and said.kind == "wind" and not said.sort_of else None) or said

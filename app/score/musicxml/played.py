@@ -1,0 +1,181 @@
+"""The notes of a part as they are played: measures unrolled, ties joined, slurs found."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from operator import attrgetter
+from typing import Final
+
+from app.score.musicxml.written import Chord, Direction, Measure, Time, Tone
+
+_MOST_OPEN: Final = 32
+"""Slurs of one number, and ties of one pitch, that wait for their ends."""
+
+
+@dataclass(slots=True, eq=False)
+class PlayedNote:
+    """A note, its ties joined.
+
+    Attributes
+    ----------
+    rows : list of (onset, end, pitch)
+        Ticks of what it is written out in; one row where that is the note itself.
+    last : Tone
+        The last of those tied together.
+    """
+
+    onset: int
+    end: int
+    tone: Tone
+    chord: Chord
+    last: Tone
+    rows: list[tuple[int, int, int]] = field(default_factory=list)
+    marks: list[tuple[str, str]] = field(default_factory=list)
+    numbers: list[int] = field(default_factory=list)
+
+
+@dataclass(slots=True, eq=False)
+class PlayedChord:
+    """A chord where it is played; its notes are those that it begins, and those that it holds on."""
+
+    onset: int
+    end: int
+    chord: Chord
+    notes: list[PlayedNote] = field(default_factory=list)
+    begun: list[PlayedNote] = field(default_factory=list)
+
+
+@dataclass(slots=True)
+class PlayedPart:
+    """A part in the order it is played.
+
+    Attributes
+    ----------
+    slurs : list of (first, last)
+        Chords from and to which slurs go.
+    directions : list of (tick, Direction)
+        By tick.
+    held : list of (onset, end, stretch)
+        Notes and rests with fermatas.
+    """
+
+    chords: list[PlayedChord]
+    slurs: list[tuple[PlayedChord, PlayedChord]]
+    directions: list[tuple[int, Direction]]
+    held: list[tuple[int, int, float]]
+
+    @property
+    def notes(self) -> list[PlayedNote]:
+        """All notes, by onset."""
+        return [note for chord in self.chords for note in chord.begun]
+
+
+def played_part(measures: Sequence[Measure], order: Sequence[int], starts: Sequence[Time]) -> PlayedPart:
+    """Unroll the measures of a part.
+
+    Parameters
+    ----------
+    order : sequence of int
+        Places of measures, as they are played.
+    starts : sequence of Time
+        Where each of them begins.
+    """
+    chords: list[PlayedChord] = []
+    directions: list[tuple[int, Direction]] = []
+    held: list[tuple[int, int, float]] = []
+    last: dict[str, PlayedChord] = {}
+    for place, start in zip(order, starts, strict=True):
+        if place >= len(measures):
+            continue
+        measure = measures[place]
+        directions += [(round(start + one.start), one) for one in measure.directions]
+        own = [
+            PlayedChord(round(start + chord.start), round(start + chord.start + chord.length), chord)
+            for chord in measure.chords
+        ]
+        for one in sorted(own, key=attrgetter("onset")):
+            chord = one.chord
+            if chord.fermata != 1.0 and one.end > one.onset:
+                held.append((one.onset, one.end, chord.fermata))
+            if chord.tones:
+                last[chord.voice] = one
+                chords.append(one)
+            elif any(kind in ("breath", "caesura") for kind, _ in chord.marks) and chord.voice in last:
+                # Some programs write a breath after a rest: it belongs to the note before.
+                before = last[chord.voice]
+                before.chord = _breathing(before.chord, chord)
+    # Stable: grace notes stay before the note that they lead to.
+    chords.sort(key=attrgetter("onset"))
+    directions.sort(key=lambda row: row[0])
+    _join_ties(chords)
+    return PlayedPart(chords, _slurs(chords), directions, held)
+
+
+def _breathing(before: Chord, rest: Chord) -> Chord:
+    """The chord with the breath marks of a rest behind it; a copy, for it may be played again without."""
+    more = [mark for mark in rest.marks if mark[0] in ("breath", "caesura") and mark not in before.marks]
+    return Chord(
+        before.start,
+        before.length,
+        before.voice,
+        before.staff,
+        before.grace,
+        before.tones,
+        [*before.marks, *more],
+        before.slurs,
+        before.ornaments,
+        before.fermata,
+        before.tremolo,
+        before.mute,
+    )
+
+
+def _join_ties(chords: Sequence[PlayedChord]) -> None:
+    """Make notes of tones: one of those that are tied."""
+    open_: dict[tuple[int, bool], list[PlayedNote]] = {}
+    for chord in chords:
+        for tone in chord.chord.tones:
+            waiting = open_.get((tone.pitch, tone.struck), [])
+            note = _tied(waiting, chord) if tone.tie_stop else None
+            if note is None:
+                note = PlayedNote(chord.onset, chord.end, tone, chord.chord, tone)
+                chord.begun.append(note)
+            else:
+                waiting.remove(note)
+                note.end, note.last = max(note.end, chord.end), tone
+            chord.notes.append(note)
+            if tone.tie_start:
+                open_.setdefault((tone.pitch, tone.struck), []).append(note)
+
+
+def _tied(waiting: list[PlayedNote], chord: PlayedChord) -> PlayedNote | None:
+    """The note that is tied to one of a chord: it ends where that begins, of the same voice if there are two."""
+    # Later chords begin no earlier: what has ended is tied to nothing any more.
+    waiting[:] = [note for note in waiting if note.end >= chord.onset - 1][-_MOST_OPEN:]
+    near = [note for note in waiting if note.end <= chord.onset + 1]
+    return max(near, key=lambda note: note.chord.voice == chord.chord.voice, default=None)
+
+
+def _slurs(chords: Sequence[PlayedChord]) -> list[tuple[PlayedChord, PlayedChord]]:
+    """Slurs from their first to their last chords. A number is that of one slur at a time, in any voice; one that
+    begins with the number of another before that ends lies within it."""
+    found = []
+    open_: dict[str, list[PlayedChord]] = {}
+    events = [
+        (chord.onset, kind != "stop", place, number, chord)
+        for place, chord in enumerate(chords)
+        for kind, number in chord.chord.slurs
+    ]
+    for _, starts, _, number, chord in sorted(events, key=lambda row: row[:3]):
+        waiting = open_.setdefault(number, [])
+        if starts:
+            waiting.append(chord)
+            del waiting[:-_MOST_OPEN]
+            continue
+        same = [one for one in waiting if one.chord.voice == chord.chord.voice and one is not chord]
+        first = next(iter(reversed(same or [one for one in waiting if one is not chord])), None)
+        if first is not None:
+            waiting.remove(first)
+            found.append((first, chord))
+    return sorted(found, key=lambda row: (row[0].onset, row[1].onset))

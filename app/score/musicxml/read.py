@@ -1,0 +1,164 @@
+"""Reads a score in MusicXML into what a MIDI file is read into: notes as they are played, tempo, metres and markers.
+
+Each part is a track, its instruments streams of it. Pitches sound as the part's transposition says; repeats, endings
+and jumps are played (`app.score.musicxml.order`); grace notes, trills, turns, mordents and tremolos are written out
+(`ornaments`), tempo, rit., accel. and fermatas are in the tempo map (`tempos`), dynamics and accents in velocities
+(`loudness`). What is written over the notes is kept as marks (`app.score.marks`). Lyrics, chord names, figured bass and
+layout are passed over, and so are cue notes, which their player does not play.
+
+The errors are those of `app.score.musicxml.container`, and:
+
+musicxml.bad_value : file, part, measure, element, value
+musicxml.too_many_parts : file, parts, most
+musicxml.too_many_notes : file, most
+musicxml.too_many_repeats : file, most
+musicxml.too_long : file, and as `app.score.limits.too_long` says it
+
+Warnings
+--------
+musicxml.no_notes : parts
+musicxml.lost_jump : measure
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from itertools import accumulate
+from pathlib import Path
+from typing import Final
+from xml.etree.ElementTree import Element
+
+from app.encoding import shown
+from app.errors import FileError, Message
+from app.score.choose import named_by_title
+from app.score.contents import PieceContents
+from app.score.ensembles import named_by_ensemble
+from app.score.limits import LAST_TICK, MOST_NAME, MOST_STREAMS, too_long
+from app.score.model import Marker, Score
+from app.score.musicxml.bars import measure_lengths, metres_of
+from app.score.musicxml.container import read_document
+from app.score.musicxml.notes import read_measures, ticks_per_quarter
+from app.score.musicxml.order import playing_order
+from app.score.musicxml.ornaments import place_graces, write_out
+from app.score.musicxml.parts import written_parts
+from app.score.musicxml.played import PlayedPart, played_part
+from app.score.musicxml.streams import part_streams
+from app.score.musicxml.tempos import Held, TempoEvent, said_of_tempo, tempo_map
+from app.score.musicxml.written import Bar, Measure, Place
+
+MOST_NOTES: Final = 500_000
+"""As they are played."""
+_MOST_LISTED: Final = 4 * MOST_STREAMS
+"""Parts of a score with and without notes."""
+
+
+def read_musicxml(path: Path) -> PieceContents:
+    """Read a score.
+
+    Raises
+    ------
+    FileError
+        It cannot be read, or is larger than any music.
+    """
+    file = str(path)
+    root = read_document(path)
+    place = Place(file)
+    parts = written_parts(root, place)
+    if len(parts) > _MOST_LISTED:
+        raise FileError("musicxml.too_many_parts", file=file, parts=len(parts), most=MOST_STREAMS)
+    quarter = ticks_per_quarter(root, place)
+    bars: list[Bar] = []
+    read = [read_measures(part, bars, quarter, place) for part in parts]
+    measures = [own for own, _ in read]
+    written = measure_lengths(bars, measures, quarter)
+    order = playing_order(bars, file)
+    _require_few(measures, order.measures, file)
+    starts = list(accumulate((bars[one].length for one in order.measures), initial=0))
+    end = starts.pop()
+    if end > LAST_TICK:
+        raise FileError("musicxml.too_many_repeats", file=file, most=LAST_TICK // quarter)
+    played = [played_part(own, order.measures, starts) for own in measures]
+    metred = metres_of(order.measures, starts, bars, written, quarter)
+    tempo = tempo_map(*_tempo(played), round(end), quarter)
+    _require_length(Score("", quarter, tempo, metred.metres, metred.pickup_ticks), round(end), file)
+    for own in played:
+        place_graces(own.chords, tempo)
+        write_out(own.chords, tempo, quarter)
+    streams = [
+        stream
+        for number, (part, own, (_, shift)) in enumerate(zip(parts, played, read, strict=True))
+        for stream in part_streams(part, own, number, shift, quarter, round(end))
+    ]
+    if len(streams) > MOST_STREAMS:
+        raise FileError("musicxml.too_many_parts", file=file, parts=len(streams), most=MOST_STREAMS)
+    title = _title(root)
+    warnings = [Message("musicxml.lost_jump", {"measure": measure}) for measure in order.lost[:_MOST_LOST]]
+    if not streams:
+        warnings.append(Message("musicxml.no_notes", {"parts": len(parts)}))
+    return PieceContents(
+        title=title or shown(path.stem),
+        tempo_map=tempo,
+        metres=metred.metres,
+        pickup_ticks=metred.pickup_ticks,
+        streams=tuple(named_by_ensemble(named_by_title(streams, title), title)),
+        warnings=tuple(warnings),
+        markers=_markers(played),
+    )
+
+
+_MOST_LOST: Final = 20
+
+
+def _require_few(measures: Sequence[Sequence[Measure]], order: Sequence[int], file: str) -> None:
+    """Refuse more notes than any piece has, as often as they are played."""
+    count = 0
+    for part in measures:
+        notes = [sum(len(chord.tones) for chord in measure.chords) for measure in part]
+        count += sum(notes[place] for place in order if place < len(notes))
+        if count > MOST_NOTES:
+            raise FileError("musicxml.too_many_notes", file=file, most=MOST_NOTES)
+
+
+def _require_length(empty: Score, end: int, file: str) -> None:
+    long = too_long(empty, end)
+    if long is not None:
+        raise FileError("musicxml.too_long", file=file, **long)
+
+
+def _tempo(played: Sequence[PlayedPart]) -> tuple[list[TempoEvent], list[Held]]:
+    """What all parts say about the tempo."""
+    events: list[TempoEvent] = []
+    marks: list[TempoEvent] = []
+    for part in played:
+        for tick, one in part.directions:
+            if one.kind == "tempo":
+                events.append(TempoEvent(tick, "set", one.value))
+            elif one.kind == "metronome":
+                marks.append(TempoEvent(tick, "set", one.value))
+            elif one.kind == "words" and (said := said_of_tempo(tick, one.text)) is not None:
+                events.append(said)
+    numbered = {event.tick for event in events if event.kind == "set"}
+    events += (mark for mark in marks if mark.tick not in numbered)
+    held = [Held(*row) for row in dict.fromkeys(row for part in played for row in part.held)]
+    return sorted(dict.fromkeys(events), key=lambda event: (event.tick, event.kind != "set")), held
+
+
+def _markers(played: Sequence[PlayedPart]) -> tuple[Marker, ...]:
+    """Rehearsal marks of all parts, each once."""
+    found: Iterable[Marker] = (
+        Marker(tick, one.text) for part in played for tick, one in part.directions if one.kind == "rehearsal"
+    )
+    return tuple(sorted(dict.fromkeys(found), key=lambda marker: marker.tick))
+
+
+def _title(root: Element) -> str:
+    """The title of a score; empty where it has none."""
+    texts: list[str] = [
+        *(root.findtext("work/work-title") or "", root.findtext("movement-title") or ""),
+        *(
+            credit.findtext("credit-words") or ""
+            for credit in root.iterfind("credit")
+            if (credit.findtext("credit-type") or "").strip() == "title"
+        ),
+    ]
+    return next((said[:MOST_NAME] for text in texts if (said := " ".join(text.split()))), "")

@@ -1,0 +1,230 @@
+"""The streams of a part: its notes by instrument, numbered in the order they are played, with velocities and marks."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Final
+
+from app.score.choose import TrackChannel
+from app.score.doublings import requested_instrument
+from app.score.limits import MOST_NAME
+from app.score.marks import Mark
+from app.score.musicxml.loudness import hairpins, loudness_of, velocity_of
+from app.score.musicxml.parts import PartInstrument, WrittenPart, said_instrument
+from app.score.musicxml.played import PlayedChord, PlayedNote, PlayedPart
+from app.score.mutes import How, joined_spans, said_of_mute
+from app.score.solos import words_of_players
+from app.score.sound_module import DRUM_CHANNEL
+from instrument_maps.vocabulary import vocabulary
+
+_STRUCK: Final = "*"
+"""The kind of notes without a pitch."""
+_SHORT: Final = {"staccatissimo": 0.34, "staccato": 0.5, "marcato": 0.75}
+"""The share of its length that such a note sounds."""
+_WHOLE: Final = frozenset(("trill", "turn", "mordent", "tremolo", "fermata"))
+
+
+@dataclass(slots=True)
+class _Row:
+    """One note of a stream."""
+
+    onset: int
+    end: int
+    pitch: int
+    velocity: int
+    kind: str
+    note: PlayedNote
+    number: int = 0
+
+
+def part_streams(
+    part: WrittenPart, played: PlayedPart, track: int, transposition: int | None, quarter: int, end_tick: int
+) -> list[TrackChannel]:
+    """The streams of a part; none of one without notes.
+
+    Parameters
+    ----------
+    track : int
+        Its place among the parts, from 0.
+    transposition : int or None
+        Semitones by which it sounds higher than it is written.
+    quarter, end_tick : int
+        Ticks per quarter, and of the whole piece.
+    """
+    spans = hairpins(played.directions, quarter, end_tick)
+    rows = _rows(played, loudness_of(played.directions, spans, quarter).at, _kinds(part, played, transposition))
+    if not rows:
+        return []
+    first = next(iter(part.instruments.values()), PartInstrument())
+    words = [(tick, one.text) for tick, one in played.directions if one.kind == "words"]
+    marks = _marks(played, f"{track + 1}:", spans)
+    order = sorted(dict.fromkeys(row.kind for row in rows), key=lambda kind: kind == _STRUCK)
+    base = _base(part, first, transposition)
+    order.sort(key=lambda kind: (kind == _STRUCK, kind != base))
+    streams = []
+    for change, kind in enumerate(order):
+        own = [row for row in rows if row.kind == kind]
+        struck = kind == _STRUCK
+        ids = {f"{track + 1}:{row.number}" for row in own}
+        muted = _mutes(own, played, words)
+        streams.append(
+            TrackChannel(
+                track=track,
+                channel=DRUM_CHANNEL if struck else _channel(track),
+                name=part.name if not change or struck else _doubled(part.name, kind),
+                instrument_name=first.name,
+                program=None if struck else first.program,
+                onset_ticks=[row.onset for row in own],
+                end_ticks=[row.end for row in own],
+                pitches=[row.pitch for row in own],
+                velocities=[row.velocity for row in own],
+                numbers=[row.number for row in own],
+                curves=(),
+                played_on="" if struck else kind,
+                change=change,
+                muted=() if struck else joined_spans(muted, ("mute", "hand")),
+                stopped=() if struck else joined_spans(muted, ("hand",)),
+                solos=() if struck else words_of_players(words),
+                use="rhythm" if struck else "melodic",
+                certain=struck,
+                marks=() if struck else tuple(mark for mark in marks if not mark.note_id or mark.note_id in ids),
+                source="score",
+            )
+        )
+    return streams
+
+
+def _channel(track: int) -> int:
+    """A channel for a part, other than that of drums."""
+    channel = track % 15
+    return channel + (channel >= DRUM_CHANNEL)
+
+
+def _doubled(name: str, instrument: str) -> str:
+    """The name of what a part's player plays on another instrument."""
+    spoken = vocabulary().instruments[instrument].names[0] if instrument else ""
+    return (f"{spoken} ({name})" if name and spoken else spoken or name)[:MOST_NAME]
+
+
+def _base(part: WrittenPart, first: PartInstrument, transposition: int | None) -> str:
+    """The instrument that a part is for, as an id in the vocabulary; empty: its name and program tell."""
+    said = said_instrument(part.name, first, transposition)
+    return "" if said is None else said.id
+
+
+def _kinds(part: WrittenPart, played: PlayedPart, transposition: int | None) -> dict[int, str]:
+    """The instrument of each note, by its identity: as the note says, or as the words before it ask for."""
+    instruments = part.instruments
+    first = next(iter(instruments), "")
+    base = _base(part, instruments.get(first, PartInstrument()), transposition)
+    named = vocabulary().by_name(part.name)
+    mine = {base, "" if named is None else named.id}
+    ids = {first: base, "": base}
+    for id, other in list(instruments.items())[1:]:
+        found = vocabulary().by_sound(other.sound) or vocabulary().by_name(other.name)
+        wind = found is not None and found.kind == "wind" and not (found.vague or found.any_pitch)
+        ids[id] = base if found is None or not wind or found.id in mine else found.id
+    changes: list[tuple[int, str]] = []
+    for tick, one in played.directions:
+        asked = None
+        if one.kind == "words":
+            asked = requested_instrument(one.text)
+        elif one.kind == "instrument":
+            asked = vocabulary().by_sound(one.text)
+        if asked is not None and asked.kind == "wind":
+            changes.append((tick, base if asked.id in mine else asked.id))
+    kinds: dict[int, str] = {}
+    place, current = 0, base
+    for note in sorted(played.notes, key=lambda note: note.onset):
+        while place < len(changes) and changes[place][0] <= note.onset:
+            current = changes[place][1]
+            place += 1
+        own = ids.get(note.tone.instrument, base)
+        kinds[id_of(note)] = _STRUCK if note.tone.struck else own if own != base else current
+    return kinds
+
+
+def id_of(note: PlayedNote) -> int:
+    """The identity of a note while its part is read."""
+    return id(note)
+
+
+def _rows(played: PlayedPart, level: Callable[[int], float], kinds: dict[int, str]) -> list[_Row]:
+    """All notes of a part as they are written out, numbered."""
+    rows: list[_Row] = []
+    for note in played.notes:
+        said = {kind for kind, _ in note.chord.marks}
+        velocity = velocity_of(level(note.onset), said, note.tone.loudness)
+        share = min((_SHORT[kind] for kind in said if kind in _SHORT), default=1.0)
+        for onset, end, pitch in note.rows:
+            sounding = end if len(note.rows) > 1 or "tenuto" in said else onset + max(round((end - onset) * share), 1)
+            rows.append(_Row(onset, sounding, pitch, velocity, kinds[id_of(note)], note))
+    rows.sort(key=lambda row: (row.onset, row.pitch))
+    for number, row in enumerate(rows, 1):
+        row.number = number
+        row.note.numbers.append(number)
+    return rows
+
+
+def _mutes(rows: Sequence[_Row], played: PlayedPart, words: Sequence[tuple[int, str]]) -> list[tuple[int, int, How]]:
+    """How each note of a stream is muted: by its own sign, else as was said before it."""
+    said: list[tuple[int, How]] = [(tick, how) for tick, text in words if (how := said_of_mute(text)) is not None]
+    for tick, one in played.directions:
+        if one.kind == "mute":
+            said.append((tick, _how(one.text)))
+    said.sort(key=lambda row: row[0])
+    found: list[tuple[int, int, How]] = []
+    place, current = 0, _how("open")
+    for row in rows:
+        while place < len(said) and said[place][0] <= row.onset:
+            current = said[place][1]
+            place += 1
+        chord = row.note.chord
+        signs = {kind for kind, _ in chord.marks}
+        own = "hand" if "stopped" in signs else chord.mute
+        found.append((row.onset, row.end, _how(own) if own else current))
+    return found
+
+
+def _how(text: str) -> How:
+    return "hand" if text == "hand" else "open" if text == "open" else "mute"
+
+
+def _marks(played: PlayedPart, prefix: str, spans: Sequence[Mark]) -> list[Mark]:
+    """What is written in a part: at its notes, each player's of a chord, and over its staff."""
+    found: list[Mark] = []
+
+    def first(note: PlayedNote) -> str:
+        return f"{prefix}{note.numbers[0]}"
+
+    def last(note: PlayedNote) -> str:
+        return f"{prefix}{note.numbers[-1]}"
+
+    for chord in played.chords:
+        for note in chord.notes:
+            if chord.chord.grace and note in chord.begun:
+                found.append(Mark("grace", first(note)))
+            for kind, text in chord.chord.marks:
+                at_end = kind in ("breath", "caesura", "fermata", "fall", "doit", "glissando")
+                found.append(Mark(kind, last(note) if at_end else first(note), text=text))
+    for note in played.notes:
+        for kind, text in note.marks:
+            end = last(note) if len(note.numbers) > 1 else ""
+            found.append(Mark(kind, first(note), end, text=text))
+    for begin, stop in played.slurs:
+        for one, other in _paired(begin, stop):
+            if one is not other:
+                found.append(Mark("slur", first(one), last(other)))
+    dynamics = [Mark("dynamic", tick=tick, text=one.text) for tick, one in played.directions if one.kind == "dynamic"]
+    return list(dict.fromkeys([*found, *dynamics, *spans]))
+
+
+def _paired(start: PlayedChord, end: PlayedChord) -> list[tuple[PlayedNote, PlayedNote]]:
+    """The notes of two chords that a slur joins: the highest with the highest; where one has more, its others with the
+    lowest."""
+    upper, lower = (sorted(one.notes, key=lambda note: -note.tone.pitch) for one in (start, end))
+    if not upper or not lower:
+        return []
+    count = max(len(upper), len(lower))
+    return [(upper[min(one, len(upper) - 1)], lower[min(one, len(lower) - 1)]) for one in range(count)]

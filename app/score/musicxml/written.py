@@ -1,0 +1,183 @@
+"""Values that a score in MusicXML is read into: chords, directions and bars as they are written, measure by measure."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from fractions import Fraction
+from typing import TypeAlias
+from xml.etree.ElementTree import Element
+
+from app.errors import FileError, shortened
+
+Time: TypeAlias = int | Fraction
+"""Ticks; a fraction where the divisions of the file have no common multiple that a score can have."""
+
+
+@dataclass(slots=True)
+class Place:
+    """Where in the file something stands, for messages."""
+
+    file: str
+    part: str = ""
+    measure: str = ""
+
+    def bad(self, element: str, value: str | None) -> FileError:
+        """Return the error of a value that makes no sense."""
+        said = shortened((value or "").strip(), 40)
+        return FileError(
+            "musicxml.bad_value", file=self.file, part=self.part, measure=self.measure, element=element, value=said
+        )
+
+    def number(self, owner: Element, tag: str) -> Time | None:
+        """The number in a child of an element; None where there is no such child.
+
+        Raises FileError ``musicxml.bad_value`` where it is none.
+        """
+        text = owner.findtext(tag)
+        return None if text is None else self.number_of(text, tag)
+
+    def number_of(self, text: str, tag: str) -> Time:
+        """The number that a text of an element says. Raises as `number`."""
+        plain = text.strip()
+        try:
+            if plain.isascii() and plain.isdigit() and len(plain) < _MOST_DIGITS:
+                return int(plain)
+            value = float(plain)
+            if not math.isfinite(value) or abs(value) > _MOST_NUMBER:
+                raise ValueError
+        except ValueError:
+            raise self.bad(tag, text) from None
+        exact = Fraction(value).limit_denominator(_MOST_PARTS)
+        return exact.numerator if exact.denominator == 1 else exact
+
+
+_MOST_DIGITS, _MOST_NUMBER, _MOST_PARTS = 10, 1e9, 1_000_000
+
+
+@dataclass(slots=True)
+class Tone:
+    """One note of a chord.
+
+    Attributes
+    ----------
+    pitch : int
+        Sounding, MIDI number; of percussion the key of a drum kit.
+    instrument : str
+        Id in the part; empty: its first one.
+    upper, lower : int
+        Semitones to the neighbours in the key, for ornaments.
+    loudness : float or None
+        What the file says of its sound, 1 is forte.
+    """
+
+    pitch: int
+    instrument: str = ""
+    struck: bool = False
+    tie_start: bool = False
+    tie_stop: bool = False
+    upper: int = 2
+    lower: int = -2
+    loudness: float | None = None
+
+
+@dataclass(slots=True)
+class Chord:
+    """Notes struck together in one voice, or a rest.
+
+    Attributes
+    ----------
+    start, length : Time
+        From the beginning of the measure.
+    tones : list of Tone
+        None: a rest.
+    marks : list of (kind, text)
+        As `app.score.marks` has them.
+    slurs : list of (type, number)
+        Starts and stops.
+    fermata : float
+        How many times as long it lasts.
+    tremolo : (type, strokes)
+        ``single``, ``start`` or ``stop``; strokes 0: none.
+    """
+
+    start: Time
+    length: Time
+    voice: str
+    staff: str
+    grace: bool = False
+    tones: list[Tone] = field(default_factory=list)
+    marks: list[tuple[str, str]] = field(default_factory=list)
+    slurs: list[tuple[str, str]] = field(default_factory=list)
+    ornaments: list[str] = field(default_factory=list)
+    fermata: float = 1.0
+    tremolo: tuple[str, int] = ("", 0)
+    mute: str = ""
+
+
+@dataclass(slots=True)
+class Direction:
+    """What stands over or under a staff.
+
+    Attributes
+    ----------
+    kind : str
+        ``dynamic``, ``wedge``, ``words``, ``tempo``, ``metronome``, ``rehearsal``, ``mute``, ``dashes``, ``loudness``,
+        ``instrument``.
+    """
+
+    start: Time
+    kind: str
+    text: str = ""
+    number: str = "1"
+    value: float = 0.0
+
+
+@dataclass(slots=True)
+class Measure:
+    """One measure of one part.
+
+    Attributes
+    ----------
+    length : Time
+        As far as anything in it goes.
+    """
+
+    chords: list[Chord] = field(default_factory=list)
+    directions: list[Direction] = field(default_factory=list)
+    length: Time = 0
+
+
+@dataclass(slots=True)
+class Bar:
+    """What all parts have in a measure.
+
+    Attributes
+    ----------
+    metre : (numerator, denominator) or None
+        Where it changes; denominator 0: it has none.
+    length : Time
+        In ticks.
+    numbers : set of int
+        Of the ending that begins here, or holds.
+    to_coda, coda, segno, dal_segno : str
+        Names of places; empty: none here.
+    """
+
+    number: str = ""
+    implicit: bool = False
+    metre: tuple[int, int] | None = None
+    length: Time = 0
+    forward: bool = False
+    backward: int = 0
+    after_jump: bool = False
+    ending_start: frozenset[int] = frozenset()
+    ending_stop: bool = False
+    segno: str = ""
+    coda: str = ""
+    to_coda: str = ""
+    dal_segno: str = ""
+    da_capo: bool = False
+    fine: bool = False
+    said: set[str] = field(default_factory=set)
+    """Words and signs of jumps that no sound explains."""
