@@ -30,7 +30,7 @@ T = TypeVar("T")
 
 
 class MessageChannel(Generic[T]):
-    """Messages to another process and from it.
+    """Typed messages to another process and back.
 
     Parameters
     ----------

@@ -212,7 +212,7 @@ def job_limits(memory: int | None, cpu_s: int | None) -> JobLimits:
 
 
 class WindowsJob:
-    """A job of Windows, whose processes keep its limits and end with this object.
+    """A job object of Windows: its processes keep its limits and end with this object.
 
     Parameters
     ----------

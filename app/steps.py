@@ -19,7 +19,7 @@ BEFORE: Final = "before"
 
 
 class StepInputs(NamedTuple):
-    """A step some of whose parameters are called otherwise than what they read: names by parameter."""
+    """A step with parameters named differently from the values that they read: names by parameter."""
 
     function: Callable[..., object]
     names: Mapping[str, str | tuple[str, ...]]
@@ -112,7 +112,7 @@ class _Done(NamedTuple):
 
 
 class StepResults:
-    """The results of one run: the same objects as in the run before where they are equal to these.
+    """Results of one run; results equal to those of the run before are the same objects.
 
     A run is good for one thread at a time.
     """

@@ -49,7 +49,7 @@ class _Table(msgspec.Struct, frozen=True, forbid_unknown_fields=True, omit_defau
 
 
 class InstrumentName(_Table, frozen=True):
-    """The instrument's name by language (BCP 47 primary tags the program speaks)."""
+    """Name of the instrument by language (BCP 47 primary tags that the program supports)."""
 
     en: str
     ja: str
@@ -124,7 +124,7 @@ class Mouthpiece(_Table, frozen=True):
 
 
 class ControlMotion(_Table, frozen=True):
-    """How a node moves while its control goes from 0 to 1, in the root frame.
+    """Motion of a node while its control goes from 0 to 1, in the root frame.
 
     Either a translation (``axis`` and ``travel_m``) or a rotation about ``pivot_m`` (a point in the root
     frame; ``axis`` and ``angle_rad``, right-handed).
@@ -383,7 +383,7 @@ class Carriage(_Table, frozen=True):
 
 
 class LoweredPlace(_Table, frozen=True):
-    """Where the instrument is in a long rest.
+    """Place of the instrument in a long rest.
 
     ``offset_m`` is the mouthpiece's place relative to where it is while playing, in the player's frame
     (left, up, ahead); the angles are as in `Carriage`.

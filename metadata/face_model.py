@@ -10,7 +10,7 @@ from metadata.units import AmplitudeScale, Fraction01, NotNegative, Positive, We
 
 
 class EmbouchureWeights(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """ARKit weights of one way to play (the map's ``embouchure.kind``).
+    """ARKit weights of one kind of embouchure (the map's ``embouchure.kind``).
 
     The face while playing is ``relaxed * (1 - tension) + tight * tension + air * air + soft * (1 - air) + effort *
     effort``; on top of it the jaw opens as far as lips need that close around something, or leave an opening

@@ -32,7 +32,7 @@ MOST_KEYS = 64
 
 
 class AngleKey(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """An angle at a time.
+    """A key of an angle: time, value and slope.
 
     Attributes
     ----------
@@ -49,7 +49,7 @@ class AngleKey(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 class AngleTrack(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """The keys of one angle; it begins and ends at 0.
+    """Keys of one angle, which begins and ends at 0.
 
     Attributes
     ----------

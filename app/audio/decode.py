@@ -44,7 +44,7 @@ _UNKNOWN: Final = 2**63 - 1
 
 @dataclass(frozen=True, eq=False)
 class AudioRecording:
-    """A recording in memory.
+    """An audio file's samples in memory.
 
     Attributes
     ----------

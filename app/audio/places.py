@@ -25,7 +25,7 @@ _LEAST_OVERLAP: Final = 0.35
 
 @dataclass(frozen=True)
 class RecordingPlace:
-    """A place of a score in a recording.
+    """Position and tempo ratio of a score in a recording.
 
     Attributes
     ----------

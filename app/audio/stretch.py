@@ -25,7 +25,7 @@ _WINDOW: Final = np.hanning(_LENGTH + 1)[:-1].astype(np.float32)[:, None]
 
 
 class TimeStretcher:
-    """Stretches a stream.
+    """Time stretcher for a stream of samples.
 
     Parameters
     ----------

@@ -44,7 +44,7 @@ _MOST_CACHED_BYTES: Final = 256 * 1024 * 1024
 
 @dataclass(frozen=True)
 class RenderedPhrase:
-    """Some notes of a part, to be rendered.
+    """Consecutive notes of a part that are rendered together.
 
     Attributes
     ----------

@@ -25,7 +25,7 @@ _KNEE: Final = 0.8
 
 @dataclass(frozen=True, eq=False)
 class AudioSegment:
-    """A stretch of sound.
+    """A stretch of sound from a start on.
 
     Attributes
     ----------
@@ -39,7 +39,7 @@ class AudioSegment:
 
 
 class MixTrack:
-    """Pieces with one loudness and place; they may overlap.
+    """Segments of sound with one loudness and place in the mix; they may overlap.
 
     Parameters
     ----------

@@ -44,7 +44,7 @@ Gap: TypeAlias = tuple[int, int | None]
 
 
 class JournalHeader(msgspec.Struct, frozen=True):
-    """What a journal is of.
+    """Origin of a journal: project, player, port, controller and start.
 
     Attributes
     ----------

@@ -28,7 +28,7 @@ Fault: TypeAlias = Literal["", "too_few", "too_uneven"]
 
 
 class LatencyMeasurement(msgspec.Struct, frozen=True):
-    """What was found.
+    """Measured latency of a device, with its spread.
 
     Attributes
     ----------

@@ -25,8 +25,8 @@ class Open(_Report, frozen=True):
 
 class StartRecording(_Report, frozen=True):
     """Write received messages into a journal, whose path is as `os.fsencode` has it: not all names are text.
-    ``resumed_ns``: another recorder began it, and nothing was received since. ``elsewhere``: a second path, on which it
-    goes on where the disk of the first takes nothing more; empty: it waits for that disk."""
+    ``resumed_ns``: another recorder began it, and nothing was received since. ``elsewhere``: a second path, used if the
+    disk of the first is full; empty: wait for that disk."""
 
     path: bytes
     header: JournalHeader
@@ -95,7 +95,7 @@ class _Failure(_Report, frozen=True):
 
 
 class RequestRefused(_Failure, frozen=True):
-    """Something asked for cannot be done, and why."""
+    """A request that failed, with the reason."""
 
 
 class NotStarted(_Failure, frozen=True):
@@ -118,7 +118,7 @@ class Events(_Report, frozen=True):
 
 
 class EventsSaved(_Report, frozen=True):
-    """So many events of the running journal are safe on the disk."""
+    """Number of events of the running journal that are safely on disk."""
 
     count: int
 
@@ -131,7 +131,7 @@ class Moved(_Report, frozen=True):
 
 
 class RecordingFinished(_Report, frozen=True):
-    """The journal is whole and closed."""
+    """The journal is complete and closed."""
 
     path: bytes
     count: int

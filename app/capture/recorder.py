@@ -78,7 +78,7 @@ NewsQueue: TypeAlias = "SimpleQueue[News | StampedMessage | threading.Event | No
 
 
 class RecorderProcess:
-    """What the main thread does: obeys, and looks after the port.
+    """Main loop of the recorder's process: follows commands and watches the port.
 
     Parameters
     ----------

@@ -34,7 +34,7 @@ class Manner:
 
 @dataclass(frozen=True)
 class SegmentStep:
-    """A segment that is danced.
+    """A danced segment: its place, accent and times.
 
     Attributes
     ----------

@@ -47,7 +47,7 @@ SINK_S: Final = 0.12
 
 @dataclass(frozen=True)
 class FootPlant:
-    """Frames ``start`` to ``stop`` (half-open) in which a foot stands (0: left) with its tip at a place."""
+    """Frames ``start`` to ``stop`` (half-open) in which a foot (0: left) is planted with its tip at a place."""
 
     foot: int
     start: int

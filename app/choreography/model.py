@@ -10,7 +10,7 @@ from app.choreography.clip import MotionClip
 
 @dataclass(frozen=True)
 class TrainingPair:
-    """A pair of motion and music that was learned from.
+    """A pair of motion and music that a model was learned from.
 
     Attributes
     ----------

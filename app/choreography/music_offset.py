@@ -41,7 +41,7 @@ BEAT_STRENGTH: Final = 0.25
 
 @dataclass(frozen=True)
 class MusicOffset:
-    """Where the music begins.
+    """Start of the music within a recording, with its confidence.
 
     Attributes
     ----------

@@ -69,7 +69,7 @@ NEVER: Final = -1e9
 
 @dataclass(frozen=True, eq=False)
 class AccentGrid:
-    """Places in time for accents.
+    """Times at which a dance can place accents.
 
     Attributes
     ----------
@@ -84,7 +84,7 @@ class AccentGrid:
 
 @dataclass(frozen=True, eq=False)
 class SegmentCandidates:
-    """Segments to choose from.
+    """Segments that a step of a dance can be made from.
 
     Attributes
     ----------

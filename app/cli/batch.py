@@ -46,7 +46,7 @@ _DASK_VARIABLES: Final = ("MALLOC_TRIM_THRESHOLD_",)
 
 
 class BatchOutcome(msgspec.Struct, frozen=True):
-    """What became of a piece.
+    """Result of one piece of a batch.
 
     Attributes
     ----------

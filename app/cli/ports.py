@@ -24,7 +24,7 @@ class NoDevice(AppError):
 
 
 class PortMonitor:
-    """A recorder, and its news as they come."""
+    """A recorder that listens to a port and passes on its messages as they arrive."""
 
     def __init__(self) -> None:
         self._news = threading.Event()

@@ -20,7 +20,7 @@ MOVES_M = 0.001
 
 @dataclass(frozen=True, eq=False)
 class SkinnedVertices:
-    """Vertices and the joints that carry them.
+    """Vertices of a skin and the joints that carry them.
 
     Attributes
     ----------
@@ -95,7 +95,7 @@ def _through(matrices: SingleArray, at: IndexArray, points_m: SingleArray) -> Si
 
 
 class VertexPoses:
-    """Where vertices are in the frame of a node, and how far they move.
+    """Vertices in the frame of a node, with bounds of how far they move.
 
     Parameters
     ----------
@@ -291,7 +291,7 @@ class PartMoves:
 
 @dataclass(frozen=True, eq=False)
 class NodePoints:
-    """Points in the frames of nodes in the middle of blocks, and what their distances change within.
+    """Points in the frames of nodes in the middle of blocks, with bounds of how their distances change within a block.
 
     Attributes
     ----------

@@ -49,7 +49,7 @@ def same(one: Pose | None, other: Pose | None) -> bool:
 
 
 class PoseSource(Protocol):
-    """Poses by player and time."""
+    """Source of poses by player and time."""
 
     def poses(self, player_ids: Sequence[str], time_s: float) -> Sequence[Pose | None]:
         """How players stand at a time, in their order; None while that is not made yet. Returns at once."""

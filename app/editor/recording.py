@@ -16,7 +16,7 @@ Connection = Literal["none", "waiting", "open", "lost", "refused"]
 
 
 class RecordingState(State):
-    """How recording stands.
+    """State of the recording.
 
     Attributes
     ----------

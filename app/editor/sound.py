@@ -49,7 +49,7 @@ _CLICKS_ON_S = 1800.0
 
 
 class EditorSound(QObject):
-    """The editor's sound.
+    """Playback, metronome and previews of the editor.
 
     Parameters
     ----------

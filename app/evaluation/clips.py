@@ -34,7 +34,7 @@ CRF: Final = 22
 
 
 class PerformanceRenderer(Protocol):
-    """Draws a performance."""
+    """Renderer of a performance's pictures."""
 
     @property
     def left_out(self) -> Sequence[LeftOut]:

@@ -23,7 +23,7 @@ _FIRST_DIGITS: Final = "abcdf"
 
 @dataclass(frozen=True)
 class ClipPair:
-    """A clip, or two beside each other, as a viewer sees it.
+    """A clip, or two side by side, as presented to a viewer.
 
     Attributes
     ----------

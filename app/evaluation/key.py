@@ -36,7 +36,7 @@ Code = Annotated[str, msgspec.Meta(pattern=r"^c[0-9]{2,4}$")]
 
 
 class EvaluationClip(msgspec.Struct, frozen=True):
-    """What is behind a code.
+    """A clip of an evaluation: the variant, excerpt and view behind its code.
 
     Attributes
     ----------
@@ -62,7 +62,7 @@ class EvaluationClip(msgspec.Struct, frozen=True):
 
 
 class EvaluationKey(msgspec.Struct, frozen=True):
-    """An evaluation.
+    """Key of an evaluation: its clips by code, with the aspects that are judged.
 
     Attributes
     ----------

@@ -71,7 +71,7 @@ class BreathVisibility(msgspec.Struct, frozen=True):
 
 
 class VariantPlayerMeasures(msgspec.Struct, frozen=True):
-    """One player of a variant.
+    """Measures of one player of a variant.
 
     Attributes
     ----------

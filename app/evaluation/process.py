@@ -29,7 +29,7 @@ Report: TypeAlias = Callable[[float, Message], None]
 
 
 class EvaluationJob(msgspec.Struct, frozen=True):
-    """What a process needs to know."""
+    """Input of the process that makes an evaluation."""
 
     project: bytes
     beside: str
@@ -41,20 +41,20 @@ class EvaluationJob(msgspec.Struct, frozen=True):
 
 
 class EvaluationProgress(msgspec.Struct, frozen=True, tag=True):
-    """How much is done, 0..1, and what is being done."""
+    """Progress of an evaluation: the share that is done, 0..1, and the current work."""
 
     share: float
     message: Message
 
 
 class EvaluationRefused(msgspec.Struct, frozen=True, tag=True):
-    """Why nothing was written."""
+    """Report that the evaluation failed and nothing was written, with the reason."""
 
     message: Message
 
 
 class EvaluationFinished(msgspec.Struct, frozen=True, tag=True):
-    """What was written.
+    """Report of a finished evaluation: the clips and pairs written, and those left out.
 
     Attributes
     ----------

@@ -35,7 +35,7 @@ _OF_ONE: Final[tuple[Aspect, ...]] = ("fingers_arms", "body", "mouth")
 
 
 class EvaluationRequest(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """What is asked for. Paths are as `app.encoding.stored` writes them.
+    """Settings of an evaluation. Paths are as `app.encoding.stored` writes them.
 
     Attributes
     ----------

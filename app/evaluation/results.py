@@ -43,7 +43,7 @@ class Question(msgspec.Struct, frozen=True):
 
 
 class VariantScore(msgspec.Struct, frozen=True):
-    """How viewers judged a variant; ``over_viewers`` is None where no one could judge."""
+    """Viewers' judgements of a variant; ``over_viewers`` is None if no viewer could judge."""
 
     question: Question
     variant: Variant
@@ -90,7 +90,7 @@ Verdict = Literal["noticed", "unclear", "unnoticed", "unjudged"]
 
 
 class ManipulationCheck(msgspec.Struct, frozen=True):
-    """Whether viewers judged fingers that are 200 ms late as less in time than ours.
+    """Test that viewers notice the deliberate flaw: fingers 200 ms late, judged as less in time than ours.
 
     Attributes
     ----------
@@ -114,7 +114,7 @@ class Order(msgspec.Struct, frozen=True):
 
 
 class EvaluationResults(msgspec.Struct, frozen=True):
-    """All of it.
+    """All results of an evaluation.
 
     Attributes
     ----------

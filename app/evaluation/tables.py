@@ -18,7 +18,7 @@ NONE = "-"
 
 
 class ResultTable(msgspec.Struct, frozen=True):
-    """A table: what it is called, what its columns are, and what they mean."""
+    """A table of results: title, columns and notes."""
 
     title: str
     note: str

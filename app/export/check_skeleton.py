@@ -39,7 +39,7 @@ UNIT: Final = (0.2, 5.0)
 
 
 class SkeletonDifference(msgspec.Struct, frozen=True):
-    """One thing in which a skeleton differs from an asset's.
+    """A difference between a skeleton and that of an asset.
 
     Attributes
     ----------

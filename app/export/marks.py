@@ -20,7 +20,7 @@ _NO_SHAPES: AnyFloatArray = np.zeros((0, 0, 3))
 
 @dataclass(frozen=True, eq=False)
 class BoneMarks:
-    """What a bone adds to marks: ``rotation @ (points + weights @ shapes) + shares * place``.
+    """Contribution of a bone to marks: ``rotation @ (points + weights @ shapes) + shares * place``.
 
     Attributes
     ----------
@@ -41,7 +41,7 @@ class BoneMarks:
 
 @dataclass(frozen=True, eq=False)
 class SkinnedMarks:
-    """Places as linear blend skinning moves them; the first are the joints of all bones.
+    """Points on a character or instrument, moved by linear blend skinning; the first are the joints of all bones.
 
     Attributes
     ----------
@@ -162,7 +162,7 @@ def _add_mean(gathered: _Gathered, skin: Skin) -> None:
 
 @dataclass(frozen=True, eq=False)
 class BoneLink:
-    """How a bone that moves hangs on the next one above it that does.
+    """Fixed transform from a moving bone to its next moving ancestor.
 
     Attributes
     ----------

@@ -87,7 +87,8 @@ class PlayerMeasures(msgspec.Struct, frozen=True):
 
 @dataclass(frozen=True, eq=False)
 class PlayerMeasurement:
-    """Measures of one player, and the angles of its torso (F, 2), radians (sideways, forward), to compare players."""
+    """Measures of one player, with the angles of its torso (F, 2) in radians (sideways, forward), for comparison of
+    players."""
 
     measures: PlayerMeasures
     torso_rad: FloatArray

@@ -19,7 +19,7 @@ METRES = 0.01
 
 @dataclass(frozen=True, eq=False)
 class ScenePlayback:
-    """A scene with a clip, as any reader of the file would play it."""
+    """A scene with a clip, played as any reader of the file would."""
 
     scene: Scene
     clip: Clip
@@ -121,7 +121,7 @@ class Surface:
 
 
 class PlaybackBones:
-    """Some bones of a playback, and all above them.
+    """Some bones of a playback with all their ancestors.
 
     Parameters
     ----------

@@ -55,7 +55,7 @@ class DancerMeasures(msgspec.Struct, frozen=True):
 
 
 class PlaceReport(msgspec.Struct, frozen=True):
-    """Where a performer stands on the stage: the performer's own files are at the origin, facing +Z. Metres, Y up, the
+    """Place of a performer on the stage: the performer's own files are at the origin, facing +Z. Metres, Y up, the
     audience towards +Z; a positive turn is from +Z towards +X."""
 
     x_m: float
@@ -177,7 +177,7 @@ class StageReport(msgspec.Struct, frozen=True):
 
 
 class UnplayedPartReport(msgspec.Struct, frozen=True):
-    """A part of the file without a player, and why."""
+    """A part of the file without a player, with the reason."""
 
     name: str
     reason: str

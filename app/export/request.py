@@ -30,7 +30,7 @@ MOST_FRAMES = 432_000
 
 @dataclass(frozen=True)
 class ExportRequest:
-    """What to export.
+    """Settings of an export.
 
     Attributes
     ----------

@@ -34,7 +34,8 @@ from app.project.storage import decode, encode
 
 
 class ExportJob(msgspec.Struct, frozen=True):
-    """An `ExportRequest` without its players and dancers, as it is sent; paths are bytes, since not all are text."""
+    """An `ExportRequest` without its players and dancers, in the form sent to a process; paths are bytes, since not all
+    are text."""
 
     project: bytes
     folder: bytes

@@ -62,7 +62,7 @@ class Keys:
 
 @dataclass(frozen=True, eq=False)
 class KeySpans:
-    """Where frames are between keys.
+    """Position of frames between keys.
 
     Attributes
     ----------

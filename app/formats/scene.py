@@ -141,7 +141,7 @@ class Clip:
 
 @dataclass(frozen=True, eq=False)
 class NodePlace:
-    """Where a node stands: translation (3,) in centimetres and rotation (4,) xyzw."""
+    """Transform of a node: translation (3,) in centimetres and rotation (4,) xyzw."""
 
     translation_cm: AnyFloatArray
     rotation_xyzw: AnyFloatArray

@@ -43,7 +43,7 @@ _MODULES: Final = ("Tf", "Gf", "Kind", "Sdf", "Usd", "UsdGeom", "UsdMedia", "Usd
 
 @dataclass(frozen=True)
 class UsdSound:
-    """A sound file beside the USD file.
+    """A sound file next to the USD file.
 
     Attributes
     ----------

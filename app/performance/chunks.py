@@ -149,7 +149,7 @@ def between(before: SingleArray, after: SingleArray, share: float) -> SingleArra
 
 @dataclass(frozen=True)
 class FrameGrid:
-    """The frames of a performance, and how they are cut."""
+    """The frames of a performance, divided into chunks."""
 
     fps: Fraction
     start_s: float

@@ -66,7 +66,7 @@ BELL_RISES = 0.5
 
 @dataclass(frozen=True)
 class BreathFrames:
-    """Body and face at a moment: members as of `app.motion.perform.Frames`, of `FRAMES` equal frames."""
+    """Body and face for `FRAMES` equal frames; members as of `app.motion.perform.Frames`."""
 
     levels: LayerSamples
     face: Drivers

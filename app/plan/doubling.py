@@ -34,7 +34,7 @@ PUT, TAKEN = 0.42, 0.58
 
 
 class InstrumentChange(msgspec.Struct, frozen=True):
-    """A musician changes instruments.
+    """Change of a musician from one instrument to another.
 
     Attributes
     ----------

@@ -45,7 +45,7 @@ def autosave_path(document: Path) -> Path:
 
 @dataclass(frozen=True)
 class AutosaveResult:
-    """An autosave that was made.
+    """Result of an autosave.
 
     Attributes
     ----------

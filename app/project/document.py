@@ -19,7 +19,7 @@ MOST_STEPS = 1000
 
 @dataclass(frozen=True, eq=False)
 class UndoStep:
-    """An edit that was made: its name, and the project before and after it.
+    """An applied edit: its name, and the project before and after it.
 
     ``gesture`` is the token of the drag or slider that made it, None for an edit in one go.
     """

@@ -124,7 +124,7 @@ def separated(rows: Sequence[ImportRow], place: int) -> tuple[ImportRow, ...]:
 
 
 class ImportPreview(msgspec.Struct, frozen=True):
-    """What would come of some rows.
+    """Result that an import of some rows would have.
 
     Attributes
     ----------

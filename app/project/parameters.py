@@ -30,7 +30,8 @@ _STYLE, _HABITS = "style", "habits"
 
 
 class ParameterSetting(msgspec.Struct, frozen=True):
-    """One parameter of one player. ``player`` is the index of the player, ``value`` already of the right type."""
+    """Value of one parameter of one player. ``player`` is the index of the player, ``value`` is already of the right
+    type."""
 
     player: int
     parameter: str

@@ -66,14 +66,14 @@ class PieceMetadata(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 class LoadedPiece(NamedTuple):
-    """A piece with other metadata, and what of them found no place in it."""
+    """A project after loading metadata, with the entries that could not be applied."""
 
     project: Project
     problems: tuple[Message, ...]
 
 
 class MetadataDifference(NamedTuple):
-    """A place at which two metadata are not the same; what has nothing there has an empty text."""
+    """A place where two metadata differ; a side without an entry has an empty text."""
 
     place: str
     one: str

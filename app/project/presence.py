@@ -31,7 +31,7 @@ MOST_NOTE_BYTES: Final = 2**16
 
 
 class PresenceNote(msgspec.Struct, frozen=True):
-    """What an editor works on.
+    """Note beside a project's file: the process that has it open.
 
     Attributes
     ----------

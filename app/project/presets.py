@@ -47,7 +47,7 @@ class Preset(msgspec.Struct, frozen=True):
 
 @dataclass(frozen=True)
 class PresetFolder(Generic[T]):
-    """What is in a folder: the sound ones by name, and what is wrong with the others."""
+    """Contents of a folder: valid items by name, and the problems of the others."""
 
     items: Mapping[str, T]
     problems: tuple[Message, ...] = ()

@@ -37,7 +37,7 @@ _NAMED: Final = 0.32
 
 @dataclass(frozen=True)
 class MidiReading:
-    """A file with the decisions about it.
+    """A MIDI file with the user's decisions about its tracks.
 
     Attributes
     ----------

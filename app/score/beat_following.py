@@ -17,7 +17,7 @@ SURE: Final = 0.5
 
 @dataclass(frozen=True)
 class UnmatchedSpan:
-    """Something that only one of the two has: ticks of the score, or seconds of the recording."""
+    """A span that only one of the two has: ticks of the score, or seconds of the recording."""
 
     start: float
     end: float

@@ -197,7 +197,7 @@ class How(Enum):
 
 
 class MapCandidates(msgspec.Struct, frozen=True):
-    """The maps a track may go to.
+    """Instrument maps that a track can be given, and how they were found.
 
     Attributes
     ----------

@@ -51,7 +51,7 @@ _END_OF_TRACK = b"\xff\x2f\x00"
 
 
 class TrackChunk(msgspec.Struct, frozen=True):
-    """The events of one track as bytes, and where in the file they begin."""
+    """The events of one track as bytes, with their offset in the file."""
 
     data: bytes
     first_byte: int

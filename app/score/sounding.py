@@ -29,7 +29,7 @@ def is_note(message: bytes) -> bool:
 
 
 class SoundingNotes(Generic[T]):
-    """The notes that sound, the one that was struck last at the end.
+    """Notes that are sounding, the last struck at the end.
 
     Attributes
     ----------

@@ -27,7 +27,7 @@ _LEAST_TRACKS: Final = 3
 
 
 class SpreadLine(NamedTuple):
-    """A line that several tracks share.
+    """A line of music that is spread over several tracks.
 
     Attributes
     ----------

@@ -50,7 +50,7 @@ _NO_WORD: Final = 5.0
 
 
 class TextDecoder:
-    """Reads the texts of a file.
+    """Decoder of the texts of a MIDI file.
 
     Parameters
     ----------

@@ -97,7 +97,7 @@ class _Hypothesis(NamedTuple):
 
 
 class TrackVoices(NamedTuple):
-    """The notes of a track as players have them.
+    """The notes of a track, divided into voices for its players.
 
     Attributes
     ----------

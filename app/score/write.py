@@ -78,7 +78,7 @@ _Event: TypeAlias = tuple[int, int, mido.Message | mido.MetaMessage]
 
 
 class PartPlayer(msgspec.Struct, frozen=True):
-    """Who plays a part.
+    """Name and instrument choice of the player of a part.
 
     Attributes
     ----------

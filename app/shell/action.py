@@ -15,7 +15,7 @@ Subject = TypeVar("Subject")
 
 @dataclass(frozen=True)
 class ActionRow(Generic[Subject]):
-    """Something the user can do; menus, palette, tool tips and shortcuts all read this row.
+    """An action of the user; menus, palette, tool tips and shortcuts are all made from this row.
 
     Its functions are given what it is about: `Action` the session, `app.shell.editor.EditorAction` the whole editor.
 

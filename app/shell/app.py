@@ -61,7 +61,7 @@ PICTURE_S = 60.0
 
 @dataclass(frozen=True)
 class LaunchOptions:
-    """What the command line asks of the editor.
+    """Options of the command line for the editor.
 
     Attributes
     ----------

@@ -90,7 +90,7 @@ def _translators(code: str) -> list[QTranslator]:
 
 
 class TextTranslator(QTranslator):
-    """The texts of the editor in one language, by their ids.
+    """Texts of the editor in one language, by id.
 
     Parameters
     ----------

@@ -27,7 +27,7 @@ _SOURCES: Final = ("source", "source code", "repository", "homepage", "home")
 
 
 class ThirdPartyWork(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """A third party's work within a package, or among the program's data.
+    """Work of a third party within a package or among the program's data, with its licence.
 
     Attributes
     ----------

@@ -51,7 +51,7 @@ class Address:
 
 
 class SendOutcome(Enum):
-    """What became of a frame."""
+    """Result of sending a frame."""
 
     SENT = "sent"
     DROPPED = "dropped"

@@ -25,7 +25,7 @@ _MOST_STEPS: Final = 200
 
 @dataclass(frozen=True)
 class CharacterDraft:
-    """What the user said of a character.
+    """The user's entries about a character.
 
     Attributes
     ----------
@@ -90,7 +90,7 @@ def character_of(figure: Figure, made: Mapped) -> Character:
 
 
 class DraftHistory:
-    """Drafts, one after another, that can be gone back to."""
+    """Undo history of drafts."""
 
     def __init__(self, first: CharacterDraft) -> None:
         self._done, self._undone = [first], list[CharacterDraft]()

@@ -12,7 +12,7 @@ from instrument_maps.model import InstrumentMap
 
 @dataclass
 class FingeringDraft:
-    """What the user made of one instrument's table, with every state before and after.
+    """A fingering table while it is edited, with its undo history.
 
     Attributes
     ----------

@@ -105,7 +105,7 @@ class Number(QDoubleSpinBox):
 
 
 class OptionalNumberField:
-    """A number that may be left out: a box to tick with its name, and the number beside it."""
+    """An optional number: a check box with its name and the number field next to it."""
 
     def __init__(self, field: Field, changed: Callable[[], None]) -> None:
         self.field = field

@@ -35,7 +35,7 @@ _STRETCHES: Final = {
 
 @dataclass(frozen=True)
 class CorrectionRow:
-    """A correction and where it is: its event or note in the plan, and what the generator has there."""
+    """A row of the list: a correction, its event or note in the plan, and the generated value."""
 
     player_id: str
     correction: Correction

@@ -33,7 +33,7 @@ _ROW = Qt.ItemDataRole.UserRole
 
 @dataclass(frozen=True)
 class PlayerRow:
-    """What a row shows.
+    """Contents of a player's row.
 
     Attributes
     ----------

@@ -20,7 +20,7 @@ MOST_PX = 2000
 
 
 class LaneResizeHandle(QWidget):
-    """The line below a lane: dragged it makes the lane taller or lower, a double click lets the lane choose again."""
+    """The line below a lane: a drag changes the lane's height, a double click restores the automatic height."""
 
     def __init__(self, stack: LaneStack, lane: Lane) -> None:
         super().__init__()

@@ -19,7 +19,7 @@ AWAY_FROM_REST = 0.5
 
 @dataclass(frozen=True, eq=False)
 class ContactReading:
-    """One contact of the map in the present pose.
+    """A contact of the map in the present pose.
 
     Attributes
     ----------

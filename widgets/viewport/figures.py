@@ -21,7 +21,7 @@ CastKey = tuple[tuple[str, str, str, str, str, int, int, bool, float, float, flo
 
 @dataclass(frozen=True, eq=False)
 class DrawableFigures:
-    """Who can be drawn, from what, and who cannot be, with the reason.
+    """Figures of the performers that can be drawn; for the others, the reason.
 
     ``crowd`` is there until the card has it: it is large.
     """

@@ -144,7 +144,7 @@ def dragged(
 
 @dataclass(frozen=True)
 class CorrectionSpan:
-    """Where a correction holds, in ticks, with its fades."""
+    """Span of a correction in ticks, with its fades."""
 
     start_tick: int
     end_tick: int

@@ -41,7 +41,7 @@ FULL_SCREEN = "application.full_screen"
 
 
 class ViewportHeader(Retranslated, QWidget):
-    """Buttons over the picture; views fold into a menu where there is no room for them.
+    """Buttons over the picture; in a narrow viewport, views fold into a menu.
 
     Parameters
     ----------

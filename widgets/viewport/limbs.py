@@ -91,7 +91,7 @@ def instrument_capsule(model: InstrumentModel) -> tuple[FloatArray, FloatArray, 
 
 
 class LimbCapsules:
-    """The capsules of everyone on a stage.
+    """Capsules around the limbs of all performers on a stage.
 
     Parameters
     ----------

@@ -14,7 +14,7 @@ Color = tuple[float, float, float]
 
 @dataclass(frozen=True)
 class ViewportLook:
-    """Colours 0..1 as the display shows them (backdrop, floor, lines, glow), and lights in linear units."""
+    """Colours 0..1 in display values (backdrop, floor, lines, glow), and lights in linear units."""
 
     top: Color
     horizon: Color

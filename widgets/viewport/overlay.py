@@ -27,7 +27,7 @@ CLOSE_MM, NEAR_MM = 2.0, 4.0
 
 @dataclass(frozen=True, eq=False)
 class NameTag:
-    """A player's name over their head."""
+    """A player's name over the head."""
 
     text: str
     color: str

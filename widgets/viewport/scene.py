@@ -37,7 +37,7 @@ PODIUM_NAME_M = 0.5
 
 
 class ViewportScene(QObject):
-    """The stage of a session's project.
+    """The stage of a session's project, as drawn in the viewport.
 
     Parameters
     ----------

@@ -37,8 +37,8 @@ class Rate(msgspec.Struct, frozen=True):
 
 
 class UnrealPlace(msgspec.Struct, frozen=True):
-    """Where an actor stands in Unreal, which is left-handed with Z up: our (x, y, z) in metres is (100 x, 100 z,
-    100 y) there, so that a turn from +Z towards +X is a negative yaw."""
+    """Place of an actor in Unreal, which is left-handed with Z up: our (x, y, z) in metres is (100 x, 100 z, 100 y)
+    there, so that a turn from +Z towards +X is a negative yaw."""
 
     x_cm: float
     y_cm: float
@@ -47,8 +47,9 @@ class UnrealPlace(msgspec.Struct, frozen=True):
 
 
 class UnrealFigure(msgspec.Struct, frozen=True):
-    """A skeletal mesh and what it does: its file, beside this one, and its assets. ``bones`` are all of the file's, the
-    root first; ``socket`` is the bone of the player's character that an instrument hangs on, empty for none."""
+    """A skeletal mesh in Unreal with its animation: its file, next to this one, and its assets. ``bones`` are all of
+    the file's, the root first; ``socket`` is the bone of the player's character that an instrument hangs on, empty for
+    none."""
 
     file: str
     mesh: str
@@ -93,7 +94,7 @@ class CastDancer(msgspec.Struct, frozen=True):
 
 
 class UnrealSound(msgspec.Struct, frozen=True):
-    """The sound. ``offset_s`` is the time of the animation at which the file begins."""
+    """Sound of the piece in Unreal. ``offset_s`` is the time of the animation at which the file begins."""
 
     file: str
     asset: str
@@ -114,7 +115,7 @@ class Tempo(msgspec.Struct, frozen=True):
 
 
 class UnrealMetre(msgspec.Struct, frozen=True):
-    """A time signature from a tick on."""
+    """A time signature from one tick on."""
 
     tick: int
     s: float
@@ -132,7 +133,7 @@ class Bar(msgspec.Struct, frozen=True):
 
 
 class UnrealMarker(msgspec.Struct, frozen=True):
-    """A rehearsal marker that the animation shows, in its bar. ``frame`` is the nearest."""
+    """A rehearsal marker within the animation, with its bar. ``frame`` is the nearest."""
 
     text: str
     bar: int

@@ -86,7 +86,7 @@ class Plan:
 
 @dataclass(frozen=True)
 class UnrealExport:
-    """What an export into a project has done: its plan, and the report of what the files hold."""
+    """Result of an export into an Unreal project: its plan, and the report on the files."""
 
     plan: Plan
     report: Report

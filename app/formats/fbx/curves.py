@@ -40,7 +40,7 @@ def steady(curves: AnyFloatArray, least: float) -> AnyFloatArray:
 
 
 class FbxLayerCurves:
-    """Adds the curves of one layer. What is the same in many of them is packed once."""
+    """Writer of the curves of one animation layer. Arrays that many curves share are packed once."""
 
     def __init__(self, assembly: Assembly, layer: int, key_ticks: IntArray) -> None:
         self._assembly = assembly

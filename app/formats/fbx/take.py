@@ -28,7 +28,7 @@ _ANIMATED = {
 
 
 class FbxCurve(NamedTuple):
-    """Frames of a curve's keys, and their values as the file has them."""
+    """Frames of a curve's keys and their values, as stored in the file."""
 
     frames: IntArray
     values: AnyFloatArray
@@ -47,7 +47,7 @@ class FbxCurve(NamedTuple):
 
 
 class FbxTake(NamedTuple):
-    """The file's one animation: the curves of its channels by what they move and which property of it."""
+    """The file's one animation: its curves by channel and property."""
 
     name: str
     fps: Fraction

@@ -17,7 +17,7 @@ METRES = 0.01
 
 
 class GltfDocument(Protocol):
-    """What an animation is added to."""
+    """A glTF document that samplers are added to."""
 
     gltf: gltf.GLTF2
 

@@ -31,7 +31,7 @@ class PoseAngles:
 
 @dataclass(frozen=True, eq=False)
 class PoseCorrectionTable:
-    """All pose corrections of a player, a row for each.
+    """All pose corrections of a player, one row each.
 
     Attributes
     ----------

@@ -29,7 +29,7 @@ FREE_DEG = 10.0
 
 @dataclass(frozen=True)
 class InstrumentTransform:
-    """World transform of the instrument: (F, 3) and (F, 4) float64."""
+    """World transform of the instrument: position (F, 3) and rotation (F, 4), float64."""
 
     position_m: FloatArray
     rotation: FloatArray

@@ -22,7 +22,7 @@ UPRIGHT = 0.5
 
 @dataclass(frozen=True)
 class EndpinStand:
-    """An instrument on its pin.
+    """An instrument that stands on its endpin.
 
     ``lips_m`` (1, 3) is where its mouthpiece is before any motion: what the tip's place on the floor follows from.
     """

@@ -58,7 +58,7 @@ class Aside:
 
 @dataclass(frozen=True)
 class AsidePlace:
-    """An instrument's place aside.
+    """Place of an instrument that is put aside.
 
     Attributes
     ----------

@@ -151,7 +151,7 @@ class Drivers:
 
 @dataclass(frozen=True)
 class FaceCurves:
-    """What one player's plan asks of the face, as curves of time.
+    """One player's face as curves of time, made from the plan.
 
     Attributes
     ----------

@@ -65,7 +65,7 @@ PLAYING_TURN_RAD, FREE_TURN_RAD, LOW_ENOUGH = 0.2, 2.0, 0.7
 
 @dataclass(frozen=True)
 class GazeFrames:
-    """Eyes and lids at some frames: members as of `Gaze`, each (F,) float64."""
+    """Eyes and lids in some frames: members as of `Gaze`, each (F,) float64."""
 
     yaw_rad: FloatArray
     pitch_rad: FloatArray

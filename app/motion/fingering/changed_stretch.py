@@ -21,7 +21,7 @@ APART_S = 3.0
 
 @dataclass(frozen=True)
 class ChangedStretch:
-    """The notes ``first`` .. ``last - 1`` of a line, in which an edit lies, and the silences around them.
+    """The notes ``first`` .. ``last - 1`` of a part around an edit, with the silences next to them.
 
     Attributes
     ----------

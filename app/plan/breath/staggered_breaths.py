@@ -108,7 +108,7 @@ class Breathed(NamedTuple):
 
 
 class BreathConstraints(NamedTuple):
-    """What a player's breaths keep clear of.
+    """Constraints of a player's breaths by those of other players.
 
     Attributes
     ----------

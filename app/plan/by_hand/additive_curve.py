@@ -23,7 +23,7 @@ MOST_KEYS: Final = 5000
 
 
 class AdditiveChannel(NamedTuple):
-    """Something a curve can move.
+    """Unit and limit of a value that an additive curve moves.
 
     Attributes
     ----------

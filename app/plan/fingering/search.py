@@ -114,7 +114,7 @@ TOLERANCE = 1e-9
 
 @dataclass(frozen=True)
 class FingeringTable:
-    """Fingerings of the pitches of a line, padded to K.
+    """Fingerings of the pitches of a part, padded to K.
 
     Attributes
     ----------

@@ -20,7 +20,7 @@ from metadata.gestures import Gesture
 
 
 class LoweredSpans:
-    """Spans, seconds, in which the instrument is off the lips: looked up, so that no gesture is compared with all."""
+    """Spans in seconds in which the instrument is off the lips, searchable by time."""
 
     def __init__(self, spans_s: tuple[tuple[float, float], ...]) -> None:
         self._ordered = sorted(spans_s)

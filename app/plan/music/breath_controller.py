@@ -72,7 +72,7 @@ class BreathEnvelope:
 
 @dataclass(frozen=True, eq=False)
 class BreathGaps:
-    """The gap that serves each note.
+    """Gap in the breath controller that serves each note.
 
     Attributes
     ----------

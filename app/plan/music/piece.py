@@ -34,7 +34,7 @@ def marked_loudness(loudness: FloatArray) -> FloatArray:
 
 @dataclass(frozen=True, eq=False)
 class ControllerSteps:
-    """A controller over time: a step function, each value holds until the next tick.
+    """Values of a controller over time: each holds until the next tick.
 
     Attributes
     ----------
@@ -142,8 +142,8 @@ class Piece(msgspec.Struct, frozen=True):
 
 @dataclass(frozen=True, eq=False)
 class NoteTimes:
-    """When something is played, whatever it is: arrays (N,), in ticks and seconds. ``played_end`` is a note's end, at
-    most the next onset. Equal for players in unison of rhythm."""
+    """Times of notes: arrays (N,), in ticks and seconds. ``played_end`` is a note's end, at most the next onset. Equal
+    for players in rhythmic unison."""
 
     onset_tick: IntArray
     played_end_tick: IntArray

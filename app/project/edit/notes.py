@@ -241,7 +241,7 @@ class CopiedLine(msgspec.Struct, frozen=True):
 
 
 class ClipboardNotes(msgspec.Struct, frozen=True):
-    """Notes on the clipboard, with the resolution that their ticks are counted in."""
+    """Notes on the clipboard, with the resolution in which their ticks are counted."""
 
     ticks_per_quarter: Annotated[int, msgspec.Meta(ge=TICKS_PER_QUARTER[0], le=TICKS_PER_QUARTER[1])]
     lines: tuple[CopiedLine, ...]

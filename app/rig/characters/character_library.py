@@ -62,7 +62,7 @@ class CharacterEntry(msgspec.Struct, frozen=True, forbid_unknown_fields=True, om
 
 @dataclass(frozen=True)
 class CharacterSource:
-    """Where a character comes from.
+    """File or library entry that a character comes from.
 
     Attributes
     ----------

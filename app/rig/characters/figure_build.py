@@ -37,7 +37,7 @@ SINGULAR: Final = 1e-18
 
 @dataclass(frozen=True, eq=False)
 class NodeHierarchy:
-    """The hierarchy of a file.
+    """Nodes of a file with their parents and rest transforms.
 
     Attributes
     ----------
@@ -63,7 +63,7 @@ class NodeHierarchy:
 
 @dataclass(frozen=True, eq=False)
 class FigurePart:
-    """A mesh in its own space and what moves it.
+    """A mesh in its own space, with the nodes that move it.
 
     Attributes
     ----------

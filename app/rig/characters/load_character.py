@@ -30,7 +30,7 @@ OURS: Final = "Suisou build_characters"
 
 @dataclass(frozen=True, eq=False)
 class CharacterFigure:
-    """A figure and what of it is what.
+    """A figure with its joints and face identified.
 
     Attributes
     ----------

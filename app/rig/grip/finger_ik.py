@@ -27,7 +27,7 @@ LEAST_COMPARED = 32
 
 @dataclass(frozen=True)
 class ReachTarget:
-    """A finger that is to be brought somewhere in some frames.
+    """A target for a finger tip in some frames: the chain of joints and the point it shall reach.
 
     Attributes
     ----------

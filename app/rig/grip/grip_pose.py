@@ -124,7 +124,7 @@ class FingerTable:
 
 
 class StationBlend(NamedTuple):
-    """Between which two of its stations a finger is, frame by frame.
+    """Position of a finger between two of its stations, frame by frame.
 
     ``before`` and ``after`` (F,) are places in ``FingerTable.stations``, ``share`` (F,) is 0 at the first and 1 at the
     second.

@@ -111,7 +111,7 @@ def near(all_bodies: Bodies, nodes_m: FloatArray, centre_m: FloatArray, radius_m
 
 
 class InstrumentNodes(NamedTuple):
-    """Where the nodes of an instrument are in its frame: places (N, 3) and bases (N, 3, 3)."""
+    """Nodes of an instrument in its frame: places (N, 3) and bases (N, 3, 3)."""
 
     place_m: FloatArray
     basis: FloatArray

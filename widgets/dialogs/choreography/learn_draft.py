@@ -47,7 +47,7 @@ class PairDraft(msgspec.Struct, frozen=True):
 
 
 class PairContents(msgspec.Struct, frozen=True):
-    """What the files of a pair hold, or why they cannot be read."""
+    """Contents of a pair's files, or the error of reading them."""
 
     read: ReadPair | None = None
     analysis: Analysis | None = None

@@ -42,7 +42,7 @@ _MOST_NAMED: Final = 3
 
 @dataclass(frozen=True, eq=False)
 class ChoreographyView:
-    """What is shown of a dancer's choreography.
+    """Contents of the dialog that shows a dancer's choreography.
 
     Attributes
     ----------

@@ -25,7 +25,7 @@ FINE = 0.2
 
 @dataclass(frozen=True)
 class EmbouchureCurves:
-    """A plan's embouchures as arrays (N,), and what was recorded within the notes (``traces``)."""
+    """A plan's embouchures as arrays (N,), with values recorded within the notes (``traces``)."""
 
     events: tuple[EmbouchureEvent, ...]
     spans: TimeSpans

@@ -34,7 +34,7 @@ def packed_rows(start: FloatArray, end: FloatArray) -> IntArray:
 
 
 class TimeSpans:
-    """Spans of time, to be found by what is visible.
+    """Spans of time, searchable by visible range.
 
     Parameters
     ----------
@@ -54,7 +54,7 @@ class TimeSpans:
 
 
 class StepCurve:
-    """A step function: every value holds until the next time; nothing before the first.
+    """A step function: every value holds until the next time; no value before the first.
 
     Parameters
     ----------

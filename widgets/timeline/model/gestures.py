@@ -85,7 +85,7 @@ def together(least_px: float) -> Far:
 
 
 class LiveEdit:
-    """One step of undo, made again and again from the project that it began with.
+    """One step of undo, repeated during a drag, each time from the project at its start.
 
     Parameters
     ----------
@@ -136,7 +136,7 @@ class LiveEdit:
 
 
 class MouseGesture:
-    """A press and what follows it.
+    """A mouse press and the drag that follows it.
 
     Parameters
     ----------

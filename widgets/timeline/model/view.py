@@ -25,7 +25,7 @@ class Scale(Protocol):
 
 
 class VisibleSpan(Scale, Protocol):
-    """A scale of what is visible."""
+    """Scale with the span that is visible."""
 
     @property
     def start_s(self) -> float: ...

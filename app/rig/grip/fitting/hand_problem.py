@@ -69,7 +69,7 @@ class Dof:
 
 @dataclass(frozen=True, eq=False)
 class TouchTarget:
-    """A contact in the instrument's frame over some values of the controls its finger works there.
+    """A contact in the instrument's frame, for some values of the controls that its finger works there.
 
     ``positions`` and ``normals`` are (S, 3), ``active``, ``spread_m`` and ``spread_normal`` (S,).
     """
@@ -99,7 +99,7 @@ class Elsewhere:
 
 @dataclass(frozen=True, eq=False)
 class HandProblem:
-    """Everything that is fixed while one hand is solved."""
+    """Constants of the problem of solving one hand's grip."""
 
     hand: HandModel
     seed_m: FloatArray

@@ -23,7 +23,7 @@ LABEL_PX, SCALE_PX = 90.0, 48.0
 
 
 class AdditiveLaneView(LaneView, Protocol):
-    """What is drawn of the lane."""
+    """Interface of the additive lane for its drawing."""
 
     curves: tuple[ShownCurve, ...]
     channel: str

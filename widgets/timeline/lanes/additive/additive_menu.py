@@ -19,7 +19,7 @@ MARKED = "• "
 
 
 class AdditiveMenuTarget(Protocol):
-    """What the menus ask for, and what they can do."""
+    """Interface of the additive lane for its menus: state they read and edits they start."""
 
     def chosen(self) -> tuple[CurveKey, ...]: ...
     def interpolate(self, interpolation: Interpolation) -> None: ...

@@ -15,7 +15,7 @@ from app.score.tempo import TempoMap
 
 
 class TimedNotes:
-    """Notes in time, ordered by onset.
+    """Notes ordered by onset, searchable by time.
 
     Parameters
     ----------

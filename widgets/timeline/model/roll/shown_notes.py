@@ -33,7 +33,7 @@ NO_GHOSTS = Behind((), ())
 
 
 class RollSession(Editing, Protocol):
-    """What the roll needs of the session."""
+    """Interface of the session for the piano roll."""
 
     @property
     def player(self) -> Player | None: ...

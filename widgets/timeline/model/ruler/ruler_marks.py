@@ -70,7 +70,7 @@ class Metrics(Protocol):
 
 @dataclass(frozen=True)
 class RulerMark:
-    """A tempo (``"tempo"``) or a metre (``"metre"``), where it is drawn."""
+    """A tempo (``"tempo"``) or a metre (``"metre"``) with its box on the ruler."""
 
     kind: str
     tick: int
