@@ -2,9 +2,9 @@
 
 Notes that overlap are legato: a player of keys or of a wind controller holds a note some way into the next. Only where
 notes go on sounding together beyond that, over several notes and for a while, or in much of the track, there is another
-player (`_players`). A note that lasts into the next of its player is shortened to a legato overlap that planning
-accepts (`LEGATO_OVERLAP_S`), so that the slur can still be seen. Unplayable notes are excluded: the notes struck
-together with those of the players there are, the lowest first. `split_voices` returns both.
+player (`app.score.sounding_together`). A note that lasts into the next of its player is shortened to a legato overlap
+that planning accepts (`LEGATO_OVERLAP_S`), so that the slur can still be seen. Unplayable notes are excluded: the notes
+struck together with those of the players there are, the lowest first. `split_voices` returns both.
 
 Voice 0 is the highest. Notes struck together go to voices in their order, so player 1 has the upper note of a chord of
 two; a line stays with its player until a chord forces otherwise (the least movement in all). A line that goes on
@@ -18,42 +18,24 @@ from __future__ import annotations
 
 from bisect import bisect_left
 from collections.abc import Sequence
-from functools import cache
 from heapq import heappop, heappush
-from itertools import chain, combinations, pairwise
-from math import comb, inf
-from operator import getitem
-from typing import Final, NamedTuple, TypeAlias
+from itertools import chain, pairwise
+from math import inf
+from typing import Final, NamedTuple
 
 import msgspec
 import numpy as np
 
-from app.arrays import BoolArray, FloatArray, IndexArray, IntArray
+from app.arrays import FloatArray, IndexArray, IntArray
 from app.score.model import MOST_VOICES, Note
+from app.score.sounding_together import CHORD_S, VoiceSpans, legato_s, players_needed, spans_of
 from app.score.tempo import TempoMap
+from app.score.voice_search import REST_QUARTERS, LastPlayed, assigned_voices
 
 LEGATO_OVERLAP_S: Final = 0.030
 """As long as a note still sounds into the next of its player, at most."""
 
-# How long two notes of one player may sound together as they are played. Pianists overlap legato notes the longer, the
-# longer the notes are (Repp 1995, J. Acoust. Soc. Am. 97, 3862; Bresin and Battel 2000, J. New Music Res. 29, 211-224).
-# The figures are our own: 80 ms where notes are short, a quarter of a longer note, never half of one: that is a chord.
-_LEGATO_LEAST_S: Final = 0.080
-_LEGATO_SHARE: Final = 0.25
-_LEGATO_MOST_S: Final = 0.200
-_LEGATO_MOST_SHARE: Final = 0.5
-_CHORD_S: Final = 0.045
-"""Notes struck together by two players or two fingers begin so near to one another: in trios the differences between
-onsets have standard deviations of 30 to 50 ms (Rasch 1979, Acustica 43, 121-131)."""
 
-SEVERAL: Final = 4
-"""So many notes in a row must sound together with others before another player is there..."""
-SUSTAINED_S: Final = 0.4
-"""... and for so long altogether: two quarters of a fast march, where an accident of the fingers lasts a tenth."""
-_SEVERAL_DOUBLED: Final = 8
-"""Of octaves and unisons twice as many: editions give a bass an octave to choose from for a cadence."""
-_MUCH: Final = 0.25
-"""Where such a share of the track's notes sounds together, another player is there however short the track is."""
 _LEGATO_OF_A_QUARTER: Final = 8
 """What sounds beside another voice for less than such a part of a quarter is legato."""
 _HOMOPHONIC: Final = 0.5
@@ -62,38 +44,6 @@ _HOMOPHONIC: Final = 0.5
 _UNISON_NUMBERS: Final = 10_000_000
 _ROUNDING_TICKS = 1e-6
 _ROUNDING_S = 1e-9
-
-# In semitones of movement: for a voice that comes in while another could have gone on, and for one that crosses a held
-# one.
-_ENTRY_COST = 12.0
-_CROSSING_COST = 12.0
-# After a rest of more than half a quarter, the distance to the last note counts half.
-_REST_QUARTERS = 0.5
-_AFTER_REST_WEIGHT = 0.5
-
-# Hypotheses kept at each onset (two are all there are for a line between two players), and how much dearer than the
-# cheapest they may be; the choices looked at one by one: with more, only the cheapest one is followed.
-_BEAM = 2
-_HOPELESS_COST = 16.0
-_CHOICES = 24
-
-_History: TypeAlias = "tuple[_History, tuple[int, ...]] | None"
-
-
-class _Voice(NamedTuple):
-    """What a player did last: pitch (-1 before the first note), when the player is free, when the note ended."""
-
-    pitch: int
-    free_s: float
-    end_s: float
-
-
-class _Hypothesis(NamedTuple):
-    """Who plays what so far, and what it cost."""
-
-    cost: float
-    voices: tuple[_Voice, ...]
-    history: _History
 
 
 class TrackVoices(NamedTuple):
@@ -124,39 +74,9 @@ class TrackVoices(NamedTuple):
     solos: Sequence[str] = ()
 
 
-class _Spans(NamedTuple):
-    """When notes sound, in seconds, by onset: a note's release is where another one may begin in its voice."""
-
-    onsets: FloatArray
-    ends: FloatArray
-    releases: FloatArray
-
-    def depths(self) -> IndexArray:
-        """How many notes sound when each begins, itself among them."""
-        started = np.searchsorted(self.onsets, self.onsets, side="right")
-        return started - np.searchsorted(np.sort(self.releases), self.onsets, side="right")
-
-    def of(self, kept: BoolArray | IndexArray) -> _Spans:
-        """Those of some notes."""
-        return _Spans(self.onsets[kept], self.ends[kept], self.releases[kept])
-
-
-def _spans(notes: Sequence[Note], tempo_map: TempoMap) -> _Spans:
-    onset_ticks = np.array([note.onset_tick for note in notes], np.float64)
-    end_ticks = onset_ticks + np.array([note.duration_tick for note in notes], np.float64)
-    onsets, ends = tempo_map.seconds(onset_ticks), tempo_map.seconds(end_ticks)
-    return _Spans(onsets, ends, ends - _legato_s(ends - onsets))
-
-
-def _legato_s(lengths_s: FloatArray) -> FloatArray:
-    """How long notes of these lengths may last into the next one of their player."""
-    legato = np.clip(_LEGATO_SHARE * lengths_s, _LEGATO_LEAST_S, _LEGATO_MOST_S)
-    return np.minimum(legato, _LEGATO_MOST_SHARE * lengths_s)
-
-
 def is_one_voice(notes: Sequence[Note], tempo_map: TempoMap) -> bool:
     """Whether one player can play the notes, which are by onset, and plays all of them."""
-    return not notes or int(_spans(notes, tempo_map).depths().max()) == 1
+    return not notes or int(spans_of(notes, tempo_map).depths().max()) == 1
 
 
 def unison_id(id: str, voice: int) -> str:
@@ -198,7 +118,7 @@ def split_voices(
     """
     if not notes:
         return TrackVoices([], [], [], [])
-    spans = _spans(notes, tempo_map)
+    spans = spans_of(notes, tempo_map)
     depths = spans.depths()
     deepest = int(depths.max())
     if deepest > 1 and least == 1 and not every_chord and (twins := _unisons(notes, spans)):
@@ -210,8 +130,8 @@ def split_voices(
         line, shortened = _legato(notes, spans, tempo_map)
         return TrackVoices([line], [], [], shortened)
     pitches = np.array([note.pitch for note in notes])
-    struck_together = bool(np.any((np.diff(spans.onsets) <= _CHORD_S) & (depths[1:] > 1)))
-    count = max(deepest if every_chord else _players(spans, depths, pitches), least if struck_together else 1)
+    struck_together = bool(np.any((np.diff(spans.onsets) <= CHORD_S) & (depths[1:] > 1)))
+    count = max(deepest if every_chord else players_needed(spans, depths, pitches), least if struck_together else 1)
     count = min(count, most)
     order = np.lexsort((-pitches, spans.onsets))
     kept = (_first if count == most else _playable)(spans, pitches, order, count)
@@ -230,7 +150,7 @@ def split_voices(
     return TrackVoices(shared, together, left_out, sorted(shortened, key=lambda note: note.onset_tick))
 
 
-def _unisons(notes: Sequence[Note], spans: _Spans) -> set[int]:
+def _unisons(notes: Sequence[Note], spans: VoiceSpans) -> set[int]:
     """The places of notes struck together with one of their pitch that sounds as long or longer."""
     found: set[int] = set()
     last: dict[int, int] = {}
@@ -238,7 +158,7 @@ def _unisons(notes: Sequence[Note], spans: _Spans) -> set[int]:
     for place, note in enumerate(notes):
         other = last.setdefault(note.pitch, place)
         # One that begins when the other has ended is struck again.
-        if other != place and onsets[place] < min(onsets[other] + _CHORD_S, ends[other]):
+        if other != place and onsets[place] < min(onsets[other] + CHORD_S, ends[other]):
             shorter = place if ends[place] <= ends[other] else other
             found.add(shorter)
             last[note.pitch] = place + other - shorter
@@ -247,61 +167,7 @@ def _unisons(notes: Sequence[Note], spans: _Spans) -> set[int]:
     return found
 
 
-def _players(spans: _Spans, depths: IndexArray, pitches: IntArray) -> int:
-    """How many players the simultaneity of the notes calls for."""
-    doubled = _doubled(spans, pitches)
-    plain = spans.of(~doubled)
-    plain_depths = plain.depths() if doubled.any() else depths
-    deepest = min(int(depths.max()), MOST_VOICES)
-    for more in range(2, deepest + 1):
-        much = np.count_nonzero(_within(spans, depths, more)) >= _MUCH * len(depths)
-        if not (
-            much or _sustained(plain, plain_depths, more, SEVERAL) or _sustained(spans, depths, more, _SEVERAL_DOUBLED)
-        ):
-            return more - 1
-    return deepest
-
-
-def _within(spans: _Spans, depths: IndexArray, more: int) -> BoolArray:
-    """Which notes sound where so many sound together."""
-    counts = np.concatenate(([0], np.cumsum(depths >= more)))
-    first = np.searchsorted(spans.onsets, spans.onsets, side="left")
-    last = np.searchsorted(spans.onsets, spans.releases, side="left")
-    return np.asarray(counts[np.maximum(last, first + 1)] > counts[first])
-
-
-def _sustained(spans: _Spans, depths: IndexArray, more: int, several: int) -> bool:
-    """Whether so many players are needed over several notes in a row and for a while."""
-    struck = depths >= more
-    if np.count_nonzero(struck) < several:
-        return False
-    within = _within(spans, depths, more)
-    runs = np.cumsum(~within)
-    first = np.flatnonzero(struck & np.append(True, spans.onsets[1:] > spans.onsets[:-1]))
-    # A note struck while others sound does so until the first of them is released or the next one is struck.
-    following = np.append(spans.onsets[first[1:]], np.inf)
-    lengths_s = np.minimum(spans.releases[first], following) - spans.onsets[first]
-    notes = np.bincount(runs[first])
-    seconds = np.bincount(runs[first], weights=lengths_s)
-    return bool(np.any((notes >= several) & (seconds >= SUSTAINED_S)))
-
-
-def _doubled(spans: _Spans, pitches: IntArray) -> BoolArray:
-    """Which notes only double the one before or after them in the unison or in octaves."""
-    doubled = np.zeros(len(pitches), bool)
-    order = np.lexsort((pitches, spans.onsets))
-    for step in range(1, 3):
-        one, other = order[:-step], order[step:]
-        pairs = (
-            (np.abs(spans.onsets[other] - spans.onsets[one]) <= _CHORD_S)
-            & (np.abs(spans.ends[other] - spans.ends[one]) <= _LEGATO_LEAST_S)
-            & ((pitches[other] - pitches[one]) % 12 == 0)
-        )
-        doubled[one[pairs]] = True
-    return doubled
-
-
-def _first(spans: _Spans, _: IntArray, order: IndexArray, count: int) -> list[int]:
+def _first(spans: VoiceSpans, _: IntArray, order: IndexArray, count: int) -> list[int]:
     """The notes that find a free voice if each takes one until its release: no section is larger, so what sounds
     beyond it is no music that could be saved."""
     sounding: list[float] = []
@@ -316,7 +182,7 @@ def _first(spans: _Spans, _: IntArray, order: IndexArray, count: int) -> list[in
     return kept
 
 
-def _playable(spans: _Spans, pitches: IntArray, order: IndexArray, count: int) -> list[int]:
+def _playable(spans: VoiceSpans, pitches: IntArray, order: IndexArray, count: int) -> list[int]:
     """The notes that so many players can play, by onset and from the highest; releases are brought forward, in place,
     where a player must leave a note for the next one.
 
@@ -331,7 +197,7 @@ def _playable(spans: _Spans, pitches: IntArray, order: IndexArray, count: int) -
         now = begin[index]
         sounding = [other for other in sounding if release[other] > now]
         if len(sounding) == count:
-            chord = [other for other in sounding if now - begin[other] <= _CHORD_S]
+            chord = [other for other in sounding if now - begin[other] <= CHORD_S]
             if len(chord) == count:
                 lowest = min((*chord, index), key=lambda other: pitch[other])
                 gone.add(lowest)
@@ -350,7 +216,7 @@ def _playable(spans: _Spans, pitches: IntArray, order: IndexArray, count: int) -
     return [index for index in order.tolist() if index not in gone]
 
 
-def _voices(spans: _Spans, pitches: IntArray, kept: list[int], count: int, tempo_map: TempoMap) -> list[list[int]]:
+def _voices(spans: VoiceSpans, pitches: IntArray, kept: list[int], count: int, tempo_map: TempoMap) -> list[list[int]]:
     """The notes of each voice, by onset."""
     onsets, ends, releases = (column[kept] for column in spans)
     struck = _chords(onsets, releases)
@@ -359,11 +225,11 @@ def _voices(spans: _Spans, pitches: IntArray, kept: list[int], count: int, tempo
     releases = np.where(onsets[following] >= releases, np.minimum(releases, struck[following]), releases)
     order = np.lexsort((-pitches[kept], struck))
     begins = np.flatnonzero(np.diff(struck[order], prepend=-1.0))
-    played = list(map(_Voice, pitches[kept][order].tolist(), releases[order].tolist(), ends[order].tolist()))
+    played = list(map(LastPlayed, pitches[kept][order].tolist(), releases[order].tolist(), ends[order].tolist()))
     groups = [played[begin:end] for begin, end in pairwise([*begins.tolist(), len(order)])]
     at = struck[order][begins]
-    rests_s = tempo_map.seconds(tempo_map.ticks(at) + _REST_QUARTERS * tempo_map.ticks_per_quarter) - at
-    players = chain.from_iterable(_assign(at.tolist(), groups, count, rests_s.tolist()))
+    rests_s = tempo_map.seconds(tempo_map.ticks(at) + REST_QUARTERS * tempo_map.ticks_per_quarter) - at
+    players = chain.from_iterable(assigned_voices(at.tolist(), groups, count, rests_s.tolist()))
     voices: list[list[int]] = [[] for _ in range(count)]
     for place, voice in zip(order.tolist(), players, strict=True):
         voices[voice].append(kept[place])
@@ -375,21 +241,21 @@ def _chords(onsets: FloatArray, releases: FloatArray) -> FloatArray:
     struck = onsets.tolist()
     begin, free = -1.0, -1.0
     for place, (onset, release) in enumerate(zip(struck.copy(), releases.tolist(), strict=True)):
-        if onset - begin <= _CHORD_S and free > onset:
+        if onset - begin <= CHORD_S and free > onset:
             struck[place], free = begin, min(free, release)
         else:
             begin, free = onset, release
     return np.array(struck)
 
 
-def _legato(notes: Sequence[Note], spans: _Spans, tempo_map: TempoMap) -> tuple[tuple[Note, ...], list[Note]]:
+def _legato(notes: Sequence[Note], spans: VoiceSpans, tempo_map: TempoMap) -> tuple[tuple[Note, ...], list[Note]]:
     """The notes of one player, none of which lasts into the next longer than planning accepts; and those that did so
     for longer than legato notes do."""
     long = np.flatnonzero(spans.ends[:-1] > spans.onsets[1:] + LEGATO_OVERLAP_S)
     if not len(long):
         return tuple(notes), []
     line, shortened = list(notes), []
-    overlong = (spans.ends - _legato_s(spans.ends - spans.onsets))[long] > spans.onsets[1:][long] + _ROUNDING_S
+    overlong = (spans.ends - legato_s(spans.ends - spans.onsets))[long] > spans.onsets[1:][long] + _ROUNDING_S
     latest = np.floor(tempo_map.ticks(spans.onsets[1:][long] + LEGATO_OVERLAP_S) + _ROUNDING_TICKS)
     for index, end, is_overlong in zip(long.tolist(), latest.tolist(), overlong.tolist(), strict=True):
         note = notes[index]
@@ -400,12 +266,12 @@ def _legato(notes: Sequence[Note], spans: _Spans, tempo_map: TempoMap) -> tuple[
     return tuple(line), shortened
 
 
-def _move_together(spans: _Spans, kept: IndexArray) -> bool:
+def _move_together(spans: VoiceSpans, kept: IndexArray) -> bool:
     """Whether notes that sound together mostly begin together."""
     own = spans.of(kept)
     together = np.flatnonzero(own.depths() > 1)
-    begun = own.onsets[together] - own.onsets[np.maximum(together - 1, 0)] <= _CHORD_S
-    before = np.append(own.onsets[1:] - own.onsets[:-1] <= _CHORD_S, False)[together]
+    begun = own.onsets[together] - own.onsets[np.maximum(together - 1, 0)] <= CHORD_S
+    before = np.append(own.onsets[1:] - own.onsets[:-1] <= CHORD_S, False)[together]
     return len(together) > 0 and bool(np.count_nonzero(begun | before) >= _HOMOPHONIC * len(together))
 
 
@@ -452,93 +318,4 @@ def _next(onsets: list[int], tick: int) -> float:
 
 def _joined(notes: tuple[Note, ...], copies: list[Note], tempo_map: TempoMap) -> tuple[Note, ...]:
     together = sorted((*notes, *copies), key=lambda note: (note.onset_tick, note.pitch))
-    return _legato(together, _spans(together, tempo_map), tempo_map)[0]
-
-
-def _assign(
-    onsets: Sequence[float], groups: Sequence[list[_Voice]], count: int, rests_s: Sequence[float]
-) -> list[tuple[int, ...]]:
-    """For each group of notes struck together, highest first, the voices that play them.
-
-    A beam search over the onsets: what a choice costs shows only when the next chord forces the voices apart.
-    """
-    everyone = tuple(range(count))
-    beam = [_Hypothesis(0.0, (_Voice(-1, -1.0, -1.0),) * count, None)]
-    for onset, sounding, rest_s in zip(onsets, groups, rests_s, strict=True):
-        if len(sounding) == count and len(beam) == 1:  # no choice, no rival: nothing to weigh
-            beam = [_Hypothesis(0.0, tuple(sounding), (beam[0].history, everyone))]
-            continue
-        candidates: list[tuple[float, int, tuple[int, ...]]] = []
-        for number, (so_far, voices, _) in enumerate(beam):
-            free = [place for place in everyone if voices[place].free_s <= onset]
-            costs = _costs(voices, free, sounding, onset, rest_s)
-            for places in _choices(len(free), costs):
-                cost = so_far + sum(map(getitem, costs, places))
-                candidates.append((cost, number, tuple([free[place] for place in places])))
-        beam = _best(beam, candidates, sounding)
-    chosen: list[tuple[int, ...]] = []
-    history = beam[0].history
-    while history is not None:
-        history, choice = history
-        chosen.append(choice)
-    return chosen[::-1]
-
-
-def _best(
-    beam: list[_Hypothesis], candidates: list[tuple[float, int, tuple[int, ...]]], sounding: list[_Voice]
-) -> list[_Hypothesis]:
-    """The cheapest hypotheses that leave the voices in different states."""
-    candidates.sort()
-    states: dict[tuple[_Voice, ...], _Hypothesis] = {}
-    limit = candidates[0][0] + _HOPELESS_COST
-    for cost, number, choice in candidates:
-        if cost > limit:
-            break
-        voices = list(beam[number].voices)
-        for voice, note in zip(choice, sounding, strict=True):
-            voices[voice] = note
-        state = tuple(voices)
-        if state not in states:
-            states[state] = _Hypothesis(cost, state, (beam[number].history, choice))
-            if len(states) == _BEAM:
-                break
-    return list(states.values())
-
-
-@cache
-def _in_order(free: int, size: int) -> tuple[tuple[int, ...], ...]:
-    return tuple(combinations(range(free), size))
-
-
-def _choices(free: int, costs: list[list[float]]) -> tuple[tuple[int, ...], ...]:
-    """The ways to give a group (rows) to free voices (columns) in order; of too many the cheapest alone."""
-    if comb(free, len(costs)) <= _CHOICES:
-        return _in_order(free, len(costs))
-    from scipy.optimize import linear_sum_assignment  # heavy, and seldom needed
-
-    _, columns = linear_sum_assignment(np.array(costs))
-    return (tuple(sorted(columns.tolist())),)
-
-
-def _costs(
-    voices: tuple[_Voice, ...], free: list[int], sounding: list[_Voice], onset: float, rest_s: float
-) -> list[list[float]]:
-    """The cost of each note of a group (rows) in each free voice (columns)."""
-    lines: list[tuple[float, float, int]] = []  # per voice: cost = constant + weight * distance
-    for voice in free:
-        pitch, _, end_s = voices[voice]
-        if pitch < 0:
-            lines.append((_ENTRY_COST + 0.1 * voice, 0.0, pitch))
-        elif onset - end_s > rest_s:
-            lines.append((_ENTRY_COST, _AFTER_REST_WEIGHT, pitch))
-        else:
-            lines.append((0.0, 1.0, pitch))
-    rows = [[constant + weight * abs(note[0] - last) for constant, weight, last in lines] for note in sounding]
-    if len(free) < len(voices):
-        for other, held in enumerate(voices):
-            if held.free_s > onset:
-                for note, row in zip(sounding, rows, strict=True):
-                    for place, voice in enumerate(free):
-                        if (other < voice) == (held.pitch < note.pitch) and held.pitch != note.pitch:
-                            row[place] += _CROSSING_COST
-    return rows
+    return _legato(together, spans_of(together, tempo_map), tempo_map)[0]
