@@ -11,19 +11,23 @@ ROOT = Path(__file__).parents[2]
 FOLDERS = ("app", "widgets", "instrument_maps", "metadata")
 
 
-def public_classes() -> dict[str, list[str]]:
-    """Return the files of every public class by its name. Only files with such a line are parsed."""
-    files: dict[str, list[str]] = defaultdict(list)
-    for path in (path for folder in FOLDERS for path in sorted((ROOT / folder).rglob("*.py"))):
-        text = path.read_text("utf-8")
-        if re.search(r"^\s*class [A-Z]", text, re.MULTILINE):
-            for node in ast.walk(ast.parse(text)):
-                if isinstance(node, ast.ClassDef) and not node.name.startswith("_"):
-                    files[node.name].append(path.relative_to(ROOT).as_posix())
-    return files
+def public_classes() -> dict[str, set[Path]]:
+    """Return the files that define each public class, by its name; only files that share names are parsed."""
+    likely: dict[str, set[Path]] = defaultdict(set)
+    for folder in FOLDERS:
+        for path in (ROOT / folder).rglob("*.py"):
+            for name in re.findall(r"^\s*class ([A-Z]\w*)", path.read_text("utf-8"), re.MULTILINE):
+                likely[name].add(path)
+    shared = {path for paths in likely.values() if len(paths) > 1 for path in paths}
+    defined = {path: {node.name for node in classes(path)} for path in shared}
+    return {name: {path for path in paths if name in defined.get(path, {name})} for name, paths in likely.items()}
+
+
+def classes(path: Path) -> list[ast.ClassDef]:
+    return [node for node in ast.walk(ast.parse(path.read_text("utf-8"))) if isinstance(node, ast.ClassDef)]
 
 
 def test_public_class_names_are_unique() -> None:
-    classes = public_classes()
-    assert {"Document", "Score", "Motion", "InstrumentMap"} <= classes.keys()
-    assert {name: files for name, files in classes.items() if len(files) > 1} == {}
+    found = public_classes()
+    assert {"Document", "Score", "Motion", "InstrumentMap"} <= found.keys()
+    assert {name: sorted(map(str, paths)) for name, paths in found.items() if len(paths) > 1} == {}
