@@ -41,7 +41,7 @@ _RESOLUTION: Final = 127
 
 
 @dataclass(frozen=True)
-class Loudness:
+class RecordingLoudness:
     """How loud a recording is.
 
     Attributes
@@ -59,7 +59,7 @@ class Loudness:
         return result
 
 
-def loudness(samples: Samples, rate_hz: int) -> Loudness:
+def loudness(samples: Samples, rate_hz: int) -> RecordingLoudness:
     """How loud a recording is, moment by moment.
 
     Parameters
@@ -72,7 +72,7 @@ def loudness(samples: Samples, rate_hz: int) -> Loudness:
     hop = max(round(STEP_S * rate_hz), 1)
     count = len(samples) // hop
     if not count:
-        return Loudness(np.full(1, _FLOOR_DB))
+        return RecordingLoudness(np.full(1, _FLOOR_DB))
     power = np.zeros(count)
     weighting = _weighting(rate_hz)
     state = np.zeros((len(weighting), 2, samples.shape[1]))
@@ -82,11 +82,15 @@ def loudness(samples: Samples, rate_hz: int) -> Loudness:
         weighted, state = sosfilt(weighting, part, axis=0, zi=state)
         power[first:last] = (weighted**2).reshape(last - first, hop, -1).mean(axis=1).sum(axis=1)
     power = gaussian_filter1d(power / samples.shape[1], _SMOOTH_S * rate_hz / hop)
-    return Loudness(np.maximum(10.0 * np.log10(np.maximum(power, 1e-12)), _FLOOR_DB))
+    return RecordingLoudness(np.maximum(10.0 * np.log10(np.maximum(power, 1e-12)), _FLOOR_DB))
 
 
 def dynamics(
-    score: Score, offset_s: float, mix: Loudness | None, stems: Mapping[str, Loudness], parts: Collection[str]
+    score: Score,
+    offset_s: float,
+    mix: RecordingLoudness | None,
+    stems: Mapping[str, RecordingLoudness],
+    parts: Collection[str],
 ) -> dict[str, ControllerCurve]:
     """Curves of the dynamics, by part.
 
@@ -94,9 +98,9 @@ def dynamics(
     ----------
     score : Score
         As it lies on the recording: its second 0 is at ``-offset_s`` of it.
-    mix : Loudness or None
+    mix : RecordingLoudness or None
         Of everybody; parts without a stem get their dynamics from it.
-    stems : mapping of str to Loudness
+    stems : mapping of str to RecordingLoudness
         By part, of recordings that begin with that of everybody.
     parts : collection of str
         Of which parts.

@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
 from app.audio.decode import decode
-from app.audio.dynamics import Loudness, dynamics, loudness
+from app.audio.dynamics import RecordingLoudness, dynamics, loudness
 from app.audio.follow import beats_of, follow
 from app.audio.note_onsets import note_onsets
 from app.audio.track import RATE_HZ, Samples
@@ -119,7 +119,7 @@ def _curves(
 ) -> dict[str, ControllerCurve]:
     """The dynamics of all parts."""
     parts = {player.id: player.part_id for player in project.players}
-    stems: dict[str, Loudness] = {}
+    stems: dict[str, RecordingLoudness] = {}
     for number, (player_id, stem) in enumerate(options.stems.items()):
         reached(0.8 + 0.15 * number / len(options.stems))
         stems[parts[player_id]] = loudness(decode(stem).samples[round(begins_s * RATE_HZ) :], RATE_HZ)

@@ -106,7 +106,7 @@ class ManipulationCheck(msgspec.Struct, frozen=True):
     verdict: Verdict
 
 
-class Order(msgspec.Struct, frozen=True):
+class OrderEffect(msgspec.Struct, frozen=True):
     """How much higher answers are in the second half of a session, of what variants and questions do not explain."""
 
     presentation: Presentation
@@ -137,7 +137,7 @@ class EvaluationResults(msgspec.Struct, frozen=True):
     contrasts: tuple[Contrast, ...]
     agreements: tuple[Agreement, ...]
     controls: tuple[ManipulationCheck, ...]
-    orders: tuple[Order, ...]
+    orders: tuple[OrderEffect, ...]
 
 
 class _Rating(msgspec.Struct, frozen=True):
@@ -321,7 +321,7 @@ def _control(presentation: Presentation, differences: Sequence[float]) -> Manipu
     return ManipulationCheck(presentation, len(differences), mean, p, verdict)
 
 
-def _orders(ratings: Sequence[_Rating]) -> Iterator[Order]:
+def _orders(ratings: Sequence[_Rating]) -> Iterator[OrderEffect]:
     """Of each viewer the mean in the second half of what was shown minus that in the first."""
     cells: dict[object, list[int]] = defaultdict(list)
     for rating in ratings:
@@ -342,4 +342,4 @@ def _orders(ratings: Sequence[_Rating]) -> Iterator[Order]:
                 later.append(sum(halves[1]) / len(halves[1]) - sum(halves[0]) / len(halves[0]))
         found = summary(later)
         if found is not None:
-            yield Order(presentation, found)
+            yield OrderEffect(presentation, found)

@@ -123,7 +123,7 @@ class UnrealMetre(msgspec.Struct, frozen=True):
     denominator: int
 
 
-class Bar(msgspec.Struct, frozen=True):
+class UnrealBar(msgspec.Struct, frozen=True):
     """The beginning of a bar that the animation shows; a pickup is bar 0. ``frame`` is the nearest."""
 
     number: int
@@ -181,7 +181,7 @@ class Description(msgspec.Struct, frozen=True):
     pickup_ticks: int
     tempo: tuple[Tempo, ...]
     metres: tuple[UnrealMetre, ...]
-    bars: tuple[Bar, ...]
+    bars: tuple[UnrealBar, ...]
     markers: tuple[UnrealMarker, ...]
     cues: tuple[Cue, ...]
     files: dict[str, OwnFile]
@@ -329,10 +329,10 @@ class _Time:
         return 0 <= frame < self.span.count
 
 
-def _bars(score: Score, bars: tuple[int, int] | None, time: _Time) -> tuple[Bar, ...]:
+def _bars(score: Score, bars: tuple[int, int] | None, time: _Time) -> tuple[UnrealBar, ...]:
     first, last = bars or (0 if score.pickup_ticks else 1, score.last_bar)
     starts = [(number, score.metre_map.tick_of_bar(number)) for number in range(first, last + 1)]
-    reported = (Bar(number, tick, time.after_s(tick), time.frame(time.after_s(tick))) for number, tick in starts)
+    reported = (UnrealBar(number, tick, time.after_s(tick), time.frame(time.after_s(tick))) for number, tick in starts)
     return tuple(bar for bar in reported if time.shows(bar.frame))
 
 

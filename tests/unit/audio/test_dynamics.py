@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from scipy.stats import spearmanr
 
-from app.audio.dynamics import Loudness, dynamics, loudness
+from app.audio.dynamics import RecordingLoudness, dynamics, loudness
 from app.audio.mix import mixdown
 from app.audio.score_sound import analysis_sound
 from app.audio.track import RATE_HZ
@@ -56,17 +56,17 @@ def together() -> Project:
     return expressive({part.id: 1 for part in quartet().score.parts})
 
 
-def heard(project: Project) -> Loudness:
+def heard(project: Project) -> RecordingLoudness:
     return loudness(as_samples(mixdown(project, -1.0, end_s(project) + 1.0)), RATE_HZ)
 
 
 @cache
-def mix_of_all() -> Loudness:
+def mix_of_all() -> RecordingLoudness:
     return heard(together())
 
 
 def found(
-    project: Project, mix: Loudness | None, stems: dict[str, Loudness] | None = None
+    project: Project, mix: RecordingLoudness | None, stems: dict[str, RecordingLoudness] | None = None
 ) -> dict[str, ControllerCurve]:
     score = project.score
     return dynamics(score, -1.0, mix, stems or {}, {part.id for part in score.parts})
@@ -108,7 +108,7 @@ def test_each_player_has_the_dynamics_of_their_stem() -> None:
 def test_quiet_and_loud_stay_plausible() -> None:
     project = together()
     even = heard(plain(project))
-    for mix in (mix_of_all(), even, Loudness(even.level_db * 3.0)):
+    for mix in (mix_of_all(), even, RecordingLoudness(even.level_db * 3.0)):
         for curve in found(plain(project), mix).values():
             low, middle, high = np.quantile(
                 values_at(curve, np.arange(0, project.score.end_tick, 60)), [0.05, 0.5, 0.95]
