@@ -22,17 +22,10 @@ from app.messages import text
 from app.performance.ensemble import Performance
 from app.performance.span import bars_span
 from tests.gui.conftest import quartet_project
+from tests.gui.dialogs.conftest import ShowExport
 from tests.support.bad_players import own_folders, with_character, with_instrument
 from tests.support.tasks import ImmediateTasks
 from widgets.dialogs.export_files import ExportDialog
-
-
-@pytest.fixture
-def dialog(session: Session, qtbot: QtBot, tmp_path: Path) -> ExportDialog:
-    dialog = ExportDialog(session, tmp_path / "out", "quartet.mid", "Suisou test")
-    dialog.show()
-    return dialog
-
 
 KEY_WIDGETS = ((QComboBox, "export_keys"), (QCheckBox, "export_fbx"), (QCheckBox, "export_bvh"))
 
@@ -90,9 +83,10 @@ def test_it_writes_what_the_command_line_writes(dialog: ExportDialog, session: S
     assert show.isVisible()
 
 
-def test_reduced_keys_are_written_where_a_format_can_have_them(session: Session, qtbot: QtBot, tmp_path: Path) -> None:
-    dialog = ExportDialog(session, tmp_path / "out", "quartet.mid", "Suisou test", keys="reduced")
-    dialog.show()
+def test_reduced_keys_are_written_where_a_format_can_have_them(
+    show_export: ShowExport, session: Session, tmp_path: Path
+) -> None:
+    dialog = show_export(session, keys="reduced")
     one_player_two_bars(dialog)
     keys, fbx, bvh = (dialog.findChild(kind, name) for kind, name in KEY_WIDGETS)
     assert isinstance(keys, QComboBox)
@@ -140,11 +134,10 @@ def test_a_folder_that_cannot_be_is_reported_and_nothing_is_written(dialog: Expo
     assert (tmp_path / "out").read_text() == "a file"
 
 
-def test_cancelled_it_leaves_nothing(qt_app: object, qtbot: QtBot, tmp_path: Path) -> None:
+def test_cancelled_it_leaves_nothing(show_export: ShowExport, qt_app: object, qtbot: QtBot, tmp_path: Path) -> None:
     tasks = ThreadTasks()
     session = Session(quartet_project(), tasks)
-    dialog = ExportDialog(session, tmp_path / "out", "quartet.mid", "Suisou test")
-    dialog.show()
+    dialog = show_export(session)
     start(dialog)
     button = dialog.findChild(QPushButton, "export_start")
     assert button is not None
@@ -158,11 +151,10 @@ def test_cancelled_it_leaves_nothing(qt_app: object, qtbot: QtBot, tmp_path: Pat
 
 
 def test_usd_is_greyed_where_it_cannot_be_written(
-    session: Session, qtbot: QtBot, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    show_export: ShowExport, session: Session, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(usd, "usd_installed", lambda: False)
-    dialog = ExportDialog(session, tmp_path / "out", "quartet.mid", "Suisou test")
-    dialog.show()
+    dialog = show_export(session)
     box = dialog.findChild(QCheckBox, "export_usd")
     assert box is not None
     assert not box.isEnabled()
@@ -226,15 +218,14 @@ def test_bvh_files_get_the_bone_names_of_another_program(dialog: ExportDialog, t
 
 
 def test_who_is_left_out_is_named_with_the_reason(
-    qt_app: object, qtbot: QtBot, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    show_export: ShowExport, qt_app: object, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     own = own_folders(tmp_path, monkeypatch)
     project = with_character(quartet_project(), 0, own.add_character(b"damaged"))
     session = Session(with_instrument(project, 1, "ophicleide"), ImmediateTasks())
     noticed: list[str] = []
     session.noticed.connect(lambda message, severity: noticed.append(f"{severity.value}: {text(message)}"))
-    dialog = ExportDialog(session, tmp_path / "out", "quartet.mid", "Suisou test")
-    dialog.show()
+    dialog = show_export(session)
     one_player_two_bars(dialog)
     outcome = dialog.findChild(QLabel, "export_outcome")
     assert outcome is not None

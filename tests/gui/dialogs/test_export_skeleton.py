@@ -20,6 +20,7 @@ from app.performance.ensemble import Performance
 from app.performance.span import cut_span
 from app.shell.language import TextTranslator
 from tests.gui.conftest import quartet_project
+from tests.gui.dialogs.conftest import ShowExport
 from tests.support.bad_players import with_character
 from tests.support.performed import player_motion
 from tests.support.tasks import ImmediateTasks
@@ -27,9 +28,7 @@ from widgets.dialogs.export_files import ExportDialog
 
 
 @pytest.fixture
-def dialog(session: Session, qtbot: QtBot, tmp_path: Path) -> ExportDialog:
-    dialog = ExportDialog(session, tmp_path / "out", "quartet.mid", "Suisou test")
-    dialog.show()
+def dialog(dialog: ExportDialog) -> ExportDialog:
     for row in range(1, dialog._players.count()):
         dialog._players.item(row).setCheckState(Qt.CheckState.Unchecked)
     return dialog
@@ -90,11 +89,10 @@ def test_an_asset_that_fits_is_said_to_fit(dialog: ExportDialog, mannequin: Path
 
 
 def test_one_without_a_character_does_not_keep_the_others_from_an_asset(
-    qt_app: QApplication, qtbot: QtBot, tmp_path: Path, mannequin: Path
+    show_export: ShowExport, qt_app: QApplication, qtbot: QtBot, tmp_path: Path, mannequin: Path
 ) -> None:
     session = Session(with_character(quartet_project(), 0, "unknown"), ImmediateTasks())
-    dialog = ExportDialog(session, tmp_path / "out", "quartet.mid", "Suisou test")
-    dialog.show()
+    dialog = show_export(session)
     choose(dialog, Qt.Key.Key_Down)
     name(dialog, mannequin)
     qtbot.waitUntil(lambda: "bones" in reported(dialog) or "✓" in reported(dialog))

@@ -9,11 +9,11 @@ import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QCheckBox, QComboBox, QLabel, QLineEdit, QPushButton, QSpinBox
-from pytestqt.qtbot import QtBot
 
 from app.editor.session import Session
 from app.errors import Message
 from app.export.unreal.project import find_project
+from tests.gui.dialogs.conftest import ShowExport
 from tests.unit.export.unreal.conftest import with_dancers
 from widgets.dialogs.export_files import ExportDialog
 
@@ -24,13 +24,6 @@ def game(tmp_path: Path) -> Path:
     folder.mkdir()
     (folder / "Game.uproject").write_text(json.dumps({"FileVersion": 3, "EngineAssociation": "5.6"}))
     return folder
-
-
-@pytest.fixture
-def dialog(session: Session, qtbot: QtBot, tmp_path: Path) -> ExportDialog:
-    dialog = ExportDialog(session, tmp_path / "out", "quartet.mid", "Suisou test")
-    dialog.show()
-    return dialog
 
 
 def outcome(dialog: ExportDialog) -> str:
@@ -107,10 +100,11 @@ def test_it_exports_into_a_project_and_again(dialog: ExportDialog, game: Path) -
     assert "2 files that are no longer needed will be removed: " in outcome(dialog)
 
 
-def test_a_dancer_goes_into_the_project_alone(session: Session, qtbot: QtBot, game: Path, tmp_path: Path) -> None:
+def test_a_dancer_goes_into_the_project_alone(
+    show_export: ShowExport, session: Session, game: Path, tmp_path: Path
+) -> None:
     session.apply(Message("edit.add_dancer"), with_dancers(session.project, tmp_path, "Ana"))
-    dialog = ExportDialog(session, tmp_path / "out", "quartet.mid", "Suisou test")
-    dialog.show()
+    dialog = show_export(session)
     one_player_one_bar(dialog)
     dialog._players.item(0).setCheckState(Qt.CheckState.Unchecked)
     last = dialog._players.item(dialog._players.count() - 1)
@@ -171,9 +165,8 @@ def test_what_is_wrong_is_reported_before_anything_is_written(dialog: ExportDial
     assert not start_button(dialog).isEnabled()
 
 
-def test_the_project_is_remembered(session: Session, qtbot: QtBot, game: Path, tmp_path: Path) -> None:
-    dialog = ExportDialog(session, tmp_path / "out", "quartet.mid", "Suisou", None, game / "Game.uproject", "unreal")
-    dialog.show()
+def test_the_project_is_remembered(show_export: ShowExport, session: Session, game: Path) -> None:
+    dialog = show_export(session, unreal=game / "Game.uproject", destination="unreal")
     assert dialog._place.destination == "unreal"
     assert "Game (Unreal Engine 5.6)" in outcome(dialog)
     assert start_button(dialog).isEnabled()

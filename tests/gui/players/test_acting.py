@@ -16,24 +16,16 @@ from app.plan.parameters import PARAMETERS
 from app.shell.language import TextTranslator
 from metadata.acting import AMOUNTS
 from metadata.library import FOLDERS, HABITS, STYLES
-from tests.support.windows import show_in_front
+from tests.gui.players.conftest import ShowPlayers
 from widgets.common.chip import Chip
 from widgets.common.combo import Combo
 from widgets.common.section import Section
 from widgets.players.panel import PlayersPanel
 
 
-def panel_of(session: Session, qtbot: QtBot) -> PlayersPanel:
-    made = PlayersPanel(session)
-    qtbot.addWidget(made)
-    made.resize(300, 1900)
-    show_in_front(made)
-    return made
-
-
 @pytest.fixture
-def panel(session: Session, qtbot: QtBot) -> PlayersPanel:
-    made = panel_of(session, qtbot)
+def panel(session: Session, show_players: ShowPlayers) -> PlayersPanel:
+    made = show_players(session, 1900)
     section = made.findChild(Section, "players_acting")
     assert section is not None
     assert not section.is_open, "folded away until it is opened"
@@ -139,8 +131,8 @@ def test_everything_is_within_the_panel_and_nothing_overlaps(panel: PlayersPanel
         assert not any(box.intersects(other) for other in boxes[:number])
 
 
-def test_the_folded_section_says_what_the_player_is(session: Session, qtbot: QtBot) -> None:
-    panel = panel_of(session, qtbot)
+def test_the_folded_section_says_what_the_player_is(session: Session, show_players: ShowPlayers) -> None:
+    panel = show_players(session, 1900)
     section = panel.findChild(Section, "players_acting")
     assert section is not None
     assert section.header.accessibleName() == "Acting Section player"
@@ -164,14 +156,14 @@ def test_names_are_in_the_language_of_the_editor(panel: PlayersPanel) -> None:
 
 
 def test_the_users_own_style_is_there_as_soon_as_its_file_is_and_a_fault_is_shown(
-    session: Session, qtbot: QtBot, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    session: Session, show_players: ShowPlayers, qtbot: QtBot, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     for folder in FOLDERS:
         (tmp_path / folder.name).mkdir()
         monkeypatch.setenv(folder.variable, str(tmp_path / folder.name))
         monkeypatch.setattr(folder, "last", None)
     watch_metadata(session)
-    panel = panel_of(session, qtbot)
+    panel = show_players(session, 1900)
     combo = panel.findChild(Combo, "parameter_style")
     assert combo is not None
     noticed: list[str] = []

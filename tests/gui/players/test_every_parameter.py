@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import pytest
 from PySide6.QtWidgets import QApplication, QWidget
-from pytestqt.qtbot import QtBot
 
 from app.editor.session import Session
 from app.messages import WORDINGS
@@ -13,10 +12,9 @@ from app.project.edit.body_dance import set_body_dance
 from app.project.edit.dancers import add_dancer
 from app.project.model import DANCER_PARAMETERS
 from app.shell.language import TextTranslator
-from app.shell.theme import unstyled
 from metadata.acting import names_in
+from tests.gui.players.conftest import ShowPlayers
 from tests.support.parameters import others
-from tests.support.windows import show_in_front
 from widgets.common.chip import Chip
 from widgets.common.combo import Combo
 from widgets.common.number_slider import NumberSlider
@@ -28,18 +26,14 @@ SHOWN = {name: parameter for name, parameter in PARAMETERS.items() if name != "l
 
 
 @pytest.fixture
-def panel(session: Session, qt_app: QApplication, qtbot: QtBot) -> PlayersPanel:
+def panel(session: Session, show_players: ShowPlayers) -> PlayersPanel:
     players = tuple(player.id for player in session.project.players)
     project, dancer = add_dancer(set_body_dance(session.project, players, "salsa"), "salsa", "Anna")
     session.document.open(project)
     session.set_players(players)
     session.set_dancer(dancer)
     session.set_folded("players_acting", False)
-    with unstyled(qt_app):
-        made = PlayersPanel(session)
-    qtbot.addWidget(made)
-    show_in_front(made)
-    return made
+    return show_players(session)
 
 
 def choose(control: QWidget, value: object) -> None:

@@ -6,10 +6,10 @@ from pathlib import Path
 
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
-from pytestqt.qtbot import QtBot
 
 from app.editor.session import Session
 from app.editor.settings import Settings
+from tests.gui.players.conftest import ShowPlayers
 from widgets.common.section import Section
 from widgets.players.panel import PlayersPanel
 
@@ -20,10 +20,8 @@ def section(panel: PlayersPanel, name: str) -> Section:
     return found
 
 
-def test_a_folded_part_is_remembered_by_name(session: Session, qtbot: QtBot, tmp_path: Path) -> None:
-    panel = PlayersPanel(session)
-    qtbot.addWidget(panel)
-    panel.show()
+def test_a_folded_part_is_remembered_by_name(session: Session, show_players: ShowPlayers, tmp_path: Path) -> None:
+    panel = show_players(session)
     assert session.folded == {}
     QTest.mouseClick(section(panel, "players_breath").header, Qt.MouseButton.LeftButton)
     header = section(panel, "players_presets").header
@@ -35,9 +33,7 @@ def test_a_folded_part_is_remembered_by_name(session: Session, qtbot: QtBot, tmp
     kept.sync()
     for name, folded in Settings(tmp_path / "editor.toml").folded.items():
         session.set_folded(name, folded)
-    again = PlayersPanel(session)
-    qtbot.addWidget(again)
-    again.show()
+    again = show_players(session)
     assert not section(again, "players_breath").is_open
     assert section(again, "players_presets").is_open
     assert section(again, "players_motion").is_open

@@ -3,18 +3,15 @@
 from __future__ import annotations
 
 from PySide6.QtWidgets import QApplication
-from pytestqt.qtbot import QtBot
 
 from app.editor.session import Session
 from app.shell.language import TextTranslator
 from tests.gui.japanese import english_in, texts_of
-from widgets.players.panel import PlayersPanel
+from tests.gui.players.conftest import ShowPlayers
 
 
-def test_everything_is_japanese_at_once_and_english_again(session: Session, qtbot: QtBot) -> None:
-    panel = PlayersPanel(session)
-    qtbot.addWidget(panel)
-    panel.show()
+def test_everything_is_japanese_at_once_and_english_again(session: Session, show_players: ShowPlayers) -> None:
+    panel = show_players(session)
     english = texts_of(panel)
     translator = TextTranslator("ja")
     QApplication.installTranslator(translator)

@@ -9,7 +9,7 @@ import pytest
 from msgspec.structs import replace as replace_struct
 from PySide6.QtCore import QPoint, QPointF, Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication, QComboBox, QLineEdit, QMenu, QPushButton, QToolButton, QWidget
+from PySide6.QtWidgets import QComboBox, QLineEdit, QMenu, QPushButton, QToolButton, QWidget
 from pytestqt.qtbot import QtBot
 
 from app.editor.session import Session
@@ -18,9 +18,8 @@ from app.project.edit import players as players_edit
 from app.project.edit.players import cast_parameters, duplicate_players
 from app.project.performers import Player
 from app.shell.commands.players import toggle_posture
-from app.shell.theme import unstyled
 from instrument_maps.library import find_map
-from tests.support.windows import show_in_front
+from tests.gui.players.conftest import ShowPlayers
 from widgets.common.combo import Combo
 from widgets.common.number_slider import NumberSlider
 from widgets.players.panel import PlayersPanel
@@ -29,14 +28,9 @@ from widgets.players.stage import StageView
 
 
 @pytest.fixture
-def panel(session: Session, qt_app: QApplication, qtbot: QtBot) -> PlayersPanel:
+def panel(session: Session, show_players: ShowPlayers) -> PlayersPanel:
     session.performance.plans  # noqa: B018 - made, as the shell does
-    with unstyled(qt_app):
-        made = PlayersPanel(session)
-    qtbot.addWidget(made)
-    made.resize(320, 1200)
-    show_in_front(made)
-    return made
+    return show_players(session)
 
 
 def child(panel: QWidget, kind: type[QWidget], name: str) -> QWidget:
@@ -417,24 +411,20 @@ def test_characters_have_portraits(panel: PlayersPanel, qtbot: QtBot) -> None:
     assert heads[0] != heads[1]
 
 
-def test_many_players_are_few_widgets(session: Session, qtbot: QtBot) -> None:
+def test_many_players_are_few_widgets(session: Session, show_players: ShowPlayers) -> None:
     project = session.project
     while len(project.players) < 50:
         project, _ = duplicate_players(project, [player.id for player in project.players])
     session.document.open(project)
-    panel = PlayersPanel(session)
-    qtbot.addWidget(panel)
-    panel.show()
+    panel = show_players(session)
     assert len(panel.findChildren(QWidget)) < 280
     assert isinstance(panel.list, PlayerList)
     session.set_players(tuple(ids(session)))
     assert len(panel.list.selectionModel().selectedIndexes()) == len(project.players)
 
 
-def test_an_empty_project_teaches(session: Session, qtbot: QtBot) -> None:
-    panel = PlayersPanel(session)
-    qtbot.addWidget(panel)
-    panel.show()
+def test_an_empty_project_teaches(session: Session, show_players: ShowPlayers) -> None:
+    panel = show_players(session)
     session.document.open(replace(session.project, players=()))
     assert not panel.list.isVisible()
     panel.add("trumpet_Bb")

@@ -8,24 +8,20 @@ import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QLineEdit, QToolButton
-from pytestqt.qtbot import QtBot
 
 from app.editor.session import Session
 from app.project import presets
 from app.project.edit.players import set_parameters
+from tests.gui.players.conftest import ShowPlayers
 from widgets.common.combo import Combo
 from widgets.common.section import Section
-from widgets.players.panel import PlayersPanel
 
 
 def test_a_preset_is_saved_applied_and_deleted(
-    session: Session, qtbot: QtBot, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    session: Session, show_players: ShowPlayers, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(presets, "preset_folder", lambda: tmp_path / "presets")
-    panel = PlayersPanel(session)
-    qtbot.addWidget(panel)
-    panel.resize(300, 1400)
-    panel.show()
+    panel = show_players(session, 1400)
 
     def click(name: str) -> None:
         button = panel.findChild(QToolButton, name)

@@ -106,6 +106,17 @@ def _drawn(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> N
                 monkeypatch.setattr(f"app.performance.live.LiveMotion.{making}", lambda self, stop_requested: False)
 
 
+def end(program: Program) -> None:
+    """End an editor, as closing its window does, and let its parts be deleted."""
+    program.window.hide()
+    program.end()
+    program.generator.deleteLater()
+    program.editor.files.end()
+    program.editor.language.set("en")
+    program.window.deleteLater()
+    program.session.deleteLater()
+
+
 Start = Callable[[], Program]
 
 
@@ -122,13 +133,7 @@ def start(qtbot: QtBot, qt_app: QApplication, settings: Settings, answers: Answe
 
     yield begin
     for program in started:
-        program.window.hide()
-        program.end()
-        program.generator.deleteLater()
-        program.editor.files.end()
-        program.editor.language.set("en")
-        program.window.deleteLater()
-        program.session.deleteLater()
+        end(program)
     delete_now()
 
 
@@ -190,12 +195,7 @@ def studio(
     program.recorder.begin_where_remembered()
     result.wait(lambda: program.session.recording.connection == "open")
     yield result
-    program.window.hide()
-    program.end()
-    program.generator.deleteLater()
-    program.editor.files.end()
-    program.window.deleteLater()
-    program.session.deleteLater()
+    end(program)
 
 
 @pytest.fixture
@@ -225,11 +225,5 @@ def desk(
     program.session.playback = sound.playback
     show_in_front(program.window)
     yield Desk(program, answers, tmp_path, monkeypatch)
-    program.window.hide()
-    program.end()
-    program.generator.deleteLater()
-    program.editor.files.end()
-    program.editor.language.set("en")
-    program.window.deleteLater()
-    program.session.deleteLater()
+    end(program)
     delete_now()

@@ -31,7 +31,7 @@ from app.shell.commands.events import choose_expression
 from app.shell.questions import DialogQuestions, _may_replace
 from instrument_maps.library import all_maps
 from tests.gui.conftest import delete_now, quartet_project
-from tests.gui.shell.conftest import Answers, Start
+from tests.gui.shell.conftest import Answers, Start, end
 from tests.gui.shell.test_recovery import click, crash, edit, later
 from tests.support.canary import WATCHES, Canary, canary
 from tests.support.foreign_text import CHARACTER, Judge, Spoken, hostile_score, with_more, write_library
@@ -97,12 +97,7 @@ def walked(
     program.window.resize(1600, 1000)
     show(program.window)
     yield program
-    program.window.hide()
-    program.end()
-    program.generator.deleteLater()
-    program.editor.files.end()
-    program.window.deleteLater()
-    program.session.deleteLater()
+    end(program)
     delete_now()
     monkeypatch.undo()
     character_library.reload_characters()

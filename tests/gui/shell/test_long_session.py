@@ -13,6 +13,7 @@ from app.project.autosave import Autosave
 from app.project.presence import Presence
 from app.shell.app import Program
 from tests.gui.conftest import delete_now
+from tests.gui.shell.conftest import end
 from tests.support.long_session import LongDay, footprint, larger_piece
 
 pytestmark = pytest.mark.drawn
@@ -34,12 +35,7 @@ def program(qt_app: QApplication, settings: Settings, tmp_path: Path) -> Iterato
     result.window.resize(800, 500)
     result.window.show()
     yield result
-    result.end()
-    result.window.hide()
-    result.generator.deleteLater()
-    result.editor.files.end()
-    result.window.deleteLater()
-    result.session.deleteLater()
+    end(result)
     delete_now()
 
 
