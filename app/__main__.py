@@ -9,6 +9,8 @@ import os
 import signal
 import sys
 
+from app.score.suffixes import MUSIC
+
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from argparse import Namespace
@@ -17,7 +19,7 @@ if TYPE_CHECKING:
 
 UTF8_MODE = "PYTHONUTF8"
 """Python's own variable."""
-OPENED = (".suisou", ".mid", ".midi")
+OPENED = (".suisou", *MUSIC)
 """A file that is named alone, as a desktop does, opens in the editor."""
 
 

@@ -32,15 +32,18 @@ from app.encoding import shown
 from app.errors import FileError, Message, UsageError
 from app.export.file_names import REPORT
 from app.formats.atomic import atomic_write
-from app.formats.files import cannot_write, read_file
+from app.formats.files import cannot_write, open_file, read_file
 from app.formats.json_data import decode_json
 from app.messages import filled, text
+from app.project.storage import SUFFIX
+from app.score.suffixes import MUSIC
 
 NOTES: Final = "exported.json"
-SUFFIXES: Final = (".mid", ".midi", ".suisou")
 _STOP_S: Final = 10.0
 """Time for a process to remove its unfinished files."""
 _MOST_BYTES: Final = 64 * 2**20
+_START: Final = 4096
+"""Bytes in which a score says that it is one."""
 _DASK_VARIABLES: Final = ("MALLOC_TRIM_THRESHOLD_",)
 """Environment variables that Dask sets for its workers: with them an export spends seconds on returning memory."""
 
@@ -168,11 +171,22 @@ def folders_of(source: Path) -> dict[str, str]:
     found = sorted(
         path.relative_to(source)
         for path in source.rglob("*")
-        if path.suffix.casefold() in SUFFIXES and os.path.isfile(path) and not _hidden(path.relative_to(source))
+        if path.suffix.casefold() in (SUFFIX, *MUSIC)
+        and os.path.isfile(path)
+        and not _hidden(path.relative_to(source))
+        and _is_music(path)
     )
     alike = Counter(path.with_suffix("") for path in found)
     folders = [path if alike[path.with_suffix("")] > 1 else path.with_suffix("") for path in found]
     return {path.as_posix(): folder.as_posix() for path, folder in zip(found, folders, strict=True)}
+
+
+def _is_music(path: Path) -> bool:
+    """Return whether a file holds what its name says: much is called ``.xml`` that is no score."""
+    if path.suffix.casefold() != ".xml":
+        return True
+    with open_file(path) as stream:
+        return b"<score-" in stream.read(_START).replace(b"\0", b"")
 
 
 def _hidden(path: Path) -> bool:

@@ -14,7 +14,7 @@ from app.features import FEATURES, SubCommand
 
 _OWN: Final = {
     "edit": "open the editor (also without any command)",
-    "inspect": "say what a MIDI file holds and what its players will do",
+    "inspect": "say what a MIDI file or a score holds and what its players will do",
     "export": "write the players and their instruments as FBX, BVH, GLB or USD",
     "film": "draw the players: a film with sound, PNG frames or a contact sheet",
     "midi": "write the piece as a MIDI file",

@@ -17,7 +17,9 @@ LEAST_PX, MOST_PX = (960, 600), (7680, 4320)
 def add_arguments(command: argparse.ArgumentParser) -> None:
     """Declare the sub-command."""
     command.description = "Opens the editor. With --screenshot it draws its window once, writes the picture and ends."
-    command.add_argument("file", type=Path, nargs="?", metavar="FILE", help="a project (.suisou) or MIDI file")
+    command.add_argument(
+        "file", type=Path, nargs="?", metavar="FILE", help="a project, a MIDI file or a score (MusicXML)"
+    )
     command.add_argument("--screenshot", type=Path, metavar="OUT.png", help="write a picture of the window and end")
     command.add_argument(
         "--time", dest="time_s", type=seconds, default=0.0, metavar="S", help="where the playhead is (default 0)"

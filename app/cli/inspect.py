@@ -39,6 +39,7 @@ from app.plan.model import (
 from app.plan.music.pitch_bends import bends
 from app.plan.problem_lines import problem_lines, with_notes_named
 from app.project.performers import Dancer, Player
+from app.score.marks import Mark
 from app.score.model import Note, Score
 from app.score.mutes import is_muted
 from app.score.tempo import TempoMap
@@ -54,7 +55,9 @@ through it again and again takes a twelfth of the time."""
 
 def add_arguments(command: argparse.ArgumentParser) -> None:
     """Declare the sub-command."""
-    command.description = "Reads a MIDI file and prints its players with fingerings, breaths, cues and gestures."
+    command.description = (
+        "Reads a MIDI file or score and prints its players with fingerings, breaths, cues and gestures."
+    )
     add_source_options(command)
     add_title_option(command)
     add_rate_option(command)
@@ -203,6 +206,7 @@ def _player(performance: Performance, player: Player, instrument: InstrumentMap)
         "name": player.name,
         "instrument": player.instrument_id,
         "part": part.name,
+        "source": part.source,
         "musician": performance.project.musician(player).name,
         # Of notes struck together only one is played; the others are among what to look at.
         "notes": [
@@ -221,6 +225,8 @@ def _player(performance: Performance, player: Player, instrument: InstrumentMap)
         "gestures": _events(plan.gestures, clock, reason, "kind", "amount"),
         "expressions": _events(plan.expressions, clock, reason, "expression", "strength", "fade_in_s", "fade_out_s"),
     }
+    if part.marks:
+        table["marks"] = [_mark(mark) for mark in part.marks]
     if plan.poses:
         # Only where the animator held something differently: nothing else has any.
         angles = ("up_deg", "left_deg", "roll_deg")
@@ -232,6 +238,13 @@ def _player(performance: Performance, player: Player, instrument: InstrumentMap)
     if plan.additive:
         table["curves"] = _spans(plan.additive, clock, "channel", "low", "high")
     return table
+
+
+def _mark(mark: Mark) -> Table:
+    """Return a mark of the score: its kind and its text, and the notes or ticks that it is at."""
+    if not mark.note_id:
+        return {"kind": mark.kind, "tick": mark.tick, "end_tick": mark.end_tick or None, "text": mark.text}
+    return {"kind": mark.kind, "note": mark.note_id, "last_note": mark.last_note_id or None, "text": mark.text}
 
 
 def _tongued(event: TongueEvent | None, reason: _Reasons) -> Table:

@@ -148,7 +148,7 @@ def add_players_option(command: argparse.ArgumentParser, help: str) -> None:
 
 def add_file_options(command: argparse.ArgumentParser) -> None:
     """Declare the file and how it is read."""
-    command.add_argument("file", type=Path, metavar="FILE", help="a Standard MIDI File or a .suisou project")
+    command.add_argument("file", type=Path, metavar="FILE", help="a MIDI file, a score (MusicXML) or a project")
     command.add_argument(
         "--encoding",
         type=text_encoding,

@@ -36,7 +36,6 @@ from app.score.contents import PieceContents
 from app.score.read import read_contents
 from instrument_maps.library import all_maps, reload
 
-MIDI_SUFFIXES: Final = (".mid", ".midi", ".smf", ".kar", ".rmi")
 AUDIO_SUFFIXES: Final = (".wav", ".flac", ".mp3", ".ogg", ".aif", ".aiff", ".m4a")
 VIDEO_SUFFIXES: Final = SUFFIXES
 EXAMPLE: Final = "quartet.mid"
@@ -164,13 +163,13 @@ class Files(QObject):
         self.let_go(lambda: self._become(new_piece(), None))
 
     def open(self, path: Path, ask: bool = True) -> None:
-        """Open a project or a MIDI file in place of what is open; a recording or a reference video is added
+        """Open a project, a MIDI file or a score in place of what is open; a recording or a reference video is added
         to it.
 
         Parameters
         ----------
         ask : bool
-            Whether the import of a MIDI file asks who plays what.
+            Whether the import of a MIDI file or a score asks who plays what.
         """
         agree(path)
         path = path.absolute()

@@ -161,5 +161,5 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         "{file} is neither a choreography file (.choreography) nor a bundled choreography; choose one of these",
         ("{file} は、振り付けのファイル（.choreography）でも付属の振り付けでもありません。いずれかを選んでください"),
     ),
-    "edit.reimport": ("Re-import MIDI", "MIDI を再読み込み"),
+    "edit.reimport": ("Re-import File", "ファイルを再読み込み"),
 }

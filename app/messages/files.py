@@ -8,8 +8,8 @@ from app.messages.audio import with_next
 
 WORDINGS: Final[dict[str, tuple[str, str]]] = {
     "file.cannot_open": (
-        "{file} is neither a command nor a project or MIDI file ({kinds}); 'suisou --help' lists the commands",
-        "{file} はコマンドでも、プロジェクトや MIDI のファイル（{kinds}）でもありません。"
+        "{file} is neither a command nor a project, MIDI file or score ({kinds}); 'suisou --help' lists the commands",
+        "{file} はコマンドでも、プロジェクト、MIDI、楽譜のファイル（{kinds}）でもありません。"
         "コマンドは 'suisou --help' で確認できます",
     ),
     "file.other_computer": (

@@ -288,8 +288,8 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
     # Presets
     # Re-import
     "reimport.done": (
-        "MIDI updated; notes matched: {kept}, corrections without a matching note: {lost}",
-        "MIDI を更新しました。引き継いだ音符: {kept}、対応する音符のない手動修正: {lost}",
+        "File updated; notes matched: {kept}, corrections without a matching note: {lost}",
+        "ファイルを更新しました。引き継いだ音符: {kept}、対応する音符のない手動修正: {lost}",
     ),
     "reimport.no_note": (
         "corrections of this kind ({kind}) are not attached to notes",

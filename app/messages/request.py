@@ -155,7 +155,7 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         ),
     ),
     "open.audio_alone": (
-        "{file} is an audio or video file; open its project or MIDI file first, then drop it again",
+        "{file} is an audio or video file; open its project, MIDI file or score first, then drop it again",
         "{file} は音源または動画です。先に曲を開いてから、もう一度ドロップしてください",
     ),
     "program.fault": (

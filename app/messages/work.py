@@ -17,7 +17,7 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
     "work.load_figures": ("loading characters…", "キャラクターを読み込み中…"),
     "work.compare": ("generating {player} for comparison…", "{player} を比較のため生成中…"),
     "work.learn": ("learning {file}…", "{file} を学習中…"),
-    "work.reimport": ("re-importing MIDI…", "MIDI を再読み込み中…"),
+    "work.reimport": ("re-importing the file…", "ファイルを再読み込み中…"),
     "work.portraits": ("creating character thumbnails…", "サムネイルを作成中…"),
     "work.choreography": ("loading choreography…", "振り付けを読み込み中…"),
     "work.generated_curve": ("sampling generated motion…", "生成された動きを計算中…"),

@@ -14,7 +14,7 @@ from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QKeySequence
 from PySide6.QtOpenGLWidgets import QOpenGLWidget
 from PySide6.QtWidgets import QMainWindow, QPushButton, QStackedWidget, QToolBar, QWidget
 
-from app.editor.files import AUDIO_SUFFIXES, MIDI_SUFFIXES, VIDEO_SUFFIXES, Files
+from app.editor.files import AUDIO_SUFFIXES, VIDEO_SUFFIXES, Files
 from app.editor.generator import Generator
 from app.editor.questions import Questions
 from app.editor.session import Session
@@ -26,6 +26,7 @@ from app.formats.other_computers import host_of, is_file, may_touch
 from app.project.recovery import Recoverable
 from app.project.storage import SUFFIX
 from app.rig.characters.read_figure import SUFFIXES as CHARACTER_SUFFIXES
+from app.score.suffixes import MUSIC
 from app.shell.actions import CONTEXTS, ActionTable
 from app.shell.banner import Banner
 from app.shell.docks import Dock, TabsStay
@@ -466,6 +467,6 @@ class Window(Retranslated, QMainWindow):
 def dropped_file(event: QDropEvent) -> Path | None:
     """The first file of a drop that can be opened."""
     for path in dropped_paths(event):
-        if path.suffix.lower() in (SUFFIX, *MIDI_SUFFIXES, *AUDIO_SUFFIXES, *VIDEO_SUFFIXES, *CHARACTER_SUFFIXES):
+        if path.suffix.lower() in (SUFFIX, *MUSIC, *AUDIO_SUFFIXES, *VIDEO_SUFFIXES, *CHARACTER_SUFFIXES):
             return path
     return None

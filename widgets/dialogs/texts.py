@@ -216,7 +216,7 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
     "import_dialog.finding_out_who_plays_what": ("Assigning instruments…", "楽器を割り当て中…"),
     "import_dialog.greek": ("Greek ({name})", "ギリシャ文字（{name}）"),
     "import_dialog.import": ("Import", "読み込み"),
-    "import_dialog.import_midi": ("Import MIDI", "MIDI の読み込み"),
+    "import_dialog.import_midi": ("Import", "読み込み"),
     "import_dialog.instrument": ("Instrument", "楽器"),
     "import_dialog.is_not_played": ("{name} will not be played: {reason}", "{name} は演奏されません: {reason}"),
     "import_dialog.is_not_played_dancers_dance": (
@@ -722,7 +722,7 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
         "次の奏者のパートはファイルにありません。奏者と音符は残ります。削除する奏者をチェックしてください:",
     ),
     "reimport_dialog.re_import": ("Re-import", "再読み込み"),
-    "reimport_dialog.re_import_midi": ("Re-import MIDI", "MIDI の再読み込み"),
+    "reimport_dialog.re_import_midi": ("Re-import File", "ファイルの再読み込み"),
     "reimport_dialog.replaced_by_file": (
         "Changed both here and in the file; the version from the file is used: {kinds}",
         "ここでもファイルでも変更されているため、ファイルの内容になります: {kinds}",

@@ -65,8 +65,8 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
         "奏者同士の違い: 0 で全員同じ、1 で無理のない最大",
     ),
     "players_panel.no_players_yet_add_player": (
-        "No players. Add a player with ＋, or drop a MIDI file onto the window.",
-        "奏者がいません。＋ で奏者を追加するか、MIDI ファイルをウィンドウにドロップしてください。",
+        "No players. Add a player with ＋, or drop a MIDI file or a score onto the window.",
+        "奏者がいません。＋ で奏者を追加するか、MIDI ファイルや楽譜をウィンドウにドロップしてください。",
     ),
     "players_panel.of_selected": ("{chosen} of {count} selected", "{count} 人中 {chosen} 人を選択"),
     "players_panel.played_by": ("{instrument}, played by {name}", "{instrument}（{name} が持ち替え）"),

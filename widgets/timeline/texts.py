@@ -124,8 +124,8 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
         "音符がありません。鉛筆で描くか、ダブルクリックまたは貼り付けで入力してください。",
     ),
     "piano_roll.no_players_yet_open_midi": (
-        "No players. Open a MIDI file or add a player.",
-        "奏者がいません。MIDI ファイルを開くか、奏者を追加してください。",
+        "No players. Open a MIDI file or a score, or add a player.",
+        "奏者がいません。MIDI ファイルか楽譜を開くか、奏者を追加してください。",
     ),
     "piano_roll.notes": ("Notes", "音符"),
     "piano_roll.notes_of_player_in_front": (

@@ -48,8 +48,8 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
     "scene.loading_players": ("Loading players…", "奏者を読み込み中…"),
     "scene.making_first_motion": ("Generating motion…", "モーションを生成中…"),
     "scene.no_players_yet_open_or": (
-        "No players. Open a project or import a MIDI file to see the performance.",
-        "奏者がいません。プロジェクトを開くか MIDI ファイルを読み込むと、演奏が表示されます。",
+        "No players. Open a project or import a MIDI file or a score to see the performance.",
+        "奏者がいません。プロジェクトを開くか、MIDI ファイルや楽譜を読み込むと、演奏が表示されます。",
     ),
     "scene.right": ("right {degrees}°", "右 {degrees}°"),
     "scene.up": ("up {degrees}°", "上 {degrees}°"),

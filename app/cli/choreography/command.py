@@ -218,7 +218,7 @@ def _add_generate(actions: Actions) -> None:
         "file of the body that was captured. Of a piece without percussion, melody, bass and accents are taken for it.",
     )
     command.add_argument("choreography", metavar="NAME.choreography", help="a file that was learned, or a bundled one")
-    command.add_argument("piece", type=Path, metavar="PIECE", help="a MIDI file")
+    command.add_argument("piece", type=Path, metavar="PIECE", help="a MIDI file or a score")
     command.add_argument(
         "--to",
         type=Path,

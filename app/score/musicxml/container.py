@@ -31,8 +31,8 @@ from xml.parsers import expat
 
 from app.errors import FileError, shortened
 from app.formats.files import open_file, read_file
+from app.score.suffixes import NOTATION
 
-SUFFIXES: Final = (".musicxml", ".mxl", ".xml")
 MOST_BYTES: Final = 2**26
 """Of a file, and of what it unpacks to; a symphony has some tens of megabytes."""
 MOST_RATIO: Final = 200
@@ -71,7 +71,7 @@ def is_musicxml(path: Path) -> bool:
         return False
     if start.startswith(_ZIP) or start.removeprefix(codecs.BOM_UTF8).lstrip().startswith(b"<"):
         return True
-    return start.startswith(tuple(mark for mark, _ in _BOMS)) or path.suffix.lower() in SUFFIXES
+    return start.startswith(tuple(mark for mark, _ in _BOMS)) or path.suffix.lower() in NOTATION
 
 
 def read_document(path: Path) -> Element:

@@ -7,7 +7,6 @@ from pathlib import Path
 
 from PySide6.QtCore import Qt
 
-from app.editor.files import MIDI_SUFFIXES
 from app.editor.session import Session, Severity
 from app.editor.tasks import Progress, StopRequested
 from app.editor.translated import tr
@@ -19,6 +18,7 @@ from app.project.midi_out import export_midi as write_piece
 from app.project.model import Project
 from app.project.performers import Player
 from app.project.reimport import Reimport, reimported
+from app.score import suffixes
 from app.shell.editor import Editor, EditorAction, is_open
 from app.version import program_version
 from instrument_maps.library import all_maps
@@ -27,7 +27,7 @@ from widgets.inspector.words import correction_title
 
 
 def read_again(editor: Editor) -> None:
-    """Read the project's MIDI file once more; one that is not there any more is asked for."""
+    """Read the project's MIDI file or score once more; one that is not there any more is asked for."""
     source = editor.session.project.source
     if source and is_file(source):
         reimport_from(editor, Path(source))
@@ -36,15 +36,15 @@ def read_again(editor: Editor) -> None:
 
 
 def read_another(editor: Editor) -> None:
-    """Ask for a newer version of the piece's MIDI file and take it in."""
-    kinds = f"{tr('files.midi_files')} ({' '.join(f'*{suffix}' for suffix in MIDI_SUFFIXES)})"
+    """Ask for a newer version of the piece's MIDI file or score and take it in."""
+    kinds = f"{tr('files.music')} ({' '.join(f'*{suffix}' for suffix in suffixes.MUSIC)})"
     path = editor.questions.open_file(tr("files.re_import_midi"), editor.files.folder, kinds)
     if path is not None:
         reimport_from(editor, path)
 
 
 def reimport_from(editor: Editor, path: Path) -> None:
-    """Show what a MIDI file changes in the piece, and change it if the user agrees."""
+    """Show what a MIDI file or a score changes in the piece, and change it if the user agrees."""
     session = editor.session
     project = session.project
 
@@ -94,7 +94,7 @@ def export_midi(editor: Editor) -> None:
     session = editor.session
     proposal = Path(editor.files.folder) / f"{editor.files.stem}.mid"
     kinds = f"{tr('files.midi_files')} (*.mid)"
-    target = editor.questions.save_file(tr("files.export_midi"), str(proposal), kinds, MIDI_SUFFIXES)
+    target = editor.questions.save_file(tr("files.export_midi"), str(proposal), kinds, suffixes.MIDI)
     if target is None:
         return
     project = session.project

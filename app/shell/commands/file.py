@@ -2,23 +2,34 @@
 
 from __future__ import annotations
 
-from app.editor.files import AUDIO_SUFFIXES, MIDI_SUFFIXES, VIDEO_SUFFIXES
+from app.editor.files import AUDIO_SUFFIXES, VIDEO_SUFFIXES
 from app.editor.translated import tr
 from app.project.storage import SUFFIX
+from app.score.suffixes import MIDI, MUSIC, NOTATION
 from app.shell.editor import Editor, EditorAction, is_open
 
 
 def open_file(editor: Editor) -> None:
-    """Ask for a project or MIDI file and open it."""
-    kinds = ((tr("files.projects_and_midi_files"), (SUFFIX, *MIDI_SUFFIXES)), (tr("files.all_files"), ("",)))
+    """Ask for a project, a MIDI file or a score and open it."""
+    kinds = (
+        (tr("files.projects_and_music"), (SUFFIX, *MUSIC)),
+        (tr("files.midi_files"), MIDI),
+        (tr("files.scores"), NOTATION),
+        (tr("files.all_files"), ("",)),
+    )
     path = editor.questions.open_file(tr("files.open"), editor.files.folder, _filters(kinds))
     if path is not None:
         editor.files.open(path)
 
 
 def import_midi(editor: Editor) -> None:
-    """Ask for a MIDI file and who plays what in it."""
-    kinds = ((tr("files.midi_files"), MIDI_SUFFIXES), (tr("files.all_files"), ("",)))
+    """Ask for a MIDI file or a score and who plays what in it."""
+    kinds = (
+        (tr("files.music"), MUSIC),
+        (tr("files.midi_files"), MIDI),
+        (tr("files.scores"), NOTATION),
+        (tr("files.all_files"), ("",)),
+    )
     path = editor.questions.open_file(tr("files.import_midi"), editor.files.folder, _filters(kinds))
     if path is not None:
         editor.files.open(path)

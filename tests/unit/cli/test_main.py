@@ -167,6 +167,7 @@ def test_inspect_has_exactly_these_keys(run: Run) -> None:
             "instrument",
             "part",
             "musician",
+            "source",
             "notes",
             "breaths",
             "cues",

@@ -23,6 +23,7 @@ from app.editor.tasks import Progress, StopRequested
 from app.encoding import shown
 from app.errors import AppError, Cancelled, Message
 from app.project.choreography_files import SUFFIX
+from app.score.suffixes import MUSIC
 from widgets.common.clicks import on_click
 from widgets.common.controls import Button, Caption, ColumnList, named, selectable
 from widgets.common.layouts import STRETCH, begin_with_size, in_column, in_form, in_row, panel
@@ -31,7 +32,7 @@ from widgets.common.plain import Label
 from widgets.common.text import message_text, sentence
 from widgets.dialogs.automatic_number import TEXT_MARGIN_PX, AutomaticNumber
 from widgets.dialogs.choreography.cut_panel import CutHistory, CutPanel
-from widgets.dialogs.choreography.learn_draft import MIDI_SUFFIXES, MOTION_SUFFIXES, PairContents, PairDraft, with_files
+from widgets.dialogs.choreography.learn_draft import MOTION_SUFFIXES, PairContents, PairDraft, with_files
 from widgets.dialogs.choreography.learn_pair import PairForm, file_name
 from widgets.dialogs.working import WorkingDialog
 
@@ -212,7 +213,7 @@ class LearnDialog(WorkingDialog):
             self._select(before if len(self._rows) > before else 0)
 
     def _ask_for_files(self) -> None:
-        suffixes = (*MOTION_SUFFIXES, *MIDI_SUFFIXES, CREDITS_SUFFIX)
+        suffixes = (*MOTION_SUFFIXES, *MUSIC, CREDITS_SUFFIX)
         filters = f"{self.tr('learn_dialog.motion_and_midi_files')} ({' '.join(f'*{suffix}' for suffix in suffixes)})"
         paths = ask_for_files(self, self.tr("learn_dialog.add_motion_and_music"), self._folder, filters)
         if paths:

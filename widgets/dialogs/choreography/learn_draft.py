@@ -13,9 +13,9 @@ from app.choreography.cuts_by_hand import Cuts
 from app.choreography.learn import Analysis
 from app.choreography.read_pair import CREDITS_SUFFIX, ReadPair
 from app.errors import Message
+from app.score.suffixes import MUSIC
 
 MOTION_SUFFIXES: Final = (".bvh", ".fbx", ".glb", ".gltf")
-MIDI_SUFFIXES: Final = (".mid", ".midi", ".smf", ".kar", ".rmi")
 
 
 class PairDraft(msgspec.Struct, frozen=True):
@@ -62,7 +62,7 @@ def with_files(drafts: Sequence[PairDraft], paths: Sequence[Path]) -> tuple[tupl
     """
     kinds = [path.suffix.lower() for path in paths]
     result = list(drafts)
-    for field, other, suffixes in (("motion", "music", MOTION_SUFFIXES), ("music", "motion", MIDI_SUFFIXES)):
+    for field, other, suffixes in (("motion", "music", MOTION_SUFFIXES), ("music", "motion", MUSIC)):
         files = [path for path, kind in zip(paths, kinds, strict=True) if kind in suffixes]
         # What has the name of another file is not taken by one that has not.
         for path in sorted(files, key=lambda path: not _lacking(result, field, other, path)):
@@ -73,7 +73,7 @@ def with_files(drafts: Sequence[PairDraft], paths: Sequence[Path]) -> tuple[tupl
         same = [at for at, one in enumerate(result) if one.motion is not None and one.motion.stem == path.stem]
         at = same[0] if same else len(result) - 1
         result[at] = msgspec.structs.replace(result[at], credits=path)
-    known = (*MOTION_SUFFIXES, *MIDI_SUFFIXES, *([CREDITS_SUFFIX] if result else []))
+    known = (*MOTION_SUFFIXES, *MUSIC, *([CREDITS_SUFFIX] if result else []))
     return tuple(result), tuple(path for path, kind in zip(paths, kinds, strict=True) if kind not in known)
 
 

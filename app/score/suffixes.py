@@ -1,0 +1,9 @@
+"""How files of music are called; what they hold is known by their content."""
+
+from __future__ import annotations
+
+from typing import Final
+
+MIDI: Final = (".mid", ".midi", ".smf", ".kar", ".rmi")
+NOTATION: Final = (".musicxml", ".mxl", ".xml")
+MUSIC: Final = (*MIDI, *NOTATION)
