@@ -24,7 +24,7 @@ from app.cli.summary import project_summary, summary
 from app.cli.terminal import interrupted_by, say
 from app.encoding import shown
 from app.errors import UsageError
-from app.export.formats import FILE_FORMATS, USUAL_FORMATS, Format
+from app.export.formats import FILE_FORMATS, USUAL_FORMATS, Format, names_where, requested
 from app.export.request import ExportRequest
 from app.export.rig_options import ATTACHMENTS, DEFAULT_RIG, REST_POSES, ROOT_BONES, RigOptions
 from app.export.run import export as write
@@ -117,7 +117,8 @@ def _add_skeleton_options(command: argparse.ArgumentParser) -> None:
         choices=names("bone_names"),
         default="",
         metavar="PROFILE",
-        help="whose bone names the BVH files have (default: the skeleton's own): " + ", ".join(names("bone_names")),
+        help=f"whose bone names the files have, of {names_where(lambda kind: kind.bones_by_name)} (default: the "
+        f"skeleton's own): {', '.join(names('bone_names'))}",
     )
 
 
@@ -132,15 +133,15 @@ def _add_content_options(command: argparse.ArgumentParser) -> None:
         "--stage",
         action="store_true",
         help="also everyone in one file, each at the place on the stage, in every format that can hold it: "
-        + ", ".join(name for name, kind in FILE_FORMATS.items() if kind.write_stage is not None),
+        + names_where(lambda kind: kind.stage),
     )
     command.add_argument(
         "--keys",
         choices=KEY_CHOICES,
         default="every",
         help="a key on every frame, or reduced: as few linear keys as keep rotations within 0.25 degrees, and joints, "
-        "fingertips, lips, soles and instruments within 0.5 mm, at every frame; BVH always has every frame "
-        "(default: every)",
+        "fingertips, lips, soles and instruments within 0.5 mm, at every frame; of "
+        f"{names_where(lambda kind: kind.reduces_keys)} (default: every)",
     )
 
 
@@ -267,10 +268,10 @@ def _requested_formats(arguments: argparse.Namespace) -> frozenset[Format]:
     formats: frozenset[Format] = frozenset(arguments.formats or USUAL_FORMATS)
     if arguments.stage and arguments.unreal is not None:
         raise UsageError("unreal.stage")
-    if arguments.stage and all(FILE_FORMATS[name].write_stage is None for name in formats):
-        raise UsageError("stage.formats")
+    if arguments.stage and not any(kind.stage for kind in requested(formats)):
+        raise UsageError("stage.formats", possible=names_where(lambda kind: kind.stage))
     if arguments.keys == "reduced" and arguments.unreal is not None:
         raise UsageError("unreal.keys")
-    if arguments.keys == "reduced" and not any(FILE_FORMATS[name].reduces_keys for name in formats):
-        raise UsageError("keys.formats")
+    if arguments.keys == "reduced" and not any(kind.reduces_keys for kind in requested(formats)):
+        raise UsageError("keys.formats", possible=names_where(lambda kind: kind.reduces_keys))
     return formats

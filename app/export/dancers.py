@@ -9,19 +9,17 @@ import numpy as np
 
 from app.arrays import BoolArray, FloatArray
 from app.export.attachment import without_place
-from app.export.character import character_scene
-from app.export.file_names import figure_stems, file_names
-from app.export.formats import FILE_FORMATS
+from app.export.figures import dancer_scene
+from app.export.file_names import file_names
+from app.export.formats import requested
 from app.export.joint_playback import JointPlayback
-from app.export.keyed import key_count, keyed_character
+from app.export.keyed import key_count
 from app.export.playback import ScenePlayback
 from app.export.player import skeleton_report, write_options
 from app.export.report import DancerMeasures, DancerReport, stage_place
-from app.export.request import ExportCast, ExportRequest
+from app.export.request import CastDancing, ExportRequest
 from app.export.target import TargetSkeleton
-from app.formats.fbx.read import read_scene
 from app.formats.scene import Scene
-from app.performance.dances import Dancing
 from app.rig import quaternion
 from app.rig.model import Character
 from app.rig.sole import SIDES, foot_tip_m
@@ -58,28 +56,25 @@ def measure_dancer(scene: Scene, character: Character, target: TargetSkeleton, s
 
 
 def export_dancer(
-    request: ExportRequest, cast: ExportCast, dancing: Dancing, folder: Path, reported: Callable[[float], None]
+    request: ExportRequest, cast: CastDancing, folder: Path, reported: Callable[[float], None]
 ) -> DancerReport:
     """Write and measure the files of a dancer; parameters as of `app.export.player.export_player`."""
-    dancer = next(one for one in request.dancers if one.id == dancing.dancer.id)
-    checked, stem = cast.targets[dancer.id], figure_stems(request.performance)[dancer.id]["character"]
-    files = file_names(request.performance, request.formats)[dancer.id]
+    dancer, dancing, target, span = cast.dancer, cast.dancing, cast.target, request.span
+    files, rows = file_names(request.performance, request.formats)[dancer.id], requested(request.formats)
     reported(0.0)
-    character, target, span = dancing.character, checked.target, request.span
     motion = dancing.motion(span.fps, span.first, span.count)
     reported(0.3)
-    scene = character_scene(character, motion, stem, request.creator, target)
-    scene = keyed_character(scene, request.keys, request.formats, character, target)
-    beside = write_options(request, character, target)
-    for name, kind in FILE_FORMATS.items():
-        if name in request.formats:
-            kind.write(folder / files[f"character_{name}"], scene, beside)
+    scene = dancer_scene(request, cast, motion)
+    options = write_options(request, dancing.character, target)
+    for row in rows:
+        row.write(folder / files[row.key("character")], (scene,), options)
     reported(0.8)
     measures = None
-    if "fbx" in request.formats:
-        read = read_scene(folder / files["character_fbx"])
-        standing = dancing.standing(span.fps, span.first, span.count)
-        measures = measure_dancer(without_place(read, target.place), character, target, standing)
+    for row in rows:
+        if row.read is not None and measures is None:
+            read = row.read(folder / files[row.key("character")])
+            standing = dancing.standing(span.fps, span.first, span.count)
+            measures = measure_dancer(without_place(read, target.place), dancing.character, target, standing)
     reported(1.0)
     return DancerReport(
         name=dancer.name,
@@ -88,7 +83,7 @@ def export_dancer(
         files=files,
         stage=stage_place(dancer.stage),
         steps=sum(span.first_frame_s <= start_s < span.end_s for start_s in dancing.starts_s(span.fps)),
-        skeleton=skeleton_report(request, checked),
+        skeleton=skeleton_report(request, cast.checked),
         measures=measures,
         keys=key_count(scene),
     )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from app.export.formats import FILE_FORMATS, FileContent, Format
+from app.export.formats import FileContent, Format, requested
 from app.performance.ensemble import Performance
 from app.project.names import file_stems
 from app.project.performers import Dancer, Player
@@ -42,9 +42,8 @@ def file_names(performance: Performance, formats: frozenset[Format]) -> dict[str
     """Names of the files of every player and dancer: by id, then by what they hold."""
     return {
         id: {
-            f"{held}_{name}": f"{stems[held]}{kind.suffix}"
-            for name, kind in FILE_FORMATS.items()
-            if name in formats
+            kind.key(held): f"{stems[held]}{kind.suffix}"
+            for kind in requested(formats)
             for held in kind.holds
             if held in stems
         }
@@ -62,8 +61,4 @@ def stage_names(performance: Performance, formats: frozenset[Format], source: st
     """Names of the files of the whole stage, after the piece's; no figure's file has the same."""
     figures = [stem for stems in figure_stems(performance).values() for stem in stems.values()]
     *_, stem = file_stems([*figures, f"{Path(source).stem}_stage"])
-    return {
-        name: f"{stem}{kind.suffix}"
-        for name, kind in FILE_FORMATS.items()
-        if name in formats and kind.write_stage is not None
-    }
+    return {kind.id: f"{stem}{kind.suffix}" for kind in requested(formats) if kind.stage}

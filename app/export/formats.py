@@ -1,16 +1,17 @@
-"""The kinds of file that a player's character and instrument are written to."""
+"""The kinds of file that a player's character and instrument are written to: a row each, with its writer."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Final, Literal
+from typing import Final, Literal, TypeAlias
 
 from app.formats.scene import Scene
 from app.formats.usd import UsdSound, refuse_without_usd
 
-Format = Literal["fbx", "bvh", "glb", "usd"]
+Format: TypeAlias = str
+"""The id of a `FileFormat`."""
 FileContent = Literal["character", "instrument"]
 
 
@@ -36,6 +37,8 @@ class FileFormat:
 
     Attributes
     ----------
+    id, label : str
+        As typed in a command, and as shown, in every language.
     suffix : str
         With its dot.
     holds : tuple of str
@@ -43,11 +46,17 @@ class FileFormat:
     work : float
         How long a player's files take to write, beside those of the other formats.
     write : callable
-        Writes a scene that has a clip.
-    write_stage : callable or None
-        Writes several such scenes, each with a name and a place, into one file; None: it can hold one only.
+        Writes scenes that have clips, as they are made: one, or a stage of several, each with a name and a place.
+    stage : bool
+        Whether it can hold several scenes.
+    read : callable or None
+        Reads a file of one scene again; the first requested format that has it is the one that is measured.
+    usual : bool
+        Whether it is written by default.
     reduces_keys : bool
         Whether it can have fewer keys than one on every frame.
+    keys_by_pose : bool
+        Whether all bones share their keys in it.
     bones_by_name : bool
         Whether bones may get other names in it (`WriteOptions.bone_names`).
     package : str
@@ -56,76 +65,104 @@ class FileFormat:
         Raises UsageError where what writes this kind of file is not installed.
     """
 
+    id: Format
+    label: str
     suffix: str
     holds: tuple[FileContent, ...]
     work: float
-    write: Callable[[Path, Scene, WriteOptions], None]
-    write_stage: Callable[[Path, Iterable[Scene], WriteOptions], None] | None = None
-    refuse: Callable[[], None] = lambda: None
+    write: Callable[[Path, Iterable[Scene], WriteOptions], None]
+    stage: bool = True
+    read: Callable[[Path], Scene] | None = None
+    usual: bool = False
     reduces_keys: bool = True
+    keys_by_pose: bool = False
     bones_by_name: bool = False
     package: str = ""
+    refuse: Callable[[], None] = lambda: None
+
+    def key(self, held: FileContent) -> str:
+        """The name under which a report lists a file: ``character_fbx``."""
+        return f"{held}_{self.id}"
 
 
-# The writers are loaded when something is written: the command line names the formats in its help.
+# Writers and readers are loaded when something is written: the command line names the formats in its help.
 
 
-def _fbx(path: Path, scene: Scene, beside: WriteOptions) -> None:
-    from app.formats.fbx.write import write_scene
-
-    write_scene(path, scene)
-
-
-def _fbx_stage(path: Path, scenes: Iterable[Scene], beside: WriteOptions) -> None:
+def _write_fbx(path: Path, scenes: Iterable[Scene], beside: WriteOptions) -> None:
     from app.formats.fbx.write import write_scenes
 
     write_scenes(path, scenes)
 
 
-def _bvh(path: Path, scene: Scene, beside: WriteOptions) -> None:
+def _read_fbx(path: Path) -> Scene:
+    from app.formats.fbx.read import read_scene
+
+    return read_scene(path)
+
+
+def _write_bvh(path: Path, scenes: Iterable[Scene], beside: WriteOptions) -> None:
     from app.export.skeleton import scene_bvh
     from app.formats.bvh import write_bvh
 
+    (scene,) = scenes
     write_bvh(path, scene_bvh(scene, beside.bone_names))
 
 
-def _glb(path: Path, scene: Scene, beside: WriteOptions) -> None:
-    from app.formats.gltf.write import write_glb
-
-    write_glb(path, scene)
-
-
-def _glb_stage(path: Path, scenes: Iterable[Scene], beside: WriteOptions) -> None:
+def _write_glb(path: Path, scenes: Iterable[Scene], beside: WriteOptions) -> None:
     from app.formats.gltf.write import write_glbs
 
     write_glbs(path, scenes)
 
 
-def _usd(path: Path, scene: Scene, beside: WriteOptions) -> None:
-    from app.formats.usd import write_usd
-
-    write_usd(path, scene, _usd_sound(beside))
-
-
-def _usd_stage(path: Path, scenes: Iterable[Scene], beside: WriteOptions) -> None:
+def _write_usd(path: Path, scenes: Iterable[Scene], beside: WriteOptions) -> None:
     from app.formats.usd import write_usds
 
-    write_usds(path, scenes, _usd_sound(beside))
+    write_usds(path, scenes, None if beside.sound is None else UsdSound(beside.sound, 0.0))
 
 
-def _usd_sound(beside: WriteOptions) -> UsdSound | None:
-    return None if beside.sound is None else UsdSound(beside.sound, 0.0)
-
+_BOTH: Final[tuple[FileContent, ...]] = ("character", "instrument")
 
 FILE_FORMATS: Final[Mapping[Format, FileFormat]] = {
-    "fbx": FileFormat(".fbx", ("character", "instrument"), 3.0, _fbx, _fbx_stage),
-    "bvh": FileFormat(".bvh", ("character",), 1.0, _bvh, reduces_keys=False, bones_by_name=True),
-    "glb": FileFormat(".glb", ("character", "instrument"), 2.0, _glb, _glb_stage),
-    "usd": FileFormat(
-        ".usdc", ("character", "instrument"), 6.0, _usd, _usd_stage, refuse_without_usd, package="usd-core"
-    ),
+    row.id: row
+    for row in (
+        FileFormat("fbx", "FBX", ".fbx", _BOTH, 3.0, _write_fbx, read=_read_fbx, usual=True),
+        FileFormat(
+            "bvh",
+            "BVH",
+            ".bvh",
+            ("character",),
+            1.0,
+            _write_bvh,
+            stage=False,
+            usual=True,
+            reduces_keys=False,
+            bones_by_name=True,
+        ),
+        FileFormat("glb", "GLB", ".glb", _BOTH, 2.0, _write_glb),
+        FileFormat(
+            "usd",
+            "USD",
+            ".usdc",
+            _BOTH,
+            6.0,
+            _write_usd,
+            keys_by_pose=True,
+            package="usd-core",
+            refuse=refuse_without_usd,
+        ),
+    )
 }
 """In the order in which they are written and listed."""
 
-USUAL_FORMATS: Final[tuple[Format, ...]] = ("fbx", "bvh")
+USUAL_FORMATS: Final = tuple(row.id for row in FILE_FORMATS.values() if row.usual)
 """Formats by default."""
+
+
+def requested(formats: Collection[Format]) -> tuple[FileFormat, ...]:
+    """The rows of some formats."""
+    return tuple(row for id, row in FILE_FORMATS.items() if id in formats)
+
+
+def names_where(true: Callable[[FileFormat], bool]) -> str:
+    """Ids of the formats that something is true of, as a list in a text."""
+    return ", ".join(row.id for row in FILE_FORMATS.values() if true(row))

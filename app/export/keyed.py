@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import msgspec
 
-from app.export.formats import Format
+from app.export.formats import Format, requested
 from app.export.joint_playback import JointPlayback
 from app.export.marks import character_marks, part_marks
 from app.export.playback import ScenePlayback
@@ -52,14 +52,18 @@ def keyed_character(
         return scene
     joints = JointPlayback(ScenePlayback(scene, scene.clip), target, character)
     hanging = {bone: models[number].meshes for bone, number in target.sockets.items()}
-    return reduced(scene, character_marks(joints, character, hanging), PLACE_MM, "usd" in formats)
+    return reduced(scene, character_marks(joints, character, hanging), PLACE_MM, _by_pose(formats))
 
 
 def keyed_instrument(scene: Scene, keys: KeyChoice, formats: frozenset[Format]) -> Scene:
     """An instrument's scene with its keys."""
     if keys == "every" or scene.clip is None:
         return scene
-    return reduced(scene, part_marks(ScenePlayback(scene, scene.clip)), INSTRUMENT_MM, "usd" in formats)
+    return reduced(scene, part_marks(ScenePlayback(scene, scene.clip)), INSTRUMENT_MM, _by_pose(formats))
+
+
+def _by_pose(formats: frozenset[Format]) -> bool:
+    return any(kind.keys_by_pose for kind in requested(formats))
 
 
 def key_count(*scenes: Scene) -> KeyCount:

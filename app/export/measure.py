@@ -11,6 +11,7 @@ import math
 from collections.abc import Callable, Mapping, Sequence, Set
 from dataclasses import dataclass
 from functools import partial
+from typing import Any
 
 import msgspec
 import numpy as np
@@ -36,14 +37,15 @@ from app.export.target import TargetSkeleton, normalised_target
 from app.export.threads import in_threads
 from app.formats.scene import Scene
 from app.motion.contacts.hand_in_bell import bell_closing
+from app.performance.cast import Performer
 from app.plan.gestures.feet import Foot, foot_of, lifted_s
 from app.plan.model import BreathEvent, PlayerPlan
 from app.rig import quaternion
 from app.rig.grip.fitting.fitted_instrument import mouth_opens
 from app.rig.grip.lips import with_lip_landmarks
-from app.rig.model import Character
 from instrument_maps.model import InstrumentMap
-from metadata.model import Body, SkeletonProfile
+from metadata.load import load_skeleton
+from metadata.model import Body
 
 BONES_MM = 0.01
 JAW_OPENS = 0.05
@@ -95,109 +97,117 @@ class PlayerMeasurement:
 
 
 @dataclass(frozen=True, eq=False)
-class _Read:
-    """What the frames are asked for, over the whole file."""
+class PlayerJudge:
+    """What a player's files are measured against.
 
-    traces: Traces
-    torso: FloatArray
-    bone_deviation_m: FloatArray
-    depth_m: FloatArray
-    """Depth in the sounding frames; a lower bound unless it is among the deepest, which are reported."""
-
-
-def measure_player(
-    player_scene: Scene,
-    instrument_scene: Scene,
-    character: Character,
-    instrument: InstrumentMap,
-    plan: PlayerPlan,
-    body: Body,
-    profile: SkeletonProfile,
-    first_frame_s: float,
-    progress: Callable[[float], None] = lambda share: None,
-    target: TargetSkeleton | None = None,
-    changing: Sequence[tuple[float, float]] = (),
-    out_of_reach: Set[str | None] = frozenset(),
-) -> PlayerMeasurement:
-    """Measure what was read back of one player's two files.
-
-    Parameters
+    Attributes
     ----------
-    player_scene, instrument_scene : Scene
-        Both with a clip.
-    character : Character
-        For its landmarks: vertex numbers of the meshes in the file.
-    instrument : InstrumentMap
+    performer : Performer
+        With the character of the file, for its landmarks: numbers of vertices of the meshes in it.
     plan : PlayerPlan
         Of the whole piece; what lies outside the file's frames is not judged.
-    body, profile : Body and SkeletonProfile
-        Human ranges, and the axes they are about.
-    first_frame_s : float
-        Time of the file's first frame.
-    progress : callable
-        Called with the share 0..1 that is done; what it raises stops the work.
-    target : TargetSkeleton, optional
+    target : TargetSkeleton or None
         The skeleton the player's file is on; ours if absent.
     changing : sequence of (float, float)
         When the player changes instruments: a breath may be drawn then, with nothing at the lips.
     out_of_reach : set of str
         Ids of the notes that are (`app.contacts.reach`).
     """
-    if player_scene.clip is None or instrument_scene.clip is None:
-        raise ValueError("a file without a clip cannot be measured")
-    character = with_lip_landmarks(character, instrument, body)
-    player = ScenePlayback(player_scene, player_scene.clip)
-    held = ScenePlayback(instrument_scene, instrument_scene.clip)
-    fps = float(player.clip.fps)
-    times_s = first_frame_s + np.arange(player.clip.frames) / fps
-    notes = NoteFrames(times_s, notes_of(plan.grips, float(times_s[0]), float(times_s[-1])))
-    sounding = notes.sounding
-    # A catch breath comes out of a note's tail: the note sounds on, but the lips have stopped.
-    blowing = sounding & ~notes.within((event.start_s, event.end_s) for event in plan.breaths)
-    inhaling = notes.within((event.start_s, event.end_s) for event in plan.breaths if event.draws_air)
-    joints = JointPlayback(player, target or normalised_target(character.skeleton), character)
-    of_joints: list[tuple[JointMeasure, JointMeasure]] = []
 
-    def judge_joints() -> None:
-        of_joints.append(measure_joints(joints, body, profile, fps))
+    performer: Performer
+    plan: PlayerPlan
+    target: TargetSkeleton | None = None
+    changing: Sequence[tuple[float, float]] = ()
+    out_of_reach: Set[str | None] = frozenset()
 
-    found = _read(joints, held, character, instrument, sounding, judge_joints, progress)
-    ((limits, acceleration),) = of_joints
-    traces = found.traces
-    values = _control_values(instrument, held) | hole_values(instrument, traces)
-    closing = notes.within(map(tuple, bell_closing(plan.mutes, instrument.stopped).spans_s.tolist()))
-    judge = TouchJudge(instrument, traces, values, notes, closing)
-    touches = [
-        (contact, Spread.of(judge.gap_m(index)[judge.asked(index)], bound_mm(contact)))
-        for index, contact in enumerate(instrument.contacts)
-    ]
-    lips_m, upper_lip_m = traces.lips_m(instrument), traces.upper_lip_m(instrument, blowing)
-    measures = PlayerMeasures(
-        sounding_frames=int(sounding.sum()),
-        contacts={contact_name(contact): spread for contact, spread in touches if contact.grip != "guide"},
-        guides={contact_name(contact): spread for contact, spread in touches if contact.grip == "guide"},
-        lips=Spread.of(np.zeros(0) if lips_m is None else lips_m[blowing], LIPS_MM),
-        upper_lip_in_breaths=Spread.of(
-            np.zeros(0) if upper_lip_m is None else upper_lip_m[inhaling & ~notes.within(changing)], LIPS_MM
-        ),
-        feet={
-            name: Spread.of(slid_m(traces.marks_m[name], times_s, plan, name, body), FEET_MM)
-            for name in SOLES
-            if name in traces.marks_m
-        },
-        bones=Spread.of(found.bone_deviation_m, BONES_MM),
-        penetration=Spread.of(found.depth_m, PENETRATION_MM),
-        controls={
-            control.name: notes.measure(control, values[control.name], fps, out_of_reach)
-            for control in instrument.controls
-            if control.name in values
-        },
-        limits=limits,
-        acceleration=acceleration,
-        breaths=_breaths(plan.breaths, times_s, joints.curve("jawOpen"), found.torso, mouth_opens(character)),
-        hovering={finger: Spread.of(gaps_m, HOVER_MM) for finger, gaps_m in judge.hovering_m().items()},
-    )
-    return PlayerMeasurement(measures, found.torso)
+    def measure(
+        self,
+        player_scene: Scene,
+        instrument_scene: Scene,
+        first_frame_s: float,
+        progress: Callable[[float], None] = lambda share: None,
+    ) -> PlayerMeasurement:
+        """Measure what was read back of one player's two files.
+
+        Parameters
+        ----------
+        player_scene, instrument_scene : Scene
+            Both with a clip.
+        first_frame_s : float
+            Time of the files' first frame.
+        progress : callable
+            Called with the share 0..1 that is done; what it raises stops the work.
+        """
+        if player_scene.clip is None or instrument_scene.clip is None:
+            raise ValueError("a file without a clip cannot be measured")
+        instrument, body = self.performer.instrument, self.performer.body
+        character = with_lip_landmarks(self.performer.character, instrument, body)
+        player = ScenePlayback(player_scene, player_scene.clip)
+        held = ScenePlayback(instrument_scene, instrument_scene.clip)
+        times_s = first_frame_s + np.arange(player.clip.frames) / float(player.clip.fps)
+        notes = NoteFrames(times_s, notes_of(self.plan.grips, float(times_s[0]), float(times_s[-1])))
+        joints = JointPlayback(player, self.target or normalised_target(character.skeleton), character)
+        walk = Walk(joints, held, character, instrument)
+        of_joints: list[tuple[JointMeasure, JointMeasure]] = []
+
+        def judge_joints() -> None:
+            of_joints.append(measure_joints(joints, body, load_skeleton(body.skeleton), float(player.clip.fps)))
+
+        depth_m = _depths_m(walk, notes.sounding, judge_joints, progress)
+        traces, jaw, mouth = walk.traces, joints.curve("jawOpen"), mouth_opens(character)
+        ((limits, acceleration),) = of_joints
+        return PlayerMeasurement(
+            PlayerMeasures(
+                sounding_frames=int(notes.sounding.sum()),
+                bones=Spread.of(bone_deviation_m(joints), BONES_MM),
+                penetration=Spread.of(depth_m, PENETRATION_MM),
+                feet={
+                    name: Spread.of(slid_m(sole_m, times_s, self.plan, name, body), FEET_MM)
+                    for name in SOLES
+                    if (sole_m := traces.marks_m.get(name)) is not None
+                },
+                limits=limits,
+                acceleration=acceleration,
+                breaths=_breaths(self.plan.breaths, times_s, jaw, walk.torso_rad, mouth),
+                **self._lips(traces, notes),
+                **self._touches(traces, notes, held),
+            ),
+            walk.torso_rad,
+        )
+
+    def _lips(self, traces: Traces, notes: NoteFrames) -> dict[str, Any]:
+        """How the lips keep to the mouthpiece in notes, and the upper lip in breaths."""
+        instrument, breaths = self.performer.instrument, self.plan.breaths
+        # A catch breath comes out of a note's tail: the note sounds on, but the lips have stopped.
+        blowing = notes.sounding & ~notes.within((event.start_s, event.end_s) for event in breaths)
+        inhaling = notes.within((event.start_s, event.end_s) for event in breaths if event.draws_air)
+        inhaling &= ~notes.within(self.changing)
+        lips_m, upper_lip_m = traces.lips_m(instrument), traces.upper_lip_m(instrument, blowing)
+        return {
+            "lips": Spread.of(np.zeros(0) if lips_m is None else lips_m[blowing], LIPS_MM),
+            "upper_lip_in_breaths": Spread.of(np.zeros(0) if upper_lip_m is None else upper_lip_m[inhaling], LIPS_MM),
+        }
+
+    def _touches(self, traces: Traces, notes: NoteFrames, held: ScenePlayback) -> dict[str, Any]:
+        """What fingers touch, how far the others hover, and where controls are."""
+        instrument = self.performer.instrument
+        values = _control_values(instrument, held) | hole_values(instrument, traces)
+        closing = notes.within(map(tuple, bell_closing(self.plan.mutes, instrument.stopped).spans_s.tolist()))
+        judge = TouchJudge(instrument, traces, values, notes, closing)
+        touches = [
+            (contact, Spread.of(judge.gap_m(index)[judge.asked(index)], bound_mm(contact)))
+            for index, contact in enumerate(instrument.contacts)
+        ]
+        return {
+            "contacts": {contact_name(contact): spread for contact, spread in touches if contact.grip != "guide"},
+            "guides": {contact_name(contact): spread for contact, spread in touches if contact.grip == "guide"},
+            "controls": {
+                control.name: notes.measure(control, values[control.name], float(held.clip.fps), self.out_of_reach)
+                for control in instrument.controls
+                if control.name in values
+            },
+            "hovering": {finger: Spread.of(gaps_m, HOVER_MM) for finger, gaps_m in judge.hovering_m().items()},
+        }
 
 
 def greatest_correlations(players: Mapping[str, FloatArray]) -> dict[str, float]:
@@ -211,18 +221,12 @@ def greatest_correlations(players: Mapping[str, FloatArray]) -> dict[str, float]
     return greatest
 
 
-def _read(
-    joints: JointPlayback,
-    held: ScenePlayback,
-    character: Character,
-    instrument: InstrumentMap,
-    sounding: BoolArray,
-    beside: Callable[[], None],
-    progress: Callable[[float], None],
-) -> _Read:
-    """One walk over all frames, a chunk at a time, while something else is done beside it."""
-    frames = joints.playback.clip.frames
-    walk = Walk(joints, held, character, instrument)
+def _depths_m(
+    walk: Walk, sounding: BoolArray, beside: Callable[[], None], progress: Callable[[float], None]
+) -> FloatArray:
+    """Walk over all frames, a chunk at a time, while something else is done beside it: the depths in the sounding
+    frames, lower bounds but for the deepest, which are reported."""
+    frames = len(sounding)
     played = np.flatnonzero(sounding)
     depth_m = np.zeros(len(played))
 
@@ -243,13 +247,10 @@ def _read(
             least_m = np.maximum(depth_m[own], reported_least_m(depth_m))
             depth_m[own] = hand.depths_m(carriers, morphs, nodes, least_m, least_of)
 
-    tasks: list[Callable[[], None]] = [
-        beside,
-        *(partial(judge, first) for first in range(0, frames, _CHUNK)),
-    ]
+    tasks: list[Callable[[], None]] = [beside, *(partial(judge, first) for first in range(0, frames, _CHUNK))]
     done = itertools.count(1)
     in_threads(tasks, lambda index: progress(next(done) / len(tasks)))
-    return _Read(walk.traces, walk.torso_rad, bone_deviation_m(joints), depth_m)
+    return depth_m
 
 
 def slid_m(sole_m: FloatArray, times_s: FloatArray, plan: PlayerPlan, name: str, body: Body) -> FloatArray:

@@ -16,9 +16,8 @@ import msgspec
 
 from app.child import Child, ForkedChild, StartedChild, can_fork, core_count
 from app.export.player import ExportedPlayer, export_player
-from app.export.request import ExportCast, ExportRequest
+from app.export.request import CastMusician, ExportCast, ExportRequest
 from app.export.worker import Answer, Exported, job_of, serve
-from app.performance.cast import Performer
 
 WORTH_FRAMES, WORTH_COPY_FRAMES = 6000, 1000
 """Frames of players for which it is worth to start a process, which takes about a second, or to copy this one."""
@@ -28,10 +27,10 @@ _POLL_S = 0.05
 
 def process_count(request: ExportRequest, cast: ExportCast) -> int:
     """How many processes, this one among them, an export is worth on this machine."""
-    most = max(1, min(_cores(request), len(cast.performers)))
+    most = max(1, min(_cores(request), len(cast.musicians)))
     if request.processes is not None:
         return most
-    frames = request.span.count * len(cast.performers)
+    frames = request.span.count * len(cast.musicians)
     return max(1, min(most, frames // (WORTH_COPY_FRAMES if can_fork() else WORTH_FRAMES), _MOST))
 
 
@@ -66,8 +65,8 @@ def export_players(
     dict of str to ExportedPlayer
         By the id of the musician.
     """
-    waiting = Waiting(cast.performers)
-    last: Performer | None = None
+    waiting = Waiting(cast.musicians)
+    last: CastMusician | None = None
     finished: dict[str, ExportedPlayer] = {}
     shares: dict[str, float] = {}
     helpers: list[_Helper] = []
@@ -81,16 +80,16 @@ def export_players(
         for child in _children(request, cast, folder, processes - 1):
             helpers.append(_Helper(child, waiting, finished, shares))
         while len(waiting) or any(helper.is_alive() for helper in helpers):
-            performer = waiting.take(last)
-            if performer is None:
+            musician = waiting.take(last)
+            if musician is None:
                 for helper in helpers:
                     helper.join(_POLL_S)
                 for other, done in list(shares.items()):
                     reported(other, done)
                 continue
-            last, player_id = performer, performer.player.id
+            last, player_id = musician, musician.player.id
             cores = 1 if helpers else _cores(request)
-            finished[player_id] = export_player(request, cast, performer, folder, partial(report, player_id), cores)
+            finished[player_id] = export_player(request, musician, folder, partial(report, player_id), cores)
     finally:
         for helper in helpers:
             helper.end()
@@ -105,7 +104,9 @@ def _children(request: ExportRequest, cast: ExportCast, folder: Path, count: int
     with contextlib.suppress(OSError):
         for _ in range(count):
             if copies:
-                children.append(ForkedChild(Answer, partial(serve, request, cast, folder), tuple(children), str))
+                children.append(
+                    ForkedChild(Answer, partial(serve, request, cast.musicians, folder), tuple(children), str)
+                )
                 continue
             children.append(StartedChild(Answer, "app.export.worker"))
             with contextlib.suppress(BrokenPipeError):
@@ -121,21 +122,21 @@ class Waiting:
 
     Parameters
     ----------
-    performers : sequence of Performer
+    musicians : sequence of CastMusician
     """
 
-    def __init__(self, performers: Sequence[Performer]) -> None:
-        self._left = list(performers)
+    def __init__(self, musicians: Sequence[CastMusician]) -> None:
+        self._left = list(musicians)
         self._begun: set[str] = set()
         self._lock = Lock()
 
     def __len__(self) -> int:
         return len(self._left)
 
-    def take(self, last: Performer | None) -> Performer | None:
+    def take(self, last: CastMusician | None) -> CastMusician | None:
         """The one to begin now, by who has exported ``last``; None where all have been started."""
 
-        def worth(one: Performer) -> tuple[bool, bool, bool]:
+        def worth(one: CastMusician) -> tuple[bool, bool, bool]:
             kind = one.player.instrument_id
             same = last is not None and kind == last.player.instrument_id
             return same, kind not in self._begun, last is not None and one.character is last.character
@@ -143,15 +144,15 @@ class Waiting:
         with self._lock:
             if not self._left:
                 return None
-            performer = max(self._left, key=worth)
-            self._left.remove(performer)
-            self._begun.add(performer.player.instrument_id)
-            return performer
+            musician = max(self._left, key=worth)
+            self._left.remove(musician)
+            self._begun.add(musician.player.instrument_id)
+            return musician
 
-    def give_back(self, performer: Performer) -> None:
+    def give_back(self, musician: CastMusician) -> None:
         """Have another process do it."""
         with self._lock:
-            self._left.append(performer)
+            self._left.append(musician)
 
 
 class _Helper(Thread):
@@ -181,16 +182,16 @@ class _Helper(Thread):
         self.start()
 
     def run(self) -> None:
-        performer: Performer | None = None
-        while (performer := self._waiting.take(performer)) is not None:
-            player_id = performer.player.id
+        musician: CastMusician | None = None
+        while (musician := self._waiting.take(musician)) is not None:
+            player_id = musician.player.id
             try:
                 self._child.send(player_id)
                 while not isinstance(answer := self._child.receive(), Exported):
                     self._shares[player_id] = answer.done
             except (OSError, msgspec.MsgspecError):
                 self._shares.pop(player_id, None)
-                self._waiting.give_back(performer)
+                self._waiting.give_back(musician)
                 return
             self._finished[player_id] = answer.player
             self._shares[player_id] = 1.0

@@ -7,14 +7,15 @@ most); ``work.stopped``; those of `app.performance.cast`.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 
 from app.errors import FileError, Message
-from app.export.formats import FILE_FORMATS, Format
+from app.export.equipped_skeleton import socket_names
+from app.export.formats import Format, requested
 from app.export.rig import rig_of
 from app.export.rig_options import DEFAULT_RIG, RigOptions
-from app.export.target import SkeletonChoice
+from app.export.target import SkeletonChoice, TargetSkeleton
 from app.export.targets import CheckedTarget, checked_targets, spoilt
 from app.formats.keys import KeyChoice
 from app.performance.cast import LeftOut, Performer, dancings_of, performers_of, require_players
@@ -23,6 +24,7 @@ from app.performance.ensemble import Performance
 from app.performance.span import FrameSpan
 from app.project.performers import Dancer, Player
 from app.rig.characters.read_figure import read_figure
+from app.rig.model import Character
 
 MOST_FRAMES = 432_000
 """Two hours at 60 frames/s: a player's motion and its file are in memory as a whole."""
@@ -40,7 +42,7 @@ class ExportRequest:
         they do not depend on the choice.
     folder : path
     formats : frozenset of str
-        Of `FILE_FORMATS`.
+        Ids of `FILE_FORMATS`.
     span : FrameSpan
     bars : (int, int) or None
         First and last bar asked for, for the report.
@@ -86,36 +88,67 @@ class ExportRequest:
 
 
 @dataclass(frozen=True, eq=False)
-class ExportCast:
-    """Who of a request is exported.
+class CastMusician:
+    """A musician who is exported.
 
     Attributes
     ----------
     performers : tuple of Performer
-        Musicians, each as the player of the first instrument.
-    targets : dict of str to CheckedTarget
-        What each is written on, by the id of the player or dancer.
-    left_out : tuple of LeftOut
-    dances : tuple of Dancing
-    doubles : dict of str to tuple of Performer
-        The other players of a musician, by the musician's id; without an entry for one who plays one instrument.
+        The musician as the player of each instrument. The body is that of the first.
+    checked : CheckedTarget
+        What the character is written on.
     """
 
     performers: tuple[Performer, ...]
-    targets: dict[str, CheckedTarget]
+    checked: CheckedTarget
+
+    @property
+    def player(self) -> Player:
+        """The player of the first instrument."""
+        return self.performers[0].player
+
+    @property
+    def character(self) -> Character:
+        """The musician's body."""
+        return self.performers[0].character
+
+    @property
+    def target(self) -> TargetSkeleton:
+        """The skeleton that the character is written on."""
+        return self.checked.target
+
+    @property
+    def sockets(self) -> dict[str, str]:
+        """The bone that each instrument hangs on, by the player's id; none where they are free."""
+        return dict(zip((one.player.id for one in self.performers), socket_names(self.target), strict=False))
+
+
+@dataclass(frozen=True, eq=False)
+class CastDancing:
+    """A dancer who is exported, as the project has the dancer."""
+
+    dancer: Dancer
+    dancing: Dancing
+    checked: CheckedTarget
+
+    @property
+    def target(self) -> TargetSkeleton:
+        """The skeleton that the character is written on."""
+        return self.checked.target
+
+
+@dataclass(frozen=True, eq=False)
+class ExportCast:
+    """Who of a request is exported, and who is not."""
+
+    musicians: tuple[CastMusician, ...]
+    dancers: tuple[CastDancing, ...]
     left_out: tuple[LeftOut, ...]
-    dances: tuple[Dancing, ...] = ()
-    doubles: dict[str, tuple[Performer, ...]] = field(default_factory=dict)
 
     @property
-    def player_ids(self) -> tuple[str, ...]:
-        """Of the players who are exported."""
-        return tuple(performer.player.id for performer in self.performers)
-
-    @property
-    def dancer_ids(self) -> tuple[str, ...]:
-        """Of the dancers who are exported."""
-        return tuple(dancing.dancer.id for dancing in self.dances)
+    def ids(self) -> tuple[str, ...]:
+        """Of the players and dancers who are exported."""
+        return (*(one.player.id for one in self.musicians), *(one.dancer.id for one in self.dancers))
 
 
 def cast_of(
@@ -136,8 +169,8 @@ def cast_of(
         raise FileError("export.too_long", file=request.source, frames=request.span.count, most=MOST_FRAMES)
     if not request.players and not request.dancers:
         raise FileError("export.no_players", file=request.source)
-    for name in request.formats:
-        FILE_FORMATS[name].refuse()
+    for kind in requested(request.formats):
+        kind.refuse()
     asset = None if request.asset is None else read_figure(request.asset)
 
     project = request.performance.project
@@ -165,9 +198,15 @@ def cast_of(
     if absent.issuperset([*(player.id for player in musicians), *(dancer.id for dancer in request.dancers)]):
         require_players(left_out, request.source, wording)
     return ExportCast(
-        tuple(made for id, made in found.made.items() if id not in absent),
-        targets,
+        tuple(
+            CastMusician((made, *doubles.get(id, ())), targets[id])
+            for id, made in found.made.items()
+            if id not in absent
+        ),
+        tuple(
+            CastDancing(one, dances.made[one.id], targets[one.id])
+            for one in request.dancers
+            if one.id in dances.made and one.id not in absent
+        ),
         left_out + beside.left_out,
-        tuple(made for id, made in dances.made.items() if id not in absent),
-        {id: tuple(made) for id, made in doubles.items() if id not in absent},
     )

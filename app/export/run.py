@@ -77,7 +77,7 @@ def write_cast(
 ) -> Report:
     """`export` of a request's cast."""
     dancers: list[DancerReport] = []
-    everyone = len(cast.performers) + len(cast.dances)
+    everyone = len(cast.ids)
     stage_files = stage_names(request.performance, request.formats, request.source) if request.stage else {}
     begun = everyone + (_SOUND_WORK if request.sound else 0.0)
     whole = begun + _STAGE_WORK * everyone * len(stage_files)
@@ -94,13 +94,11 @@ def write_cast(
     with files_into(request.folder) as folder:
         count = process_count(request, cast)
         exported = export_players(request, cast, folder, count, reported)
-        for dancing in cast.dances:
+        for dancer in cast.dancers:
             # The modules of dances are loaded only for pieces with dancers.
             from app.export.dancers import export_dancer
 
-            dancer_id = dancing.dancer.id
-            report = export_dancer(request, cast, dancing, folder, partial(reported, dancer_id))
-            dancers.append(report)
+            dancers.append(export_dancer(request, dancer, folder, partial(reported, dancer.dancer.id)))
         if request.sound:
             # So are those of sound.
             from app.export.sound import write_sound
@@ -111,7 +109,7 @@ def write_cast(
                 progress((everyone + _SOUND_WORK * share) / whole, sound)
 
             write_sound(folder / sound, request.performance.project, request.span, mixed, stop_requested)
-        players = {player_id: exported[player_id] for player_id in cast.player_ids}
+        players = {one.player.id: exported[one.player.id] for one in cast.musicians}
         stage = None
         if stage_files:
             label = next(iter(stage_files.values()))
@@ -151,11 +149,11 @@ def _report(
     project, span = request.performance.project, request.span
     warnings = [
         f"{player.name}: {line}"
-        for performer in cast.performers
-        for player in (performer.player, *(double.player for double in cast.doubles.get(performer.player.id, ())))
+        for musician in cast.musicians
+        for player in (performer.player for performer in musician.performers)
         for line in (
-            *(map(wording, cast.targets[player.id].messages) if player is performer.player else ()),
-            *problem_lines(players[performer.player.id].problems[player.id], project.score, wording, player.part_id),
+            *(map(wording, musician.checked.messages) if player is musician.player else ()),
+            *problem_lines(players[musician.player.id].problems[player.id], project.score, wording, player.part_id),
         )
     ]
     rate = span.fps

@@ -7,14 +7,10 @@ from dataclasses import replace
 from itertools import chain, count
 from pathlib import Path
 
-from app.export.attachment import attached, own_path
-from app.export.character import character_scene
-from app.export.equipped_skeleton import socket_names
-from app.export.file_names import figure_stems, sound_name, stage_names
+from app.export.attachment import attached
+from app.export.figures import dancer_scene, held_scene, musician_scene
+from app.export.file_names import sound_name, stage_names
 from app.export.formats import FILE_FORMATS, Format, WriteOptions
-from app.export.instrument import instrument_scene
-from app.export.keyed import keyed_character, keyed_instrument
-from app.export.player import held_paths
 from app.export.report import StageFigure, StageReport, stage_place
 from app.export.request import ExportCast, ExportRequest
 from app.export.rig import ORIGIN, floor_place
@@ -48,13 +44,12 @@ def write_stage(
 
         def scenes(begun: int = number, name: Format = name) -> Iterator[Scene]:
             materials: dict[str, Material] = {}
-            for here, scene in _figures(request, cast, name, lambda share: reported((begun + share) / len(files))):
+            own = replace(request, formats=frozenset((name,)))
+            for here, scene in _figures(own, cast, lambda share: reported((begun + share) / len(files))):
                 figures.update({figure.node: figure for figure in here})
                 yield with_own_names(scene, materials)
 
-        write = FILE_FORMATS[name].write_stage
-        assert write is not None, "a format without it has no such file"
-        write(folder / file, scenes(), beside)
+        FILE_FORMATS[name].write(folder / file, scenes(), beside)
     reported(1.0)
     return StageReport(dict(files), tuple(figures.values()))
 
@@ -80,17 +75,15 @@ def with_own_names(scene: Scene, known: dict[str, Material]) -> Scene:
 
 
 def _figures(
-    request: ExportRequest, cast: ExportCast, format: Format, reported: Callable[[float], None]
+    request: ExportRequest, cast: ExportCast, reported: Callable[[float], None]
 ) -> Iterator[tuple[tuple[StageFigure, ...], Scene]]:
-    """Everyone's character and instruments, each with its place, for a file of a format; on one skeleton where
-    instruments hang on sockets."""
-    performance, span, creator = request.performance, request.span, request.creator
-    stems, take = figure_stems(performance), file_stem(Path(request.source).stem)
-    everyone = len(cast.performers) + len(cast.dances)
-    keys, formats = request.keys, frozenset((format,))
+    """Everyone's character and instruments, each with its place, for a file of the requested format; on one skeleton
+    where instruments hang on sockets."""
+    performance, span = request.performance, request.span
+    take, everyone = file_stem(Path(request.source).stem), len(cast.ids)
 
-    def figure(one: Player | Dancer, stage: StagePosition, node: str, socket: str | None = None) -> StageFigure:
-        return StageFigure(node, one.name, stage_place(stage), socket)
+    def figure(one: Player | Dancer, stage: StagePosition, scene: Scene, socket: str | None = None) -> StageFigure:
+        return StageFigure(scene.name, one.name, stage_place(stage), socket)
 
     def placed(target: TargetSkeleton, stage: StagePosition, scene: Scene) -> Scene:
         assert scene.clip is not None
@@ -98,38 +91,28 @@ def _figures(
         place = floor_place(stage) if target.place is None else ORIGIN
         return replace(scene, place=place, clip=replace(scene.clip, name=take))
 
-    for number, performer in enumerate(cast.performers):
+    for number, musician in enumerate(cast.musicians):
         reported(number / everyone)
-        musician, target = performer.player, cast.targets[performer.player.id].target
-        doubles = cast.doubles.get(musician.id, ())
-        motion = player_motion(performance, performer, span)
-        paths, name = held_paths(request, target, motion, doubles), stems[musician.id]["character"]
-        character = character_scene(performer.character, motion, name, creator, target, paths)
-        models = [one.model for one in (performer, *doubles)]
-        character = keyed_character(character, keys, formats, performer.character, target, models)
-        figures, sockets = [figure(musician, musician.stage, name)], socket_names(target)
+        player, target, sockets = musician.player, musician.target, musician.sockets
+        motion = player_motion(performance, musician.performers[0], span)
+        character = musician_scene(request, musician, motion)
+        figures, hanging = [figure(player, player.stage, character)], list[Scene]()
         if not sockets:
-            yield tuple(figures), placed(target, musician.stage, character)
+            yield tuple(figures), placed(target, player.stage, character)
             del character
-        hanging = []
-        for index, one in enumerate((performer, *doubles)):
-            motion = motion if one is performer else player_motion(performance, one, span)
-            name = stems[one.player.id]["instrument"]
-            held = instrument_scene(one.instrument, one.model, motion, name, creator, own_path(target, motion))
-            held = keyed_instrument(held, keys, formats)
+        for performer in musician.performers:
+            one = performer.player
+            motion = motion if one is player else player_motion(performance, performer, span)
+            held = held_scene(request, musician, performer, motion)
             if sockets:
                 hanging.append(held)
-                figures.append(figure(one.player, musician.stage, name, sockets[index]))
+                figures.append(figure(one, player.stage, held, sockets[one.id]))
             else:
-                yield (figure(one.player, musician.stage, name),), placed(target, musician.stage, held)
+                yield (figure(one, player.stage, held),), placed(target, player.stage, held)
         if sockets:
-            yield tuple(figures), placed(target, musician.stage, attached(character, hanging, target))
-    here = {dancer.id: dancer for dancer in request.dancers}
-    for number, dancing in enumerate(cast.dances, len(cast.performers)):
+            yield tuple(figures), placed(target, player.stage, attached(character, hanging, target))
+    for number, dancer in enumerate(cast.dancers, len(cast.musicians)):
         reported(number / everyone)
-        dancer, target = here[dancing.dancer.id], cast.targets[dancing.dancer.id].target
-        motion = dancing.motion(span.fps, span.first, span.count)
-        name = stems[dancer.id]["character"]
-        character = character_scene(dancing.character, motion, name, creator, target)
-        character = keyed_character(character, keys, formats, dancing.character, target)
-        yield (figure(dancer, dancer.stage, name),), placed(target, dancer.stage, character)
+        stage = dancer.dancer.stage
+        character = dancer_scene(request, dancer, dancer.dancing.motion(span.fps, span.first, span.count))
+        yield (figure(dancer.dancer, stage, character),), placed(dancer.target, stage, character)

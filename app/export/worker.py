@@ -11,6 +11,7 @@ from __future__ import annotations
 import contextlib
 import os
 import sys
+from collections.abc import Sequence
 from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
@@ -22,12 +23,11 @@ from app.child import MessageChannel, channel_to_parent
 from app.errors import AppError
 from app.export.formats import Format
 from app.export.player import ExportedPlayer, export_player
-from app.export.request import ExportCast, ExportRequest, cast_of
+from app.export.request import CastMusician, ExportRequest, cast_of
 from app.export.rig_options import RigOptions
 from app.export.target import SkeletonChoice
 from app.formats.keys import KeyChoice
 from app.messages import text
-from app.performance.cast import Performer
 from app.performance.ensemble import Performance
 from app.performance.span import FrameSpan
 from app.project.storage import decode, encode
@@ -111,29 +111,29 @@ def _request(job: ExportJob) -> ExportRequest:
     )
 
 
-def serve(request: ExportRequest, cast: ExportCast, folder: Path, channel: MessageChannel[str]) -> None:
-    """Export the musicians of a cast whose ids are read, until there are no more.
+def serve(
+    request: ExportRequest, musicians: Sequence[CastMusician], folder: Path, channel: MessageChannel[str]
+) -> None:
+    """Export those musicians of a cast whose ids are read, until there are no more.
 
     Parameters
     ----------
     request : ExportRequest
-    cast : ExportCast
+    musicians : sequence of CastMusician
     folder : path
         To write into.
     channel : MessageChannel
         To the process that started this one.
     """
-    performers = {performer.player.id: performer for performer in cast.performers}
+    known = {musician.player.id: musician for musician in musicians}
     # The process that was copied does again what fails, and reports what is wrong.
     with contextlib.suppress(BrokenPipeError, AppError):
         while True:
-            _export(request, cast, performers[channel.receive()], folder, channel)
+            _export(request, known[channel.receive()], folder, channel)
 
 
-def _export(
-    request: ExportRequest, cast: ExportCast, performer: Performer, folder: Path, channel: MessageChannel[Any]
-) -> None:
-    exported = export_player(request, cast, performer, folder, lambda share: channel.send(Share(share)))
+def _export(request: ExportRequest, musician: CastMusician, folder: Path, channel: MessageChannel[Any]) -> None:
+    exported = export_player(request, musician, folder, lambda share: channel.send(Share(share)))
     channel.send(Exported(exported))
 
 
@@ -144,9 +144,8 @@ def main() -> None:
         request = _request(channel.receive())
         while True:
             player = request.performance.project.player(channel.receive())
-            cast = cast_of(replace(request, players=(player,)), text)
-            (performer,) = cast.performers
-            _export(request, cast, performer, request.folder, channel)
+            (musician,) = cast_of(replace(request, players=(player,)), text).musicians
+            _export(request, musician, request.folder, channel)
     except BrokenPipeError:
         return
     except AppError:

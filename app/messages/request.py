@@ -86,12 +86,12 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         "{file}: 書き出す奏者がいません。演奏されない理由は 'suisou inspect' で確認できます",
     ),
     "stage.formats": (
-        "--stage requires a format that can hold several players: fbx, glb or usd",
-        "--stage には、複数の奏者を収められる形式（fbx、glb、usd）が必要です",
+        "--stage requires a format that can hold several players: one of {possible}",
+        "--stage には、複数の奏者を収められる形式（{possible}）が必要です",
     ),
     "keys.formats": (
-        "--keys reduced requires a format that can leave out frames: fbx, glb or usd; BVH files hold every frame",
-        "--keys reduced には、フレームを省ける形式（fbx、glb、usd）が必要です。BVH には全フレームを書き出します",
+        "--keys reduced requires a format that can leave out frames: one of {possible}",
+        "--keys reduced には、フレームを省ける形式（{possible}）が必要です",
     ),
     "player.left_out": ("{player} is excluded: {reason}", "{player} は除外されました: {reason}"),
     "player.fault": (

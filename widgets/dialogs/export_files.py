@@ -20,7 +20,7 @@ from app.editor.tasks import Progress, StopRequested
 from app.editor.tokens import LEAST_TARGET_PX
 from app.encoding import shown
 from app.errors import AppError, Message
-from app.export.formats import FILE_FORMATS
+from app.export.formats import requested
 from app.export.request import ExportRequest
 from app.formats.keys import KEY_CHOICES, KeyChoice
 from app.performance.ensemble import Performance
@@ -291,10 +291,9 @@ class ExportDialog(WorkingDialog):
     def _show_outcome(self) -> None:
         into_folder = self._place.destination == "folder"
         self._form.setRowVisible(self._formats, into_folder)
-        renames = any(FILE_FORMATS[name].bones_by_name for name in self._formats.formats)
-        self._form.setRowVisible(self._bvh_names, into_folder and renames)
-        reduces = any(FILE_FORMATS[name].reduces_keys for name in self._formats.formats)
-        self._form.setRowVisible(self._keys, into_folder and reduces)
+        kinds = requested(self._formats.formats) if into_folder else ()
+        self._form.setRowVisible(self._bvh_names, any(kind.bones_by_name for kind in kinds))
+        self._form.setRowVisible(self._keys, any(kind.reduces_keys for kind in kinds))
         problem = ""
         if not self.player_ids:
             problem = self.tr("export_dialog.tick_at_least_one_player")

@@ -6,7 +6,7 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QCheckBox, QGridLayout, QWidget
 
 from app.errors import AppError, Message
-from app.export.formats import FILE_FORMATS, USUAL_FORMATS, Format
+from app.export.formats import FILE_FORMATS, Format, requested
 from widgets.common.controls import Check, Retranslated, named
 from widgets.common.text import message_text
 
@@ -35,7 +35,7 @@ class FormatChooser(Retranslated, QWidget):
         self._boxes: dict[Format, QCheckBox] = {name: QCheckBox() for name in FILE_FORMATS}
         for name, box in self._boxes.items():
             box.setObjectName(f"export_{name}")
-            box.setChecked(name in USUAL_FORMATS)
+            box.setChecked(FILE_FORMATS[name].usual)
             box.setEnabled(name not in self._missing)
         self._sound = named(Check("format_chooser.sound_wav"), "export_sound")
         self._stage = named(Check("format_chooser.whole_stage_in_one_file"), "export_stage")
@@ -65,7 +65,7 @@ class FormatChooser(Retranslated, QWidget):
         return self._stage.isChecked() and self._stage.isEnabledTo(self)
 
     def _change(self) -> None:
-        self._stage.setEnabled(any(FILE_FORMATS[name].write_stage is not None for name in self.formats))
+        self._stage.setEnabled(any(kind.stage for kind in requested(self.formats)))
         self.changed.emit()
 
     def retranslate(self) -> None:
@@ -75,6 +75,6 @@ class FormatChooser(Retranslated, QWidget):
             text = characters if "instrument" in kind.holds else body
             if name in self._missing:
                 text = self.tr("format_chooser.requires_package")
-            box.setText(text.format(format=name.upper(), package=kind.package))
+            box.setText(text.format(format=kind.label, package=kind.package))
         for name, message in self._missing.items():
             self._boxes[name].setToolTip(message_text(message))

@@ -7,18 +7,23 @@ Times are seconds of the animation, whose frame 0 is at 0, and frames of it wher
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Set
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
 from typing import Final
 
 import msgspec
 
+from app.errors import Message
+from app.export.equipped_skeleton import socket_names
 from app.export.report import PlaceReport, stage_place
+from app.export.request import CastDancing, CastMusician, ExportCast, ExportRequest
+from app.export.target import TargetSkeleton
 from app.export.unreal.layout import FigurePlace, Layout
 from app.export.unreal.manifest import OwnFile
 from app.performance.ensemble import Performance
 from app.performance.span import FrameSpan
 from app.project.casting import StagePosition
+from app.project.model import Project
 from app.project.performers import Dancer, Player
 from app.score.model import Score
 from app.score.tempo import TempoMap
@@ -189,87 +194,38 @@ class Description(msgspec.Struct, frozen=True):
 
 
 def describe(
-    performance: Performance,
-    players: tuple[Player, ...],
-    dancers: tuple[tuple[Dancer, str], ...],
-    left_out: Mapping[str, str],
+    request: ExportRequest,
+    cast: ExportCast,
     layout: Layout,
-    span: FrameSpan,
-    bars: tuple[int, int] | None,
-    creator: str,
-    title: str,
-    bones: Mapping[str, tuple[str, ...]],
-    bodies: Mapping[str, tuple[str, str]],
-    sockets: Mapping[str, str],
-    rooted: Set[str],
+    wording: Callable[[Message], str],
     sound: UnrealSound,
+    bones: Mapping[str, tuple[str, ...]],
     files: Mapping[str, OwnFile],
 ) -> Description:
     """Describe an export.
 
     Parameters
     ----------
-    dancers : tuple of (Dancer, str)
-        Each with the name of the choreography.
-    left_out : mapping of str to str
-        Why players and dancers could not be exported, by their ids.
+    request, cast : ExportRequest and ExportCast
+    layout : Layout
+        Of the piece.
+    wording : callable
+        Words the reasons why players and dancers could not be exported.
+    sound : UnrealSound
     bones : mapping of str to tuple of str
         By the file that has them.
-    bodies : mapping of str to (str, str)
-        Paths of the meshes and skeletons of characters, by the ids of players and dancers.
-    sockets : mapping of str to str
-        Of the instruments that hang on one, by the player's id.
-    rooted : set of str
-        Ids of those whose root bones stand at their places, so that the actors do not.
+    files : mapping of str to OwnFile
+        See `Description`.
     """
-    project = performance.project
+    project, span, bars = request.performance.project, request.span, request.bars
     score, rate = project.score, span.fps
-    time = _Time(performance.piece.clock, span)
-
-    def figure(place: FigurePlace, socket: str = "") -> UnrealFigure:
-        file = place.file.as_posix()
-        return UnrealFigure(file, place.mesh, place.skeleton, place.animation, bones[file], socket)
-
-    def character(id: str) -> UnrealFigure:
-        mesh, skeleton = bodies[id]
-        return figure(replace(layout.characters[id], mesh=mesh, skeleton=skeleton))
-
-    def placed(one: Player | Dancer) -> UnrealPlace:
-        return UnrealPlace(0.0, 0.0, 0.0, 0.0) if one.id in rooted else place_of(one.stage)
-
-    def cast(player: Player) -> Cast:
-        return Cast(
-            name=player.name,
-            part=project.part(player).name,
-            instrument_id=player.instrument_id,
-            character_id=player.character_id,
-            stage=stage_place(player.stage),
-            place=placed(player),
-            character=character(player.id),
-            instrument=figure(layout.instruments[player.id], sockets.get(player.id, "")),
-            doubles=tuple(double(project.player(id)) for id in layout.doubles.get(player.id, ()) if id not in left_out),
-        )
-
-    def double(player: Player) -> Double:
-        place = layout.instruments[player.id]
-        held = figure(place, sockets.get(player.id, ""))
-        return Double(player.name, project.part(player).name, player.instrument_id, held)
-
-    def cast_dancer(dancer: Dancer, choreography: str) -> CastDancer:
-        return CastDancer(
-            name=dancer.name,
-            choreography=choreography,
-            character_id=dancer.character_id,
-            stage=stage_place(dancer.stage),
-            place=placed(dancer),
-            character=character(dancer.id),
-        )
-
+    time = _Time(request.performance.piece.clock, span)
+    left_out = {one.player.id: wording(one.reason) for one in cast.left_out}
     return Description(
         schema=SCHEMA,
-        made_by=creator,
+        made_by=request.creator,
         piece=layout.piece,
-        title=title,
+        title=score.title,
         content=layout.content,
         sequence=layout.sequence,
         rate=Rate(rate.numerator, rate.denominator),
@@ -277,8 +233,8 @@ def describe(
         first_frame_s=span.first_frame_s,
         bars_exported=bars,
         sound=sound,
-        players=tuple(cast(player) for player in players),
-        dancers=tuple(cast_dancer(dancer, choreography) for dancer, choreography in dancers),
+        players=tuple(_cast(project, musician, layout, bones) for musician in cast.musicians),
+        dancers=tuple(_cast_dancer(dancer, layout, bones) for dancer in cast.dancers),
         ticks_per_quarter=score.ticks_per_quarter,
         pickup_ticks=score.pickup_ticks,
         tempo=tuple(
@@ -291,7 +247,7 @@ def describe(
         ),
         bars=_bars(score, bars, time),
         markers=_markers(score, bars, time),
-        cues=_cues(performance, tuple(one for player in players for one in project.played_by(player)), time),
+        cues=_cues(request.performance, [one.player for one in cast.musicians], time),
         files=dict(files),
         left_out=tuple(
             LeftOutFigures(one.name, left_out[one.id], _assets(layout.figures(one.id)))
@@ -299,6 +255,59 @@ def describe(
             if one.id in left_out
         ),
     )
+
+
+def _cast(project: Project, musician: CastMusician, layout: Layout, bones: Mapping[str, tuple[str, ...]]) -> Cast:
+    player = musician.player
+    first, *others = (
+        Double(
+            one.player.name,
+            project.part(one.player).name,
+            one.player.instrument_id,
+            _figure(layout.instruments[one.player.id], bones, musician.sockets.get(one.player.id, "")),
+        )
+        for one in musician.performers
+    )
+    return Cast(
+        name=first.name,
+        part=first.part,
+        instrument_id=first.instrument_id,
+        character_id=player.character_id,
+        stage=stage_place(player.stage),
+        place=_actor_place(player, musician.target),
+        character=_character(player, musician.target, layout, bones),
+        instrument=first.instrument,
+        doubles=tuple(others),
+    )
+
+
+def _cast_dancer(cast: CastDancing, layout: Layout, bones: Mapping[str, tuple[str, ...]]) -> CastDancer:
+    dancer = cast.dancer
+    return CastDancer(
+        name=dancer.name,
+        choreography=cast.dancing.choreography_name,
+        character_id=dancer.character_id,
+        stage=stage_place(dancer.stage),
+        place=_actor_place(dancer, cast.target),
+        character=_character(dancer, cast.target, layout, bones),
+    )
+
+
+def _character(
+    one: Player | Dancer, target: TargetSkeleton, layout: Layout, bones: Mapping[str, tuple[str, ...]]
+) -> UnrealFigure:
+    mesh, skeleton = layout.body(one.character_id, socket_names(target))
+    return _figure(replace(layout.characters[one.id], mesh=mesh, skeleton=skeleton), bones)
+
+
+def _figure(place: FigurePlace, bones: Mapping[str, tuple[str, ...]], socket: str = "") -> UnrealFigure:
+    file = place.file.as_posix()
+    return UnrealFigure(file, place.mesh, place.skeleton, place.animation, bones[file], socket)
+
+
+def _actor_place(one: Player | Dancer, target: TargetSkeleton) -> UnrealPlace:
+    """Where the actor stands: at the origin if the root bone stands at the place already."""
+    return place_of(one.stage) if target.place is None else UnrealPlace(0.0, 0.0, 0.0, 0.0)
 
 
 def _assets(places: Iterable[FigurePlace]) -> tuple[str, ...]:
@@ -345,9 +354,9 @@ def _markers(score: Score, bars: tuple[int, int] | None, time: _Time) -> tuple[U
     return tuple(marker for marker in reported if time.shows(marker.frame))
 
 
-def _cues(performance: Performance, players: tuple[Player, ...], time: _Time) -> tuple[Cue, ...]:
+def _cues(performance: Performance, musicians: Iterable[Player], time: _Time) -> tuple[Cue, ...]:
     reported = []
-    for player in players:
+    for player in (one for musician in musicians for one in performance.project.played_by(musician)):
         for cue in performance.plan(player).cues:
             entry = time.frame(cue.end_s - time.span.first_frame_s)
             reported.append(Cue(player.name, time.since_s(cue.start_s), time.since_s(cue.end_s), entry))

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 from typing import Final
 
+from app.export.formats import FILE_FORMATS
 from app.export.unreal.names import asset_name
 from app.formats.names import numbered
 from app.project.model import Project
@@ -17,6 +18,8 @@ SOURCES: Final = "SuisouSource"
 """Folder of the sources. Not in ``Content``, which Unreal may watch for new files to import by itself."""
 CONTENT: Final = "/Game/Suisou"
 PLUGIN: Final = "Plugins/Suisou"
+IMPORTED: Final = "fbx"
+"""The format that the plug-in imports."""
 DESCRIPTION, REPORT, MANIFEST = "performance.json", "report.json", "manifest.json"
 
 
@@ -134,7 +137,7 @@ def layout_of(project: Project, piece: str) -> Layout:
     ) -> dict[str, FigurePlace]:
         return {
             performer.id: FigurePlace(
-                file=PurePosixPath(kind, f"SK_{name}.fbx"),
+                file=PurePosixPath(kind, f"SK_{name}{FILE_FORMATS[IMPORTED].suffix}"),
                 mesh=f"{content}/{kind}/{name}/SK_{name}" if own else "",
                 skeleton=f"{content}/{kind}/{name}/SKEL_{name}" if own else "",
                 animation=f"{content}/{kind}/{name}/A_{name}",

@@ -14,6 +14,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path, PurePosixPath
+from typing import TypeVar
 
 import msgspec
 import numpy as np
@@ -21,10 +22,10 @@ import numpy as np
 from app.audio.track import RATE_HZ
 from app.errors import Message, raise_if_stopped
 from app.export.bind_pose import CENTIMETRES
-from app.export.equipped_skeleton import socket_names
 from app.export.file_names import REPORT as EXPORTED_REPORT
+from app.export.formats import FILE_FORMATS, FileContent
 from app.export.instrument import instrument_bones
-from app.export.report import Report, encode_report
+from app.export.report import DancerReport, DoubleReport, PlayerReport, Report, encode_report
 from app.export.request import ExportCast, ExportRequest, cast_of
 from app.export.run import Progress, write_cast
 from app.export.sound import write_sound
@@ -34,6 +35,7 @@ from app.export.unreal.check import Expected, check_fbx, check_wave
 from app.export.unreal.description import UnrealSound, describe, encode_description
 from app.export.unreal.layout import (
     DESCRIPTION,
+    IMPORTED,
     MANIFEST,
     PLUGIN,
     REPORT,
@@ -49,8 +51,10 @@ from app.export.unreal.project import UnrealProject, require_writable
 from app.formats.files import cannot_read
 from app.performance.ensemble import Performance
 from app.performance.span import FrameSpan
-from app.project.performers import Dancer
+from app.project.performers import Dancer, Player
 from app.rig.mesh import Mesh
+
+R = TypeVar("R", PlayerReport, DoubleReport, DancerReport)
 
 _SHARES = {"files": 0.8, "sound": 0.15, "checks": 0.05}
 
@@ -171,34 +175,17 @@ def export_into(
     Cancelled
     """
     recover(project.folder, project.folder / SOURCES)
-    request = replace(request, formats=frozenset(("fbx",)), sound=False, stage=False)
+    request = replace(request, formats=frozenset((IMPORTED,)), sound=False, stage=False)
     cast = cast_of(request, wording, stop_requested)
     left_out = tuple(one.player.id for one in cast.left_out)
-    performer_ids = cast.player_ids + cast.dancer_ids
-    plan = plan_export(request.performance, performer_ids, request.source, project, left_out=left_out)
+    plan = plan_export(request.performance, cast.ids, request.source, project, left_out=left_out)
     with tree_into(project.folder, project.folder / SOURCES) as change:
         sources = change.new / plan.layout.sources
         report = _figures(request, cast, plan.layout, sources, wording, stop_requested, progress)
         sound = _sound(request, plan.layout, sources, stop_requested, progress)
         bones = _checked(request, cast, plan.layout, sources, sound, stop_requested, progress)
-        with_files = {path.as_posix(): own_file(sources / path) for path in files_below(sources)}
-        description = describe(
-            request.performance,
-            tuple(performer.player for performer in cast.performers),
-            _dancers(request, cast),
-            {one.player.id: wording(one.reason) for one in cast.left_out},
-            plan.layout,
-            request.span,
-            request.bars,
-            request.creator,
-            request.performance.project.score.title,
-            bones,
-            _bodies(request, cast, plan.layout),
-            _sockets(cast),
-            {id for id, checked in cast.targets.items() if checked.target.place is not None},
-            sound,
-            with_files,
-        )
+        files = {path.as_posix(): own_file(sources / path) for path in files_below(sources)}
+        description = describe(request, cast, plan.layout, wording, sound, bones, files)
         (sources / REPORT).write_bytes(encode_report(report))
         (sources / DESCRIPTION).write_bytes(encode_description(description))
         _vouch(change, plan.layout.sources, request.creator, {}, plan.staying)
@@ -247,59 +234,30 @@ def _figures(
         lambda share, label: progress(_SHARES["files"] * share, label),
     )
 
-    def placed(performer_id: str, files: dict[str, str]) -> dict[str, str]:
-        names = {}
-        for what, places in (("character_fbx", layout.characters), ("instrument_fbx", layout.instruments)):
-            if what in files:
-                names[what] = places[performer_id].file.as_posix()
-                (sources / names[what]).parent.mkdir(parents=True, exist_ok=True)
-                (draft / files[what]).replace(sources / names[what])
-        return names
+    places_by_content: dict[FileContent, dict[str, FigurePlace]] = {
+        "character": layout.characters,
+        "instrument": layout.instruments,
+    }
 
-    players = tuple(
-        msgspec.structs.replace(
-            written,
-            files=placed(player_id, written.files),
-            doubles=tuple(
-                msgspec.structs.replace(double, files=placed(performer.player.id, double.files))
-                for performer, double in zip(cast.doubles.get(player_id, ()), written.doubles, strict=True)
-            ),
-        )
-        for player_id, written in zip(cast.player_ids, report.players, strict=True)
-    )
-    dancers = tuple(
-        msgspec.structs.replace(written, files=placed(dancer_id, written.files))
-        for dancer_id, written in zip(cast.dancer_ids, report.dancers, strict=True)
-    )
+    def placed(performer: Player | Dancer, written: R) -> R:
+        names = {}
+        for held, places in places_by_content.items():
+            key = FILE_FORMATS[IMPORTED].key(held)
+            if key in written.files:
+                names[key] = places[performer.id].file.as_posix()
+                (sources / names[key]).parent.mkdir(parents=True, exist_ok=True)
+                (draft / written.files[key]).replace(sources / names[key])
+        return msgspec.structs.replace(written, files=names)
+
+    players = []
+    for musician, written in zip(cast.musicians, report.players, strict=True):
+        doubles = zip(musician.performers[1:], written.doubles, strict=True)
+        found = tuple(placed(performer.player, double) for performer, double in doubles)
+        players.append(msgspec.structs.replace(placed(musician.player, written), doubles=found))
+    dancers = tuple(placed(one.dancer, written) for one, written in zip(cast.dancers, report.dancers, strict=True))
     (draft / EXPORTED_REPORT).unlink()
     draft.rmdir()
-    return msgspec.structs.replace(report, players=players, dancers=dancers)
-
-
-def _dancers(request: ExportRequest, cast: ExportCast) -> tuple[tuple[Dancer, str], ...]:
-    """The dancers who are exported, as the project has them, with the names of their choreographies."""
-    dancers = {dancer.id: dancer for dancer in request.dancers}
-    return tuple((dancers[dancing.dancer.id], dancing.choreography_name) for dancing in cast.dances)
-
-
-def _bodies(request: ExportRequest, cast: ExportCast, layout: Layout) -> dict[str, tuple[str, str]]:
-    """Mesh and skeleton of each character, by the id of the player or dancer: of those alike the same."""
-    characters = {performer.player.id: performer.player.character_id for performer in cast.performers}
-    characters |= {dancer.id: dancer.character_id for dancer, _ in _dancers(request, cast)}
-    return {id: layout.body(character, socket_names(cast.targets[id].target)) for id, character in characters.items()}
-
-
-def _sockets(cast: ExportCast) -> dict[str, str]:
-    """The bone that each instrument hangs on, by the player's id."""
-    return {
-        one.player.id: socket
-        for performer in cast.performers
-        for one, socket in zip(
-            (performer, *cast.doubles.get(performer.player.id, ())),
-            socket_names(cast.targets[performer.player.id].target),
-            strict=False,  # none where instruments are free
-        )
-    }
+    return msgspec.structs.replace(report, players=tuple(players), dancers=dancers)
 
 
 def _sound(
@@ -339,7 +297,7 @@ def _checked(
     """Read every file that was written and hold it against what it must be; the bones of each."""
     check_wave(sources / sound.file, RATE_HZ, sound.channels, round(sound.duration_s * RATE_HZ))
     bones: dict[str, tuple[str, ...]] = {}
-    figures = tuple(_figures_written(request, cast, layout))
+    figures = tuple(_figures_written(cast, layout))
     for index, (name, place, named, meshes) in enumerate(figures):
         raise_if_stopped(stop_requested)
         file = place.file.as_posix()
@@ -351,21 +309,19 @@ def _checked(
 
 
 def _figures_written(
-    request: ExportRequest, cast: ExportCast, layout: Layout
+    cast: ExportCast, layout: Layout
 ) -> Iterator[tuple[str, FigurePlace, tuple[str, ...], tuple[Mesh, ...]]]:
     """Every character and instrument: the performer's name, the place, the bones and the meshes that the file holds."""
-    for performer in cast.performers:
-        player = performer.player
-        target = cast.targets[player.id].target
-        meshes = written_meshes(performer.character, target)
+    for musician in cast.musicians:
+        player, target = musician.player, musician.target
+        meshes = written_meshes(musician.character, target)
         yield player.name, layout.characters[player.id], tuple(target.names), meshes
-        for one in (performer, *cast.doubles.get(player.id, ())):
+        for one in musician.performers:
             parts = tuple(bone.name for bone in instrument_bones(one.instrument, one.model))
             yield player.name, layout.instruments[one.player.id], parts, one.model.meshes
-    for (dancer, _), dancing in zip(_dancers(request, cast), cast.dances, strict=True):
-        target = cast.targets[dancer.id].target
-        meshes = written_meshes(dancing.character, target)
-        yield dancer.name, layout.characters[dancer.id], tuple(target.names), meshes
+    for dancer in cast.dancers:
+        meshes = written_meshes(dancer.dancing.character, dancer.target)
+        yield dancer.dancer.name, layout.characters[dancer.dancer.id], tuple(dancer.target.names), meshes
 
 
 def _expected(span: FrameSpan, bones: tuple[str, ...], meshes: tuple[Mesh, ...]) -> Expected:

@@ -11,19 +11,22 @@ import pytest
 from app.contacts.judge import ContactJudge
 from app.export.character import character_scene
 from app.export.instrument import instrument_scene
-from app.export.measure import PlayerMeasures, measure_player
+from app.export.measure import PlayerJudge, PlayerMeasures
 from app.export.report import PlaceReport, PlayerReport, failures
 from app.motion.model import Motion
 from app.motion.perform import PerformanceCurves, prepare
+from app.performance.cast import Performer
 from app.plan.model import PlayerPlan
 from app.plan.parameters import PlayerParameters
+from app.project.casting import StagePosition
+from app.project.performers import Player
 from app.rig.characters.character_library import character_named
 from app.rig.grip.fitting.fit import fit_hold
 from app.rig.instrument import load_instrument
 from app.rig.model import Character, InstrumentModel
 from instrument_maps.load import load_map
 from instrument_maps.model import InstrumentMap
-from metadata.load import load_body, load_skeleton
+from metadata.load import load_body
 from tests.support import pipe
 from tests.unit.motion.events import fingerings, plan_of
 
@@ -57,10 +60,9 @@ class Played:
     def _measured(self) -> PlayerMeasures:
         player = character_scene(self.character, self.motion, "x", "test")
         held = instrument_scene(self.instrument, self.model, self.motion, "x", "test")
-        body = load_body()
-        profile = load_skeleton(body.skeleton)
-        start_s = self.motion.first_frame_s
-        return measure_player(player, held, self.character, self.instrument, self.plan, body, profile, start_s).measures
+        nobody = Player("x", "X", "x", "x", "x", PlayerParameters(seed=1), StagePosition(0.0, 0.0, 0.0))
+        performer = Performer(nobody, self.character, load_body(), self.instrument, self.model, self.hold)
+        return PlayerJudge(performer, self.plan).measure(player, held, self.motion.first_frame_s).measures
 
 
 @pytest.fixture(scope="module")

@@ -11,15 +11,14 @@ import pytest
 
 from app.export.character import character_scene
 from app.export.instrument import instrument_scene
-from app.export.measure import PlayerMeasurement, greatest_correlations, measure_player
+from app.export.measure import PlayerJudge, PlayerMeasurement, greatest_correlations
 from app.formats.scene import Scene
-from app.performance.bodies import body_of, character_of, model_of
+from app.performance.cast import performer_of
 from app.performance.ensemble import Performance
 from app.performance.span import cut_span
 from app.project.model import map_choices, project_from_score
 from app.score.read import read_midi
 from instrument_maps.load import bundled_maps
-from metadata.load import load_skeleton
 from tests.support.performed import player_motion
 
 QUARTET = Path(__file__).parents[3] / "resources" / "examples" / "quartet.mid"
@@ -36,23 +35,14 @@ class Case:
         self.player = project.players[index]
         self.span = cut_span(self.performance.time_frame, FPS, -1.5, 3.0)
         motion = player_motion(self.performance, self.player, self.span)
-        self.instrument = self.performance.instrument(self.player)
-        self.character = character_of(self.player)
+        self.performer = performer_of(self.performance, self.player)
+        self.instrument, self.character = self.performer.instrument, self.performer.character
         self.player_scene = character_scene(self.character, motion, "x", "test")
-        self.held_scene = instrument_scene(self.instrument, model_of(self.instrument), motion, "x", "test")
+        self.held_scene = instrument_scene(self.instrument, self.performer.model, motion, "x", "test")
 
     def measure(self, player_scene: Scene | None = None, held_scene: Scene | None = None) -> PlayerMeasurement:
-        body = body_of(self.player)
-        return measure_player(
-            player_scene or self.player_scene,
-            held_scene or self.held_scene,
-            self.character,
-            self.instrument,
-            self.performance.plan(self.player),
-            body,
-            load_skeleton(body.skeleton),
-            self.span.first_frame_s,
-        )
+        judge = PlayerJudge(self.performer, self.performance.plan(self.player))
+        return judge.measure(player_scene or self.player_scene, held_scene or self.held_scene, self.span.first_frame_s)
 
 
 @pytest.fixture(scope="module", params=[0, 2], ids=["first", "third"])

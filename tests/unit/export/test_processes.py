@@ -171,7 +171,7 @@ def test_stopping_ends_the_processes(tmp_path: Path, monkeypatch: pytest.MonkeyP
 
 def test_each_process_goes_on_with_what_it_has_begun(tmp_path: Path) -> None:
     cast = cast_of(replace(request(tmp_path, quartet(), 2), players=quartet().players), text)
-    waiting = Waiting(cast.performers)
+    waiting = Waiting(cast.musicians)
     here = waiting.take(None)
     there = waiting.take(None)
     assert here is not None

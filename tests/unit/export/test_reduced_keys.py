@@ -389,7 +389,7 @@ def test_the_command_reports_what_it_left_out_and_judges_what_the_files_play(tmp
 
 @pytest.mark.parametrize(
     ("arguments", "says"),
-    [(("--format", "bvh"), "fbx, glb or usd"), (("--unreal", "nowhere"), "every frame")],
+    [(("--format", "bvh"), "fbx, glb, usd"), (("--unreal", "nowhere"), "every frame")],
     ids=["bvh alone", "unreal"],
 )
 def test_where_keys_cannot_be_reduced_it_says_so(

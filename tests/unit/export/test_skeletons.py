@@ -14,7 +14,7 @@ from app.errors import FileError
 from app.export.character import character_scene
 from app.export.instrument import instrument_scene
 from app.export.mannequin import mannequin_target
-from app.export.measure import PlayerMeasures, measure_player
+from app.export.measure import PlayerJudge, PlayerMeasures
 from app.export.own_skeleton import own_target
 from app.export.playback import ScenePlayback
 from app.export.request import ExportRequest
@@ -24,7 +24,8 @@ from app.formats.fbx.read import read_scene
 from app.formats.fbx.write import write_scene
 from app.formats.scene import Scene
 from app.messages import text
-from app.performance.bodies import body_of, character_of, model_of
+from app.performance.bodies import character_of, model_of
+from app.performance.cast import performer_of
 from app.performance.ensemble import Performance
 from app.performance.span import cut_span
 from app.project.model import map_choices, project_from_score
@@ -33,7 +34,6 @@ from app.rig.characters.character_library import character_named
 from app.rig.model import Character
 from app.score.read import read_midi
 from instrument_maps.load import bundled_maps
-from metadata.load import load_skeleton
 from tests.support import readers
 from tests.support.foreign import foreign
 from tests.support.performed import player_motion
@@ -79,19 +79,13 @@ class Piece:
         return self.file(name, character_scene(character, self.motion, "x", "test", target))
 
     def measured(self, name: str) -> PlayerMeasures:
+        return self.judged(name, self.written(name))
+
+    def judged(self, name: str, scene: Scene) -> PlayerMeasures:
         character, target = self.on(name)
-        body = body_of(self.player)
-        return measure_player(
-            self.written(name),
-            self.held,
-            character,
-            self.instrument,
-            self.performance.plan(self.player),
-            body,
-            load_skeleton(body.skeleton),
-            self.span.first_frame_s,
-            target=target,
-        ).measures
+        performer = replace(performer_of(self.performance, self.player), character=character)
+        judge = PlayerJudge(performer, self.performance.plan(self.player), target)
+        return judge.measure(scene, self.held, self.span.first_frame_s).measures
 
 
 @pytest.fixture(scope="module")
@@ -136,18 +130,7 @@ def test_a_spoilt_file_is_found_on_every_skeleton(piece: Piece, name: str) -> No
     half = np.radians(1.0)
     turn = np.array([np.sin(half), 0.0, 0.0, np.cos(half)])
     scene.clip.rotations_xyzw[:, index] = quaternion.multiply(scene.clip.rotations_xyzw[:, index], turn)
-    body = body_of(piece.player)
-    found = measure_player(
-        scene,
-        piece.held,
-        character,
-        piece.instrument,
-        piece.performance.plan(piece.player),
-        body,
-        load_skeleton(body.skeleton),
-        piece.span.first_frame_s,
-        target=target,
-    ).measures
+    found = piece.judged(name, scene)
     assert any(not spread.kept for contact, spread in found.contacts.items() if contact.startswith("right."))
 
 

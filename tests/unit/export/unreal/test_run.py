@@ -300,13 +300,14 @@ def test_a_wrong_file_never_takes_its_place(
     """A file of half the size, as a wrong unit would make it."""
     from app.formats.fbx import write as fbx
 
-    real = fbx.write_scene
+    real = fbx.write_scenes
 
-    def halved(path: Path, scene: Any) -> None:
+    def halved(path: Path, scenes: Any) -> None:
+        (scene,) = scenes
         meshes = tuple(replace(mesh, vertices_cm=mesh.vertices_cm * 0.5) for mesh in scene.meshes)
-        real(path, replace(scene, meshes=meshes))
+        real(path, (replace(scene, meshes=meshes),))
 
-    monkeypatch.setattr(fbx, "write_scene", halved)
+    monkeypatch.setattr(fbx, "write_scenes", halved)
     before = tree_of(unreal.folder)
     with pytest.raises(FileError) as caught:
         export(request_of(quartet()))

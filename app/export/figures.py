@@ -1,0 +1,48 @@
+"""Scenes of the characters and instruments of an export, on the skeletons and with the keys that were asked for."""
+
+from __future__ import annotations
+
+from app.export.attachment import own_path
+from app.export.character import character_scene
+from app.export.file_names import figure_stems
+from app.export.instrument import instrument_scene
+from app.export.keyed import keyed_character, keyed_instrument
+from app.export.request import CastDancing, CastMusician, ExportRequest
+from app.export.target import instrument_path
+from app.formats.scene import Scene
+from app.motion.model import Motion
+from app.performance.cast import Performer
+from app.performance.motion import player_motion
+
+
+def musician_scene(request: ExportRequest, musician: CastMusician, motion: Motion) -> Scene:
+    """The scene of a musician's character, with the sockets where the instruments are.
+
+    Parameters
+    ----------
+    motion : Motion
+        Of the first instrument's player.
+    """
+    name, target = figure_stems(request.performance)[musician.player.id]["character"], musician.target
+    motions = [motion] if target.sockets else []
+    if target.sockets:
+        motions += [player_motion(request.performance, double, request.span) for double in musician.performers[1:]]
+    scene = character_scene(
+        musician.character, motion, name, request.creator, target, tuple(map(instrument_path, motions))
+    )
+    models = [one.model for one in musician.performers]
+    return keyed_character(scene, request.keys, request.formats, musician.character, target, models)
+
+
+def held_scene(request: ExportRequest, musician: CastMusician, performer: Performer, motion: Motion) -> Scene:
+    """The scene of one of a musician's instruments, by the motion of its player."""
+    name, path = figure_stems(request.performance)[performer.player.id]["instrument"], own_path(musician.target, motion)
+    scene = instrument_scene(performer.instrument, performer.model, motion, name, request.creator, path)
+    return keyed_instrument(scene, request.keys, request.formats)
+
+
+def dancer_scene(request: ExportRequest, cast: CastDancing, motion: Motion) -> Scene:
+    """The scene of a dancer's character."""
+    name, character = figure_stems(request.performance)[cast.dancer.id]["character"], cast.dancing.character
+    scene = character_scene(character, motion, name, request.creator, cast.target)
+    return keyed_character(scene, request.keys, request.formats, character, cast.target)
