@@ -15,11 +15,8 @@ from __future__ import annotations
 import contextlib
 import math
 import os
-from bisect import bisect_left
-from collections.abc import Iterable, Iterator, Sequence
-from heapq import merge
+from collections.abc import Sequence
 from io import FileIO
-from itertools import pairwise
 from pathlib import Path
 from typing import Final, TypeAlias
 
@@ -29,11 +26,10 @@ from app.errors import FileError
 from app.formats.files import cannot_write, read_file
 from app.formats.json_data import UNREADABLE
 from app.formats.locks import lock
-from app.score.sounding import SoundingNotes, note_off
 
 VERSION: Final = 1
 _LENGTHS: Final = {0x8: 3, 0x9: 3, 0xA: 3, 0xB: 3, 0xC: 2, 0xD: 2, 0xE: 3}
-_LARGEST_NS: Final = 1 << 62
+LARGEST_NS: Final = 1 << 62
 _LARGEST_S: Final = 1e7
 LARGEST_LATENCY_S: Final = 10.0
 MOST_BYTES: Final = 2**28
@@ -109,20 +105,6 @@ class Journal(msgspec.Struct, frozen=True):
     complete: bool
 
 
-class Pass(msgspec.Struct, frozen=True):
-    """What was played in one pass of a loop, in the performance's time.
-
-    Attributes
-    ----------
-    times_us : tuple of int
-        Microseconds, not descending; before the first note negative.
-    """
-
-    number: int
-    times_us: tuple[int, ...]
-    messages: tuple[bytes, ...]
-
-
 def is_whole(message: bytes) -> bool:
     """Whether the bytes are one message of a channel: a status and as many data bytes as it has."""
     return (
@@ -147,7 +129,7 @@ class JournalWriter:
     def __init__(self, path: str, header: JournalHeader, *, resumed: bool = False) -> None:
         self.path = path
         self.count = 0
-        self._last_sync = (-_LARGEST_NS, 0)
+        self._last_sync = (-LARGEST_NS, 0)
         mode = "r+" if resumed and os.path.exists(path) else "x+"
         try:
             self._file = FileIO(path, mode)
@@ -301,72 +283,6 @@ def read_journal(path: Path) -> Journal:
     )
 
 
-def passes(journal: Journal) -> tuple[Pass, ...]:
-    """The passes of a take in the performance's time, the latency taken off; none where nothing was played back.
-    Notes that sound when the device is disconnected end there.
-
-    Between two moments whose position is known the time is interpolated, outside them it goes on as a
-    clock does. Between two passes the return lies where the first of the next is said to begin; where that is not said
-    to the moment, in the middle.
-    """
-    by_pass: dict[int, list[SyncPoint]] = {}
-    for point in journal.syncs:
-        by_pass.setdefault(point.pass_, []).append(point)
-    if not by_pass:
-        return ()
-    latency_ns = round(journal.header.latency_s * 1e9)
-    returns = [(a[-1].ns + b[0].ns) // 2 for a, b in pairwise(by_pass.values())]
-    edges_ns = [-_LARGEST_NS, *returns, _LARGEST_NS]
-    times_ns, messages = _ended(journal)
-    found = []
-    for (number, points), (begin_ns, end_ns) in zip(by_pass.items(), pairwise(edges_ns), strict=True):
-        begin = bisect_left(times_ns, begin_ns + latency_ns)
-        end = bisect_left(times_ns, end_ns + latency_ns)
-        found.append(
-            Pass(
-                number=number,
-                times_us=tuple(_performance_us(times_ns[begin:end], latency_ns, points)),
-                messages=tuple(messages[begin:end]),
-            )
-        )
-    return tuple(found)
-
-
-def _ended(journal: Journal) -> tuple[Sequence[int], Sequence[bytes]]:
-    """The events, and an end for every note that sounded when the device went away: it will not send it."""
-    if not journal.gaps:
-        return journal.times_ns, journal.messages
-    events = [(ns, message) for ns, message in zip(journal.times_ns, journal.messages, strict=True)]
-    lost = [(lost_ns, None) for lost_ns, _ in journal.gaps]
-    found: list[tuple[int, bytes]] = []
-    sounding: SoundingNotes[None] = SoundingNotes()
-    for ns, message in merge(events, lost, key=lambda event: event[0]):
-        if message is None:
-            found += [(ns, note_off(key)) for key, _ in sounding.end_all()]
-        else:
-            sounding.receive(message, None)
-            found.append((ns, message))
-    return [ns for ns, _ in found], [message for _, message in found]
-
-
-def _performance_us(times_ns: Iterable[int], latency_ns: int, points: Sequence[SyncPoint]) -> Iterator[int]:
-    """Ascending moments as microseconds of the performance, by the positions played in one pass."""
-    index = 0
-    for time_ns in times_ns:
-        played_ns = time_ns - latency_ns
-        while index + 2 < len(points) and points[index + 1].ns <= played_ns:
-            index += 1
-        near = points[index]
-        position_s, speed = near.position_s, 1.0
-        if index + 1 < len(points):
-            after = points[index + 1]
-            if played_ns >= after.ns:
-                near, position_s = after, after.position_s
-            elif played_ns > near.ns:
-                speed = (after.position_s - near.position_s) / ((after.ns - near.ns) / 1e9)
-        yield round((position_s + speed * ((played_ns - near.ns) / 1e9)) * 1e6)
-
-
 def _header(path: Path, line: bytes) -> JournalHeader | None:
     try:
         version = _VERSIONS.decode(line).version
@@ -380,8 +296,8 @@ def _header(path: Path, line: bytes) -> JournalHeader | None:
 
 
 def _ns(text: str) -> int:
-    ns = int(text) if len(text) < 24 else _LARGEST_NS
-    if abs(ns) >= _LARGEST_NS:
+    ns = int(text) if len(text) < 24 else LARGEST_NS
+    if abs(ns) >= LARGEST_NS:
         raise ValueError(f"{text[:24]} is no moment")
     return ns
 

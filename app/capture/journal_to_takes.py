@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Collection
 from itertools import count
 
-from app.capture.journal import Journal, passes
+from app.capture.journal import Journal
+from app.capture.passes import passes
 from app.score.take import Cleaning, ControllerMapping, Take
 from app.score.tempo import TempoMap
 

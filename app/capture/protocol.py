@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import threading
+from queue import SimpleQueue
 from typing import TypeAlias
 
 import msgspec
@@ -153,3 +155,8 @@ News: TypeAlias = (
     | RecordingFinished
     | SystemEnded
 )
+
+StampedMessage: TypeAlias = tuple[int, bytes]
+"""A moment of `time.perf_counter_ns` and a message."""
+NewsQueue: TypeAlias = "SimpleQueue[News | StampedMessage | threading.Event | None]"
+"""Items to send, in order; an event is set once all before it is sent, None ends the sending."""

@@ -13,7 +13,6 @@ come cannot be closed (`app.capture.midi_library.OpenInput`). So it does when th
 from __future__ import annotations
 
 import contextlib
-import errno
 import gc
 import os
 import sys
@@ -26,9 +25,10 @@ from itertools import groupby
 from pathlib import Path
 from queue import Empty, SimpleQueue
 from types import TracebackType
-from typing import IO, Any, Final, TypeAlias
+from typing import IO, Any, Final
 
-from app.capture.journal import JournalWriter, is_whole
+from app.capture.journal import is_whole
+from app.capture.journal_keeper import JournalKeeper
 from app.capture.midi_library import OpenInput
 from app.capture.port_names import Port
 from app.capture.ports import MidiSystem, PortError
@@ -36,45 +36,31 @@ from app.capture.protocol import (
     Back,
     Command,
     Events,
-    EventsSaved,
     Leave,
     Lost,
-    Moved,
     News,
-    NotStarted,
+    NewsQueue,
     Open,
     Opened,
     Opening,
     Ports,
-    RecordingFinished,
     RequestRefused,
     StartRecording,
-    Stop,
-    Sync,
     SystemEnded,
 )
 from app.child import MessageChannel
 from app.child_limits import confine_this_process
-from app.errors import FileError, Message
+from app.errors import Message
 
 SYSTEM_VARIABLE: Final = "SUISOU_MIDI_API"
 """Environment: the only MIDI system to try, by rtmidi's name."""
 _LOOK_S: Final = 0.5
 _NO_SYSTEM_LOOK_S: Final = 2.0
-_TO_DISK_S: Final = 0.25
 _SENT_WITHIN_S: Final = 1.0
 _SWITCH_S: Final = 0.0005
 """Longest time for which a thread of ours may keep the driver's from stamping."""
 _PRIORITY: Final = -10
 """Unix priority without real-time scheduling: lower runs first."""
-
-_NO_ROOM: Final = frozenset({errno.ENOSPC, getattr(errno, "EDQUOT", errno.ENOSPC)})
-"""Errors of a full disk."""
-
-StampedMessage: TypeAlias = tuple[int, bytes]
-"""A moment of `time.perf_counter_ns` and a message."""
-NewsQueue: TypeAlias = "SimpleQueue[News | StampedMessage | threading.Event | None]"
-"""Items to send, in order; an event is set once all before it is sent, None ends the sending."""
 
 
 class RecorderProcess:
@@ -233,141 +219,6 @@ class RecorderProcess:
 
 def _names(ports: tuple[Port, ...]) -> tuple[str, ...]:
     return tuple(port.name for port in ports)
-
-
-class JournalKeeper:
-    """Writes what a queue holds: commands `StartRecording`, `Sync`, `Stop`, `Leave`, received messages, marks; None
-    ends the journal and the thread."""
-
-    def __init__(self, queue: SimpleQueue[Any], news: NewsQueue) -> None:
-        self._queue, self._news = queue, news
-        self._writer: JournalWriter | None = None
-        self._elsewhere = b""
-        self._is_away = False
-        self._failed = False
-        self._to_disk_at_s = 0.0
-
-    def run(self) -> None:
-        """Write until None or `Leave` comes."""
-        while True:
-            with contextlib.suppress(Empty):
-                item = self._queue.get(timeout=None if self._writer is None else _TO_DISK_S)
-                if not self._keep(item):
-                    return
-            self._write()
-
-    def _keep(self, item: Any) -> bool:
-        match item:
-            case None:
-                self._finish("end")
-            case Leave():
-                self._finish(None)
-            case StartRecording():
-                self._start(item)
-            case Stop():
-                self._finish("end")
-            case Sync(ns=ns, position_s=position_s, pass_=pass_):
-                if self._writer is not None:
-                    self._writer.sync(ns, position_s, pass_)
-            case (int(ns), bytes(message)):
-                if self._writer is not None and is_whole(message):
-                    self._writer.event(ns, message)
-            case (str(word), int(ns)):
-                self._mark(word, ns)
-        return item is not None and not isinstance(item, Leave)
-
-    def _mark(self, word: str, ns: int) -> None:
-        if self._writer is not None and self._is_away != (word == "lost"):
-            self._is_away = word == "lost"
-            self._writer.mark(word, ns)
-
-    def _start(self, start: StartRecording) -> None:
-        self._finish("end")
-        self._elsewhere = start.elsewhere
-        try:
-            self._writer = self._begun(start)
-            self._is_away = False
-            if start.resumed_ns is not None:
-                self._mark("lost", start.resumed_ns)
-            self._to_disk()
-        except FileError as error:
-            self._news.put(NotStarted(error.message))
-        except OSError as error:
-            self._report_failure(error)
-
-    def _begun(self, start: StartRecording) -> JournalWriter:
-        """The journal, in the second place where the disk has no room for another file."""
-        try:
-            return JournalWriter(os.fsdecode(start.path), start.header, resumed=start.resumed_ns is not None)
-        except FileError as error:
-            cause = error.__cause__
-            if not (self._elsewhere and isinstance(cause, OSError) and cause.errno in _NO_ROOM):
-                raise
-            elsewhere, self._elsewhere = self._elsewhere, b""
-            writer = JournalWriter(os.fsdecode(elsewhere), start.header)
-            self._news.put(Moved(elsewhere, cause.strerror or str(cause)))
-            return writer
-
-    def _write(self) -> None:
-        if self._writer is None:
-            return
-        try:
-            self._writer.write()
-            if time.perf_counter() >= self._to_disk_at_s:
-                self._to_disk()
-            self._failed = False
-        except OSError as error:
-            self._report_failure(error)
-
-    def _to_disk(self) -> None:
-        assert self._writer is not None
-        if self._writer.to_disk():
-            self._news.put(EventsSaved(self._writer.count))
-        self._to_disk_at_s = time.perf_counter() + _TO_DISK_S
-
-    def _finish(self, word: str | None) -> None:
-        writer = self._writer
-        if writer is None:
-            return
-        if word is not None:
-            writer.mark(word, time.perf_counter_ns())
-        try:
-            writer.write()
-        except OSError as error:
-            self._move(error)
-        try:
-            writer.close()
-        except OSError as error:
-            self._refuse("capture.cut_short", writer, error)
-        self._writer = None
-        self._failed = False
-        if word is not None:
-            self._news.put(RecordingFinished(os.fsencode(writer.path), writer.count))
-
-    def _report_failure(self, error: OSError) -> None:
-        """Go on elsewhere; where that is not possible, say that the disk takes nothing, once: it is tried again with
-        what comes next."""
-        if self._move(error):
-            return
-        if not self._failed and self._writer is not None:
-            self._failed = True
-            self._refuse("capture.not_written", self._writer, error)
-
-    def _move(self, error: OSError) -> bool:
-        """Go on with the journal in the second place, which is tried once; whether that was possible."""
-        elsewhere, self._elsewhere = self._elsewhere, b""
-        if not elsewhere or self._writer is None:
-            return False
-        try:
-            self._writer.move(os.fsdecode(elsewhere))
-        except OSError as refusal:
-            self._refuse("capture.elsewhere_refused", self._writer, refusal)
-            return False
-        self._news.put(Moved(elsewhere, error.strerror or str(error)))
-        return True
-
-    def _refuse(self, id: str, writer: JournalWriter, error: OSError) -> None:
-        self._news.put(RequestRefused(Message(id, {"file": writer.path, "reason": error.strerror or str(error)})))
 
 
 def send_news(queue: NewsQueue, channel: MessageChannel[Command]) -> None:

@@ -13,7 +13,8 @@ from typing import Final
 
 import platformdirs
 
-from app.capture.journal import JournalHeader, passes, read_journal
+from app.capture.journal import JournalHeader, read_journal
+from app.capture.passes import passes
 from app.capture.port_names import matching
 from app.capture.protocol import (
     Back,

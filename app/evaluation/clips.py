@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import AbstractContextManager
 from dataclasses import dataclass
+from itertools import count
 from pathlib import Path
 from typing import Any, Final, Protocol, TypeAlias
 
@@ -12,16 +13,14 @@ import numpy as np
 import numpy.typing as npt
 
 from app.audio.track import RATE_HZ, Block
-from app.errors import raise_if_stopped
+from app.errors import Message
 from app.evaluation.imported_videos import ImportedVideo, pictures_of
-from app.evaluation.key import Variant
-from app.evaluation.variants import performance_of
+from app.evaluation.request import EvaluationRequest
 from app.export.video import video_into
-from app.performance.cast import LeftOut
+from app.performance.cast import LeftOut, require_players
 from app.performance.chunks import Posed
 from app.performance.ensemble import Performance
 from app.performance.span import FrameSpan
-from app.project.model import Project
 
 Picture = npt.NDArray[np.uint8]
 Draw: TypeAlias = Callable[[float], Picture]
@@ -82,76 +81,46 @@ class ClipScene:
     cameras: dict[float, Any]
 
 
-@dataclass(frozen=True)
-class Framing:
-    """How clips are drawn."""
-
-    view: str
-    player_ids: tuple[str, ...]
-    size: tuple[int, int]
-    theme: str
-
-
 def draw_ours(
-    project: Project,
-    variant: Variant,
-    framing: Framing,
+    shown_on: AbstractContextManager[PerformanceRenderer],
+    request: EvaluationRequest,
     files: Mapping[Path, ClipScene],
-    stages: Stages,
+    wording: Callable[[Message], str],
     report: Report,
-    stop_requested: StopRequested,
-    refuse: Callable[[Sequence[LeftOut]], None],
-    posed: Posed | None = None,
 ) -> tuple[LeftOut, ...]:
     """Draw a variant of ours, or with other poses than ours, into files; who could not be drawn.
 
-    ``refuse`` is called where no one can be drawn; it raises.
+    Raises ``player.all_left_out`` where no one can be.
     """
-    performance = performance_of(project, variant)
-    shares = _Shares(files, report)
-    with stages(performance, framing.theme, stop_requested, posed) as stage:
-        if not stage.shows(framing.player_ids):
-            refuse(stage.left_out)
+    drawn = _drawn(files, report)
+    with shown_on as stage:
+        if not stage.shows(request.player_ids):
+            require_players(stage.left_out, request.title, wording)
         for path, scene in files.items():
             span_s = (scene.span.first_frame_s, scene.span.end_s)
-            draw = stage.film(framing.size, span_s, framing.view, framing.player_ids, scene.cameras, marked=False)
-            _write(path, scene, framing.size, draw, shares, stop_requested)
+            draw = stage.film(request.size, span_s, request.view, request.player_ids, scene.cameras, marked=False)
+            _write(path, scene, request.size, draw, drawn)
         return tuple(stage.left_out)
 
 
-def cut_video(
-    video: ImportedVideo,
-    size: tuple[int, int],
-    files: Mapping[Path, ClipScene],
-    report: Report,
-    stop_requested: StopRequested,
-) -> None:
+def cut_video(video: ImportedVideo, size: tuple[int, int], files: Mapping[Path, ClipScene], report: Report) -> None:
     """Cut the excerpts out of a video, with the sound of all variants."""
-    shares = _Shares(files, report)
+    drawn = _drawn(files, report)
     for path, scene in files.items():
         with pictures_of(video, scene.span.first_frame_s, size) as draw:
-            _write(path, scene, size, draw, shares, stop_requested)
+            _write(path, scene, size, draw, drawn)
 
 
-class _Shares:
-    """Counts pictures."""
-
-    def __init__(self, files: Mapping[Path, ClipScene], report: Report) -> None:
-        self._count = sum(scene.span.count for scene in files.values())
-        self._done, self._report = 0, report
-
-    def step(self) -> None:
-        self._done += 1
-        self._report(self._done / self._count)
+def _drawn(files: Mapping[Path, ClipScene], report: Report) -> Callable[[], None]:
+    """Called after each picture of the files, reports the share that is drawn."""
+    whole, done = sum(scene.span.count for scene in files.values()), count(1)
+    return lambda: report(next(done) / whole)
 
 
-def _write(
-    path: Path, scene: ClipScene, size: tuple[int, int], draw: Draw, shares: _Shares, stop_requested: StopRequested
-) -> None:
+def _write(path: Path, scene: ClipScene, size: tuple[int, int], draw: Draw, drawn: Callable[[], None]) -> None:
     span = scene.span
     step_s = span.fps.denominator / span.fps.numerator
     with video_into(path, size, span.fps, scene.sound, RATE_HZ, CRF) as film:
         for index in range(span.count):
-            raise_if_stopped(stop_requested)
             film.write(draw(span.first_frame_s + index * step_s))
-            shares.step()
+            drawn()

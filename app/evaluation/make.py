@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
@@ -18,7 +19,7 @@ from app.audio.mix import mixdown
 from app.audio.track import RATE_HZ, Block
 from app.encoding import restored
 from app.errors import AppError, FileError, Message, raise_if_stopped
-from app.evaluation.clips import CRF, ClipScene, Framing, Stages, cut_video, draw_ours
+from app.evaluation.clips import CRF, ClipScene, PerformanceRenderer, Stages, cut_video, draw_ours
 from app.evaluation.design import codes, new_id, orders, pairs_of
 from app.evaluation.excerpts import Excerpt, choose_excerpts, practice_of
 from app.evaluation.imported_videos import ImportedVideo, import_video
@@ -28,9 +29,11 @@ from app.evaluation.loudness import equally_loud
 from app.evaluation.measures import MEASURES_FILE, measure_variants, write_measures
 from app.evaluation.page import PAGE_FILE, page
 from app.evaluation.request import EvaluationRequest, aspects_of, variants_of
+from app.evaluation.variants import performance_of
 from app.export.folder import files_into
 from app.export.video import side_by_side
-from app.performance.cast import LeftOut, require_players
+from app.performance.cast import LeftOut
+from app.performance.chunks import Posed
 from app.performance.ensemble import Performance
 from app.performance.span import FrameSpan, bars_span, cut_span
 from app.project.model import Project
@@ -73,14 +76,8 @@ def make_evaluation(
 ) -> Made:
     """Write an evaluation: all of it or nothing.
 
-    Parameters
-    ----------
-    stages : Stages
-        What draws performances.
-    wording : callable
-        Words the reasons why performers cannot be drawn.
-    report : callable
-        Called with the share 0..1 that is done and what is being done.
+    ``stages`` draw performances; reasons why performers cannot be drawn are worded by ``wording``; ``report`` is called
+    with the share 0..1 that is done and what is being done.
 
     Raises
     ------
@@ -95,86 +92,79 @@ def make_evaluation(
     project, videos = _videos(project, request, variants, report, stop_requested)
     performance = Performance(project)
     performance.hold(stop_requested, lambda share: report(0.2 + 0.05 * share, Message("evaluate.step_holds")))
-    if "keyframes" in variants and holds_motion(restored(request.keyframes)):
-        path = Path(restored(request.keyframes))
-        videos["keyframes"] = read_keyframes(performance, path, request.player_ids, request.keyframes_offset_s)
+    videos |= _keyframes(performance, request, variants)
     scenes = _scenes(performance, request, videos, report, stop_requested)
     drawn = _clips(project, request, variants, scenes[:-1])
-    singles = tuple(clip.code for clip in drawn) if request.presentation != "pair" else ()
-    pairs = pairs_of([(clip.code, clip.variant, clip.excerpt) for clip in drawn])
-    pairs = pairs if request.presentation != "single" else ()
-    table = orders(singles, pairs)
-    key = EvaluationKey(
-        "suisou-evaluation",
-        VERSION,
-        new_id(),
-        request.title,
-        request.seed,
-        tuple(sorted(drawn, key=lambda clip: clip.code)),
-        aspects_of(request.view, len(project.seen)),
+    pairs = (
+        pairs_of([(clip.code, clip.variant, clip.excerpt) for clip in drawn])
+        if request.presentation != "single"
+        else ()
     )
+    table = orders(tuple(clip.code for clip in drawn) if request.presentation != "pair" else (), pairs)
+    key = _key(project, request, drawn)
+
+    def reported(share: float, said: Message) -> None:
+        raise_if_stopped(stop_requested)
+        report(share, said)
+
+    def stage_of(shown: Performance, posed: Posed | None) -> AbstractContextManager[PerformanceRenderer]:
+        return stages(shown, request.theme, stop_requested, posed)
+
     with files_into(folder) as new:
         clips = new / CLIPS
         clips.mkdir()
-        left_out = _draw(
-            project, request, variants, videos, scenes, drawn, clips, stages, wording, report, stop_requested
-        )
+        files = _files(clips, variants, drawn, scenes)
+        left_out = _draw(project, request, videos, files, stage_of, wording, reported)
         for number, (left, right) in enumerate(pairs):
             report(0.9 + 0.05 * number / len(pairs), Message("evaluate.step_pairs"))
             side_by_side(clips / f"{left}-{right}.mp4", clips / f"{left}.mp4", clips / f"{right}.mp4", CRF)
         report(0.95, Message("evaluate.step_page"))
         (new / PAGE_FILE).write_bytes(page(key, table, clips))
-        measured = _measured(report, stop_requested)
-        write_measures(measure_variants(project, variants, measured), new / MEASURES_FILE)
+        measures = measure_variants(
+            project, variants, lambda share: reported(0.95 + 0.05 * share, Message("evaluate.step_measures"))
+        )
+        write_measures(measures, new / MEASURES_FILE)
         write_key(key, new / KEY_FILE)
     film = videos.get("film")
     return Made(folder, key, len(pairs), len(table), left_out, film if isinstance(film, ImportedVideo) else None)
 
 
+def _files(
+    clips: Path, variants: Sequence[Variant], drawn: Sequence[EvaluationClip], scenes: Sequence[ClipScene]
+) -> dict[Variant, dict[Path, ClipScene]]:
+    """The files of every variant; one of them is shown for practice too."""
+    files = {
+        variant: {clips / f"{clip.code}.mp4": scenes[clip.excerpt - 1] for clip in drawn if clip.variant == variant}
+        for variant in variants
+    }
+    files["generated" if "generated" in variants else variants[0]][clips / f"{_PRACTICE}.mp4"] = scenes[-1]
+    return files
+
+
 def _draw(
     project: Project,
     request: EvaluationRequest,
-    variants: Sequence[Variant],
     videos: Mapping[Variant, Imported],
-    scenes: Sequence[ClipScene],
-    drawn: Sequence[EvaluationClip],
-    clips: Path,
-    stages: Stages,
+    files: Mapping[Variant, Mapping[Path, ClipScene]],
+    stage_of: Callable[[Performance, Posed | None], AbstractContextManager[PerformanceRenderer]],
     wording: Callable[[Message], str],
     report: Report,
-    stop_requested: StopRequested,
 ) -> tuple[LeftOut, ...]:
     """Write the clips of all variants; who could not be drawn."""
-    framing = Framing(request.view, request.player_ids, request.size, request.theme)
     left_out = dict[str, LeftOut]()
-    for number, variant in enumerate(variants):
-        files = {clips / f"{clip.code}.mp4": scenes[clip.excerpt - 1] for clip in drawn if clip.variant == variant}
-        if variant == ("generated" if "generated" in variants else variants[0]):
-            files[clips / f"{_PRACTICE}.mp4"] = scenes[-1]
+    for number, (variant, own) in enumerate(files.items()):
 
         def shown(share: float, number: int = number) -> None:
-            said = Message("evaluate.step_clips", {"number": number + 1, "count": len(variants)})
-            report(0.3 + 0.6 * (number + share) / len(variants), said)
-
-        def refuse(left: Sequence[LeftOut]) -> None:
-            require_players(left, request.title, wording)
+            said = Message("evaluate.step_clips", {"number": number + 1, "count": len(files)})
+            report(0.3 + 0.6 * (number + share) / len(files), said)
 
         imported = videos.get(variant)
         if isinstance(imported, ImportedVideo):
-            cut_video(imported, request.size, files, shown, stop_requested)
+            cut_video(imported, request.size, own, shown)
         else:
-            posed = None if imported is None else imported.posed
-            found = draw_ours(project, variant, framing, files, stages, shown, stop_requested, refuse, posed)
-            left_out |= {one.player.id: one for one in found}
+            stage = stage_of(performance_of(project, variant), None if imported is None else imported.posed)
+            left_out |= {one.player.id: one for one in draw_ours(stage, request, own, wording, shown)}
     return tuple(left_out.values())
-
-
-def _measured(report: Report, stop_requested: StopRequested) -> Callable[[float], None]:
-    def measured(share: float) -> None:
-        raise_if_stopped(stop_requested)
-        report(0.95 + 0.05 * share, Message("evaluate.step_measures"))
-
-    return measured
 
 
 def _videos(
@@ -206,6 +196,16 @@ def _videos(
             stop_requested,
         )
     return project, found
+
+
+def _keyframes(
+    performance: Performance, request: EvaluationRequest, variants: Sequence[Variant]
+) -> dict[Variant, Keyframes]:
+    """Motion of other animation, where it is compared and no video."""
+    path = Path(restored(request.keyframes))
+    if "keyframes" not in variants or not holds_motion(path):
+        return {}
+    return {"keyframes": read_keyframes(performance, path, request.player_ids, request.keyframes_offset_s)}
 
 
 def _scenes(
@@ -271,3 +271,9 @@ def _clips(
         )
         for code, (number, scene, variant) in zip(drawn, places, strict=True)
     ]
+
+
+def _key(project: Project, request: EvaluationRequest, drawn: Sequence[EvaluationClip]) -> EvaluationKey:
+    clips = tuple(sorted(drawn, key=lambda clip: clip.code))
+    aspects = aspects_of(request.view, len(project.seen))
+    return EvaluationKey("suisou-evaluation", VERSION, new_id(), request.title, request.seed, clips, aspects)

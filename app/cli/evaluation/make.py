@@ -76,6 +76,18 @@ def add_arguments(command: argparse.ArgumentParser) -> None:
     command.add_argument(
         "--to", type=Path, required=True, metavar="DIR", help="the folder; it must not have a key.json"
     )
+    _add_variants_options(command)
+    add_bar_options(command)
+    _add_clip_options(command)
+    command.add_argument(
+        "--draw", type=whole_number, metavar="N", help="seed that codes are drawn with (default: at random)"
+    )
+    command.add_argument("--theme", choices=THEMES, default=THEMES[0], help=f"colours (default: {THEMES[0]})")
+    command.set_defaults(run=evaluate)
+
+
+def _add_variants_options(command: argparse.ArgumentParser) -> None:
+    """What is compared."""
     command.add_argument("--film", type=Path, metavar="VIDEO", help="real players who play the piece")
     command.add_argument(
         "--film-offset",
@@ -108,7 +120,10 @@ def add_arguments(command: argparse.ArgumentParser) -> None:
         help="what is compared, with commas between: film (real players), generated (the performance), still (with "
         "amplitude 0), shifted (fingers, slides and keys 200 ms late, a control), keyframes (default: all there are)",
     )
-    add_bar_options(command)
+
+
+def _add_clip_options(command: argparse.ArgumentParser) -> None:
+    """Which clips are made, and how they look."""
     command.add_argument(
         "--excerpts", type=_excerpts, metavar="N", help=f"how many excerpts are chosen (default: {EXCERPTS})"
     )
@@ -130,11 +145,6 @@ def add_arguments(command: argparse.ArgumentParser) -> None:
     command.add_argument(
         "--fps", dest="rate", type=frame_rate, metavar="RATE", help=f"frames per second (default: {FPS})"
     )
-    command.add_argument(
-        "--draw", type=whole_number, metavar="N", help="seed that codes are drawn with (default: at random)"
-    )
-    command.add_argument("--theme", choices=THEMES, default=THEMES[0], help=f"colours (default: {THEMES[0]})")
-    command.set_defaults(run=evaluate)
 
 
 def evaluate(arguments: argparse.Namespace) -> int:

@@ -237,14 +237,8 @@ def describe(
         dancers=tuple(_cast_dancer(dancer, layout, bones) for dancer in cast.dancers),
         ticks_per_quarter=score.ticks_per_quarter,
         pickup_ticks=score.pickup_ticks,
-        tempo=tuple(
-            Tempo(change.tick, time.after_s(change.tick), round(60e6 / change.microseconds_per_quarter, 6))
-            for change in score.tempo_map.changes
-        ),
-        metres=tuple(
-            UnrealMetre(metre.tick, time.after_s(metre.tick), metre.numerator, metre.denominator)
-            for metre in score.metres
-        ),
+        tempo=_tempo(score, time),
+        metres=_metres(score, time),
         bars=_bars(score, bars, time),
         markers=_markers(score, bars, time),
         cues=_cues(request.performance, [one.player for one in cast.musicians], time),
@@ -336,6 +330,19 @@ class _Time:
     def shows(self, frame: int) -> bool:
         """Whether there is such a frame."""
         return 0 <= frame < self.span.count
+
+
+def _tempo(score: Score, time: _Time) -> tuple[Tempo, ...]:
+    return tuple(
+        Tempo(change.tick, time.after_s(change.tick), round(60e6 / change.microseconds_per_quarter, 6))
+        for change in score.tempo_map.changes
+    )
+
+
+def _metres(score: Score, time: _Time) -> tuple[UnrealMetre, ...]:
+    return tuple(
+        UnrealMetre(metre.tick, time.after_s(metre.tick), metre.numerator, metre.denominator) for metre in score.metres
+    )
 
 
 def _bars(score: Score, bars: tuple[int, int] | None, time: _Time) -> tuple[UnrealBar, ...]:

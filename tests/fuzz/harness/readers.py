@@ -200,8 +200,9 @@ def presence(path: Path, folder: Path) -> None:
 
 def journal(path: Path, folder: Path) -> None:
     """A journal becomes takes, which are cleaned, brought into the part and saved."""
-    from app.capture.journal import passes, read_journal
+    from app.capture.journal import read_journal
     from app.capture.journal_to_takes import takes_of
+    from app.capture.passes import passes
     from app.project.edit.takes import add_takes, comp_whole
     from app.score.take import ControllerMapping
 

@@ -12,7 +12,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from app.capture.journal import Journal, JournalHeader, JournalWriter, SyncPoint, passes, read_journal
+from app.capture.journal import Journal, JournalHeader, JournalWriter, SyncPoint, read_journal
+from app.capture.passes import passes
 from app.errors import FileError
 
 HEADER = JournalHeader("ピアノ.suisou", "p", "EWI", "generic", 0.0, "")

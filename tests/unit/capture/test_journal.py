@@ -8,7 +8,8 @@ from pathlib import Path
 import msgspec
 import pytest
 
-from app.capture.journal import Journal, JournalHeader, JournalWriter, Pass, SyncPoint, is_whole, passes, read_journal
+from app.capture.journal import Journal, JournalHeader, JournalWriter, SyncPoint, is_whole, read_journal
+from app.capture.passes import Pass, passes
 from app.errors import FileError
 from app.formats.locks import is_locked
 

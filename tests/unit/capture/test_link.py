@@ -15,8 +15,9 @@ from pathlib import Path
 
 import pytest
 
-from app.capture.journal import Journal, JournalHeader, passes, read_journal
+from app.capture.journal import Journal, JournalHeader, read_journal
 from app.capture.link import RecorderLink
+from app.capture.passes import passes
 from app.capture.protocol import (
     Back,
     EventsSaved,

@@ -14,6 +14,7 @@ import pytest
 
 from app.capture import recorder as recording
 from app.capture.journal import JournalHeader, read_journal
+from app.capture.journal_keeper import JournalKeeper
 from app.capture.port_names import Port
 from app.capture.ports import PortError
 from app.capture.protocol import (
@@ -32,7 +33,7 @@ from app.capture.protocol import (
     Stop,
     SystemEnded,
 )
-from app.capture.recorder import JournalKeeper, RecorderProcess, send_news
+from app.capture.recorder import RecorderProcess, send_news
 from app.child import MessageChannel
 
 

@@ -1,0 +1,93 @@
+"""What was played in each pass of a loop, by a take's journal, in the performance's time."""
+
+from __future__ import annotations
+
+from bisect import bisect_left
+from collections.abc import Iterable, Iterator, Sequence
+from heapq import merge
+from itertools import pairwise
+
+import msgspec
+
+from app.capture.journal import LARGEST_NS, Journal, SyncPoint
+from app.score.sounding import SoundingNotes, note_off
+
+
+class Pass(msgspec.Struct, frozen=True):
+    """What was played in one pass of a loop, in the performance's time.
+
+    Attributes
+    ----------
+    times_us : tuple of int
+        Microseconds, not descending; before the first note negative.
+    """
+
+    number: int
+    times_us: tuple[int, ...]
+    messages: tuple[bytes, ...]
+
+
+def passes(journal: Journal) -> tuple[Pass, ...]:
+    """The passes of a take in the performance's time, the latency taken off; none where nothing was played back.
+    Notes that sound when the device is disconnected end there.
+
+    Between two moments whose position is known the time is interpolated, outside them it goes on as a
+    clock does. Between two passes the return lies where the first of the next is said to begin; where that is not said
+    to the moment, in the middle.
+    """
+    by_pass: dict[int, list[SyncPoint]] = {}
+    for point in journal.syncs:
+        by_pass.setdefault(point.pass_, []).append(point)
+    if not by_pass:
+        return ()
+    latency_ns = round(journal.header.latency_s * 1e9)
+    returns = [(a[-1].ns + b[0].ns) // 2 for a, b in pairwise(by_pass.values())]
+    edges_ns = [-LARGEST_NS, *returns, LARGEST_NS]
+    times_ns, messages = _ended(journal)
+    found = []
+    for (number, points), (begin_ns, end_ns) in zip(by_pass.items(), pairwise(edges_ns), strict=True):
+        begin = bisect_left(times_ns, begin_ns + latency_ns)
+        end = bisect_left(times_ns, end_ns + latency_ns)
+        found.append(
+            Pass(
+                number=number,
+                times_us=tuple(_performance_us(times_ns[begin:end], latency_ns, points)),
+                messages=tuple(messages[begin:end]),
+            )
+        )
+    return tuple(found)
+
+
+def _ended(journal: Journal) -> tuple[Sequence[int], Sequence[bytes]]:
+    """The events, and an end for every note that sounded when the device went away: it will not send it."""
+    if not journal.gaps:
+        return journal.times_ns, journal.messages
+    events = [(ns, message) for ns, message in zip(journal.times_ns, journal.messages, strict=True)]
+    lost = [(lost_ns, None) for lost_ns, _ in journal.gaps]
+    found: list[tuple[int, bytes]] = []
+    sounding: SoundingNotes[None] = SoundingNotes()
+    for ns, message in merge(events, lost, key=lambda event: event[0]):
+        if message is None:
+            found += [(ns, note_off(key)) for key, _ in sounding.end_all()]
+        else:
+            sounding.receive(message, None)
+            found.append((ns, message))
+    return [ns for ns, _ in found], [message for _, message in found]
+
+
+def _performance_us(times_ns: Iterable[int], latency_ns: int, points: Sequence[SyncPoint]) -> Iterator[int]:
+    """Ascending moments as microseconds of the performance, by the positions played in one pass."""
+    index = 0
+    for time_ns in times_ns:
+        played_ns = time_ns - latency_ns
+        while index + 2 < len(points) and points[index + 1].ns <= played_ns:
+            index += 1
+        near = points[index]
+        position_s, speed = near.position_s, 1.0
+        if index + 1 < len(points):
+            after = points[index + 1]
+            if played_ns >= after.ns:
+                near, position_s = after, after.position_s
+            elif played_ns > near.ns:
+                speed = (after.position_s - near.position_s) / ((after.ns - near.ns) / 1e9)
+        yield round((position_s + speed * ((played_ns - near.ns) / 1e9)) * 1e6)
