@@ -236,8 +236,8 @@ def _close(*streams: IO[bytes]) -> None:
 
 
 def can_fork() -> bool:
-    """Whether a copy of this process can work: only on Linux, and where no other thread runs. It might hold a lock, for
-    which the copy would wait for ever."""
+    """Return whether a copy of this process can work: only on Linux, and where no other thread runs. It might hold a
+    lock, for which the copy would wait for ever."""
     return sys.platform == "linux" and len(list(Path("/proc/self/task").iterdir())) == 1
 
 

@@ -91,7 +91,7 @@ def shown(path: str | os.PathLike[str]) -> str:
 
 
 def is_text(path: str | os.PathLike[str]) -> bool:
-    """Whether a path is UTF-8."""
+    """Return whether a path is UTF-8."""
     try:
         os.fspath(path).encode()
     except UnicodeEncodeError:

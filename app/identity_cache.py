@@ -30,7 +30,7 @@ class IdentityCache(Generic[V]):
         self._lock = Lock()
 
     def has(self, *inputs: object) -> bool:
-        """Whether the result for these inputs is there."""
+        """Return whether the result for these inputs is there."""
         with self._lock:
             return tuple(map(id, inputs)) in self._kept
 

@@ -19,7 +19,7 @@ WORDS = frozenset({"key", "hole"})
 
 
 def says_words(controls: Iterable[Control]) -> bool:
-    """Whether an instrument's labels are words with spaces between: it has keys or holes."""
+    """Return whether an instrument's labels are words with spaces between: it has keys or holes."""
     return any(control.kind in WORDS for control in controls if control.role == "pitch")
 
 

@@ -513,7 +513,7 @@ class Fingering(_Table, frozen=True):
 
     @property
     def is_obsolete(self) -> bool:
-        """Whether it is kept only for corrections of old projects; a first choice never is."""
+        """True if it is kept only for corrections of old projects; a first choice never is."""
         return self.rank > 1 and "obsolete" in self.tags
 
 
@@ -658,7 +658,7 @@ class InstrumentMap(_Table, frozen=True):
         return tuple(part.node for part in self.moving_parts)
 
     def in_range(self, concert_pitch: int) -> bool:
-        """Whether the table has fingerings for this concert pitch."""
+        """Return whether the table has fingerings for this concert pitch."""
         return self.range.low <= concert_pitch <= self.range.high
 
     def nearest_playable(self, concert_pitch: int) -> int:

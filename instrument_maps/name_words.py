@@ -51,7 +51,7 @@ def is_wide(word: str) -> bool:
 
 
 def is_katakana(word: str) -> bool:
-    """Whether a word is a katakana."""
+    """Return whether a word is a katakana."""
     return "\u30a1" <= word <= "\u30fa"
 
 

@@ -259,7 +259,7 @@ def _contacts(instrument: InstrumentMap) -> Iterator[Problem]:
 
 
 def _works(contact: Contact, control: Control) -> bool:
-    """Whether a contact is the mover of a control; a whole hand touches with any of its parts."""
+    """Return whether a contact is the mover of a control; a whole hand touches with any of its parts."""
     hand, _, mover = control.finger.partition(".")
     of_mover = contact.part.startswith(f"{hand}." if mover == "hand" else f"{hand}.{mover}.")
     return contact.control == control.name and of_mover

@@ -309,7 +309,7 @@ class Vocabulary:
         return None if found is None else self._strokes.get(found.id)
 
     def is_sort(self, id: str, general: str) -> bool:
-        """Whether an instrument is a sort of another one, over any number of steps."""
+        """Return whether an instrument is a sort of another one, over any number of steps."""
         known = self.instruments.get(id)
         return (
             known is not None
@@ -443,7 +443,8 @@ class Vocabulary:
         return None if best is None else best[1]
 
     def _is_whole(self, tokens: tuple[str, ...], start: int, end: int) -> bool:
-        """Whether a name is more than some kana of a longer word: a short one has only words of the table beside it."""
+        """Return whether a name is more than some kana of a longer word: a short one has only words of the table beside
+        it."""
         if tokens[start:end] not in self._short_kana:
             return True
         before, after = tokens[max(start - _MOST_KANA, 0) : start], tokens[end : end + _MOST_KANA]
@@ -464,7 +465,8 @@ class Vocabulary:
         return keyed
 
     def _is_loose(self, marks: Mapping[str, int], beside: tuple[str, ...]) -> bool:
-        """Whether the keys beside a name are mere letters, as in "Bass B", which may be anything; not beside a clef."""
+        """Return whether the keys beside a name are mere letters, as in "Bass B", which may be anything; not beside a
+        clef."""
         written = any(len(word) > 1 and (word,) in self._marks for word in beside)
         return not written and _IN.isdisjoint(beside) and max(marks.values()) == 1
 

@@ -151,7 +151,7 @@ class Gesture(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
     @property
     def needs_lowered(self) -> bool:
-        """Whether it can be done only while the instrument is wholly lowered."""
+        """True if it can be done only while the instrument is wholly lowered."""
         return self.hand is not None or bool(self.raised)
 
 

@@ -89,7 +89,7 @@ class OutputSink:
         self._queue.gain = gain
 
     def failed(self) -> bool:
-        """Whether the device went away; miniaudio does not notice that the sound server did."""
+        """Return whether the device went away; miniaudio does not notice that the sound server did."""
         return not self._device.is_started or self._queue.unfetched_s() > _STALLED_S
 
     def stop(self) -> None:
@@ -213,7 +213,7 @@ class _Device(miniaudio.PlaybackDevice):  # type: ignore[misc]
 
     @property
     def is_started(self) -> bool:
-        """Whether it plays; not after it was taken away."""
+        """True if it plays; not after it was taken away."""
         return (
             self._device is not None
             and self.callback_generator is not None

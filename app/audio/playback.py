@@ -120,12 +120,12 @@ class Playback(QObject):
 
     @property
     def is_playing(self) -> bool:
-        """Whether it plays."""
+        """True if it plays."""
         return self._sink is not None
 
     @property
     def is_silent(self) -> bool:
-        """Whether a device was missing when sound was last requested."""
+        """True if a device was missing when sound was last requested."""
         return self._silent
 
     def play(self, from_s: float | None = None) -> None:

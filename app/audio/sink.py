@@ -31,7 +31,7 @@ class Sink(Protocol):
         ...
 
     def failed(self) -> bool:
-        """Whether the device went away."""
+        """Return whether the device went away."""
         ...
 
     def stop(self) -> None:

@@ -78,7 +78,7 @@ class Jump:
         return replace(self, from_s=self.from_s + score_s, to_s=self.to_s + score_s)
 
     def agrees_with(self, pins: Pins) -> bool:
-        """Whether every pin is before it in both, or behind it in both."""
+        """Return whether every pin is before it in both, or behind it in both."""
         before = (pins.score_s <= self.from_s) & (pins.recording_s <= self.recording_from_s)
         behind = (pins.score_s >= self.to_s) & (pins.recording_s >= self.recording_to_s)
         return bool((before | behind).all())

@@ -106,7 +106,7 @@ class Journal(msgspec.Struct, frozen=True):
 
 
 def is_whole(message: bytes) -> bool:
-    """Whether the bytes are one message of a channel: a status and as many data bytes as it has."""
+    """Return whether the bytes are one message of a channel: a status and as many data bytes as it has."""
     return (
         len(message) > 1 and _LENGTHS.get(message[0] >> 4) == len(message) and message[1] < 0x80 and message[-1] < 0x80
     )

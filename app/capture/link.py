@@ -170,7 +170,7 @@ class RecorderLink:
         self._ending.start()
 
     def _report(self, command: Command) -> bool:
-        """Whether the recorder was notified; what matters of the rest is sent to the next. The lock is held."""
+        """Return whether the recorder was notified; what matters of the rest is sent to the next. The lock is held."""
         if self._child is None or self._is_leaving:
             return False
         try:

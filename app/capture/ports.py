@@ -53,7 +53,7 @@ class MidiSystem:
 
     @property
     def has_ended(self) -> bool:
-        """Whether it has gone since, with all of its ports: what it lists is of the past."""
+        """True if it has gone since, with all of its ports: what it lists is of the past."""
         return self._watch is not None and self._watch.has_ended
 
     def inputs(self) -> tuple[Port, ...]:

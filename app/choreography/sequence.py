@@ -272,7 +272,7 @@ class _Search:
         return self._way_back(best + ends, came, first, stop)
 
     def reaches(self, place: int, later: int) -> bool:
-        """Whether an accent at a place can be followed by one from ``later`` on."""
+        """Return whether an accent at a place can be followed by one from ``later`` on."""
         gaps_s = self._grid.times_s[later : place + MOST_STEPS + 1] - self._grid.times_s[place]
         return any(self._possible(gap_s) for gap_s in gaps_s)
 
@@ -305,7 +305,7 @@ class _Search:
         return cost
 
     def _skips(self, earlier: int, place: int) -> bool:
-        """Whether going from one place to the other leaves out one that has to have an accent."""
+        """Return whether going from one place to the other leaves out one that has to have an accent."""
         return bisect_right(self._constrained, earlier) < bisect_left(self._constrained, place)
 
     def _possible(self, gap_s: float) -> bool:

@@ -84,7 +84,7 @@ class Stitcher:
         )
 
     def follows(self, segment: int, after: int) -> bool:
-        """Whether a segment begins in the capture where another one ends."""
+        """Return whether a segment begins in the capture where another one ends."""
         one, other = self._model.segments[after], self._model.segments[segment]
         return one.clip == other.clip and one.end == other.start
 

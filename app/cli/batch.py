@@ -75,7 +75,7 @@ class BatchOutcome(msgspec.Struct, frozen=True):
 
     @property
     def done(self) -> bool:
-        """Whether the files are there."""
+        """True if the files are there."""
         return self.status in (DONE, PARTIAL)
 
     @property

@@ -54,7 +54,7 @@ def nearest(path: Path) -> Path:
 
 @contextmanager
 def stoppable() -> Iterator[StopRequested]:
-    """Whether Ctrl-C or a request to end (SIGTERM) came: an exception of it would get lost in what Qt calls."""
+    """Return whether Ctrl-C or a request to end (SIGTERM) came: an exception of it would get lost in what Qt calls."""
     stopped = threading.Event()
 
     def stop(number: int, frame: FrameType | None) -> None:

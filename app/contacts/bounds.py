@@ -58,7 +58,7 @@ class Spread(msgspec.Struct, frozen=True):
 
     @property
     def kept(self) -> bool:
-        """Whether the bound is kept at every frame."""
+        """True if the bound is kept at every frame."""
         return self.max_mm <= self.bound_mm
 
 
@@ -80,7 +80,7 @@ def contact_name(contact: Contact | ContactFit) -> str:
 
 
 def in_place(control: Control, values: FloatArray, targets: FloatArray) -> BoolArray:
-    """Whether values of a control are near enough to their targets."""
+    """Return whether values of a control are near enough to their targets."""
     off = np.abs(values - targets)
     if control.kind == "slide" and control.travel_m:
         return off * control.travel_m <= SLIDE_M

@@ -209,7 +209,7 @@ class _Search:
 
     @property
     def open(self) -> bool:
-        """Whether anything may still be deepest."""
+        """True if anything may still be deepest."""
         return len(self._grouped) + len(self._single) > 0
 
     def begin(self, size: int, depths_m: SingleArray) -> None:

@@ -131,7 +131,7 @@ class Files(QObject):
 
     @property
     def is_saved(self) -> bool:
-        """Whether nothing would be lost by closing."""
+        """True if nothing would be lost by closing."""
         return not self.is_open or self.session.document.is_saved
 
     @property
@@ -152,7 +152,7 @@ class Files(QObject):
 
     @property
     def unwritten(self) -> bool:
-        """Whether the project as it is is in no file, not even in that of unsaved work."""
+        """True if the project as it is is in no file, not even in that of unsaved work."""
         project = self.session.project
         return not self.session.document.is_saved and (self.autosave is None or not self.autosave.has(project))
 

@@ -116,8 +116,8 @@ class Generator(QObject):
 
     @property
     def up_to_date(self) -> bool:
-        """Whether the session's plans are those of its project, on the instruments, characters and metadata
-        there are now."""
+        """True if the session's plans are those of its project, on the instruments, characters and metadata there are
+        now."""
         performance = self._session.performance
         now = performance.library is library() and performance.characters is character_library()
         now = now and performance.metadata.is_still(metadata_library())

@@ -69,7 +69,7 @@ class LivePlayers(QObject):
 
     @property
     def is_shown(self) -> bool:
-        """Whether a player is live, or has just ended and is returning to the performance."""
+        """True if a player is live, or has just ended and is returning to the performance."""
         with self._lock:
             now_s = perf_counter()
             return bool(self._playing) or any(blend.at(now_s) > 0.0 for blend in self._blends.values())

@@ -21,7 +21,7 @@ class LivePoses:
 
     @property
     def is_live(self) -> bool:
-        """Whether a player is live, or has just been."""
+        """True if a player is live, or has just been."""
         return self._session.live_players.is_shown
 
     def poses(self, player_ids: Sequence[str], time_s: float) -> Sequence[Pose | None]:

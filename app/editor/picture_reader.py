@@ -68,7 +68,7 @@ class PictureReader:
             return self._kept.get(number)
 
     def is_beyond(self, number: int) -> bool:
-        """Whether it is known that the video has ended before this picture."""
+        """Return whether it is known that the video has ended before this picture."""
         with self._condition:
             return self._end is not None and number >= self._end
 

@@ -35,7 +35,7 @@ def blended(one: Pose, other: Pose, share: float) -> Pose:
 
 
 def same(one: Pose | None, other: Pose | None) -> bool:
-    """Whether two poses look the same."""
+    """Return whether two poses look the same."""
     if one is None or other is None or one is other:
         return one is other
     return (

@@ -34,4 +34,4 @@ class Questions(Protocol):
         """Who plays what in a MIDI file, and whether a dancer dances to it; None: it is not imported."""
 
     def remove_character(self, name: str, players: tuple[str, ...]) -> bool:
-        """Whether a character goes for good, which these players are."""
+        """Return whether a character goes for good, which these players are."""

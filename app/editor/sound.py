@@ -107,7 +107,7 @@ class EditorSound(QObject):
 
     @property
     def is_busy(self) -> bool:
-        """Whether some of the sound is not rendered yet."""
+        """True if some of the sound is not rendered yet."""
         return self._stems.is_busy
 
     # The playhead

@@ -38,7 +38,7 @@ class _Made:
     phrases: tuple[RenderedPhrase, ...]
 
     def is_of(self, sources: tuple[object, ...]) -> bool:
-        """Whether they are up to date: compared by identity, as values are."""
+        """Return whether they are up to date: compared by identity, as values are."""
         return all(one is other for one, other in zip(self.sources, sources, strict=True))
 
 
@@ -88,7 +88,7 @@ class Stems(QObject):
 
     @property
     def is_busy(self) -> bool:
-        """Whether something is to be rendered, or being rendered."""
+        """True if something is to be rendered, or being rendered."""
         return self._settle_timer.isActive() or self._look_timer.isActive()
 
     def follow(self, project: Project, from_s: float) -> None:
@@ -110,7 +110,7 @@ class Stems(QObject):
             self._settle_timer.start()
 
     def covers(self, at_s: float) -> bool:
-        """Whether what sounds next at a moment is rendered, or being rendered."""
+        """Return whether what sounds next at a moment is rendered, or being rendered."""
         if self._job is None:
             return True
         start_s, end_s = self._job.window_s

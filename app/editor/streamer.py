@@ -103,7 +103,7 @@ class Streamer(QObject):
 
     @property
     def _broadcast(self) -> bool:
-        """Whether the host may be many computers."""
+        """True if the host may be many computers."""
         return self._state.broadcast == self._state.host
 
     def _changed(self) -> None:

@@ -114,7 +114,7 @@ class ThreadTasks(QObject):
 
     @property
     def is_idle(self) -> bool:
-        """Whether no thread works any more, stopped ones included."""
+        """True if no thread works any more, stopped ones included."""
         return not self._running
 
     def run(
@@ -201,6 +201,6 @@ def _take_back(task: Task) -> None:
 
 
 def _is_there(callback: Callable[..., None]) -> bool:
-    """Whether the receiver of a report is still open."""
+    """Return whether the receiver of a report is still open."""
     reported = getattr(callback, "__self__", None)
     return not isinstance(reported, QObject) or isValid(reported)

@@ -47,7 +47,7 @@ class ViewportState(QObject):
         self.changed.emit()
 
     def shows(self, what: Shown) -> bool:
-        """Whether it is drawn."""
+        """Return whether it is drawn."""
         return what in self._shown
 
     def show(self, what: Shown, shown: bool) -> None:
@@ -59,7 +59,7 @@ class ViewportState(QObject):
 
     @property
     def posing(self) -> bool:
-        """Whether the pose tool is in hand."""
+        """True if the pose tool is in hand."""
         return self._posing
 
     def set_posing(self, posing: bool) -> None:

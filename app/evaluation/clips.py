@@ -41,7 +41,7 @@ class PerformanceRenderer(Protocol):
         ...
 
     def shows(self, player_ids: tuple[str, ...]) -> bool:
-        """Whether any of these players can be seen; of all where none is named."""
+        """Return whether any of these players can be seen; of all where none is named."""
         ...
 
     def film(

@@ -124,7 +124,7 @@ def _better(results: EvaluationResults) -> Iterator[Message]:
 
 
 def _viewers(results: EvaluationResults) -> Iterator[Message]:
-    """Whether there are enough of them for anything."""
+    """Return whether there are enough of them for anything."""
     viewers = len(results.viewers)
     if viewers == 1:
         yield Message("results.one_viewer")

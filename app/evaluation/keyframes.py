@@ -57,7 +57,7 @@ class _Report(msgspec.Struct, frozen=True):
 
 
 def holds_motion(path: str | os.PathLike[str]) -> bool:
-    """Whether a path is that of files of motion rather than of a video."""
+    """Return whether a path is that of files of motion rather than of a video."""
     return os.path.isdir(path) or Path(path).suffix.lower() in SUFFIXES
 
 

@@ -74,7 +74,7 @@ class Contrast(msgspec.Struct, frozen=True):
 
     @property
     def significant(self) -> bool:
-        """Whether the two are shown to differ."""
+        """True if the two are shown to differ."""
         return self.corrected_p is not None and self.corrected_p < SIGNIFICANT
 
 

@@ -166,7 +166,7 @@ def _roots(target: TargetSkeleton, asset: Figure) -> list[SkeletonDifference]:
 
 
 def _unit(target: TargetSkeleton, asset: Figure) -> list[SkeletonDifference]:
-    """Whether lengths as a whole are of another unit, by the bones that both have."""
+    """Return whether lengths as a whole are of another unit, by the bones that both have."""
     theirs = {name: bone for bone, name in enumerate(asset.bone_names)}
     both = [
         (bone, theirs[name]) for bone, name in enumerate(target.names) if name in theirs and target.parents[bone] >= 0

@@ -57,7 +57,7 @@ class SkinnedMarks:
     morphs: tuple[str, ...] = ()
 
     def hang_on(self, parents: Sequence[int]) -> BoolArray:
-        """Whether what a bone does moves a mark: (K, B)."""
+        """Return whether what a bone does moves a mark: (K, B)."""
         above = np.eye(len(parents), dtype=bool)
         for bone, parent in enumerate(parents):
             if parent >= 0:

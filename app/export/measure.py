@@ -288,7 +288,7 @@ def _control_values(instrument: InstrumentMap, held: ScenePlayback) -> dict[str,
 def _breaths(
     events: Sequence[BreathEvent], times_s: FloatArray, jaw: FloatArray, torso_rad: FloatArray, mouth: bool
 ) -> BreathMeasure:
-    """Whether during each breath the jaw opens and the torso leans back against what was just before; without a
+    """Return whether during each breath the jaw opens and the torso leans back against what was just before; without a
     ``mouth`` that opens, the torso alone shows it."""
     planned = opened = back = shown = 0
     for event in events:

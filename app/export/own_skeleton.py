@@ -74,7 +74,8 @@ def own_target(character: Character) -> TargetSkeleton:
 
 
 def has_armature(figure: Figure) -> bool:
-    """Whether the figure's root is the object that Blender keeps a skeleton in, which Unreal does not take for a bone.
+    """Return whether the figure's root is the object that Blender keeps a skeleton in, which Unreal does not take for a
+    bone.
 
     It is called Armature, carries nothing and has the one root bone below it.
     """

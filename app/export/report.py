@@ -50,7 +50,7 @@ class DancerMeasures(msgspec.Struct, frozen=True):
 
     @property
     def kept(self) -> bool:
-        """Whether all measures are within their bounds."""
+        """True if all measures are within their bounds."""
         return self.slide_mm_s <= SLIDE_BOUND_MM_S and self.bones_mm <= BONES_BOUND_MM
 
 

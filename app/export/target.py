@@ -128,7 +128,7 @@ class TargetSkeleton:
 
     @property
     def normalised(self) -> bool:
-        """Whether every bone is the joint of its number, and does what that does."""
+        """True if every bone is the joint of its number, and does what that does."""
         return self.choice == "suisou" and not self.added and self.root_bone == "origin"
 
     @property

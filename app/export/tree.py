@@ -168,7 +168,7 @@ def files_below(folder: Path) -> list[Path]:
 
 
 def stays_inside(name: str) -> bool:
-    """Whether a path that a file says stays in its folder on every system: that file is not trusted."""
+    """Return whether a path that a file says stays in its folder on every system: that file is not trusted."""
     path = PureWindowsPath(name)
     return bool(path.parts) and not (path.anchor or ".." in path.parts or "\\" in name)
 

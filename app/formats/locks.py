@@ -63,7 +63,7 @@ def locked_here(path: Path) -> Iterator[bool]:
 
 
 def is_locked(path: Path) -> bool:
-    """Whether a living process has locked a file, or may have."""
+    """Return whether a living process has locked a file, or may have."""
     try:
         with locked_here(path) as is_ours:
             return not is_ours
@@ -75,7 +75,7 @@ def is_locked(path: Path) -> bool:
 
 
 def is_same_file(path: Path, stream: IO[Any]) -> bool:
-    """Whether an open file is still the one of this name."""
+    """Return whether an open file is still the one of this name."""
     try:
         return os.path.samestat(path.stat(), os.fstat(stream.fileno()))
     except OSError:

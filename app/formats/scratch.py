@@ -76,7 +76,7 @@ def abandoned_folders() -> Iterator[Path]:
 
 
 def _is_ours(place: Path) -> bool:
-    """Whether a place is not another user's, made first in a folder that all may write."""
+    """Return whether a place is not another user's, made first in a folder that all may write."""
     found = place.stat(follow_symlinks=os.name != "posix")
     return os.name != "posix" or found.st_uid == os.getuid()
 

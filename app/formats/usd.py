@@ -62,7 +62,7 @@ _ONE_AT_A_TIME: Final = Lock()
 
 
 def usd_installed() -> bool:
-    """Whether USD files can be written."""
+    """Return whether USD files can be written."""
     return importlib.util.find_spec("pxr") is not None
 
 

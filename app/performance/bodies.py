@@ -129,7 +129,7 @@ def _worked_out(character: Character, instrument: InstrumentMap) -> Iterator[Non
 
 
 def is_held(player: Player, instrument: InstrumentMap) -> bool:
-    """Whether it takes no time to say how a player holds an instrument of the library. Never slow itself."""
+    """Return whether it takes no time to say how a player holds an instrument of the library. Never slow itself."""
     ours = player.character_id in bundled_characters() and bundled_maps().get(instrument.id) is instrument
     return (ours and _is_stored(player.character_id, instrument.id)) or _pair(player, instrument) in _HELD
 

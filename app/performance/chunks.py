@@ -180,7 +180,7 @@ class FrameGrid:
         return first, min(self.length, self.frames - first)
 
     def same_frames(self, other: FrameGrid) -> bool:
-        """Whether a frame of one is the same moment in the other."""
+        """Return whether a frame of one is the same moment in the other."""
         return self.fps == other.fps and self.start_s == other.start_s
 
     def touched(self, spans_s: FloatArray) -> list[bool]:

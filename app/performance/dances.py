@@ -58,7 +58,7 @@ class MakerOfDances(Protocol):
         """What a player dances while playing; None: nothing."""
 
     def layer_is_made(self, performance: Performance, player: Player) -> bool:
-        """Whether asking for a player's layer takes no time."""
+        """Return whether asking for a player's layer takes no time."""
 
 
 def maker_of_dances() -> MakerOfDances | None:
@@ -81,6 +81,6 @@ def layer_of(performance: Performance, player: Player) -> BodyLayer | None:
 
 
 def layer_is_made(performance: Performance, player: Player) -> bool:
-    """Whether asking for a player's layer takes no time."""
+    """Return whether asking for a player's layer takes no time."""
     maker = maker_of_dances()
     return maker is None or maker.layer_is_made(performance, player)

@@ -342,7 +342,7 @@ class Performance:
 
     @property
     def planned(self) -> bool:
-        """Whether the plans are made already: asking for them then costs nothing."""
+        """True if the plans are made already: asking for them then costs nothing."""
         return "_ensemble" in self.__dict__
 
     def plan(self, player: Player) -> PlayerPlan:

@@ -31,7 +31,7 @@ def generated_channel(performance: Performance, player_id: str, channel: str) ->
 
 
 def generated_anew(before: PlayerPlan, after: PlayerPlan) -> bool:
-    """Whether a channel may be another than it was."""
+    """Return whether a channel may be another than it was."""
     if before is after:
         return False
     same = before.player_id == after.player_id and before.time_frame == after.time_frame

@@ -398,7 +398,7 @@ class LiveMotion:
 
     @property
     def is_seen(self) -> bool:
-        """Whether everything that is looked at is made, so that no one waits for what is left."""
+        """True if everything that is looked at is made, so that no one waits for what is left."""
         shown = self._shown
         places = self._in_sight(shown.grid)
         return all(
@@ -578,7 +578,7 @@ def _changed_s(playing: PerformanceCurves | Dancing, basis: PerformanceCurves | 
 
 
 def _soon_made(shown: _Shown, track: _Track) -> bool:
-    """Whether a player's motion is made from what there is."""
+    """Return whether a player's motion is made from what there is."""
     if track.playing is not None or not isinstance(track.player, Player) or not track.player.parameters.choreography:
         return True
     return layer_is_made(shown.performance, track.player)
@@ -595,7 +595,7 @@ def _played_before(shown: _Shown, player: Player) -> set[str]:
 
 
 def _looks_same(player: Player, before: Player | Dancer) -> bool:
-    """Whether nothing of a player changed that is seen in the motion, beside the plan."""
+    """Return whether nothing of a player changed that is seen in the motion, beside the plan."""
     if player is before:
         return True
     if not isinstance(before, Player):

@@ -104,7 +104,7 @@ class LiveHands:
 
     @property
     def carries(self) -> bool:
-        """Whether some control carries a hand."""
+        """True if some control carries a hand."""
         return bool(self._carrying)
 
     def play(self, now_s: float, pitch: int, loudness: float) -> None:

@@ -29,7 +29,7 @@ class FrameSpan(msgspec.Struct, frozen=True):
         return self.first_frame_s + self.count * self.fps.denominator / self.fps.numerator
 
     def shows_onset(self, onset_s: float) -> bool:
-        """Whether the first frame at or after an onset is one of these."""
+        """Return whether the first frame at or after an onset is one of these."""
         frame = math.ceil((onset_s - self.first_frame_s) * self.fps.numerator / self.fps.denominator)
         return 0 <= frame < self.count
 

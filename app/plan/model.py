@@ -75,12 +75,12 @@ class BreathEvent(msgspec.Struct, frozen=True, gc=False):
 
     @property
     def draws_air(self) -> bool:
-        """Whether it fills the lungs; else it leads to a breath."""
+        """True if it fills the lungs; else it leads to a breath."""
         return BREATH_KINDS[self.kind].draws_air
 
     @property
     def is_within(self) -> bool:
-        """Whether it is taken within a note, not before it."""
+        """True if it is taken within a note, not before it."""
         return BREATH_KINDS[EventId.parse(self.id).kind].within
 
 
@@ -146,7 +146,7 @@ class EmbouchureEvent(msgspec.Struct, frozen=True, gc=False):
 
     @property
     def corrected(self) -> bool:
-        """Whether it was set by hand."""
+        """True if it was set by hand."""
         return self.planned is not None
 
     @property
@@ -391,7 +391,7 @@ class SampledCurves:
     effort: FloatArray | None = None
 
     def __eq__(self, other: object) -> bool:
-        """Whether they are the same to the last bit, as plans are compared."""
+        """Return whether they are the same to the last bit, as plans are compared."""
         if not isinstance(other, SampledCurves):
             return NotImplemented
         return (

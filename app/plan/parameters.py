@@ -113,7 +113,7 @@ class Parameter:
         return ", ".join(options)
 
     def allows(self, value: object) -> bool:
-        """Whether it may have this value."""
+        """Return whether it may have this value."""
         try:
             msgspec.convert(value, self.kind)
         except msgspec.ValidationError:

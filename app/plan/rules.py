@@ -231,7 +231,7 @@ def matches(when: When, facts: Facts) -> BoolArray:
 
 
 def concerns(when: When, styles: Collection[str], habits: Sequence[str]) -> bool:
-    """Whether a player of some styles and habits is meant."""
+    """Return whether a player of some styles and habits is meant."""
     if when.styles and set(when.styles).isdisjoint(styles):
         return False
     if when.not_styles and set(styles) <= set(when.not_styles):

@@ -225,7 +225,7 @@ class Autosave:
 
     @property
     def is_shared(self) -> bool:
-        """Whether another living editor works on the same file."""
+        """True if another living editor works on the same file."""
         return self._document is not None and is_open_elsewhere(
             self._document, self.presence.folder, self.presence.token
         )
@@ -239,16 +239,16 @@ class Autosave:
         return max([self._changed_s + self.delay_s, *(taken_s + PATIENCE_S for taken_s in self._pending.values())])
 
     def has(self, project: Project) -> bool:
-        """Whether this project is written down."""
+        """Return whether this project is written down."""
         return project is self._written
 
     @property
     def has_work(self) -> bool:
-        """Whether there is unsaved work, written down or not."""
+        """Return whether there is unsaved work, written down or not."""
         return self._project is not None or bool(self._held)
 
     def is_current(self, writing: Writing) -> bool:
-        """Whether a writing is of the work that is open."""
+        """Return whether a writing is of the work that is open."""
         return writing.own_place is self._own_place
 
     def opened(

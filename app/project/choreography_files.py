@@ -24,14 +24,14 @@ def bundled_choreographies() -> tuple[str, ...]:
 
 
 def is_bundled_name(choreography: str) -> bool:
-    """Whether this is the name of a bundled choreography, of this version or of another, and no path: it has neither
-    separator nor suffix."""
+    """Return whether this is the name of a bundled choreography, of this version or of another, and no path: it has
+    neither separator nor suffix."""
     return _NAME.fullmatch(choreography) is not None
 
 
 def is_choreography(choreography: str) -> bool:
-    """Whether this can name a choreography: a bundled one, or the absolute path of a ``.choreography`` file on any
-    system."""
+    """Return whether this can name a choreography: a bundled one, or the absolute path of a ``.choreography`` file on
+    any system."""
     if is_bundled_name(choreography):
         return True
     absolute = PurePosixPath(choreography).is_absolute() or PureWindowsPath(choreography).is_absolute()

@@ -65,7 +65,7 @@ class Document:
 
     @property
     def is_saved(self) -> bool:
-        """Whether what is here is what was last saved."""
+        """True if what is here is what was last saved."""
         return self._project is self._saved
 
     @property

@@ -86,7 +86,7 @@ def take_note_id(take_number: int, index: int) -> str:
 
 
 def is_made_here(note_id: str) -> bool:
-    """Whether a note was drawn or recorded here, not read from a file."""
+    """Return whether a note was drawn or recorded here, not read from a file."""
     return note_id.startswith((DRAWN_NOTE, TAKE_NOTE))
 
 

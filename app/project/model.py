@@ -380,7 +380,7 @@ def _hand_travel_m(instrument: InstrumentMap) -> float:
 
 
 def _by_hand(control: Control) -> bool:
-    """Whether the whole hand travels with a control."""
+    """Return whether the whole hand travels with a control."""
     return control.finger.endswith(".hand")
 
 

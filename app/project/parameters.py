@@ -104,7 +104,7 @@ def parse_settings(
 
 
 def is_possible(parameter: str, value: object) -> bool:
-    """Whether a player's parameter may have this value."""
+    """Return whether a player's parameter may have this value."""
     if parameter == _DANCED and isinstance(value, str) and value:
         return is_choreography(value) and len(value) <= limits.MOST_TEXT
     if parameter in (_STYLE, _HABITS):

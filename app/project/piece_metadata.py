@@ -81,7 +81,7 @@ class MetadataDifference(NamedTuple):
 
 
 def is_acting(correction: Correction) -> bool:
-    """Whether a correction is about gestures, expressions or poses."""
+    """Return whether a correction is about gestures, expressions or poses."""
     return EventId.parse(correction.about).kind not in _NOT_ACTING
 
 

@@ -126,7 +126,7 @@ class Presence:
         return self.folder / f"{self.token}{LOCK}"
 
     def _is_here(self) -> bool:
-        """Whether others see this editor: its folder may have been cleared."""
+        """Return whether others see this editor: its folder may have been cleared."""
         stream = self._stream
         return stream is not None and not stream.closed and is_same_file(self._lock_path, stream)
 
@@ -165,7 +165,7 @@ def forget(folder: Path, token: str) -> None:
 
 
 def is_open_elsewhere(document: Path, folder: Path, own_token: str = "") -> bool:
-    """Whether another living editor works on this project file."""
+    """Return whether another living editor works on this project file."""
     requested = os.path.realpath(document)
     return any(
         alive

@@ -318,7 +318,7 @@ def file_named(text: str) -> str:
 
 
 def is_project_file(path: Path) -> bool:
-    """Whether a file is called like a project's, or like what is kept beside one."""
+    """Return whether a file is called like a project's, or like what is kept beside one."""
     name = path.name.casefold()
     return any(name.endswith(f"{SUFFIX}{more}") for more in ("", BACKUP, AUTOSAVE))
 

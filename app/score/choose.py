@@ -462,7 +462,7 @@ def _instead(
 
 
 def plays(choice: MapChoice, instrument: Instrument) -> bool:
-    """Whether a map plays an instrument, or a sort of it."""
+    """Return whether a map plays an instrument, or a sort of it."""
     return any(id == instrument.id or vocabulary().is_sort(id, instrument.id) for id in choice.plays)
 
 

@@ -210,7 +210,7 @@ def _is_double(
 
 
 def _goes_on(notes: Played, end_s: float, onset_s: float) -> bool:
-    """Whether the breath is sent and does not fall from the end of one note to the onset of the next."""
+    """Return whether the breath is sent and does not fall from the end of one note to the onset of the next."""
     breath = notes.curves.get("breath")
     if breath is None or not len(breath.times_s):
         return False
@@ -233,7 +233,7 @@ def _is_octave_slip(
     ends: FloatArray,
     notes: Played,
 ) -> bool:
-    """Whether a note is an octave, or two, off the note after it, and short in a legato of long ones."""
+    """Return whether a note is an octave, or two, off the note after it, and short in a legato of long ones."""
     lasts_s = ends[index] - onsets[index]
     beside_s = min(ends[held] - onsets[held], ends[following] - onsets[following])
     if lasts_s > _OCTAVE_SLIP_S or beside_s < _BESIDE_SLIP * lasts_s:
@@ -245,8 +245,8 @@ def _is_octave_slip(
 
 
 def _is_before_its_note(held: int, place: int, audible: list[int], onsets: FloatArray) -> bool:
-    """Whether a short note is an ornament that comes before its note: that one is on time then, as the notes around
-    show. A slip of the octave keys begins when its note should have."""
+    """Return whether a short note is an ornament that comes before its note: that one is on time then, as the notes
+    around show. A slip of the octave keys begins when its note should have."""
     index, following = audible[place], audible[place + 1]
     around = onsets[audible[max(place - _PULSE_NOTES, 0) : place]], onsets[audible[place + 1 :][: _PULSE_NOTES + 1]]
     apart_s = np.concatenate([np.diff(some) for some in around])
@@ -301,6 +301,6 @@ def _octave(notes: Played, index: int, other: int) -> bool:
 
 
 def _touches(held: int, index: int, following: int, onsets: FloatArray, ends: FloatArray) -> bool:
-    """Whether a note only leads from one note of a legato to the next."""
+    """Return whether a note only leads from one note of a legato to the next."""
     before_s, after_s = onsets[index] - ends[held], onsets[following] - ends[index]
     return bool(before_s <= _TOUCHING_S and after_s <= _TOUCHING_S and ends[following] > onsets[following])

@@ -119,13 +119,14 @@ def joined_spans(rows: Sequence[tuple[int, int, How]], ways: Collection[str]) ->
 
 
 def is_muted(spans: Sequence[Span], tick: int) -> bool:
-    """Whether a note that begins at a tick is played with a mute."""
+    """Return whether a note that begins at a tick is played with a mute."""
     place = bisect_right(spans, tick, key=lambda span: span[0])
     return bool(place) and tick < spans[place - 1][1]
 
 
 def said_of_mute(text: str) -> How | None:
-    """Whether a text puts a mute in, has the hand stop the bell, or ends both; None: it speaks of something else."""
+    """Return whether a text puts a mute in, has the hand stop the bell, or ends both; None: it speaks of something
+    else."""
     words = " ".join(text[:MOST_NAME].split()).strip("()[]")
     if _OFF.fullmatch(words):
         return "open"

@@ -86,7 +86,7 @@ def _within(spans: VoiceSpans, depths: IndexArray, more: int) -> BoolArray:
 
 
 def _sustained(spans: VoiceSpans, depths: IndexArray, more: int, several: int) -> bool:
-    """Whether so many players are needed over several notes in a row and for a while."""
+    """Return whether so many players are needed over several notes in a row and for a while."""
     struck = depths >= more
     if np.count_nonzero(struck) < several:
         return False

@@ -69,7 +69,7 @@ def _far(pitches: IntArray) -> list[BoolArray]:
 
 
 def _switch(stream: TrackChannel, away: BoolArray, tempo_map: TempoMap) -> bool:
-    """Whether notes are played as key switches are: short, before the music, or held while it sounds."""
+    """Return whether notes are played as key switches are: short, before the music, or held while it sounds."""
     onsets = tempo_map.seconds(np.array(stream.onset_ticks))
     ends = tempo_map.seconds(np.array(stream.end_ticks))
     music_onsets, music_ends = onsets[~away], np.maximum.accumulate(ends[~away])

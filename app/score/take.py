@@ -209,7 +209,7 @@ def _played(times_us: tuple[int, ...], messages: tuple[str, ...], wiring: Contro
 
 
 def is_wired(message: mido.Message, wiring: ControllerMapping) -> bool:
-    """Whether a message comes on the wired channel."""
+    """Return whether a message comes on the wired channel."""
     return not wiring.channel or bool(message.channel + 1 == wiring.channel)
 
 
@@ -224,7 +224,7 @@ def decoded(raw: str) -> mido.Message | None:
 
 
 def is_message(raw: str) -> bool:
-    """Whether this is one MIDI message in hexadecimal."""
+    """Return whether this is one MIDI message in hexadecimal."""
     try:
         mido.Message.from_bytes(bytes.fromhex(raw))
     except (ValueError, IndexError, TypeError, KeyError):

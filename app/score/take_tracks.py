@@ -59,7 +59,7 @@ def take_reason(stream: TrackChannel, tempo_map: TempoMap) -> TakeReason:
 
 
 def _is_named(name: str) -> bool:
-    """Whether one of a track's words is what wind controllers are called, beside any instrument they sound like."""
+    """Return whether one of a track's words is what wind controllers are called, beside any instrument they sound like."""
     known = vocabulary()
     found = [*known.all_by_name(name), *map(known.by_name, name.split())]
     return any(instrument is not None and instrument.family == _FAMILY for instrument in found)
@@ -109,8 +109,8 @@ def _is_one_line(notes: Played) -> bool:
 
 
 def _is_blown(notes: Played, breath: Controlled) -> bool:
-    """Whether the breath changes all the time while notes sound, and stops at all: of one that never does, as is drawn
-    for the dynamics, it is not known where the tongue stopped it."""
+    """Return whether the breath changes all the time while notes sound, and stops at all: of one that never does, as is
+    drawn for the dynamics, it is not known where the tongue stopped it."""
     if breath.values.min() > _SILENT:
         return False
     inside = _among(notes, breath.times_s)
@@ -119,14 +119,14 @@ def _is_blown(notes: Played, breath: Controlled) -> bool:
 
 
 def _among(notes: Played, times_s: FloatArray) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
-    """Whether a note sounds at each of some moments."""
+    """Return whether a note sounds at each of some moments."""
     ends_s = np.maximum.accumulate(notes.ends_s)
     index: IntArray = np.searchsorted(notes.onsets_s, times_s, side="right") - 1
     return np.asarray((index >= 0) & (times_s < ends_s[np.maximum(index, 0)]))
 
 
 def _falls_in_rests(notes: Played, breath: Controlled) -> bool:
-    """Whether the breath stops in the rests; where there is none, before the first note."""
+    """Return whether the breath stops in the rests; where there is none, before the first note."""
     starts_s = np.concatenate(([-1.0 + notes.onsets_s[0]], np.maximum.accumulate(notes.ends_s)[:-1]))
     rests = notes.onsets_s - starts_s >= _REST_S
     middles_s = (0.5 * (starts_s + notes.onsets_s))[rests]

@@ -147,7 +147,7 @@ class TrackEvents(msgspec.Struct):
         return all(sound.use == "melodic" for _, sound in self.sounds[channel])
 
     def take_turns(self, channels: Collection[int]) -> bool:
-        """Whether no note of one channel sounds into a note of another."""
+        """Return whether no note of one channel sounds into a note of another."""
         spans = sorted(
             (onset, end, channel)
             for channel in channels

@@ -75,7 +75,7 @@ class TrackVoices(NamedTuple):
 
 
 def is_one_voice(notes: Sequence[Note], tempo_map: TempoMap) -> bool:
-    """Whether one player can play the notes, which are by onset, and plays all of them."""
+    """Return whether one player can play the notes, which are by onset, and plays all of them."""
     return not notes or int(spans_of(notes, tempo_map).depths().max()) == 1
 
 
@@ -267,7 +267,7 @@ def _legato(notes: Sequence[Note], spans: VoiceSpans, tempo_map: TempoMap) -> tu
 
 
 def _move_together(spans: VoiceSpans, kept: IndexArray) -> bool:
-    """Whether notes that sound together mostly begin together."""
+    """Return whether notes that sound together mostly begin together."""
     own = spans.of(kept)
     together = np.flatnonzero(own.depths() > 1)
     begun = own.onsets[together] - own.onsets[np.maximum(together - 1, 0)] <= CHORD_S

@@ -301,7 +301,7 @@ def picture(start: LaunchOptions, target: Path) -> int:
 
 
 def _moves(program: Program, time_s: float) -> bool:
-    """Whether everyone's pose at a time is there, or known to be impossible."""
+    """Return whether everyone's pose at a time is there, or known to be impossible."""
     live = program.generator.live
     return all(
         live.pose(player.id, time_s) is not None or live.error(player.id) is not None

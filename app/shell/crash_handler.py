@@ -88,7 +88,7 @@ class CrashHandler:
             self._telling = False
 
     def _is_repeated(self, error: BaseException) -> bool:
-        """Whether the same went wrong in the same place just now."""
+        """Return whether the same went wrong in the same place just now."""
         trace = error.__traceback__
         while trace is not None and trace.tb_next is not None:
             trace = trace.tb_next

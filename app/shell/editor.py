@@ -66,5 +66,5 @@ class EditorAction(ActionRow[Editor]):
 
 
 def is_open(editor: Editor) -> bool:
-    """Whether a project is open."""
+    """Return whether a project is open."""
     return editor.files.is_open

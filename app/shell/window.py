@@ -250,12 +250,12 @@ class Window(Retranslated, QMainWindow):
             self.panels[name].setFocus(Qt.FocusReason.ShortcutFocusReason)
 
     def is_panel_shown(self, name: str) -> bool:
-        """Whether a panel is there, perhaps behind another tab."""
+        """Return whether a panel is there, perhaps behind another tab."""
         return not self.docks[name].isHidden()
 
     @property
     def is_full_screen(self) -> bool:
-        """Whether the viewport is alone on the screen."""
+        """True if the viewport is alone on the screen."""
         return self._full is not None
 
     def set_full_screen(self, on: bool) -> None:

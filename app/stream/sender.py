@@ -61,7 +61,7 @@ class SendOutcome(Enum):
 
 
 def is_loopback(host: str) -> bool:
-    """Whether what is sent to this host stays on this computer."""
+    """Return whether what is sent to this host stays on this computer."""
     if host.strip().casefold() == "localhost":
         return True
     try:
@@ -99,7 +99,7 @@ def find_address(host: str, port: int) -> Address:
 
 
 def reaches_many(address: Address) -> bool:
-    """Whether an address is that of many computers: multicast, or the broadcast address of a network."""
+    """Return whether an address is that of many computers: multicast, or the broadcast address of a network."""
     found = ipaddress.ip_address(address.at[0])
     if (getattr(found, "ipv4_mapped", None) or found).is_multicast:
         return True

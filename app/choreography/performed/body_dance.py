@@ -39,7 +39,7 @@ def layer_of(performance: Performance, player: Player) -> BodyLayer | None:
 
 
 def layer_is_made(performance: Performance, player: Player) -> bool:
-    """Whether asking for a player's layer takes no time."""
+    """Return whether asking for a player's layer takes no time."""
     inputs = _inputs(performance, player)
     return inputs is None or _LAYERS.has(*inputs)
 

@@ -328,7 +328,7 @@ class _Time:
         return math.floor(s * self.span.fps.numerator / self.span.fps.denominator + 0.5)
 
     def shows(self, frame: int) -> bool:
-        """Whether there is such a frame."""
+        """Return whether there is such a frame."""
         return 0 <= frame < self.span.count
 
 

@@ -77,7 +77,7 @@ def own_file(path: Path) -> OwnFile:
 
 
 def is_as_left(path: Path, known: OwnFile, by_length: bool = False) -> bool:
-    """Whether a file holds what it did when we wrote it; by its length alone where no one is to wait."""
+    """Return whether a file holds what it did when we wrote it; by its length alone where no one is to wait."""
     if by_length and path.suffix.lower() not in _TEXTS:
         return path.stat().st_size == known.bytes
     return own_file(path) == known

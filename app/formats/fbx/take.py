@@ -35,7 +35,7 @@ class FbxCurve(NamedTuple):
 
     @property
     def rests(self) -> bool:
-        """Whether it has one value at all frames."""
+        """True if it has one value at all frames."""
         return bool((self.values == self.values[0]).all())
 
     def at(self, frames: int) -> FloatArray:

@@ -85,7 +85,7 @@ class Samplers:
 
 
 def weights_move(clip: Clip | None, mesh: SkinnedMesh) -> bool:
-    """Whether a clip has weights of a mesh's morph targets."""
+    """Return whether a clip has weights of a mesh's morph targets."""
     return clip is not None and any(morph.name in clip.morph_weights for morph in mesh.morphs)
 
 

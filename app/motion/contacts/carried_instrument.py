@@ -74,7 +74,7 @@ def freedom(carriage: Carriage) -> float:
 
 
 def tips_freely(carriage: Carriage) -> bool:
-    """Whether an instrument tips up and down with the head: one that lies or stands keeps its place."""
+    """Return whether an instrument tips up and down with the head: one that lies or stands keeps its place."""
     low_deg, _, high_deg = carriage.pitch_down_deg
     return high_deg - low_deg >= FREE_DEG
 

@@ -62,7 +62,7 @@ class Help:
 
     @property
     def moves_trunk(self) -> bool:
-        """Whether more than the shoulders helps."""
+        """True if more than the shoulders helps."""
         return bool(np.any(self.turn_rad) or np.any(self.short_m))
 
 

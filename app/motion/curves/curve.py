@@ -105,7 +105,7 @@ class Curve:
 
     @property
     def still(self) -> bool:
-        """Whether the value never changes."""
+        """True if the value never changes."""
         return len(self.start_s) == 0
 
     def changed_s(self, other: Curve | Trace) -> FloatArray:

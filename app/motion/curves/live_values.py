@@ -50,7 +50,7 @@ class Reach:
         return Reach(now_s, now_s + max(length_s, LEAST_MOVE_S), value, speed, push, target)
 
     def ended(self, now_s: float) -> bool:
-        """Whether it has come to rest."""
+        """Return whether it has come to rest."""
         return now_s >= self.end_s
 
     def _state(self, now_s: float) -> tuple[float, float, float]:

@@ -104,5 +104,5 @@ def _spliced(before: Curve, within: Curve, stretch: ChangedStretch) -> Curve | N
 
 
 def _crossed(curve: Curve, stretch: ChangedStretch) -> bool:
-    """Whether something still moves in the middle of a silence."""
+    """Return whether something still moves in the middle of a silence."""
     return any(bool(((curve.start_s < at_s) & (at_s < curve.end_s)).any()) for at_s in (stretch.start_s, stretch.end_s))

@@ -87,7 +87,7 @@ class SharedLine(NamedTuple):
         return self.ordered[first : bisect_right(self.ordered, place, first, key=self.places.__getitem__)]
 
     def holds(self, place: Place, length_s: float) -> bool:
-        """Whether a note of this length is held here about as long."""
+        """Return whether a note of this length is held here about as long."""
         if place not in self.known:
             return False
         for index in self.notes_at(place):

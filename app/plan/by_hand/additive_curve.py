@@ -137,5 +137,5 @@ class AdditiveCurve(Own, frozen=True, tag="additive"):
 
     @property
     def is_empty(self) -> bool:
-        """Whether it has no keys, or not one after another."""
+        """Return whether it has no keys, or not one after another."""
         return not self.keys or any(key.tick >= following.tick for key, following in pairwise(self.keys))

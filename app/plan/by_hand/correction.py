@@ -51,13 +51,13 @@ class Correcting(msgspec.Struct, frozen=True, forbid_unknown_fields=True, tag_fi
 
     @property
     def is_empty(self) -> bool:
-        """Whether its span ends before it begins."""
+        """True if its span ends before it begins."""
         start, end = getattr(self, "start_tick", None), getattr(self, "end_tick", None)
         return start is not None and end is not None and start >= end
 
     @property
     def is_added(self) -> bool:
-        """Whether the generator has nothing there: to delete it is to forget it."""
+        """True if the generator has nothing there: to delete it is to forget it."""
         return False
 
     @property
@@ -66,7 +66,7 @@ class Correcting(msgspec.Struct, frozen=True, forbid_unknown_fields=True, tag_fi
         return None
 
     def is_lost(self, note_ids: Collection[str], event_ids: Collection[str]) -> bool:
-        """Whether its note, or the generator's event, is no longer there."""
+        """Return whether its note, or the generator's event, is no longer there."""
         return False
 
 
@@ -77,7 +77,7 @@ class OfNote(Correcting, frozen=True):
 
     @property
     def is_added(self) -> bool:
-        """Whether the generator had none here, where the correction says so."""
+        """True if the generator had none here, where the correction says so."""
         return bool(getattr(self, "added", False))
 
     @property
@@ -87,7 +87,7 @@ class OfNote(Correcting, frozen=True):
         return None if moved_from is None else str(EventId(EventId.parse(self.about).kind, moved_from))
 
     def is_lost(self, note_ids: Collection[str], event_ids: Collection[str]) -> bool:
-        """Whether its note is no longer there."""
+        """Return whether its note is no longer there."""
         return self.note_id not in note_ids
 
 
@@ -102,7 +102,7 @@ class OfEvent(Correcting, frozen=True):
         return self.event_id
 
     def is_lost(self, note_ids: Collection[str], event_ids: Collection[str]) -> bool:
-        """Whether its event is no longer made."""
+        """Return whether its event is no longer made."""
         return self.event_id not in event_ids
 
 

@@ -58,7 +58,7 @@ class RemoveEvent(OfEvent, frozen=True, tag="remove"):
         return self.event_id
 
     def is_lost(self, note_ids: Collection[str], event_ids: Collection[str]) -> bool:
-        """Whether its note, or else its event, is gone, or is of a kind that is never left out."""
+        """Return whether its note, or else its event, is gone, or is of a kind that is never left out."""
         known = self.note_id in note_ids if self.note_id is not None else self.event_id in event_ids
         return not known or EventId.parse(self.event_id).kind not in REMOVABLE
 
@@ -87,7 +87,7 @@ class SetBreath(OfNote, frozen=True, tag="set_breath"):
 
     @property
     def is_empty(self) -> bool:
-        """Whether it ends before it begins."""
+        """True if it ends before it begins."""
         return self.start_offset_tick >= self.end_offset_tick
 
 
@@ -112,11 +112,11 @@ class SetCue(OfNote, frozen=True, tag="set_cue"):
 
     @property
     def is_empty(self) -> bool:
-        """Whether its preparatory beat has no length."""
+        """True if its preparatory beat has no length."""
         return self.beats <= 0.0
 
     def is_lost(self, note_ids: Collection[str], event_ids: Collection[str]) -> bool:
-        """Whether its note is gone; one without a note has its place."""
+        """Return whether its note is gone; one without a note has its place."""
         return self.tick is None and self.note_id not in note_ids
 
 

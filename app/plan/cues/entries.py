@@ -95,7 +95,7 @@ class _Spans(msgspec.Struct, frozen=True):
         return cls(starts[order], np.maximum.accumulate(ends[order]))
 
     def sounds_before(self, tick: int, ticks: float) -> bool:
-        """Whether something that begins before a tick sounds on within so many ticks before it."""
+        """Return whether something that begins before a tick sounds on within so many ticks before it."""
         index = int(np.searchsorted(self.starts, tick)) - 1
         return index >= 0 and bool(self.ends[index] > tick - ticks)
 
@@ -193,7 +193,7 @@ def _held_entries(sounding: list[tuple[int, NoteTimes]], piece: Piece) -> list[E
 
 
 def _nothing_begins(times: NoteTimes, begin: int, tick: int) -> bool:
-    """Whether a line begins nothing between two ticks, nor sounds on at the second."""
+    """Return whether a line begins nothing between two ticks, nor sounds on at the second."""
     index = int(np.searchsorted(times.onset_tick, tick)) - 1
     return index < 0 or bool(times.onset_tick[index] <= begin and times.played_end_tick[index] <= tick)
 

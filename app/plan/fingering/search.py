@@ -192,7 +192,7 @@ class FingeringProblem:
 
     @property
     def has_slide(self) -> bool:
-        """Whether a slide is among the controls of pitch."""
+        """True if a slide is among the controls of pitch."""
         return any(control.kind == "slide" for control in self.controls)
 
     @cached_property

@@ -46,7 +46,7 @@ class LoweredSpans:
 
 
 def may_start(gesture: Gesture, start_s: float, end_s: float, times: LineTimes, lowered: LoweredSpans) -> bool:
-    """Whether a gesture may be done from one time to another."""
+    """Return whether a gesture may be done from one time to another."""
     if gesture.may_start == "resting":
         first = int(np.searchsorted(times.played_end_s, start_s, side="right"))
         return first == len(times.onset_s) or float(times.onset_s[first]) >= end_s
@@ -57,7 +57,7 @@ def may_start(gesture: Gesture, start_s: float, end_s: float, times: LineTimes, 
 
 
 def comes_up(start_s: float, end_s: float, lowered: LoweredSpans) -> bool:
-    """Whether the instrument that is down at one time is on its way up before another."""
+    """Return whether the instrument that is down at one time is on its way up before another."""
     return lowered.end_between(start_s, end_s + RAISE_S)
 
 
@@ -75,7 +75,7 @@ def impossible(gesture: Gesture, instrument: InstrumentMap) -> Message | None:
 
 
 def belongs(gesture: Gesture, instrument: InstrumentMap) -> bool:
-    """Whether rules place a gesture for who plays an instrument: it can be done, and water is let out as its map
+    """Return whether rules place a gesture for who plays an instrument: it can be done, and water is let out as its map
     says."""
     if gesture.lets_out_water and (instrument.water is None or instrument.water.gesture != gesture.name):
         return False

@@ -98,14 +98,14 @@ class Swings:
     lasts: IntArray
 
     def still_at(self, ticks: IntArray) -> BoolArray:
-        """Whether the body keeps still at some ticks."""
+        """Return whether the body keeps still at some ticks."""
         if not len(self.ticks):
             return np.ones(len(ticks), np.bool_)
         here = np.maximum(np.searchsorted(self.ticks, ticks, side="right") - 1, 0)
         return np.asarray(self.lasts[here] == 0)
 
     def __eq__(self, other: object) -> bool:
-        """Whether they are the same to the last bit, as inputs of steps are compared."""
+        """Return whether they are the same to the last bit, as inputs of steps are compared."""
         if not isinstance(other, Swings):
             return NotImplemented
         return all(np.array_equal(getattr(self, one.name), getattr(other, one.name)) for one in fields(self))

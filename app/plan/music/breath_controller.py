@@ -56,7 +56,7 @@ class BreathEnvelope:
         return np.asarray(self.mean(times.onset_s, ends_s) > STOPS_AT)
 
     def has_breath_gaps(self, times: LineTimes) -> bool:
-        """Whether its gaps are breaths."""
+        """Return whether its gaps are breaths."""
         gaps_s = self.gaps_s[np.isfinite(self.gaps_s).all(axis=1)]
         gaps_s = gaps_s[gaps_s[:, 1] - gaps_s[:, 0] >= GASP_S]
         played = self.plays(times)

@@ -48,7 +48,7 @@ class Dynamics:
         return np.asarray(np.interp(times_s, self.at_s, self.vigour))
 
     def __eq__(self, other: object) -> bool:
-        """Whether they are the same to the last bit, as plans are compared."""
+        """Return whether they are the same to the last bit, as plans are compared."""
         if not isinstance(other, Dynamics):
             return NotImplemented
         pairs = zip((self.at_s, self.vigour, self.accents), (other.at_s, other.vigour, other.accents), strict=True)

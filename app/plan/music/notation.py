@@ -94,7 +94,7 @@ def bar_starts(ticks: IntArray, bars: IntArray) -> IntArray:
 
 
 def are_written(ticks: IntArray, quarter_ticks: int) -> bool:
-    """Whether times lie where a score has them, a few aside."""
+    """Return whether times lie where a score has them, a few aside."""
     elsewhere = np.count_nonzero(ticks * 24 % quarter_ticks)
     return bool(elsewhere < max(PLAYED_LEAST, (1.0 - WRITTEN_SHARE) * len(ticks) + 1e-6))
 

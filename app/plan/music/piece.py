@@ -46,7 +46,7 @@ class ControllerSteps:
     values: FloatArray
 
     def __eq__(self, other: object) -> bool:
-        """Whether they are the same to the last bit, as lines are compared."""
+        """Return whether they are the same to the last bit, as lines are compared."""
         if not isinstance(other, ControllerSteps):
             return NotImplemented
         return np.array_equal(self.ticks, other.ticks) and np.array_equal(self.values, other.values)
@@ -156,7 +156,7 @@ class NoteTimes:
         return self.played_end_s - self.onset_s
 
     def __eq__(self, other: object) -> bool:
-        """Whether they are the same to the last bit, as inputs of steps are compared."""
+        """Return whether they are the same to the last bit, as inputs of steps are compared."""
         if self.__class__ is not other.__class__:
             return NotImplemented
         return all(np.array_equal(getattr(self, field.name), getattr(other, field.name)) for field in fields(self))

@@ -16,11 +16,11 @@ class Spans:
         self._latest_ends_s = list(itertools.accumulate((end_s for _, end_s in ordered), max))
 
     def hold(self, start_s: float, end_s: float) -> bool:
-        """Whether one begins at the start or before, and ends at the end or later."""
+        """Return whether one begins at the start or before, and ends at the end or later."""
         begun = bisect_right(self._starts_s, start_s)
         return begun > 0 and self._latest_ends_s[begun - 1] >= end_s
 
     def meet(self, start_s: float, end_s: float) -> bool:
-        """Whether one overlaps."""
+        """Return whether one overlaps."""
         begun = bisect_left(self._starts_s, end_s)
         return begun > 0 and self._latest_ends_s[begun - 1] > start_s

@@ -70,17 +70,17 @@ class WrittenMarks:
 
     @property
     def tongued_next(self) -> BoolArray:
-        """Whether the next note has a mark that says that it is tongued."""
+        """True if the next note has a mark that says that it is tongued."""
         marked = np.fromiter(map(bool, self.stroke), bool, len(self.stroke))
         return np.append(marked[1:], False)[: len(marked)]
 
     @property
     def is_score(self) -> bool:
-        """Whether the absence of marks says something."""
+        """True if the absence of marks says something."""
         return self.source == "score"
 
     def __eq__(self, other: object) -> bool:
-        """Whether they are the same to the last bit, as inputs of steps are compared."""
+        """Return whether they are the same to the last bit, as inputs of steps are compared."""
         if not isinstance(other, WrittenMarks):
             return NotImplemented
         pairs = ((getattr(self, field.name), getattr(other, field.name)) for field in fields(self))

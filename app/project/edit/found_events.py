@@ -45,8 +45,8 @@ def events_of(plan: PlayerPlan) -> dict[str, Event]:
 
 
 def is_there(project: Project, player_id: str, event_id: str) -> bool:
-    """Whether the project has what an event is about: its player, its note, and the correction that added it. Whether
-    the generator makes such an event only a plan knows, and plans lag behind the project."""
+    """Return whether the project has what an event is about: its player, its note, and the correction that added it.
+    Whether the generator makes such an event only a plan knows, and plans lag behind the project."""
     try:
         player = project.player(player_id)
     except KeyError:

@@ -45,5 +45,5 @@ def _shifted(part: Part, seconds: Mapping[str, float], clock: TempoMap) -> Part:
 
 
 def _goes_on(was_end: int, end: int, note: Note, onset: int) -> bool:
-    """Whether the note before lasts until this one: it did so, or would reach into it now and did not."""
+    """Return whether the note before lasts until this one: it did so, or would reach into it now and did not."""
     return was_end == note.onset_tick or (was_end < note.onset_tick and end > onset)

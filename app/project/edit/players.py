@@ -478,7 +478,7 @@ def with_newcomers(project: Project, newcomers: tuple[Player, ...]) -> Project:
 
 
 def _on_arc(project: Project) -> bool:
-    """Whether no one was moved by hand."""
+    """Return whether no one was moved by hand."""
     return tuple(player.stage for player in project.players) == arc_of(project)
 
 

@@ -498,7 +498,7 @@ def _recleaned(
 
 
 def _is_as_given(here: Note, given: Note) -> bool:
-    """Whether a note of the part is as the take gave it; it may have been cut where another take goes on."""
+    """Return whether a note of the part is as the take gave it; it may have been cut where another take goes on."""
     return here == given or (
         here.duration_tick < given.duration_tick
         and here == msgspec.structs.replace(given, duration_tick=here.duration_tick)

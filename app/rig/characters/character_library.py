@@ -132,7 +132,7 @@ def read_entry(path: Path) -> CharacterEntry:
 
 
 def _is_plain(name: str) -> bool:
-    """Whether a name can only be that of a character's file in the same folder, on every system."""
+    """Return whether a name can only be that of a character's file in the same folder, on every system."""
     plain = not set(name) & set('<>:"/\\|?*') and name.isprintable() and not name.startswith(".")
     return plain and name.lower().endswith(SUFFIXES)
 

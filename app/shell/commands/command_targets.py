@@ -54,22 +54,22 @@ def selected_ticks(session: Session) -> tuple[int, int] | None:
 
 
 def has_notes(session: Session) -> bool:
-    """Whether notes are selected."""
+    """Return whether notes are selected."""
     return bool(session.selection.notes)
 
 
 def has_something(session: Session) -> bool:
-    """Whether notes or events are selected."""
+    """Return whether notes or events are selected."""
     return bool(session.selection.notes or session.selection.events)
 
 
 def has_player(session: Session) -> bool:
-    """Whether a player is in front."""
+    """Return whether a player is in front."""
     return session.player is not None
 
 
 def has_everyone(session: Session) -> bool:
-    """Whether the piece has players."""
+    """Return whether the piece has players."""
     return bool(session.project.players)
 
 

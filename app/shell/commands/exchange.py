@@ -167,7 +167,7 @@ def playblast(editor: Editor) -> None:
 
 
 def can_draw(editor: Editor) -> bool:
-    """Whether there are players whom a film can show."""
+    """Return whether there are players whom a film can show."""
     return _can_export(editor) and editor.window.viewport.has_gl
 
 

@@ -87,7 +87,7 @@ def type_fingering(session: Session, sign: str, now_s: float | None = None) -> N
 
 
 def _holds(label: str, signs: str) -> bool:
-    """Whether all signs are in a label."""
+    """Return whether all signs are in a label."""
     return all(label.count(sign) >= signs.count(sign) for sign in signs)
 
 

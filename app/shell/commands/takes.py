@@ -141,7 +141,7 @@ def _has_chosen(session: Session) -> bool:
 
 
 def _has_row(session: Session) -> bool:
-    """Whether a take is selected, or what was there before."""
+    """Return whether a take is selected, or what was there before."""
     return _has_chosen(session) or (session.selection.take == BEFORE and bool(_takes(session)))
 
 
@@ -172,7 +172,7 @@ def _can_step(session: Session) -> bool:
 
 
 def _may_move(session: Session, edge: int) -> bool:
-    """Whether the selected take is not yet the first (0) or the last (-1)."""
+    """Return whether the selected take is not yet the first (0) or the last (-1)."""
     chosen = _chosen(session)
     return chosen is not None and chosen[1] is not _takes(session)[edge]
 

@@ -119,7 +119,7 @@ def _guided(contacts: tuple[Contact, ...], side: Hand, stiff: frozenset[str]) ->
 
 
 def _bends(character: Character, side: Hand, finger: str) -> bool:
-    """Whether the skin of a finger's tip goes along with the finger."""
+    """Return whether the skin of a finger's tip goes along with the finger."""
     mark = character.landmarks.get(f"{side}.{finger}.pad")
     if mark is None:
         return False
@@ -130,7 +130,7 @@ def _bends(character: Character, side: Hand, finger: str) -> bool:
 
 
 def mouth_opens(character: Character) -> bool:
-    """Whether a character has a mouth, and a morph that opens it."""
+    """Return whether a character has a mouth, and a morph that opens it."""
     if "lips.contact" not in character.landmarks:
         return False
     mesh = mesh_named(character, character.landmarks["lips.contact"].mesh)

@@ -229,7 +229,7 @@ class _Finger:
         return result
 
     def shuts(self, x: FloatArray) -> bool:
-        """Whether a finger with angles (S, n) shuts a hole, or nearly, that it is to leave open."""
+        """Return whether a finger with angles (S, n) shuts a hole, or nearly, that it is to leave open."""
         pose = self.pose.copy()
         pose[:, self.joints, self.kinds] = x
         matrices = wrist_from_mesh(
