@@ -1,4 +1,4 @@
-"""Results kept for as long as the very same values ask for them."""
+"""Results kept for as long as the same values ask for them."""
 
 from __future__ import annotations
 

@@ -60,7 +60,7 @@ class RecordingLoudness:
 
 
 def loudness(samples: Samples, rate_hz: int) -> RecordingLoudness:
-    """How loud a recording is, moment by moment.
+    """Return how loud a recording is, moment by moment.
 
     Parameters
     ----------
@@ -178,7 +178,7 @@ class _Sounding:
 
 
 def _together(score: Score, at_s: FloatArray) -> IntArray:
-    """How many notes sound at once."""
+    """Return how many notes sound at once."""
     seconds, notes = score.tempo_map.seconds, [note for part in score.parts for note in part.notes]
     return _count(
         np.sort(seconds(np.array([note.onset_tick for note in notes], np.float64))),
@@ -195,8 +195,8 @@ def _count(start_s: FloatArray, end_s: FloatArray, at_s: FloatArray) -> IntArray
 
 
 def _of_pitches(pitch: IntArray, levels: FloatArray, audible: BoolArray) -> FloatArray:
-    """How much louder each pitch sounds than the others whatever is played, as instruments and rooms have it: the mean
-    over the piece, drawn to 0 where a pitch sounds seldom."""
+    """Return how much louder each pitch sounds than the others whatever is played, as instruments and rooms have it:
+    the mean over the piece, drawn to 0 where a pitch sounds seldom."""
     about = levels - np.median(levels[audible])
     count = np.bincount(pitch[audible], minlength=128) * STEP_S
     total = np.bincount(pitch[audible], about[audible], minlength=128) * STEP_S

@@ -34,7 +34,7 @@ _FRAMES: Final = 1024
 
 
 def tuning(sound: Sound, rate_hz: int) -> float:
-    """How far a sound lies from 440 Hz: the circular mean over the peaks of its spectra.
+    """Return how far a sound lies from 440 Hz: the circular mean over the peaks of its spectra.
 
     Parameters
     ----------
@@ -84,7 +84,7 @@ def chroma(sound: Sound, rate_hz: int, size: int, hop: int, tuned: float) -> Flo
 
 
 def onset_strength(sound: Sound, rate_hz: int, size: int, hop: int) -> FloatArray:
-    """How much louder it has become since the frame before, over bands as wide as the ear's: the spectral flux.
+    """Return how much louder it has become since the frame before, over bands as wide as the ear's: the spectral flux.
 
     Parameters
     ----------

@@ -47,7 +47,7 @@ def note_onsets(
     offset_s: float,
     progress: Callable[[float], None] = lambda share: None,
 ) -> dict[str, float]:
-    """How much later than in the score notes begin, seconds, by note id; only of those that are clear.
+    """Return how much later than in the score notes begin, seconds, by note id; only of those that are clear.
 
     Parameters
     ----------
@@ -103,7 +103,7 @@ def _without_lateness(score: Score, shifts: dict[str, float]) -> dict[str, float
 
 
 def _shift(sound: Sound, at_s: float, hz: FloatArray, floor: float) -> float | None:
-    """Where these frequencies begin to sound, around a moment; None where that is not clear."""
+    """Return where these frequencies begin to sound, around a moment; None where that is not clear."""
     reach = round((_REACH_S + 2 * _EDGE_S) / _STEP_S)
     centre = round(at_s * ANALYSIS_RATE_HZ)
     first = centre - reach * _HOP - _SIZE // 2

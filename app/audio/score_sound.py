@@ -159,7 +159,7 @@ def score_chroma(expected: ExpectedSound, ratio: float, later_frames: float = 0.
 
 
 def onset_edges(onsets: FloatArray, width_s: float) -> FloatArray:
-    """How much more of an onset comes after a moment than before it.
+    """Return how much more of an onset comes after a moment than before it.
 
     A tone's strength rises at once and goes on rising for a while, the longer the slower it speaks: its beginning is
     where the strength sets in, not where it is greatest.

@@ -1,7 +1,7 @@
 """Slower or faster at the same pitch, in a stream: waveform-similarity overlap-add.
 
 Verhelst and Roelands, "An overlap-add technique based on waveform similarity (WSOLA) for high quality time-scale
-modification of speech" (ICASSP 1993). Libraries were looked at: Rubber Band is GPL, python-stretch begins anew with
+modification of speech" (ICASSP 1993). Libraries were looked at: Rubber Band is GPL, python-stretch begins again with
 every block, audiotsm is not kept up.
 """
 
@@ -65,7 +65,7 @@ class TimeStretcher:
         return out
 
     def _best(self, ideal: int) -> int:
-        """Where near the ideal place the sound goes on as after the frame before."""
+        """Return where near the ideal place the sound goes on as after the frame before."""
         assert self._before is not None
         goes_on = self._before + HOP
         low = max(ideal - _SEARCH, self._first)

@@ -61,7 +61,7 @@ class MixTrack:
 
     @property
     def end(self) -> int:
-        """Where the last piece ends, in samples; 0 without pieces."""
+        """Return where the last piece ends, in samples; 0 without pieces."""
         return max((piece.start + len(piece.samples) for piece in self.pieces), default=0)
 
     def add_to(self, out: Block, start: int) -> None:

@@ -118,7 +118,7 @@ class Warped:
 def dynamic_time_warping(
     score: FloatArray, recording: FloatArray, pins: Pins = NO_PINS, jumps: Sequence[Jump] = ()
 ) -> Warped:
-    """Which frames belong together, by dynamic time warping.
+    """Return which frames belong together, by dynamic time warping.
 
     Parameters
     ----------
@@ -202,20 +202,20 @@ def _through(pins: Pins, x: FloatArray, y: FloatArray) -> tuple[FloatArray, Floa
 
 
 def _sounding(frames: FloatArray, least: float) -> BoolArray:
-    """Which frames are more than near silence."""
+    """Return which frames are more than near silence."""
     result: BoolArray = np.linalg.norm(frames, axis=1) > least
     return result
 
 
 def _alone(frames: FloatArray, matched: IntArray) -> BoolArray:
-    """Which frames sound without one of the other."""
+    """Return which frames sound without one of the other."""
     alone = _sounding(frames, _LOUD)
     alone[matched] = False
     return alone
 
 
 def _runs(there: BoolArray, frame_s: float) -> tuple[UnmatchedSpan, ...]:
-    """Where they are for `MISSING_S` at least; short breaks between them are none."""
+    """Return where they are for `MISSING_S` at least; short breaks between them are none."""
     places = np.flatnonzero(there)
     if not len(places):
         return ()
@@ -265,8 +265,8 @@ def _line_at(x: FloatArray, y: FloatArray, weights: FloatArray) -> float:
 
 
 def along(x: FloatArray, at: FloatArray, by: FloatArray, reach: float) -> FloatArray:
-    """How far places go along with some (``at``, rising) that are put right by so much: less the further away, and not
-    beyond a reach or the next of those."""
+    """Return how far places go along with some (``at``, rising) that are put right by so much: less the further away,
+    and not beyond a reach or the next of those."""
     if not len(at):
         return np.zeros(len(x))
     places, amounts = [float(at[0]) - reach], [0.0]

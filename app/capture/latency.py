@@ -86,7 +86,7 @@ def _densest(offsets: Sequence[float]) -> float:
 
 
 def hits(events: Iterable[tuple[float, bytes]], breath: BreathSource) -> tuple[float, ...]:
-    """When the user began to blow: notes, or where a device sends none, the breath; double hits are excluded.
+    """Return when the user began to blow: notes, or where a device sends none, the breath; double hits are excluded.
 
     Parameters
     ----------

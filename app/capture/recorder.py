@@ -135,7 +135,7 @@ class RecorderProcess:
         self._has_ports = bool(inputs or outputs)
 
     def _answering(self) -> MidiSystem | None:
-        """The system, tried anew now and then where none answers. A JACK server that is not there looks like one
+        """The system, tried again now and then where none answers. A JACK server that is not there looks like one
         without ports."""
         is_sure = self._system is not None and (self._has_ports or self._system.name != "jack")
         now_s = time.perf_counter()

@@ -103,7 +103,7 @@ def _facing_rad(hips: FloatArray) -> FloatArray:
 
 
 def _path(hips_m: FloatArray, facing: FloatArray) -> dict[str, FloatArray]:
-    """Where the hips go, by channel: every step as it is seen from where the dancer faces then."""
+    """Return where the hips go, by channel: every step as it is seen from where the dancer faces then."""
     steps = np.diff(hips_m, axis=0)
     middle = 0.5 * (facing[1:] + facing[:-1])
     side = np.cos(middle) * steps[:, 0] - np.sin(middle) * steps[:, 2]

@@ -124,7 +124,7 @@ def angular_acceleration(clip: MotionClip) -> FloatArray:
 
 
 def _minimum(height: FloatArray, first: int, last: int, rest: int) -> tuple[int, int]:
-    """Where the motion before a minimum ends, and the motion after it starts: one frame, but for a long rest."""
+    """Return where the motion before a minimum ends, and the motion after it starts: one frame, but for a long rest."""
     part = height[first : last + 1]
     lowest = first + np.flatnonzero(part == part.min())
     middle = int(lowest[len(lowest) // 2])

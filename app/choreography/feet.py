@@ -56,7 +56,7 @@ class FootPlant:
 
 
 def stands(clip: MotionClip, contacts: BoolArray) -> tuple[FootPlant, ...]:
-    """Where feet stand.
+    """Return where feet stand.
 
     Parameters
     ----------

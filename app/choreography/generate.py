@@ -161,13 +161,13 @@ class Choreographer:
     def steps(
         self, rhythm: Rhythm, manner: Manner, *, constraints: Constraints | None = None, weights: Weights | None = None
     ) -> tuple[SegmentStep, ...]:
-        """Which segments are danced when."""
+        """Return which segments are danced when."""
         return self._planned(rhythm, manner, constraints, weights).steps
 
     def _planned(
         self, rhythm: Rhythm, manner: Manner, constraints: Constraints | None, weights: Weights | None
     ) -> _Plan:
-        """Which segments are danced when, and how time goes meanwhile."""
+        """Return which segments are danced when, and how time goes meanwhile."""
         candidates, grid, segments = self.candidates, grid_of(rhythm), self.model.segments
         initial = np.log(self.model.initial * self.model.states)[candidates.states]
         preferred = np.zeros(len(segments))
@@ -231,7 +231,7 @@ class Choreographer:
         return np.array(found)
 
     def _arrivals_s(self, segments: IntArray, hits: FloatArray) -> FloatArray:
-        """How far along all motions the body arrives: minima of the speed of segments laid end to end."""
+        """Return how far along all motions the body arrives: minima of the speed of segments laid end to end."""
         ends = hits + self.candidates.after_s[segments]
         first = hits[0] - float(self.candidates.before_s[segments[0]])
         along = np.arange(first, ends[-1], 1.0 / FPS)

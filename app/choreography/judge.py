@@ -28,8 +28,8 @@ SLIDES_M_S: Final = 0.005
 
 
 def usual_change_rad_s(clips: Sequence[MotionClip], fps: Fraction) -> float:
-    """How much the angular velocity of a segment changes from frame to frame at a frame rate, at the most but for one
-    frame in a thousand; 0 without motion."""
+    """Return how much the angular velocity of a segment changes from frame to frame at a frame rate, at the most but
+    for one frame in a thousand; 0 without motion."""
     changes = [_changes(resampled(clip, fps).rotations[None], fps).ravel() for clip in clips]
     every = np.concatenate(changes) if changes else np.zeros(0)
     return float(np.percentile(every, USUAL_PERCENTILE)) if len(every) else 0.0

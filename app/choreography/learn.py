@@ -150,7 +150,7 @@ def learn(
 
 
 def summary(model: ChoreographyModel, file: Path) -> Message:
-    """How much was learned."""
+    """Return how much was learned."""
     return Message(
         "learn.done",
         {

@@ -229,7 +229,7 @@ def _mapped(figure: Figure) -> tuple[Figure, JointMapping]:
 
 
 def _foot_tips(bvh: BvhClip, figure: Figure, bones: Mapping[str, int]) -> dict[str, FloatArray]:
-    """Where feet without toes end: at their end sites or at the farthest of what hangs from them."""
+    """Return where feet without toes end: at their end sites or at the farthest of what hangs from them."""
     rest = rest_of(figure)
     tips = {}
     for side in ("left", "right"):
@@ -320,7 +320,7 @@ def _ends(bvh: BvhClip, bones: Mapping[str, int], rest: Rest, turns: Mapping[str
 
 
 def _apart(clip: MotionClip, seen: FloatArray) -> float:
-    """How far from where the file has it, relative to the hips (F, 16, 3), a joint is at most."""
+    """Return how far from where the file has it, relative to the hips (F, 16, 3), a joint is at most."""
     joints = clip.world().positions_m[:, 1:]
     return float(np.linalg.norm(joints - joints[:, :1] - seen, axis=-1).max())
 

@@ -243,7 +243,7 @@ class _Output:
         self._faces[here] = np.exp(1j * quaternion.twist_angle(rotations[:-1, 0], _UP))
 
     def place(self, frame: int) -> complex:
-        """Where the hips are just before a frame."""
+        """Return where the hips are just before a frame."""
         return complex(self.hips[frame - 1, 2], self.hips[frame - 1, 0])
 
     def lately(self, frame: int) -> tuple[complex, float] | None:

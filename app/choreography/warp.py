@@ -65,7 +65,7 @@ class TimeMap:
         return times_s, np.maximum.accumulate(self._inside(times_s))
 
     def at(self, times_s: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """How far along the motions are at some times, and how fast they go: 1 as captured, 0 at rest."""
+        """Return how far along the motions are at some times, and how fast they go: 1 as captured, 0 at rest."""
         slope = self._inside.derivative()
         first_s, last_s = float(self.times_s[0]), float(self.times_s[-1])
         inside = np.clip(times_s, first_s, last_s)

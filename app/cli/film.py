@@ -141,7 +141,7 @@ class _Film:
 
     @property
     def times_s(self) -> list[float]:
-        """When the frames are."""
+        """Return when the frames are."""
         return [self.span.first_frame_s + index * self.step_s for index in range(self.span.count)]
 
 

@@ -57,7 +57,7 @@ def _from_start(time_s: float) -> str:
 
 
 def share_of_keys(report: Report) -> float:
-    """How many keys were written, of those that would be on every frame."""
+    """Return how many keys were written, of those that would be on every frame."""
     counts = [player.keys for player in report.players] + [dancer.keys for dancer in report.dancers]
     counts += [double.keys for player in report.players for double in player.doubles]
     known = [count for count in counts if count is not None]

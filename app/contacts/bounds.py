@@ -63,13 +63,13 @@ class Spread(msgspec.Struct, frozen=True):
 
 
 def bound_mm(contact: Contact) -> float:
-    """How far a contact of a map may be off."""
+    """Return how far a contact of a map may be off."""
     touches = contact.control is not None and contact.grip == "firm"
     return TOUCH_MM if touches and not contact.part.endswith(("palm", "thumb_web")) else GRIP_MM
 
 
 def allowed_mm(name: str, bound_mm: float, missed: Mapping[str, float]) -> float:
-    """How far off a contact may be before it is reported: what its hold misses was reported
+    """Return how far off a contact may be before it is reported: what its hold misses was reported
     (`app.contacts.missed_contacts`), and moving hands may add the bound."""
     return bound_mm + missed.get(name, 0.0)
 

@@ -54,7 +54,7 @@ class Break:
 
     @property
     def contact(self) -> tuple[str, str, str]:
-        """Which contact it is."""
+        """Return which contact it is."""
         return self.kind, self.part, self.control
 
 

@@ -280,8 +280,8 @@ class _Search:
     def _near(
         self, pairs: _Pairs, vertices: IndexArray, radii_m: SingleArray, depths_m: SingleArray
     ) -> tuple[BoolArray, NodePoints]:
-        """Which pairs (N,) the grids leave, of vertices (S,) and what is within radii (S,) around them: those that may
-        be deepest in some frame of their block. What was found raises the depths (B, size)."""
+        """Return which pairs (N,) the grids leave, of vertices (S,) and what is within radii (S,) around them: those
+        that may be deepest in some frame of their block. What was found raises the depths (B, size)."""
         placed, own_m = self._placed(pairs, vertices), radii_m[pairs.spots]
         # Something this far away is known to be less deep than what has been found.
         clear_m = own_m + placed.moves_m - pairs.of_blocks(depths_m.min(axis=1))

@@ -122,7 +122,7 @@ class DistanceField:
         return about_m, error_m
 
     def beyond_m(self, points_m: SingleArray, nodes: IndexArray) -> SingleArray:
-        """How far points (N, 3) in the frames of nodes (N,) are outside the boxes around their bodies: (N,), the
+        """Return how far points (N, 3) in the frames of nodes (N,) are outside the boxes around their bodies: (N,), the
         distance or less. Inside a box it is minus infinity."""
         low_m, high_m = self._low_m.astype(np.float32)[nodes], self._high_m.astype(np.float32)[nodes]
         outside_m = np.maximum(np.maximum(low_m - points_m, points_m - high_m), np.float32(0.0))
@@ -248,7 +248,7 @@ class DistanceField:
 
 
 def _off_middle(inside: SingleArray, numbers: npt.NDArray[np.int32], cells: int) -> SingleArray:
-    """How far (N,) places (3, N), in cells, are from the middles of what they are in: cubes of so many cells."""
+    """Return how far (N,) places (3, N), in cells, are from the middles of what they are in: cubes of so many cells."""
     x, y, z = inside - numbers * np.float32(cells) - np.float32(0.5 * cells)
     off_m: SingleArray = np.sqrt(x * x + y * y + z * z) * np.float32(CELL_M)
     return off_m

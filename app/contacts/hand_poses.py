@@ -109,7 +109,7 @@ class VertexPoses:
         self.hand, self._node_from_joint, self._morphs = hand, node_from_joint, morphs
 
     def places_m(self, frames: IndexArray, vertices: IndexArray) -> SingleArray:
-        """Where vertices (N,) are at frames (N,): (3, N)."""
+        """Return where vertices (N,) are at frames (N,): (3, N)."""
         hand = self.hand
         result = np.zeros((3, len(frames)), dtype=np.float32)
         matrices = self._node_from_joint.reshape(3, 4, -1)
@@ -132,7 +132,7 @@ class VertexPoses:
         return result
 
     def moves(self, size: int, blocks: IndexArray) -> Moves:
-        """How far joints move from the middle frames of some blocks (B,) of a size."""
+        """Return how far joints move from the middle frames of some blocks (B,) of a size."""
         joints = self._node_from_joint.shape[3]
         placed = self._node_from_joint.reshape(3, 4, -1, size, joints)[:, :, blocks]
         moved = placed - placed[:, :, :, size // 2, None]
@@ -198,8 +198,8 @@ def steadiest(world_from_node: Sequence[FloatArray], world_from_joint: SingleArr
 
 
 def moving_parts_m(world_from_node: Sequence[FloatArray], base: int, point_m: SingleArray) -> SingleArray:
-    """How far the nodes (each (F, 4, 4)) move that do so at a point of one of them, the base: (F, M), a coordinate of
-    that point in the frame of each."""
+    """Return how far the nodes (each (F, 4, 4)) move that do so at a point of one of them, the base: (F, M), a
+    coordinate of that point in the frame of each."""
     world_m = world_from_node[base][:, :3] @ np.append(point_m, 1.0)
     moving = [np.empty((0, len(world_m)), dtype=np.float32)]
     for node, here in enumerate(world_from_node):
@@ -234,7 +234,7 @@ class Parts:
         self._reaches_m = reaches_m.astype(np.float32)
 
     def moves(self, size: int) -> PartMoves:
-        """How far nodes move from the middle frames of blocks of a size."""
+        """Return how far nodes move from the middle frames of blocks of a size."""
         nodes, frames = self._node_from_base.shape[2:]
         placed = self._node_from_base.reshape(3, 4, nodes, frames // size, size)
         middle = placed[..., size // 2]
@@ -312,7 +312,7 @@ class NodePoints:
 
     @property
     def moves_m(self) -> SingleArray:
-        """How much the distance changes within the block at most."""
+        """Return how much the distance changes within the block at most."""
         return self.shifts_m + self.turns_m
 
     def least_m(self, middle_m: SingleArray) -> SingleArray:

@@ -79,7 +79,7 @@ def hand_reach(
     fingerings: tuple[FingeringEvent, ...],
     holding: Callable[[], Holding],
 ) -> Reached:
-    """How far the hands come, and what they do not reach.
+    """Return how far the hands come, and what they do not reach.
 
     Looked at are only controls that a whole hand moves, in every place that the plan uses, as the player would hold
     them standing or sitting still. Where the places are those of ``before``, an edit ago, no one is posed again.
@@ -132,7 +132,7 @@ def _place(event: FingeringEvent, carried: frozenset[str]) -> Place:
 
 
 def _gaps_m(holding: Holding, instrument: InstrumentMap, examples: list[FingeringEvent]) -> list[float]:
-    """How far a hand stays from where each fingering has its grip, metres."""
+    """Return how far a hand stays from where each fingering has its grip, metres."""
     held = tuple(
         msgspec.structs.replace(
             event,

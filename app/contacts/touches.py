@@ -45,7 +45,7 @@ class Traces:
         return moved_m
 
     def off_m(self, mark: str, point_m: FloatArray) -> FloatArray:
-        """How far (F,) a landmark is from a point (F, 3)."""
+        """Return how far (F,) a landmark is from a point (F, 3)."""
         return distance_m(self.marks_m[mark], point_m)
 
     def from_rim_m(self, instrument: InstrumentMap, mark: str) -> FloatArray:
@@ -55,12 +55,12 @@ class Traces:
         return offset_m
 
     def lips_m(self, instrument: InstrumentMap) -> FloatArray | None:
-        """How far (F,) the lips are from the rim; a head without a mouth has none to judge."""
+        """Return how far (F,) the lips are from the rim; a head without a mouth has none to judge."""
         return np.linalg.norm(self.from_rim_m(instrument, LIPS), axis=1) if LIPS in self.marks_m else None
 
     def upper_lip_m(self, instrument: InstrumentMap, playing: BoolArray) -> FloatArray | None:
-        """How far (F,) the rim has left its place on the upper lip, where it lies in the frames ``playing`` (F,); None
-        without a mouth or such a frame."""
+        """Return how far (F,) the rim has left its place on the upper lip, where it lies in the frames ``playing``
+        (F,); None without a mouth or such a frame."""
         if not playing.any() or UPPER_LIP not in self.marks_m:
             return None
         offset_m = self.from_rim_m(instrument, UPPER_LIP)
@@ -81,7 +81,7 @@ def hand_gaps_m(
     controls: Mapping[str, FloatArray],
     placed: Mapping[str, StationBlend] | None = None,
 ) -> FloatArray:
-    """How far (F,) a hand is from its place on the instrument; parameters as of
+    """Return how far (F,) a hand is from its place on the instrument; parameters as of
     `app.rig.grip.grip_pose.hand_targets`."""
     requested_m, _ = hand_targets(hand, world_from_instrument_m, world_from_instrument_rotation, controls, placed)
     return distance_m(wrist_m, requested_m)
@@ -114,7 +114,7 @@ def hole_values(instrument: InstrumentMap, traces: Traces) -> dict[str, FloatArr
 def _gap_m(
     contact: Contact, instrument: InstrumentMap, traces: Traces, targets: FloatArray | None = None
 ) -> FloatArray:
-    """How far (F,) a part of a hand is from its touch point; aside on a hole that is to be half closed, where
+    """Return how far (F,) a part of a hand is from its touch point; aside on a hole that is to be half closed, where
     ``targets`` (F,) or (1,) say how far it is to be."""
     point_m = np.asarray(contact.position_m)
     if targets is not None and contact.control is not None:
@@ -151,12 +151,12 @@ class TouchJudge:
 
     @cached_property
     def _stations(self) -> Mapping[str, IndexArray]:
-        """Which of its stations each finger works in each note."""
+        """Return which of its stations each finger works in each note."""
         fingered = ((note.controls, note.fingers) for note in self._notes.notes)
         return stations_of_notes(self._instrument, fingered)
 
     def gap_m(self, index: int) -> FloatArray:
-        """How far (F,) a contact of the map is off."""
+        """Return how far (F,) a contact of the map is off."""
         contact, targets = self._instrument.contacts[index], None
         if contact.control is not None:
             control = self._instrument.control(contact.control)
@@ -188,8 +188,8 @@ class TouchJudge:
         return frames
 
     def hovering_m(self) -> dict[str, FloatArray]:
-        """How far fingers that work nothing are, while they do, from the nearest of the places where they work, or from
-        the way between two of them."""
+        """Return how far fingers that work nothing are, while they do, from the nearest of the places where they work,
+        or from the way between two of them."""
         found = {}
         contacts, traces = self._instrument.contacts, self._traces
         for finger, places in stations(self._instrument).items():

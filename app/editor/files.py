@@ -136,7 +136,7 @@ class Files(QObject):
 
     @property
     def folder(self) -> str:
-        """Where file dialogs begin."""
+        """Return where file dialogs begin."""
         if self.path is not None:
             return str(self.path.parent)
         return self.settings.folder or str(Path.home())

@@ -72,7 +72,7 @@ class LivePlayer(QObject):
         self._play_along, self._of = None, ()
 
     def _ready(self) -> PlayAlong | None:
-        """The live performance; made anew where the player, the instrument or the body has changed."""
+        """The live performance; made again where the player, the instrument or the body has changed."""
         player_id, performance = self._chosen(), self._session.performance
         player = next((player for player in performance.project.players if player.id == player_id), None)
         if player is None or player.id not in performance.plans or player.id in performance.waiting:

@@ -102,7 +102,8 @@ class LivePlayers(QObject):
             self.struck.emit()
 
     def lying(self, player_id: str, other_id: str) -> tuple[SingleArray, SingleArray] | None:
-        """Where another instrument of the musician lies while this one is played: position (3,) and rotation (4,)."""
+        """Return where another instrument of the musician lies while this one is played: position (3,) and rotation
+        (4,)."""
         play_along = self._playing.get(player_id)
         return None if play_along is None else play_along.lying.get(other_id)
 

@@ -14,7 +14,7 @@ _LARGE_BYTES: Final = 2**20
 
 
 def give_back() -> None:
-    """Return to the system what is free in between: the C library of Linux keeps it otherwise, for every thread anew.
+    """Return to the system what is free in between: the C library of Linux keeps it otherwise, for every thread again.
 
     It takes some milliseconds, in which other threads of Python work on. Elsewhere the system does so by itself.
     """

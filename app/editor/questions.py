@@ -31,7 +31,7 @@ class Questions(Protocol):
     def import_midi(
         self, contents: PieceContents, read_again: ReadAgain, tokens: Tokens, tasks: Tasks
     ) -> ImportRequest | None:
-        """Who plays what in a MIDI file, and whether a dancer dances to it; None: it is not imported."""
+        """Return who plays what in a MIDI file, and whether a dancer dances to it; None: it is not imported."""
 
     def remove_character(self, name: str, players: tuple[str, ...]) -> bool:
         """Return whether a character goes for good, which these players are."""

@@ -377,15 +377,15 @@ class Recorder(QObject):
         self._sync_timer.start()
 
     def recorded_player(self) -> str | None:
-        """Who is recorded: the armed player, else the one in front."""
+        """Return who is recorded: the armed player, else the one in front."""
         ids = {player.id for player in self._session.project.players}
         if self._state.armed in ids:
             return self._state.armed
         return self._session.player.id if self._session.player is not None else None
 
     def count_in_from_s(self, start_s: float) -> float:
-        """Where counting in begins for a take from some moment: whole bars before the bar it lies in, so that the first
-        click is a bar's."""
+        """Return where counting in begins for a take from some moment: whole bars before the bar it lies in, so that
+        the first click is a bar's."""
         if self._state.count_in_bars == 0:
             return start_s
         score = self._session.project.score
@@ -580,7 +580,7 @@ def _names(project: Project, player_id: str) -> tuple[str, ...]:
 
 
 def _first_tick(take: Take) -> float:
-    """Where a take begins, or a note that was struck a little before: it was meant for that beginning."""
+    """Return where a take begins, or a note that was struck a little before: it was meant for that beginning."""
     onsets_s, start_s = take.played.onsets_s, take.start_us / 1e6
     early_s = onsets_s[(onsets_s >= start_s - EARLY_S) & (onsets_s < start_s)]
     return take.tempo_map.ticks(float(early_s[0]) if len(early_s) else start_s)

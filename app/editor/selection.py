@@ -42,7 +42,7 @@ class Selection(msgspec.Struct, frozen=True):
         return bool(self.notes or self.events or self.span or self.take is not None)
 
     def within(self, project: Project) -> Selection:
-        """What of it a project has; the very same value where that is everything."""
+        """What of it a project has; the same value where that is everything."""
         notes = self.notes
         if notes:
             notes = frozenset().union(*(notes & part.note_ids for part in project.score.parts))
@@ -56,7 +56,7 @@ class Selection(msgspec.Struct, frozen=True):
         return self if kept == self else kept
 
     def planned(self, plans: Mapping[str, PlayerPlan]) -> Selection:
-        """What of it plans have, by player; the very same value where that is everything."""
+        """What of it plans have, by player; the same value where that is everything."""
         known = {
             player_id: events_of(plans[player_id])
             for player_id in {key.player_id for key in self.events} & plans.keys()

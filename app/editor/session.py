@@ -345,7 +345,8 @@ class Session(QObject):
 
     @property
     def folded(self) -> Mapping[str, bool]:
-        """Which parts of panels are folded (or not), by name; what the user never folded or unfolded is not there."""
+        """Return which parts of panels are folded (or not), by name; what the user never folded or unfolded is not
+        there."""
         return self._folded
 
     def set_folded(self, name: str, folded: bool) -> None:

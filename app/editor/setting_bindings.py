@@ -22,7 +22,7 @@ class SettingBinding:
 
 
 def in_pitches(name: str) -> SettingBinding:
-    """How pitches are named."""
+    """Return how pitches are named."""
     return SettingBinding(
         lambda session: getattr(session.pitch_display, name),
         lambda session, value: session.pitch_display.set(**{name: value}),

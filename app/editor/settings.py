@@ -41,7 +41,7 @@ WRITE_MS: Final = 300
 
 
 def settings_path() -> Path:
-    """Where the settings of this user are."""
+    """Return where the settings of this user are."""
     return Path(platformdirs.user_config_dir("suisou", appauthor=False)) / "editor.toml"
 
 

@@ -244,7 +244,7 @@ class _Anchor:
     loop_s: tuple[float, float] | None
 
     def position(self, now_s: float) -> float:
-        """Where it is now; the end of a loop is not gone beyond."""
+        """Return where it is now; the end of a loop is not gone beyond."""
         position_s = self.position_s + min(now_s - self.at_s, ALONE_S) * self.speed
         if self.loop_s is not None and self.position_s < self.loop_s[1]:
             return min(position_s, self.loop_s[1])
@@ -365,7 +365,7 @@ class _Thread:
         return bool(outcomes) and all(outcome is SendOutcome.NO_RECEIVER for outcome in outcomes)
 
     def _sent_of(self, performer: Player | Dancer, faces: FaceNames, beside: Sequence[Player]) -> Sent:
-        """How a performer is sent; made anew for another character, instrument or names."""
+        """How a performer is sent; made again for another character, instrument or names."""
         instrument = performer.instrument_id if isinstance(performer, Player) else None
         of = (character_named(performer.character_id), instrument, faces, tuple(one.instrument_id for one in beside))
         known = self._sent.get(performer.id)

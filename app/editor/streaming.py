@@ -69,7 +69,7 @@ class Streaming(State):
         self.trouble: Message | None = None
 
     def planned(self, project: Project, front: Sequence[str]) -> tuple[StreamTarget, ...]:
-        """Which player is sent to which port, or would be; players without a port are excluded.
+        """Return which player is sent to which port, or would be; players without a port are excluded.
 
         Parameters
         ----------

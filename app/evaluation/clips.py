@@ -37,7 +37,7 @@ class PerformanceRenderer(Protocol):
 
     @property
     def left_out(self) -> Sequence[LeftOut]:
-        """Who cannot be seen, as far as pictures were drawn."""
+        """Return who cannot be seen, as far as pictures were drawn."""
         ...
 
     def shows(self, player_ids: tuple[str, ...]) -> bool:

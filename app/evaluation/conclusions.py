@@ -101,7 +101,7 @@ def _of_control(control: ManipulationCheck) -> Message:
 
 
 def _better(results: EvaluationResults) -> Iterator[Message]:
-    """Which variants were judged better than which, and in how many questions."""
+    """Return which variants were judged better than which, and in how many questions."""
     total: dict[tuple[Presentation, frozenset[Variant]], int] = defaultdict(int)
     found: dict[tuple[Presentation, Variant, Variant], list[float]] = defaultdict(list)
     for contrast in results.contrasts:

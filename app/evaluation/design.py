@@ -71,8 +71,8 @@ def williams(count: int) -> tuple[tuple[int, ...], ...]:
 
 
 def pairs_of(clips: Sequence[tuple[str, Variant, int]]) -> tuple[tuple[str, str], ...]:
-    """Which clips are shown beside each other: what the evaluation is about with every other variant, each pair in one
-    of the excerpts, in turn.
+    """Return which clips are shown beside each other: what the evaluation is about with every other variant, each pair
+    in one of the excerpts, in turn.
 
     Parameters
     ----------

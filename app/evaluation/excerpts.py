@@ -71,12 +71,12 @@ def choose_excerpts(
 
 
 def _played_s(starts_s: FloatArray, ends_s: FloatArray, from_s: float, until_s: float) -> float:
-    """How many seconds of notes sound within these."""
+    """Return how many seconds of notes sound within these."""
     return float(np.clip(np.minimum(ends_s, until_s) - np.maximum(starts_s, from_s), 0.0, None).sum())
 
 
 def _notes_s(project: Project) -> tuple[FloatArray, FloatArray]:
-    """When all notes of the players begin and end."""
+    """Return when all notes of the players begin and end."""
     notes = [note for player in project.players for note in project.part(player).notes]
     clock = project.score.tempo_map
     starts = np.array([note.onset_tick for note in notes], np.float64)

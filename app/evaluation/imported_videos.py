@@ -221,5 +221,5 @@ class _Framed:
 
 
 def _number(video: ImportedVideo, time_s: float) -> int:
-    """Which of a video's pictures is seen at a time of the performance."""
+    """Return which of a video's pictures is seen at a time of the performance."""
     return max(math.floor((time_s - video.offset_s) * video.facts.rate + 1e-3), 0)

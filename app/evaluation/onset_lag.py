@@ -117,8 +117,9 @@ def _lags(
 
 
 def _arrivals_s(control: Control, values: FloatArray, before: float, target: float, times_s: FloatArray) -> FloatArray:
-    """When a control comes to a place, ascending: where the last tenth of its way from ``before`` begins, or where it
-    touches (`app.contacts.bounds.in_place`), if that is later; between the last frame away and the first one there."""
+    """Return when a control comes to a place, ascending: where the last tenth of its way from ``before`` begins, or
+    where it touches (`app.contacts.bounds.in_place`), if that is later; between the last frame away and the first one
+    there."""
     touches = SLIDE_M / control.travel_m if control.kind == "slide" and control.travel_m else 1.0 - PRESSED
     bound = min(touches, (1.0 - PRESSED) * abs(target - before)) + 1e-9
     off = np.abs(values - target)

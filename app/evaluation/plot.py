@@ -68,7 +68,7 @@ def plot(results: EvaluationResults, language: str) -> str:
 
 
 def _x(left: float, value: float) -> float:
-    """Where an answer is; intervals may reach beyond the steps, the picture does not."""
+    """Return where an answer is; intervals may reach beyond the steps, the picture does not."""
     inside = min(max(value, 1.0), float(STEPS))
     return left + 8.0 + (inside - 1.0) / (STEPS - 1) * (_FIELD - 16.0)
 

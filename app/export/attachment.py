@@ -18,7 +18,8 @@ from app.rig import quaternion
 
 
 def own_path(target: TargetSkeleton, motion: Motion) -> Trajectory:
-    """Where the root bone is in an instrument's own file: in the world, or on the socket, where it does not move."""
+    """Return where the root bone is in an instrument's own file: in the world, or on the socket, where it does not
+    move."""
     return (
         trajectory_at_origin(motion.frames)
         if target.sockets

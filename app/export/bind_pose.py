@@ -1,7 +1,7 @@
 """Where a skin is bound: the pose that a body was modelled in, or its arms level or down; and twist bones' skin.
 
-Only the arms are posed anew: what hangs rigidly on a hand, head or foot moves with it as before, to rounding. Skin that
-several bones of an arm share lies a little otherwise, as linear blending has it.
+Only the arms are posed again: what hangs rigidly on a hand, head or foot moves with it as before, to rounding. Skin
+that several bones of an arm share lies a little otherwise, as linear blending has it.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ def bind_transforms(character: Character, target: TargetSkeleton) -> AnyFloatArr
 
 
 def rest_transforms(character: Character, target: TargetSkeleton) -> AnyFloatArray:
-    """Where the bones are in the rest pose that the target asks for; as `bind_transforms`."""
+    """Return where the bones are in the rest pose that the target asks for; as `bind_transforms`."""
     if target.rest_pose == "model":
         return bind_transforms(character, target)
     return _of_bones(character, target, _posed(character, _DOWN_RAD[target.rest_pose]))
@@ -144,7 +144,7 @@ def _with_twists(character: Character, target: TargetSkeleton, mesh: Mesh) -> Me
 
 
 def _along(target: TargetSkeleton, bone: int) -> float:
-    """How far along its limb (0..1) a twist bone has its place."""
+    """Return how far along its limb (0..1) a twist bone has its place."""
     share = target.twists[bone].share
     return share if share >= 0.0 else 1.0 + share
 

@@ -96,7 +96,7 @@ class Walk:
 
     @property
     def traces(self) -> Traces:
-        """Where everything was."""
+        """Return where everything was."""
         marks_m = {name: self._marks_m[row].T for row, name in enumerate(self._middles.names)}
         nodes = {name: self._placed[row].transpose(2, 0, 1) for row, name in enumerate(self._nodes)}
         return Traces(marks_m, nodes)
@@ -118,7 +118,8 @@ def _skins(joints: JointPlayback, character: Character, names: Set[str]) -> dict
 
 
 def bone_deviation_m(joints: JointPlayback) -> FloatArray:
-    """How much longer or shorter than at rest the bone is that changes most (F,): only those with a curve can."""
+    """Return how much longer or shorter than at rest the bone is that changes most (F,): only those with a curve
+    can."""
     player = joints.playback
     result = np.zeros(player.clip.frames)
     for bone in player.clip.translations_cm:

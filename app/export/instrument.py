@@ -75,7 +75,7 @@ def instrument_bones(instrument: InstrumentMap, model: InstrumentModel) -> tuple
 def instrument_clip(
     instrument: InstrumentMap, model: InstrumentModel, motion: Motion, name: str, path: Trajectory | None = None
 ) -> Clip:
-    """Where the instrument is and what its parts do."""
+    """Return where the instrument is and what its parts do."""
     rotations = np.zeros((motion.frames, len(model.node_names), 4))
     rotations[..., 3] = 1.0
     path = instrument_path(motion) if path is None else path

@@ -254,7 +254,7 @@ def _depths_m(
 
 
 def slid_m(sole_m: FloatArray, times_s: FloatArray, plan: PlayerPlan, name: str, body: Body) -> FloatArray:
-    """How far a sole is from where it was put down last, in the frames in which it stands."""
+    """Return how far a sole is from where it was put down last, in the frames in which it stands."""
     foot: Foot = "left" if name.startswith("left") else "right"
     steps = [event for event in plan.gestures if event.kind == "step" and foot_of(event) == foot]
     put = np.zeros(len(times_s), np.int64)

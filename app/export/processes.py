@@ -26,7 +26,7 @@ _POLL_S = 0.05
 
 
 def process_count(request: ExportRequest, cast: ExportCast) -> int:
-    """How many processes, this one among them, an export is worth on this machine."""
+    """Return how many processes, this one among them, an export is worth on this machine."""
     most = max(1, min(_cores(request), len(cast.musicians)))
     if request.processes is not None:
         return most
@@ -35,7 +35,7 @@ def process_count(request: ExportRequest, cast: ExportCast) -> int:
 
 
 def _cores(request: ExportRequest) -> int:
-    """How many an export may use."""
+    """Return how many an export may use."""
     return core_count() if request.processes is None else request.processes
 
 

@@ -160,7 +160,7 @@ class _Motion:
     # How much each bone may be off
 
     def _reach_m(self) -> AnyFloatArray:
-        """How far marks are from each moving bone (N,) that they hang on."""
+        """Return how far marks are from each moving bone (N,) that they hang on."""
         frames = np.unique(np.linspace(0, self.frames - 1, _SAMPLES).astype(int))
         marks_m = self.places_of_marks(*self.meant(frames))
         result = np.zeros(len(self.moving))
@@ -277,7 +277,8 @@ def _applied(turns: AnyFloatArray, vectors: AnyFloatArray) -> AnyFloatArray:
 
 
 def _changes(values: AnyFloatArray) -> AnyFloatArray:
-    """How many keys curves (N, F, D) need: the mean root of how much they change direction from frame to frame."""
+    """Return how many keys curves (N, F, D) need: the mean root of how much they change direction from frame to
+    frame."""
     if values.shape[1] < 3:
         return np.zeros(len(values))
     seconds = np.diff(values, 2, axis=1)
@@ -362,7 +363,7 @@ def _add_keys(
 
 
 def _worst(excess: AnyFloatArray, all_frames: bool) -> list[int]:
-    """Where something is beyond its bound: at the worst of each run of frames, or at all of them."""
+    """Return where something is beyond its bound: at the worst of each run of frames, or at all of them."""
     beyond = excess > 1.0
     if all_frames:
         return np.flatnonzero(beyond).tolist()

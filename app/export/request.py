@@ -154,7 +154,7 @@ class ExportCast:
 def cast_of(
     request: ExportRequest, wording: Callable[[Message], str], stop_requested: Callable[[], bool] = lambda: False
 ) -> ExportCast:
-    """Who of a request can be exported. Nothing is written.
+    """Return who of a request can be exported. Nothing is written.
 
     Raises
     ------

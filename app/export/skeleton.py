@@ -90,8 +90,8 @@ def _world(scene: Scene, clip: Clip, bone: int) -> tuple[FloatArray, FloatArray]
 
 
 def _end_sites_cm(scene: Scene, chosen: list[int]) -> dict[int, FloatArray]:
-    """Where the bones without a child end, in the bone's frame: as far along the way to the bone as the surface that it
-    carries goes."""
+    """Return where the bones without a child end, in the bone's frame: as far along the way to the bone as the surface
+    that it carries goes."""
     parents = [bone.parent for bone in scene.bones]
     world_from_rest = world_transforms(
         tuple(parents),

@@ -27,7 +27,7 @@ def write_stage(
 ) -> StageReport:
     """Write the stage in every requested format that can hold it.
 
-    Motions are made anew for each file, player by player, so that one player's at a time is in memory.
+    Motions are made again for each file, player by player, so that one player's at a time is in memory.
 
     Parameters
     ----------

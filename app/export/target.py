@@ -155,7 +155,7 @@ class Trajectory:
 
 
 def instrument_path(motion: Motion) -> Trajectory:
-    """Where the instrument of a motion is."""
+    """Return where the instrument of a motion is."""
     return Trajectory(motion.instrument_position_m, motion.instrument_rotation)
 
 

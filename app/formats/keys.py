@@ -212,7 +212,7 @@ def _without_needless(rows: AnyFloatArray, kept: BoolArray, borders: AnyIntArray
 
 
 def _joined(rows: AnyFloatArray, first: AnyIntArray, last: AnyIntArray) -> BoolArray:
-    """Which straight lines (N,) between two columns of ``rows`` are nowhere more than 1 off."""
+    """Return which straight lines (N,) between two columns of ``rows`` are nowhere more than 1 off."""
     lengths = last - first
     line = np.repeat(np.arange(len(first)), lengths)
     on = np.arange(len(line)) - np.repeat(np.cumsum(lengths) - lengths, lengths)

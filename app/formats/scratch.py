@@ -26,7 +26,7 @@ _LOCK: Final = "lock"
 
 
 def scratch_places() -> tuple[Path, ...]:
-    """Where the folders are: the second where the first refuses."""
+    """Return where the folders are: the second where the first refuses."""
     user = os.getuid() if os.name == "posix" else ""
     return cache_folder("scratch"), Path(tempfile.gettempdir()) / f"suisou-{user}"
 

@@ -33,7 +33,7 @@ def kept(kind: str, name: str, folder: Path, decoder: msgspec.msgpack.Decoder[T]
         Of the cache's folder and the file in it.
     folder : Path
         The tables, in folders of it too, and the code that reads and checks them: when one of these files changes, the
-        value is made anew.
+        value is made again.
     decoder : Decoder
         Of the value.
     make : callable

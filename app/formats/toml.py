@@ -136,7 +136,7 @@ def _syntax(text: str, file: str, at: int, detail: str) -> MapError:
 
 
 def _deepest(text: str) -> int:
-    """Where more brackets are open than a table of ours has; those in texts count, for it is only reported."""
+    """Return where more brackets are open than a table of ours has; those in texts count, for it is only reported."""
     depth = 0
     for found in re.finditer(r"[\[\]{}]", text):
         depth += 1 if found.group() in "[{" else -1

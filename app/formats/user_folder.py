@@ -103,7 +103,7 @@ class UserFolder(Generic[V, S]):
         self._shelf, self._bundled, self._read, self._skipped = shelf, bundled, read, frozenset(skipped)
 
     def folder(self) -> Path:
-        """Where the user's own are; need not exist."""
+        """Return where the user's own are; need not exist."""
         named = os.environ.get(self.variable)
         return Path(named) if named else platformdirs.user_data_path("suisou", appauthor=False) / self.name
 
@@ -132,7 +132,7 @@ class UserFolder(Generic[V, S]):
             self.last = replace(shelf, items=items, files=files)
 
     def put_back(self, shelf: S) -> None:
-        """Hand out again what was handed out before `preview`, unless the folder has been read anew since."""
+        """Hand out again what was handed out before `preview`, unless the folder has been read again since."""
         with self.lock:
             if self.last is not None and self.last.stamp == shelf.stamp:
                 self.last = shelf

@@ -192,7 +192,7 @@ def _with_ways(
 
 
 def _lowered(playing: PerformanceCurves, ways: Sequence[tuple[float, float, float]], begins: float) -> Curve:
-    """How far the instrument is lowered: as planned, and wholly while it is aside."""
+    """Return how far the instrument is lowered: as planned, and wholly while it is aside."""
     bell = playing.body.bell
     spans: list[tuple[float, float, float]] = []
     away_s = float("-inf") if begins else None

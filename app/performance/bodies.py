@@ -90,8 +90,8 @@ def _hold(
 
 
 def lies_at(player: Player, instrument: InstrumentMap, number: int) -> tuple[FloatArray, FloatArray] | None:
-    """Where an instrument lies in the player's frame while the musician has another in the hands: position (3,) and
-    rotation (4,). None as long as it would take time to say how it is held.
+    """Return where an instrument lies in the player's frame while the musician has another in the hands: position (3,)
+    and rotation (4,). None as long as it would take time to say how it is held.
 
     Parameters
     ----------

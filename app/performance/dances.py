@@ -62,7 +62,7 @@ class MakerOfDances(Protocol):
 
 
 def maker_of_dances() -> MakerOfDances | None:
-    """Who makes dances, loaded; ask only for pieces with dances, for it takes time. None: no one."""
+    """Return who makes dances, loaded; ask only for pieces with dances, for it takes time. None: no one."""
     return next((cast(MakerOfDances, module) for _, module in modules("dances")), None)
 
 

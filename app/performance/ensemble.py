@@ -327,8 +327,8 @@ class Performance:
 
     @property
     def unplanned_notes(self) -> int:
-        """How many notes have to be planned, about; those of players whom an edit has not touched are planned already,
-        and an edit that moves no breath and no cue costs little."""
+        """Return how many notes have to be planned, about; those of players whom an edit has not touched are planned
+        already, and an edit that moves no breath and no cue costs little."""
         if self.planned:
             return 0
         before = self._before
@@ -358,7 +358,8 @@ class Performance:
         return instrument
 
     def lacking(self, player: Player) -> tuple[Message, ...]:
-        """Which of instrument and character of a player there is none of, and why where a file of it is damaged."""
+        """Return which of instrument and character of a player there is none of, and why where a file of it is
+        damaged."""
         found = []
         if player.instrument_id not in self.library.maps:
             found.append(self._no_instrument(player))

@@ -393,7 +393,7 @@ class LiveMotion:
 
     @property
     def made(self) -> int:
-        """How many chunks were made so far."""
+        """Return how many chunks were made so far."""
         return self._made_chunks
 
     @property
@@ -455,7 +455,7 @@ class LiveMotion:
 
     @property
     def ready_share(self) -> float:
-        """How much is made of what there is room for, 0..1."""
+        """Return how much is made of what there is room for, 0..1."""
         shown = self._shown
         ready = sum(len(track.chunks) for track in shown.tracks.values())
         requested = shown.grid.chunks * sum(1 for track in shown.tracks.values() if track.error is None)
@@ -517,7 +517,7 @@ class LiveMotion:
             track.judged -= {index for index in track.judged if index >= len(touched) or touched[index]}
             track.breaks = {index: breaks for index, breaks in track.breaks.items() if index < shown.grid.chunks}
         with self._lock:
-            # What is there already was made from the very same.
+            # What is there already was made from the same.
             track.playing, track.chunks, track.basis, track.unproven = playing, kept | track.chunks, None, {}
         if track.breaks or track.problems:
             self._name_problems(track)

@@ -60,7 +60,7 @@ class _Grip:
 
 
 def _due_s(control: Control) -> float:
-    """How long a note is held before a control corrects it, or is let go."""
+    """Return how long a note is held before a control corrects it, or is let go."""
     return control.held_min_s or control.attack_s or 0.0
 
 

@@ -92,8 +92,8 @@ class LiveHelp:
 
 
 def _waits_s(values: FloatArray, here: float, length_s: float) -> float:
-    """How long a way of the hand must take that needs ``values`` of help, evenly spaced along it, so that a move of
-    help from ``here`` to the last of them, which takes ``length_s``, is never behind."""
+    """Return how long a way of the hand must take that needs ``values`` of help, evenly spaced along it, so that a move
+    of help from ``here`` to the last of them, which takes ``length_s``, is never behind."""
     gone = np.linspace(0.0, 1.0, len(values))[1:]
     shares = np.clip((values[1:] - here) / (values[-1] - here), 0.0, 1.0)
     helped_s = length_s * np.interp(shares, _SHARES, _PHASES)

@@ -69,5 +69,6 @@ class LiveTongue:
             self._push.begin(now_s, PUSHED["accent"])
 
     def at(self, now_s: float) -> tuple[float, float, float]:
-        """How far tip and back of the tongue are up, 1 in a plain stroke of the tip, and how hard the breath pushes."""
+        """Return how far tip and back of the tongue are up, 1 in a plain stroke of the tip, and how hard the breath
+        pushes."""
         return self._tip.at(now_s), self._back.at(now_s), self._push.at(now_s)

@@ -97,7 +97,7 @@ def _judged(
 def _looked(
     performance: Performance, players: Sequence[int], notes: Sequence[int], most: float
 ) -> tuple[_Looked | None, int]:
-    """Which frames are looked at, None for none, and of how many musicians, the first ones.
+    """Return which frames are looked at, None for none, and of how many musicians, the first ones.
 
     Parameters
     ----------

@@ -82,12 +82,12 @@ class PlayAlong:
 
     @property
     def player_id(self) -> str:
-        """Who plays."""
+        """Return who plays."""
         return self._playing.player_id
 
     @property
     def lying(self) -> dict[str, tuple[SingleArray, SingleArray]]:
-        """Where the musician's other instruments lie meanwhile, by player: position (3,) and rotation (4,)."""
+        """Return where the musician's other instruments lie meanwhile, by player: position (3,) and rotation (4,)."""
         if not isinstance(self._whole, Doubling):
             return {}
         others = (

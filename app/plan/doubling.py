@@ -59,7 +59,7 @@ class InstrumentChange(msgspec.Struct, frozen=True):
 
 
 def changes(played: Mapping[str, PlayerPlan]) -> tuple[InstrumentChange, ...]:
-    """When a musician changes: after a note, and where there is the time before the breath for the next one.
+    """Return when a musician changes: after a note, and where there is the time before the breath for the next one.
 
     Parameters
     ----------
@@ -96,7 +96,7 @@ def changes(played: Mapping[str, PlayerPlan]) -> tuple[InstrumentChange, ...]:
 
 
 def in_hands(player_id: str, first: str, found: Sequence[InstrumentChange]) -> tuple[tuple[float, float], ...]:
-    """When a player's instrument is in the hands of a musician who begins with that of ``first``."""
+    """Return when a player's instrument is in the hands of a musician who begins with that of ``first``."""
     spans, since_s = [], float("-inf") if player_id == first else None
     for change in found:
         if change.before == player_id and since_s is not None:

@@ -436,7 +436,7 @@ class PlayerPlan(msgspec.Struct, frozen=True):
 
 
 def grips_of(fingerings: tuple[FingeringEvent, ...]) -> tuple[FingeringEvent, ...]:
-    """The fingerings, each that is vented at its attack as two; the very same where none is."""
+    """The fingerings, each that is vented at its attack as two; the same where none is."""
     if all(event.vent is None for event in fingerings):
         return fingerings
     return _GRIPS.step(_all_grips, fingerings)

@@ -1,7 +1,7 @@
 """What the user may set of a performer: each parameter is declared once, where it is a field.
 
 Its type, name and default are the field's; all else is said by the `Parameter` in its annotation. Sliders and lists of
-choices, ``--set``, checks, presets, randomising, the history, older files and what is made anew after a change follow
+choices, ``--set``, checks, presets, randomising, the history, older files and what is made again after a change follow
 from that. Its texts are ids of `app.messages.parameters`.
 """
 
@@ -51,7 +51,7 @@ class Parameter:
     row : int
         Rows of higher numbers stand lower in the section; those of the same follow the fields.
     decides : frozenset of Decided
-        What has to be made anew after a change.
+        What has to be made again after a change.
     spread : float
         How far from the ensemble's middle the players differ when they are randomised with a spread of 1; 0: they are
         not.

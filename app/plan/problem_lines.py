@@ -67,7 +67,7 @@ def with_notes_named(message: Message, score: Score, wording: Wording, part_id: 
 
 
 _indexed: dict[str, tuple[tuple[Note, ...], dict[str, Note]]] = {}
-"""Notes by id of each part that was searched, by part; made anew where the part has other notes."""
+"""Notes by id of each part that was searched, by part; made again where the part has other notes."""
 
 
 def _line(found: list[Problem], score: Score, wording: Wording, part_id: str | None) -> str:

@@ -292,7 +292,7 @@ def _share(grows: Growth, when: When, facts: Facts) -> FloatArray:
 
 
 def _spans_s(rule: Rule, times: LineTimes, found: IntArray, length_s: float | None) -> tuple[FloatArray, FloatArray]:
-    """Where it begins and ends, for each of some notes; ``length_s``: of what has a length of its own."""
+    """Return where it begins and ends, for each of some notes; ``length_s``: of what has a length of its own."""
     anchors = {"onset": times.onset_s[found], "end": times.played_end_s[found]}
     start_s = anchors[rule.do.start] + rule.do.start_s
     if length_s is not None and rule.do.end_s is None:
@@ -408,7 +408,7 @@ def _gestures(
 
 
 def with_ruled(made: tuple[E, ...], ruled: tuple[E, ...]) -> tuple[E, ...]:
-    """Events with those that the rules ask for, ordered by start; the very same where they ask for none."""
+    """Events with those that the rules ask for, ordered by start; the same where they ask for none."""
     both = list(made + ruled)
     both.sort(key=lambda event: event.start_s)
     return tuple(both) if ruled else made
@@ -434,5 +434,5 @@ def _is_overruled(event: GestureEvent | ExpressionEvent, spans: Mapping[str, Spa
 
 
 def lowered_spans_s(gestures: tuple[GestureEvent, ...]) -> tuple[tuple[float, float], ...]:
-    """Where the instrument is off the lips."""
+    """Return where the instrument is off the lips."""
     return tuple((event.start_s, event.end_s) for event in gestures if event.part == "lowering")

@@ -77,7 +77,8 @@ def amount_at(styles: Sequence[StyleEvent], layer: str, usual: float, times_s: F
 def amount_at(
     styles: Sequence[StyleEvent], layer: str, usual: float, times_s: FloatArray | float
 ) -> FloatArray | float:
-    """How much of a layer (a field of `Acting`) is shown at some times; ``usual`` itself where there are no regions.
+    """Return how much of a layer (a field of `Acting`) is shown at some times; ``usual`` itself where there are no
+    regions.
 
     Where regions overlap, the one that begins later goes over the others.
     """
@@ -105,7 +106,7 @@ def share_at(styles: Sequence[StyleEvent], layer: str, times_s: FloatArray) -> F
 
 
 def shown_in_style(plan: PlayerPlan) -> PlayerPlan:
-    """The plan with cues and gestures as large as the regions let them be, as shares of `most_shown`; the very same
+    """The plan with cues and gestures as large as the regions let them be, as shares of `most_shown`; the same
     plan where there are no regions. The same tuples give the same tuples."""
     if not plan.styles:
         return plan
@@ -152,7 +153,7 @@ def _shown_cues(cues: tuple[CueEvent, ...], styles: tuple[StyleEvent, ...]) -> t
 
 
 def _presence(event: StyleEvent, times_s: FloatArray | float) -> FloatArray | float:
-    """How far a region holds, 0..1: eased at its edges."""
+    """Return how far a region holds, 0..1: eased at its edges."""
     rising = _eased((times_s - event.start_s) / max(event.fade_in_s, 1e-9))
     falling = _eased((event.end_s - times_s) / max(event.fade_out_s, 1e-9))
     return np.minimum(rising, falling)

@@ -90,7 +90,7 @@ def _scaled(handle: Tangent | None, scale: Fraction) -> Tangent | None:
 
 
 def correction_span(correction: Correction | DanceCorrection) -> int:
-    """How long the stretch is that a correction says both ends of; 0 where it does not."""
+    """Return how long the stretch is that a correction says both ends of; 0 where it does not."""
     start, end = getattr(correction, "start_tick", None), getattr(correction, "end_tick", None)
     return 0 if start is None or end is None else int(end - start)
 

@@ -39,7 +39,7 @@ MOST_PENDING: Final = 2
 
 
 def autosave_path(document: Path) -> Path:
-    """Where the unsaved work on a project's file is kept."""
+    """Return where the unsaved work on a project's file is kept."""
     return document.with_name(document.name + AUTOSAVE)
 
 
@@ -232,7 +232,7 @@ class Autosave:
 
     @property
     def due_s(self) -> float | None:
-        """When the next autosave is to be made; None: everything is written down, or about to be."""
+        """Return when the next autosave is to be made; None: everything is written down, or about to be."""
         if self._changed_s is None or len(self._pending) >= MOST_PENDING:
             return None
         # One that does not come back is not waited for.

@@ -112,8 +112,8 @@ def stage_seats(footprints: Sequence[Footprint]) -> tuple[StagePosition, ...]:
 
 
 def conductor_place(stages: Sequence[StagePosition]) -> ConductorPlace:
-    """Where a conductor would stand before players: in their middle, as far from the nearest as that one needs, and on
-    the audience's side of them."""
+    """Return where a conductor would stand before players: in their middle, as far from the nearest as that one needs,
+    and on the audience's side of them."""
     if not stages:
         return ConductorPlace(0.0, CONDUCTOR_AWAY_M)
     x_m = math.fsum(stage.x_m for stage in stages) / len(stages)

@@ -39,7 +39,7 @@ def is_choreography(choreography: str) -> bool:
 
 
 def choreography_path(choreography: str) -> Path:
-    """Where the file of a choreography is: of a bundled one with the program, else the path itself."""
+    """Return where the file of a choreography is: of a bundled one with the program, else the path itself."""
     return _folder() / f"{choreography}{SUFFIX}" if is_bundled_name(choreography) else Path(choreography)
 
 

@@ -93,7 +93,7 @@ class Document:
         name : Message
             As the history shows it.
         project : Project
-            What an edit made of `project`; the very same value is no step.
+            What an edit made of `project`; the same value is no step.
         gesture : object, optional
             Edits in a row with the same token (a drag, a slider) are one step; one that returns to where it started is
             none.

@@ -65,8 +65,8 @@ def promote_remaining(players: Iterable[Player]) -> tuple[Player, ...]:
 
 
 def doubled_parts(parts: Sequence[Part], maps: Mapping[str, InstrumentMap], clock: TempoMap) -> dict[str, str]:
-    """Which parts the musician of another part plays, by part id: a track's second instrument, unless no posture fits
-    both or they sound at once."""
+    """Return which parts the musician of another part plays, by part id: a track's second instrument, unless no posture
+    fits both or they sound at once."""
     groups: dict[tuple[int, int, int], list[Part]] = {}
     for part in sorted(parts, key=lambda part: part.voice):
         groups.setdefault((part.track, part.channel, part.voice % MOST_VOICES), []).append(part)
@@ -90,7 +90,7 @@ def common_postures(instruments: Sequence[InstrumentMap]) -> tuple[Posture, ...]
 
 
 def together_s(played: Sequence[Sequence[Note]], notes: Sequence[Note], clock: TempoMap) -> float:
-    """How long notes sound while others do, in seconds."""
+    """Return how long notes sound while others do, in seconds."""
     return _overlap_s(_spans(chain.from_iterable(played)), _spans(notes), clock)
 
 

@@ -1,4 +1,4 @@
-"""The grid that edits snap to: a musical length, counted anew in every bar."""
+"""The grid that edits snap to: a musical length, counted again in every bar."""
 
 from __future__ import annotations
 

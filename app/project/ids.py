@@ -6,7 +6,7 @@ here are ``"n:1"`` and so on, their parts ``"part:1"``; what a file brought when
 ``"file:1"``. Each follows every number that the project knows, also from corrections that have lost their note, so
 that such a correction can never come to mean another note. The notes of a take are ``"t:1000001"`` and so on: the
 number of the take, and of the note among those that were played (`take_note_id`); they are the same whenever the take
-is cut or cleaned anew.
+is cut or cleaned again.
 """
 
 from __future__ import annotations

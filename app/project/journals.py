@@ -42,7 +42,7 @@ def journal_path(document: Path | None, *stems: Path) -> Path:
 
 
 def second_path(first: Path, *stems: Path) -> Path:
-    """Where a journal goes on whose own disk takes nothing more.
+    """Return where a journal goes on whose own disk takes nothing more.
 
     Parameters
     ----------

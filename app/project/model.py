@@ -205,7 +205,7 @@ class Project:
 
     @property
     def conducting(self) -> ConductorPlace | None:
-        """Where a conductor stands who gives the entries; None: there is none, or the place is empty."""
+        """Return where a conductor stands who gives the entries; None: there is none, or the place is empty."""
         return self.conductor if self.conductor is not None and self.conductor.on_stage else None
 
     def performer_names(self, but: str = "") -> list[str]:
@@ -375,7 +375,7 @@ def characters_for(instruments: Sequence[InstrumentMap]) -> tuple[str, ...]:
 
 
 def _hand_travel_m(instrument: InstrumentMap) -> float:
-    """How far an instrument asks a hand to travel."""
+    """Return how far an instrument asks a hand to travel."""
     return max((control.travel_m for control in instrument.controls if _by_hand(control)), default=0.0)
 
 

@@ -12,8 +12,8 @@ from app.project.limits import LAST_TICK
 
 
 def place_map(pairs: Iterable[tuple[int, int]], scale: Fraction) -> Callable[[int], int]:
-    """Where a tick of the old score is in the new one: as far from the last note before it that was found again as it
-    was, but not beyond the next; before the first one it moves with that."""
+    """Return where a tick of the old score is in the new one: as far from the last note before it that was found again
+    as it was, but not beyond the next; before the first one it moves with that."""
     by_tick: dict[int, int] = {}
     for before, after in sorted(pairs):
         by_tick[before] = max(by_tick.get(before, after), after)

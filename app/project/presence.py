@@ -49,7 +49,7 @@ class PresenceNote(msgspec.Struct, frozen=True):
 
 
 def recovery_folder() -> Path:
-    """Where the unsaved work of projects without a file is kept."""
+    """Return where the unsaved work of projects without a file is kept."""
     return platformdirs.user_state_path("suisou", appauthor=False) / "recovery"
 
 

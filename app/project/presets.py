@@ -54,12 +54,12 @@ class PresetFolder(Generic[T]):
 
 
 def preset_folder() -> Path:
-    """Where the user's presets are."""
+    """Return where the user's presets are."""
     return platformdirs.user_config_path("suisou", appauthor=False) / "presets"
 
 
 def expression_folder() -> Path:
-    """Where the user's expressions are."""
+    """Return where the user's expressions are."""
     return platformdirs.user_data_path("suisou", appauthor=False) / "expressions"
 
 

@@ -63,7 +63,7 @@ class Reimport:
     Attributes
     ----------
     project : Project
-        The very same value where the file says nothing new.
+        The same value where the file says nothing new.
     added, removed : tuple of str
         Ids of notes that are new in the project, and of notes that are in it no more.
     new_players, gone_players : tuple of str
@@ -305,6 +305,6 @@ def _with_new_players(
 
 
 def _musician(project: Project, player_id: str) -> str:
-    """Which musician's body a player has, by id; a new player has a new one."""
+    """Return which musician's body a player has, by id; a new player has a new one."""
     known = next((player for player in project.players if player.id == player_id), None)
     return player_id if known is None else project.musician(known).id

@@ -172,7 +172,7 @@ def file_hash(path: Path) -> str:
 
 
 def backup_path(path: Path) -> Path:
-    """Where the version before the last save is."""
+    """Return where the version before the last save is."""
     return path.with_name(path.name + BACKUP)
 
 

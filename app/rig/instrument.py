@@ -65,7 +65,7 @@ def load_instrument(path: Path, instrument_map: InstrumentMap) -> InstrumentMode
 
 
 def part_values(part: MovingPart, controls: Mapping[str, AnyFloatArray], frames: int) -> FloatArray:
-    """How far a part goes, (F,) of 0..1, for values of the controls by name; an absent control is at 0."""
+    """Return how far a part goes, (F,) of 0..1, for values of the controls by name; an absent control is at 0."""
     values = [np.asarray(controls.get(name, np.zeros(frames)), dtype=np.float64) for name in part.controls]
     together: FloatArray = (np.minimum if part.when == "all" else np.maximum).reduce(values)
     return together

@@ -139,7 +139,7 @@ class Following:
         return [(run[0][0], run[-1][0], round(100 * sum(mean for _, mean in run) / len(run))) for run in runs]
 
     def _there(self) -> BoolArray:
-        """Which beats the recording has."""
+        """Return which beats the recording has."""
         there = np.ones(len(self.ticks), np.bool_)
         for span in self.missing:
             there &= (self.ticks < span.start) | (self.ticks >= span.end)

@@ -64,8 +64,8 @@ class MapChoice(msgspec.Struct, frozen=True):
         return (self.concert_low, self.concert_high) if self.usual is None else self.usual
 
     def outside(self, pitches: Sequence[int], written: bool = False, usual: bool = False) -> int:
-        """How many of these pitches, sounding or written ones, it does not reach (``usual``: without pedal tones and
-        altissimo)."""
+        """Return how many of these pitches, sounding or written ones, it does not reach (``usual``: without pedal tones
+        and altissimo)."""
         shift = self.transposition_semitones if written else 0
         low, high = self.usual_range if usual else (self.concert_low, self.concert_high)
         low, high = low + shift, high + shift
@@ -170,8 +170,8 @@ _NUMERALS = ("I", "II", "III", "IV", "V", "VI", "VII", "VIII")
 
 
 def players_named(name: str) -> int:
-    """How many players a track's name says it is for: 2 in "Horn 1.2", "Cl. I/II" and "Trumpet a2", 4 in "Trb. 1-4"; 1
-    where it says nothing about it."""
+    """Return how many players a track's name says it is for: 2 in "Horn 1.2", "Cl. I/II" and "Trumpet a2", 4 in "Trb.
+    1-4"; 1 where it says nothing about it."""
     together = _UNISON.search(name)
     if together:
         return int(together[1])
@@ -485,5 +485,5 @@ def _where(maps: Iterable[MapChoice], requested: Callable[[Instrument], bool]) -
 
 
 def _share(pitches: Sequence[int], choice: MapChoice, written: bool = False, usual: bool = True) -> float:
-    """How many of the notes a map reaches, 0..1."""
+    """Return how many of the notes a map reaches, 0..1."""
     return (len(pitches) - choice.outside(pitches, written, usual)) / len(pitches)

@@ -150,7 +150,8 @@ def _tracks(data: bytes, first: int, file: str) -> tuple[list[TrackChunk], list[
 
 
 def _real_end(data: bytes, begin: int, end: int) -> int:
-    """Where a track ends: where its length says if a chunk or the file's end is there, else at the next track."""
+    """Return where a track ends: where its length says if a chunk or the file's end is there, else at the next
+    track."""
     swallowed = data.find(_END_OF_TRACK + b"MTrk", begin, end)
     if swallowed >= 0:
         return swallowed + len(_END_OF_TRACK)

@@ -170,7 +170,7 @@ def _trills(notes: Played) -> BoolArray:
 
 
 def loudest(notes: Played) -> FloatArray:
-    """How loud each note gets, 0..1: its highest breath; without breath its velocity."""
+    """Return how loud each note gets, 0..1: its highest breath; without breath its velocity."""
     breath = notes.curves.get("breath")
     if breath is None:
         return notes.velocities / 127.0

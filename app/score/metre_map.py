@@ -227,7 +227,7 @@ class MetreMap(msgspec.Struct, frozen=True, dict=True):
         return beats[max(bisect_right(beats, ticks, key=lambda beat: beat[0]) - 1, 0)][1]
 
     def felt_between(self, first_tick: int, last_tick: int) -> IntArray:
-        """Ticks of the felt beats, counted anew in every bar, from before ``first_tick`` to after ``last_tick``."""
+        """Ticks of the felt beats, counted again in every bar, from before ``first_tick`` to after ``last_tick``."""
         return self._kept("felt", (first_tick, last_tick), self._felt)
 
     def _felt(self, first_tick: int, last_tick: int) -> IntArray:

@@ -174,7 +174,7 @@ class Part(msgspec.Struct, frozen=True, dict=True):
 
     @cached_property
     def end_tick(self) -> int:
-        """Where its last note ends; 0 without notes."""
+        """Return where its last note ends; 0 without notes."""
         return max((note.end_tick for note in self.notes), default=0)
 
 
@@ -232,7 +232,7 @@ class Score(msgspec.Struct, frozen=True, dict=True):
 
     @cached_property
     def end_tick(self) -> int:
-        """Where the last note of the parts ends; 0 without notes."""
+        """Return where the last note of the parts ends; 0 without notes."""
         return max((part.end_tick for part in self.parts), default=0)
 
     @cached_property
@@ -242,14 +242,15 @@ class Score(msgspec.Struct, frozen=True, dict=True):
 
     @property
     def sounding_end_tick(self) -> int:
-        """Where the last note of the piece ends, whether it has a player or not; 0 without notes. Of percussion hits
-        alone it is known where they begin."""
+        """Return where the last note of the piece ends, whether it has a player or not; 0 without notes. Of percussion
+        hits alone it is known where they begin."""
         last_hit_end = self.percussion[-1].tick + 1 if self.percussion else 0
         return max((self.end_tick, last_hit_end, *(part.end_tick for part in self.unplayed)))
 
     @cached_property
     def metre_map(self) -> MetreMap:
-        """Where its bars and beats are; what beat is felt the project says (`app.project.model.Project.metre_map`)."""
+        """Return where its bars and beats are; what beat is felt the project says
+        (`app.project.model.Project.metre_map`)."""
         return MetreMap(self.ticks_per_quarter, self.metres, self.pickup_ticks > 0)
 
     @property

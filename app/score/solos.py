@@ -39,7 +39,7 @@ def words_of_players(texts: Sequence[tuple[int, str]]) -> tuple[Word, ...]:
 
 
 def _says(text: str) -> int | None:
-    """Who plays: a player, or 0 for all; None: the text speaks of something else."""
+    """Return who plays: a player, or 0 for all; None: the text speaks of something else."""
     words = " ".join(text[:MOST_NAME].split()).strip("()[]")
     if _ALL.fullmatch(words):
         return 0

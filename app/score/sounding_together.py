@@ -39,7 +39,7 @@ class VoiceSpans(NamedTuple):
     releases: FloatArray
 
     def depths(self) -> IndexArray:
-        """How many notes sound when each begins, itself among them."""
+        """Return how many notes sound when each begins, itself among them."""
         started = np.searchsorted(self.onsets, self.onsets, side="right")
         return started - np.searchsorted(np.sort(self.releases), self.onsets, side="right")
 
@@ -57,13 +57,13 @@ def spans_of(notes: Sequence[Note], tempo_map: TempoMap) -> VoiceSpans:
 
 
 def legato_s(lengths_s: FloatArray) -> FloatArray:
-    """How long notes of these lengths may last into the next one of their player."""
+    """Return how long notes of these lengths may last into the next one of their player."""
     legato = np.clip(_LEGATO_SHARE * lengths_s, LEGATO_LEAST_S, _LEGATO_MOST_S)
     return np.minimum(legato, _LEGATO_MOST_SHARE * lengths_s)
 
 
 def players_needed(spans: VoiceSpans, depths: IndexArray, pitches: IntArray) -> int:
-    """How many players the simultaneity of the notes calls for."""
+    """Return how many players the simultaneity of the notes calls for."""
     doubled = _doubled(spans, pitches)
     plain = spans.of(~doubled)
     plain_depths = plain.depths() if doubled.any() else depths
@@ -78,7 +78,7 @@ def players_needed(spans: VoiceSpans, depths: IndexArray, pitches: IntArray) -> 
 
 
 def _within(spans: VoiceSpans, depths: IndexArray, more: int) -> BoolArray:
-    """Which notes sound where so many sound together."""
+    """Return which notes sound where so many sound together."""
     counts = np.concatenate(([0], np.cumsum(depths >= more)))
     first = np.searchsorted(spans.onsets, spans.onsets, side="left")
     last = np.searchsorted(spans.onsets, spans.releases, side="left")
@@ -102,7 +102,7 @@ def _sustained(spans: VoiceSpans, depths: IndexArray, more: int, several: int) -
 
 
 def _doubled(spans: VoiceSpans, pitches: IntArray) -> BoolArray:
-    """Which notes only double the one before or after them in the unison or in octaves."""
+    """Return which notes only double the one before or after them in the unison or in octaves."""
     doubled = np.zeros(len(pitches), bool)
     order = np.lexsort((pitches, spans.onsets))
     for step in range(1, 3):

@@ -34,7 +34,7 @@ _MOST_ODD: Final = 0.2
 def without_key_switches(
     stream: TrackChannel, found: MapCandidates, maps: Sequence[MapChoice], tempo_map: TempoMap
 ) -> tuple[TrackChannel, tuple[int, ...]]:
-    """A stream without its key switches, and their places among its notes; the very same stream where it has none.
+    """A stream without its key switches, and their places among its notes; the same stream where it has none.
 
     Parameters
     ----------

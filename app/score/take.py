@@ -1,6 +1,6 @@
 """A take: the unchanged input of a wind controller during a pass, and the notes played in it.
 
-A take is never changed: it is cleaned, quantised and cut anew from the same events after a change of
+A take is never changed: it is cleaned, quantised and cut again from the same events after a change of
 settings.
 """
 
@@ -119,12 +119,12 @@ class Take(msgspec.Struct, frozen=True, dict=True, forbid_unknown_fields=True):
 
     @property
     def start_tick(self) -> float:
-        """Where it begins in the music."""
+        """Return where it begins in the music."""
         return self.tempo_map.ticks(self.start_us / 1e6)
 
     @property
     def end_tick(self) -> float:
-        """Where it ends in the music."""
+        """Return where it ends in the music."""
         return self.tempo_map.ticks(self.end_us / 1e6)
 
 

@@ -59,7 +59,8 @@ def take_reason(stream: TrackChannel, tempo_map: TempoMap) -> TakeReason:
 
 
 def _is_named(name: str) -> bool:
-    """Return whether one of a track's words is what wind controllers are called, beside any instrument they sound like."""
+    """Return whether one of a track's words is what wind controllers are called, beside any instrument they sound
+    like."""
     known = vocabulary()
     found = [*known.all_by_name(name), *map(known.by_name, name.split())]
     return any(instrument is not None and instrument.family == _FAMILY for instrument in found)

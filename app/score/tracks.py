@@ -56,7 +56,7 @@ class ChannelNotes(msgspec.Struct):
     numbers: list[int] = []
 
     def where(self, kept: list[bool]) -> ChannelNotes:
-        """Some of the notes; the very same object if that is all of them."""
+        """Some of the notes; the same object if that is all of them."""
         if all(kept):
             return self
         return ChannelNotes(*(list(compress(column, kept)) for column in msgspec.structs.astuple(self)))
@@ -118,7 +118,7 @@ class TrackEvents(msgspec.Struct):
 
     @property
     def last_tick(self) -> int:
-        """Where the last note ends; 0 without notes."""
+        """Return where the last note ends; 0 without notes."""
         return max((max(notes.end_ticks) for notes in self.channels.values()), default=0)
 
     def notes(self, channels: Collection[int]) -> ChannelNotes:

@@ -237,7 +237,7 @@ def _voices(spans: VoiceSpans, pitches: IntArray, kept: list[int], count: int, t
 
 
 def _chords(onsets: FloatArray, releases: FloatArray) -> FloatArray:
-    """Where the chord begins that each note belongs to; a note alone is its own."""
+    """Return where the chord begins that each note belongs to; a note alone is its own."""
     struck = onsets.tolist()
     begin, free = -1.0, -1.0
     for place, (onset, release) in enumerate(zip(struck.copy(), releases.tolist(), strict=True)):

@@ -196,7 +196,7 @@ def _warnings(part: Part, name: str, performer: PartPlayer | None, score: Score)
 
 
 def _nested(notes: Sequence[Note]) -> int:
-    """How many notes end before one of their pitch that began before."""
+    """Return how many notes end before one of their pitch that began before."""
     last_end: dict[int, int] = {}
     count = 0
     for note in sorted(notes, key=lambda note: (note.onset_tick, note.end_tick)):

@@ -62,7 +62,7 @@ class ActionRow(Generic[Subject]):
 
     @property
     def place(self) -> str:
-        """Where it stands in the menus, in the language of the editor; empty: nowhere."""
+        """Return where it stands in the menus, in the language of the editor; empty: nowhere."""
         return " › ".join(without_key(tr(f"menu.{part}")) for part in self.menu.split("/") if part)
 
 

@@ -102,7 +102,7 @@ class RowAction(QAction):
         self.setText(text)
 
     def retranslate(self) -> None:
-        """Set text and tool tip anew."""
+        """Set text and tool tip again."""
         native = QKeySequence.SequenceFormat.NativeText
         text = without_dots(self.row.text)
         keys = ", ".join(sequence.toString(native) for sequence in sequences(self._table.keys(self.row.id)))

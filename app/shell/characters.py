@@ -143,7 +143,7 @@ def _keep(editor: Editor, path: Path, draft: CharacterDraft, give: bool) -> None
 
 
 def _change(editor: Editor, id: str, entry: CharacterEntry, draft: CharacterDraft) -> None:
-    """Describe a character anew."""
+    """Describe a character again."""
     morphs = {face: dict(parts) for face, parts in draft.morphs.items()}
     title = shortened(" ".join(draft.title.split()), MOST_TITLE)
     now = msgspec.structs.replace(entry, title=title, joints=dict(draft.joints), morphs=morphs)

@@ -22,14 +22,14 @@ from app.editor.session import Session, Severity
 from app.errors import AppError, Message
 
 MOST_BYTES: Final = 1_000_000
-"""A longer log begins anew."""
+"""A longer log begins again."""
 QUIET_S: Final = 1.0
 """What went wrong in a place less than this ago is not reported when it goes wrong there again: a panel that cannot be
 drawn fails as often as the screen is refreshed."""
 
 
 def log_path() -> Path:
-    """Where faults are noted down."""
+    """Return where faults are noted down."""
     return platformdirs.user_log_path("suisou", appauthor=False) / "faults.log"
 
 

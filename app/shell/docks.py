@@ -31,7 +31,8 @@ _PRESSES: Final = (QEvent.Type.MouseButtonPress, QEvent.Type.MouseButtonDblClick
 
 
 def on_screen(frame: QRect, screens: Sequence[QRect]) -> QRect:
-    """Where a window lies wholly on the screen that has most of it, or that is nearest; no larger than that screen.
+    """Return where a window lies wholly on the screen that has most of it, or that is nearest; no larger than that
+    screen.
 
     Parameters
     ----------

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 
 def fitness(query: str, text: str) -> float | None:
-    """How well a query fits a text; None: not at all.
+    """Return how well a query fits a text; None: not at all.
 
     Its letters must all be there in their order. The start of a word and letters that follow one another count more;
     short texts count more than long ones.

@@ -72,7 +72,7 @@ class StartPage(Retranslated, QScrollArea):
         self.retranslate()
 
     def refresh(self) -> None:
-        """Look for recent files and unsaved work anew."""
+        """Look for recent files and unsaved work again."""
         self._offers = ()
         self.retranslate()
         self._files.find_recoverable(self._offer)

@@ -85,7 +85,7 @@ class StatusLine(Retranslated, QStatusBar):
         self._motion, self._motion_bar = named(Label(), "motion"), named(QProgressBar(), "motion_ready")
         self._motion_bar.setTextVisible(False)
         self._motion_bar.setFixedWidth(BAR_PX)
-        # A step for a point: every other value would be drawn at once, and with it the whole window composed anew.
+        # A step for a point: every other value would be drawn at once, and with it the whole window composed again.
         self._motion_bar.setRange(0, BAR_PX)
         self._about_piece = (self._saved, self._problems, self._rate, self._motion, self._motion_bar)
         for widget in (self._risk, self._instruments, self._device, self._stream, *self._about_piece):

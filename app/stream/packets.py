@@ -1,4 +1,4 @@
-"""Messages of OSC in bundles that fit a network's packets, their numbers filled in anew for every frame.
+"""Messages of OSC in bundles that fit a network's packets, their numbers filled in again for every frame.
 
 The bytes are built by python-osc, once; what changes from frame to frame are floats, whose places are known since a
 message ends with them. Building them again for each frame would take forty times as long.

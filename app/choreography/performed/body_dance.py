@@ -77,5 +77,5 @@ def _inputs(performance: Performance, player: Player) -> _Inputs | None:
 
 @lru_cache(maxsize=256)
 def _dancer(choreography: str, character_id: str, seed: int) -> Dancer:
-    """Who would dance that on a stage; one object for players who dance alike."""
+    """Return who would dance that on a stage; one object for players who dance alike."""
     return Dancer("", "", choreography, character_id, StagePosition(0.0, 0.0, 0.0), seed)

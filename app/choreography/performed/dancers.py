@@ -94,7 +94,7 @@ class GeneratedDance:
         self._lock = Lock()
 
     def steps(self) -> tuple[SegmentStep, ...]:
-        """Which segments are danced when, at every frame rate."""
+        """Return which segments are danced when, at every frame rate."""
         with self._lock:
             if self._steps is None:
                 made = self._made

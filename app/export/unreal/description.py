@@ -300,7 +300,7 @@ def _figure(place: FigurePlace, bones: Mapping[str, tuple[str, ...]], socket: st
 
 
 def _actor_place(one: Player | Dancer, target: TargetSkeleton) -> UnrealPlace:
-    """Where the actor stands: at the origin if the root bone stands at the place already."""
+    """Return where the actor stands: at the origin if the root bone stands at the place already."""
     return place_of(one.stage) if target.place is None else UnrealPlace(0.0, 0.0, 0.0, 0.0)
 
 
@@ -316,7 +316,7 @@ class _Time:
     span: FrameSpan
 
     def after_s(self, tick: float) -> float:
-        """When a tick is."""
+        """Return when a tick is."""
         return self.since_s(self.clock.seconds(float(tick)))
 
     def since_s(self, s: float) -> float:

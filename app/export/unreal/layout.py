@@ -120,7 +120,7 @@ def piece_name(source: str, folder: Path) -> str:
 
 
 def layout_of(project: Project, piece: str) -> Layout:
-    """Where everything of a project's piece is."""
+    """Return where everything of a project's piece is."""
     players, dancers = project.players, project.dancers
     count = len(players)
     own = numbered(asset_name(player.name, "Player") for player in players)

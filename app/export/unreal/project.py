@@ -45,7 +45,7 @@ class UnrealProject:
 
     @property
     def folder(self) -> Path:
-        """Where the project is."""
+        """Return where the project is."""
         return self.file.parent
 
     @property

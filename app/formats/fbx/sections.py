@@ -100,7 +100,7 @@ def documents(document_id: int, take: str) -> Element:
 
 
 def definitions(objects: Iterable[Element]) -> Element:
-    """How many objects of each kind there are; without it the FBX SDK finds nothing."""
+    """Return how many objects of each kind there are; without it the FBX SDK finds nothing."""
     counts = {"GlobalSettings": 1}
     for element in objects:
         counts[element.name] = counts.get(element.name, 0) + 1

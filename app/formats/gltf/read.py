@@ -118,7 +118,7 @@ class _Reader(Accessors):
 
     def _primitive(self, primitive: object, names: list[str], known: dict[str, _Vertices]) -> GltfPrimitive:
         attributes, targets = self.mapping(primitive, "attributes"), self.items("targets", primitive)
-        # Primitives of several materials often have the very same vertices: they are read once.
+        # Primitives of several materials often have the same vertices: they are read once.
         key = repr((attributes, targets))
         if key not in known:
             known[key] = self._vertices(attributes, targets, names)
@@ -363,7 +363,7 @@ class _Reader(Accessors):
 
 
 def _size(mesh: GltfMesh) -> int:
-    """How many numbers a mesh has, and some for the work that each part of it makes."""
+    """Return how many numbers a mesh has, and some for the work that each part of it makes."""
     shared = {id(primitive.positions): primitive for primitive in mesh.primitives}
     size = sum(256 + primitive.triangles.size for primitive in mesh.primitives)
     for primitive in shared.values():

@@ -111,8 +111,8 @@ def widened(level: FloatArray, push: FloatArray | float, breath: BreathMotion, a
 
 
 def quiet_breaths(gestures: Sequence[GestureEvent]) -> Curve:
-    """How much of a quiet breath is in, 0..1, from a player's gestures: small and slow, while the instrument is lowered
-    for long."""
+    """Return how much of a quiet breath is in, 0..1, from a player's gestures: small and slow, while the instrument is
+    lowered for long."""
     rows: list[tuple[float, float, float]] = []
     free_s = -float("inf")
     for event in sorted(gestures, key=lambda event: event.start_s):

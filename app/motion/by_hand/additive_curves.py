@@ -74,7 +74,7 @@ class Additive:
         return sums
 
     def changed_s(self, other: Additive) -> FloatArray:
-        """Spans (K, 2) outside of which both have the very same values."""
+        """Spans (K, 2) outside of which both have the same values."""
         mine, others = self._rows, other._rows
         return rows_changed_s(mine, others, mine[:, :2], others[:, :2])
 

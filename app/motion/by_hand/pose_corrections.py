@@ -70,7 +70,7 @@ class PoseCorrectionTable:
         return {target: PoseAngles(*total) for target, total in sums.items()}
 
     def changed_s(self, other: PoseCorrectionTable) -> FloatArray:
-        """Spans (K, 2) outside of which both have the very same values."""
+        """Spans (K, 2) outside of which both have the same values."""
         mine, others = self._rows, other._rows
         return rows_changed_s(mine, others, mine[:, [1, 4]], others[:, [1, 4]])
 

@@ -46,7 +46,7 @@ class Shoulder:
 
 
 def shoulder(skeleton: Skeleton, side: Side, body: Trunk, motion: BodyMotion) -> Shoulder:
-    """Where a shoulder is."""
+    """Return where a shoulder is."""
     sign = 1.0 if side == "left" else -1.0
     joint, reaches_m = clavicle_of(skeleton, side)
     moved = quaternion.multiply(

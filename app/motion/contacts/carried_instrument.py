@@ -68,7 +68,8 @@ def held_angles(carriage: Carriage, motion: BodyMotion) -> tuple[FloatArray, Flo
 
 
 def freedom(carriage: Carriage) -> float:
-    """How free an instrument is to move with the body: 1 where it hangs free, 0 where it lies and has no room."""
+    """Return how free an instrument is to move with the body: 1 where it hangs free, 0 where it lies and has no
+    room."""
     ranges = (carriage.pitch_down_deg, carriage.yaw_left_deg, carriage.roll_left_deg)
     return min(1.0, min(high - low for low, _, high in ranges) / FREE_DEG)
 

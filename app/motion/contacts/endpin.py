@@ -55,7 +55,8 @@ class EndpinStand:
         return InstrumentTransform(carried.position_m, quaternion.multiply(swung, carried.rotation))
 
     def drawn_out(self, position_m: AnyFloatArray, rotation: AnyFloatArray) -> FloatArray:
-        """How far the pin is drawn out, (F,) of 0..1, so that its tip is on the floor, or as near to it as it can be.
+        """Return how far the pin is drawn out, (F,) of 0..1, so that its tip is on the floor, or as near to it as it
+        can be.
 
         Parameters
         ----------
@@ -75,7 +76,7 @@ def _unit(vectors: FloatArray) -> FloatArray:
 
 
 def _needed(endpin: Endpin, position_m: AnyFloatArray, rotation: AnyFloatArray) -> tuple[FloatArray, FloatArray]:
-    """How far a pin has to come out to touch the floor, metres (F,), and how much it points down (F,)."""
+    """Return how far a pin has to come out to touch the floor, metres (F,), and how much it points down (F,)."""
     turn = np.asarray(rotation, np.float64)
     tip_y = np.asarray(position_m, np.float64)[:, 1] + quaternion.rotate(turn, np.asarray(endpin.tip_m))[:, 1]
     down: FloatArray = -quaternion.rotate(turn, np.asarray(endpin.axis))[:, 1]

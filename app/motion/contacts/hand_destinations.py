@@ -42,7 +42,7 @@ def hands_off_instrument(
     water: Water | None,
     stopped: Stopped | None,
 ) -> Away | None:
-    """Where hands are that leave the instrument; None where all stay.
+    """Return where hands are that leave the instrument; None where all stay.
 
     Parameters
     ----------
@@ -88,7 +88,7 @@ def page_m(skeleton: Skeleton, base: Trunk) -> FloatArray:
 def with_shapes(
     skeleton: Skeleton, hands: Mapping[str, FloatArray], joints: list[int], rotations: FloatArray
 ) -> FloatArray:
-    """Fingers (F, joints, 4) of hands that have left the instrument; those that have not are the very same."""
+    """Fingers (F, joints, 4) of hands that have left the instrument; those that have not are the same."""
     for side in SIDES:
         there = {shape: hands[f"{side}.{shape}"] for shape in SHAPES if f"{side}.{shape}" in hands}
         if not there:

@@ -30,7 +30,7 @@ READY_S: Final = 0.03
 
 
 def bell_closing(mutes: Sequence[MuteEvent], stopped: Stopped | None) -> Envelopes:
-    """How far the hand closes the bell, 0..1."""
+    """Return how far the hand closes the bell, 0..1."""
     if stopped is None:
         return Envelopes.of(())
     return Envelopes.of(

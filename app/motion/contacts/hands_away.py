@@ -46,8 +46,8 @@ class Away:
     shifts: dict[Side, Shift] = field(default_factory=dict)
 
     def targets(self, side: Side, position_m: FloatArray, rotation: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Where a wrist is that would be on its grip at ``position_m`` (F, 3) and ``rotation`` (F, 4); the very same
-        numbers where it has not left it."""
+        """Return where a wrist is that would be on its grip at ``position_m`` (F, 3) and ``rotation`` (F, 4); the very
+        same numbers where it has not left it."""
         if side in self.shifts:
             position_m, rotation = self.shifts[side].target(position_m, rotation)
         if side not in self.offsets_m:

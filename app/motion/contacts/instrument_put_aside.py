@@ -52,7 +52,7 @@ class Aside:
 
     @property
     def angle_rad(self) -> float:
-        """How far it swings aside, to the left."""
+        """Return how far it swings aside, to the left."""
         return self.sign * (SWING_RAD + NEXT_RAD * min(self.number, FARTHEST))
 
 
@@ -99,7 +99,7 @@ class AsidePlace:
         return replace(bare, rest=InstrumentTransform(lies.position_m + further_m * towards, lies.rotation))
 
     def turned(self, stowed: FloatArray) -> FloatArray:
-        """How far the arm has swung, (F, 4)."""
+        """Return how far the arm has swung, (F, 4)."""
         return quaternion.from_rotation_vector(stowed[:, None] * self.swing_rad)
 
     def put(self, carried: InstrumentTransform, stowed: FloatArray) -> InstrumentTransform:

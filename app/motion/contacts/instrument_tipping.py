@@ -50,8 +50,8 @@ def with_bell_room(player: PlayerBody) -> PlayerBody:
 def _wrists_and_elbows(
     player: PlayerBody, tipped_rad: FloatArray, placed: dict[str, StationBlend]
 ) -> tuple[FloatArray, FloatArray]:
-    """How far the worse wrist of a still body is out of its range, and how high the higher elbow is as seen from its
-    shoulder, (F,) each; the bell is down by so much (F,)."""
+    """Return how far the worse wrist of a still body is out of its range, and how high the higher elbow is as seen from
+    its shoulder, (F,) each; the bell is down by so much (F,)."""
     still = replace(player.still.for_frames(len(tipped_rad)), bell_down_rad=tipped_rad)
     curves = ContactCurves(still, {}, {}, np.zeros(len(tipped_rad)), placed)
     curves = replace(curves, body=body_with_help(player, still, needs(player, curves)))

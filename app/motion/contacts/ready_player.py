@@ -30,7 +30,7 @@ from metadata.model import Body, EmbouchureWeights
 
 _CURVED: IdentityCache[GripPose] = IdentityCache(128)
 _PLAYERS: IdentityCache[PlayerBody] = IdentityCache(128)
-"""Holds with curved fingers, and what of players does not change with time: a player goes on with the very same."""
+"""Holds with curved fingers, and what of players does not change with time: a player goes on with the same."""
 
 
 def put_aside_transform(
@@ -41,7 +41,8 @@ def put_aside_transform(
     body: Body,
     number: int,
 ) -> InstrumentTransform:
-    """Where an instrument lies while its player has another in the hands, one frame; ``number`` as of `Aside`."""
+    """Return where an instrument lies while its player has another in the hands, one frame; ``number`` as of
+    `Aside`."""
     still = player_body(parameters, instrument_map, character, hold, body)
     place = replace(still, aside=Aside(instrument_map.hold.support_hand, number)).put_aside
     assert place is not None

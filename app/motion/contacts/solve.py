@@ -58,7 +58,7 @@ class PlayerBody(StillPlayer):
 
     @cached_property
     def put_aside(self) -> AsidePlace | None:
-        """Where the instrument lies while another is in the hands."""
+        """Return where the instrument lies while another is in the hands."""
         if self.aside is None:
             return None
         low = replace(self.still, lowered=np.ones(1))
@@ -67,18 +67,18 @@ class PlayerBody(StillPlayer):
 
     @cached_property
     def drawn_m(self) -> float:
-        """How much nearer a far hand comes when head and instrument give way."""
+        """Return how much nearer a far hand comes when head and instrument give way."""
         return _drawn_m(self)
 
     @cached_property
     def aside_per_turn(self) -> float:
-        """How far the trunk leans to the right for each radian it turns to the left, so that the head stays over its
-        place: it is ahead of what the trunk turns about."""
+        """Return how far the trunk leans to the right for each radian it turns to the left, so that the head stays over
+        its place: it is ahead of what the trunk turns about."""
         return _aside_per_turn(self)
 
     @cached_property
     def farthest(self) -> dict[str, float]:
-        """How far out the controls go that carry a hand, with all help and the body still: 1 where it comes
+        """Return how far out the controls go that carry a hand, with all help and the body still: 1 where it comes
         everywhere. What goes no farther can slow down to where it stops."""
         return _farthest(self)
 
@@ -190,7 +190,7 @@ def _pose(
 
 
 def _late(motion: BodyMotion) -> FloatArray | None:
-    """How far (F, 4) elbows are turned from where the chest has them, since they come after it."""
+    """Return how far (F, 4) elbows are turned from where the chest has them, since they come after it."""
     late = motion.elbows_late_rad
     if not late:
         return None
@@ -231,7 +231,8 @@ def body_with_help(player: PlayerBody, motion: BodyMotion, help_given: Help) -> 
 
 
 def _drawn_m(player: PlayerBody) -> float:
-    """How much nearer to its turned shoulder the far hand comes when head and instrument give way as far as they do."""
+    """Return how much nearer to its turned shoulder the far hand comes when head and instrument give way as far as they
+    do."""
     one, nothing = np.ones(1), np.zeros(1)
     nearer = []
     for hand in player.hold.hands:

@@ -55,7 +55,7 @@ class StillPlayer:
         return not self.place.seated and self.stand is None
 
     def away(self, motion: BodyMotion, carried: InstrumentTransform) -> Away | None:
-        """Where hands are that leave the instrument; None where all stay."""
+        """Return where hands are that leave the instrument; None where all stay."""
         if not motion.hands:
             return None
         return hands_off_instrument(self.skeleton, self.base, motion.hands, carried, self.water, self.stopped)

@@ -93,7 +93,8 @@ def _carry(player: StillPlayer, curves: ContactCurves, body: Trunk) -> Instrumen
 
 
 def _at_lips(player: StillPlayer, curves: ContactCurves, body: Trunk) -> FloatArray:
-    """Where lips have the mouthpiece (F, 3); in a breath one of them alone carries it, and keeps its playing place."""
+    """Return where lips have the mouthpiece (F, 3); in a breath one of them alone carries it, and keeps its playing
+    place."""
     lips, frames = player.hold.lips, len(curves)
     lips_m = lips.contact_m(curves.morphs, frames)
     # The jaw is far enough down to have left the rim long before the mouth is fully open.

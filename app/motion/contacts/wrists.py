@@ -56,7 +56,7 @@ class Wrist:
         return aside
 
     def outside_rad(self, hand: FloatArray) -> FloatArray:
-        """How far (F,) ``forearm_from_hand`` (F, 4) is bent beyond its ranges, any way."""
+        """Return how far (F,) ``forearm_from_hand`` (F, 4) is bent beyond its ranges, any way."""
         bent = np.ascontiguousarray(self._swing(hand)) @ self.axes.T
         outside: FloatArray = np.maximum(0.0, np.maximum(bent - self.high_rad, self.low_rad - bent)).max(axis=1)
         return outside
@@ -81,7 +81,7 @@ class Wrist:
     def relief_rad(
         self, aside_rad: FloatArray, beyond_rad: FloatArray, at: Callable[[FloatArray], FloatArray]
     ) -> FloatArray:
-        """How far (F,) the elbow goes round.
+        """Return how far (F,) the elbow goes round.
 
         Parameters
         ----------

@@ -109,7 +109,7 @@ class Curve:
         return len(self.start_s) == 0
 
     def changed_s(self, other: Curve | Trace) -> FloatArray:
-        """Spans (K, 2) outside of which both curves have the very same values."""
+        """Spans (K, 2) outside of which both curves have the same values."""
         if isinstance(other, Trace):
             return EVERYWHERE
         mine = (self.start_s, self.end_s, self.before, self.after)
@@ -165,7 +165,7 @@ class Trace:
         return result
 
     def changed_s(self, other: Curve | Trace) -> FloatArray:
-        """Spans (K, 2) outside of which both have the very same values."""
+        """Spans (K, 2) outside of which both have the same values."""
         if isinstance(other, Curve) or other.step_s != self.step_s:
             return EVERYWHERE
         mine, others = (round(trace.start_s / self.step_s) for trace in (self, other))
@@ -229,7 +229,7 @@ class Envelopes:
     height: FloatArray
 
     def changed_s(self, other: Envelopes) -> FloatArray:
-        """Spans (K, 2) outside of which both have the very same values."""
+        """Spans (K, 2) outside of which both have the same values."""
         mine, others = self._rows, other._rows
         return rows_changed_s(mine, others, mine[:, [0, 3]], others[:, [0, 3]])
 

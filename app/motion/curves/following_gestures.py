@@ -26,7 +26,7 @@ def path(events: Sequence[GestureEvent]) -> Path:
 
 
 def _targets(events: Sequence[GestureEvent], transition_s: float | None) -> FloatArray:
-    """Where gestures go and when: ``start_s``, ``end_s`` and value, (S, 3).
+    """Return where gestures go and when: ``start_s``, ``end_s`` and value, (S, 3).
 
     It goes back to 0 where the next gesture is more than its own length (at least a second) away.
     """

@@ -41,7 +41,7 @@ class Reach:
         return self._state(now_s)[0]
 
     def speed_at(self, now_s: float) -> float:
-        """How fast the value changes at a time."""
+        """Return how fast the value changes at a time."""
         return self._state(now_s)[1]
 
     def toward(self, now_s: float, target: float, length_s: float) -> Reach:

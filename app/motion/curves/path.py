@@ -77,7 +77,7 @@ class Path:
         return moved
 
     def changed_s(self, other: Path) -> FloatArray:
-        """Spans (K, 2) outside of which both have the very same values."""
+        """Spans (K, 2) outside of which both have the same values."""
         spans = rows_changed_s(self._rows, other._rows, self._rows[:, :2], other._rows[:, :2])
         ends = [
             span

@@ -65,7 +65,7 @@ class Spline:
         return result
 
     def changed_s(self, other: Spline) -> FloatArray:
-        """Spans (K, 2) outside of which both have the very same values."""
+        """Spans (K, 2) outside of which both have the same values."""
         if (other.step_s, other.one, len(other.values)) != (self.step_s, self.one, len(self.values)):
             return EVERYWHERE
         first = min(self.first, other.first)

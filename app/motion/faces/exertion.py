@@ -160,7 +160,7 @@ def _mean(values: Whole, before_s: float, after_s: float) -> Whole:
 
 
 def _apart(values: Whole, playing: Whole) -> Whole:
-    """How far what is played here is above what is played around it; nothing in a rest."""
+    """Return how far what is played here is above what is played around it; nothing in a rest."""
     sounds = np.flatnonzero(playing)
     here, around = (
         _sum(values, width_s, width_s)[sounds] // _sum(playing, width_s, width_s)[sounds]
@@ -186,7 +186,7 @@ def _strain(load: Whole, rise_s: float, decay_s: float) -> Whole:
 
 
 def _emptying(plan: PlayerPlan, lungs: Lungs, loudness: FloatArray, sounds: BoolArray, at_s: FloatArray) -> Whole:
-    """How much of the last breath's air is used up."""
+    """Return how much of the last breath's air is used up."""
     rate = _whole(np.where(sounds, air_rate(loudness, lungs.air), 0.0))
     used = np.cumsum(rate, dtype=np.int64)
     breaths = [event for event in plan.breaths if event.draws_air]

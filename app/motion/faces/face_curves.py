@@ -108,7 +108,7 @@ def _air(spans: Column, airs: Column, traces: SampledCurves | None) -> Curve | T
 
 
 def breath_opening(plan: PlayerPlan) -> Envelopes:
-    """How far the mouth is open for air: up through a breath's first part, shut again at its end."""
+    """Return how far the mouth is open for air: up through a breath's first part, shut again at its end."""
     rows = []
     for breath in plan.breaths:
         if not breath.draws_air:

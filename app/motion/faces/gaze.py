@@ -112,7 +112,7 @@ class Gaze:
     right_lid: Envelopes
 
     def sample(self, times_s: FloatArray) -> GazeFrames:
-        """Where the eyes look at ascending times."""
+        """Return where the eyes look at ascending times."""
         head_yaw_rad, head_pitch_rad = self.head.sample(times_s)
         turned_rad = HEAD_TURNS * head_yaw_rad
         return GazeFrames(

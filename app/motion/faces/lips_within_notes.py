@@ -70,7 +70,7 @@ def firmness(plan: PlayerPlan) -> Curve:
 
 
 def tension_release(plan: PlayerPlan) -> Curve:
-    """How far the tension lets go between notes, and after the last one."""
+    """Return how far the tension lets go between notes, and after the last one."""
     starts_s, ends_s, _ = _notes(plan)
     # All notes may be too short to be seen.
     if not len(starts_s):
@@ -91,7 +91,7 @@ def tension_release(plan: PlayerPlan) -> Curve:
 
 
 def vibrato_size(plan: PlayerPlan) -> Curve:
-    """How much vibrato there is, 0..1: none where lips were recorded, whose own it then is."""
+    """Return how much vibrato there is, 0..1: none where lips were recorded, whose own it then is."""
     if not plan.embouchures or plan.traces is not None:
         return moves(())
     starts_s, ends_s, air = _notes(plan)

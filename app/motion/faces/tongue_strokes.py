@@ -31,12 +31,12 @@ PUSH_UNTIL_S: Final = 0.20
 
 
 def tip_strokes(plan: PlayerPlan) -> Envelopes:
-    """How far the tip of the tongue is up, 1 in a plain stroke."""
+    """Return how far the tip of the tongue is up, 1 in a plain stroke."""
     return _strokes(plan.tongues, lambda event: event.stroke != "ka")
 
 
 def back_strokes(plan: PlayerPlan) -> Envelopes:
-    """How far the back of the tongue is up; smaller than a stroke of the tip, as planned."""
+    """Return how far the back of the tongue is up; smaller than a stroke of the tip, as planned."""
     return _strokes(plan.tongues, lambda event: event.stroke == "ka")
 
 
@@ -55,7 +55,7 @@ def _strokes(tongues: Sequence[TongueEvent], chosen: Callable[[TongueEvent], boo
 
 
 def attack_pushes(plan: PlayerPlan) -> Envelopes:
-    """How hard the breath pushes, 0..1, at attacks that are short or stressed."""
+    """Return how hard the breath pushes, 0..1, at attacks that are short or stressed."""
     rows = []
     for event in plan.tongues:
         hard = PUSHED.get(event.articulation, 0.0)

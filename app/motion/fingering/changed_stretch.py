@@ -1,4 +1,4 @@
-"""What an edit changes of curves that follow the notes: made anew around it, and taken from before elsewhere.
+"""What an edit changes of curves that follow the notes: made again around it, and taken from before elsewhere.
 
 In a silence long enough every control is at rest and every finger at home, whatever is played on either side. So the
 notes between two such silences can be made by themselves.
@@ -61,7 +61,7 @@ def changed_stretch(
 
 
 def _alike(before: Sequence[FingeringEvent], after: Sequence[FingeringEvent]) -> int:
-    """How many notes two lines begin with alike."""
+    """Return how many notes two lines begin with alike."""
     pairs = enumerate(zip(before, after, strict=False))
     differ = (index for index, (one, other) in pairs if one is not other and one != other)
     return next(differ, min(len(before), len(after)))

@@ -47,7 +47,7 @@ def need_s(control: Control, distance: float) -> float:
 
 
 def window_s(control: Control, distance: float, duration_s: float, gap_s: float) -> float:
-    """How long before an onset a control may leave its place.
+    """Return how long before an onset a control may leave its place.
 
     Where the share of the note is too short for a human speed (the plan flags such notes) the control starts
     earlier, but leaves the note its first frame at 24 frames/s.
@@ -67,7 +67,8 @@ def window_s(control: Control, distance: float, duration_s: float, gap_s: float)
 
 
 def unseen_s(control: Control, distance: float, window: float) -> float:
-    """How much earlier than its window a control may begin to move, because when the window opens it is still in place.
+    """Return how much earlier than its window a control may begin to move, because when the window opens it is still in
+    place.
 
     What looks like standing still is where finger or hand gathers speed, so that it need not jerk.
     """

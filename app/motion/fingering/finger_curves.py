@@ -64,7 +64,7 @@ class _Visit:
 def station_curves(
     fingerings: Sequence[FingeringEvent], instrument: InstrumentMap, controls: Mapping[str, Curve]
 ) -> dict[str, Curve]:
-    """Which station each finger is at, by finger; only those that leave their home.
+    """Return which station each finger is at, by finger; only those that leave their home.
 
     A curve's moves go from the number of one station to that of another, as `sampled` reads them. Under the name
     `giving_for` a finger: at which of its stations it works, for the hand that gives way for it. A finger waits over
@@ -120,7 +120,7 @@ def sampled(curve: Curve, times_s: FloatArray) -> StationBlend:
 
 
 def raised_curve(fingerings: Sequence[FingeringEvent]) -> Curve:
-    """How high fingers wait over their keys, 0..1, from the pace of the notes around."""
+    """Return how high fingers wait over their keys, 0..1, from the pace of the notes around."""
     if len(fingerings) < 2:
         return moves(())
     onsets_s = np.array([event.start_s for event in fingerings])
@@ -282,7 +282,7 @@ def _givings(
 
 
 def _straight(last: _Visit, visit: _Visit) -> Span:
-    """When a finger goes from a key to another that it needs soon: between the two, or while they move."""
+    """Return when a finger goes from a key to another that it needs soon: between the two, or while they move."""
     if last.up is not None and visit.down is not None:
         room_s = visit.down[0] - last.up[1]
         if room_s >= LEAST_TRAVEL_S:

@@ -43,7 +43,7 @@ class Accents:
         return cls(table[:, 0], table[:, 1], table[:, 2])
 
     def sample(self, times_s: FloatArray) -> FloatArray:
-        """How far down the body goes, 1 on an accent of amount 1, at ascending times, (F,) float64."""
+        """Return how far down the body goes, 1 on an accent of amount 1, at ascending times, (F,) float64."""
         first = np.searchsorted(times_s, self.start_s)
         counts = np.maximum(np.searchsorted(times_s, self.start_s + self.length_s) - first, 0)
         if not counts.any():
@@ -59,7 +59,7 @@ class Accents:
         return total
 
     def changed_s(self, other: Accents) -> FloatArray:
-        """Spans (K, 2) outside of which both have the very same values."""
+        """Spans (K, 2) outside of which both have the same values."""
         mine, others = (np.stack((one.start_s, one.length_s, one.amount), axis=1) for one in (self, other))
         spans = [np.stack((row[:, 0], row[:, 0] + row[:, 1]), axis=1) for row in (mine, others)]
         return rows_changed_s(mine, others, *spans)

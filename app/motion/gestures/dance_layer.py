@@ -77,7 +77,7 @@ _NOD: Final = CHANNELS.index("trunk_forward_rad")
 
 
 def breath_envelopes(breaths: Sequence[BreathEvent]) -> Envelopes:
-    """When a dance gives way to breaths, and how far, 0..1."""
+    """Return when a dance gives way to breaths, and how far, 0..1."""
     drawn = [breath for breath in breaths if breath.draws_air]
     return Envelopes.of(
         [

@@ -87,7 +87,7 @@ class Feet:
         return result
 
     def changed_s(self, other: Feet) -> FloatArray:
-        """Spans (K, 2) outside of which both have the very same values."""
+        """Spans (K, 2) outside of which both have the same values."""
         return rows_changed_s(self._rows, other._rows, self._spans_s, other._spans_s)
 
     @property

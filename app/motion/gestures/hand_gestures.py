@@ -52,7 +52,7 @@ class Reaching(KeyedGestures):
         return gesture.needs_lowered
 
     def sample(self, times_s: FloatArray) -> Reaches:
-        """Where hands are on their way at ascending times."""
+        """Return where hands are on their way at ascending times."""
         found: Reaches = {}
         for gesture, amount, phase, here in self.done(times_s):
             if amount >= LEAST_SIZE:

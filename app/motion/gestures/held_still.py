@@ -24,7 +24,7 @@ HELD: Final = ("sway", "lean", "accent", "weight", "giving", "height")
 
 
 def holds_of(gestures: Sequence[GestureEvent]) -> Envelopes:
-    """How much of what a body does is held, from the gestures that hold it."""
+    """Return how much of what a body does is held, from the gestures that hold it."""
     rows = []
     for event in gestures:
         if event.end_s > event.start_s:

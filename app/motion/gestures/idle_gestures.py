@@ -117,7 +117,7 @@ class Counting:
         return result
 
     def changed_s(self, other: Counting) -> FloatArray:
-        """Spans (K, 2) outside of which both have the very same values."""
+        """Spans (K, 2) outside of which both have the same values."""
         mine, others = (np.stack((one.start_s, one.length_s, one.beats, one.amount), axis=1) for one in (self, other))
         spans = [np.stack((rows[:, 0], rows[:, 0] + rows[:, 1]), axis=1) for rows in (mine, others)]
         return rows_changed_s(mine, others, *spans)
@@ -143,11 +143,11 @@ class Concert:
         )
 
     def sample(self, times_s: FloatArray) -> ConcertSamples:
-        """How much of each is done at ascending times."""
+        """Return how much of each is done at ascending times."""
         return ConcertSamples(**{member.name: getattr(self, member.name).sample(times_s) for member in fields(self)})
 
     def changed_s(self, other: Concert) -> FloatArray:
-        """Spans (K, 2) outside of which both have the very same values."""
+        """Spans (K, 2) outside of which both have the same values."""
         return np.concatenate(
             [getattr(self, member.name).changed_s(getattr(other, member.name)) for member in fields(self)]
         )

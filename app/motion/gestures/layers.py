@@ -115,7 +115,7 @@ class Layers:
         return LayerSamples(dip=dip, lift=lift, giving=2.0 * share * (1.0 - share) * np.abs(after - before), **values)
 
     def changed_s(self, other: Layers) -> list[FloatArray]:
-        """Spans (K, 2) outside of which both have the very same values."""
+        """Spans (K, 2) outside of which both have the same values."""
         names = [member.name for member in fields(self) if member.name != "leads"]
         return [self.leads.widened(getattr(self, name).changed_s(getattr(other, name))) for name in names]
 

@@ -162,7 +162,7 @@ def with_gestures(
 
 
 def _limits_rad(target: PoseTarget) -> tuple[tuple[float, float] | None, ...]:
-    """How far hands follow in each angle; None: what its instrument allows was seen to before."""
+    """Return how far hands follow in each angle; None: what its instrument allows was seen to before."""
     if target in ("left_elbow", "right_elbow"):
         low, high = np.deg2rad(ELBOW_DEG).tolist()
         return (low, high), None, None

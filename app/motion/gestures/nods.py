@@ -70,7 +70,7 @@ class Nods:
         return dip, lift
 
     def changed_s(self, other: Nods) -> FloatArray:
-        """Spans (K, 2) outside of which both have the very same values."""
+        """Spans (K, 2) outside of which both have the same values."""
         mine, others = (
             np.stack((nods.beat_s, nods.half_s, nods.lift_s, nods.amount), axis=1) for nods in (self, other)
         )

@@ -70,7 +70,7 @@ class Sizes:
 
     @property
     def breathing(self) -> tuple[float, float]:
-        """How much this player breathes with the trunk, and how much with the shoulders instead."""
+        """Return how much this player breathes with the trunk, and how much with the shoulders instead."""
         low, high = BREATHES_WITH_TRUNK
         share = low + (high - low) * _own(self.player_id, self.parameters.seed, "breathes")
         return share, 1.0 + SHOULDERS_INSTEAD * (0.5 * (low + high) - share)
@@ -209,6 +209,6 @@ class Angles:
         total.turn(NECK_SHARES, self.twist.head - self.twist.chest)
 
     def elbows_late(self) -> dict[str, FloatArray]:
-        """How far the elbows are from where the chest has them."""
+        """Return how far the elbows are from where the chest has them."""
         angles = {"forward": self.bowed, "turn": self.twist, "left": self.side}
         return {name: angle.elbows - angle.chest for name, angle in angles.items()}

@@ -367,7 +367,7 @@ def _breathe_within(
 
 
 def _lasts_s(score: _Score, line: _Breather, event: BreathEvent) -> float:
-    """How long a breath is, as the score would have it where a rest gives it."""
+    """Return how long a breath is, as the score would have it where a rest gives it."""
     index, length_s = line.number_of(event), event.end_s - event.start_s
     if index == 0 or event.corrected or score.gaps is not None or event.is_within:
         return length_s

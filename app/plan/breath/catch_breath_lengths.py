@@ -86,8 +86,8 @@ def _length_s(times: LineTimes, rests: IntArray, least_s: float) -> FloatArray:
 
 
 def drop_lengths_s(score: LineTimes, times: LineTimes) -> tuple[FloatArray, IntArray]:
-    """How long a catch breath before each note may be that takes the place of the notes before, and of how many: as
-    few as will do. The first note of a line is never left out.
+    """Return how long a catch breath before each note may be that takes the place of the notes before, and of how many:
+    as few as will do. The first note of a line is never left out.
 
     Parameters
     ----------

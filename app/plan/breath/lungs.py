@@ -58,7 +58,7 @@ def air_used_s(times: LineTimes, air: Air | None = None, envelope: BreathEnvelop
 
 
 def air_rate(loudness: FloatArray, air: Air | None = None) -> FloatArray:
-    """How much more air a loudness takes than mezzoforte does."""
+    """Return how much more air a loudness takes than mezzoforte does."""
     if air is None:
         low, high = LOUDNESS_RANGE
         return np.interp(loudness, [0.0, MEZZOFORTE, 1.0], [low, 1.0, high])
@@ -67,7 +67,7 @@ def air_rate(loudness: FloatArray, air: Air | None = None) -> FloatArray:
 
 
 def lungful_s(parameters: PlayerParameters, air: Air | None = None) -> float:
-    """How long a player's full breath lasts at mezzoforte: what the map says, on lungs of the player's size."""
+    """Return how long a player's full breath lasts at mezzoforte: what the map says, on lungs of the player's size."""
     return parameters.lung_s * (1.0 if air is None else min(air.mezzoforte_s, STALE_S) / USUAL_LUNG_S)
 
 

@@ -169,7 +169,7 @@ NO_NOTES: Final = frozenset[int]()
 
 
 def compared_with_others(line: SharedLine, breathed: tuple[Breathed, ...], before: Met | None) -> Met:
-    """Compare a line with those of players whose breaths are placed already; only those compare anew who changed."""
+    """Compare a line with those of players whose breaths are placed already; only those compare again who changed."""
     known = () if before is None or before.line != line else before.breathed
     caught, left_out = [], []
     for number, other in enumerate(breathed):

@@ -185,7 +185,7 @@ def automatic_slopes(times_s: list[float], values: list[float]) -> list[float]:
 
 
 def handle(key: CurveKey, clock: TempoMap, third_s: float, slope: float, *, leaves: bool) -> tuple[float, float]:
-    """Where a key's handle is, seen from the key: seconds (negative before it) and value.
+    """Return where a key's handle is, seen from the key: seconds (negative before it) and value.
 
     Parameters
     ----------

@@ -95,7 +95,7 @@ def looked_at_s(table: FloatArray, step_s: float, most: int) -> FloatArray:
 
 
 def _place(phase: FloatArray, leave: FloatArray, arrive: FloatArray) -> FloatArray:
-    """How far along its segment (F,) a curve is at a share of the segment's time; handles lie within 0..1."""
+    """Return how far along its segment (F,) a curve is at a share of the segment's time; handles lie within 0..1."""
     low, high = np.zeros(len(phase)), np.ones(len(phase))
     nothing, whole = low.copy(), high.copy()
     for _ in range(HALVINGS):

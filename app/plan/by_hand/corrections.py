@@ -35,7 +35,7 @@ BY_HAND = Message("correction.by_hand")
 
 
 class PinFingering(OfNote, frozen=True, tag="pin_fingering"):
-    """Play this note with the fingering of this label; the search solves the notes around it anew."""
+    """Play this note with the fingering of this label; the search solves the notes around it again."""
 
     event_kind: ClassVar[str] = "fingering"
     label: str
@@ -106,7 +106,7 @@ class SetCue(OfNote, frozen=True, tag="set_cue"):
 
     @property
     def tick(self) -> int | None:
-        """Where a cue without a note gives the entry; None where it belongs to a note."""
+        """Return where a cue without a note gives the entry; None where it belongs to a note."""
         digits = self.note_id[1:]
         return int(digits) if self.note_id.startswith("@") and digits.lstrip("-").isdecimal() else None
 

@@ -88,7 +88,7 @@ def _at_hand(leader: int, tick: int, lines: tuple[MonophonicPart, ...], all_time
 
 
 def _section(line: MonophonicPart) -> str:
-    """Who sits together: the family of the instrument, or the instrument."""
+    """Return who sits together: the family of the instrument, or the instrument."""
     return vocabulary().family(line.instrument_map.plays) or line.instrument_map.id
 
 

@@ -101,7 +101,7 @@ class _Spans(msgspec.Struct, frozen=True):
 
 
 def _stretches(times: NoteTimes) -> tuple[IntArray, IntArray]:
-    """Where a line begins to sound and where it stops: a tenth of as many as there are notes."""
+    """Return where a line begins to sound and where it stops: a tenth of as many as there are notes."""
     stops = times.onset_tick[1:] > times.played_end_tick[:-1]
     return times.onset_tick[np.insert(stops, 0, True)], times.played_end_tick[np.append(stops, True)]
 
@@ -111,8 +111,8 @@ def beat_ticks(piece: Piece, tick: int) -> int:
 
 
 def played_together(piece: Piece, tick: int) -> int:
-    """How long after a tick others still come in with it, ticks: at once, or within a beat of the bar line after a
-    pickup."""
+    """Return how long after a tick others still come in with it, ticks: at once, or within a beat of the bar line after
+    a pickup."""
     beat, bar = beat_ticks(piece, tick), piece.metre_map.bar_ticks_at(tick)
     bars = piece.bars(tick, tick + bar + 1)
     following = int(bars[np.searchsorted(bars, tick, side="right")]) - tick if bars[-1] > tick else bar
@@ -120,7 +120,7 @@ def played_together(piece: Piece, tick: int) -> int:
 
 
 def coming_in(sounding: list[tuple[int, NoteTimes]], tick: int, ticks: int) -> tuple[tuple[int, int], ...]:
-    """Who begins a note within so many ticks from a tick on, and which."""
+    """Return who begins a note within so many ticks from a tick on, and which."""
     found = []
     for line, times in sounding:
         index = int(np.searchsorted(times.onset_tick, tick))
@@ -174,7 +174,7 @@ def _silence(sounding: list[tuple[int, NoteTimes]], end: int, tick: int, rest_s:
 
 
 def _held_entries(sounding: list[tuple[int, NoteTimes]], piece: Piece) -> list[Entry]:
-    """Where all go on at once after notes that all held so long that no one counts them."""
+    """Return where all go on at once after notes that all held so long that no one counts them."""
     held: dict[int, int] = {}
     for _, times in sounding:
         ends, beats = times.played_end_tick[:-1], piece.beat_ticks_at(times.onset_tick[:-1])
@@ -252,7 +252,8 @@ def _new_tempo(lasts_s: FloatArray, place: int) -> bool:
 def _joining(
     sounding: list[tuple[int, NoteTimes]], lines: _Spans, shared: list[Entry], piece: Piece, musicians: tuple[str, ...]
 ) -> list[Entry]:
-    """Where players come in after long rests of their own while others play; those within a bar are one entry."""
+    """Return where players come in after long rests of their own while others play; those within a bar are one
+    entry."""
     first = int(lines.starts[0])
     rows: list[tuple[int, float, int, int]] = []
     for line, times in sounding:

@@ -139,7 +139,7 @@ def _about(event: GestureEvent, seeds: Seeds) -> list[GlanceEvent]:
 
 
 def _at_own_hands(event: GestureEvent, gaze: GazeTrack) -> GlanceEvent:
-    """Where a gesture says that the eyes go."""
+    """Return where a gesture says that the eyes go."""
     length_s = event.end_s - event.start_s
     return GlanceEvent(
         f"glance:{event.id}",
@@ -153,7 +153,7 @@ def _at_own_hands(event: GestureEvent, gaze: GazeTrack) -> GlanceEvent:
 
 
 def bearing_rad(own: StagePlace, other: StagePlace) -> float:
-    """Where another stands, from the direction in which a player faces; to the left is positive."""
+    """Return where another stands, from the direction in which a player faces; to the left is positive."""
     across_m, ahead_m = other.x_m - own.x_m, other.z_m - own.z_m
     if across_m == 0.0 and ahead_m == 0.0:
         return 0.0
@@ -161,7 +161,7 @@ def bearing_rad(own: StagePlace, other: StagePlace) -> float:
 
 
 def pitch_rad(own: StagePlace, other: StagePlace) -> float:
-    """How far down another's eyes are from a player's own."""
+    """Return how far down another's eyes are from a player's own."""
     away_m = max(math.hypot(other.x_m - own.x_m, other.z_m - own.z_m), 0.5)
     return round(min(max(math.atan2(own.eyes_m - other.eyes_m, away_m), -MOST_UP_RAD), MOST_UP_RAD), 4)
 

@@ -47,7 +47,7 @@ class NextFingering:
         return self._table.choices[pitch - self._low][column]
 
     def column(self, before: Sequence[Fingered], pitch: int, onset_s: float, loudness: float) -> int:
-        """Which of its fingerings a note within the range is played with.
+        """Return which of its fingerings a note within the range is played with.
 
         Parameters
         ----------

@@ -46,19 +46,19 @@ Span = tuple[float, float]
 
 
 def foot_of(event: GestureEvent) -> Foot:
-    """Which foot does it."""
+    """Return which foot does it."""
     return "left" if event.amount > 0.0 else "right"
 
 
 def moves_s(span_s: Span, step_s: float) -> tuple[Span, Span]:
-    """When the foot of a step is in the air: on its way out, and on its way home."""
+    """Return when the foot of a step is in the air: on its way out, and on its way home."""
     start_s, end_s = span_s
     lasts_s = min(step_s, 0.45 * (end_s - start_s))
     return (start_s, start_s + lasts_s), (end_s - lasts_s, end_s)
 
 
 def lifted_s(gestures: Iterable[GestureEvent], foot: Foot, step_s: float) -> list[Span]:
-    """When a foot, or a part of it, is off the ground; in the order of the gestures."""
+    """Return when a foot, or a part of it, is off the ground; in the order of the gestures."""
     found: list[Span] = []
     for event in gestures:
         if event.kind in FOOT_KINDS and event.end_s > event.start_s and foot_of(event) == foot:

@@ -44,8 +44,9 @@ def lowered_spans(
     cues: tuple[CueEvent, ...],
     seeds: Seeds,
 ) -> list[GestureEvent]:
-    """Where the instrument is off the lips: in rests long enough to lower it, rest it and raise it before anything that
-    belongs to the entry (cue, preparation, breath) begins; each player somewhat sooner or later than the others.
+    """Return where the instrument is off the lips: in rests long enough to lower it, rest it and raise it before
+    anything that belongs to the entry (cue, preparation, breath) begins; each player somewhat sooner or later than the
+    others.
 
     Parameters
     ----------

@@ -39,7 +39,7 @@ def with_definitions(
     times: LineTimes,
     lowered: tuple[tuple[float, float], ...],
 ) -> Defined:
-    """The events, those of the kind ``"named"`` with the gesture as it is made here; the very same tuple where there is
+    """The events, those of the kind ``"named"`` with the gesture as it is made here; the same tuple where there is
     none. One that is not known does nothing; one of the animator's that is where it should not be is done and reported.
     """
     if all(event.part != "tracks" for event in events):
@@ -115,7 +115,7 @@ def _in_hand(gesture: Gesture, instrument: InstrumentMap) -> Gesture:
 
 
 def without_idle_hands(events: tuple[GestureEvent, ...]) -> tuple[GestureEvent, ...]:
-    """Events without what is generated for idle hands while one is away; the very same tuple where there is none."""
+    """Events without what is generated for idle hands while one is away; the same tuple where there is none."""
     away = [(one.start_s, one.end_s) for one in events if one.gesture is not None and one.gesture.needs_lowered]
     if not away:
         return events

@@ -153,7 +153,8 @@ def swings_of(
 def _shaped(
     units: IntArray, ticks: IntArray, ends: IntArray, vigours: FloatArray, seeds: Seeds, stillness: FloatArray
 ) -> tuple[FloatArray, IntArray]:
-    """Where the trunk is at the end of each unit, and how many units the swing has that it is part of (0: still).
+    """Return where the trunk is at the end of each unit, and how many units the swing has that it is part of (0:
+    still).
 
     Every block ends at a side and a size that are its own: what comes before and after it does not depend on its form.
     """
@@ -166,8 +167,8 @@ def _shaped(
     flip = 1.0 if seeds.chance("side") < 0.5 else -1.0
 
     def ended(number: IntArray, begun: IntArray, reach: IntArray) -> FloatArray:
-        """Where blocks end: mostly on the other side than the one before. The block after it begins there, to whose end
-        it matters (``reach``)."""
+        """Return where blocks end: mostly on the other side than the one before. The block after it begins there, to
+        whose end it matters (``reach``)."""
         size = 0.35 + 0.65 * seeds.chances_at("sway", begun, number, reach)
         stays = seeds.chances_at("sway held", begun, number, reach) < 0.2
         side = np.where((number % 2 == 0) ^ stays, flip, -flip)
@@ -245,7 +246,8 @@ def _sounding_share(times: NoteTimes, starts_s: FloatArray, ends_s: FloatArray) 
 
 
 def spans_near_notes(times: NoteTimes, frame: TimeFrame, edges_s: FloatArray) -> IntArray:
-    """Which spans between neighbouring edges lie near the begin or end of a note, or near the frame's ends; ascending.
+    """Return which spans between neighbouring edges lie near the begin or end of a note, or near the frame's ends;
+    ascending.
 
     What it costs depends on how many these are, not on how many spans there are.
     """

@@ -98,5 +98,5 @@ def _reason(reported: str, pitch: int, low: int, high: int, loudness: float) -> 
 
 
 def efforts_of(embouchures: tuple[EmbouchureEvent, ...]) -> FloatArray:
-    """How hard each note is to play, 0..1 (N,) float64."""
+    """Return how hard each note is to play, 0..1 (N,) float64."""
     return np.array([event.effort for event in embouchures], np.float64)

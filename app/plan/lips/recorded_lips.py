@@ -85,7 +85,7 @@ def plan_traces(
 def _spans(
     by_hand: list[SetEmbouchure], notes: tuple[Note, ...], times: LineTimes, at_s: FloatArray
 ) -> list[tuple[SetEmbouchure, slice]]:
-    """Where on the grid each correction holds."""
+    """Return where on the grid each correction holds."""
     if not by_hand:
         return []
     index_of = {note.id: index for index, note in enumerate(notes)}

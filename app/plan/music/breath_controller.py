@@ -110,7 +110,7 @@ def find_gaps(at_s: FloatArray, values: FloatArray) -> FloatArray:
 
 
 def gaps_within(envelope: BreathEnvelope, times: LineTimes) -> list[tuple[int, float, float]]:
-    """Where blowing stops for a breath within a note: the longest gap of each note."""
+    """Return where blowing stops for a breath within a note: the longest gap of each note."""
     gaps_s = envelope.gaps_s[np.isfinite(envelope.gaps_s).all(axis=1)]
     gaps_s = gaps_s[gaps_s[:, 1] - gaps_s[:, 0] >= BREATH_S]
     notes = np.searchsorted(times.onset_s + LEAST_PLAYED_S, gaps_s[:, 0]) - 1
@@ -124,7 +124,7 @@ def gaps_within(envelope: BreathEnvelope, times: LineTimes) -> list[tuple[int, f
 
 
 def silences(envelope: BreathEnvelope, times: LineTimes) -> BreathGaps:
-    """Which gap comes before which note: the longest of those between the note before and this one.
+    """Return which gap comes before which note: the longest of those between the note before and this one.
 
     A gap in the middle of a note serves none (`gaps_within`); where the note before was not blown either, it begins
     where that ends.

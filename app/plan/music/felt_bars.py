@@ -43,7 +43,7 @@ def lowest(lines: Sequence[LineTimes]) -> tuple[bool, ...]:
 
 
 def with_felt_bars(piece: Piece, lines: tuple[NoteTimes, ...], low: tuple[bool, ...]) -> Piece:
-    """The piece with its bars where they are felt to begin: the very same where nothing speaks clearly against them.
+    """The piece with its bars where they are felt to begin: the same where nothing speaks clearly against them.
 
     Pieces that change their metre, or have a pickup already, keep their bars.
 
@@ -78,7 +78,7 @@ def with_felt_bars(piece: Piece, lines: tuple[NoteTimes, ...], low: tuple[bool, 
 
 
 def _late_ticks(lines: Sequence[NoteTimes], onsets: Sequence[IntArray], unit_ticks: int) -> int:
-    """How long after the given beats the felt ones come: less than a beat, 0 unless the long notes show another.
+    """Return how long after the given beats the felt ones come: less than a beat, 0 unless the long notes show another.
 
     Parameters
     ----------

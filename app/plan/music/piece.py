@@ -179,7 +179,7 @@ class LineTimes(NoteTimes):
 
     @cached_property
     def rhythm(self) -> NoteTimes:
-        """When it plays."""
+        """Return when it plays."""
         return NoteTimes(self.onset_tick, self.played_end_tick, self.onset_s, self.played_end_s)
 
     @cached_property

@@ -144,7 +144,7 @@ def free_places(project: Project, count: int) -> tuple[StagePosition, ...]:
 
 
 def _front_m(project: Project) -> float:
-    """How near to the audience the first row is: no player's instrument reaches a dancer."""
+    """Return how near to the audience the first row is: no player's instrument reaches a dancer."""
     reaches_m = (
         player.stage.z_m + max(room.left_m, room.right_m, room.ahead_m, ELBOW_M)
         for player in project.players

@@ -93,8 +93,8 @@ def resize(
 
 
 def set_amounts(project: Project, plan: PlayerPlan, amounts: Mapping[str, float]) -> Project:
-    """How deep (breaths), how far (gestures, -1..1) or how strong (expressions) events are, by id; clipped to what
-    there is."""
+    """Return how deep (breaths), how far (gestures, -1..1) or how strong (expressions) events are, by id; clipped to
+    what there is."""
     corrections: list[Correction] = []
     for event in _current(project, plan, amounts):
         if type(event) in AMOUNTS:
@@ -110,7 +110,7 @@ def set_fades(
     fade_in_s: float | None = None,
     fade_out_s: float | None = None,
 ) -> Project:
-    """How long expressions, poses and styles take to come and to go, seconds; None leaves it."""
+    """Return how long expressions, poses and styles take to come and to go, seconds; None leaves it."""
     ticks = project.score.tempo_map.ticks
     corrections: list[Correction] = []
     for event in _current(project, plan, event_ids):
@@ -268,7 +268,7 @@ def remove(project: Project, plan: PlayerPlan, event_ids: Iterable[str]) -> Proj
     player_id = plan.player_id
     note_ids = frozenset(note.id for note in _notes(project, player_id))
     event_ids = tuple(event_ids)
-    # Bars performed anew and curves are no events of the plan.
+    # Bars performed again and curves are no events of the plan.
     added = [item for item in corrections_of(project, player_id, event_ids) if not item.has_event]
     project = take_back(project, player_id, added) if added else project
     for event in _current(project, plan, event_ids):
@@ -471,7 +471,7 @@ def _cue_at(project: Project, player_id: str, event: CueEvent, start: int, end: 
 
 
 def _room_before(project: Project, notes: Sequence[Note], index: int) -> int:
-    """Where an added breath before a note begins."""
+    """Return where an added breath before a note begins."""
     onset, clock = notes[index].onset_tick, project.score.tempo_map
     beat = project.metre_map.felt_ticks_at(onset)
     if index == 0:

@@ -54,7 +54,8 @@ def follow_recording(project: Project, following: Following, path: str | os.Path
 
 
 def _leaves_no_time(project: Project, following: Following, span: UnmatchedSpan) -> bool:
-    """Return whether the recording goes on at once after bars that it does not have; else something else sounds there."""
+    """Return whether the recording goes on at once after bars that it does not have; else something else sounds
+    there."""
     # Beats before the first note and after the last one are no bars that would have to wait for those left out.
     sounding = following.confidence >= SURE
     earlier = np.flatnonzero(sounding & (following.ticks < span.start))

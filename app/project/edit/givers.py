@@ -114,12 +114,12 @@ def _peak_tick(project: Project, cue: CueEvent) -> float:
 
 
 def _beats_from(project: Project, cue: CueEvent, peak_tick: float) -> float:
-    """How long a preparatory beat from a tick is, in felt beats."""
+    """Return how long a preparatory beat from a tick is, in felt beats."""
     beats = (cue.end_tick - peak_tick) / project.metre_map.felt_ticks_at(cue.end_tick)
     return min(max(round(beats, 4), LEAST_BEATS), MOST_BEATS)
 
 
 def _beats(project: Project, cue: CueEvent) -> float:
-    """How long its preparatory beat is, in beats of the score."""
+    """Return how long its preparatory beat is, in beats of the score."""
     beat = LEAD_BEATS * project.metre_map.felt_ticks_at(cue.end_tick)
     return max(round((cue.end_tick - cue.start_tick) / beat, 4), LEAST_BEATS) if cue.corrected else 1.0

@@ -51,7 +51,7 @@ def add_note(
 
 
 def reach_of_move(project: Project, note_ids: Collection[str], by_tick: int, by_pitch: int) -> tuple[int, int]:
-    """How far these notes can be moved together, towards (by_tick, by_pitch)."""
+    """Return how far these notes can be moved together, towards (by_tick, by_pitch)."""
     notes = [note for _, mine in chosen_notes(project, note_ids) for note in mine]
     if not notes:
         return 0, 0
@@ -331,7 +331,7 @@ def _with_more(project: Project, beside: dict[str, Note]) -> Project:
 
 
 def _edited(project: Project, part_ids: Collection[str], edit: Callable[[tuple[Note, ...]], list[Note]]) -> Project:
-    """With these parts' notes edited and in order; the very same project where nothing is different."""
+    """With these parts' notes edited and in order; the same project where nothing is different."""
     parts = []
     for part in project.score.parts:
         if part.id in part_ids:

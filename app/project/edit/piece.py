@@ -1,4 +1,4 @@
-"""The piece as a whole: begun anew, its title, picture rate, beat, acting, recording, and own expressions.
+"""The piece as a whole: started over, its title, picture rate, beat, acting, recording, and own expressions.
 
 Messages (`UsageError`): ``piece.value_outside``, ``piece.no_recording``, ``piece.path_unusable``,
 ``expression.invalid``, ``expression.no_name``, ``expression.name_taken``, ``expression.none_of_name``.
@@ -115,7 +115,7 @@ def usual_settings(title: str, project: Project | None = None) -> PieceSettings:
 
 
 def set_piece_settings(project: Project, settings: PieceSettings) -> Project:
-    """Set all at once; the very same project where all are as they were.
+    """Set all at once; the same project where all are as they were.
 
     Raises
     ------
@@ -130,7 +130,7 @@ def set_piece_settings(project: Project, settings: PieceSettings) -> Project:
 
 def set_audio(project: Project, path: str | os.PathLike[str] | None) -> Project:
     """Hear the piece with this recording, or with the built-in synthesiser (None). Another recording begins with the
-    offset of the one before, which is set anew or estimated."""
+    offset of the one before, which is set again or estimated."""
     if path is None:
         return _with(project, audio=None)
     text, before = _path(path), project.audio

@@ -29,7 +29,7 @@ _LEAST_S: Final = 0.02
 
 
 def recording_second(project: Project, tick: int) -> float:
-    """Where in the recording a tick lies now. Raises UsageError without a recording."""
+    """Return where in the recording a tick lies now. Raises UsageError without a recording."""
     return project.score.tempo_map.seconds(float(tick)) - _audio(project).offset_s
 
 

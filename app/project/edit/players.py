@@ -374,7 +374,7 @@ def _with_players(project: Project, players: Iterable[Player]) -> Project:
 
 
 def _each(project: Project, player_ids: Container[str], edit: Callable[[Player], Player]) -> Project:
-    """The project with these players; an unchanged player stays the very same object."""
+    """The project with these players; an unchanged player stays the same object."""
     edited = {player.id: edit(player) for player in project.players if player.id in player_ids}
     return _with_players(
         project,

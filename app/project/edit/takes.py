@@ -47,7 +47,8 @@ class _Placed:
     here: FloatArray
 
     def moved(self, ticks: FloatArray) -> FloatArray:
-        """Where other moments of the take go: between two onsets in proportion, so that none overtakes another."""
+        """Return where other moments of the take go: between two onsets in proportion, so that none overtakes
+        another."""
         if not len(self.played):
             return ticks
         # An aligned note may pass another: a breath never runs backwards.
@@ -215,7 +216,7 @@ def take_curves(project: Project, player_id: str, take_id: str) -> tuple[Control
 
 
 def beats_of(project: Project, player_id: str, take_id: str) -> FloatArray:
-    """When the beats of a take that was played freely are, seconds. Slow at first: its library compiles.
+    """Return when the beats of a take that was played freely are, seconds. Slow at first: its library compiles.
 
     Raises
     ------

@@ -181,7 +181,7 @@ def _is_same(one: Metre, other: Metre) -> bool:
 
 
 def replace_tempi(project: Project, changes: Iterable[TempoChange]) -> Project:
-    """These tempi instead, in any order, one of them at tick 0; the very same project where they are as they were."""
+    """These tempi instead, in any order, one of them at tick 0; the same project where they are as they were."""
     before = project.score.tempo_map
     ordered = tuple(sorted(changes, key=lambda change: change.tick))
     if ordered == before.changes:

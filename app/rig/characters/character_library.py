@@ -153,7 +153,7 @@ def characters() -> Mapping[str, Path]:
 
 
 def character_revision(id: str) -> int:
-    """How often the character of an id became another one: what is kept for a character is kept for this too."""
+    """Return how often the character of an id became another one: what is kept for a character is kept for this too."""
     return character_library().revisions.get(id, 0)
 
 
@@ -251,7 +251,7 @@ def add_character(
 
 
 def write_entry(id: str, entry: CharacterEntry) -> None:
-    """Describe one of the user's own characters, anew or for the first time, and read the folder again.
+    """Describe one of the user's own characters, again or for the first time, and read the folder again.
 
     Raises FileError ``file.cannot_write``.
     """

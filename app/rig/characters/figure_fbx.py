@@ -57,7 +57,8 @@ def fbx_figure(path: Path) -> Figure:
 
 
 def _bind_pose(content: FbxContent) -> Mapping[int, FloatArray]:
-    """Where each bone of a skin was when it was bound; empty where skins contradict one another or themselves."""
+    """Return where each bone of a skin was when it was bound; empty where skins contradict one another or
+    themselves."""
     bound: dict[int, FloatArray] = {}
     for mesh in content.meshes:
         for skin in mesh.skins:

@@ -73,7 +73,7 @@ def gltf_figure(path: Path) -> Figure:
 
 
 def bind_pose(source: GltfSource) -> Mapping[int, FloatArray]:
-    """Where each joint of a skin was when it was bound; empty where skins contradict one another.
+    """Return where each joint of a skin was when it was bound; empty where skins contradict one another.
 
     A skin is bound in a space of its own: where that lies in the world, the joint says that all others hang from, or
     one that another skin has bound.
@@ -97,7 +97,7 @@ def bind_pose(source: GltfSource) -> Mapping[int, FloatArray]:
 
 
 def _depths(source: GltfSource) -> list[int]:
-    """How many nodes each node hangs from."""
+    """Return how many nodes each node hangs from."""
     depths = []
     for node in source.gltf.nodes:
         depth, above = 0, node.parent

@@ -73,7 +73,7 @@ class Tree:
         return float(np.linalg.norm(self.positions_m[one] - self.positions_m[other]))
 
     def depth(self, bone: int) -> int:
-        """How many bones are above."""
+        """Return how many bones are above."""
         return len(self.above[bone])
 
 
@@ -198,7 +198,8 @@ def _leg(halves: _Halves, side: str, path: list[int]) -> dict[str, int]:
 
 
 def _ankle(halves: _Halves, path: list[int]) -> int:
-    """Where the way down turns ahead, near the floor; without a foot that points ahead, what is as high as an ankle."""
+    """Return where the way down turns ahead, near the floor; without a foot that points ahead, what is as high as an
+    ankle."""
     places, floor = halves.tree.positions_m, halves.floor
     for bone, next_ in pairwise(path):
         ahead = places[next_] - places[bone]
@@ -232,7 +233,7 @@ def _arm(halves: _Halves, side: str, path: list[int]) -> dict[str, int]:
 
 
 def _two(tree: Tree, upper: list[int], end: int, length_m: float) -> tuple[int, int]:
-    """Where a limb begins and its middle joint: halves alike, and about as long as a limb is."""
+    """Return where a limb begins and its middle joint: halves alike, and about as long as a limb is."""
     pairs = [(start, middle) for at, start in enumerate(upper) for middle in upper[at + 1 :]]
     return min(
         pairs,

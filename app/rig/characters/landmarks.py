@@ -205,7 +205,7 @@ class _Head:
 
 
 def eye_distance(character: Character) -> float:
-    """How far the eyes are apart, metres; where there are none, as far as in another head of this height."""
+    """Return how far the eyes are apart, metres; where there are none, as far as in another head of this height."""
     eyes = _eyes(character.skeleton, character.meshes)
     if eyes is not None:
         return float(np.linalg.norm(eyes[0] - eyes[1]))
@@ -214,7 +214,7 @@ def eye_distance(character: Character) -> float:
 
 
 def _eyes(skeleton: Skeleton, meshes: tuple[Mesh, ...]) -> tuple[FloatArray, FloatArray] | None:
-    """Where the eyes are; None where there are none, or only joints that were supplied and carry nothing."""
+    """Return where the eyes are; None where there are none, or only joints that were supplied and carry nothing."""
     names = ("leftEye", "rightEye")
     if not set(names) <= set(skeleton.names):
         return None
@@ -226,7 +226,7 @@ def _eyes(skeleton: Skeleton, meshes: tuple[Mesh, ...]) -> tuple[FloatArray, Flo
 
 
 def _lips_by_jaw(skin: _Skin, head: _Head) -> dict[str, Landmark]:
-    """Where the mouth parts: at the midline, vertices the jaw's morph takes along next to such it leaves."""
+    """Return where the mouth parts: at the midline, vertices the jaw's morph takes along next to such it leaves."""
     jaw = next((morph for name in JAW_MORPHS for morph in skin.mesh.morphs if morph.name == name), None)
     if jaw is None or not len(jaw.vertices):
         return {}
@@ -253,8 +253,8 @@ def _lips_by_jaw(skin: _Skin, head: _Head) -> dict[str, Landmark]:
 
 
 def _lips_by_shape(skins: list[_Skin], head: _Head) -> dict[str, Landmark]:
-    """Where the lips meet on a face that does not move: about so far down from the eyes to the chin, in the notch of
-    the profile if there is one."""
+    """Return where the lips meet on a face that does not move: about so far down from the eyes to the chin, in the
+    notch of the profile if there is one."""
     profiles = [_profile(skin, head) for skin in skins]
     # Hair, lashes and teeth hang on the head too: the face covers most of its front's lower half.
     place = max(range(len(skins)), key=lambda number: _covered(skins[number], profiles[number], head), default=-1)
@@ -296,7 +296,7 @@ def _notch_m(profile: FloatArray, eyes_m: float, chin_m: float) -> float:
 
 
 def _covered(skin: _Skin, front: IndexArray, head: _Head) -> int:
-    """How many steps of height some vertices cover that lie before the head's joint and not above its eyes."""
+    """Return how many steps of height some vertices cover that lie before the head's joint and not above its eyes."""
     at = skin.positions[front]
     eyes_m = head.place[1] + 0.3 * HEAD_M * head.size if head.eyes_m is None else head.eyes_m
     before = (at[:, 2] > head.place[2]) & (at[:, 1] < eyes_m)

@@ -131,7 +131,8 @@ def _of_hand(name: str) -> bool:
 
 
 def _extent(fit: Fit, meshes: Sequence[Mesh], joints: Sequence[int], direction: FloatArray) -> float:
-    """How far the skin of joints goes in a direction from the first of them, in the T-pose; as an adult's if none."""
+    """Return how far the skin of joints goes in a direction from the first of them, in the T-pose; as an adult's if
+    none."""
     joint_from_mesh = inverse_binds(fit)
     found = 0.0
     for mesh in meshes:

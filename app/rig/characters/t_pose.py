@@ -56,7 +56,7 @@ class Rest:
 
 
 def rest_of(figure: Figure) -> Rest:
-    """Where a figure's bones are at rest."""
+    """Return where a figure's bones are at rest."""
     return Rest(*world_placements(figure.parents, figure.translations_m, figure.rotations))
 
 
@@ -257,7 +257,8 @@ class _Pose:
         return [*zip(present, [*ways, self._tip(present)] if present else [], strict=True)]
 
     def _tip(self, present: Sequence[str]) -> FloatArray | None:
-        """Where the last bone of a chain points: to the bone at its end, or as its own axes do if all of them agree."""
+        """Return where the last bone of a chain points: to the bone at its end, or as its own axes do if all of them
+        agree."""
         last = self._bones[present[-1]]
         ends = [child for child in self._children.get(last, []) if child not in self._joint_of]
         if len(ends) == 1:
@@ -324,7 +325,7 @@ class _Pose:
         return turns
 
     def _heading(self, side: str) -> FloatArray:
-        """Where a foot points, level; ahead where nothing says."""
+        """Return where a foot points, level; ahead where nothing says."""
         foot = self._at(side + "Foot")
         assert foot is not None
         ends = [self._at(side + "Toes")]

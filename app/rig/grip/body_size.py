@@ -35,7 +35,7 @@ def ratio_to_grown_up(length_m: float, grown_up_m: Range) -> float:
 
 @lru_cache(maxsize=64)
 def hand_size(skeleton: Skeleton) -> float:
-    """How large the hands are."""
+    """Return how large the hands are."""
     rest = rest_positions(skeleton)
 
     def apart_m(first: str, second: str) -> float:
@@ -60,20 +60,20 @@ def arm_m(skeleton: Skeleton, side: Side) -> float:
 
 
 def arm_size(skeleton: Skeleton, side: Side) -> float:
-    """How long an arm is."""
+    """Return how long an arm is."""
     return ratio_to_grown_up(arm_m(skeleton, side), ARM_M)
 
 
 @lru_cache(maxsize=64)
 def leg_size(skeleton: Skeleton) -> float:
-    """How long the legs are: what a body's sway goes with."""
+    """Return how long the legs are: what a body's sway goes with."""
     rest = rest_positions(skeleton)
     return ratio_to_grown_up(float(rest[skeleton.index("hips")][1] - min(0.0, float(rest[:, 1].min()))), LEGS_M)
 
 
 @lru_cache(maxsize=64)
 def face_size(character: Character) -> float:
-    """How large the face is."""
+    """Return how large the face is."""
     return ratio_to_grown_up(eye_distance(character), EYES_M)
 
 

@@ -58,7 +58,7 @@ def shaped(skeleton: Skeleton, side: Side, shape: HandShape) -> dict[int, FloatA
 
 @lru_cache(maxsize=64)
 def tip_m(skeleton: Skeleton, side: Side, shape: HandShape) -> FloatArray:
-    """Where (3,) the forefinger's pad is in the wrist's frame; of a pinch half way to the thumb's."""
+    """Return where (3,) the forefinger's pad is in the wrist's frame; of a pinch half way to the thumb's."""
     pads = [
         _pad_m(skeleton, side, finger, shape) for finger in (("Index", "Thumb") if shape == "pinch" else ("Index",))
     ]

@@ -89,7 +89,8 @@ def finger_rotations(
 
 
 def _heights(hand: HandHold, controls: Controls, raised: FloatArray) -> dict[str, FloatArray]:
-    """How high (F,) each finger waits: lower beside one that presses, with which it shares muscles and sinews."""
+    """Return how high (F,) each finger waits: lower beside one that presses, with which it shares muscles and
+    sinews."""
     heights = {table.finger: raised for table in hand.fingers}
     if not any(station.hovers for table in hand.fingers for station in table.stations):
         return heights
@@ -261,7 +262,7 @@ class _Given:
     wrist: tuple[FloatArray, FloatArray]
 
     def waits(self, lean: WristOffset) -> FloatArray:
-        """How far (K,) it is from giving way."""
+        """Return how far (K,) it is from giving way."""
         weight = next((weight[self.frames] for one, weight in self.leans if one is lean), np.zeros(len(self.frames)))
         return 1.0 - weight
 

@@ -83,7 +83,8 @@ def _worked(contact: Contact, of_hands: frozenset[str]) -> tuple[str, ...]:
 
 
 def station_for(places: Sequence[Station], worked: frozenset[str]) -> int:
-    """Which of a finger's stations lets it work these controls: the same set, or what has most in common with it."""
+    """Return which of a finger's stations lets it work these controls: the same set, or what has most in common with
+    it."""
     return max(
         range(len(places)),
         key=lambda index: (
@@ -98,8 +99,8 @@ def station_for(places: Sequence[Station], worked: frozenset[str]) -> int:
 def fingers_at_work(
     instrument: InstrumentMap, controls: Mapping[str, float], fingers: Mapping[str, str]
 ) -> dict[str, frozenset[str]]:
-    """Which controls each finger works where ``controls`` are away from rest and ``fingers`` work some of them instead
-    of the usual ones."""
+    """Return which controls each finger works where ``controls`` are away from rest and ``fingers`` work some of them
+    instead of the usual ones."""
     found: dict[str, set[str]] = {}
     for control in instrument.controls:
         if controls.get(control.name, control.rest_value) != control.rest_value:
@@ -110,7 +111,7 @@ def fingers_at_work(
 def stations_of_notes(
     instrument: InstrumentMap, notes: Iterable[tuple[Mapping[str, float], Mapping[str, str]]]
 ) -> dict[str, IndexArray]:
-    """Which of its stations each finger works in each note (N,), by finger; -1 where it works nothing.
+    """Return which of its stations each finger works in each note (N,), by finger; -1 where it works nothing.
 
     Parameters
     ----------
@@ -181,7 +182,7 @@ def _only_at(contacts: tuple[Contact, ...], controls: tuple[Control, ...]) -> tu
 
 
 def hover_m(station: Station, instrument: InstrumentMap) -> float:
-    """How high a finger waits over its station; 0 where it stays on what it works."""
+    """Return how high a finger waits over its station; 0 where it stays on what it works."""
     return max((instrument.control(name).hover_m for name in station.controls), default=0.0)
 
 
@@ -193,7 +194,8 @@ def height_share(control: Control, values: npt.ArrayLike) -> FloatArray:
 
 
 def aside_m(contact: Contact, instrument: InstrumentMap, values: npt.ArrayLike) -> FloatArray:
-    """How far (F, 3) a finger lies off its touch point in the instrument's frame: aside on a hole that is half closed.
+    """Return how far (F, 3) a finger lies off its touch point in the instrument's frame: aside on a hole that is half
+    closed.
 
     Aside is towards wrist or palm, along the surface.
     """

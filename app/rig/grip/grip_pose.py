@@ -346,12 +346,12 @@ def giving_for(finger: str) -> str:
 
 
 def given_way(lean: WristOffset, placed: Mapping[str, StationBlend] | None) -> FloatArray | None:
-    """How far (F,) a hand gives way, 0..1; None where it never does."""
+    """Return how far (F,) a hand gives way, 0..1; None where it never does."""
     return _all_at(lean, placed, [giving_for(finger) for finger, _ in lean.places])
 
 
 def come_to(lean: WristOffset, placed: Mapping[str, StationBlend] | None) -> FloatArray | None:
-    """How far (F,) fingers have come to where their hand gives way for them, 0..1; None where they never do."""
+    """Return how far (F,) fingers have come to where their hand gives way for them, 0..1; None where they never do."""
     return _all_at(lean, placed, [finger for finger, _ in lean.places])
 
 
@@ -367,7 +367,7 @@ def _all_at(lean: WristOffset, placed: Mapping[str, StationBlend] | None, names:
 
 
 def _share_at(where: StationBlend, station: int) -> FloatArray | None:
-    """How far (F,) a finger is at one of its stations, 0..1; None where it never is."""
+    """Return how far (F,) a finger is at one of its stations, 0..1; None where it never is."""
     weight: FloatArray = (where.after == station) * where.share + (where.before == station) * (1.0 - where.share)
     return weight if np.any(weight) else None
 

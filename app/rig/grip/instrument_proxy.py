@@ -120,7 +120,7 @@ class InstrumentNodes(NamedTuple):
 def inside(
     some: Bodies, nodes: InstrumentNodes, points_m: FloatArray, radius_m: FloatArray
 ) -> tuple[FloatArray, IndexArray]:
-    """How deep balls reach into the union.
+    """Return how deep balls reach into the union.
 
     Parameters
     ----------

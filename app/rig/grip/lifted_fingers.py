@@ -60,12 +60,12 @@ class _Finger:
         return result
 
     def bent_rad(self, rotation: FloatArray, joint: int) -> float:
-        """How far a joint (4,) is bent."""
+        """Return how far a joint (4,) is bent."""
         swing, _ = quaternion.swing_twist(rotation, self.twist[joint])
         return float(quaternion.to_rotation_vector(swing) @ self.flexion[joint])
 
     def spread_rad(self, rotations: FloatArray) -> float:
-        """How far the knuckle (S, 4) is turned sideways at most."""
+        """Return how far the knuckle (S, 4) is turned sideways at most."""
         swing, _ = quaternion.swing_twist(rotations, self.twist[0])
         sideways = np.cross(self.flexion[0], self.twist[0])
         return float(np.abs(quaternion.to_rotation_vector(swing) @ sideways).max())

@@ -41,7 +41,7 @@ MOUTH_M = (0.0, -0.031, 0.104)
 WIDER = (1.0, 2.0, 4.0)
 """Of few vertices, those so much further off the middle are looked at."""
 ROUNDS = 3
-"""How often the edges are found anew with the jaw that they ask for; they have settled after two."""
+"""How often the edges are found again with the jaw that they ask for; they have settled after two."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -111,7 +111,7 @@ def fit_lips(character: Character, instrument_map: InstrumentMap, body: Body) ->
         }
         jaw = mouth.jaw
         if embouchure.lips_apart_m > 0.0:
-            # Whatever the face's weights are: a hold is not fitted anew for them.
+            # Whatever the face's weights are: a hold is not fitted again for them.
             usual_m = _in_head(character, character.landmarks["lips.contact"])[0] - 0.5 * embouchure.lips_apart_m * up
     return Lips(
         contact_rest_m=contact_m,

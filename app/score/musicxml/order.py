@@ -103,7 +103,7 @@ class _Player:
         return self.turn in group.numbers
 
     def _after(self, place: int, bar: Bar) -> int | None:
-        """Where it goes on after a measure; None: it ends there."""
+        """Return where it goes on after a measure; None: it ends there."""
         if bar.backward and (not self.jumped or bar.after_jump):
             if self.turn < self._times(place, bar):
                 self.turn += 1
@@ -127,7 +127,7 @@ class _Player:
         return place + 1
 
     def _times(self, place: int, bar: Bar) -> int:
-        """How often a section is played that ends at a measure."""
+        """Return how often a section is played that ends at a measure."""
         group = self.groups[place]
         if group is None:
             return bar.backward

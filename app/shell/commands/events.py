@@ -52,8 +52,8 @@ def _playhead_tick(session: Session) -> int:
 
 
 def _places(session: Session) -> list[tuple[PlayerPlan, int]]:
-    """Where something is added: before the first selected note of each player, else at the playhead of the one in
-    front."""
+    """Return where something is added: before the first selected note of each player, else at the playhead of the one
+    in front."""
     found = [(player.id, notes[0].onset_tick) for player, notes in notes_by_player(session).items()]
     if not found and session.player is not None:
         found = [(session.player.id, _playhead_tick(session))]

@@ -65,7 +65,7 @@ def type_fingering(session: Session, sign: str, now_s: float | None = None) -> N
         for note in found
     ]
     if not any(_holds(label, typed.text + sign) for known in labels for label in known):
-        # Not the continuation of what came before: it begins anew.
+        # Not the continuation of what came before: it begins again.
         typed.text, typed.gesture = "", object()
     typed.text += sign
     pins: dict[str, dict[str, str]] = {}

@@ -12,13 +12,13 @@ LOST = "correction.orphaned"
 
 
 def vary_everyone(session: Session) -> None:
-    """Let everyone perform anew; what was corrected by hand stays."""
+    """Let everyone perform again; what was corrected by hand stays."""
     if session.attempt(Message("edit.vary_everyone"), generation.vary_everyone):
         _report(session, tuple(player.id for player in session.project.players))
 
 
 def vary_players(session: Session) -> None:
-    """Let the selected players perform anew; what was corrected by hand stays."""
+    """Let the selected players perform again; what was corrected by hand stays."""
     chosen = session.players
     name = Message("edit.vary_players", {"count": len(chosen)})
     if session.attempt(name, lambda project: generation.vary_players(project, chosen)):
@@ -26,7 +26,7 @@ def vary_players(session: Session) -> None:
 
 
 def vary_bars(session: Session) -> None:
-    """Let the selected players perform the selected bars anew; what was corrected by hand stays."""
+    """Let the selected players perform the selected bars again; what was corrected by hand stays."""
     chosen, span = session.players, selected_ticks(session)
     if span is None:
         return

@@ -100,7 +100,7 @@ def _touched(character: Character, instrument: InstrumentMap) -> tuple[Instrumen
 
 
 def _of(contact: Contact, side: str) -> str:
-    """Which finger of a hand a contact is with; empty where none."""
+    """Return which finger of a hand a contact is with; empty where none."""
     hand, _, rest = contact.part.partition(".")
     return rest.partition(".")[0] if hand == side else ""
 
@@ -163,7 +163,7 @@ def _carried(
 
 
 def _hands(character: Character) -> float:
-    """How large the hands are; of supplied ones, which are not shown, how long the arms are."""
+    """Return how large the hands are; of supplied ones, which are not shown, how long the arms are."""
     skeleton, own = character.skeleton, character.own
     if own is not None and any(
         own.bone_of_joint[skeleton.index(f"{side}MiddleDistal")] < 0 for side in ("left", "right")
@@ -196,7 +196,7 @@ def _asked(
     stand: Upright,
     sizes: FloatArray,
 ) -> FloatArray:
-    """How much of what an arm can do each size (S,) asks of it; where it is beyond 1 the hand is not reached.
+    """Return how much of what an arm can do each size (S,) asks of it; where it is beyond 1 the hand is not reached.
 
     The palm lies where an adult's does, if any character's hold is known, else where its seed is.
     """

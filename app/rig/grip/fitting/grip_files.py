@@ -43,7 +43,7 @@ DIGITS = 6
 class _StoredHold(msgspec.Struct, frozen=True):
     """What is slow to fit; the lips are not, and they follow the face's weights, which the hands do not.
 
-    Files of older versions hold more, which is passed over: to fit a hold anew takes a minute.
+    Files of older versions hold more, which is passed over: to fit a hold again takes a minute.
     """
 
     digest: str
@@ -101,14 +101,14 @@ def _untimed(control: Control) -> Control:
 
 
 def bundled_path(character_id: str, instrument_id: str) -> Path:
-    """Where the hold of a bundled pair lies in this installation."""
+    """Return where the hold of a bundled pair lies in this installation."""
     return Path(str(files("resources"))) / "holds" / f"{character_id}.{instrument_id}.json"
 
 
 @lru_cache(maxsize=128)
 def usual_wrists(instrument_id: str) -> Mapping[str, tuple[FloatArray, FloatArray]]:
-    """Where the wrists of one of our bodies are on an instrument, by side: place (3,) and rotation (4,) in its frame.
-    Empty for an instrument that none of them holds yet."""
+    """Return where the wrists of one of our bodies are on an instrument, by side: place (3,) and rotation (4,) in its
+    frame. Empty for an instrument that none of them holds yet."""
     for path in sorted(bundled_path("*", instrument_id).parent.glob(f"*.{instrument_id}.json")):
         with contextlib.suppress(FileError):
             kept = _read(path)

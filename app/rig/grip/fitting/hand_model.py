@@ -221,7 +221,8 @@ def hand_model(character: Character, side: Side, body: Body, profile: SkeletonPr
 
 
 def _carrier_table(character: Character, joints: Sequence[int], elbow: int) -> IndexArray:
-    """Which of the 17 carriers stands for each joint of the skeleton: the nearest one above, else the forearm."""
+    """Return which of the 17 carriers stands for each joint of the skeleton: the nearest one above, else the
+    forearm."""
     place = {joint: index for index, joint in enumerate(joints)}
     table = np.full(len(character.skeleton.names), 16, dtype=np.intp)
     for joint in range(len(table)):

@@ -293,7 +293,7 @@ def _bounds(problem: HandProblem) -> tuple[FloatArray, FloatArray]:
 
 
 def _order(problem: HandProblem) -> list[int]:
-    """Which of the angles each parameter from the eighth on is."""
+    """Return which of the angles each parameter from the eighth on is."""
     elsewhere = [i for one in problem.elsewhere for i in finger_dofs(problem, one.number)]
     return [*range(len(problem.dofs)), *worked_dofs(problem), *elsewhere]
 

@@ -147,7 +147,7 @@ def solved_about(
 
 
 def missed_m(problem: HandProblem, scene: GripScene, one: Solved) -> float:
-    """How far a finger stays from its touch points while what it works is fully worked."""
+    """Return how far a finger stays from its touch points while what it works is fully worked."""
     if not one.station.contacts:
         return 0.0
     values = one.values[-1:]

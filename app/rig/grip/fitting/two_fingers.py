@@ -54,7 +54,7 @@ class _Pair:
         return wrist_given(self.hand, [*given, *extra])
 
     def missed_m(self, x: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """How far (B, fingers, 3) fingers, and (B, N, 3) palm and web, are from their places."""
+        """Return how far (B, fingers, 3) fingers, and (B, N, 3) palm and web, are from their places."""
         wrist = self.wrist(x)
         fingers = [_missed(self.hand, table, self.stations.get(table.finger, 0), wrist) for table in self.tables]
         home_m, home = wrist_given(self.hand, [])
@@ -120,7 +120,8 @@ def leans_beside(
 
 
 def _missed(hand: HandHold, table: FingerTable, index: int, wrist: tuple[FloatArray, FloatArray]) -> FloatArray:
-    """How far (B, 3) a finger is from its place, in the instrument's frame, with what it works there fully worked."""
+    """Return how far (B, 3) a finger is from its place, in the instrument's frame, with what it works there fully
+    worked."""
     station = table.stations[index]
     own = wrist_given(hand, [(one, np.ones(1)) for one in hand.leans if one.places == ((table.finger, index),)])
     requested = own[0] + quaternion.rotate(own[1], tip_m(table, station, station.rotations[-1:]))
