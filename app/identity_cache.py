@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections import OrderedDict
 from collections.abc import Callable
 from threading import Lock
-from typing import Generic, TypeVar, TypeVarTuple
+from typing import Concatenate, Generic, ParamSpec, TypeVar
 
 V = TypeVar("V")
 Help = TypeVar("Help")
-Inputs = TypeVarTuple("Inputs")
+Inputs = ParamSpec("Inputs")
 
 
 class IdentityCache(Generic[V]):
@@ -26,40 +26,59 @@ class IdentityCache(Generic[V]):
 
     def __init__(self, size: int) -> None:
         self._size = size
-        self._kept: OrderedDict[tuple[int, ...], tuple[tuple[object, ...], V]] = OrderedDict()
+        self._kept: OrderedDict[tuple[int | str, ...], tuple[tuple[object, ...], V]] = OrderedDict()
         self._lock = Lock()
 
     def has(self, *inputs: object) -> bool:
         """Return whether the result for these inputs is there."""
         with self._lock:
-            return tuple(map(id, inputs)) in self._kept
+            return _identity(inputs, {}) in self._kept
 
-    def step(self, function: Callable[[*Inputs], V], *inputs: *Inputs) -> V:
-        """``function(*inputs)``, made if it is not there.
+    def step(self, function: Callable[Inputs, V], *inputs: Inputs.args, **named: Inputs.kwargs) -> V:
+        """``function(*inputs, **named)``, made if it is not there.
 
         Parameters
         ----------
         function : callable
             Of its arguments alone. One that closes over anything else is refused: the key would not know of it.
         """
-        return self._step(function, (), inputs)
+        return self._step(function, (), inputs, named)
 
-    def helped(self, function: Callable[[Help, *Inputs], V], help: Help, *inputs: *Inputs) -> V:
-        """``function(help, *inputs)``, where ``help`` only saves or shows work: the result is the same with any."""
-        return self._step(function, (help,), inputs)
+    def helped(
+        self,
+        function: Callable[Concatenate[Help, Inputs], V],
+        help: Help,
+        *inputs: Inputs.args,
+        **named: Inputs.kwargs,
+    ) -> V:
+        """``function(help, *inputs, **named)``, where ``help`` only saves or shows work: the result is the same with
+        any."""
+        return self._step(function, (help,), inputs, named)
 
-    def _step(self, function: Callable[..., V], given: tuple[object, ...], inputs: tuple[object, ...]) -> V:
+    def _step(
+        self,
+        function: Callable[..., V],
+        given: tuple[object, ...],
+        inputs: tuple[object, ...],
+        named: dict[str, object],
+    ) -> V:
         if getattr(function, "__closure__", None):
             raise TypeError(f"{function!r} reads more than its arguments")
-        identity = tuple(map(id, inputs))
+        identity = _identity(inputs, named)
         with self._lock:
             if identity in self._kept:
                 self._kept.move_to_end(identity)
                 return self._kept[identity][1]
         # Made outside the lock: two threads may make the same result, none waits for another's.
-        value = function(*given, *inputs)
+        value = function(*given, *inputs, **named)
         with self._lock:
-            self._kept[identity] = (inputs, value)
+            self._kept[identity] = ((*inputs, *named.values()), value)
             while len(self._kept) > self._size:
                 self._kept.popitem(last=False)
         return value
+
+
+def _identity(inputs: tuple[object, ...], named: dict[str, object]) -> tuple[int | str, ...]:
+    if not named:
+        return tuple(map(id, inputs))
+    return (*map(id, inputs), *(part for name in sorted(named) for part in (name, id(named[name]))))

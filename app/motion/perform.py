@@ -68,6 +68,11 @@ class CurveSteps(NamedTuple):
         tables = (FACE, LAYERS, GAZE, FINGERS)
         return cls(*(table.begin(one, **given) for table, one in zip(tables, before or (None,) * 4, strict=True)))
 
+    def close(self) -> None:
+        """Forget the run before."""
+        for results in self:
+            results.close()
+
 
 @dataclass(frozen=True, eq=False)
 class PerformanceCurves:
@@ -327,34 +332,19 @@ def prepare(
 ) -> PerformanceCurves:
     """Make a plan ready to be seen.
 
-    Parameters set amplitude, posture, seed and the sizes of single layers; ``hold`` is fitted for this character and
-    instrument, ``body`` has sizes, limits and postures; a rest as long as a felt beat brings controls back to rest;
-    the expressions are the bundled ones where none are given.
-
-    Curves of what is as it was in ``before`` (the player prior to an edit) are taken from there. ``dance`` is added to
-    the body by the parameters' amount, and takes the place of as much of the generated sway and shift of weight.
+    Parameters set amplitude, posture, seed and the sizes of layers; ``hold`` is fitted for this character and
+    instrument; a rest as long as a felt beat brings controls back to rest; expressions are the bundled ones by default.
+    Curves that are as in ``before`` (the player prior to an edit) are taken from there. ``dance`` is added to the body
+    by the parameters' amount, and takes the place of as much of the generated sway and shift of weight.
     """
     known = load_expressions() if expressions is None else expressions
     carriage = instrument_map.hold.carriage(parameters.posture)
-    if parameters.dance_amount == 0.0:
-        dance = None
-    most = most_shown(plan.styles, acting_of(parameters))
-    acting = shown_by(parameters, carriage, most, dancing=dance is not None)
+    dance = None if parameters.dance_amount == 0.0 else dance
+    shown = most_shown(plan.styles, acting_of(parameters))
+    acting = shown_by(parameters, carriage, shown, dancing=dance is not None)
     parameters = limited_to_carriage(parameters, carriage)
-    posture = carrying(body, instrument_map.hold.possible(parameters.posture), carriage)
     player = player_body(parameters, instrument_map, character, hold, body)
-    steps = CurveSteps.begin(
-        None if before is None else before.steps,
-        plan=plan,
-        embouchure_tension=parameters.embouchure_tension,
-        face_motion=body.face,
-        lungs=Lungs.of(parameters, instrument_map.air),
-        body=body,
-        felt_beats=felt_beats,
-        watching=Watching(parameters.seed, acting.gaze, acting.blink),
-        instrument=instrument_map,
-        farthest=player.farthest,
-    )
+    steps = _steps_of(plan, parameters, acting, player, instrument_map, body, felt_beats=felt_beats, before=before)
     face, fingers = steps.face.of(FaceCurves), steps.fingers.of(fingers_of)
     made = PerformanceCurves(
         plan=plan,
@@ -362,7 +352,7 @@ def prepare(
         felt_beats=felt_beats,
         parameters=parameters,
         acting=acting,
-        posture=posture,
+        posture=carrying(body, instrument_map.hold.possible(parameters.posture), carriage),
         body=body,
         expressions={name: known[name] for name in face.expressions},
         player=player,
@@ -378,6 +368,31 @@ def prepare(
         additive=steps.fingers.of(Additive.of),
         steps=steps,
     )
-    for results in steps:
-        results.close()
+    steps.close()
     return made
+
+
+def _steps_of(
+    plan: PlayerPlan,
+    parameters: PlayerParameters,
+    acting: Acting,
+    player: PlayerBody,
+    instrument_map: InstrumentMap,
+    body: Body,
+    *,
+    felt_beats: FeltBeats,
+    before: PerformanceCurves | None,
+) -> CurveSteps:
+    """Begin the steps that make the curves, after those of the curves before."""
+    return CurveSteps.begin(
+        None if before is None else before.steps,
+        plan=plan,
+        embouchure_tension=parameters.embouchure_tension,
+        face_motion=body.face,
+        lungs=Lungs.of(parameters, instrument_map.air),
+        body=body,
+        felt_beats=felt_beats,
+        watching=Watching(parameters.seed, acting.gaze, acting.blink),
+        instrument=instrument_map,
+        farthest=player.farthest,
+    )

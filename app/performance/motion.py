@@ -70,12 +70,21 @@ def _alone(
 ) -> PerformanceCurves:
     """A player's plan made ready to be seen, as if the musician played nothing else."""
     player, plan = performer.player, performance.plan(performer.player)
-    instrument, character, hold, body = performer.instrument, performer.character, performer.hold, performer.body
     dance = layer_of(performance, player) if danced and player.parameters.choreography else None
     parameters = performance.parameters(player)
     felt_beats, expressions = _same(performance.piece.metre_map.felt_beats), performance.expressions
     return _PLAYING.helped(
-        _prepared, before, plan, parameters, instrument, character, hold, body, felt_beats, expressions, dance
+        _prepared,
+        before,
+        plan,
+        parameters,
+        performer.instrument,
+        performer.character,
+        performer.hold,
+        performer.body,
+        felt_beats=felt_beats,
+        expressions=expressions,
+        dance=dance,
     )
 
 
@@ -87,6 +96,7 @@ def _prepared(
     character: Character,
     hold: GripPose,
     body: Body,
+    *,
     felt_beats: FeltBeats,
     expressions: Mapping[str, Expression],
     dance: BodyLayer | None,

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections import Counter
 from collections.abc import Callable, Mapping
+from itertools import chain
 from typing import Final, NamedTuple
 
 import msgspec
@@ -105,6 +105,12 @@ class EnsemblePlan(NamedTuple):
     among: dict[str, StepResults]
     players: dict[str, StepResults]
 
+    def close(self) -> None:
+        """Forget the runs before."""
+        tables = self.lines, self.shared_lines, self.among, self.players
+        for results in (self.shared, *chain.from_iterable(table.values() for table in tables)):
+            results.close()
+
 
 def make_plans(
     piece: Piece,
@@ -137,12 +143,8 @@ def plan_ensemble(
     ----------
     frame : TimeFrame
         From `time_frame` (or a longer one).
-    seed : int
-        Of the whole performance; players and score positions are added to it.
-    expressions, gestures : mapping, optional
-        What rules and the animator may name: at least the bundled ones, which are the default.
-    rules : tuple of Rule, optional
-        What players show and do by rules; the bundled ones by default.
+    expressions, rules, gestures : optional
+        What players show and do by rules, and what rules and the animator may name: the bundled ones by default.
     places : mapping of str to StagePlace, optional
         Where each player stands, and under `CONDUCTOR` who gives the entries; who has no place looks at no one.
     before : EnsemblePlan, optional
@@ -155,9 +157,9 @@ def plan_ensemble(
     Cancelled
         ``stop_requested`` said so.
     """
-    everyone: dict[str, object] = {
-        "frame": frame,
-        "seed": seed,
+    known = _NO_ENSEMBLE if before is None else before
+    everyone: dict[str, object] = {"piece": piece, "frame": frame, "seed": seed, "stage": places or {}}
+    everyone |= {
         "faces": load_expressions() if expressions is None else expressions,
         "rules": bundled_rules() if rules is None else rules,
         "known_gestures": bundled_gestures() if gestures is None else gestures,
@@ -165,59 +167,65 @@ def plan_ensemble(
     playable: dict[str, StepResults] = {}
     for line in lines:
         raise_if_stopped(stop_requested)
-        known = None if before is None else before.lines.get(line.player_id)
-        playable[line.player_id] = LINE.begin(known, piece=piece, **everyone, **_fields(line))
-    all_times = tuple(results.of(note_times) for results in playable.values())
-    shared = ENSEMBLE.begin(
-        None if before is None else before.shared,
-        piece=piece,
-        frame=frame,
-        all_times=all_times,
-        leading=tuple(results.of(_leading) for results in playable.values()),
-        musicians=tuple(line.musician or line.player_id for line in lines),
-        conducted=places is not None and CONDUCTOR in places,
-    )
-    everyone |= {name: shared[name] for name in ("piece_felt", "fermatas", "cue_events", "cue_ids", "pulse", "last_s")}
-    everyone |= {"piece": everyone.pop("piece_felt"), "piece_ending": shared.of(ending_of)}
-    shared_lines: dict[str, StepResults] = {}
-    for player_id, results in playable.items():
-        known = None if before is None else before.shared_lines.get(player_id)
-        shared_lines[player_id] = SHARED_LINE.begin(known, piece=everyone["piece"], times=results.of(note_times))
-    together = [results.of(shared_line) for results in shared_lines.values()]
-    musicians = Counter(line.musician or line.player_id for line in lines)
-    amongst: dict[str, StepResults] = {}
-    players: dict[str, StepResults] = {}
+        playable[line.player_id] = LINE.begin(known.lines.get(line.player_id), **everyone, **_fields(line))
+    shared = _shared_by_all(lines, playable, everyone, known)
+    everyone |= {name: shared[name] for name in ("fermatas", "cue_events", "cue_ids", "pulse", "last_s")}
+    everyone |= {"piece": shared["piece_felt"], "piece_ending": shared["ending"]}
+    apart = {
+        player_id: SHARED_LINE.begin(known.shared_lines.get(player_id), **everyone, times=results.of(note_times))
+        for player_id, results in playable.items()
+    }
+    made = EnsemblePlan({}, shared, playable, apart, {}, {})
     for done, line in enumerate(lines):
         raise_if_stopped(stop_requested)
-        results = playable[line.player_id]
-        among = AMONG_OTHERS.begin(
-            None if before is None else before.among.get(line.player_id),
-            **everyone,
-            player_id=line.player_id,
-            times=all_times[done],
-            shared_line=together[done],
-            others=(*together[:done], *together[done + 1 :]),
-            breathed=tuple(one.of(breathed_of) for one in players.values()),
-            stage={} if places is None else places,
-        )
-        amongst[line.player_id] = among
-        players[line.player_id] = PLAYER.begin(
-            None if before is None else before.players.get(line.player_id),
-            **everyone,
-            **_fields(line) | {"notes": results["played_notes"], "corrections": results["sound_corrections"]},
-            **{name: among[name] for name in AMONG_OTHERS.functions},
-            times=all_times[done],
-            reported=results["reported"],
-            written=results.of(written_marks),
-            shared_line=together[done],
-            alone=musicians[line.musician or line.player_id] == 1,
-        )
-        players[line.player_id].of(PlayerPlan)
+        _plan_player(made, line, everyone, known)
         progress((done + 1) / len(lines))
-    for made in (shared, *playable.values(), *shared_lines.values(), *amongst.values(), *players.values()):
-        made.close()
-    plans = {player_id: results.of(PlayerPlan) for player_id, results in players.items()}
-    return EnsemblePlan(plans, shared, playable, shared_lines, amongst, players)
+    made.close()
+    return made
+
+
+def _shared_by_all(
+    lines: tuple[MonophonicPart, ...],
+    playable: Mapping[str, StepResults],
+    everyone: Mapping[str, object],
+    known: EnsemblePlan,
+) -> StepResults:
+    """Begin the steps that concern all players."""
+    stage = everyone["stage"]
+    assert isinstance(stage, Mapping)
+    return ENSEMBLE.begin(
+        known.shared,
+        **everyone,
+        all_times=tuple(results.of(note_times) for results in playable.values()),
+        leading=tuple(results.of(_leading) for results in playable.values()),
+        musicians=tuple(line.musician or line.player_id for line in lines),
+        conducted=CONDUCTOR in stage,
+    )
+
+
+def _plan_player(made: EnsemblePlan, line: MonophonicPart, everyone: Mapping[str, object], known: EnsemblePlan) -> None:
+    """Plan a player after those whose plans are made."""
+    player_id, musicians = line.player_id, made.shared["musicians"]
+    results, together = made.lines[player_id], {id: one.of(shared_line) for id, one in made.shared_lines.items()}
+    own: dict[str, object] = {**everyone, "times": results.of(note_times), "shared_line": together.pop(player_id)}
+    among = AMONG_OTHERS.begin(
+        known.among.get(player_id),
+        **own,
+        player_id=player_id,
+        others=tuple(together.values()),
+        breathed=tuple(one.of(breathed_of) for one in made.players.values()),
+    )
+    made.among[player_id] = among
+    made.players[player_id] = PLAYER.begin(
+        known.players.get(player_id),
+        **own,
+        **_fields(line) | {"notes": results["played_notes"], "corrections": results["sound_corrections"]},
+        **{name: among[name] for name in AMONG_OTHERS.functions},
+        reported=results["reported"],
+        written=results.of(written_marks),
+        alone=musicians.count(line.musician or player_id) == 1,
+    )
+    made.plans[player_id] = made.players[player_id].of(PlayerPlan)
 
 
 def _fields(line: MonophonicPart) -> dict[str, object]:
@@ -300,3 +308,4 @@ ENSEMBLE: Final = StepTable(
     last_s=_last_s,
 )
 """The steps that concern all players; given are the piece, every line's times, and what of it cues depend on."""
+_NO_ENSEMBLE: Final = EnsemblePlan({}, StepResults(ENSEMBLE, {}, None), {}, {}, {}, {})

@@ -126,16 +126,7 @@ def plan_by_rules(
             continue
         if rule.when.moment is not None:
             continue
-        here = matches(rule.when, facts)
-        here[here] = by_chance(rule, times.onset_tick[here], seeds)
-        if styles and rule.when.styles:
-            here &= np.array([style in rule.when.styles for style in played_in])
-        if styles and rule.when.not_styles:
-            here &= np.array([style not in rule.when.not_styles for style in played_in])
-        sizes = rule.do.strength * growth_of(rule, facts)
-        if rule.do.scaled_by == "puff":
-            sizes = sizes * instrument.embouchure.puff
-        found = np.flatnonzero(here & (sizes > 0.0))
+        found, sizes = _where(line, rule, played_in if styles else ())
         if not len(found):
             continue
         if rule.do.expression:
@@ -150,6 +141,20 @@ def plan_by_rules(
         tuple(sorted(made, key=lambda event: (event.start_s, event.id))),
         tuple(problems),
     )
+
+
+def _where(line: _Line, rule: Rule, played_in: Sequence[str]) -> tuple[IntArray, FloatArray]:
+    """At which notes a rule holds, and (N,) how much; ``played_in`` are the notes' styles where there are several."""
+    here, when = matches(rule.when, line.facts), rule.when
+    here[here] = by_chance(rule, line.times.onset_tick[here], line.seeds)
+    if played_in and when.styles:
+        here &= np.array([style in when.styles for style in played_in])
+    if played_in and when.not_styles:
+        here &= np.array([style not in when.not_styles for style in played_in])
+    sizes = rule.do.strength * growth_of(rule, line.facts)
+    if rule.do.scaled_by == "puff":
+        sizes = sizes * line.instrument.embouchure.puff
+    return np.flatnonzero(here & (sizes > 0.0)), sizes
 
 
 def in_order(event: ExpressionEvent) -> tuple[float, bool, str]:

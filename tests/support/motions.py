@@ -48,13 +48,13 @@ class _Prepared(IdentityCache[PerformanceCurves]):
         super().__init__(size)
         self._plans = plans
 
-    def helped(self, function: Any, help: Any, *inputs: Any) -> Any:  # type: ignore[override]
+    def helped(self, function: Any, help: Any, *inputs: Any, **named: Any) -> Any:
         """As of any other cache."""
         if any(inputs[0] is plan for plan in self._plans()):
-            made = _CURVES.helped(function, help, *inputs)
+            made = _CURVES.helped(function, help, *inputs, **named)
             _KNOWN.setdefault(made, _Known())
             return made
-        return super().helped(function, help, *inputs)
+        return super().helped(function, help, *inputs, **named)
 
 
 def know_motion(monkeypatch: pytest.MonkeyPatch, plans: Callable[[], Collection[PlayerPlan]]) -> None:

@@ -64,8 +64,8 @@ def body_motion(
     aside_rad = _hold_posture(total, sizes.posture, lowered)
     angles = Angles.of(levels, sizes, times_s, wandering)
     angles.add_to(total)
-    for add, name in ((total.left, "head_side"), (total.turn, "head_turn")):
-        add(NECK_SHARES, np.deg2rad(sizes.wander(name, body.sway.head_deg, times_s, wandering)))
+    total.left(NECK_SHARES, _wandering_rad("head_side", sizes, times_s, wandering))
+    total.turn(NECK_SHARES, _wandering_rad("head_turn", sizes, times_s, wandering))
     shoulders, elbows = _breathe(total, levels, sizes)
     bell_cue_rad = _give_cue(total, levels, sizes)
     bell_up = _raise_bell(total, levels, sizes)
@@ -78,13 +78,11 @@ def body_motion(
     total.turn(TRUNK_SHARES, body.concert.look_trunk_share * lowered * 0.5 * look.head_yaw_rad)
     feet = feet_moved(levels.feet, body, amplitude, acting.footwork, steps=steps)
     held = with_gestures(levels.held, levels.gestured, amplitude, shown)
-    forward_rad, left_rad, turn_rad = total.all()
-    hold_body(held, body, forward_rad, left_rad, turn_rad)
+    spine = total.all()
+    hold_body(held, body, *spine)
     down = acting.phrase * levels.accent.hips
     return BodyMotion(
-        forward_rad=forward_rad,
-        left_rad=left_rad,
-        turn_rad=turn_rad,
+        *spine,
         hips_side_m=_aside_m(levels, sizes, steps, times_s, uneasy),
         hips_ahead_m=_ahead_m(levels, sizes, feet, times_s, uneasy) - done.back_m,
         hips_bob_m=np.maximum(down, 0.0) * sizes.of(body.sway.bob_m),
@@ -108,6 +106,11 @@ def body_motion(
         feet=feet,
         hands=hands,
     )
+
+
+def _wandering_rad(name: str, sizes: Sizes, times_s: FloatArray, share: FloatArray | float) -> FloatArray:
+    """Return how far the head goes of itself."""
+    return np.deg2rad(sizes.wander(name, sizes.body.sway.head_deg, times_s, share))
 
 
 def _breathe(total: Sum, levels: LayerSamples, sizes: Sizes) -> tuple[FloatArray, FloatArray]:

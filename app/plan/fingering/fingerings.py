@@ -11,12 +11,13 @@ Messages: ``fingering.first_choice``, ``fingering.trill``, ``fingering.speed``, 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from functools import lru_cache
 
 import msgspec
 import numpy as np
 
 from app.arrays import IntArray
-from app.errors import Message
+from app.errors import Argument, Message
 from app.plan.fingering.mutes import stopped_notes
 from app.plan.fingering.search import (
     TOLERANCE,
@@ -53,51 +54,30 @@ def plan_fingerings(
     """
     if not notes:
         return Planned((), ())
-    by_hand = stopped_notes(notes, stopped, instrument)
-    problem = fingering_problem(notes, times, instrument, pins, by_hand)
+    problem = fingering_problem(notes, times, instrument, pins, by_hand := stopped_notes(notes, stopped, instrument))
     path = never_worse(problem, even_trills(problem, best_path(problem)))
     events = []
     problems: list[Problem] = []
-    reasons: dict[tuple[str, str, str, int], Message] = {}
     shortest_s, in_trill = _shortest_steps(problem)
-    corrected: dict[tuple[int, int, tuple[str, ...]], dict[str, float]] = {}
-    held = [
-        (control.name, control.held_min_s or 0.0) for control in instrument.controls if control.role == "intonation"
-    ]
     attacks = {control.name: control.attack_s for control in instrument.controls if control.attack_s is not None}
     onset_tick, end_tick = times.onset_tick.tolist(), times.played_end_tick.tolist()
     onset_s, end_s = times.onset_s.tolist(), times.played_end_s.tolist()
-    rows, columns = problem.pitch_index.tolist(), path.tolist()
+    chosen = list(zip(problem.pitch_index.tolist(), path.tolist(), strict=True))
+    controls = _controls(problem, chosen, instrument)
     for index, note in enumerate(notes):
-        ranked = problem.table.choices[rows[index]]
-        fingering = ranked[columns[index]]
-        pinned = bool(pins) and note.id in pins
-        if pinned and pins[note.id] != fingering.label:
+        ranked = problem.table.choices[chosen[index][0]]
+        fingering = ranked[chosen[index][1]]
+        pinned = pins.get(note.id) == fingering.label
+        if note.id in pins and not pinned:
             message = Message("correction.no_such_fingering", {"note": note.id, "label": pins[note.id]})
             problems.append(Problem(message, note.id, onset_s[index], end_s[index]))
-            pinned = False
-        controls = fingering.controls
-        if fingering.correction:
-            length_s = end_s[index] - onset_s[index]
-            extra = tuple([name for name, minimum in held if length_s >= minimum and name in fingering.correction])
-            place = rows[index], columns[index], extra
-            if place not in corrected:
-                corrected[place] = {**controls, **{name: fingering.correction[name] for name in extra}}
-            controls = corrected[place]
-        if pinned:
-            reason = Message("fingering.by_hand", {"label": fingering.label})
-        elif by_hand[index]:
-            reason = Message("fingering.stopped", {"label": fingering.label})
+        if pinned or by_hand[index]:
+            reason = _reason("fingering.by_hand" if pinned else "fingering.stopped", fingering.label)
+        elif fingering.rank <= 1:
+            reason = _reason("fingering.first_choice", fingering.label)
         else:
-            rule, first, time_ms = "fingering.first_choice", fingering.label, 0
-            if fingering.rank > 1:
-                rule = "fingering.trill" if in_trill[index] else "fingering.speed"
-                first, time_ms = ranked[0].label, round(shortest_s[index] * 1000.0)
-            kind = rule, fingering.label, first, time_ms
-            if kind not in reasons:
-                more = {"first": first, "time_ms": time_ms} if fingering.rank > 1 else {}
-                reasons[kind] = Message(rule, {"label": fingering.label, **more})
-            reason = reasons[kind]
+            rule = "fingering.trill" if in_trill[index] else "fingering.speed"
+            reason = _reason(rule, fingering.label, (ranked[0].label, round(shortest_s[index] * 1000.0)))
         event = FingeringEvent(
             id=f"fingering:{note.id}",
             note_id=note.id,
@@ -107,16 +87,44 @@ def plan_fingerings(
             end_s=end_s[index],
             label=fingering.label,
             rank=fingering.rank,
-            controls=controls,
+            controls=controls[index],
             cents=fingering.cents,
             reason=reason,
             corrected=pinned,
             fingers=fingering.fingers,
         )
         events.append(_vented(event, ranked, attacks) if "attack" in fingering.tags and not pinned else event)
-    problems += _out_of_range(notes, times, instrument)
-    problems += _early_starts(notes, problem, path)
+    problems += [*_out_of_range(notes, times, instrument), *_early_starts(notes, problem, path)]
     return Planned(tuple(events), tuple(problems))
+
+
+def _controls(
+    problem: FingeringProblem, chosen: Sequence[tuple[int, int]], instrument: InstrumentMap
+) -> list[dict[str, float]]:
+    """The controls of every note: of a chosen fingering, by pitch and rank, and what tunes it where it lasts."""
+    held = [
+        (control.name, control.held_min_s or 0.0) for control in instrument.controls if control.role == "intonation"
+    ]
+    lengths_s = (problem.times.played_end_s - problem.times.onset_s).tolist()
+    corrected: dict[tuple[int, int, tuple[str, ...]], dict[str, float]] = {}
+    result = []
+    for (row, column), length_s in zip(chosen, lengths_s, strict=True):
+        fingering = problem.table.choices[row][column]
+        controls = fingering.controls
+        if fingering.correction:
+            extra = tuple([name for name, minimum in held if length_s >= minimum and name in fingering.correction])
+            if (row, column, extra) not in corrected:
+                corrected[row, column, extra] = {**controls, **{name: fingering.correction[name] for name in extra}}
+            controls = corrected[row, column, extra]
+        result.append(controls)
+    return result
+
+
+@lru_cache(maxsize=1024)
+def _reason(rule: str, label: str, instead: tuple[str, int] | None = None) -> Message:
+    """Equal ones are kept once; ``instead`` of which first choice, and in how little time."""
+    more: dict[str, Argument] = {} if instead is None else {"first": instead[0], "time_ms": instead[1]}
+    return Message(rule, {"label": label, **more})
 
 
 def _vented(event: FingeringEvent, ranked: Sequence[Fingering], attacks: Mapping[str, float]) -> FingeringEvent:

@@ -147,24 +147,13 @@ def accents(
     dynamics: Dynamics,
 ) -> list[GestureEvent]:
     """A dip on strong notes, prepared before and followed through: on some of those on a beat, and on all that are
-    played louder than their neighbours, with bars in between that have none.
-
-    Parameters
-    ----------
-    pulse : Pulse
-        With the beats of the piece.
-    swings : Swings
-        Where the body keeps still.
+    played louder than their neighbours, with bars in between that have none. ``pulse`` has the beats of the piece,
+    ``swings`` says where the body keeps still.
     """
     if not len(times.onset_tick):
         return []
-    bars, felt, clock = pulse.bar_ticks, pulse.beat_ticks, piece.clock
-    lengths = piece.beat_ticks_at(times.onset_tick)
-    nearest = felt[np.clip(np.searchsorted(felt, times.onset_tick), 0, len(felt) - 1)]
-    before = felt[np.clip(np.searchsorted(felt, times.onset_tick) - 1, 0, len(felt) - 1)]
-    off = np.minimum(np.abs(nearest - times.onset_tick), np.abs(before - times.onset_tick))
-    beat_s = clock.seconds((times.onset_tick + lengths).astype(np.float64)) - times.onset_s
-    on_beat = off * beat_s <= ON_BEAT_S * lengths
+    clock = piece.clock
+    on_beat, beat_s = _on_beat(times, pulse, piece)
     loud = dynamics.accents > 0.0
     candidates = np.flatnonzero(on_beat | loud)
     if not len(candidates):
@@ -173,16 +162,11 @@ def accents(
     longer = np.minimum(times.duration_s[candidates] / np.maximum(beat_s[candidates], 1e-6), 3.0) / 3.0
     up = np.diff(times.pitch, prepend=times.pitch[:1])[candidates] >= 5
     chances, sizes = seeds.chances_at("accent", ticks), seeds.chances_at("accent size", ticks)
-    # Bars may be many and are in order: looked up, not compared as sets.
-    downbeat = bars[np.clip(np.searchsorted(bars, ticks), 0, len(bars) - 1)] == ticks
+    downbeat = _nearest(pulse.bar_ticks, ticks) == ticks
     strength = LOUDER * dynamics.accents[candidates] + DOWNBEAT * downbeat + LONG * longer + LEAP * up
-    still = swings.still_at(ticks)
+    still = swings.still_at(ticks) & ~loud[candidates]
     at_s = times.onset_s[candidates]
-    # The nearest cues before and after each.
-    cued_s = np.sort([-np.inf, *(cue.end_s for cue in cues), np.inf])
-    following = np.searchsorted(cued_s, at_s).clip(1)
-    nodded = np.minimum(at_s - cued_s[following - 1], cued_s[following] - at_s) < CUED_S
-    scores = strength + CHANCE * chances - 10.0 * ((still & ~loud[candidates]) | nodded)
+    scores = strength + CHANCE * chances - 10.0 * (still | _nodded(at_s, cues))
     chosen = _apart(at_s, scores, loud[candidates], beat_s[candidates])
     amounts = amount_at_vigour(
         np.clip(LEAST_ACCENT + 0.4 * strength + 0.6 * sizes * sizes, 0.0, 1.0), dynamics.at(at_s)
@@ -209,6 +193,29 @@ def accents(
         )
         for tick, start, end, start_s, end_s, amount, is_loud in rows
     ]
+
+
+def _on_beat(times: NoteTimes, pulse: Pulse, piece: Piece) -> tuple[BoolArray, FloatArray]:
+    """Which notes begin with a felt beat, and how long a beat is there."""
+    lengths = piece.beat_ticks_at(times.onset_tick)
+    nearest, before = (_nearest(pulse.beat_ticks, times.onset_tick, back) for back in (0, 1))
+    off = np.minimum(np.abs(nearest - times.onset_tick), np.abs(before - times.onset_tick))
+    beat_s = piece.clock.seconds((times.onset_tick + lengths).astype(np.float64)) - times.onset_s
+    return off * beat_s <= ON_BEAT_S * lengths, beat_s
+
+
+def _nearest(places: IntArray, ticks: IntArray, back: int = 0) -> IntArray:
+    """The first of some places, in order, at or after each tick, or so many before it; they may be very many."""
+    found: IntArray = places[np.clip(np.searchsorted(places, ticks) - back, 0, len(places) - 1)]
+    return found
+
+
+def _nodded(at_s: FloatArray, cues: Sequence[CueEvent]) -> BoolArray:
+    """Which times are near a cue, before or after it."""
+    cued_s = np.sort([-np.inf, *(cue.end_s for cue in cues), np.inf])
+    following = np.searchsorted(cued_s, at_s).clip(1)
+    near: BoolArray = np.minimum(at_s - cued_s[following - 1], cued_s[following] - at_s) < CUED_S
+    return near
 
 
 def _apart(at_s: FloatArray, scores: FloatArray, loud: BoolArray, beat_s: FloatArray) -> list[int]:

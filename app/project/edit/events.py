@@ -235,20 +235,14 @@ def add_expression(
     expression: str,
     start_tick: int,
     end_tick: int,
-    strength: float = 1.0,
+    *,
     fade_in_s: float = 0.2,
     fade_out_s: float = 0.3,
 ) -> Edited:
     """An expression custom."""
-    added = AddExpression(
-        _new_name(project, player_id),
-        expression,
-        start_tick,
-        max(end_tick, start_tick + 1),
-        strength,
-        fade_in_s,
-        fade_out_s,
-    )
+    end_tick = max(end_tick, start_tick + 1)
+    name, fades = _new_name(project, player_id), (fade_in_s, fade_out_s)
+    added = AddExpression(name, expression, start_tick, end_tick, 1.0, *fades)
     return Edited(with_corrections(project, player_id, (added,)), (added.about,))
 
 

@@ -209,7 +209,7 @@ def test_an_expression_is_added_faded_and_made_weaker(panel: TimelinePanel, sess
     player = front_plan(session).player_id
     session.attempt(
         Message("edit.add_expression"),
-        lambda p: edit.add_expression(p, player, "smile", 4 * 960, 10 * 960, 1.0, 0.3, 0.3).project,
+        lambda p: edit.add_expression(p, player, "smile", 4 * 960, 10 * 960, fade_in_s=0.3, fade_out_s=0.3).project,
     )
     name = "expression:own-1"
     click(lane, middle(lane, name))

@@ -24,7 +24,7 @@ from app.rig.instrument import node_transforms, part_transform, part_values
 from app.rig.model import Character, InstrumentModel
 from instrument_maps.model import ROOT, Contact, Control, HandSeed, InstrumentMap
 from metadata.load import load_skeleton
-from metadata.model import Body
+from metadata.model import Body, Posture
 
 # What a deviation of one unit of residual is.
 FIRM_M, RESTING_M = 0.0003, 0.0012
@@ -153,21 +153,15 @@ def grip_problem(
         touch = touch_at(model, instrument_map, contact, home, carrier, np.array([0.0, 1.0]))
         touches.append(replace(touch, active=touch.active & np.array([True, number in worked])))
     palm = rest_landmark(hand, f"{side}.palm")
-    outward = -1.0 if side == "left" else 1.0
     turn = seed_turn(seed)
     seed_m = model.node_positions_m[names.index(seed.node)] + seed.palm_position_m - quaternion.rotate(turn, palm)
     back = quaternion.conjugate(stand.instrument_rotation)
     shoulder_m, helped_m = _shoulders(character, side, stand)
-    # The elbow hangs: its swivel is counted from straight down towards the outside.
-    down = quaternion.rotate(back, [0.0, -1.0, 0.0])
-    aside = quaternion.rotate(back, [-outward, 0.0, 0.0])
     place, node_turn = nodes_at(model, instrument_map, home, carrier, np.array([0.0, 1.0]))
     near_hand = near(
         bodies(instrument_map.proxy, names), model.node_positions_m, seed_m + quaternion.rotate(turn, palm), NEAR_M
     )
-    off_ribs_deg = seed.elbow_off_ribs_deg
-    usual = float(np.radians(posture.elbow_off_ribs_deg if off_ribs_deg is None else off_ribs_deg))
-    about = (usual - SWIVEL_ABOUT_RAD, usual + SWIVEL_ABOUT_RAD)
+    usual, swivels = _swivels(seed, posture)
     problem = HandProblem(
         hand=hand,
         seed_m=seed_m,
@@ -184,9 +178,10 @@ def grip_problem(
         shoulder_m=shoulder_m,
         upper_m=float(np.linalg.norm(character.skeleton.offsets_m[character.skeleton.index(f"{side}LowerArm")])),
         lower_m=float(np.linalg.norm(character.skeleton.offsets_m[character.skeleton.index(f"{side}Hand")])),
-        swivel_frame=np.stack([down, aside]),
+        # The elbow hangs: its swivel is counted from straight down towards the outside.
+        swivel_frame=quaternion.rotate(back, [[0.0, -1.0, 0.0], [1.0 if side == "left" else -1.0, 0.0, 0.0]]),
         swivel_usual=usual,
-        swivel_range=SWIVEL_RANGE_RAD if off_ribs_deg is None else about,
+        swivel_range=swivels,
         reference_shift_m=np.zeros(3),
         helped=False,
         helped_m=helped_m,
@@ -196,6 +191,14 @@ def grip_problem(
     problem = replace(problem, elsewhere=_elsewhere(problem, model, instrument_map, carrier))
     low, high = _bounds(problem)
     return replace(problem, low=low, high=high), carrier
+
+
+def _swivels(seed: HandSeed, posture: Posture) -> tuple[float, tuple[float, float]]:
+    """Return how far the elbow is off the ribs, and between which angles it may be."""
+    if seed.elbow_off_ribs_deg is None:
+        return float(np.radians(posture.elbow_off_ribs_deg)), SWIVEL_RANGE_RAD
+    usual = float(np.radians(seed.elbow_off_ribs_deg))
+    return usual, (usual - SWIVEL_ABOUT_RAD, usual + SWIVEL_ABOUT_RAD)
 
 
 def _contacts_at_home(
