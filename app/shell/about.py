@@ -45,17 +45,14 @@ class AboutDialog(Retranslated, QDialog):
 
     def retranslate(self) -> None:
         versions = f"Python {platform.python_version()}, Qt {qVersion()}, PySide6 {PySide6.__version__}"
-        self._text.setText(
-            "\n\n".join(
-                (
-                    self.tr("about_dialog.performance_of_wind_ensemble_from"),
-                    self.tr("about_dialog.version_under_apache_license_2").format(version=program_version()),
-                    versions,
-                    self.tr("about_dialog.settings").format(path=self._settings),
-                    self.tr("about_dialog.faults_are_noted_in").format(path=log_path()),
-                )
-            )
+        paragraphs = (
+            self.tr("about_dialog.performance_of_wind_ensemble_from"),
+            self.tr("about_dialog.version_under_apache_license_2").format(version=program_version()),
+            versions,
+            self.tr("about_dialog.settings").format(path=self._settings),
+            self.tr("about_dialog.faults_are_noted_in").format(path=log_path()),
         )
+        self._text.setText("\n\n".join(paragraphs))
 
     def _show_licences(self) -> None:
         from app.shell.licences_dialog import LicencesDialog

@@ -57,15 +57,12 @@ class LicencesDialog(Retranslated, QDialog):
         self.retranslate()
 
     def retranslate(self) -> None:
-        self._text.setText(
-            "\n\n".join(
-                (
-                    self.tr("licences_dialog.suisou_is_under_apache_license"),
-                    self.tr("licences_dialog.qt_pyside6_soxr_and_libsndfile"),
-                    self.tr("licences_dialog.ffmpeg_is_under_gpl_separate"),
-                )
-            )
+        paragraphs = (
+            "suisou_is_under_apache_license",
+            "qt_pyside6_soxr_and_libsndfile",
+            "ffmpeg_is_under_gpl_separate",
         )
+        self._text.setText("\n\n".join(self.tr(f"licences_dialog.{id}") for id in paragraphs))
         self._data.setText(0, self.tr("licences_dialog.suisous_own_files"))
 
 

@@ -26,6 +26,14 @@ WIDTH_PX = 860
 RECENT_PX, LEAST_FOLDER_PX = 360, 90
 """Room for a recent file's name with its folder, and what the folder has of it at least."""
 
+_BEGIN = (
+    ("file.open", "start_open", "start_page.open_midi_file_or_project", "open"),
+    ("file.new", "start_new", "start_page.new_piece", "new"),
+    ("file.open_example", "start_example", "start_page.try_example_quartet", "players"),
+    ("file.open_danced_example", "start_danced_example", "start_page.try_example_with_dancer", "pose"),
+)
+"""Ways to begin: the action, the button's name, the id of its text, and its picture."""
+
 
 class StartPage(Retranslated, QScrollArea):
     """The start page."""
@@ -40,13 +48,8 @@ class StartPage(Retranslated, QScrollArea):
         self._title = self.texted(_label("start_title", 26), text="Suisou")
         self._about = self.texted(_label("start_about", 11), text="start_page.performance_of_wind_ensemble_from")
         self._recovery, self._recent = in_column(spacing=6), in_column(spacing=2)
-        self._buttons = {
-            "file.open": _row_button("start_open"),
-            "file.new": _row_button("start_new"),
-            "file.open_example": _row_button("start_example"),
-            "file.open_danced_example": _row_button("start_danced_example"),
-        }
-        for action_id, button in self._buttons.items():
+        self._buttons = [_row_button(name) for _, name, _, _ in _BEGIN]
+        for button, (action_id, *_) in zip(self._buttons, _BEGIN, strict=True):
             on_click(button, self._trigger, action_id)
         lesson_ids = (
             "start_page.1_open_midi_of_piece",
@@ -61,7 +64,7 @@ class StartPage(Retranslated, QScrollArea):
         self._teaching_heading = self.texted(_label("start_teaching_heading", 10), text="start_page.how_it_works")
         self._recent_heading = self.texted(_label("start_recent", 10), text="start_page.recent_files")
         lessons = (self._teaching_heading, *self._lessons)
-        begin = in_column(self._begin_heading, *self._buttons.values(), 18, *lessons, STRETCH, spacing=6)
+        begin = in_column(self._begin_heading, *self._buttons, 18, *lessons, STRETCH, spacing=6)
         recent = in_column(self._recent_heading, self._recent, STRETCH, spacing=2)
         sides = in_row((begin, 2), (recent, 3), spacing=40)
         parts = (self._title, self._about, 12, self._recovery, sides, STRETCH)
@@ -87,14 +90,9 @@ class StartPage(Retranslated, QScrollArea):
         self._about.setStyleSheet(dim)
         for heading in (self._begin_heading, self._teaching_heading, self._recent_heading):
             heading.setStyleSheet(f"{dim} font-weight: 600;")
-        for action_id, text, drawing in (
-            ("file.open", self.tr("start_page.open_midi_file_or_project"), "open"),
-            ("file.new", self.tr("start_page.new_piece"), "new"),
-            ("file.open_example", self.tr("start_page.try_example_quartet"), "players"),
-            ("file.open_danced_example", self.tr("start_page.try_example_with_dancer"), "pose"),
-        ):
-            self._buttons[action_id].setText(f"  {text}")
-            self._buttons[action_id].setIcon(icon(drawing, tokens))
+        for button, (_, _, text_id, drawing) in zip(self._buttons, _BEGIN, strict=True):
+            button.setText(f"  {self.tr(text_id)}")
+            button.setIcon(icon(drawing, tokens))
         self._fill_recovery()
         self._fill_recent()
 

@@ -395,17 +395,11 @@ class Window(Retranslated, QMainWindow):
         )
 
     def retranslate(self) -> None:
-        titles = {
-            "players": self.tr("window.players"),
-            "inspector": self.tr("window.inspector"),
-            "timeline": self.tr("window.timeline"),
-            "recording": self.tr("window.recording"),
-        }
         for name, dock in self.docks.items():
-            dock.setWindowTitle(titles[name])
+            dock.setWindowTitle(self.tr(f"window.{name}"))
             dock.set_tip(self.tr("dock.drag_with_ctrl"))
         # Qt names it after the window, which is to have room for what it says now.
-        self.workspace_switch.retranslate()
+        self.workspace_switch.word()
         self._fit_corner()
         self._report_title()
 

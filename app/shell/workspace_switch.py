@@ -24,19 +24,14 @@ class WorkspaceSwitch(Retranslated, QWidget):
     def __init__(self, table: ActionTable) -> None:
         super().__init__()
         self.setObjectName("workspace_switch")
-        self._actions = {one.text_id: table.actions[f"workspace.{one.id}"] for one in WORKSPACES}
         buttons = []
         for workspace in WORKSPACES:
             button = named(QToolButton(), f"workspace_{workspace.id}")
             button.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextOnly)
-            button.setDefaultAction(self._actions[workspace.text_id])
+            # A command's own name says what kind of thing it is.
+            action = self.texted(table.actions[f"workspace.{workspace.id}"], short=workspace.text_id)
+            button.setDefaultAction(action)
             button.setMinimumHeight(LEAST_TARGET_PX)
             button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
             buttons.append(button)
         in_row(*buttons, of=self, margins=0, spacing=1)
-        self.retranslate()
-
-    def retranslate(self) -> None:
-        """Name the buttons: a command's own name says what kind of thing it is."""
-        for text_id, action in self._actions.items():
-            action.setIconText(self.tr(text_id))

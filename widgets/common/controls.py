@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from typing import TYPE_CHECKING, Any, Final, TypeVar
 
@@ -10,8 +10,10 @@ from PySide6.QtCore import QEvent, QObject, Qt
 from PySide6.QtGui import QIcon
 from PySide6.QtWidgets import (
     QCheckBox,
+    QComboBox,
     QDialogButtonBox,
     QHeaderView,
+    QListWidget,
     QPushButton,
     QTableWidget,
     QToolButton,
@@ -23,6 +25,7 @@ from app.editor.session import Session
 from app.editor.tokens import LEAST_TARGET_PX
 from app.editor.translated import tr
 from widgets.common.clicks import on_click
+from widgets.common.combo import Combo, Option
 from widgets.common.icons import icon
 from widgets.common.plain import Label
 
@@ -34,6 +37,9 @@ else:
 AnyWidget = TypeVar("AnyWidget", bound=QWidget)
 AnyLabel = TypeVar("AnyLabel", bound=Label)
 AnyTexted = TypeVar("AnyTexted", bound=QObject)
+Wording = str | Callable[[], str]
+"""Id of a text, or what makes the text in the language of the editor."""
+Wordings = Wording | Sequence[Wording] | Mapping[str, Wording]
 
 
 def named(widget: AnyWidget, name: str) -> AnyWidget:
@@ -70,6 +76,7 @@ def small(button: AnyWidget) -> AnyWidget:
 
 _SETTERS: Final[dict[str, Callable[[Any], Callable[..., object]]]] = {
     "text": lambda widget: widget.setText,
+    "short": lambda action: action.setIconText,
     "tip": lambda widget: widget.setToolTip,
     "name": lambda widget: widget.setAccessibleName,
     "placeholder": lambda widget: widget.setPlaceholderText,
@@ -78,7 +85,9 @@ _SETTERS: Final[dict[str, Callable[[Any], Callable[..., object]]]] = {
     "suffix": lambda number: number.setSuffix,
     "words": lambda number: lambda *words: number.set_texts(*words),
     "columns": lambda view: lambda *titles: _header(view)(titles),
-    "items": lambda box: partial(_set_each, box.setItemText),
+    "explained": lambda widget: partial(_explain, widget),
+    "items": lambda box: partial(_set_each, _item_setter(box)),
+    "options": lambda box: partial(_set_options, box),
     "tabs": lambda tabs: partial(_set_each, tabs.setTabText),
 }
 """What takes the text or texts of a widget, by the word for them in `Retranslated.texted`."""
@@ -86,6 +95,26 @@ _SETTERS: Final[dict[str, Callable[[Any], Callable[..., object]]]] = {
 
 def _header(view: QTreeWidget | QTableWidget) -> Callable[[Sequence[str]], None]:
     return view.setHeaderLabels if isinstance(view, QTreeWidget) else view.setHorizontalHeaderLabels
+
+
+def _explain(widget: QWidget, text: str) -> None:
+    widget.setToolTip(text)
+    widget.setAccessibleName(text)
+
+
+def _item_setter(box: QComboBox | QListWidget) -> Callable[[int, str], object]:
+    return box.setItemText if isinstance(box, QComboBox) else lambda index, text: box.item(index).setText(text)
+
+
+def _set_options(box: QComboBox, /, **options: str) -> None:
+    """Set the options of a Combo, or the texts of a plain box, which holds their names as data."""
+    if isinstance(box, Combo):
+        box.set_options([Option(id, text) for id, text in options.items()])
+    elif box.count():
+        _set_each(box.setItemText, *options.values())
+    else:
+        for id, text in options.items():
+            box.addItem(text, id)
 
 
 def _set_each(set_text: Callable[[int, str], object], *texts: str) -> None:
@@ -96,44 +125,62 @@ def _set_each(set_text: Callable[[int, str], object], *texts: str) -> None:
 class Retranslated(_Mixin):
     """Stands before Qt's class among the bases of a widget: its texts follow the language.
 
-    Texts of fixed ids are bound to their widgets by `texted`; `retranslate` sets those that are formatted or chosen.
+    Texts are bound to their widgets by `texted`; `retranslate` shows again what else has texts in it.
     """
 
-    _bound: tuple[tuple[QObject | None, str, tuple[str, ...]], ...] = ()
-    """Widgets, what is set, and ids; None for this widget, which would keep itself alive."""
+    _bound: tuple[tuple[QObject | None, str, Wordings], ...] = ()
+    """Widgets, what is set, and wordings; None for this widget, which would keep itself alive."""
 
-    def texted(self, widget: AnyTexted, **text_ids: str | Sequence[str]) -> AnyTexted:
-        """The widget, with the texts of these ids, also after a change of the language.
+    def texted(self, widget: AnyTexted, **wordings: Wordings) -> AnyTexted:
+        """The widget, with these texts, also after a change of the language.
 
         Parameters
         ----------
         widget : QObject
             What has the texts: this widget, or a part of it that lives as long.
-        **text_ids : str or sequence of str
-            By what they are: ``text``, ``tip``, ``name`` (the accessible name), ``placeholder``, ``title`` (of a
-            window), ``heading`` (of a group), ``suffix``, ``words`` (label, unit and tip of a number, or the title
-            of a section); lists: ``columns`` (headings of a table or tree), ``items`` (of a box), ``tabs``. What is
-            no id, as ``"%"``, stands for itself.
+        **wordings : str, callable, sequence or mapping of them
+            Ids, or functions that make a text and do not hold this widget (`said`), by what they are: ``text``,
+            ``short`` (of an action on a button), ``tip``, ``name`` (the accessible name), ``explained`` (both),
+            ``placeholder``, ``title`` (of a window), ``heading`` (of a group), ``suffix``, ``words`` (label, unit and
+            tip of a number, or the title of a section); lists: ``columns`` (headings of a table or tree), ``items``
+            (of a box or list), ``tabs``; by id: ``options`` of a box. What is no id, as ``"%"``, stands for itself.
         """
-        for what, ids in text_ids.items():
-            bound = (ids,) if isinstance(ids, str) else tuple(ids)
-            self._bound += ((None if widget is self else widget, what, bound),)
-            _set(widget, what, bound)
+        for what, wording in wordings.items():
+            self._bound += ((None if widget is self else widget, what, wording),)
+            _set(widget, what, wording)
         return widget
 
     def retranslate(self) -> None:
-        """Set what else depends on the language of the editor."""
+        """Show again what else depends on the language of the editor."""
+
+    def word(self) -> None:
+        """Set all texts."""
+        for widget, what, wording in self._bound:
+            _set(self if widget is None else widget, what, wording)
+        self.retranslate()
 
     def changeEvent(self, event: QEvent) -> None:
         if event.type() == QEvent.Type.LanguageChange:
-            for widget, what, ids in self._bound:
-                _set(self if widget is None else widget, what, ids)
-            self.retranslate()
+            self.word()
         super().changeEvent(event)
 
 
-def _set(widget: QObject, what: str, ids: tuple[str, ...]) -> None:
-    _SETTERS[what](widget)(*(tr(text_id) if text_id else "" for text_id in ids))
+def said(text_id: str, **arguments: object) -> Callable[[], str]:
+    """Return what makes the text of an id with these arguments in it, for `Retranslated.texted`."""
+    return lambda: tr(text_id).format(**arguments)
+
+
+def _set(widget: QObject, what: str, wordings: Wordings) -> None:
+    set_texts = _SETTERS[what](widget)
+    if isinstance(wordings, Mapping):
+        set_texts(**{key: _text(wording) for key, wording in wordings.items()})
+    else:
+        each = (wordings,) if isinstance(wordings, str) or callable(wordings) else wordings
+        set_texts(*map(_text, each))
+
+
+def _text(wording: Wording) -> str:
+    return (tr(wording) if wording else "") if isinstance(wording, str) else wording()
 
 
 class Caption(Retranslated, Label):

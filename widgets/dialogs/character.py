@@ -342,7 +342,6 @@ class CharacterDialog(Retranslated, QDialog):
         self.bones.set_headers([self.tr("character_dialog.bone_of_file"), self.tr("character_dialog.joint")])
         self.give.setText(verbatim(self.tr("character_dialog.give_it_to").format(players=self._offered)))
         self.give.setVisible(bool(self._offered))
-        self.faces.retranslate()
         self._show()
 
     # Qt's own names

@@ -2,11 +2,30 @@
 
 from __future__ import annotations
 
+from typing import Final
+
 from PySide6.QtCore import QSignalBlocker, Signal
 
 from app.encoding import ENCODINGS
-from widgets.common.controls import Retranslated
+from widgets.common.controls import Retranslated, Wording, said
 from widgets.common.plain import ComboBox
+
+_TITLES: Final = {
+    "cp932": ("japanese", "Shift_JIS"),
+    "euc_jp": ("japanese", "EUC-JP"),
+    "gb18030": ("simplified_chinese", "GBK, GB18030"),
+    "big5hkscs": ("traditional_chinese", "Big5"),
+    "cp949": ("korean", "EUC-KR"),
+    "cp1251": ("cyrillic", "Windows-1251"),
+    "koi8_r": ("cyrillic", "KOI8-R"),
+    "cp866": ("cyrillic", "CP866"),
+    "cp1252": ("western", "Windows-1252"),
+    "mac_roman": ("western", "Mac Roman"),
+    "cp1250": ("central_european", "Windows-1250"),
+    "cp1253": ("greek", "Windows-1253"),
+    "iso8859_7": ("greek", "ISO 8859-7"),
+}
+"""Scripts and names of encodings."""
 
 
 class EncodingChoice(Retranslated, ComboBox):
@@ -23,41 +42,16 @@ class EncodingChoice(Retranslated, ComboBox):
     def __init__(self) -> None:
         super().__init__()
         self.setObjectName("import_encoding")
-        self._encoding: str | None = None
+        titles: list[Wording] = ["import_dialog.automatic"]
+        self.addItem("", None)
+        for encoding in ENCODINGS:
+            script, name = _TITLES.get(encoding, ("", encoding.upper()))
+            titles.append(said(f"import_dialog.{script}", name=name) if script else name)
+            self.addItem("", encoding)
         self.currentIndexChanged.connect(lambda: self.chosen.emit(self.currentData()))
-        self.texted(self, tip="import_dialog.encoding_tip")
-        self.retranslate()
+        self.texted(self, tip="import_dialog.encoding_tip", items=titles)
 
     def show_encoding(self, encoding: str | None) -> None:
         """Show which one is used."""
-        self._encoding = encoding
         with QSignalBlocker(self):
             self.setCurrentIndex(max(self.findData(encoding), 0))
-
-    def retranslate(self) -> None:
-        """Name the encodings."""
-        japanese, western = self.tr("import_dialog.japanese"), self.tr("import_dialog.western")
-        simplified, cyrillic = self.tr("import_dialog.simplified_chinese"), self.tr("import_dialog.cyrillic")
-        traditional, korean = self.tr("import_dialog.traditional_chinese"), self.tr("import_dialog.korean")
-        greek = self.tr("import_dialog.greek")
-        titles = {
-            "cp932": japanese.format(name="Shift_JIS"),
-            "euc_jp": japanese.format(name="EUC-JP"),
-            "gb18030": simplified.format(name="GBK, GB18030"),
-            "big5hkscs": traditional.format(name="Big5"),
-            "cp949": korean.format(name="EUC-KR"),
-            "cp1251": cyrillic.format(name="Windows-1251"),
-            "koi8_r": cyrillic.format(name="KOI8-R"),
-            "cp866": cyrillic.format(name="CP866"),
-            "cp1252": western.format(name="Windows-1252"),
-            "mac_roman": western.format(name="Mac Roman"),
-            "cp1250": self.tr("import_dialog.central_european").format(name="Windows-1250"),
-            "cp1253": greek.format(name="Windows-1253"),
-            "iso8859_7": greek.format(name="ISO 8859-7"),
-        }
-        with QSignalBlocker(self):
-            self.clear()
-            self.addItem(self.tr("import_dialog.automatic"), None)
-            for encoding in ENCODINGS:
-                self.addItem(titles.get(encoding, encoding.upper()), encoding)
-        self.show_encoding(self._encoding)

@@ -102,9 +102,11 @@ class ExportDialog(WorkingDialog):
         self._bvh_names.addItem("", "")
         for profile, table in load_bone_names().items():
             self._bvh_names.addItem(table.title, profile)
+        self.texted(self._bvh_names, items="export_dialog.those_of_skeleton")
+        self.texted(self._bvh_names, items="export_dialog.those_of_skeleton")
         self._keys = self.texted(named(ComboBox(), "export_keys"), tip="export_dialog.reduced_keys_tip")
-        for choice in KEY_CHOICES:
-            self._keys.addItem("", choice)
+        key_texts = ("export_dialog.key_on_every_frame", "export_dialog.reduced_keys")
+        self.texted(self._keys, options=dict(zip(KEY_CHOICES, key_texts, strict=True)))
         self._keys.setCurrentIndex(KEY_CHOICES.index(keys))
         self._range = RangeChooser(session, self._project.score)
         self._preroll = self.texted(named(QDoubleSpinBox(), "export_preroll"), suffix="export_dialog.beats")
@@ -338,10 +340,6 @@ class ExportDialog(WorkingDialog):
         return "\n".join(lines)
 
     def retranslate(self) -> None:
-        self._bvh_names.setItemText(0, self.tr("export_dialog.those_of_skeleton"))
-        self._keys.setItemText(0, self.tr("export_dialog.key_on_every_frame"))
-        self._keys.setItemText(1, self.tr("export_dialog.reduced_keys"))
-        self._range.retranslate()
         super().retranslate()
         if not self._running and not self._show.isVisible():
             self._show_outcome()

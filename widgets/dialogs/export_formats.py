@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QCheckBox, QGridLayout, QWidget
 
 from app.errors import AppError, Message
 from app.export.formats import FILE_FORMATS, Format, requested
-from widgets.common.controls import Check, Retranslated, named
+from widgets.common.controls import Check, Retranslated, named, said
 from widgets.common.text import message_text
 
 _COLUMNS = 2
@@ -31,12 +33,18 @@ class FormatChooser(Retranslated, QWidget):
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self._missing = _missing()
+        missing = _missing()
         self._boxes: dict[Format, QCheckBox] = {name: QCheckBox() for name in FILE_FORMATS}
         for name, box in self._boxes.items():
             box.setObjectName(f"export_{name}")
             box.setChecked(FILE_FORMATS[name].usual)
-            box.setEnabled(name not in self._missing)
+            box.setEnabled(name not in missing)
+            kind = FILE_FORMATS[name]
+            text = "characters_and_instruments" if "instrument" in kind.holds else "body_motion"
+            if name in missing:
+                text = "requires_package"
+                self.texted(box, tip=partial(message_text, missing[name]))
+            self.texted(box, text=said(f"format_chooser.{text}", format=kind.label, package=kind.package))
         self._sound = named(Check("format_chooser.sound_wav"), "export_sound")
         self._stage = named(Check("format_chooser.whole_stage_in_one_file"), "export_stage")
         self._stage.setChecked(True)
@@ -47,7 +55,6 @@ class FormatChooser(Retranslated, QWidget):
             layout.addWidget(box, *divmod(index, _COLUMNS), Qt.AlignmentFlag.AlignLeft)
             box.toggled.connect(self._change)
         layout.setColumnStretch(_COLUMNS, 1)
-        self.retranslate()
 
     @property
     def formats(self) -> frozenset[Format]:
@@ -67,14 +74,3 @@ class FormatChooser(Retranslated, QWidget):
     def _change(self) -> None:
         self._stage.setEnabled(any(kind.stage for kind in requested(self.formats)))
         self.changed.emit()
-
-    def retranslate(self) -> None:
-        characters, body = self.tr("format_chooser.characters_and_instruments"), self.tr("format_chooser.body_motion")
-        for name, box in self._boxes.items():
-            kind = FILE_FORMATS[name]
-            text = characters if "instrument" in kind.holds else body
-            if name in self._missing:
-                text = self.tr("format_chooser.requires_package")
-            box.setText(text.format(format=kind.label, package=kind.package))
-        for name, message in self._missing.items():
-            self._boxes[name].setToolTip(message_text(message))

@@ -43,8 +43,11 @@ class RangeChooser(Retranslated, QWidget):
         otherwise_id: str = "range_chooser.whole_piece",
     ) -> None:
         super().__init__(parent)
-        self._session, self._score, self._otherwise_id = session, score, otherwise_id
-        self._choice = named(ComboBox(), f"{prefix}_range")
+        self._session, self._score = session, score
+        choices = {_WHOLE: otherwise_id, _BARS: "range_chooser.bars"}
+        if session.selection.span is not None:
+            choices[_SELECTION] = "range_chooser.bars_of_selection"
+        self._choice = self.texted(named(ComboBox(), f"{prefix}_range"), options=choices)
         self._first_bar, self._last_bar = QSpinBox(), QSpinBox()
         self._first_bar.setObjectName(f"{prefix}_first_bar")
         self._last_bar.setObjectName(f"{prefix}_last_bar")
@@ -60,7 +63,7 @@ class RangeChooser(Retranslated, QWidget):
             layout.addWidget(widget)
         for signal in (self._choice.currentIndexChanged, self._first_bar.valueChanged, self._last_bar.valueChanged):
             signal.connect(self._change)
-        self.retranslate()
+        self._show_bars()
 
     @property
     def bars(self) -> tuple[int, int] | None:
@@ -86,16 +89,3 @@ class RangeChooser(Retranslated, QWidget):
     def _show_bars(self) -> None:
         for widget in (self._first_bar, self._dash, self._last_bar):
             widget.setVisible(self._choice.currentData() == _BARS)
-
-    def retranslate(self) -> None:
-        """Set every text anew, and offer the selection where there is one."""
-        choice = self._choice.currentData() or _WHOLE
-        self._choice.blockSignals(True)
-        self._choice.clear()
-        self._choice.addItem(self.tr(self._otherwise_id), _WHOLE)
-        self._choice.addItem(self.tr("range_chooser.bars"), _BARS)
-        if self._session.selection.span is not None:
-            self._choice.addItem(self.tr("range_chooser.bars_of_selection"), _SELECTION)
-        self._choice.setCurrentIndex(max(self._choice.findData(choice), 0))
-        self._choice.blockSignals(False)
-        self._show_bars()

@@ -12,7 +12,7 @@ from PySide6.QtWidgets import QTreeWidgetItem, QWidget
 from app.editor.session import Session
 from metadata.model import ARKIT_MORPHS
 from widgets.common.combo import Combo, Option
-from widgets.common.controls import Button, ColumnList, IconButton, named, wrapped
+from widgets.common.controls import Button, ColumnList, IconButton, Retranslated, named, wrapped
 from widgets.common.layouts import in_column, in_row
 from widgets.common.morph_names import morph_name
 from widgets.common.number_slider import NumberSlider
@@ -21,7 +21,7 @@ from widgets.common.plain import Label
 MOST_FACTOR = 2.0
 
 
-class FaceMapPage(QWidget):
+class FaceMapPage(Retranslated, QWidget):
     """The faces.
 
     Parameters
@@ -58,8 +58,10 @@ class FaceMapPage(QWidget):
             self.list.addTopLevelItem(item)
         self.list.setCurrentItem(self._items[self._face])
         self.list.currentItemChanged.connect(self._chosen)
-        self._title, self._none = Label(), wrapped(Label())
+        none = "nothing_character_does_not_do" if morphs else "file_has_no_morphs_face"
+        self._title, self._none = Label(), self.texted(wrapped(Label()), text=f"face_map_page.{none}")
         self._add = named(Combo(), "face_add")
+        self.texted(self._add, placeholder="face_map_page.add_morph_of_file", name="face_map_page.add_morph_of_file")
         self._add.chosen.connect(lambda morph: self._set_part(morph, 1.0, None))
         self._reset = Button("face_map_page.automatic", lambda: self.changed.emit(self._face, None, None), "face_reset")
         self._column = in_column(spacing=4)
@@ -141,13 +143,6 @@ class FaceMapPage(QWidget):
             self._column.addWidget(row)
 
     def retranslate(self) -> None:
-        self._none.setText(
-            self.tr("face_map_page.nothing_character_does_not_do")
-            if self._morphs
-            else self.tr("face_map_page.file_has_no_morphs_face")
-        )
-        self._add.setPlaceholderText(self.tr("face_map_page.add_morph_of_file"))
-        self._add.setAccessibleName(self.tr("face_map_page.add_morph_of_file"))
         self._show()
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import unicodedata
 from fractions import Fraction
 from functools import partial
-from typing import Any, TypeVar, cast
+from typing import Any, Final, TypeVar, cast
 
 from PySide6.QtCore import QSize, Qt
 from PySide6.QtWidgets import QDialog, QDialogButtonBox, QDoubleSpinBox, QLineEdit, QWidget
@@ -17,7 +17,7 @@ from app.project.casting import ConductorPlace, conductor_place
 from app.project.edit.generation import vary_everyone
 from app.project.edit.piece import PieceSettings, piece_settings, set_piece_settings, set_seed, usual_settings
 from app.project.frame_rate import USUAL_RATES, frame_rate, frame_rate_text
-from widgets.common.controls import Button, Caption, Check, Retranslated, named, wrapped
+from widgets.common.controls import Button, Caption, Check, Retranslated, Wording, named, said, wrapped
 from widgets.common.icons import icon
 from widgets.common.layouts import STRETCH, in_column, in_form, in_row
 from widgets.common.plain import ComboBox, Label
@@ -26,7 +26,18 @@ from widgets.dialogs.automatic_number import TEXT_MARGIN_PX
 PROBLEM_PX = 40
 """Room for two lines, so that nothing moves when there is something to say."""
 
-
+_BEATS: Final[dict[float | None, str]] = {
+    None: "automatic_by_metre_and_tempo",
+    0.25: "sixteenth",
+    0.5: "eighth",
+    0.75: "dotted_eighth",
+    1.0: "quarter",
+    1.5: "dotted_quarter",
+    2.0: "half",
+    3.0: "dotted_half",
+    4.0: "whole",
+}
+"""Felt beats in quarters, and their names."""
 Value = TypeVar("Value", str, float)
 
 
@@ -82,8 +93,9 @@ class PieceSettingsDialog(Retranslated, QDialog):
         reset_tip = "piece_settings_dialog.all_but_title_as_in"
         self._reset = Button("piece_settings_dialog.reset_to_defaults", self._reset_all, "piece_reset", reset_tip)
         self._lay_out()
-        for quarters in self._beat_names():
-            self._felt.addItem("", quarters)
+        self._randomise.setIcon(icon("dice", session.tokens))
+        self._fill_felt_beats()
+        self._explain()
         self._show(self._before)
         for signal in (self._rate.editTextChanged, self._seed.textChanged):
             signal.connect(self._judge)
@@ -211,42 +223,35 @@ class PieceSettingsDialog(Retranslated, QDialog):
 
     # Texts
 
-    def _beat_names(self) -> dict[float | None, str]:
-        names: dict[float | None, str] = {
-            None: self.tr("piece_settings_dialog.automatic_by_metre_and_tempo"),
-            0.25: self.tr("piece_settings_dialog.sixteenth"),
-            0.5: self.tr("piece_settings_dialog.eighth"),
-            0.75: self.tr("piece_settings_dialog.dotted_eighth"),
-            1.0: self.tr("piece_settings_dialog.quarter"),
-            1.5: self.tr("piece_settings_dialog.dotted_quarter"),
-            2.0: self.tr("piece_settings_dialog.half"),
-            3.0: self.tr("piece_settings_dialog.dotted_half"),
-            4.0: self.tr("piece_settings_dialog.whole"),
+    def _fill_felt_beats(self) -> None:
+        names: dict[float | None, Wording] = {
+            quarters: f"piece_settings_dialog.{name}" for quarters, name in _BEATS.items()
         }
         beat = self._before.felt_beat_quarters
         if beat not in names:
-            names[beat] = self.tr("piece_settings_dialog.quarters").format(count=f"{beat:.6g}")
-        return names
+            names[beat] = said("piece_settings_dialog.quarters", count=f"{beat:.6g}")
+        for quarters in names:
+            self._felt.addItem("", quarters)
+        self.texted(self._felt, items=tuple(names.values()))
+
+    def _explain(self) -> None:
+        across, ahead = self._conductor
+        for field, tip in (
+            (self._title, "names_piece_in_midi_file"),
+            (self._rate, "of_ruler_and_of_steps"),
+            (self._preroll, "felt_beats_before_first_note"),
+            (self._felt, "breaths_cues_sway_and_pre"),
+            (self._intensity, "multiplies_acting_of_all_players"),
+            (self._conducted, "conductor_tip"),
+            (across, "conductor_left"),
+            (ahead, "conductor_ahead"),
+            (self._seed, "another_seed_is_another_performance"),
+        ):
+            self.texted(field, tip=f"piece_settings_dialog.{tip}")
 
     def retranslate(self) -> None:
-        tips: dict[QWidget, str] = {
-            self._title: self.tr("piece_settings_dialog.names_piece_in_midi_file"),
-            self._rate: self.tr("piece_settings_dialog.of_ruler_and_of_steps"),
-            self._preroll: self.tr("piece_settings_dialog.felt_beats_before_first_note"),
-            self._felt: self.tr("piece_settings_dialog.breaths_cues_sway_and_pre"),
-            self._intensity: self.tr("piece_settings_dialog.multiplies_acting_of_all_players"),
-            self._conducted: self.tr("piece_settings_dialog.conductor_tip"),
-            self._conductor[0]: self.tr("piece_settings_dialog.conductor_left"),
-            self._conductor[1]: self.tr("piece_settings_dialog.conductor_ahead"),
-            self._seed: self.tr("piece_settings_dialog.another_seed_is_another_performance"),
-        }
-        for field, tip in tips.items():
-            field.setToolTip(tip)
         for caption in self.findChildren(Caption):
             caption.setToolTip(caption.buddy().toolTip())
-        for index, text in enumerate(self._beat_names().values()):
-            self._felt.setItemText(index, text)
-        self._randomise.setIcon(icon("dice", self._session.tokens))
         self._judge()
 
     def sizeHint(self) -> QSize:

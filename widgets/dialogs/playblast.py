@@ -17,7 +17,7 @@ from PySide6.QtWidgets import QWidget
 from app.arrays import SingleArray
 from app.editor.session import Session
 from app.editor.tasks import Progress, StopRequested
-from app.editor.viewport_state import View
+from app.editor.viewport_state import VIEWS, View
 from app.encoding import shown
 from app.errors import AppError, Cancelled, Message
 from app.export.video import SOUND_RATE_HZ, video_into
@@ -77,8 +77,15 @@ class PlayblastDialog(WorkingDialog):
         for rate in sorted({*USUAL_RATES, session.project.fps}):
             self._rate.addItem(frame_rate_text(rate), str(rate))
         self._rate.setCurrentIndex(self._rate.findData(str(min(session.project.fps, USUAL_FILM_RATE))))
-        self._range = named(ComboBox(), "playblast_range")
-        self._view = named(ComboBox(), "playblast_view")
+        ranges = {_WHOLE: "playblast_dialog.whole_piece"}
+        if session.loop_s is not None:
+            ranges[_LOOP] = "playblast_dialog.loop"
+        if session.selection.span is not None:
+            ranges[_SELECTION] = "playblast_dialog.selection"
+        self._range = self.texted(named(ComboBox(), "playblast_range"), options=ranges)
+        views = {str(view): f"playblast_dialog.{view}" for view in VIEWS}
+        views = {"": "playblast_dialog.as_viewport_shows_it", **views}
+        self._view = self.texted(named(ComboBox(), "playblast_view"), options=views)
         self._with_sound = named(Check("playblast_dialog.include_audio"), "playblast_sound")
         self._with_sound.setChecked(True)
         self._file = named(PathEdit(path), "playblast_file")
@@ -152,7 +159,8 @@ class PlayblastDialog(WorkingDialog):
         try:
             if self._draw_at is None:
                 width, height = self._size.currentData()
-                self._draw_at = self._film(width, height, (span.first_frame_s, span.end_s), self._view.currentData())
+                view = self._view.currentData() or None
+                self._draw_at = self._film(width, height, (span.first_frame_s, span.end_s), view)
             picture = self._draw_at(time_s)
         except Exception as error:
             # The encoder stops and takes back what it has written.
@@ -211,23 +219,6 @@ class PlayblastDialog(WorkingDialog):
 
     def retranslate(self) -> None:
         super().retranslate()
-        ranges = [(self.tr("playblast_dialog.whole_piece"), _WHOLE)]
-        if self._session.loop_s is not None:
-            ranges.append((self.tr("playblast_dialog.loop"), _LOOP))
-        if self._session.selection.span is not None:
-            ranges.append((self.tr("playblast_dialog.selection"), _SELECTION))
-        _refill(self._range, ranges)
-        views: list[tuple[str, object]] = [
-            (self.tr("playblast_dialog.as_viewport_shows_it"), None),
-            (self.tr("playblast_dialog.ensemble"), "ensemble"),
-            (self.tr("playblast_dialog.front"), "front"),
-            (self.tr("playblast_dialog.side"), "side"),
-            (self.tr("playblast_dialog.top"), "top"),
-            (self.tr("playblast_dialog.hands"), "hands"),
-            (self.tr("playblast_dialog.mouth"), "mouth"),
-            (self.tr("playblast_dialog.feet"), "feet"),
-        ]
-        _refill(self._view, views)
         if not self._running and not self._show.isVisible():
             self._show_state()
 
@@ -243,11 +234,3 @@ def _next(pictures: queue.Queue[Pictures], stop_requested: Callable[[], bool]) -
         except queue.Empty:
             continue
     raise Cancelled("work.stopped")
-
-
-def _refill(box: ComboBox, entries: list[tuple[str, object]] | list[tuple[str, str]]) -> None:
-    chosen = box.currentIndex()
-    box.clear()
-    for text, data in entries:
-        box.addItem(text, data)
-    box.setCurrentIndex(min(max(chosen, 0), box.count() - 1))

@@ -20,7 +20,6 @@ from PySide6.QtWidgets import (
 )
 
 from app.editor.session import Session
-from app.editor.translated import tr
 from app.encoding import shown
 from instrument_maps.library import library, own_folder
 from widgets.common.clicks import on_click
@@ -90,7 +89,6 @@ class PreferencesDialog(Retranslated, QDialog):
         self.setObjectName("preferences")
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         self._session, self._choices = session, tuple(choices)
-        self._labels: dict[str, Label] = {}
         self._lists: dict[str, ComboBox] = {}
         self._radios: dict[str, list[QRadioButton]] = {}
         self.tabs = named(QTabWidget(), "preferences_tabs")
@@ -100,9 +98,9 @@ class PreferencesDialog(Retranslated, QDialog):
         self._form.setVerticalSpacing(12)
         self._form.setHorizontalSpacing(24)
         for choice in self._choices:
-            label, field = Label(), self._list(choice) if choice.is_list else self._options(choice)
+            field = self._list(choice) if choice.is_list else self._options(choice)
+            label = self.texted(Label(), text=choice.label)
             label.setBuddy(field)
-            self._labels[choice.name] = label
             self._form.addRow(label, field)
             if choice.changed is not None:
                 choice.changed.connect(self.refresh)
@@ -119,12 +117,12 @@ class PreferencesDialog(Retranslated, QDialog):
         session.instruments_changed.connect(self.refresh)
         self.texted(self, title="preferences_dialog.preferences")
         self.texted(self._open, text="preferences_dialog.show_folder")
-        self.retranslate()
         self.refresh()
 
     def _list(self, choice: Choice) -> QWidget:
         field = self._lists[choice.name] = named(ComboBox(), f"preferences_{choice.name}")
-        field.addItems([word for _, word in choice.options])
+        field.addItems([""] * len(choice.options))
+        self.texted(field, items=[word for _, word in choice.options])
         field.activated.connect(lambda index: choice.choose(choice.options[index][0]))
         return field
 
@@ -132,7 +130,8 @@ class PreferencesDialog(Retranslated, QDialog):
         radios = [named(QRadioButton(), f"preferences_{choice.name}_{value}") for value, _ in choice.options]
         field = panel(in_row(*radios, STRETCH, margins=0, spacing=16))
         group = QButtonGroup(field)
-        for radio, (value, _) in zip(radios, choice.options, strict=True):
+        for radio, (value, word) in zip(radios, choice.options, strict=True):
+            self.texted(radio, text=word)
             on_click(radio, choice.choose, value)
             group.addButton(radio)
         self._radios[choice.name] = radios
@@ -181,15 +180,6 @@ class PreferencesDialog(Retranslated, QDialog):
             else:
                 self._radios[choice.name][chosen].setChecked(True)
         self._show_instruments()
-
-    def retranslate(self) -> None:
-        for choice in self._choices:
-            self._labels[choice.name].setText(tr(choice.label))
-            for index, (_, word) in enumerate(choice.options):
-                if choice.is_list:
-                    self._lists[choice.name].setItemText(index, tr(word))
-                else:
-                    self._radios[choice.name][index].setText(tr(word))
 
     def sizeHint(self) -> QSize:
         """Room for the list of shortcuts."""

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
+from functools import partial
 
 from PySide6.QtCore import QSize, Qt
 from PySide6.QtGui import QColor
@@ -19,15 +20,19 @@ from PySide6.QtWidgets import (
 )
 
 from app.editor.tokens import LEAST_TARGET_PX, Tokens
+from app.editor.translated import tr
+from app.errors import Message
 from app.plan.by_hand.corrections import Correction
 from app.project.found_parts import Conflict
 from app.project.model import Project
 from app.project.reimport import Reimport
 from app.score.model import Note
-from widgets.common.controls import Caption, OkCancel, Retranslated, named, selectable, wrapped
+from widgets.common.controls import Caption, OkCancel, Retranslated, named, said, selectable, wrapped
 from widgets.common.layouts import in_column
 from widgets.common.plain import Label
 from widgets.common.text import message_text
+
+_RIGHT = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
 
 
 class ReimportDialog(Retranslated, QDialog):
@@ -57,138 +62,113 @@ class ReimportDialog(Retranslated, QDialog):
     ) -> None:
         super().__init__(parent)
         self.setObjectName("reimport_midi")
-        self._before, self._outcome, self._file = before, outcome, file
-        self._title, self._note_title, self._tokens = title, note_title, tokens
-        self._heading = selectable(wrapped(Label()))
-        self._table = named(QTableWidget(0, 5), "reimport_parts")
-        self._table.verticalHeader().hide()
-        self._table.setShowGrid(False)
-        self._table.setSelectionMode(QAbstractItemView.SelectionMode.NoSelection)
-        self._table.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
-        self._table.horizontalHeader().setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
-        self._table.horizontalHeader().setSectionResizeMode(0, QHeaderView.ResizeMode.Stretch)
-        self._table.horizontalHeader().setDefaultAlignment(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter)
-        self._players, self._conflict_title = named(wrapped(Label()), "reimport_players"), wrapped(Label())
-        self._unplayed_title = wrapped(Caption("reimport_dialog.new_parts_without_player"))
-        self._unplayed = named(QListWidget(), "reimport_unplayed")
-        self._unplayed.setWordWrap(True)
-        self._gone_title = wrapped(Caption("reimport_dialog.players_whose_part_is_gone"))
+        self._before, self._outcome = before, outcome
+        self._title, self._note_title = title, note_title
         self._gone = named(QListWidget(), "reimport_gone")
-        self._gone.setMaximumHeight(min(140, LEAST_TARGET_PX * len(outcome.gone_players) + 6))
-        names = {player.id: player.name for player in before.players}
-        for player_id in outcome.gone_players:
-            item = QListWidgetItem(names[player_id])
-            item.setData(Qt.ItemDataRole.UserRole, player_id)
-            item.setCheckState(Qt.CheckState.Unchecked)
-            item.setSizeHint(QSize(0, LEAST_TARGET_PX))
-            self._gone.addItem(item)
-        self._gone.itemChanged.connect(lambda: self._enable())
-        self._replaced = named(wrapped(Label()), "reimport_replaced")
-        self._orphan_title = wrapped(Caption("reimport_dialog.these_corrections_have_lost_their"))
-        self._conflicts = named(QListWidget(), "reimport_conflicts")
-        self._orphans = named(QListWidget(), "reimport_orphans")
-        for items in (self._unplayed, self._conflicts, self._orphans):
-            items.setSelectionMode(QAbstractItemView.SelectionMode.NoSelection)
-            items.setMaximumHeight(140)
         self._buttons = OkCancel("reimport_dialog.re_import", "reimport_dialog.cancel")
         self._buttons.accepted.connect(self.accept)
         self._buttons.rejected.connect(self.reject)
+        heading = selectable(wrapped(Label()))
         in_column(
-            self._heading,
-            (self._table, 1),
-            self._players,
-            self._unplayed_title,
-            self._unplayed,
-            self._gone_title,
-            self._gone,
-            self._replaced,
-            self._conflict_title,
-            self._conflicts,
-            self._orphan_title,
-            self._orphans,
+            self.texted(heading, text=said(self._heading_id(), file=file)),
+            (self._table_of_parts(tokens), 1),
+            *self._new_and_gone(),
+            *self._replaced(),
+            *self._lost_and_contradicted(),
             self._buttons,
             of=self,
         )
         self.texted(self, title="reimport_dialog.re_import_midi")
-        self.retranslate()
-
-    def retranslate(self) -> None:
-        outcome = self._outcome
-        if outcome.project is self._before:
-            text = self.tr("reimport_dialog.says_nothing_new")
-        elif replace(outcome.project, source=self._before.source) == self._before:
-            text = self.tr("reimport_dialog.says_nothing_new_but_lies_elsewhere")
-        else:
-            text = self.tr("reimport_dialog.what_changes_fingerings_breaths_and")
-        self._heading.setText(text.format(file=self._file))
-        titles = (
-            self.tr("reimport_dialog.part"),
-            self.tr("reimport_dialog.kept"),
-            self.tr("reimport_dialog.new"),
-            self.tr("reimport_dialog.gone"),
-            self.tr("reimport_dialog.changed_by_hand"),
-        )
-        for column, title in enumerate(titles):
-            heading = QTableWidgetItem(title)
-            side = Qt.AlignmentFlag.AlignRight if column else Qt.AlignmentFlag.AlignLeft
-            heading.setTextAlignment(side | Qt.AlignmentFlag.AlignVCenter)
-            self._table.setHorizontalHeaderItem(column, heading)
-        self._table.setRowCount(len(outcome.parts))
-        for row, part in enumerate(outcome.parts):
-            name = part.name if part.name == part.former_name else f"{part.former_name} → {part.name}"
-            self._table.setItem(row, 0, QTableWidgetItem(name))
-            for column, (count, colour) in enumerate(
-                (
-                    (part.kept, self._tokens.text),
-                    (part.added, self._tokens.good),
-                    (part.removed, self._tokens.warning),
-                    (part.by_hand, self._tokens.text),
-                ),
-                start=1,
-            ):
-                item = QTableWidgetItem(str(count))
-                item.setTextAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
-                item.setForeground(QColor(colour if count else self._tokens.text_dim))
-                self._table.setItem(row, column, item)
-        kinds = {
-            "tempo": self.tr("reimport_dialog.tempo"),
-            "metres": self.tr("reimport_dialog.metres"),
-            "controllers": self.tr("reimport_dialog.controllers"),
-        }
-        replaced = ", ".join(kinds[kind] for kind in outcome.replaced)
-        self._replaced.setText(self.tr("reimport_dialog.replaced_by_file").format(kinds=replaced))
-        self._replaced.setVisible(bool(replaced))
-        names = {player.id: player.name for player in outcome.project.players}
-        new = ", ".join(names[id_] for id_ in outcome.new_players)
-        self._players.setText(self.tr("reimport_dialog.new_players").format(names=new))
-        self._players.setVisible(bool(new))
-        self._unplayed.clear()
-        self._unplayed.addItems(
-            [
-                self.tr("import_dialog.is_not_played").format(name=part.name, reason=message_text(part.reason))
-                for part in outcome.new_unplayed
-            ]
-        )
-        self._unplayed_title.setVisible(bool(outcome.new_unplayed))
-        self._unplayed.setVisible(bool(outcome.new_unplayed))
-        self._conflict_title.setText(
-            self.tr("reimport_dialog.changed_here_and_in_file").format(count=len(outcome.conflicts))
-        )
-        self._conflicts.clear()
-        parts = {part.id: part.name for part in self._before.score.parts}
-        for conflict in outcome.conflicts:
-            self._conflicts.addItem(f"{parts[conflict.part_id]}: {self._about_note(conflict)}")
-        for widget in (self._conflict_title, self._conflicts):
-            widget.setVisible(bool(outcome.conflicts))
-        self._orphans.clear()
-        for orphan in outcome.orphans:
-            player = outcome.project.player(orphan.player_id)
-            self._orphans.addItem(f"{player.name}: {self._title(orphan.correction)}")
-        for widget in (self._orphan_title, self._orphans):
-            widget.setVisible(bool(outcome.orphans))
-        for widget in (self._gone_title, self._gone):
-            widget.setVisible(bool(outcome.gone_players))
         self._enable()
+
+    def _heading_id(self) -> str:
+        before, outcome = self._before, self._outcome
+        if outcome.project is before:
+            return "reimport_dialog.says_nothing_new"
+        if replace(outcome.project, source=before.source) == before:
+            return "reimport_dialog.says_nothing_new_but_lies_elsewhere"
+        return "reimport_dialog.what_changes_fingerings_breaths_and"
+
+    def _table_of_parts(self, tokens: Tokens) -> QTableWidget:
+        """The parts, and how many of their notes were found again, are new, are gone, and were changed by hand."""
+        table = named(QTableWidget(len(self._outcome.parts), 5), "reimport_parts")
+        table.verticalHeader().hide()
+        table.setShowGrid(False)
+        table.setSelectionMode(QAbstractItemView.SelectionMode.NoSelection)
+        table.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
+        table.horizontalHeader().setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
+        table.horizontalHeader().setSectionResizeMode(0, QHeaderView.ResizeMode.Stretch)
+        table.horizontalHeader().setDefaultAlignment(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter)
+        columns = ("part", "kept", "new", "gone", "changed_by_hand")
+        self.texted(table, columns=[f"reimport_dialog.{column}" for column in columns])
+        for column in range(1, len(columns)):
+            table.model().setHeaderData(column, Qt.Orientation.Horizontal, _RIGHT, Qt.ItemDataRole.TextAlignmentRole)
+        for row, part in enumerate(self._outcome.parts):
+            name = part.name if part.name == part.former_name else f"{part.former_name} → {part.name}"
+            table.setItem(row, 0, QTableWidgetItem(name))
+            counts = (
+                (part.kept, tokens.text),
+                (part.added, tokens.good),
+                (part.removed, tokens.warning),
+                (part.by_hand, tokens.text),
+            )
+            for column, (count, colour) in enumerate(counts, start=1):
+                item = QTableWidgetItem(str(count))
+                item.setTextAlignment(_RIGHT)
+                item.setForeground(QColor(colour if count else tokens.text_dim))
+                table.setItem(row, column, item)
+        return table
+
+    def _new_and_gone(self) -> tuple[QWidget, ...]:
+        """Players and parts that the file has and the project lacks, and the other way round."""
+        outcome = self._outcome
+        names = {player.id: player.name for player in (*outcome.project.players, *self._before.players)}
+        new = ", ".join(names[id] for id in outcome.new_players)
+        players = named(wrapped(Label()), "reimport_players")
+        _shown(bool(new), self.texted(players, text=said("reimport_dialog.new_players", names=new)))
+        reasons = [partial(_not_played, part.name, part.reason) for part in outcome.new_unplayed]
+        unplayed = self._list("reimport_unplayed", Caption("reimport_dialog.new_parts_without_player"), reasons)
+        unplayed[1].setWordWrap(True)
+        self._gone.setMaximumHeight(min(140, LEAST_TARGET_PX * len(outcome.gone_players) + 6))
+        for player_id in outcome.gone_players:
+            item = QListWidgetItem(names[player_id], self._gone)
+            item.setData(Qt.ItemDataRole.UserRole, player_id)
+            item.setCheckState(Qt.CheckState.Unchecked)
+            item.setSizeHint(QSize(0, LEAST_TARGET_PX))
+        self._gone.itemChanged.connect(lambda: self._enable())
+        gone = wrapped(Caption("reimport_dialog.players_whose_part_is_gone"))
+        return (players, *unplayed, *_shown(bool(outcome.gone_players), gone, self._gone))
+
+    def _replaced(self) -> tuple[QWidget, ...]:
+        """What of the piece is the file's afterwards, whatever the project had."""
+        ids = [f"reimport_dialog.{kind}" for kind in self._outcome.replaced]
+        label = named(wrapped(Label()), "reimport_replaced")
+        self.texted(label, text=lambda: tr("reimport_dialog.replaced_by_file").format(kinds=", ".join(map(tr, ids))))
+        return _shown(bool(ids), label)
+
+    def _lost_and_contradicted(self) -> tuple[QWidget, ...]:
+        """Notes that were changed here and in the file, and corrections that have lost their notes."""
+        outcome, title, about_note = self._outcome, self._title, self._note_title
+        parts = {part.id: part.name for part in self._before.score.parts}
+        changed = said("reimport_dialog.changed_here_and_in_file", count=len(outcome.conflicts))
+        conflicts = [partial(_conflict, parts[one.part_id], one, about_note) for one in outcome.conflicts]
+        orphans = [
+            partial(_orphan, outcome.project.player(one.player_id).name, one.correction, title)
+            for one in outcome.orphans
+        ]
+        lost = Caption("reimport_dialog.these_corrections_have_lost_their")
+        count = self.texted(Label(), text=changed)
+        return (*self._list("reimport_conflicts", count, conflicts), *self._list("reimport_orphans", lost, orphans))
+
+    def _list(self, name: str, heading: Label, items: Sequence[Callable[[], str]]) -> tuple[Label, QListWidget]:
+        """A list under its heading; neither where it is empty."""
+        below = named(QListWidget(), name)
+        below.addItems([""] * len(items))
+        below.setSelectionMode(QAbstractItemView.SelectionMode.NoSelection)
+        below.setMaximumHeight(140)
+        self.texted(below, items=items)
+        _shown(bool(items), wrapped(heading), below)
+        return heading, below
 
     @property
     def removed(self) -> tuple[str, ...]:
@@ -202,16 +182,29 @@ class ReimportDialog(Retranslated, QDialog):
         """Nothing is to be agreed to where nothing changes."""
         self._buttons.ok.setEnabled(self._outcome.project is not self._before or bool(self.removed))
 
-    def _about_note(self, conflict: Conflict) -> str:
-        """What happens to a note: as the user has it → as the file has it."""
-        mine, file = conflict.by_hand, conflict.file
-        here = self.tr("reimport_dialog.erased") if mine is None else self._note_title(conflict.part_id, mine)
-        there = (
-            self.tr("reimport_dialog.not_in_file_any_more")
-            if file is None
-            else self._note_title(conflict.part_id, file)
-        )
-        return f"{here} → {there}"
-
     def sizeHint(self) -> QSize:
         return QSize(620, 460)
+
+
+def _shown(shown: bool, *widgets: QWidget) -> tuple[QWidget, ...]:
+    """The widgets, hidden unless they say something."""
+    for widget in widgets:
+        if not shown:
+            widget.hide()
+    return widgets
+
+
+def _not_played(part: str, reason: Message) -> str:
+    return tr("import_dialog.is_not_played").format(name=part, reason=message_text(reason))
+
+
+def _conflict(part: str, conflict: Conflict, note_title: Callable[[str, Note], str]) -> str:
+    """Name what happens to a note: as the user has it → as the file has it."""
+    mine, file = conflict.by_hand, conflict.file
+    here = tr("reimport_dialog.erased") if mine is None else note_title(conflict.part_id, mine)
+    there = tr("reimport_dialog.not_in_file_any_more") if file is None else note_title(conflict.part_id, file)
+    return f"{part}: {here} → {there}"
+
+
+def _orphan(player: str, correction: Correction, title: Callable[[Correction], str]) -> str:
+    return f"{player}: {title(correction)}"

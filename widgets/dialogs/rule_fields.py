@@ -7,12 +7,11 @@ from typing import Final, NamedTuple, get_args
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QWheelEvent
-from PySide6.QtWidgets import QCheckBox, QDoubleSpinBox, QMenu, QPushButton, QSizePolicy
+from PySide6.QtWidgets import QDoubleSpinBox, QMenu, QPushButton, QSizePolicy
 
-from app.editor.translated import tr
 from metadata.rules import Place, When
 from widgets.common.clicks import on_click
-from widgets.common.controls import named
+from widgets.common.controls import Check, named
 from widgets.common.plain import verbatim
 from widgets.dialogs.automatic_number import TEXT_MARGIN_PX
 
@@ -109,8 +108,9 @@ class OptionalNumberField:
 
     def __init__(self, field: Field, changed: Callable[[], None]) -> None:
         self.field = field
-        self.check = named(QCheckBox(), f"rule_{field.name}_asked")
+        self.check = named(Check(field.text_id), f"rule_{field.name}_asked")
         self.number = Number(f"rule_{field.name}", field.low, field.high, field.step)
+        self.check.texted(self.number, name=field.text_id, suffix=field.unit_id)
         self.check.toggled.connect(self.number.setEnabled)
         on_click(self.check, changed)
         self.number.valueChanged.connect(lambda _value: changed())
@@ -132,12 +132,6 @@ class OptionalNumberField:
         self.number.setValue(self.field.first if value is None else value)
         self.number.blockSignals(False)
         self.check.setChecked(value is not None)
-
-    def retranslate(self) -> None:
-        """Set its texts anew."""
-        self.check.setText(tr(self.field.text_id))
-        self.number.setAccessibleName(self.check.text())
-        self.number.setSuffix(tr(self.field.unit_id) if self.field.unit_id else "")
 
 
 class Several(QPushButton):

@@ -64,13 +64,17 @@ class RuleForm(Retranslated, QWidget):
             named(Several(f"rule_{name}"), f"rule_{name}")
             for name in ("place", "styles", "not_styles", "habits", "grows_with")
         )
-        self._chance = self.texted(self._number("chance", 0.0, 100.0, 5.0), suffix="rules_dialog.unit_percent")
+        self._chance = self._number("chance", 0.0, 100.0, 5.0, "rules_dialog.unit_percent")
         self._strength = self._number("strength", 0.0, 1.0, 0.05)
         self._grows_from = self._number("grows_from", 0.0, 1.0, 0.05)
-        self._start_s = self._number("start_s", -60.0, 60.0, 0.1)
-        self._spread = self._number("spread_s", 0.0, 60.0, 0.1)
-        self._stays = self._number("stays_s", 0.0, 60.0, 0.1)
-        self._apart = self._number("apart_s", 0.0, 600.0, 0.5)
+        self._start_s = self._number("start_s", -60.0, 60.0, 0.1, SECONDS)
+        self._spread = self._number("spread_s", 0.0, 60.0, 0.1, SECONDS)
+        self._stays = self._number("stays_s", 0.0, 60.0, 0.1, SECONDS)
+        self._apart = self._number("apart_s", 0.0, 600.0, 0.5, SECONDS)
+        self.texted(self._spread, tip="rules_dialog.spread_tip")
+        self.texted(self._stays, tip="rules_dialog.stays_tip")
+        self.texted(self._apart, tip="rules_dialog.apart_tip")
+        self.texted(self._growth, tip="rules_dialog.grows_with_tip")
         self._end, self._fade_in, self._fade_out = (
             OptionalNumberField(field, self._edited) for field in (_END, _FADE_IN, _FADE_OUT)
         )
@@ -86,8 +90,8 @@ class RuleForm(Retranslated, QWidget):
         self.texted(self._do, heading="rules_dialog.do")
         self.retranslate()
 
-    def _number(self, name: str, low: float, high: float, step: float) -> Number:
-        number = Number(f"rule_{name}", low, high, step)
+    def _number(self, name: str, low: float, high: float, step: float, unit_id: str = "") -> Number:
+        number = self.texted(Number(f"rule_{name}", low, high, step), suffix=unit_id)
         number.valueChanged.connect(lambda _value: self._edited())
         return number
 
@@ -248,18 +252,6 @@ class RuleForm(Retranslated, QWidget):
         return {id: self.tr(text) for id, text in ids.items()}
 
     def retranslate(self) -> None:
-        for asked in (*self._asked, self._end, self._fade_in, self._fade_out):
-            asked.retranslate()
-        for number in (self._start_s, self._spread, self._stays, self._apart):
-            number.setSuffix(self.tr("rules_dialog.unit_s"))
-        tips = {
-            self._apart: self.tr("rules_dialog.apart_tip"),
-            self._growth: self.tr("rules_dialog.grows_with_tip"),
-            self._spread: self.tr("rules_dialog.spread_tip"),
-            self._stays: self.tr("rules_dialog.stays_tip"),
-        }
-        for widget, tip in tips.items():
-            widget.setToolTip(tip)
         if self._rule is not None:
             self.show_rule(self._rule)
 

@@ -58,6 +58,22 @@ class StreamDialog(Retranslated, QDialog):
         session.dancer_changed.connect(self._show)
         session.performance_changed.connect(self._show)
         session.theme_changed.connect(self._show)
+        self.texted(
+            self._who,
+            options={
+                "front": "stream_dialog.selected_player_in_middle",
+                "everyone": "stream_dialog.everyone_on_stage_each_on",
+            },
+        )
+        self.texted(
+            self._faces,
+            options={
+                "arkit": "stream_dialog.arkit_jawopen",
+                "arkit_capital": "stream_dialog.arkit_with_capitals_jawopen_perfect",
+                "vrm": "stream_dialog.vrm_presets_blink_l_joy",
+            },
+        )
+        self._rate.set_options([Option(str(rate), str(rate)) for rate in RATES_HZ])
         self.texted(self, title="stream_dialog.live_stream")
         self.retranslate()
         self.resize(620, 560)
@@ -136,20 +152,6 @@ class StreamDialog(Retranslated, QDialog):
                 self._list.addTopLevelItem(item)
 
     def retranslate(self) -> None:
-        self._who.set_options(
-            [
-                Option("front", self.tr("stream_dialog.selected_player_in_middle")),
-                Option("everyone", self.tr("stream_dialog.everyone_on_stage_each_on")),
-            ]
-        )
-        self._faces.set_options(
-            [
-                Option("arkit", self.tr("stream_dialog.arkit_jawopen")),
-                Option("arkit_capital", self.tr("stream_dialog.arkit_with_capitals_jawopen_perfect")),
-                Option("vrm", self.tr("stream_dialog.vrm_presets_blink_l_joy")),
-            ]
-        )
-        self._rate.set_options([Option(str(rate), str(rate)) for rate in RATES_HZ])
         self._listed = ()
         self._show()
 

@@ -38,7 +38,14 @@ GROUPS: tuple[tuple[str, tuple[str, ...]], ...] = (
     ("rest", ("cheek", "nose", "tongue")),
 )
 """Groups of morph targets by how their names begin."""
-_TOOLS = (("duplicate", "duplicate"), ("remove", "delete"), ("keep", "save"), ("both", "link"), ("preview", "eye"))
+_TOOLS = (
+    ("duplicate", "duplicate", "expression_maker.make_one_of_your_own"),
+    ("remove", "delete", ""),
+    ("keep", "save", "expression_maker.keep_it_for_other_projects"),
+    ("both", "link", "expression_maker.move_both_sides_of_face"),
+    ("preview", "eye", "expression_maker.show_it_on_player_in"),
+)
+"""Buttons, their pictures and the ids of their tips; that of the second depends on the expression."""
 
 
 def mirrored(morph: str) -> str:
@@ -69,7 +76,7 @@ class ExpressionMaker(Retranslated, QWidget):
         self._kept: dict[str, Expression] = {}
         self._section = Section(session, "inspector_expressions", self, folded=True, remembers=False)
         self._choice = named(Combo(), "expression_choice")
-        self._tools = {name: QToolButton() for name, _ in _TOOLS}
+        self._tools = {name: self.texted(QToolButton(), tip=tip_id) for name, _, tip_id in _TOOLS}
         self._title = self.texted(named(QLineEdit(), "expression_name"), placeholder="expression_maker.name")
         self._playing = self.texted(
             named(Check("expression_maker.may_show_while_playing"), "expression_while_playing"),
@@ -81,6 +88,9 @@ class ExpressionMaker(Retranslated, QWidget):
             name: NumberSlider(session, 0.01, 60, step=0.05, fills=(0.0, 3.0), resets=False)
             for name in ("fade_in_s", "fade_out_s")
         }
+        for name, slider in self._fades.items():
+            text_id = f"expression_maker.{name.removesuffix('_s')}"
+            self.texted(slider, words=(text_id, "expression_maker.seconds"))
         self._groups: dict[str, Section] = {}
         self._sliders: dict[str, NumberSlider] = {}
         self._build()
@@ -350,21 +360,11 @@ class ExpressionMaker(Retranslated, QWidget):
 
     def _apply_theme(self) -> None:
         tokens = self._session.tokens
-        for name, drawing in _TOOLS:
+        for name, drawing, _ in _TOOLS:
             self._tools[name].setIcon(icon(drawing, tokens))
         self._hint.setStyleSheet(f"color: {tokens.text_dim};")
 
     def retranslate(self) -> None:
-        tips = {
-            "duplicate": self.tr("expression_maker.make_one_of_your_own"),
-            "keep": self.tr("expression_maker.keep_it_for_other_projects"),
-            "both": self.tr("expression_maker.move_both_sides_of_face"),
-            "preview": self.tr("expression_maker.show_it_on_player_in"),
-        }
-        for name, tip in tips.items():
-            self._tools[name].setToolTip(tip)
-        self._fades["fade_in_s"].set_texts(self.tr("expression_maker.fade_in"), self.tr("expression_maker.seconds"))
-        self._fades["fade_out_s"].set_texts(self.tr("expression_maker.fade_out"), self.tr("expression_maker.seconds"))
         self._name_sliders()
         self.show_expression()
 

@@ -12,7 +12,7 @@ from app.editor.session import Session
 from app.plan.model import Problem
 from app.project.performers import Dancer, Player
 from app.score.model import Score
-from widgets.common.combo import Combo, Option
+from widgets.common.combo import Combo
 from widgets.common.controls import Retranslated, named, wrapped
 from widgets.common.layouts import in_column, in_row
 from widgets.common.plain import Label
@@ -30,7 +30,16 @@ _KINDS = {
     "choreography": "dance",
     "project": "project",
 }
-
+_KIND_TEXTS = {
+    ALL: "problem_list.all_kinds",
+    "fingering": "problem_list.fingerings",
+    "breath": "problem_list.breaths",
+    "note": "problem_list.notes",
+    "correction": "problem_list.corrections",
+    "contact": "problem_list.contacts",
+    "dance": "problem_list.dances",
+    "project": "problem_list.instruments_and_characters",
+}
 MOST_LINES = 300
 """No one reads more; a large score that does not fit its instruments has thousands."""
 
@@ -68,8 +77,11 @@ class ProblemList(Retranslated, QWidget):
         session.players_changed.connect(self._players_changed)
         session.theme_changed.connect(self._say_anew)
         session.pitch_display.changed.connect(self._say_anew)
-        self.texted(self._who, name="problem_list.whose_problems")
-        self.texted(self._kind, name="problem_list.problems_of_which_kind")
+        whose = {EVERYONE: "problem_list.all_players", SELECTED: "problem_list.selected_players"}
+        self.texted(self._who, explained="problem_list.whose_problems", options=whose)
+        self.texted(self._kind, explained="problem_list.problems_of_which_kind", options=_KIND_TEXTS)
+        self._who.show_option(EVERYONE)
+        self._kind.show_option(ALL)
         self.retranslate()
 
     def show_problems(self) -> None:
@@ -140,32 +152,6 @@ class ProblemList(Retranslated, QWidget):
         self._session.reveal(problem.start_s)
 
     def retranslate(self) -> None:
-        for combo in (self._who, self._kind):
-            combo.setToolTip(combo.accessibleName())
-        who, kind = self._who.shown or EVERYONE, self._kind.shown or ALL
-        self._who.set_options(
-            [
-                Option(EVERYONE, self.tr("problem_list.all_players")),
-                Option(SELECTED, self.tr("problem_list.selected_players")),
-            ]
-        )
-        words = {
-            "fingering": self.tr("problem_list.fingerings"),
-            "breath": self.tr("problem_list.breaths"),
-            "note": self.tr("problem_list.notes"),
-            "correction": self.tr("problem_list.corrections"),
-            "contact": self.tr("problem_list.contacts"),
-            "dance": self.tr("problem_list.dances"),
-            "project": self.tr("problem_list.instruments_and_characters"),
-        }
-        self._kind.set_options(
-            [
-                Option(ALL, self.tr("problem_list.all_kinds")),
-                *(Option(name, words[name]) for name in dict.fromkeys(_KINDS.values())),
-            ]
-        )
-        self._who.show_option(who)
-        self._kind.show_option(kind)
         self._say_anew()
 
     # Qt's own names

@@ -16,12 +16,11 @@ from metadata.library import HABITS, STYLES
 from widgets.common.chip import Chip
 from widgets.common.clicks import on_switch
 from widgets.common.combo import Combo, Option
-from widgets.common.controls import Retranslated, named
+from widgets.common.controls import Caption, Retranslated, named
 from widgets.common.event_names import habit_name, style_name
 from widgets.common.flow import FlowLayout
 from widgets.common.instrument_name import language
 from widgets.common.layouts import in_column, in_row
-from widgets.common.plain import Label
 from widgets.common.text import parameter_text
 
 _STYLE, _HABITS = PARAMETERS["style"], PARAMETERS["habits"]
@@ -42,13 +41,12 @@ class ActingRows(Retranslated, QWidget):
         super().__init__(parent)
         self._session = session
         self._players: tuple[Player, ...] = ()
-        self._style_label, self._style = Label(), named(Combo(), f"parameter_{_STYLE.name}")
-        self._style_label.setBuddy(self._style)
-        self._habit_label, self._habits = Label(), named(QWidget(), f"parameter_{_HABITS.name}")
+        self._style = named(Combo(), f"parameter_{_STYLE.name}")
+        self._habits = self.texted(named(QWidget(), f"parameter_{_HABITS.name}"), tip=_HABITS.tip)
         self._flow = FlowLayout(self._habits)
         self._chips: dict[str, Chip] = {}
-        choice = in_row(self._style_label, (self._style, 1), spacing=4)
-        in_column(choice, self._habit_label, self._habits, of=self, margins=0, spacing=4)
+        choice = in_row(Caption(_STYLE.label, self._style), (self._style, 1), spacing=4)
+        in_column(choice, Caption(_HABITS.label), self._habits, of=self, margins=0, spacing=4)
         self._style.chosen.connect(self._choose)
         session.metadata_changed.connect(self._show)
         self.retranslate()
@@ -112,7 +110,4 @@ class ActingRows(Retranslated, QWidget):
     # Words
 
     def retranslate(self) -> None:
-        self._style_label.setText(parameter_text(_STYLE.label))
-        self._habit_label.setText(parameter_text(_HABITS.label))
-        self._habits.setToolTip(parameter_text(_HABITS.tip))
         self._show()

@@ -9,6 +9,7 @@ from pathlib import Path
 from PySide6.QtWidgets import QWidget
 
 from app.editor.session import Session
+from app.editor.translated import tr
 from app.encoding import shown
 from app.plan.parameters import PARAMETERS
 from app.project.choreography_files import SUFFIX, bundled_choreographies
@@ -17,11 +18,9 @@ from app.project.edit.players import parameter_edit, reset_parameters, set_param
 from app.project.model import Project
 from app.project.performers import Player
 from widgets.common.combo import Combo, Option
-from widgets.common.controls import IconButton, Retranslated, named
+from widgets.common.controls import Caption, IconButton, named
 from widgets.common.layouts import in_column, in_row
 from widgets.common.paths import ask_for_file
-from widgets.common.plain import Label
-from widgets.common.text import parameter_text
 from widgets.players.parameter_rows import ParameterSlider, rows_of
 
 _GENERATED = ""
@@ -31,14 +30,13 @@ _DANCED = PARAMETERS["choreography"]
 _VARIATION = "dance_variation"
 
 
-class BodyDanceRows(Retranslated, QWidget):
+class BodyDanceRows(QWidget):
     """Generated or a choreography, how much of it, and which of its dances; the latter two while there is one."""
 
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._session = session
-        self._label, self._choreography = Label(), named(Combo(), "parameter_choreography")
-        self._label.setBuddy(self._choreography)
+        self._choreography = named(Combo(), "parameter_choreography")
         self._sliders = {one.name: ParameterSlider(session, one) for one in rows_of("dance")}
         self._dice = IconButton(session, "dice", "body_dance_rows.another_dance_for_each", self._vary, "dance_dice")
         self._build()
@@ -47,10 +45,9 @@ class BodyDanceRows(Retranslated, QWidget):
             slider.changed.connect(lambda value, token, name=name: self._set(name, value, token))
             slider.reset.connect(lambda _, name=name: self._reset(name))
             slider.released.connect(session.document.end_gesture)
-        self.retranslate()
 
     def _build(self) -> None:
-        choice = in_row(self._label, (self._choreography, 1), spacing=4)
+        choice = in_row(Caption(_DANCED.label, self._choreography), (self._choreography, 1), spacing=4)
         variation = in_row((self._sliders[_VARIATION], 1), self._dice, spacing=4)
         others = (slider for name, slider in self._sliders.items() if name != _VARIATION)
         in_column(choice, *others, variation, of=self, margins=0)
@@ -76,8 +73,7 @@ class BodyDanceRows(Retranslated, QWidget):
 
     def _show_choreography(self, dances: Sequence[str]) -> None:
         self._choreography.show_option(dances[0] if len(dances) == 1 else None)
-        reported = [parameter_text(_DANCED.tip)]
-        self._choreography.setToolTip("\n".join([*reported, *(shown(path) for path in dances if path)]))
+        self._choreography.setToolTip("\n".join([tr(_DANCED.tip), *(shown(path) for path in dances if path)]))
 
     # Editing
 
@@ -110,11 +106,3 @@ class BodyDanceRows(Retranslated, QWidget):
 
     def _edit(self, name: str, change: Callable[[Project], Project], token: object | None = None) -> None:
         self._session.attempt(parameter_edit(name, len(self._session.players)), change, token, self)
-
-    # Words
-
-    def retranslate(self) -> None:
-        """Set every text in the language of the editor; what is shown of players follows with `show_players`."""
-        self._label.setText(parameter_text(_DANCED.label))
-        for slider in self._sliders.values():
-            slider.retranslate()

@@ -9,6 +9,7 @@ from PySide6.QtWidgets import QCheckBox, QWidget
 
 from app.editor.session import Session
 from app.editor.tokens import LEAST_TARGET_PX
+from app.editor.translated import tr
 from app.errors import Message
 from app.plan.parameters import Parameter
 from app.project.edit.players import show_layer
@@ -16,7 +17,6 @@ from app.project.performers import Player
 from metadata.acting import names_in
 from widgets.common.clicks import on_click
 from widgets.common.controls import Retranslated
-from widgets.common.text import parameter_text
 
 
 class LayerSwitch(Retranslated, QCheckBox):
@@ -36,7 +36,7 @@ class LayerSwitch(Retranslated, QCheckBox):
         self.setObjectName(f"layer_{amount.name}")
         self.setMinimumSize(LEAST_TARGET_PX, LEAST_TARGET_PX)
         on_click(self, self._switch)
-        self.retranslate()
+        self.texted(self, explained=lambda: tr("layer_switch.show_layer").format(layer=tr(amount.label)))
 
     def show_players(self, players: Sequence[Player]) -> None:
         """Show what these players show, of whom there is at least one."""
@@ -54,8 +54,3 @@ class LayerSwitch(Retranslated, QCheckBox):
         id = "edit.show_layer" if shown else "edit.hide_layer"
         edit = Message(id, {"parameter": self._amount.label, "count": len(chosen)})
         self._session.attempt(edit, lambda project: show_layer(project, chosen, name, shown), None, self)
-
-    def retranslate(self) -> None:
-        layer = parameter_text(self._amount.label)
-        self.setToolTip(self.tr("layer_switch.show_layer").format(layer=layer))
-        self.setAccessibleName(self.toolTip())

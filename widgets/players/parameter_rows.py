@@ -8,11 +8,10 @@ from PySide6.QtWidgets import QHBoxLayout
 
 from app.editor.session import Session
 from app.plan.parameters import PARAMETERS, Parameter
-from widgets.common.combo import Combo, Option
+from widgets.common.combo import Combo
+from widgets.common.controls import Caption, Retranslated
 from widgets.common.layouts import in_row
 from widgets.common.number_slider import NumberSlider
-from widgets.common.plain import Label
-from widgets.common.text import parameter_text
 
 LARGEST = 2**31 - 1
 """The largest whole number that a control takes."""
@@ -23,7 +22,7 @@ def rows_of(section: str, table: Mapping[str, Parameter] = PARAMETERS) -> list[P
     return sorted((one for one in table.values() if one.section == section), key=lambda one: one.row)
 
 
-class ParameterSlider(NumberSlider):
+class ParameterSlider(Retranslated, NumberSlider):
     """The slider of a parameter that is a number; whole ones are typed."""
 
     def __init__(self, session: Session, parameter: Parameter, prefix: str = "parameter") -> None:
@@ -41,30 +40,20 @@ class ParameterSlider(NumberSlider):
         )
         self.parameter = parameter
         self.setObjectName(f"{prefix}_{parameter.name}")
-
-    def retranslate(self) -> None:
-        """Set the words in the language of the editor."""
-        said = self.parameter
-        self.set_texts(parameter_text(said.label), parameter_text(said.unit), parameter_text(said.tip))
+        self.texted(self, words=(parameter.label, parameter.unit, parameter.tip))
 
 
 class ParameterChoice(Combo):
-    """The list of a parameter that is one of a few; the ids of its options are the values as texts."""
+    """The list of a parameter that is one of a few; the ids of its options, which others set, are the values as
+    texts."""
 
     def __init__(self, parameter: Parameter) -> None:
         super().__init__()
         self.parameter = parameter
         self.values = {str(value): value for value, _ in parameter.choices}
-        self.label = Label()
-        self.label.setBuddy(self)
+        self.label = Caption(parameter.label, self)
         self.setObjectName(f"parameter_{parameter.name}")
 
     def line(self) -> QHBoxLayout:
         """The list behind its label."""
         return in_row(self.label, (self, 1), spacing=4)
-
-    def retranslate(self) -> None:
-        """Set the words in the language of the editor."""
-        self.label.setText(parameter_text(self.parameter.label))
-        self.setToolTip(parameter_text(self.parameter.tip))
-        self.set_options([Option(str(value), parameter_text(word)) for value, word in self.parameter.choices])

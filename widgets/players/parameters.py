@@ -150,6 +150,7 @@ class ParameterSections(Retranslated, QWidget):
 
     def _make_choice(self, parameter: Parameter) -> ParameterChoice:
         choice = self._choices[parameter.name] = ParameterChoice(parameter)
+        self.texted(choice, tip=parameter.tip, options={str(value): word for value, word in parameter.choices})
         choice.chosen.connect(lambda id: self._set(parameter, choice.values[id]))
         return choice
 
@@ -282,10 +283,6 @@ class ParameterSections(Retranslated, QWidget):
     def retranslate(self) -> None:
         self._show_instruments()
         self._show_characters()
-        for slider in self._sliders.values():
-            slider.retranslate()
-        for choice in self._choices.values():
-            choice.retranslate()
         self.show_players()
 
     def _show_acting(self, note: str) -> None:

@@ -7,14 +7,14 @@ import math
 import msgspec
 
 from app.editor.session import Session
-from app.editor.translated import tr
 from app.project.casting import StagePosition
+from widgets.common.controls import Retranslated
 from widgets.common.number_slider import NumberSlider
 from widgets.players.stage import FARTHEST_M
 
 
-def place_sliders(session: Session, prefix: str) -> dict[str, NumberSlider]:
-    """A control for each field of a place, by its name."""
+def place_sliders(holder: Retranslated, session: Session, prefix: str) -> dict[str, NumberSlider]:
+    """A control for each field of a place, by its name; the holder words them."""
     sliders = {
         "x_m": NumberSlider(session, -FARTHEST_M, FARTHEST_M, step=0.05, slides=False),
         "z_m": NumberSlider(session, -FARTHEST_M, FARTHEST_M, step=0.05, slides=False),
@@ -22,19 +22,10 @@ def place_sliders(session: Session, prefix: str) -> dict[str, NumberSlider]:
     }
     for name, slider in sliders.items():
         slider.setObjectName(f"{prefix}_{name}")
+    holder.texted(sliders["x_m"], words=("place.x", "place.metres", "place.to_right_as_audience_sees"))
+    holder.texted(sliders["z_m"], words=("place.z", "place.metres", "place.towards_audience_from_middle"))
+    holder.texted(sliders["turn_rad"], words=("place.turn", "°", "place.0_faces_audience_positive_turns"))
     return sliders
-
-
-def name_places(sliders: dict[str, NumberSlider]) -> None:
-    """Set their words in the language of the editor."""
-    metres = tr("place.metres")
-    words = {
-        "x_m": (tr("place.x"), metres, tr("place.to_right_as_audience_sees")),
-        "z_m": (tr("place.z"), metres, tr("place.towards_audience_from_middle")),
-        "turn_rad": (tr("place.turn"), "°", tr("place.0_faces_audience_positive_turns")),
-    }
-    for name, (label, unit, tip) in words.items():
-        sliders[name].set_texts(label, unit, tip)
 
 
 def shown_number(place: StagePosition, name: str) -> float:

@@ -12,7 +12,7 @@ from app.project.edit.dancers import place_dancers
 from widgets.common.controls import IconButton, Retranslated, named
 from widgets.common.layouts import in_column
 from widgets.common.section import Section
-from widgets.players.place_numbers import name_places, place_sliders, shown_number, with_number
+from widgets.players.place_numbers import place_sliders, shown_number, with_number
 from widgets.players.stage import StageView
 
 
@@ -30,7 +30,7 @@ class StageSection(Retranslated, QWidget):
         self._snap.setCheckable(True)
         self._section.header.add_button(self._snap)
         self._section.header.add_button(self._arc)
-        self._numbers = place_sliders(session, "stage")
+        self._numbers = place_sliders(self, session, "stage")
         grid = QGridLayout()
         grid.setSpacing(4)
         for place, (name, number) in enumerate(self._numbers.items()):
@@ -83,5 +83,4 @@ class StageSection(Retranslated, QWidget):
         self._session.attempt(Message("edit.arrange_players"), edit.arrange)
 
     def retranslate(self) -> None:
-        name_places(self._numbers)
         self.view.update()

@@ -71,6 +71,7 @@ class RecordingPanel(Retranslated, QWidget):
         self._sign.setFixedWidth(SIGN_PX + 2)
         self._meter.setRange(0, METER_STEPS)
         self._meter.setTextVisible(False)
+        self.texted(self._meter, explained="recording_panel.breath_and_note")
         self._note.setMinimumWidth(NOTE_PX)
         for label in (self._device, self._player):
             label.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
@@ -162,9 +163,6 @@ class RecordingPanel(Retranslated, QWidget):
     # Words
 
     def retranslate(self) -> None:
-        tip = self.tr("recording_panel.breath_and_note")
-        self._meter.setToolTip(tip)
-        self._meter.setAccessibleName(tip)
         table = actions(self._session)
         for id, button in self._buttons.items():
             if id in table:

@@ -9,13 +9,24 @@ from PySide6.QtWidgets import QButtonGroup, QHBoxLayout, QMenu, QSizePolicy, QTo
 from app.editor.session import Session
 from app.editor.timeline_view import Ghosts, Tool
 from app.project.document import Change
-from widgets.common.actions import actions
+from widgets.common.actions import with_keys
 from widgets.common.controls import Retranslated, named
 from widgets.common.icons import icon
 from widgets.common.plain import ComboBox, Label
 from widgets.timeline.roll.piano_roll import PianoRoll
 
 ICONS = {Tool.SELECT: "pointer", Tool.DRAW: "pencil", Tool.ERASE: "eraser", Tool.SPLIT: "split"}
+TOOL_TIPS = {
+    Tool.SELECT: "tool_bar.select_click_drag_frame_drag",
+    Tool.DRAW: "tool_bar.draw_drag_out_new_note",
+    Tool.ERASE: "tool_bar.erase_drag_over_notes",
+    Tool.SPLIT: "tool_bar.split_click_where_note_shall",
+}
+MODES = {
+    Ghosts.GHOSTS: "tool_bar.others_as_ghosts",
+    Ghosts.ALL: "tool_bar.all_players",
+    Ghosts.ALONE: "tool_bar.only_this_player",
+}
 GHOST_ICONS = {Ghosts.GHOSTS: "ghosts", Ghosts.ALL: "players", Ghosts.ALONE: "player"}
 BUTTON_PX = 26
 SWATCH_PX = 12
@@ -38,6 +49,8 @@ class ToolBar(Retranslated, QWidget):
         for tool in Tool:
             button = self._button(f"tool_{tool.value}")
             button.setCheckable(True)
+            text_id = TOOL_TIPS[tool]
+            self.texted(button, tip=with_keys(session, f"notes.tool_{tool.value}", text_id), name=text_id)
             group.addButton(button)
             self.tools[tool] = button
             row.addWidget(button)
@@ -55,7 +68,9 @@ class ToolBar(Retranslated, QWidget):
         self.ghosts_button.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
         self.ghosts_button.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
         self.ghosts_button.setMaximumWidth(16777215)
-        self._modes = {mode: self._ghosts_menu().addAction("") for mode in Ghosts}
+        menu = QMenu(self.ghosts_button)
+        self.ghosts_button.setMenu(menu)
+        self._modes = {mode: self.texted(menu.addAction(""), text=text_id) for mode, text_id in MODES.items()}
         modes = QActionGroup(self)
         for mode, action in self._modes.items():
             action.setCheckable(True)
@@ -82,33 +97,7 @@ class ToolBar(Retranslated, QWidget):
         button.setMinimumSize(QSize(BUTTON_PX, BUTTON_PX))
         return button
 
-    def _ghosts_menu(self) -> QMenu:
-        menu = self.ghosts_button.menu()
-        if menu is None:
-            menu = QMenu(self.ghosts_button)
-            self.ghosts_button.setMenu(menu)
-        return menu
-
     def retranslate(self) -> None:
-        tips = {
-            Tool.SELECT: self.tr("tool_bar.select_click_drag_frame_drag"),
-            Tool.DRAW: self.tr("tool_bar.draw_drag_out_new_note"),
-            Tool.ERASE: self.tr("tool_bar.erase_drag_over_notes"),
-            Tool.SPLIT: self.tr("tool_bar.split_click_where_note_shall"),
-        }
-        table = actions(self._session)
-        for tool, button in self.tools.items():
-            action = table.get(f"notes.tool_{tool.value}")
-            keys = action.shortcut().toString() if action is not None else ""
-            button.setToolTip(f"{tips[tool]} ({keys})" if keys else tips[tool])
-            button.setAccessibleName(tips[tool])
-        texts = {
-            Ghosts.GHOSTS: self.tr("tool_bar.others_as_ghosts"),
-            Ghosts.ALL: self.tr("tool_bar.all_players"),
-            Ghosts.ALONE: self.tr("tool_bar.only_this_player"),
-        }
-        for mode, action in self._modes.items():
-            action.setText(texts[mode])
         self._fill_players()
         self.show_state()
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import ceil, floor
 
 from PySide6.QtCore import QSize, Qt
-from PySide6.QtGui import QAction, QResizeEvent, QShowEvent
+from PySide6.QtGui import QResizeEvent, QShowEvent
 from PySide6.QtWidgets import QLayout, QMenu, QSizePolicy, QToolButton, QWidget
 
 from app.editor.grids import GRIDS
@@ -14,7 +14,7 @@ from app.editor.session import Session
 from app.editor.tokens import LEAST_TARGET_PX
 from app.project.document import Change
 from app.project.grid import Grid
-from widgets.common.actions import actions
+from widgets.common.actions import actions, with_keys
 from widgets.common.clicks import on_click, on_switch
 from widgets.common.combo import Combo, Option
 from widgets.common.controls import Caption, Retranslated, named
@@ -27,14 +27,17 @@ from widgets.transport.beat_light import BeatLight
 from widgets.transport.fields import BarsField, ClockField, FramesField
 
 BUTTONS = (
-    ("play.to_start", "to_start"),
-    ("play.toggle", "play"),
-    ("play.stop", "stop"),
-    ("play.loop", "loop"),
-    ("record.toggle", "record"),
+    ("play.to_start", "to_start", "transport_bar.to_start"),
+    ("play.toggle", "play", "transport_bar.play_or_stop_here"),
+    ("play.stop", "stop", "transport_bar.stop_once_more_to_start"),
+    ("play.loop", "loop", "transport_bar.loop_selection_else_bar"),
+    ("record.toggle", "record", "transport_bar.record_player_in_front_or"),
 )
-"""Actions by id, and their icons."""
-TOGGLES = (("play.click", "metronome"), ("play.follow", "follow"))
+"""Actions by id, their icons and the ids of their tips."""
+TOGGLES = (
+    ("play.click", "metronome", "transport_bar.metronome"),
+    ("play.follow", "follow", "transport_bar.timeline_follows_playhead"),
+)
 
 RECORD_MENU = (
     *("record.count_in_0", "record.count_in_1", "record.count_in_2", ""),
@@ -59,8 +62,8 @@ class TransportBar(Retranslated, QWidget):
         super().__init__(parent)
         self.setObjectName("transport")
         self._session = session
-        self.buttons = {id: self._button(id) for id, _ in (*BUTTONS, *TOGGLES)}
-        self.snap_button = self._tool("snap_on")
+        self.buttons = {id: self._button(id, text_id) for id, _, text_id in (*BUTTONS, *TOGGLES)}
+        self.snap_button = self.texted(self._tool("snap_on"), explained="transport_bar.edits_snap_to_grid_alt")
         self.bars, self.clock, self.frames = BarsField(session), ClockField(session), FramesField(session)
         self.tempo = self.texted(Label(), tip="transport_bar.tempo_and_metre_at_playhead")
         self.speed = self.texted(
@@ -75,6 +78,8 @@ class TransportBar(Retranslated, QWidget):
         )
         self.source, self.snap = Combo(), Combo()
         self.silent_sign, self.silent_text = Label(), Caption("transport_bar.no_audio_device_silent")
+        for label in (self.silent_sign, self.silent_text):
+            self.texted(label, explained="transport_bar.there_is_no_audio_device")
         self.beat = BeatLight(session)
         self.take_text = named(Label(), "take_text")
         self.take_text.hide()
@@ -93,7 +98,9 @@ class TransportBar(Retranslated, QWidget):
             words=("transport_bar.frame", "", "transport_bar.frame_click_to_type_drag"),
             name="transport_bar.frame_2",
         )
-        self.texted(self.source, tip="transport_bar.playback_source", name="transport_bar.playback_source")
+        sources = {str(source): f"transport_bar.{source}" for source in SOURCES}
+        self.texted(self.source, explained="transport_bar.playback_source", options=sources)
+        self.snap.set_options([Option(name, name) for name in GRIDS])
         self.texted(self.snap, tip="transport_bar.step_of_grid_note_values", name="transport_bar.step_of_grid")
         self.retranslate()
         self._show_playhead(session.playhead_s)
@@ -101,8 +108,9 @@ class TransportBar(Retranslated, QWidget):
 
     # Building
 
-    def _button(self, action_id: str) -> QToolButton:
+    def _button(self, action_id: str, text_id: str) -> QToolButton:
         button = self._tool(action_id.replace(".", "_"))
+        self.texted(button, tip=with_keys(self._session, action_id, text_id), name=text_id)
         on_click(button, lambda: self._trigger(action_id))
         return button
 
@@ -146,7 +154,7 @@ class TransportBar(Retranslated, QWidget):
             combo.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Fixed)
         self.tempo.setMinimumWidth(84)
         self.tempo.setAlignment(Qt.AlignmentFlag.AlignCenter)
-        buttons = [self.buttons[id] for id, _ in BUTTONS]
+        buttons = [self.buttons[id] for id, *_ in BUTTONS]
         places = ((self.bars, 3), (self.clock, 3), (self.frames, 3), self.tempo)
         beats = (self.buttons["play.click"], self.beat, self.take_text)
         sound = ((self.volume, 3), (self.speed, 3), (self.source, 2))
@@ -295,7 +303,7 @@ class TransportBar(Retranslated, QWidget):
 
     def _apply_theme(self) -> None:
         tokens = self._session.tokens
-        for id, name in (*BUTTONS, *TOGGLES):
+        for id, name, _ in (*BUTTONS, *TOGGLES):
             self.buttons[id].setIcon(icon(name, tokens))
         self.buttons["record.toggle"].setIcon(icon("record", tokens, tokens.error))
         self.take_text.setStyleSheet(f"color: {tokens.error}; font-weight: bold;")
@@ -307,49 +315,16 @@ class TransportBar(Retranslated, QWidget):
         self._show_state()
 
     def retranslate(self) -> None:
-        tips = {
-            "play.to_start": self.tr("transport_bar.to_start"),
-            "play.toggle": self.tr("transport_bar.play_or_stop_here"),
-            "play.stop": self.tr("transport_bar.stop_once_more_to_start"),
-            "play.loop": self.tr("transport_bar.loop_selection_else_bar"),
-            "record.toggle": self.tr("transport_bar.record_player_in_front_or"),
-            "play.click": self.tr("transport_bar.metronome"),
-            "play.follow": self.tr("transport_bar.timeline_follows_playhead"),
-        }
-        table = actions(self._session)
-        for id, tip in tips.items():
-            self._tip(self.buttons[id], tip, table.get(id))
         for slider in (self.volume, self.speed):
             # A slider without its name is not found.
             slider.setMinimumWidth(min(slider.sizeHint().width(), slider.maximumWidth()))
-        self.source.set_options(
-            (
-                Option("recording", self.tr("transport_bar.recording")),
-                Option("synthesiser", self.tr("transport_bar.synthesiser")),
-                Option("both", self.tr("transport_bar.both")),
-            )
-        )
-        snap_tip = self.tr("transport_bar.edits_snap_to_grid_alt")
-        self.snap_button.setToolTip(snap_tip)
-        self.snap_button.setAccessibleName(snap_tip)
-        self.snap.set_options([Option(name, name) for name in GRIDS])
-        hint = self.tr("transport_bar.there_is_no_audio_device")
-        for label in (self.silent_sign, self.silent_text):
-            label.setToolTip(hint)
-            label.setAccessibleName(hint)
         self._show_state()
-
-    @staticmethod
-    def _tip(button: QToolButton, text: str, action: QAction | None) -> None:
-        keys = action.shortcut().toString() if action is not None else ""
-        button.setToolTip(f"{text} ({keys})" if keys else text)
-        button.setAccessibleName(text)
 
     # Qt's own names
 
     def showEvent(self, event: QShowEvent) -> None:
         # The table of actions may be filled after the bar is made.
-        self.retranslate()
+        self.word()
         super().showEvent(event)
 
     def resizeEvent(self, event: QResizeEvent) -> None:

@@ -12,7 +12,7 @@ from PySide6.QtWidgets import QButtonGroup, QMenu, QSizePolicy, QToolButton, QWi
 from app.editor.session import Session
 from app.editor.tokens import LEAST_TARGET_PX
 from app.editor.viewport_state import SHOWN, VIEWS, Shown, View
-from widgets.common.actions import actions
+from widgets.common.actions import actions, with_keys
 from widgets.common.clicks import on_click, on_switch
 from widgets.common.controls import Retranslated, named
 from widgets.common.icons import icon
@@ -54,50 +54,24 @@ class ViewportHeader(Retranslated, QWidget):
         self._session = session
         self._pictures: dict[QToolButton, str] = {}
         self._views: dict[View, QToolButton] = {}
-        self._group = QButtonGroup(self)
-        self._group.setExclusive(True)
-        self._segments = QWidget(self)
-        segments = in_row(of=self._segments, margins=0, spacing=1)
-        self._view_menu = named(QMenu(self), "viewport_view_menu")
         self._view_rows: dict[View, QAction] = {}
-        rows = QActionGroup(self)
-        for view in VIEWS:
-            button = self._button(f"viewport_view_{view}", checkable=True)
-            on_click(button, session.viewport.set_view, view)
-            self._group.addButton(button)
-            segments.addWidget(button)
-            self._views[view] = button
-            row = self._view_menu.addAction("")
-            row.setCheckable(True)
-            on_click(row, session.viewport.set_view, view)
-            rows.addAction(row)
-            self._view_rows[view] = row
-        self._folded = self.texted(self._button("viewport_view", "camera"), tip="header.view")
-        self._folded.setMenu(self._view_menu)
-        self._folded.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
-        self._folded.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
-        self._folded.hide()
+        self._segments = QWidget(self)
+        self._folded = self._button("viewport_view", "camera")
+        self._add_views()
         self._note_text = ""
         self._note = named(Label(parent=self), "viewport_note")
         self._note.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
         self._note.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
-        self._pose = self.texted(self._button("viewport_pose", "pose", checkable=True), text="header.pose")
+        self._pose = self._button("viewport_pose", "pose", checkable=True)
         self._pose.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
         on_switch(self._pose, session.viewport.set_posing)
         self._frame = self._button("viewport_frame", "frame")
         on_click(self._frame, session.viewport.frame, True)
-        self._show_menu = named(QMenu(self), "viewport_show_menu")
-        self._show_rows: dict[Shown, QAction] = {}
-        for what in SHOWN:
-            row = self._show_menu.addAction("")
-            row.setCheckable(True)
-            on_switch(row, partial(session.viewport.show, what))
-            self._show_rows[what] = row
-        self._show = self.texted(self._button("viewport_show", "eye"), tip="header.show_beside_players")
-        self._show.setMenu(self._show_menu)
-        self._show.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
+        self._show = self._button("viewport_show", "eye")
+        self._show_rows = self._add_shown()
         self._full = self._button("viewport_full_screen", "full_screen")
         on_click(self._full, self._toggle_full_screen)
+        self._explain()
         in_row(
             self._segments,
             self._folded,
@@ -114,7 +88,46 @@ class ViewportHeader(Retranslated, QWidget):
         session.theme_changed.connect(self._apply_theme)
         self._apply_theme()
         self.retranslate()
-        self.refresh()
+
+    def _add_views(self) -> None:
+        """The views as buttons, and as rows of a menu."""
+        viewport, buttons, rows = self._session.viewport, QButtonGroup(self), QActionGroup(self)
+        segments, menu = in_row(of=self._segments, margins=0, spacing=1), named(QMenu(self), "viewport_view_menu")
+        for view in VIEWS:
+            text_id, tip_id = _VIEWS[view]
+            button = self._views[view] = self._button(f"viewport_view_{view}", checkable=True)
+            self.texted(button, text=text_id, tip=with_keys(self._session, f"viewport.{view}", tip_id))
+            on_click(button, viewport.set_view, view)
+            buttons.addButton(button)
+            segments.addWidget(button)
+            row = self._view_rows[view] = self.texted(menu.addAction(""), text=text_id)
+            row.setCheckable(True)
+            on_click(row, viewport.set_view, view)
+            rows.addAction(row)
+        self._folded.setMenu(menu)
+        self._folded.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
+        self._folded.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
+        self._folded.hide()
+
+    def _add_shown(self) -> dict[Shown, QAction]:
+        """The menu of what is drawn beside the players."""
+        menu = named(QMenu(self), "viewport_show_menu")
+        self._show.setMenu(menu)
+        self._show.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
+        rows = {what: self.texted(menu.addAction(""), text=_SHOWN[what][0]) for what in SHOWN}
+        for what, row in rows.items():
+            row.setCheckable(True)
+            on_switch(row, partial(self._session.viewport.show, what))
+        return rows
+
+    def _explain(self) -> None:
+        session = self._session
+        self.texted(self._folded, explained="header.view")
+        self.texted(self._show, explained="header.show_beside_players")
+        pose_tip = with_keys(session, "viewport.pose", "header.hold_bell_head_elbows_or")
+        self.texted(self._pose, text="header.pose", explained=pose_tip)
+        self.texted(self._frame, explained=with_keys(session, "viewport.frame", "header.frame_selected_players"))
+        self.texted(self._full, explained=with_keys(session, FULL_SCREEN, "header.viewport_alone_on_whole_screen"))
 
     def set_note(self, text: str) -> None:
         """Say something between the buttons, as far as there is room."""
@@ -133,27 +146,8 @@ class ViewportHeader(Retranslated, QWidget):
             row.setChecked(state.shows(what))
 
     def retranslate(self) -> None:
-        for view, button in self._views.items():
-            text_id, tip_id = _VIEWS[view]
-            text = self.tr(text_id)
-            button.setText(text)
-            button.setToolTip(self._tip(self.tr(tip_id), f"viewport.{view}"))
-            self._view_rows[view].setText(text)
-        self._folded.setText(self._view_rows[self._session.viewport.view].text())
-        for what, row in self._show_rows.items():
-            row.setText(self.tr(_SHOWN[what][0]))
-        self._pose.setToolTip(self._tip(self.tr("header.hold_bell_head_elbows_or"), "viewport.pose"))
-        self._frame.setToolTip(self._tip(self.tr("header.frame_selected_players"), "viewport.frame"))
-        self._full.setToolTip(self._tip(self.tr("header.viewport_alone_on_whole_screen"), FULL_SCREEN))
-        for control in (self._pose, self._frame, self._show, self._full, self._folded):
-            control.setAccessibleName(control.toolTip())
+        self.refresh()
         self._fold()
-
-    def _tip(self, text: str, action_id: str) -> str:
-        """A tool tip with the action's shortcut, where it has one."""
-        action = actions(self._session).get(action_id)
-        shortcut = action.shortcut().toString() if action is not None else ""
-        return f"{text} ({shortcut})" if shortcut else text
 
     def _toggle_full_screen(self) -> None:
         actions(self._session)[FULL_SCREEN].trigger()
@@ -197,7 +191,7 @@ class ViewportHeader(Retranslated, QWidget):
     def showEvent(self, event: QShowEvent) -> None:
         """The shell's actions are known by now: their shortcuts are reported, and the screen can be filled."""
         self._full.setVisible(FULL_SCREEN in actions(self._session))
-        self.retranslate()
+        self.word()
         super().showEvent(event)
 
     def resizeEvent(self, event: QResizeEvent) -> None:

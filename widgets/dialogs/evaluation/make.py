@@ -95,10 +95,11 @@ class EvaluationDialog(WorkingDialog):
         self._timer = QTimer(self, interval=100)
         self._timer.timeout.connect(self._show_progress)
         self._film = named(PathEdit(), "evaluation_film")
-        self._place = named(ComboBox(), "evaluation_place")
+        self._place = self.texted(named(ComboBox(), "evaluation_place"), options=_PLACES)
         self._offset = _seconds(-_LONGEST_S, _LONGEST_S, 0.0, "evaluation_offset")
         self._keyframes = named(PathEdit(), "evaluation_keyframes")
         self._keyframes_place = named(ComboBox(), "evaluation_keyframes_place")
+        self.texted(self._keyframes_place, options=_KEYFRAMES_PLACES)
         self._keyframes_offset = _seconds(-_LONGEST_S, _LONGEST_S, 0.0, "evaluation_keyframes_offset")
         self._variants = {
             variant: named(Check(text_id), f"evaluation_{variant}") for variant, text_id in _VARIANTS.items()
@@ -111,8 +112,11 @@ class EvaluationDialog(WorkingDialog):
         self._excerpts.setRange(1, MOST_EXCERPTS)
         self._excerpts.setValue(EXCERPTS)
         self._length = _seconds(LEAST_S, MOST_S, SECONDS, "evaluation_length")
-        self._view = named(ComboBox(), "evaluation_view")
+        self._view = self.texted(named(ComboBox(), "evaluation_view"), options=_VIEWS)
         self._presentation = named(ComboBox(), "evaluation_presentation")
+        self.texted(self._presentation, options=_PRESENTATIONS)
+        for number in (self._length, self._offset, self._keyframes_offset):
+            self.texted(number, suffix="evaluation_dialog.seconds")
         self._size = named(ComboBox(), "evaluation_size")
         for width, height in SIZES:
             self._size.addItem(f"{width} × {height}", (width, height))
@@ -319,11 +323,6 @@ class EvaluationDialog(WorkingDialog):
 
     def retranslate(self) -> None:
         super().retranslate()
-        for number in (self._length, self._offset, self._keyframes_offset):
-            number.setSuffix(self.tr("evaluation_dialog.seconds"))
-        filled = ((self._place, _PLACES), (self._keyframes_place, _KEYFRAMES_PLACES))
-        for box, choices in (*filled, (self._view, _VIEWS), (self._presentation, _PRESENTATIONS)):
-            _refill(box, {value: self.tr(text_id) for value, text_id in choices.items()})
         if not self._running and not self._show.isVisible():
             self._show_state()
 
@@ -339,13 +338,3 @@ def _seconds(least: float, most: float, value: float, name: str) -> QDoubleSpinB
     box.setSingleStep(0.5)
     box.setValue(value)
     return box
-
-
-def _refill(box: ComboBox, texts: dict[str, str]) -> None:
-    chosen = box.currentData()
-    box.blockSignals(True)
-    box.clear()
-    for data, text in texts.items():
-        box.addItem(text, data)
-    box.setCurrentIndex(max(box.findData(chosen), 0))
-    box.blockSignals(False)

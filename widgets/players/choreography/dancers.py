@@ -27,18 +27,17 @@ from app.rig.characters.character_library import characters
 from widgets.common.actions import actions
 from widgets.common.clicks import on_click, on_switch
 from widgets.common.combo import Combo, Option
-from widgets.common.controls import Check, IconButton, Retranslated, named
+from widgets.common.controls import Caption, Check, IconButton, Retranslated, named
 from widgets.common.instrument_name import character_name
 from widgets.common.layouts import in_column, in_row
 from widgets.common.menus import offer_actions, passing_menu
 from widgets.common.paths import ask_for_file
-from widgets.common.plain import Label, verbatim
+from widgets.common.plain import verbatim
 from widgets.common.section import Section
-from widgets.common.text import parameter_text
 from widgets.players.choreography.dancer_list import DancerList
 from widgets.players.newcomers import add_dancer, duplicate_dancer, remove_dancer
 from widgets.players.parameter_rows import ParameterSlider, rows_of
-from widgets.players.place_numbers import name_places, place_sliders, shown_number, with_number
+from widgets.players.place_numbers import place_sliders, shown_number, with_number
 
 MENU = ("dancers.add", "dancers.rename", "dancers.duplicate", "dancers.remove", "", "dancers.choreography")
 """The context menu of the list: actions by id, an empty one is a line."""
@@ -73,8 +72,8 @@ class DancersSection(Retranslated, QWidget):
         }
         self.list = self.texted(named(DancerList(session), "dancer_list"), name="dancers_section.dancers")
         self._form = QWidget()
-        self._labels = {name: Label() for name in ("choreography", "character", "source")}
         self._choreography, self._character, self._source = Combo(), Combo(), Combo()
+        self.texted(self._source, tip=_SOURCE.tip)
         self._mirrored = self.texted(
             named(Check("dancers_section.mirrored"), "dancer_mirrored"), tip="dancers_section.left_and_right_exchanged"
         )
@@ -86,7 +85,7 @@ class DancersSection(Retranslated, QWidget):
         self._dice = IconButton(session, "dice", dice_tip, self._new_variation, "dancer_dice")
         numbers = rows_of("dancer", DANCER_PARAMETERS)
         self._numbers = {number.name: ParameterSlider(session, number, "dancer") for number in numbers}
-        self._places = place_sliders(session, "dancer")
+        self._places = place_sliders(self, session, "dancer")
         self._read: tuple[str, list[Option]] | None = None
         """A choreography whose sources are known."""
         self._build()
@@ -109,11 +108,14 @@ class DancersSection(Retranslated, QWidget):
         grid.setContentsMargins(0, 0, 0, 0)
         grid.setSpacing(4)
         grid.setColumnStretch(1, 1)
-        combos = {"choreography": self._choreography, "character": self._character, "source": self._source}
-        for row, (name, combo) in enumerate(combos.items()):
+        combos = {
+            "choreography": (self._choreography, "dancers_section.choreography"),
+            "character": (self._character, "dancers_section.character"),
+            "source": (self._source, _SOURCE.label),
+        }
+        for row, (name, (combo, text_id)) in enumerate(combos.items()):
             combo.setObjectName(f"dancer_{name}")
-            self._labels[name].setBuddy(combo)
-            grid.addWidget(self._labels[name], row, 0)
+            grid.addWidget(Caption(text_id, combo), row, 0)
             if combo is not self._choreography:
                 grid.addWidget(combo, row, 1)
         choreography = in_row((self._choreography, 1), self._look, spacing=4)
@@ -319,17 +321,6 @@ class DancersSection(Retranslated, QWidget):
     # Words
 
     def retranslate(self) -> None:
-        texts = {
-            "choreography": self.tr("dancers_section.choreography"),
-            "character": self.tr("dancers_section.character"),
-            "source": parameter_text(_SOURCE.label),
-        }
-        for name, text in texts.items():
-            self._labels[name].setText(text)
-        self._source.setToolTip(parameter_text(_SOURCE.tip))
-        name_places(self._places)
-        for number in self._numbers.values():
-            number.retranslate()
         self._show()
 
     # Qt's own names
