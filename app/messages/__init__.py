@@ -13,12 +13,15 @@ from app.encoding import shown
 from app.errors import AppError, Message
 from app.features import modules
 from app.messages import (
+    acting,
     audio,
+    body,
     capture,
     corrections,
     edit,
     files,
     formats,
+    midi_files,
     notation,
     notes,
     parameters,
@@ -35,37 +38,20 @@ from app.messages import (
     unreal,
     work,
 )
+from app.messages.body import touch_name
 from app.messages.details import detail_text
 from app.messages.pitches import pitch_name
-from app.messages.touches import touch_name
 
 LANGUAGES: Final = {"en": "English", "ja": "日本語"}
 """By code: the name in the language itself; the wordings are in this order."""
+_MODULES: Final = (
+    *(acting, audio, body, capture, corrections, edit, files, formats, midi_files, notation, notes, parameters),
+    *(picture, plan, project, record, request, score, skeletons, stream, tables, takes, unreal, work),
+    *(module for _, module in modules("messages")),
+)
 WORDINGS: Final[dict[str, tuple[str, str]]] = {
-    **audio.WORDINGS,
-    **capture.WORDINGS,
-    **corrections.WORDINGS,
-    **edit.WORDINGS,
-    **files.WORDINGS,
-    **formats.WORDINGS,
-    **notation.WORDINGS,
-    **notes.WORDINGS,
-    **parameters.WORDINGS,
-    **picture.WORDINGS,
-    **plan.WORDINGS,
-    **project.WORDINGS,
-    **record.WORDINGS,
-    **request.WORDINGS,
-    **score.WORDINGS,
-    **skeletons.WORDINGS,
-    **stream.WORDINGS,
-    **tables.WORDINGS,
-    **takes.WORDINGS,
-    **unreal.WORDINGS,
-    **work.WORDINGS,
+    id: wordings for module in _MODULES for id, wordings in module.WORDINGS.items()
 }
-for _, _module in modules("messages"):
-    WORDINGS.update(_module.WORDINGS)
 
 
 PITCHES: Final[dict[str, tuple[str, ...]]] = {

@@ -22,8 +22,8 @@ class ActionRow(Generic[Subject]):
     Attributes
     ----------
     id : str
-        ``"notes.split"``; settings keep shortcuts by it. Its text is ``"action.notes.split"`` of `app.shell.texts`,
-        with a trailing ``...`` where a dialog follows.
+        ``"notes.split"``; settings keep shortcuts by it. Its text is ``"action.notes.split"`` of
+        `app.shell.commands.texts`, with a trailing ``...`` where a dialog follows.
     run : callable
         Takes the session or editor (and the checked state, where ``checked`` is given).
     menu : str

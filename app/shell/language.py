@@ -9,6 +9,7 @@ from PySide6.QtCore import QCoreApplication, QLibraryInfo, QLocale, QObject, QTr
 
 from app.features import modules
 from app.messages import LANGUAGES, WORDINGS
+from app.shell.commands.texts import TEXTS as COMMANDS
 from app.shell.texts import TEXTS as SHELL
 from widgets.common.texts import TEXTS as COMMON
 from widgets.dialogs.texts import TEXTS as DIALOGS
@@ -20,7 +21,7 @@ from widgets.transport.texts import TEXTS as TRANSPORT
 from widgets.viewport.texts import TEXTS as VIEWPORT
 
 ROOMS: Final[tuple[Mapping[str, tuple[str, str]], ...]] = (
-    *(WORDINGS, SHELL, COMMON, DIALOGS, INSPECTOR, PLAYERS, RECORDING, TIMELINE, TRANSPORT, VIEWPORT),
+    *(WORDINGS, COMMANDS, SHELL, COMMON, DIALOGS, INSPECTOR, PLAYERS, RECORDING, TIMELINE, TRANSPORT, VIEWPORT),
     *(module.TEXTS for _, module in modules("texts")),
 )
 """All texts: id -> one for each of `LANGUAGES`, in their order."""
