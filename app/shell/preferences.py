@@ -5,7 +5,8 @@ from __future__ import annotations
 from functools import partial
 from typing import Any
 
-from app.editor.settings import SETTINGS, Setting
+from app.editor.settings import SETTINGS
+from app.editor.stored_settings import Setting
 from app.editor.translated import tr
 from app.shell.action import without_dots
 from app.shell.actions import CONTEXTS

@@ -8,7 +8,7 @@ from collections import deque
 from collections.abc import Callable
 from functools import partial
 
-from PySide6.QtCore import QSize, Qt, QTimer
+from PySide6.QtCore import Qt, QTimer
 from PySide6.QtGui import QFontMetrics
 from PySide6.QtWidgets import QProgressBar, QPushButton, QStatusBar, QWidget
 
@@ -17,10 +17,11 @@ from app.editor.session import Session, Severity
 from app.editor.tasks import Task, ThreadTasks
 from app.errors import Message
 from app.shell.notices import NoticeList, severity_colour
+from app.shell.task_row import BAR_PX, TaskRow, close_button, show_value
 from instrument_maps.library import library
 from widgets.common.actions import actions
 from widgets.common.clicks import on_click
-from widgets.common.controls import IconButton, Retranslated, named, small
+from widgets.common.controls import Retranslated, named
 from widgets.common.icons import icon
 from widgets.common.layouts import STRETCH, in_row, panel
 from widgets.common.plain import Label, verbatim
@@ -28,10 +29,6 @@ from widgets.common.text import message_text, sentence
 
 POLL_MS, AGE_MS = 100, 5000
 """How often it is seen how far work is, and how long ago the piece was saved."""
-NAME_PX = 48
-"""The name of work may become this narrow."""
-BAR_PX = 64
-"""Width of a progress bar."""
 QUIET_S = 0.25
 """Shorter work is not shown: it would only flash."""
 MOST_TASKS = 3
@@ -57,7 +54,7 @@ class StatusLine(Retranslated, QStatusBar):
         self._session, self._files, self._tasks = session, files, tasks
         self._seen_s: dict[Task, float] = {}
         self._shown: tuple[Task, ...] = ()
-        self._rows: dict[Task, _TaskRow] = {}
+        self._rows: dict[Task, TaskRow] = {}
         self._log: deque[tuple[Message, Severity]] = deque(maxlen=MOST_NOTICES)
         self._frames: deque[float] = deque(maxlen=120)
         self._ready = 1.0
@@ -69,7 +66,7 @@ class StatusLine(Retranslated, QStatusBar):
         self._notice = _flat("notice", self._unfold)
         self._notice.setMinimumWidth(120)
         self._notice.setStyleSheet("text-align: left; padding: 3px 6px;")
-        self._dismiss = _close(session, "status_line.close_this_notice", self.dismiss, "dismiss_notice")
+        self._dismiss = close_button(session, "status_line.close_this_notice", self.dismiss, "dismiss_notice")
         for widget in (self._work, self._notice, self._dismiss):
             self.addWidget(widget)
         self._notice.hide()
@@ -151,7 +148,7 @@ class StatusLine(Retranslated, QStatusBar):
             row.deleteLater()
         for task in shown:
             if task not in self._rows and self._tasks is not None:
-                row = _TaskRow(self._session, task, partial(self._tasks.cancel, task))
+                row = TaskRow(self._session, task, partial(self._tasks.cancel, task))
                 self._rows[task] = row
                 self._work_line.insertWidget(self._work_line.count() - 1, row)
         self._work.setVisible(bool(shown))
@@ -335,7 +332,7 @@ class StatusLine(Retranslated, QStatusBar):
     def _report_motion(self) -> None:
         busy = self._ready < 1.0 and self._files.is_open
         self._motion_bar.setVisible(busy)
-        _show_value(self._motion_bar, int(BAR_PX * self._ready))
+        show_value(self._motion_bar, int(BAR_PX * self._ready))
         self._motion.setVisible(self._files.is_open)
         self._motion.setText(self.tr("status_line.making_motion") if busy else self.tr("status_line.motion_ready"))
 
@@ -358,54 +355,9 @@ def problem_count(session: Session) -> int:
     return sum(len(session.problems(one.id)) for one in session.performance.project.performers)
 
 
-def _show_value(bar: QProgressBar, value: int) -> None:
-    """Show a value with the next picture: a bar left to itself paints it at once, and a window that holds GL puts all
-    of its picture together for that."""
-    if value != bar.value():
-        bar.setUpdatesEnabled(False)
-        bar.setValue(value)
-        bar.setUpdatesEnabled(True)
-
-
-class _TaskRow(Retranslated, QWidget):
-    """Work: its name, how far it is, and a way to stop it."""
-
-    def __init__(self, session: Session, task: Task, stop: Callable[[], object]) -> None:
-        super().__init__()
-        self._task, self._name, self._bar = task, Label(), QProgressBar()
-        # What stands at the right has room before the names of work.
-        self._name.setMinimumWidth(NAME_PX)
-        self._bar.setTextVisible(False)
-        self._bar.setFixedWidth(BAR_PX)
-        self._bar.setRange(0, 0)
-        in_row(
-            self._name, self._bar, _close(session, "task_row.stop", stop, "stop_task"), of=self, margins=0, spacing=6
-        )
-        self.retranslate()
-
-    def retranslate(self) -> None:
-        """Name the work."""
-        name = message_text(self._task.name)
-        self._name.setText(name[:1].upper() + name[1:])
-        self._name.setToolTip(self._name.text())
-
-    def set_share(self, share: float) -> None:
-        """0..1; what says nothing of how far it is moves to and fro."""
-        most = 1000 if share > 0.0 else 0
-        if self._bar.maximum() != most:
-            self._bar.setRange(0, most)
-        _show_value(self._bar, round(1000 * share))
-
-
 def _flat(name: str, run: Callable[[], object]) -> QPushButton:
     button = named(QPushButton(), name)
     button.setFlat(True)
     button.setStyleSheet("padding: 3px 6px;")
     on_click(button, run)
-    return button
-
-
-def _close(session: Session, tip_id: str, run: Callable[[], object], name: str) -> IconButton:
-    button = small(IconButton(session, "close", tip_id, run, name))
-    button.setIconSize(QSize(14, 14))
     return button

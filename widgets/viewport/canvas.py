@@ -15,8 +15,8 @@ from PySide6.QtOpenGL import QOpenGLFramebufferObject, QOpenGLFramebufferObjectF
 from vispy import app as vispy_app
 
 from widgets.viewport.camera import Camera
-from widgets.viewport.look import ViewportLook
-from widgets.viewport.renderer import Emphasis, Renderer
+from widgets.viewport.look import Emphasis, ViewportLook
+from widgets.viewport.renderer import Renderer
 
 SAMPLES = 4
 NO_GL_PLATFORMS = ("offscreen", "minimal", "vnc", "linuxfb")

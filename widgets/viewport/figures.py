@@ -14,7 +14,7 @@ from app.rig.characters.character_library import character_revision
 from instrument_maps.library import library
 from widgets.viewport.cast import Member, RenderAssets, Stage, dancer_kit, dancing_member, kit_of, member_of, stand_of
 from widgets.viewport.geometry import Crowd
-from widgets.viewport.renderer import Shapes, crowd_of, shapes_of
+from widgets.viewport.shapes import Shapes, crowd_of, shapes_of
 
 CastKey = tuple[tuple[str, str, str, str, str, int, int, bool, float, float, float], ...]
 

@@ -13,11 +13,12 @@ from itertools import pairwise
 import numpy as np
 import numpy.typing as npt
 
-from app.arrays import AnyIntArray, FloatArray, IntArray, SingleArray
+from app.arrays import FloatArray, IntArray, SingleArray
 from app.rig.mesh import Mesh
 from app.rig.model import Character, InstrumentModel
 from widgets.viewport.shape_cache import kept
-from widgets.viewport.shape_model import BONES_PER_VERTEX, SHAPE, SURFACE, Geometry, MorphTargets, numbers
+from widgets.viewport.shape_model import BONES_PER_VERTEX, SHAPE, SURFACE, MorphTargets, Geometry, numbers
+from widgets.viewport.weld import SplitMesh, Weld, row_keys, split_mesh
 
 BODY_CELLS_M = (0.0, 0.0055, 0.02)
 """Vertices nearer to one another than this are one, by level of detail; 0: all are kept."""
@@ -192,7 +193,7 @@ def _turned(
 
 def _levels(meshes: Sequence[Mesh], cells_m: Sequence[float], plain_factor: float) -> tuple[Geometry, ...]:
     def make() -> tuple[Geometry, ...]:
-        whole = _Whole([_split(mesh) for mesh in meshes], plain_factor)
+        whole = _Whole([split_mesh(mesh) for mesh in meshes], plain_factor)
         return tuple(
             whole.level(cell_m, share, morphs=index < len(cells_m) - 1)
             for index, (cell_m, share) in enumerate(zip(cells_m, THIN_SHARES, strict=True))
@@ -201,28 +202,10 @@ def _levels(meshes: Sequence[Mesh], cells_m: Sequence[float], plain_factor: floa
     return kept(meshes, (tuple(cells_m), plain_factor), make)
 
 
-@dataclass(frozen=True, eq=False)
-class _Split:
-    """A mesh whose vertices have one material each: those between materials are doubled."""
-
-    mesh: Mesh
-    vertices: IntArray
-    """Vertex of the mesh for every vertex here."""
-    materials: IntArray
-    triangles: IntArray
-
-
-def _split(mesh: Mesh) -> _Split:
-    count = len(mesh.materials)
-    keys = mesh.triangles.astype(np.int64) * count + mesh.triangle_materials.astype(np.int64)[:, None]
-    unique, triangles = np.unique(keys.ravel(), return_inverse=True)
-    return _Split(mesh, unique // count, unique % count, triangles.reshape(-1, 3))
-
-
 class _Whole:
     """All meshes of a thing end to end."""
 
-    def __init__(self, splits: Sequence[_Split], plain_factor: float) -> None:
+    def __init__(self, splits: Sequence[SplitMesh], plain_factor: float) -> None:
         counts = [len(split.vertices) for split in splits]
         self._starts = np.cumsum([0, *counts])
         self._splits = splits
@@ -320,7 +303,7 @@ class _Whole:
         """Every morph over all meshes: vertices, displacements, and changes of their normals."""
         names = list(dict.fromkeys(morph.name for split in self._splits for morph in split.mesh.morphs))
         result: dict[str, tuple[IntArray, SingleArray, SingleArray]] = {}
-        welds = {index: _Weld(split) for index, split in enumerate(self._splits) if split.mesh.morphs}
+        welds = {index: Weld(split) for index, split in enumerate(self._splits) if split.mesh.morphs}
         for name in names:
             found = []
             for index, split in enumerate(self._splits):
@@ -338,52 +321,6 @@ class _Whole:
                     np.concatenate([item[2] for item in found]),
                 )
         return result
-
-
-def row_keys(*columns: AnyIntArray, size: int | None = None) -> IntArray:
-    """One number for every row of whole numbers: the same for the same rows, in the order of the rows.
-
-    Without a column the rows, of which there are ``size``, are all the same.
-
-    Sorting numbers takes a tenth of the time of sorting rows.
-    """
-    keys, count = np.zeros(len(columns[0]) if size is None else size, np.int64), 1
-    for column in columns:
-        low = int(column.min(initial=0))
-        span = int(column.max(initial=0)) - low + 1
-        if count * span >= 2**62:
-            keys = np.unique(keys, return_inverse=True)[1].astype(np.int64).reshape(-1)
-            count = int(keys.max(initial=0)) + 1
-        keys, count = keys * span + (column.astype(np.int64) - low), count * span
-    return keys
-
-
-class _Weld:
-    """Smooth normals of a mesh across its seams."""
-
-    def __init__(self, split: _Split) -> None:
-        self._positions = split.mesh.positions_m[split.vertices].astype(np.float64)
-        places = np.rint(self._positions * 1e6).astype(np.int64)
-        whole = np.unique(row_keys(*places.T), return_inverse=True)[1].reshape(-1)
-        self._whole = whole
-        self._corners = whole[split.triangles]
-        self._triangles = split.triangles
-        self._rest = self._normals(self._positions)
-
-    def _normals(self, positions: FloatArray) -> FloatArray:
-        a, b, c = (positions[self._triangles[:, corner]] for corner in range(3))
-        faces = np.cross(b - a, c - a)
-        count = int(self._whole.max()) + 1
-        total = np.zeros((count, 3))
-        for axis in range(3):
-            for corner in range(3):
-                total[:, axis] += np.bincount(self._corners[:, corner], faces[:, axis], count)
-        total /= np.maximum(np.linalg.norm(total, axis=1, keepdims=True), 1e-20)
-        return total[self._whole]
-
-    def turned(self, moves: SingleArray) -> SingleArray:
-        """How normals change under displacements (V, 3)."""
-        return (self._normals(self._positions + moves) - self._rest).astype(np.float32)
 
 
 def _is_plain(mesh: Mesh) -> bool:

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from functools import lru_cache
 
 import numpy as np
 
 from app.editor.tokens import Tokens
+from app.formats.video import Picture
 
 Color = tuple[float, float, float]
 
@@ -29,6 +31,25 @@ class ViewportLook:
     shadow: float
     key: Color
     wire: Color
+
+
+@dataclass(frozen=True)
+class Emphasis:
+    """What stands out: rings by row, the row under the pointer, rows that are seen through, how figures are drawn, and
+    the podium."""
+
+    rings: Mapping[int, Color] = field(default_factory=dict)
+    podium: tuple[float, float, Color] | None = None
+    """Where the conductor stands: x, z, and the colour of the rings that mark it."""
+    hovered: int | None = None
+    in_the_way: frozenset[int] = frozenset()
+    wireframe: bool = False
+    video: Picture | None = None
+    """Seen behind the players ..."""
+    video_opacity: float = 1.0
+    """... so much of it."""
+    in_motion: bool = False
+    """Whether the next picture follows at once: a processor that draws without a graphics card may be less exact."""
 
 
 def direction(x: float, y: float, z: float) -> Color:

@@ -30,11 +30,11 @@ from widgets.viewport.eye import Eye
 from widgets.viewport.figures import DrawableFigures, cast_key
 from widgets.viewport.header import ViewportHeader
 from widgets.viewport.layer import Layer
-from widgets.viewport.look import look_of
+from widgets.viewport.look import Emphasis, look_of
 from widgets.viewport.overlay import paint
 from widgets.viewport.pointer import Pointer
 from widgets.viewport.pose_tool import PoseTool
-from widgets.viewport.renderer import Emphasis, Renderer
+from widgets.viewport.renderer import Renderer
 from widgets.viewport.scene import ViewportScene
 from widgets.viewport.shot import Shot, times_looked_at
 from widgets.viewport.video import BesideVideo, VideoStrip

@@ -7,8 +7,6 @@ together, from coarser shapes. All bones of all players travel in one float text
 from __future__ import annotations
 
 from collections import OrderedDict
-from collections.abc import Mapping
-from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -19,21 +17,16 @@ from app.arrays import FloatArray, IndexArray, SingleArray
 from app.formats.video import Picture
 from widgets.viewport import shaders
 from widgets.viewport.camera import Camera
-from widgets.viewport.cast import Member, Stage
+from widgets.viewport.cast import Stage
 from widgets.viewport.geometry import (
     LEVELS,
     Crowd,
-    character_levels,
-    crowd,
     crowd_edges,
-    edges,
-    instrument_levels,
-    stand,
-    stool,
 )
 from widgets.viewport.limbs import HELD, LIMBS, SHADING, LimbCapsules
-from widgets.viewport.look import Color, ViewportLook
+from widgets.viewport.look import Emphasis, ViewportLook
 from widgets.viewport.shape_model import Geometry
+from widgets.viewport.shapes import Shapes, Solid, draw_sides, looks_same, sides
 
 FINE_PX_PER_M = 620.0
 """Above this a player is drawn from all vertices ..."""
@@ -56,120 +49,9 @@ SEEN_THROUGH = 0.85
 """Share of the pixels that are left out of who stands in the way."""
 
 
-@dataclass(frozen=True, eq=False)
-class Shapes:
-    """Geometries by level of detail: of characters by id, of instruments by the id of their map; what one sits on, and
-    what an instrument lies on."""
-
-    characters: Mapping[str, tuple[Geometry, ...]]
-    instruments: Mapping[str, tuple[Geometry, ...]]
-    stool: Geometry
-    stand: Geometry
-
-
 RING_M = 0.48
 PODIUM_M = (0.28, 0.55)
 """Radii of the rings around a player, and of those that mark the conductor's place."""
-
-
-@dataclass(frozen=True)
-class Emphasis:
-    """What stands out: rings by row, the row under the pointer, rows that are seen through, how figures are drawn, and
-    the podium."""
-
-    rings: Mapping[int, Color] = field(default_factory=dict)
-    podium: tuple[float, float, Color] | None = None
-    """Where the conductor stands: x, z, and the colour of the rings that mark it."""
-    hovered: int | None = None
-    in_the_way: frozenset[int] = frozenset()
-    wireframe: bool = False
-    video: Picture | None = None
-    """Seen behind the players ..."""
-    video_opacity: float = 1.0
-    """... so much of it."""
-    in_motion: bool = False
-    """Whether the next picture follows at once: a processor that draws without a graphics card may be less exact."""
-
-
-def shapes_of(stage: Stage, before: Shapes | None = None) -> Shapes:
-    """Make what a stage is drawn from; what ``before`` has is taken from there."""
-    characters = dict(before.characters) if before is not None else {}
-    for member in stage.members:
-        character = member.kit.character
-        if character.id not in characters:
-            characters[character.id] = character_levels(character)
-    # The instruments' nodes and the seat follow the joints: their numbers depend on who else is there.
-    instruments = {}
-    height_m = 0.42
-    for member in stage.members:
-        if member.kit.held is not None and member.kit.map.id not in instruments:
-            instruments[member.kit.map.id] = instrument_levels(member.kit.instrument, stage.first_node)
-        if member.seat_m is not None:
-            height_m = float(member.seat_m[1])
-    return Shapes(characters, instruments, stool(stage.seat_bone, height_m), stand(stage.stand_bone))
-
-
-def crowd_of(stage: Stage, shapes: Shapes) -> Crowd:
-    """The coarsest shapes of everyone, end to end."""
-    parts: list[tuple[int, Geometry]] = []
-    for row, member in enumerate(stage.members):
-        if member.has_body:
-            parts.append((row, shapes.characters[member.kit.character.id][-1]))
-        if member.kit.held is not None:
-            parts.append((row, shapes.instruments[member.kit.map.id][-1]))
-        if member.seat_m is not None:
-            parts.append((row, shapes.stool))
-        if member.stand_m is not None:
-            parts.append((row, shapes.stand))
-    return crowd(parts)
-
-
-def _looks_same(one: Stage, other: Stage) -> bool:
-    return len(one.members) == len(other.members) and all(
-        own.kit is its.kit and _parts_of(own) == _parts_of(its)
-        for own, its in zip(one.members, other.members, strict=True)
-    )
-
-
-def _parts_of(member: Member) -> tuple[bool, bool, bool]:
-    return member.has_body, member.seat_m is not None, member.stand_m is not None
-
-
-def _sides(geometry: Geometry | Crowd) -> tuple[tuple[bool, Any], ...]:
-    """The triangles seen from one side, and those seen from both: whether their backs are left out, and indices."""
-    parts = ((True, geometry.triangles[: geometry.one_sided]), (False, geometry.triangles[geometry.one_sided :]))
-    return tuple((culled, gloo.IndexBuffer(part)) for culled, part in parts if len(part))
-
-
-def _draw_sides(program: Any, sides: tuple[tuple[bool, Any], ...]) -> None:
-    for culled, triangles in sides:
-        gloo.set_state(cull_face=culled)
-        program.draw("triangles", triangles)
-
-
-class _Solid:
-    """A geometry on the graphics card."""
-
-    def __init__(self, geometry: Geometry) -> None:
-        self.geometry = geometry
-        self.surface = gloo.VertexBuffer(geometry.surface)
-        self.triangles = _sides(geometry)
-        self._shape: Any = None
-        self._edges: Any = None
-
-    @property
-    def shape(self) -> Any:
-        """The vertices at rest."""
-        if self._shape is None:
-            self._shape = gloo.VertexBuffer(self.geometry.shape)
-        return self._shape
-
-    @property
-    def edges(self) -> Any:
-        """Its edges, each once."""
-        if self._edges is None:
-            self._edges = gloo.IndexBuffer(edges(self.geometry))
-        return self._edges
 
 
 class Renderer:
@@ -189,7 +71,7 @@ class Renderer:
         self._video = gloo.Program(shaders.VIDEO_VERTEX, shaders.VIDEO_FRAGMENT)
         self._video["a_corner"] = corners
         self._video_picture: Picture | None = None
-        self._solids: dict[int, _Solid] = {}
+        self._solids: dict[int, Solid] = {}
         self._morphed: OrderedDict[tuple[int, int], tuple[Any, object]] = OrderedDict()
         self._stage: Stage | None = None
         self._shapes: Shapes | None = None
@@ -211,7 +93,7 @@ class Renderer:
             Of this stage and these shapes (`crowd_of`), made away from the window's thread. None: as the stage before,
             whose players stand at other places now.
         """
-        same = self._stage is not None and shapes is self._shapes and _looks_same(stage, self._stage)
+        same = self._stage is not None and shapes is self._shapes and looks_same(stage, self._stage)
         self._stage, self._shapes = stage, shapes
         floor_m = np.array([member.world_from_player[:, 3] for member in stage.members]).reshape(-1, 3)
         self._middles_m = floor_m + MIDDLE_M
@@ -272,7 +154,7 @@ class Renderer:
         self._batch.bind(gloo.VertexBuffer(everyone.shape))
         self._batch.bind(gloo.VertexBuffer(everyone.surface))
         self._batch["a_row"] = gloo.VertexBuffer(everyone.rows)
-        self._batch_triangles = _sides(everyone)
+        self._batch_triangles = sides(everyone)
         self._batch_edges: Any = None
         self._batch_parts = everyone.parts
 
@@ -310,7 +192,7 @@ class Renderer:
             if self._is_other(program, camera, aspect, look):
                 self._light(program, camera, clip, look)
         if (level == LEVELS - 1).any():
-            _draw_sides(self._batch, self._batch_triangles)
+            draw_sides(self._batch, self._batch_triangles)
         self._draw_near(stage, shapes, level, "triangles")
         if emphasis.wireframe:
             # Lines that lie as near as pixels would paint the players over.
@@ -433,7 +315,7 @@ class Renderer:
             self._draw_solid(solid, row, mode)
         # A capsule is too coarse a likeness of an instrument to shade the instrument itself.
         program["u_shaded"] = 0.0
-        bound: _Solid | None = None
+        bound: Solid | None = None
         holding = [row for row in near if stage.members[row].kit.held is not None]
         for row in sorted(holding, key=lambda row: (stage.members[row].kit.map.id, level[row])):
             solid = self._solid(shapes.instruments[stage.members[row].kit.map.id][level[row]])
@@ -445,17 +327,17 @@ class Renderer:
             if stage.members[row].stand_m is not None:
                 bound = self._draw_shared(self._solid(shapes.stand), bound, row, mode)
 
-    def _draw_shared(self, solid: _Solid, bound: _Solid | None, row: int, mode: str) -> _Solid:
+    def _draw_shared(self, solid: Solid, bound: Solid | None, row: int, mode: str) -> Solid:
         if solid is not bound:
             self._figures.bind(solid.shape)
             self._figures.bind(solid.surface)
         self._draw_solid(solid, row, mode)
         return solid
 
-    def _draw_solid(self, solid: _Solid, row: int, mode: str) -> None:
+    def _draw_solid(self, solid: Solid, row: int, mode: str) -> None:
         self._figures["u_row"] = float(row)
         if mode == "triangles":
-            _draw_sides(self._figures, solid.triangles)
+            draw_sides(self._figures, solid.triangles)
         else:
             self._figures.draw(mode, solid.edges)
 
@@ -480,13 +362,13 @@ class Renderer:
             program["u_line"] = (0.0, 0.0, 0.0, 0.0)
             program["u_lift"] = 0.0
 
-    def _solid(self, geometry: Geometry) -> _Solid:
+    def _solid(self, geometry: Geometry) -> Solid:
         solid = self._solids.get(id(geometry))
         if solid is None:
-            solid = self._solids[id(geometry)] = _Solid(geometry)
+            solid = self._solids[id(geometry)] = Solid(geometry)
         return solid
 
-    def _shape(self, stage: Stage, row: int, level: int, solid: _Solid) -> Any:
+    def _shape(self, stage: Stage, row: int, level: int, solid: Solid) -> Any:
         """The vertices of a player with the face of the pose; sent only where the pose is another."""
         pose, face = stage.poses[row], solid.geometry.face
         if face is None or pose is None:

@@ -28,7 +28,7 @@ from widgets.viewport.limbs import LimbCapsules, hit
 from widgets.viewport.look import Color, rgb
 from widgets.viewport.overlay import NameTag, OverlayMarks, over_heads_m
 from widgets.viewport.pose_tool import PoseTool
-from widgets.viewport.renderer import Shapes
+from widgets.viewport.shapes import Shapes
 from widgets.viewport.worn_face import WornFaces
 
 CONDUCTORS_NAME = "stage.conductor"

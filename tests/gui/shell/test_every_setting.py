@@ -8,7 +8,8 @@ from PySide6.QtWidgets import QApplication, QComboBox, QRadioButton
 
 from app.editor.listening import SOURCES
 from app.editor.session import Session
-from app.editor.settings import SETTINGS, Setting, Settings
+from app.editor.settings import SETTINGS, Settings
+from app.editor.stored_settings import Setting
 from app.editor.translated import tr
 from app.editor.video_state import PLACEMENTS
 from app.shell.app import Program

@@ -13,6 +13,7 @@ from pytestqt.qtbot import QtBot
 
 from app.editor import generator as module
 from app.editor.generator import Generator
+from app.editor.plan_worker import PlanWorker
 from app.editor.session import Session, Severity
 from app.editor.tasks import ThreadTasks
 from app.errors import Message
@@ -218,7 +219,8 @@ def test_motion_that_no_one_waits_for_gives_way(
     """Where others had the processor the worker rests longer than they did, unless someone waits for what it makes."""
     generator.close()
     clock = Clock()
-    worker = module._Worker(Work(clock, others_s, is_seen), generator._worker._report, clock)
+    live = Work(clock, others_s, is_seen)
+    worker = PlanWorker(live, generator._worker._report, generator._worker._says, clock)  # type: ignore[arg-type]
     rested: list[float] = []
     monkeypatch.setattr(worker, "_rest", lambda rest_s, requests: rested.append(rest_s))
     for _ in range(3):

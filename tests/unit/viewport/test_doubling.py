@@ -11,7 +11,7 @@ from tests.support.doubled import flutist
 from widgets.viewport.cast import Stage
 from widgets.viewport.figures import DrawableFigures, cast_key, load, moved, same_figures
 from widgets.viewport.limbs import HELD, LimbCapsules
-from widgets.viewport.renderer import crowd_of
+from widgets.viewport.shapes import crowd_of
 
 
 def loaded(project: Project) -> DrawableFigures:

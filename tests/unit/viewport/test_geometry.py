@@ -17,10 +17,10 @@ from widgets.viewport.geometry import (
     edges,
     instrument_levels,
     joined,
-    row_keys,
     stool,
 )
 from widgets.viewport.shape_model import Geometry
+from widgets.viewport.weld import row_keys
 
 CHARACTERS = tuple(bundled_characters())
 

@@ -1,0 +1,113 @@
+"""What the renderer draws of the stage: shapes of players, of the crowd behind them, and solids."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from vispy import gloo
+
+from widgets.viewport.cast import Member, Stage
+from widgets.viewport.geometry import (
+    Crowd,
+    character_levels,
+    crowd,
+    edges,
+    instrument_levels,
+    stand,
+    stool,
+)
+from widgets.viewport.shape_model import Geometry
+
+
+@dataclass(frozen=True, eq=False)
+class Shapes:
+    """Geometries by level of detail: of characters by id, of instruments by the id of their map; what one sits on, and
+    what an instrument lies on."""
+
+    characters: Mapping[str, tuple[Geometry, ...]]
+    instruments: Mapping[str, tuple[Geometry, ...]]
+    stool: Geometry
+    stand: Geometry
+
+
+def shapes_of(stage: Stage, before: Shapes | None = None) -> Shapes:
+    """Make what a stage is drawn from; what ``before`` has is taken from there."""
+    characters = dict(before.characters) if before is not None else {}
+    for member in stage.members:
+        character = member.kit.character
+        if character.id not in characters:
+            characters[character.id] = character_levels(character)
+    # The instruments' nodes and the seat follow the joints: their numbers depend on who else is there.
+    instruments = {}
+    height_m = 0.42
+    for member in stage.members:
+        if member.kit.held is not None and member.kit.map.id not in instruments:
+            instruments[member.kit.map.id] = instrument_levels(member.kit.instrument, stage.first_node)
+        if member.seat_m is not None:
+            height_m = float(member.seat_m[1])
+    return Shapes(characters, instruments, stool(stage.seat_bone, height_m), stand(stage.stand_bone))
+
+
+def crowd_of(stage: Stage, shapes: Shapes) -> Crowd:
+    """The coarsest shapes of everyone, end to end."""
+    parts: list[tuple[int, Geometry]] = []
+    for row, member in enumerate(stage.members):
+        if member.has_body:
+            parts.append((row, shapes.characters[member.kit.character.id][-1]))
+        if member.kit.held is not None:
+            parts.append((row, shapes.instruments[member.kit.map.id][-1]))
+        if member.seat_m is not None:
+            parts.append((row, shapes.stool))
+        if member.stand_m is not None:
+            parts.append((row, shapes.stand))
+    return crowd(parts)
+
+
+def looks_same(one: Stage, other: Stage) -> bool:
+    return len(one.members) == len(other.members) and all(
+        own.kit is its.kit and parts_of(own) == parts_of(its)
+        for own, its in zip(one.members, other.members, strict=True)
+    )
+
+
+def parts_of(member: Member) -> tuple[bool, bool, bool]:
+    return member.has_body, member.seat_m is not None, member.stand_m is not None
+
+
+def sides(geometry: Geometry | Crowd) -> tuple[tuple[bool, Any], ...]:
+    """The triangles seen from one side, and those seen from both: whether their backs are left out, and indices."""
+    parts = ((True, geometry.triangles[: geometry.one_sided]), (False, geometry.triangles[geometry.one_sided :]))
+    return tuple((culled, gloo.IndexBuffer(part)) for culled, part in parts if len(part))
+
+
+def draw_sides(program: Any, sides: tuple[tuple[bool, Any], ...]) -> None:
+    for culled, triangles in sides:
+        gloo.set_state(cull_face=culled)
+        program.draw("triangles", triangles)
+
+
+class Solid:
+    """A geometry on the graphics card."""
+
+    def __init__(self, geometry: Geometry) -> None:
+        self.geometry = geometry
+        self.surface = gloo.VertexBuffer(geometry.surface)
+        self.triangles = sides(geometry)
+        self._shape: Any = None
+        self._edges: Any = None
+
+    @property
+    def shape(self) -> Any:
+        """The vertices at rest."""
+        if self._shape is None:
+            self._shape = gloo.VertexBuffer(self.geometry.shape)
+        return self._shape
+
+    @property
+    def edges(self) -> Any:
+        """Its edges, each once."""
+        if self._edges is None:
+            self._edges = gloo.IndexBuffer(edges(self.geometry))
+        return self._edges
