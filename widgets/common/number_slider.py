@@ -2,32 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
-from PySide6.QtCore import SIGNAL, QEvent, QObject, QPointF, QRectF, QSize, Qt, QTimer, Signal
+from PySide6.QtCore import SIGNAL, QEvent, QObject, QPointF, Qt, QTimer, Signal
 from PySide6.QtGui import (
-    QColor,
     QContextMenuEvent,
     QFocusEvent,
-    QFontMetricsF,
     QGuiApplication,
     QKeyEvent,
     QKeySequence,
     QMouseEvent,
-    QPainter,
-    QPainterPath,
-    QPaintEvent,
-    QPen,
     QResizeEvent,
     QWheelEvent,
 )
 from PySide6.QtWidgets import QLineEdit, QMenu, QSizePolicy, QWidget
 
 from app.editor.session import Session
-from app.editor.tokens import LEAST_TARGET_PX, Tokens
 from widgets.common.clicks import on_click
 from widgets.common.controls import named
-from widgets.common.numbers import MIXED, number_from, number_text
+from widgets.common.number_display import NumberDisplay
+from widgets.common.numbers import number_from
 
 DRAG_PX = 3
 """A press that moves less is a click."""
@@ -36,7 +28,6 @@ FREE_DRAG_PX = 4
 WHEEL_REST_MS = 600
 """Notches of the wheel closer than this are one turn of it, and one step of the history."""
 FINE = 0.1
-_PAD_PX = 7.0
 _STEP_KEYS = {
     Qt.Key.Key_Up: 1.0,
     Qt.Key.Key_Right: 1.0,
@@ -51,7 +42,7 @@ _STARTS = tuple("0123456789.-+(")
 """Characters that begin a number."""
 
 
-class NumberSlider(QWidget):
+class NumberSlider(NumberDisplay):
     """A number that is dragged, typed (``1/3`` too), stepped by keys and wheel, copied, pasted, and reset by a double
     click.
 
@@ -105,125 +96,29 @@ class NumberSlider(QWidget):
         resets: bool = True,
         parent: QWidget | None = None,
     ) -> None:
-        super().__init__(parent)
-        self._session = session
+        super().__init__(session, fills or (minimum, maximum), default, decimals, slides, resets, parent)
         self._minimum, self._maximum = minimum, maximum
-        self._step, self._decimals, self._slides = step, decimals, slides
-        self._fills, self._resets = fills, resets
-        self._default = default
-        self._value = default
-        self._mixed = False
-        self._by_hand: bool | None = None
-        self._painted: tuple[float, str, bool] | None = None
-        """What was drawn last."""
-        self._label, self._unit = "", ""
-        self._words: Callable[[float], str] | None = None
-        self._reads: Callable[[str], float | None] | None = None
+        self._step, self._fills = step, fills
         self._token: object | None = None
         self._press: QPointF | None = None
         self._press_value, self._press_mixed = 0.0, False
         self._drag_x, self._drag_value = 0.0, 0.0
-        self._dragging = False
-        self._after_drag: tuple[float, bool] | None = None
         self._field: QLineEdit | None = None
         self._wheel_rest = QTimer(self, singleShot=True, interval=WHEEL_REST_MS)
         self._wheel_rest.timeout.connect(self._end)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setCursor(Qt.CursorShape.SizeHorCursor)
-        self.setAttribute(Qt.WidgetAttribute.WA_Hover)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
-        session.theme_changed.connect(self.update)
-
-    # What it shows
-
-    @property
-    def value(self) -> float:
-        """The value shown; of several different ones, that of the first."""
-        return self._value
-
-    @property
-    def default(self) -> float:
-        """What a reset returns to."""
-        return self._default
-
-    @property
-    def mixed(self) -> bool:
-        """Whether it stands for several different values."""
-        return self._mixed
-
-    @property
-    def by_hand(self) -> bool:
-        """Whether the value is marked as the user's."""
-        if self._by_hand is not None:
-            return self._by_hand
-        return self._resets and (self._value != self._default or self._mixed)
-
-    def show_value(
-        self, value: float, *, mixed: bool = False, default: float | None = None, by_hand: bool | None = None
-    ) -> None:
-        """Show a value; no signal follows.
-
-        Parameters
-        ----------
-        mixed : bool
-            It stands for several different ones; a drag starts from ``value``.
-        default : float, optional
-            Another value to reset to.
-        by_hand : bool, optional
-            Whether it is marked as made by hand; None: wherever it is not the default.
-        """
-        if default is not None:
-            self._default = default
-        self._by_hand = by_hand
-        if self._dragging:
-            # What is shown follows the hand; what came of it is shown when the hand lets go.
-            self._after_drag = (value, mixed)
-        else:
-            self._value, self._mixed = value, mixed
-        if self._look != self._painted:
-            self.update()
-
-    @property
-    def _look(self) -> tuple[float, str, bool]:
-        # Words of the same value can be others: a pitch's, for another instrument.
-        return self._value, self.value_text(), self.by_hand
 
     def set_range(self, minimum: float, maximum: float) -> None:
         """Allow values from ``minimum`` to ``maximum``."""
         self._minimum, self._maximum = minimum, maximum
+        self._ends = self._fills or (minimum, maximum)
         self.update()
 
     def set_step(self, step: float) -> None:
         """Step so far by keys and wheel, and in a drag without a range to fill."""
         self._step = step
-
-    def set_texts(self, label: str, unit: str = "", tool_tip: str = "") -> None:
-        """The words around the number, in the language of the editor."""
-        self._label, self._unit = label, unit
-        self.setAccessibleName(label)
-        self.setToolTip(tool_tip)
-        self.updateGeometry()
-        self.update()
-
-    def set_wording(self, words: Callable[[float], str], reads: Callable[[str], float | None]) -> None:
-        """Write and read the value in another way than as a number, e.g. a pitch by its name."""
-        self._words, self._reads = words, reads
-        self.update()
-
-    def show_as_place(self) -> None:
-        """Write and read the value, ticks of the score, as bar, beat and ticks."""
-
-        def tick(text: str) -> float | None:
-            found = self._session.project.score.metre_map.tick_of_label(text)
-            return None if found is None else float(found)
-
-        self.set_wording(lambda value: self._session.project.score.metre_map.label(round(value)), tick)
-
-    def value_text(self) -> str:
-        """The value as it is written in the control, without its unit."""
-        if self._mixed:
-            return MIXED
-        return self._words(self._value) if self._words is not None else number_text(self._value, self._decimals)
 
     # Changing it
 
@@ -339,82 +234,7 @@ class NumberSlider(QWidget):
             on_click(menu.addAction(self.tr("number_slider.reset")), self.reset_value)
         return menu
 
-    # Drawing
-
-    def _text_width(self, text: str) -> float:
-        return QFontMetricsF(self.font()).horizontalAdvance(text)
-
-    @property
-    def _ends(self) -> tuple[float, float]:
-        """What the control's two ends stand for."""
-        return self._fills or (self._minimum, self._maximum)
-
-    def _share(self, value: float) -> float:
-        low, high = self._ends
-        return min(max((value - low) / (high - low), 0.0), 1.0) if high > low else 0.0
-
     # Qt's own names
-
-    def sizeHint(self) -> QSize:
-        sample = number_text(self._ends[1] if self._slides else 0.0, self._decimals) + " " + self._unit
-        width = self._text_width(self._label) + self._text_width(sample) + 4 * _PAD_PX
-        return QSize(round(width), max(LEAST_TARGET_PX + 1, round(QFontMetricsF(self.font()).height()) + 9))
-
-    def minimumSizeHint(self) -> QSize:
-        return QSize(60, self.sizeHint().height())
-
-    def paintEvent(self, event: QPaintEvent) -> None:
-        self._painted = self._look
-        tokens, painter = self._session.tokens, QPainter(self)
-        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-        box = QRectF(self.rect()).adjusted(0.75, 0.75, -0.75, -0.75)
-        shape = QPainterPath()
-        shape.addRoundedRect(box, 4, 4)
-        hovered = self.isEnabled() and (self.underMouse() or self._dragging)
-        painter.fillPath(shape, QColor(tokens.raised if hovered else tokens.sunken))
-        painter.save()
-        painter.setClipPath(shape)
-        if self._slides and not self._mixed:
-            fill = QColor(tokens.accent if self.isEnabled() else tokens.line)
-            if self.isEnabled():
-                fill.setAlphaF(0.42 if hovered else 0.30)
-            edge = box.left() + self._share(self._value) * box.width()
-            left, right = sorted((box.left() + self._share(0.0) * box.width(), edge))
-            painter.fillRect(QRectF(left, box.top(), right - left, box.height()), fill)
-            mark = QColor(tokens.accent if self.isEnabled() else tokens.line_strong)
-            # The words run over it.
-            mark.setAlphaF(1.0 if hovered else 0.7)
-            painter.fillRect(QRectF(min(edge, box.right() - 2) - 1, box.top(), 2, box.height()), mark)
-        if self.by_hand and self.isEnabled():
-            painter.fillRect(QRectF(box.left(), box.top(), 3, box.height()), QColor(tokens.by_hand))
-        painter.restore()
-        focused = self.hasFocus()
-        painter.setPen(QPen(QColor(tokens.accent if focused else tokens.line), 1.5 if focused else 1.0))
-        painter.drawPath(shape)
-        self._paint_texts(painter, box, tokens)
-
-    def _paint_texts(self, painter: QPainter, box: QRectF, tokens: Tokens) -> None:
-        enabled = self.isEnabled()
-        inner = box.adjusted(_PAD_PX + 2, 0, -_PAD_PX, 0)
-        number = self.value_text()
-        unit = f" {self._unit}" if self._unit and not self._mixed else ""
-        middle = Qt.AlignmentFlag.AlignVCenter
-        unit_px, number_px = self._text_width(unit), self._text_width(number)
-        # Upon the fill a dim unit could not be read.
-        covered = (
-            self._slides
-            and not self._mixed
-            and box.left() + self._share(self._value) * box.width() > (inner.right() - unit_px)
-        )
-        painter.setPen(QColor(tokens.text if covered and enabled else tokens.text_dim))
-        painter.drawText(inner, middle | Qt.AlignmentFlag.AlignRight, unit)
-        painter.setPen(QColor(tokens.text if enabled else tokens.text_dim))
-        painter.drawText(inner.adjusted(0, 0, -unit_px, 0), middle | Qt.AlignmentFlag.AlignRight, number)
-        room = inner.width() - unit_px - number_px - 8
-        metrics = QFontMetricsF(self.font())
-        label = metrics.elidedText(self._label, Qt.TextElideMode.ElideRight, max(room, 0.0))
-        painter.setPen(QColor(tokens.text if enabled else tokens.text_dim))
-        painter.drawText(inner, middle | Qt.AlignmentFlag.AlignLeft, label)
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         if self._field is not None:

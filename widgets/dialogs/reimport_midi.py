@@ -32,6 +32,7 @@ from widgets.common.layouts import in_column
 from widgets.common.plain import Label
 from widgets.common.text import message_text
 
+_LEFT = Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter
 _RIGHT = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
 
 
@@ -98,11 +99,12 @@ class ReimportDialog(Retranslated, QDialog):
         table.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
         table.horizontalHeader().setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
         table.horizontalHeader().setSectionResizeMode(0, QHeaderView.ResizeMode.Stretch)
-        table.horizontalHeader().setDefaultAlignment(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter)
+        table.horizontalHeader().setDefaultAlignment(_LEFT)
         columns = ("part", "kept", "new", "gone", "changed_by_hand")
         self.texted(table, columns=[f"reimport_dialog.{column}" for column in columns])
-        for column in range(1, len(columns)):
-            table.model().setHeaderData(column, Qt.Orientation.Horizontal, _RIGHT, Qt.ItemDataRole.TextAlignmentRole)
+        for column in range(len(columns)):
+            side, role = _RIGHT if column else _LEFT, Qt.ItemDataRole.TextAlignmentRole
+            table.model().setHeaderData(column, Qt.Orientation.Horizontal, side, role)
         for row, part in enumerate(self._outcome.parts):
             name = part.name if part.name == part.former_name else f"{part.former_name} → {part.name}"
             table.setItem(row, 0, QTableWidgetItem(name))

@@ -17,7 +17,7 @@ from app.arrays import FloatArray, IntArray, SingleArray
 from app.rig.mesh import Mesh
 from app.rig.model import Character, InstrumentModel
 from widgets.viewport.shape_cache import kept
-from widgets.viewport.shape_model import BONES_PER_VERTEX, SHAPE, SURFACE, MorphTargets, Geometry, numbers
+from widgets.viewport.shape_model import BONES_PER_VERTEX, SHAPE, SURFACE, Geometry, MorphTargets, numbers
 from widgets.viewport.weld import SplitMesh, Weld, row_keys, split_mesh
 
 BODY_CELLS_M = (0.0, 0.0055, 0.02)

@@ -54,7 +54,7 @@ def dialog(qt_app: QApplication, qtbot: QtBot) -> ImportDialog:
 
 def imported(dialog: ImportDialog) -> Project:
     """What comes of the dialog."""
-    return import_project(dialog._contents, dialog.rows, dialog._maps)
+    return import_project(dialog._table.contents, dialog.rows, dialog._maps)
 
 
 def choose(dialog: ImportDialog, name: str, data: object) -> None:
@@ -230,7 +230,7 @@ def test_closing_the_dialog_stops_the_work(qt_app: QApplication, qtbot: QtBot) -
     dialog.reject()
     tasks.work(0)
     assert dialog.rows == ()
-    assert dialog._outcome is None
+    assert dialog._table.outcome is None
 
 
 def test_many_tracks_are_shown_turn_by_turn(

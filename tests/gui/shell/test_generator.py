@@ -12,6 +12,7 @@ import pytest
 from pytestqt.qtbot import QtBot
 
 from app.editor import generator as module
+from app.editor import plan_worker
 from app.editor.generator import Generator
 from app.editor.plan_worker import PlanWorker
 from app.editor.session import Session, Severity
@@ -69,8 +70,8 @@ def test_memory_is_returned_once_much_was_made(session: Session, qtbot: QtBot, m
         returned.append(made.ready_share)
         threads.append(threading.current_thread())
 
-    monkeypatch.setattr(module, "give_back", counting)
-    monkeypatch.setattr(module, "GIVE_BACK_CHUNKS", 10)
+    monkeypatch.setattr(plan_worker, "give_back", counting)
+    monkeypatch.setattr(plan_worker, "GIVE_BACK_CHUNKS", 10)
     made = Generator(session, session.tasks)
     try:
         qtbot.waitUntil(lambda: bool(returned))

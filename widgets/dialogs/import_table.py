@@ -1,0 +1,328 @@
+"""The table of a MIDI file's tracks: which are played, by how many, on what and as whom."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Mapping
+from typing import Final
+
+import msgspec
+from PySide6.QtCore import QPoint, Qt, QTimer, Signal
+from PySide6.QtWidgets import (
+    QAbstractItemView,
+    QCheckBox,
+    QHeaderView,
+    QLineEdit,
+    QTableWidget,
+    QWidget,
+)
+
+from app.editor.tokens import LEAST_TARGET_PX, Tokens
+from app.messages.pitches import pitch_name
+from app.project.importing import (
+    ImportPreview,
+    ImportRow,
+    automatic,
+)
+from app.rig.characters.character_library import characters
+from app.score.choose import use_of
+from app.score.contents import PieceContents
+from app.score.parts import PERCUSSION, PartAssignment, stream_name
+from app.score.take_tracks import TakeReason, take_reason
+from instrument_maps.model import InstrumentMap
+from instrument_maps.score_order import in_score_order
+from widgets.common.controls import Retranslated, named
+from widgets.common.instrument_name import character_name, instrument_name
+from widgets.common.layouts import in_row, panel
+from widgets.common.plain import ComboBox, Label
+from widgets.dialogs.notes_preview import ROW_PX, NotesPreview
+
+_USE, _NAME, _PREVIEW, _NOTES, _SPLIT, _INSTRUMENT, _PITCHES, _CHARACTER, _CLEAN = range(9)
+_COLUMNS: Final = tuple(
+    f"import_dialog.{column}"
+    for column in (
+        *("play", "name", "notes", "number_range", "notes_together"),
+        *("instrument", "pitches", "character", "clean_take"),
+    )
+)
+_TAKES: Final[Mapping[TakeReason, str]] = {
+    "recorded": "import_dialog.take_recorded",
+    "name": "import_dialog.take_name",
+    "breath": "import_dialog.take_breath",
+}
+"""Why a track looks like a take, and what cleaning it does."""
+_INSTRUMENT_LETTERS = 31
+"""Width of the column of instruments: the longest names would leave the notes no room."""
+_ROWS_AT_ONCE, _ROWS_LATER = 14, 4
+"""Rows that are made before anything is shown, and of the others in each turn of the event loop."""
+
+
+class ImportTable(Retranslated, QTableWidget):
+    """A row for every track, or for tracks that are one part, with its choices.
+
+    Attributes
+    ----------
+    contents : PieceContents
+        The file.
+    rows : tuple of ImportRow
+        What is requested so far.
+    outcome : ImportPreview or None
+        Of the newest rows for which it is known.
+
+    Signals
+    -------
+    edited()
+        The user changed a row.
+    """
+
+    edited = Signal()
+
+    def __init__(self, contents: PieceContents, maps: Mapping[str, InstrumentMap], tokens: Tokens) -> None:
+        super().__init__(0, len(_COLUMNS))
+        self.setObjectName("import_tracks")
+        self._maps, self._tokens = maps, tokens
+        self.rows: tuple[ImportRow, ...] = ()
+        self.outcome: ImportPreview | None = None
+        self._filled = 0
+        """So many rows have their widgets."""
+        self._filling = QTimer(self, interval=0)
+        self._filling.timeout.connect(lambda: self._fill_more(_ROWS_LATER))
+        self.read(contents)
+        self.texted(self, columns=_COLUMNS)
+        self.verticalHeader().hide()
+        self.verticalHeader().setDefaultSectionSize(ROW_PX)
+        self.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
+        self.setShowGrid(False)
+        header = self.horizontalHeader()
+        header.setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
+        header.setSectionResizeMode(_PREVIEW, QHeaderView.ResizeMode.Stretch)
+        header.setMinimumSectionSize(40)
+        header.setDefaultAlignment(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter)
+
+    def read(self, contents: PieceContents) -> None:
+        """Take a file, and find its streams that are percussion, or sound effects, if no one says otherwise."""
+        self.contents = contents
+        self.end_tick = max((max(stream.end_ticks) for stream in contents.streams), default=1)
+        uses = [use_of(stream) for stream in contents.streams]
+        self._rhythm, self._effects = (
+            frozenset(place for place, use in enumerate(uses) if use == one) for one in ("rhythm", "effect")
+        )
+
+    def fill(self) -> None:
+        """Show the rows, whatever was there before."""
+        self.setRowCount(0)
+        self.setRowCount(len(self.rows))
+        self._filled = 0
+        # Only where a track looks like a take is there something to clean.
+        self.setColumnHidden(_CLEAN, not any(map(self._take_reason, self.rows)))
+        self._instruments = [(instrument_name(table), table.id) for table in in_score_order(self._maps.values())]
+        self._characters = [(character_name(id_), id_) for id_ in characters()]
+        self._fill_more(_ROWS_AT_ONCE)
+
+    def show_outcome(self, outcome: ImportPreview) -> None:
+        """Show what the rows are played on."""
+        self.outcome = outcome
+        for place in range(self._filled):
+            self._show_instruments(place)
+
+    def selected(self) -> list[int]:
+        return sorted({index.row() for index in self.selectionModel().selectedRows()})
+
+    def asks(self, row: ImportRow) -> bool:
+        """Whether nothing says what plays a row."""
+        return self.outcome is not None and row.assignment.map_id is None and not self._played_on(row.assignment)
+
+    def is_percussion(self, row: ImportRow) -> bool:
+        chosen = row.assignment.map_id
+        return chosen == PERCUSSION or (chosen is None and self._rhythm.issuperset(row.assignment.streams))
+
+    def name_of(self, row: ImportRow) -> str:
+        names = Counter(stream_name(self.contents.streams[stream]) for stream in row.assignment.streams)
+        return " + ".join(name if count == 1 else f"{name} ×{count}" for name, count in names.items())
+
+    def _fill_more(self, count: int) -> None:
+        """Make the widgets of some more rows, and of the others when the window has time."""
+        end = min(self._filled + count, len(self.rows))
+        for place in range(self._filled, end):
+            self._fill_row(place, self.rows[place])
+        if self._filled == 0 or end == len(self.rows):
+            # Said again, the table measures its columns again: Qt does not do so for widgets that come later.
+            self.horizontalHeader().setSectionResizeMode(_PREVIEW, QHeaderView.ResizeMode.Stretch)
+        self._filled = end
+        if end < len(self.rows):
+            self._filling.start()
+        else:
+            self._filling.stop()
+
+    def _fill_row(self, place: int, row: ImportRow) -> None:
+        use = named(_Tick(), f"play_{place}")
+        use.setChecked(row.requested)
+        use.toggled.connect(lambda requested: self._request(place, requested))
+        self.setCellWidget(place, _USE, _centred(use))
+
+        name = named(QLineEdit(row.assignment.name or self.name_of(row)), f"name_{place}")
+        name.setMinimumWidth(130)
+        name.textEdited.connect(lambda text: self._assignment(place, name=text.strip()))
+        self.setCellWidget(place, _NAME, name)
+
+        streams = [self.contents.streams[stream] for stream in row.assignment.streams]
+        self.setCellWidget(place, _PREVIEW, NotesPreview(streams, self.end_tick, self._tokens))
+        count = Label(
+            self.tr("import_dialog.notes_to").format(
+                count=sum(len(stream.pitches) for stream in streams),
+                low=pitch_name(min(min(stream.pitches) for stream in streams)),
+                high=pitch_name(max(max(stream.pitches) for stream in streams)),
+            )
+        )
+        count.setContentsMargins(6, 0, 6, 0)
+        self.setCellWidget(place, _NOTES, count)
+
+        usual, assignment = self.tr("import_dialog.automatic"), row.assignment
+        splits = (
+            (usual, "sustained"),
+            (self.tr("import_dialog.share_among_players"), "every"),
+            (self.tr("import_dialog.one_player"), "never"),
+        )
+        split = self._choice(place, _SPLIT, "split", splits, assignment.split)
+        split.setToolTip(self.tr("import_dialog.automatic_another_player_for_notes"))
+        split.currentIndexChanged.connect(lambda: self._assignment(place, split=split.currentData()))
+
+        instruments = [(usual, None), *self._instruments]
+        if not self._rhythm.issuperset(assignment.streams):
+            instruments.append((self.tr("import_dialog.percussion_for_dancers"), PERCUSSION))
+        instrument = self._choice(place, _INSTRUMENT, "instrument", instruments, assignment.map_id)
+        instrument.setSizeAdjustPolicy(ComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
+        instrument.setMinimumContentsLength(_INSTRUMENT_LETTERS)
+        instrument.currentIndexChanged.connect(lambda: self._choose(place, instrument.currentData()))
+        instrument.currentTextChanged.connect(lambda text: instrument.setToolTip(self._tip(place) or text))
+
+        kinds = ((self.tr("import_dialog.sounding"), False), (self.tr("import_dialog.written"), True))
+        pitches = self._choice(place, _PITCHES, "pitches", kinds, assignment.written)
+        pitches.setToolTip(self.tr("import_dialog.which_pitches_file_has_of"))
+        pitches.currentIndexChanged.connect(lambda: self._assignment(place, written=bool(pitches.currentData())))
+
+        figures = ((usual, None), *self._characters)
+        character = self._choice(place, _CHARACTER, "character", figures, row.character_id)
+        character.currentIndexChanged.connect(lambda: self._set(place, character_id=character.currentData()))
+        reason = self._take_reason(row)
+        if reason:
+            clean = named(_Tick(), f"clean_{place}")
+            clean.setChecked(assignment.clean)
+            clean.setToolTip(self.tr(_TAKES[reason]))
+            clean.toggled.connect(lambda clean: self._assignment(place, clean=clean))
+            self.setCellWidget(place, _CLEAN, _centred(clean))
+        self._enable(place)
+        self._show_instruments(place)
+
+    def _take_reason(self, row: ImportRow) -> TakeReason:
+        """Why a row's tracks are taken for takes; empty where one of them is none."""
+        own = (self.contents.streams[stream] for stream in row.assignment.streams)
+        reasons = [take_reason(stream, self.contents.tempo_map) for stream in own]
+        return reasons[0] if all(reasons) else ""
+
+    def _choice(
+        self, place: int, column: int, name: str, options: Iterable[tuple[str, object]], chosen: object
+    ) -> ComboBox:
+        """A cell with options by their texts; the first where what is chosen is not among them."""
+        box = named(ComboBox(), f"{name}_{place}")
+        for text, value in options:
+            box.addItem(text, value)
+        box.setCurrentIndex(max(box.findData(chosen), 0))
+        self.setCellWidget(place, column, box)
+        return box
+
+    def _played_on(self, assignment: PartAssignment) -> list[InstrumentMap]:
+        """What a row is played on, were it requested; nothing where that is not known yet."""
+        return [] if self.outcome is None else [self._maps[id_] for id_ in self.outcome.instruments_of(assignment)]
+
+    def _can_choose(self, row: ImportRow) -> bool:
+        """Return whether a row that is not requested has an instrument to choose."""
+        return row.assignment.map_id == PERCUSSION or self.asks(row)
+
+    def _show_instruments(self, place: int) -> None:
+        """Say which instruments a row's names, programs and ranges choose, and whether its pitches can be written."""
+        row = self.rows[place]
+        instrument, pitches = self.cellWidget(place, _INSTRUMENT), self.cellWidget(place, _PITCHES)
+        assert isinstance(instrument, ComboBox)
+        assert pitches is not None
+        names = dict.fromkeys(map(instrument_name, self._played_on(automatic(row.assignment))))
+        if names:
+            instrument.setItemText(0, self.tr("import_dialog.automatic_2").format(name=" + ".join(names)))
+        elif self._rhythm.issuperset(row.assignment.streams):
+            instrument.setItemText(0, self.tr("import_dialog.percussion_for_dancers"))
+        elif self._effects.issuperset(row.assignment.streams):
+            instrument.setItemText(0, self.tr("import_dialog.sound_effect"))
+        elif self.outcome is not None and not row.assignment.map_id:
+            instrument.setItemText(0, self.tr("import_dialog.choose_instrument"))
+        tip = self._tip(place)
+        instrument.setToolTip(tip or instrument.currentText())
+        for column in (_USE, _PREVIEW, _NOTES):
+            widget = self.cellWidget(place, column)
+            if widget is not None:
+                widget.setToolTip(tip)
+        instrument.setEnabled(row.requested or self._can_choose(row))
+        # Only there is a difference.
+        transposes = any(table.transposition_semitones for table in self._played_on(row.assignment))
+        pitches.setEnabled(row.requested and transposes)
+
+    def _tip(self, place: int) -> str:
+        """What there is to know of a row; empty for most."""
+        row = self.rows[place]
+        if self.is_percussion(row):
+            return self.tr("import_dialog.percussion_track_no_player_plays")
+        if row.assignment.map_id is None and self._effects.issuperset(row.assignment.streams):
+            return self.tr("import_dialog.sound_effects_no_player_plays")
+        return ""
+
+    def _choose(self, place: int, map_id: str | None) -> None:
+        """Take an instrument for a row; one that was asked for is what lets it be played. No one plays percussion."""
+        row = self.rows[place]
+        asked, was_percussion = self.asks(row), row.assignment.map_id == PERCUSSION
+        self._assignment(place, map_id=map_id)
+        tick = self.cellWidget(place, _USE)
+        box = tick.findChild(QCheckBox) if tick is not None else None
+        if box is None:
+            return
+        if map_id == PERCUSSION:
+            box.setChecked(False)
+        elif (asked and map_id is not None) or (was_percussion and self._played_on(self.rows[place].assignment)):
+            box.setChecked(True)
+
+    def _request(self, place: int, requested: bool) -> None:
+        """Have a row played, or not; what is percussion by choice is no longer."""
+        self._set(place, requested=requested)
+        instrument = self.cellWidget(place, _INSTRUMENT)
+        if requested and self.rows[place].assignment.map_id == PERCUSSION and isinstance(instrument, ComboBox):
+            instrument.setCurrentIndex(0)
+
+    def _assignment(self, place: int, **changes: object) -> None:
+        self._set(place, assignment=msgspec.structs.replace(self.rows[place].assignment, **changes))
+
+    def _set(self, place: int, **changes: object) -> None:
+        changed = msgspec.structs.replace(self.rows[place], **changes)
+        self.rows = (*self.rows[:place], changed, *self.rows[place + 1 :])
+        self._enable(place)
+        self.edited.emit()
+
+    def _enable(self, place: int) -> None:
+        row = self.rows[place]
+        for column in (_NAME, _PREVIEW, _NOTES, _SPLIT, _INSTRUMENT, _CHARACTER, _CLEAN):
+            widget = self.cellWidget(place, column)
+            if widget is not None:
+                # Where nothing says what the instrument is, it is asked for.
+                widget.setEnabled(row.requested or (column == _INSTRUMENT and self._can_choose(row)))
+
+
+class _Tick(QCheckBox):
+    """A box without a word: all of it can be clicked, not the small square alone."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.setMinimumSize(LEAST_TARGET_PX, LEAST_TARGET_PX)
+
+    def hitButton(self, pos: QPoint) -> bool:
+        return self.rect().contains(pos)
+
+
+def _centred(widget: QWidget) -> QWidget:
+    return panel(in_row((widget, 0, Qt.AlignmentFlag.AlignCenter), margins=(8, 0, 8, 0)))
