@@ -10,10 +10,10 @@ from functools import cache
 from pathlib import Path
 
 import pytest
-from app.messages.touches import touch_name
 
 from app.errors import Message
 from app.messages import LANGUAGES, WORDINGS, text
+from app.messages.body import touch_name
 from instrument_maps.model import PARTS
 
 ROOT = Path(__file__).parents[2]

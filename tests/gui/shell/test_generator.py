@@ -221,7 +221,7 @@ def test_motion_that_no_one_waits_for_gives_way(
     generator.close()
     clock = Clock()
     live = Work(clock, others_s, is_seen)
-    worker = PlanWorker(live, generator._worker._report, generator._worker._says, clock)  # type: ignore[arg-type]
+    worker = PlanWorker(live, generator._worker._report, generator._worker._says, clock)
     rested: list[float] = []
     monkeypatch.setattr(worker, "_rest", lambda rest_s, requests: rested.append(rest_s))
     for _ in range(3):
