@@ -74,13 +74,15 @@ def is_musicxml(path: Path) -> bool:
     return start.startswith(tuple(mark for mark, _ in _BOMS)) or path.suffix.lower() in NOTATION
 
 
-def read_document(path: Path) -> Element:
+def read_document(path: Path) -> tuple[Element, int]:
     """Read the document of a score.
 
     Returns
     -------
-    Element
+    root : Element
         ``score-partwise`` or ``score-timewise``.
+    size : int
+        Bytes of the file.
 
     Raises
     ------
@@ -88,12 +90,13 @@ def read_document(path: Path) -> Element:
     """
     file = str(path)
     content = read_file(path, MOST_BYTES)
+    size = len(content)
     if content.startswith(_ZIP):
         content = _unpacked(content, file)
     root = _parsed(_decoded(content), file)
     if root.tag not in ("score-partwise", "score-timewise"):
         raise FileError("musicxml.not_a_score", file=file, root=shortened(root.tag, 60))
-    return root
+    return root, size
 
 
 def _unpacked(content: bytes, file: str) -> bytes:

@@ -9,6 +9,7 @@ from typing import Final
 from xml.etree.ElementTree import Element
 
 from app.score.limits import MOST_NAME
+from app.score.musicxml.tempos import FASTEST, SLOWEST
 from app.score.musicxml.written import Bar, Direction, Place, Time
 
 _UNITS: Final = {
@@ -22,8 +23,6 @@ _UNITS: Final = {
     "32nd": Fraction(1, 8),
     "64th": Fraction(1, 16),
 }
-_TEMPO: Final = (5.0, 1000.0)
-"""Quarters per minute."""
 _MOST_TIMES: Final = 64
 """Repetitions of one section."""
 _MUTES: Final = {"off": "open", "stop-hand": "hand"}
@@ -101,7 +100,7 @@ def _metronome(item: Element, place: Place) -> float | None:
         return None
     dots = min(sum(1 for _ in item.iterfind("beat-unit-dot")), 4)
     tempo = float(place.number_of(said[0].replace(",", "."), "per-minute") * unit * (2 - Fraction(1, 2**dots)))
-    return tempo if _TEMPO[0] <= tempo <= _TEMPO[1] else None
+    return tempo if SLOWEST <= tempo <= FASTEST else None
 
 
 def read_sound(sound: Element, at: Time, bar: Bar, place: Place) -> Iterator[Direction]:
@@ -109,7 +108,7 @@ def read_sound(sound: Element, at: Time, bar: Bar, place: Place) -> Iterator[Dir
     tempo, loudness = sound.get("tempo"), sound.get("dynamics")
     if tempo is not None:
         value = float(place.number_of(tempo, "tempo"))
-        if _TEMPO[0] <= value <= _TEMPO[1]:
+        if SLOWEST <= value <= FASTEST:
             yield Direction(at, "tempo", value=value)
     if loudness is not None:
         yield Direction(at, "loudness", value=float(place.number_of(loudness, "dynamics")) / 100.0)

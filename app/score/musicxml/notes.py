@@ -67,7 +67,7 @@ _ORNAMENTS: Final = {
     "mordent": "mordent",
     "inverted-mordent": "inverted_mordent",
 }
-_NEIGHBOURS: Final = {"flat": -1, "natural": 0, "sharp": 1, "double-sharp": 2, "sharp-sharp": 2, "flat-flat": -2}
+_SIGNS: Final = {"flat": -1, "natural": 0, "sharp": 1, "double-sharp": 2, "sharp-sharp": 2, "flat-flat": -2}
 _FERMATAS: Final = {"angled": 1.5, "double-angled": 1.25, "square": 3.0, "double-square": 4.0, "half-curve": 1.5}
 """How many times as long a fermata lasts, by its shape, as MuseScore has it."""
 _FERMATA: Final = 2.0
@@ -270,7 +270,10 @@ def _tone(part: WrittenPart, found: dict[str, Element], chord: Chord, state: _St
     octave = place.number(pitch, "octave")
     if step not in _STEPS or octave is None:
         raise place.bad("pitch", step)
-    alter = place.number(pitch, "alter") or 0
+    alter = place.number(pitch, "alter")
+    if alter is None:
+        # Of a note that is written by hand the sign alone may stand.
+        alter = _SIGNS.get(_said(found.get("accidental"), ""), 0)
     shift = state.shift.get(chord.staff, state.shift.get("", 0))
     natural = 12 * (int(octave) + 1) + _STEPS[step]
     written = math.floor(natural + alter + Fraction(1, 2))
@@ -353,7 +356,7 @@ def _ornaments(written: Element, chord: Chord, tone: Tone | None) -> None:
             if one.get("type") == "start" and "trill" not in chord.ornaments:
                 chord.ornaments.append("trill")
         elif tag == "accidental-mark" and tone is not None:
-            alter = _NEIGHBOURS.get((one.text or "").strip())
+            alter = _SIGNS.get((one.text or "").strip())
             if alter is not None and one.get("placement") != "below":
                 # The neighbour that stands in no key.
                 natural = tone.upper if tone.upper in (1, 2) else 2

@@ -6,7 +6,7 @@ After a jump repeats are not taken again, and of endings the last one is played,
 from __future__ import annotations
 
 from collections.abc import Sequence
-from itertools import groupby
+from itertools import groupby, pairwise
 from typing import Final, NamedTuple
 
 import msgspec
@@ -53,6 +53,17 @@ def _explain(bars: Sequence[Bar]) -> None:
             bar.fine = True
         if "segno" in said and not any(one.segno for one in bars):
             bar.segno = _ANY
+    is_open = False
+    for bar, following in pairwise(bars):
+        if following.backward and not bar.backward and not (following.da_capo or following.dal_segno):
+            # Words that are wide stand a measure early: the repetition comes first.
+            following.da_capo, bar.da_capo = bar.da_capo, False
+            following.dal_segno, bar.dal_segno = bar.dal_segno, ""
+        is_open = is_open or bool(bar.ending_start)
+        if bar.ending_stop and not is_open and following.ending_start:
+            # A bracket without its beginning.
+            bar.ending_start = frozenset(range(1, min(following.ending_start)))
+        is_open = is_open and not bar.ending_stop
     signs = [bar for bar in bars if "coda" in bar.said]
     if signs and not any(bar.coda for bar in bars):
         signs[-1].coda = _ANY

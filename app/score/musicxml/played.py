@@ -71,23 +71,25 @@ class PlayedPart:
         return [note for chord in self.chords for note in chord.begun]
 
 
-def played_part(measures: Sequence[Measure], order: Sequence[int], starts: Sequence[Time]) -> PlayedPart:
+def played_part(measures: Sequence[Measure], visits: Sequence[Sequence[Time]]) -> PlayedPart:
     """Unroll the measures of a part.
 
     Parameters
     ----------
-    order : sequence of int
-        Places of measures, as they are played.
-    starts : sequence of Time
-        Where each of them begins.
+    visits : sequence of sequence of Time
+        Where each measure begins, as often as it is played.
     """
     chords: list[PlayedChord] = []
     directions: list[tuple[int, Direction]] = []
     held: list[tuple[int, int, float]] = []
     last: dict[str, PlayedChord] = {}
-    for place, start in zip(order, starts, strict=True):
-        if place >= len(measures):
-            continue
+    written = (
+        (start, place)
+        for place, (measure, times) in enumerate(zip(measures, visits, strict=False))
+        if measure.chords or measure.directions
+        for start in times
+    )
+    for start, place in sorted(written):
         measure = measures[place]
         directions += [(round(start + one.start), one) for one in measure.directions]
         own = [

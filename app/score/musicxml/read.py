@@ -44,10 +44,13 @@ from app.score.musicxml.parts import written_parts
 from app.score.musicxml.played import PlayedPart, played_part
 from app.score.musicxml.streams import part_streams
 from app.score.musicxml.tempos import Held, TempoEvent, said_of_tempo, tempo_map
-from app.score.musicxml.written import Bar, Measure, Place
+from app.score.musicxml.written import Bar, Measure, Place, Time
 
-MOST_NOTES: Final = 500_000
-"""As they are played."""
+MOST_ITEMS: Final = 1_000_000
+"""Notes, rests and directions, as often as they are played..."""
+LEAST_ITEMS: Final = 20_000
+MOST_ITEMS_PER_BYTE: Final = 2
+"""... of a small file fewer: compressed music has half a note for each byte, and is played a few times."""
 _MOST_LISTED: Final = 4 * MOST_STREAMS
 """Parts of a score with and without notes."""
 
@@ -61,7 +64,7 @@ def read_musicxml(path: Path) -> PieceContents:
         It cannot be read, or is larger than any music.
     """
     file = str(path)
-    root = read_document(path)
+    root, size = read_document(path)
     place = Place(file)
     parts = written_parts(root, place)
     if len(parts) > _MOST_LISTED:
@@ -72,12 +75,15 @@ def read_musicxml(path: Path) -> PieceContents:
     measures = [own for own, _ in read]
     written = measure_lengths(bars, measures, quarter)
     order = playing_order(bars, file)
-    _require_few(measures, order.measures, file)
     starts = list(accumulate((bars[one].length for one in order.measures), initial=0))
     end = starts.pop()
+    visits: list[list[Time]] = [[] for _ in bars]
+    for one, start in zip(order.measures, starts, strict=True):
+        visits[one].append(start)
+    _require_few(measures, visits, min(MOST_ITEMS, LEAST_ITEMS + MOST_ITEMS_PER_BYTE * size), file)
     if end > LAST_TICK:
         raise FileError("musicxml.too_many_repeats", file=file, most=LAST_TICK // quarter)
-    played = [played_part(own, order.measures, starts) for own in measures]
+    played = [played_part(own, visits) for own in measures]
     metred = metres_of(order.measures, starts, bars, written, quarter)
     tempo = tempo_map(*_tempo(played), round(end), quarter)
     _require_length(Score("", quarter, tempo, metred.metres, metred.pickup_ticks), round(end), file)
@@ -109,14 +115,15 @@ def read_musicxml(path: Path) -> PieceContents:
 _MOST_LOST: Final = 20
 
 
-def _require_few(measures: Sequence[Sequence[Measure]], order: Sequence[int], file: str) -> None:
-    """Refuse more notes than any piece has, as often as they are played."""
-    count = 0
-    for part in measures:
-        notes = [sum(len(chord.tones) for chord in measure.chords) for measure in part]
-        count += sum(notes[place] for place in order if place < len(notes))
-        if count > MOST_NOTES:
-            raise FileError("musicxml.too_many_notes", file=file, most=MOST_NOTES)
+def _require_few(measures: Sequence[Sequence[Measure]], visits: Sequence[Sequence[Time]], most: int, file: str) -> None:
+    """Refuse more than any piece has, as often as it is played."""
+    count = sum(
+        (len(measure.directions) + sum(max(len(chord.tones), 1) for chord in measure.chords)) * len(times)
+        for part in measures
+        for measure, times in zip(part, visits, strict=False)
+    )
+    if count > most:
+        raise FileError("musicxml.too_many_notes", file=file, most=most)
 
 
 def _require_length(empty: Score, end: int, file: str) -> None:

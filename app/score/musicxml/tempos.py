@@ -13,6 +13,8 @@ from app.score.tempo import TempoChange, TempoMap
 
 USUAL: Final = 120.0
 """Quarters per minute of a score that says nothing."""
+SLOWEST, FASTEST = 5.0, 1000.0
+"""Quarters per minute that are possible."""
 _WORDS: Final = (
     (re.compile(r"prestissimo", re.I), 192.0),
     (re.compile(r"\bpresto|presto\b", re.I), 172.0),
@@ -107,7 +109,7 @@ def tempo_map(events: Sequence[TempoEvent], held: Sequence[Held], end_tick: int,
         place = bisect_right(starts, tick) - 1
         if place >= 0 and tick < spans[place].end_tick:
             tempo /= spans[place].stretch
-        rows.append(TempoChange(tick, 60e6 / tempo))
+        rows.append(TempoChange(tick, 60e6 / min(max(tempo, SLOWEST), FASTEST)))
     return TempoMap.of_changes(ticks_per_quarter, rows)
 
 

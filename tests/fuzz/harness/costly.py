@@ -12,6 +12,7 @@ from tests.fuzz.harness.costly_midi import COSTLY, STUCK
 from tests.fuzz.harness.costly_motion import COSTLY_MOTION
 from tests.fuzz.harness.costly_projects import COSTLY_DANCES, COSTLY_METADATA, COSTLY_PROJECTS
 from tests.fuzz.harness.own_files import COSTLY_OWN
+from tests.fuzz.harness.scores import COSTLY_SCORES
 
 Make = Callable[[int], bytes]
 """Makes a file of about so many bytes."""
@@ -27,6 +28,7 @@ ALL_COSTLY: Final[Mapping[str, Mapping[str, Make]]] = {
     "performed": COSTLY_PROJECTS,
     "danced": COSTLY_DANCES,
     "piece_metadata": COSTLY_METADATA,
+    "notation": {make.__name__: make for make in COSTLY_SCORES},
     **_named(COSTLY_FILES),
     **_named(COSTLY_MEDIA),
     **_named(COSTLY_MOTION),

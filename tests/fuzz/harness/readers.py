@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import Any, Final
 
 from app.errors import AppError
-from tests.fuzz.harness import mutators, own_files, seeds
+from tests.fuzz.harness import mutators, own_files, scores, seeds
 from tests.fuzz.harness.costly_projects import base
 from tests.fuzz.harness.mutators import Mutator
 from tests.fuzz.harness.own_readers import answers, cuts, evaluation_key, exported, keyframes
@@ -46,6 +46,11 @@ def require(holds: bool, what: str) -> None:
 
 
 # Music
+
+
+def notation(path: Path, folder: Path) -> None:
+    """Do with a score what is done with a MIDI file."""
+    midi(path, folder)
 
 
 def midi(path: Path, folder: Path) -> None:
@@ -500,6 +505,7 @@ KINDS: Final[dict[str, Kind]] = {
     kind.name: kind
     for kind in (
         Kind("midi", midi, seeds.midi, tuple(mutators.MIDI), ".mid", 2.0),
+        Kind("midi", notation, scores.seeds, _TEXT, ".musicxml", 2.0),
         Kind("midi", inspected, seeds.inspected, tuple(mutators.MIDI), ".mid"),
         Kind("project", project, seeds.project, _JSON, ".suisou", 3.0),
         Kind("project", performed, seeds.performed, _JSON, ".suisou"),

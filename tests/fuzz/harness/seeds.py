@@ -342,6 +342,7 @@ _TABLES: dict[str, Callable[[], bytes]] = {
 
 MADE: Final[dict[str, dict[str, Callable[[], bytes]]]] = {
     "midi": {name: partial(make, WORST.get(name, 3000)) for name, make in COSTLY.items()},
+    "notation": costly("notation", 4000),
     "project": {
         "huge_tick": lambda: _huge_tick(project()[-1]),
         "deep": lambda: b"[" * 100_000,

@@ -55,6 +55,9 @@ def bars(text: str) -> list[Bar]:
         # Repeats are not taken again after a jump, and the last ending is.
         (": a :|b FINE|c DC", "112312"),
         (": a|1[ b :]|2[ c ]|d FINE|e DC", "121345134"),
+        # Words that stand before the last repeat of a trio; a bracket whose beginning a program lost.
+        ("a FINE|: b|c DC|d :|", "12342341"),
+        ("a|b :]|2[ c ]|d", "12134"),
         # A section in a section: the outer sign leads to where the inner one ended.
         (": a|: b :|c :|d", "122334"),
     ],
