@@ -11,13 +11,15 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QMenu
 from pytestqt.qtbot import QtBot
 
+from app.editor.additions import bars_of
 from app.editor.selection import Selection
 from app.editor.session import Session
 from app.editor.settings import Settings
 from app.plan.by_hand.corrections import PlayStyle
 from app.shell.actions import ActionTable
 from app.shell.commands import edit, events
-from tests.gui.timeline.lane_hands import click, drag, middle, region_of, shown_panel
+from tests.gui.timeline.conftest import TPQ, Stage
+from tests.gui.timeline.lane_hands import click, drag, middle, planned, region_of, shown_panel
 from tests.support.windows import show_in_front
 from widgets.common.actions import actions
 from widgets.timeline.lanes.acting.acting_lane import ActingLane
@@ -140,3 +142,17 @@ def test_another_style_from_the_menu_and_by_key(placed: TimelinePanel, session: 
     next(entry for entry in menu.actions() if entry.objectName() == "style_student").trigger()
     menu.close()
     assert [item.style for item in said(session)] == ["jazz", "student"]
+
+
+def test_a_style_lasts_for_the_range_only_where_it_is_set_within_it(stage: Stage) -> None:
+    planned(stage.session)
+    (player, *_) = stage.session.plans
+    stage.session.select(Selection(span=(0, 2 * TPQ)))
+    for tick, span in (
+        (0, (0, 2 * TPQ)),
+        (2 * TPQ - 1, (0, 2 * TPQ)),
+        (2 * TPQ, (0, 8 * TPQ)),
+        (5 * TPQ, (4 * TPQ, 12 * TPQ)),
+    ):
+        ((_, *found),) = bars_of(stage.session, [player], tick)
+        assert tuple(found) == span

@@ -99,3 +99,12 @@ def test_half_of_the_hands_turn_goes_to_the_forearm(seed: int) -> None:
     )
     whole = quaternion.twist_angle(bare.end, axis)
     np.testing.assert_allclose(quaternion.twist_angle(shared.end, axis), 0.5 * whole, atol=1e-9)
+
+
+@given(seeds)
+def test_a_target_nearer_than_the_folded_limb_is_missed_by_as_much(seed: int) -> None:
+    root, target, parent, rotation, pole = _targets(seed, 0.0, 0.9 * abs(LIMB.upper_m - LIMB.lower_m) / LIMB.length_m)
+    pose = solve_limb(LIMB, root, parent, target, rotation, pole)
+    _, end, _ = _world(pose, root, parent)
+    np.testing.assert_allclose(np.linalg.norm(end - root, axis=1), LIMB.upper_m - LIMB.lower_m, atol=2e-6)
+    np.testing.assert_allclose(np.linalg.norm(end - target, axis=1), pose.miss_m, atol=1e-9)

@@ -298,6 +298,8 @@ def test_what_never_moves_keeps_the_length_of_the_clip(tmp_path: Path) -> None:
     assert few.clip is not None
     assert few.clip.keys is not None
     assert [len(keys) for keys in few.clip.keys.bones] == [2] + [1] * (len(scene.bones) - 1)
+    assert few.clip.keys.pose is not None
+    assert few.clip.keys.pose.tolist() == [0, 48]
     assert all(len(keys) == 1 for keys in few.clip.keys.morphs.values())
     write_scene(tmp_path / "still.fbx", few)
     _judge(read_scene(tmp_path / "still.fbx"), scene, PLACE_MM)

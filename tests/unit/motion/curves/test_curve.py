@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from app.motion.curves.curve import Envelopes, Noise, bump, frame_times, minimum_jerk, moves
+from app.motion.curves.curve import Envelopes, Noise, bump, frame_times, minimum_jerk, moves, rows_changed_s
 from app.motion.curves.seeded_chance import generator
 
 
@@ -85,3 +85,11 @@ def test_seeds_depend_on_every_name() -> None:
     draws = [generator(*names).random() for names in [("a", 1), ("a", 2), ("b", 1), ("a1",), ("a", "1")]]
     assert len({*draws[:4]}) == 4
     assert draws[0] == draws[4]
+
+
+@given(*2 * [st.lists(st.integers(0, 9), max_size=8, unique=True)])
+def test_what_changed_in_a_table_is_every_row_that_one_has_alone(mine: list[int], others: list[int]) -> None:
+    one, other = (np.array([(value, 2.0 * value) for value in values]).reshape(-1, 2) for values in (mine, others))
+    found = {tuple(row) for row in rows_changed_s(one, other, one, other + 100.0).tolist()}
+    alone = {(value, 2.0 * value) for value in set(mine) - set(others)}
+    assert found == alone | {(value + 100.0, 2.0 * value + 100.0) for value in set(others) - set(mine)}

@@ -159,3 +159,11 @@ def test_a_long_move_gathers_speed_while_it_still_looks_in_place() -> None:
     assert 0.8 * 15 / 8 * 2.5 < speed_m_s.max() < 15 / 8 * 2.5
     # less acceleration than a move that waits for its window: 10 / sqrt(3) d / T²
     assert np.abs(np.gradient(speed_m_s, times_s)).max() < 0.85 * 10 / np.sqrt(3) * 0.6 / 0.24**2
+
+
+@pytest.mark.parametrize(("control", "window"), [(press(), 0.06), (slide(), 0.3 / 2.5)])
+def test_when_its_window_opens_a_control_has_come_as_far_as_no_one_sees(control: Control, window: float) -> None:
+    events = fingerings([(0.0, 2.0, {control.name: 0.5}), (2.0, 4.0, {control.name: 1.0})])
+    values = control_curve(events, control, ((0, TICKS),)).sample(np.array([2.0 - window, 2.0]))
+    unseen = 0.07 if control.kind != "slide" else 0.004 / 0.3
+    assert (values - 0.5) / 0.5 == pytest.approx([unseen, 1.0], abs=1e-4)

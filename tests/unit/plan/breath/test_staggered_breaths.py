@@ -12,10 +12,12 @@ from hypothesis import Phase, given, settings
 from hypothesis import strategies as st
 
 from app.plan.breath import staggered_breaths
-from app.plan.breath.staggered_breaths import Place, SharedLine, caught_in_unison
+from app.plan.breath.staggered_breaths import Place, SharedLine, after_holds, caught_in_unison
 from app.plan.by_hand.corrections import Correction, PinFingering, RemoveEvent, SetBreath
 from app.plan.generate import MonophonicPart, make_plans, plan_ensemble, time_frame
 from app.plan.model import PlayerPlan
+from app.plan.music.fermatas import Fermata
+from app.plan.music.piece import line_times
 from app.plan.parameters import PlayerParameters
 from app.score.metre_map import Metre
 from tests.support.plan import PlainClock, line_of, piece_of, valves
@@ -316,3 +318,10 @@ def test_all_breathe_after_a_fermata_and_no_one_just_before_it() -> None:
         assert [event.reason.id for event in plan.breaths if event.end_tick == 16 * Q] == ["breath.after_hold"]
     for plan in held(120.0):
         assert all(event.reason.id != "breath.after_hold" for event in plan.breaths)
+
+
+def test_after_a_hold_no_one_goes_on_who_has_not_begun() -> None:
+    hold = Fermata(0, 3 * Q, 4 * Q, returns=True)
+    for rows, expected in (([(0, 3 * Q, 60), (4 * Q, Q, 62)], {1}), ([(4 * Q, Q, 62), (5 * Q, Q, 64)], set())):
+        times = line_times(MonophonicPart("p", line_of(*rows), valves()), PlainClock())
+        assert after_holds((hold,), times) == expected

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import itertools
+
 import pytest
 
 from app.plan.generate import MonophonicPart, make_plans, time_frame
@@ -94,3 +96,21 @@ def test_a_bar_cut_short_is_no_measure_of_a_rest() -> None:
 
 def test_no_notes_no_cue() -> None:
     assert cues(MonophonicPart("p", (), valves())) == []
+
+
+def test_no_one_nods_twice_at_once() -> None:
+    # The others come in half a beat after the leader, who gives both entries.
+    lines = (
+        led(HIGH, True),
+        MonophonicPart("low", line_of((0, 4 * Q, 60), (16 * Q + Q // 2, Q, 65), track=2), valves()),
+    )
+    found = cues(*lines)
+    assert [cue.player_id for cue in found] == ["high"] * len(found)
+    assert all(after.start_s >= before.end_s for before, after in itertools.pairwise(found))
+
+
+def test_who_plays_a_part_of_the_melody_only_does_not_have_it() -> None:
+    tune = [(place * Q, Q, pitch) for place, pitch in enumerate((72, 74, 76, 77, 79, 77, 76, 74))]
+    below = [MonophonicPart(f"low{n}", line_of((0, Q, 60), (Q, Q, 62), track=n), slide()) for n in (1, 2)]
+    (cue,) = cues(*below, MonophonicPart("tune", line_of(*tune, track=3), valves()))
+    assert cue.player_id == "tune"

@@ -12,7 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from app.plan.music.dynamics_from_velocities import Velocities, VelocityReading, read_dynamics, read_velocities
-from app.plan.music.velocity_ladders import DYNAMICS, MEZZOFORTE
+from app.plan.music.velocity_ladders import DYNAMICS, MEZZOFORTE, articulated, ladder_of
 
 FOLDER = Path(__file__).parents[3] / "data" / "midi" / "dynamics"
 ENSEMBLE = FOLDER.parent / "ensemble"
@@ -276,3 +276,11 @@ def test_a_line_without_a_mark_plays_as_most_others_do() -> None:
 def test_no_notes_have_no_dynamics() -> None:
     assert velocity_marks(np.zeros(0, np.int64)) == ()
     assert read([]).ladder == ""
+
+
+def test_an_accent_of_musescore_is_a_fifth_louder() -> None:
+    for velocity, louder in ((49, 58), (64, 76), (96, 115)):
+        assert [velocity + more for more, _ in articulated(ladder_of("MuseScore", None), velocity)] == [
+            velocity,
+            louder,
+        ]
