@@ -23,19 +23,9 @@ from app.performance.cast import attempt
 from app.performance.ensemble import Performance
 from app.performance.loudness import controller_input
 from app.performance.performance_problems import all_problems
+from app.plan.by_hand.events import AdditiveEvent, PoseEvent, StyleEvent
 from app.plan.kinds import BREATH_KINDS
-from app.plan.model import (
-    AdditiveEvent,
-    BreathEvent,
-    CueEvent,
-    ExpressionEvent,
-    FingeringEvent,
-    GestureEvent,
-    MuteEvent,
-    PoseEvent,
-    StyleEvent,
-    TongueEvent,
-)
+from app.plan.model import BreathEvent, CueEvent, ExpressionEvent, FingeringEvent, GestureEvent, MuteEvent, TongueEvent
 from app.plan.music.pitch_bends import bends
 from app.plan.problem_lines import problem_lines, with_notes_named
 from app.project.performers import Dancer, Player

@@ -111,7 +111,7 @@ def check(file: Path) -> None:
 
 def _unknown_names(rules: Iterable[Rule]) -> list[Message]:
     """Expressions, gestures, styles and habits that rules name and that are not there: such a rule does nothing."""
-    from app.plan.rules import unknown_in
+    from app.plan.rule_conditions import unknown_in
     from metadata.library import metadata_library
 
     library, found = metadata_library(), list[Message]()

@@ -11,8 +11,9 @@ from app.editor.session import Session
 from app.errors import Message
 from app.plan.kinds import GESTURE_KINDS, GestureKind
 from app.plan.model import PlayerPlan
+from app.project.edit import breaths_and_cues
 from app.project.edit import events as edit
-from app.project.edit.events import Edited
+from app.project.edit.corrections import Edited
 from app.project.model import Project
 
 Addition: TypeAlias = tuple[PlayerPlan, Callable[[Project], Edited]]
@@ -29,12 +30,20 @@ STYLE_BARS = 2
 
 def add_breaths(session: Session, places: Places) -> None:
     """Add a breath before the first note from each place on."""
-    _add(session, "edit.add_breath", [(plan, partial(edit.add_breath, plan=plan, tick=tick)) for plan, tick in places])
+    _add(
+        session,
+        "edit.add_breath",
+        [(plan, partial(breaths_and_cues.add_breath, plan=plan, tick=tick)) for plan, tick in places],
+    )
 
 
 def add_cues(session: Session, places: Places) -> None:
     """Add a cue to the first entry from each place on."""
-    _add(session, "edit.add_cue", [(plan, partial(edit.add_cue, plan=plan, tick=tick)) for plan, tick in places])
+    _add(
+        session,
+        "edit.add_cue",
+        [(plan, partial(breaths_and_cues.add_cue, plan=plan, tick=tick)) for plan, tick in places],
+    )
 
 
 def add_gestures(session: Session, kind: GestureKind, spans: Spans) -> None:

@@ -9,7 +9,7 @@ import msgspec
 from app.plan.event_id import EventId
 from app.plan.model import PlayerPlan
 from app.project.edit.events import events_of, is_there
-from app.project.edit.takes import BEFORE
+from app.project.edit.placed_takes import BEFORE
 from app.project.model import Project
 
 

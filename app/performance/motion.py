@@ -7,14 +7,19 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from functools import lru_cache
+from typing import Final
 
+import numpy as np
+
+from app.arrays import FloatArray
 from app.errors import raise_if_stopped
 from app.identity_cache import IdentityCache
 from app.motion.doubling import Doubling, doubled
+from app.motion.generated_channel import generated
 from app.motion.gestures.dance_layer import BodyLayer
 from app.motion.model import Motion, joined
 from app.motion.perform import PerformanceCurves, prepare
-from app.performance.cast import Performer, performers_of
+from app.performance.cast import Performer, performer_of, performers_of
 from app.performance.dances import layer_of
 from app.performance.ensemble import Performance
 from app.performance.motion_copies import made_by_copies, shares
@@ -27,6 +32,11 @@ from app.rig.model import Character
 from app.score.metre_map import FeltBeats
 from instrument_maps.model import InstrumentMap
 from metadata.model import Body, Expression
+
+RATE_HZ: Final = 25.0
+MOST_SAMPLES: Final = 200_000
+_ASKED: Final = ("breaths", "tongues", "embouchures", "cues", "gestures", "expressions", "poses", "traces")
+"""What of a plan a channel depends on beside its own curves."""
 
 Progress = Callable[[float], None]
 """Called with the share 0..1 that is done."""
@@ -157,3 +167,22 @@ def player_motion(
 
     with made_by_copies(make, others) as made:
         return joined([make(first), *made()])
+
+
+def generated_channel(performance: Performance, player_id: str, channel: str) -> tuple[FloatArray, FloatArray]:
+    """Times and values of a channel, in its unit, without the animator's curves. Raises AppError where the player
+    cannot be seen."""
+    performer = performer_of(performance, performance.project.player(player_id))
+    curves = playing_of(performance, performer, danced=False)
+    frame = curves.plan.time_frame
+    count = int(min(RATE_HZ * (frame.end_s - frame.first_frame_s) + 2.0, MOST_SAMPLES))
+    times_s = np.linspace(frame.first_frame_s, frame.end_s, count)
+    return times_s, generated(curves, channel, times_s)
+
+
+def generated_anew(before: PlayerPlan, after: PlayerPlan) -> bool:
+    """Return whether a channel may be another than it was."""
+    if before is after:
+        return False
+    same = before.player_id == after.player_id and before.time_frame == after.time_frame
+    return not (same and all(getattr(before, kind) is getattr(after, kind) for kind in _ASKED))

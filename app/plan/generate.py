@@ -11,7 +11,8 @@ import msgspec
 
 from app.errors import raise_if_stopped
 from app.plan.breath.staggered_breaths import breathed_of, shared_line
-from app.plan.by_hand.corrections import Correction, RemoveEvent, SetBreath, SetCue, of_kinds, sound_corrections
+from app.plan.by_hand.corrected_events import sound_corrections
+from app.plan.by_hand.corrections import Correction, RemoveEvent, SetBreath, SetCue, of_kinds
 from app.plan.cues.cues import plan_cues
 from app.plan.cues.entries import entries
 from app.plan.faces.glances import StagePlace

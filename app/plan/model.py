@@ -6,19 +6,17 @@ float64 seconds of the performance, which may be negative before the first tick.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import lru_cache
 from typing import Final, Generic, Literal, NamedTuple, TypeAlias, TypeVar
 
 import msgspec
-import numpy as np
 
-from app.arrays import FloatArray
 from app.errors import Message
 from app.identity_cache import IdentityCache
-from app.plan.acting import Acting
+from app.plan.by_hand.events import AdditiveEvent, PoseEvent, StyleEvent
 from app.plan.event_id import EventId
 from app.plan.kinds import BREATH_KINDS, GESTURE_KINDS, BreathKind, GestureKind, Part
+from app.plan.lips.sampled_curves import SampledCurves
 from metadata.gestures import Gesture
 
 E = TypeVar("E")
@@ -261,78 +259,6 @@ class GlanceEvent(msgspec.Struct, frozen=True, gc=False):
     head_share: float
 
 
-PoseTarget: TypeAlias = Literal["bell", "head", "left_elbow", "right_elbow", "torso"]
-"""What the animator takes hold of."""
-
-
-class PoseEvent(msgspec.Struct, frozen=True, gc=False):
-    """A part of the body held differently over a span: whole from ``start_s`` to ``end_s``, with a fade before and one
-    after it. Angles as in `app.plan.by_hand.corrections.PoseCorrection`."""
-
-    id: str
-    target: PoseTarget
-    start_tick: int
-    end_tick: int
-    start_s: float
-    end_s: float
-    up_deg: float
-    left_deg: float
-    roll_deg: float
-    fade_in_s: float
-    fade_out_s: float
-    reason: Message
-    corrected: bool = True
-
-
-class StyleEvent(msgspec.Struct, frozen=True, gc=False):
-    """A region in which the player plays in another style: ``acting`` is what is shown in it, ``usual`` what elsewhere.
-    It comes and goes within the region."""
-
-    id: str
-    style: str
-    start_tick: int
-    end_tick: int
-    start_s: float
-    end_s: float
-    fade_in_s: float
-    fade_out_s: float
-    acting: Acting
-    usual: Acting
-    reason: Message
-    corrected: bool = True
-
-
-class CurveSegment(msgspec.Struct, frozen=True, gc=False):
-    """A stretch of a curve: a cubic with two handles between both ends, or (``eased``) a minimum-jerk move. Handles are
-    places: a time within the stretch, and a value."""
-
-    start_s: float
-    end_s: float
-    before: float
-    after: float
-    leave_s: float
-    leave_value: float
-    arrive_s: float
-    arrive_value: float
-    eased: bool
-
-
-class AdditiveEvent(msgspec.Struct, frozen=True, gc=False):
-    """A curve that is added to a channel (`app.plan.by_hand.additive_curve`). Ticks are of its first and last key,
-    seconds from when it begins to come in to when it is gone. ``low`` and ``high`` are how far the channel goes; values
-    are in the channel's unit, weighted."""
-
-    id: str
-    channel: str
-    start_tick: int
-    end_tick: int
-    start_s: float
-    end_s: float
-    segments: tuple[CurveSegment, ...]
-    low: float
-    high: float
-
-
 Event: TypeAlias = (
     FingeringEvent
     | BreathEvent
@@ -367,45 +293,6 @@ class TimeFrame(msgspec.Struct, frozen=True):
 
     first_frame_s: float
     end_s: float
-
-
-@dataclass(frozen=True, eq=False)
-class SampledCurves:
-    """What the lips do within the notes too, 0..1, sampled; the ends hold.
-
-    Fields as of `EmbouchureEvent`, which has the mean of each note.
-
-    Attributes
-    ----------
-    start_s, step_s : float
-        Sample k is at ``start_s + k * step_s``; ``start_s`` is a multiple of the step.
-    tension : (K,) float64
-    air, effort : (K,) float64 or None
-        None where no breath was recorded.
-    """
-
-    start_s: float
-    step_s: float
-    tension: FloatArray
-    air: FloatArray | None = None
-    effort: FloatArray | None = None
-
-    def __eq__(self, other: object) -> bool:
-        """Return whether they are the same to the last bit, as plans are compared."""
-        if not isinstance(other, SampledCurves):
-            return NotImplemented
-        return (
-            (self.start_s, self.step_s) == (other.start_s, other.step_s)
-            and np.array_equal(self.tension, other.tension)
-            and _same(self.air, other.air)
-            and _same(self.effort, other.effort)
-        )
-
-    __hash__ = None  # type: ignore[assignment]
-
-
-def _same(one: FloatArray | None, other: FloatArray | None) -> bool:
-    return one is other or (one is not None and other is not None and np.array_equal(one, other))
 
 
 class PlayerPlan(msgspec.Struct, frozen=True):

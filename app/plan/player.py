@@ -14,6 +14,7 @@ from app.plan.breath.breaths import BreathPlan, plan_breaths
 from app.plan.breath.staggered_breaths import after_holds, breathed_of, compared_with_others, shared_with
 from app.plan.by_hand.additive_curve import AdditiveCurve
 from app.plan.by_hand.additive_events import plan_additive
+from app.plan.by_hand.corrected_events import correct_embouchures, correct_expressions, correct_gestures, orphans
 from app.plan.by_hand.corrections import (
     AddExpression,
     AddGesture,
@@ -28,16 +29,11 @@ from app.plan.by_hand.corrections import (
     SetCue,
     SetEmbouchure,
     Vary,
-    correct_embouchures,
-    correct_expressions,
-    correct_gestures,
     of_kinds,
-    orphans,
 )
 from app.plan.by_hand.pose_corrections import plan_poses
 from app.plan.cues.answering_nods import answering_nods
-from app.plan.faces.expressions import SMILE_ID, all_shown, neutral_face
-from app.plan.faces.expressions_at_moments import plan_moments
+from app.plan.faces.expressions_at_moments import SMILE_ID, all_shown, neutral_face, plan_moments
 from app.plan.faces.glances import StagePlace, glances_of
 from app.plan.faces.looks_at_conductor import looks_up
 from app.plan.fingering.fingerings import plan_fingerings
@@ -67,7 +63,8 @@ from app.plan.music.dynamics import dynamics_of
 from app.plan.music.ending import Ending
 from app.plan.music.piece import ControllerInput, Piece, Seeds, without_sound
 from app.plan.parameters import parameters_deciding
-from app.plan.rules import facts_of, lowered_spans_s, plan_by_rules, with_ruled, without_overruled
+from app.plan.rule_conditions import facts_of
+from app.plan.rules import lowered_spans_s, plan_by_rules, with_ruled, without_overruled
 from app.plan.styles import plan_styles
 from app.score.model import Note
 from app.score.tempo import TempoMap

@@ -7,35 +7,29 @@ Messages: ``rule.applied`` (rule), ``expression.effort``, ``expression.low_loud`
 from __future__ import annotations
 
 from bisect import bisect_right
-from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass
-from itertools import accumulate, islice, pairwise
+from collections.abc import Mapping, Sequence
+from itertools import accumulate, islice
 from typing import Final, NamedTuple, TypeVar
 
 import numpy as np
 
-from app.arrays import BoolArray, FloatArray, IntArray
+from app.arrays import FloatArray, IntArray
 from app.errors import Argument, Message
+from app.plan.by_hand.events import StyleEvent
 from app.plan.event_id import EventId
 from app.plan.gestures.possible_gestures import LoweredSpans, belongs, comes_up, may_start
-from app.plan.lips.embouchure import efforts_of
-from app.plan.model import EmbouchureEvent, ExpressionEvent, GestureEvent, Problem, StyleEvent, TimeFrame
-from app.plan.music.dynamics import Dynamics
-from app.plan.music.piece import LineTimes, Piece, Seeds
+from app.plan.model import ExpressionEvent, GestureEvent, Problem, TimeFrame
+from app.plan.music.piece import LineTimes, Seeds
 from app.plan.music.spans import Spans
+from app.plan.rule_conditions import Facts, by_chance, concerns, growth_of, matches, unknown_in
 from app.plan.styles import styles_at
 from app.score.model import Note
 from app.score.tempo import TempoMap
 from instrument_maps.model import InstrumentMap
 from metadata.gestures import Gesture
 from metadata.model import Expression
-from metadata.rules import Growth, Rule, When
+from metadata.rules import Rule, When
 
-HEIGHT_SEMITONES: Final = 12.0
-"""Above the easy range: nothing is higher."""
-MOST_ACCENT: Final = 0.3
-DEPTH_SEMITONES: Final = 6.0
-"""Below where the condition is just met: nothing is lower."""
 LEAST_S: Final = 0.2
 """A shorter moment does not reach the face."""
 
@@ -51,24 +45,6 @@ class Ruled(NamedTuple):
     expressions: tuple[ExpressionEvent, ...]
     gestures: tuple[GestureEvent, ...]
     problems: tuple[Problem, ...]
-
-
-@dataclass(frozen=True, eq=False)
-class Facts:
-    """What rules ask of the notes of a line: arrays (N,)."""
-
-    loudness: FloatArray
-    pitch: FloatArray
-    lasts_s: FloatArray
-    rest_s: FloatArray
-    rest_after_s: FloatArray
-    above_easy: FloatArray
-    below_easy: FloatArray
-    accents: FloatArray
-    leap: FloatArray
-    played_s: FloatArray
-    effort: FloatArray
-    places: Mapping[str, BoolArray]
 
 
 class _Line(NamedTuple):
@@ -160,140 +136,6 @@ def _where(line: _Line, rule: Rule, played_in: Sequence[str]) -> tuple[IntArray,
 def in_order(event: ExpressionEvent) -> tuple[float, bool, str]:
     """By start; at the same time first what is not the rule's own."""
     return event.start_s, ":rule:" in event.id, event.id
-
-
-def facts_of(
-    times: LineTimes,
-    piece: Piece,
-    instrument: InstrumentMap,
-    dynamics: Dynamics,
-    embouchures: tuple[EmbouchureEvent, ...] = (),
-) -> Facts:
-    """Return what rules ask of notes. The silence before the first and after the last has no end."""
-    rests_s = np.maximum(times.onset_s[1:] - times.played_end_s[:-1], 0.0)
-    pitch = times.pitch.astype(np.float64)
-    apart = times.silence_tick >= piece.beat_ticks_at(times.onset_tick)
-    starts = np.flatnonzero(apart | (np.arange(len(pitch)) == 0))
-    ends = np.zeros(len(pitch), bool)
-    ends[starts[1:] - 1] = True
-    ends[-1:] = True
-    climax = np.zeros(len(pitch), bool)
-    weight = pitch / 12.0 + 2.0 * times.loudness
-    for first, end in pairwise([*starts.tolist(), len(pitch)]):
-        if end - first > 2:
-            climax[first + int(np.argmax(weight[first:end]))] = True
-    number = np.arange(len(pitch))
-    return Facts(
-        loudness=times.loudness,
-        pitch=pitch,
-        lasts_s=times.duration_s,
-        rest_s=np.concatenate(([np.inf], rests_s)),
-        rest_after_s=np.concatenate((rests_s, [np.inf])),
-        above_easy=pitch - instrument.range.easy_high,
-        below_easy=instrument.range.easy_low - pitch,
-        accents=dynamics.accents,
-        leap=np.concatenate(([0.0], np.diff(pitch))),
-        played_s=np.cumsum(times.duration_s),
-        effort=efforts_of(embouchures) if embouchures else np.zeros(len(pitch)),
-        places={
-            "first": number == 0,
-            "after_rest": apart & (number > 0),
-            "climax": climax,
-            "phrase_end": ends,
-            "before_rest": ends & (number < len(pitch) - 1),
-            "last": number == len(pitch) - 1,
-        },
-    )
-
-
-def matches(when: When, facts: Facts) -> BoolArray:
-    """(N,): of which notes everything holds but style, habits and chance."""
-    loudness, count = facts.loudness, len(facts.loudness)
-    least = (
-        (when.loudness_above, loudness),
-        (when.semitones_above_easy, facts.above_easy),
-        (when.semitones_below_easy, facts.below_easy),
-        (when.longer_s, facts.lasts_s),
-        (when.rest_longer_s, facts.rest_s),
-        (when.rest_after_longer_s, facts.rest_after_s),
-        (when.played_longer_s, facts.played_s),
-        (when.accent, facts.accents),
-        (when.leap_up, facts.leap),
-        (when.leap_down, -facts.leap),
-        (when.effort_above, facts.effort),
-    )
-    most = ((when.loudness_below, loudness), (when.shorter_s, facts.lasts_s))
-    found = np.ones(count, bool)
-    for bound, values in least:
-        if bound is not None:
-            found &= values >= bound
-    for bound, values in most:
-        if bound is not None:
-            found &= values <= bound
-    if when.place:
-        found &= np.logical_or.reduce([facts.places[place] for place in when.place])
-    return found
-
-
-def concerns(when: When, styles: Collection[str], habits: Sequence[str]) -> bool:
-    """Return whether a player of some styles and habits is meant."""
-    if when.styles and set(when.styles).isdisjoint(styles):
-        return False
-    if when.not_styles and set(styles) <= set(when.not_styles):
-        return False
-    return not when.habits or not set(when.habits).isdisjoint(habits)
-
-
-def unknown_in(rule: Rule, faces: Mapping[str, Expression], gestures: Mapping[str, Gesture]) -> Message | None:
-    """Why a rule cannot do what it says."""
-    for kind, name, known in (("expression", rule.do.expression, faces), ("gesture", rule.do.gesture, gestures)):
-        if name and name not in known:
-            said: dict[str, Argument] = {"rule": rule.name, "name": name, "known": ", ".join(sorted(known))}
-            return Message(f"rule.unknown_{kind}", said)
-    return None
-
-
-def by_chance(rule: Rule, ticks: IntArray, seeds: Seeds) -> BoolArray:
-    """(N,): at which of some places chance lets a rule do something."""
-    if rule.when.chance >= 1.0:
-        return np.ones(len(ticks), bool)
-    return seeds.chances_at(f"rule {rule.name}", ticks) < rule.when.chance
-
-
-def growth_of(rule: Rule, facts: Facts) -> FloatArray:
-    """(N,): `Do.grows_from` where a note just meets the condition, 1 where it could not meet it more."""
-    grows = rule.do.growth
-    if not grows:
-        return np.ones(len(facts.lasts_s))
-    shares = [np.clip(_share(one, rule.when, facts), 0.0, 1.0) for one in grows]
-    share = shares[0]
-    for other in shares[1:]:
-        share = share * other
-    if len(shares) == 2:
-        share = np.sqrt(share)
-    elif len(shares) > 2:
-        share = share ** (1.0 / len(shares))
-    grown: FloatArray = rule.do.grows_from + (1.0 - rule.do.grows_from) * share
-    # Of several, one that is just met leaves nothing.
-    return np.where(share > 0.0, grown, rule.do.grows_from if len(shares) == 1 else 0.0)
-
-
-def _share(grows: Growth, when: When, facts: Facts) -> FloatArray:
-    """(N,): how far beyond the condition, 0..1 and less or more."""
-    if grows == "loudness":
-        least = when.loudness_above or 0.0
-        return (facts.loudness - least) / max(1.0 - least, 1e-6)
-    if grows == "height":
-        return (facts.above_easy - (when.semitones_above_easy or 0.0)) / HEIGHT_SEMITONES
-    if grows == "depth":
-        return (facts.below_easy - (when.semitones_below_easy or 0.0)) / DEPTH_SEMITONES
-    if grows == "length":
-        longer_s = max(when.longer_s or 0.0, 1e-3)
-        return (facts.lasts_s - longer_s) / (2.0 * longer_s)
-    if grows == "effort":
-        least = when.effort_above or 0.0
-        return (facts.effort - least) / max(1.0 - least, 1e-6)
-    return facts.accents / MOST_ACCENT
 
 
 def _spans_s(rule: Rule, times: LineTimes, found: IntArray, length_s: float | None) -> tuple[FloatArray, FloatArray]:

@@ -1,4 +1,4 @@
-"""Checks of an animator's corrections: texts and numbers of a sane size, and curves as `check_curves` has it."""
+"""Checks of an animator's corrections: texts and numbers of a sane size, and what makes curves sound."""
 
 from __future__ import annotations
 
@@ -9,12 +9,14 @@ from typing import Any, Final
 
 import msgspec
 
-from app.plan.by_hand.additive_curve import AdditiveCurve
+from app.errors import shortened
+from app.plan.by_hand.additive_curve import BODY_CHANNELS, CHANNELS, FACE, MOST_KEYS, AdditiveCurve, CurveKey
 from app.plan.by_hand.corrections import Correction
 from app.project import limits
-from app.project.check_curves import curve_faults
 from app.project.fault import Fault, about, faults_of_bounds, id_faults, text_faults
 from app.project.model import Project
+
+_POSSIBLE: Final = f"{', '.join(BODY_CHANNELS)}, {FACE}MORPH (an ARKit morph target)"
 
 _KEY: Final = re.compile(r"\.keys\[(\d+)\]")
 _TICKS: Final = (-limits.LAST_TICK, limits.LAST_TICK)
@@ -97,3 +99,33 @@ def _plain_faults(place: str, value: Any) -> Iterator[Fault]:
     elif isinstance(value, msgspec.Struct):
         for field in value.__struct_fields__:
             yield from _plain_faults(f"{place}.{field}", getattr(value, field))
+
+
+def curve_faults(curve: AdditiveCurve, place: str) -> Iterator[Fault]:
+    """What is wrong with one curve."""
+    channel = CHANNELS.get(curve.channel)
+    if channel is None:
+        yield f"{place}.channel", f"there is no channel {shortened(curve.channel, 40)!r}; possible: {_POSSIBLE}"
+        return
+    if curve.title:
+        yield from text_faults(f"{place}.title", curve.title)
+    yield from faults_of_bounds(f"{place}.weight", curve.weight, (0.0, 1.0))
+    for field in ("blend_in_ticks", "blend_out_ticks"):
+        yield from faults_of_bounds(f"{place}.{field}", getattr(curve, field), (0, limits.LAST_TICK))
+    if not 1 <= len(curve.keys) <= MOST_KEYS:
+        yield f"{place}.keys", f"must be from 1 to {MOST_KEYS}"
+    for index, key in enumerate(curve.keys):
+        at = f"{place}.keys[{index}]"
+        yield from _key_faults(key, at, channel.most)
+        if index and key.tick <= curve.keys[index - 1].tick:
+            yield f"{at}.tick", "ticks must ascend"
+
+
+def _key_faults(key: CurveKey, place: str, most: float) -> Iterator[Fault]:
+    yield from faults_of_bounds(f"{place}.tick", key.tick, (-limits.LAST_TICK, limits.LAST_TICK))
+    yield from faults_of_bounds(f"{place}.value", key.value, (-most, most))
+    for side in ("arrive", "leave"):
+        handle = getattr(key, side)
+        if handle is not None:
+            yield from faults_of_bounds(f"{place}.{side}.ticks", handle.ticks, (0, limits.LAST_TICK))
+            yield from faults_of_bounds(f"{place}.{side}.value", handle.value, (-10.0 * most, 10.0 * most))

@@ -40,6 +40,7 @@ from app.cli.options import open_project
 from app.errors import Message
 from app.performance.ensemble import Performance
 from app.project.document import Document
+from app.project.edit import breaths_and_cues
 from app.project.edit import events as edit
 from app.project.storage import load, save
 from app.shell.commands.events import ACTIONS
@@ -91,6 +92,7 @@ from app.cli.options import open_project
 from app.errors import Message
 from app.performance.ensemble import Performance
 from app.project.document import Document
+from app.project.edit import breaths_and_cues
 from app.project.edit import events as edit
 from app.project.storage import load, save
 from app.shell.language import ROOMS
@@ -113,7 +115,7 @@ moved = edit.move(project, plan, [made.id], 480)
 document.apply(Message("edit.remove_events"), edit.remove(document.project, plan, [made.id]))
 without = sniffs(kept(document.project, "without.suisou"))
 document.undo(), document.undo()
-added = edit.add_breath(project, plan, 480, "sniff")
+added = breaths_and_cues.add_breath(project, plan, 480, "sniff")
 own = [event.id for event in sniffs(kept(added.project, "added.suisou"))]
 files = {}
 for name in ("piece", "without"):

@@ -12,10 +12,11 @@ from PySide6.QtWidgets import QGridLayout, QWidget
 from app.editor.session import Session
 from app.errors import Message
 from app.plan.by_hand.corrections import PoseCorrection
+from app.plan.by_hand.events import PoseEvent, StyleEvent
 from app.plan.cues.cues import LEAD_BEATS
 from app.plan.event_id import EventId
 from app.plan.kinds import GESTURE_KINDS
-from app.plan.model import CueEvent, ExpressionEvent, GestureEvent, PlayerPlan, PoseEvent, StyleEvent
+from app.plan.model import CueEvent, ExpressionEvent, GestureEvent, PlayerPlan
 from app.project.edit import events as edit
 from app.project.edit.corrections import with_corrections
 from app.project.edit.events import Placed

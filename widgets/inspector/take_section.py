@@ -15,7 +15,8 @@ from app.editor.grids import GRIDS
 from app.editor.session import Session
 from app.editor.tokens import LEAST_TARGET_PX
 from app.errors import Message
-from app.project.edit.takes import colour_take, rename_take, set_cleaning, take_cleaned
+from app.project.edit.placed_takes import take_cleaned
+from app.project.edit.takes import colour_take, rename_take, set_cleaning
 from app.project.limits import CLEANING
 from app.project.performers import Player
 from app.score.take import Cleaning, Take

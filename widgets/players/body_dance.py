@@ -13,7 +13,7 @@ from app.editor.translated import tr
 from app.encoding import shown
 from app.plan.parameters import PARAMETERS
 from app.project.choreography_files import SUFFIX, bundled_choreographies
-from app.project.edit import body_dance as edit
+from app.project.edit.dancers import set_body_dance, vary_body_dances
 from app.project.edit.players import parameter_edit, reset_parameters, set_parameters
 from app.project.model import Project
 from app.project.performers import Player
@@ -86,7 +86,7 @@ class BodyDanceRows(QWidget):
             choreography = ask_for_file(self, self.tr("body_dance_rows.choreography"), start, f"{kind} (*{SUFFIX})")
         chosen = self._session.players
         if choreography is not None:
-            self._edit(_DANCED.name, lambda project: edit.set_body_dance(project, chosen, choreography))
+            self._edit(_DANCED.name, lambda project: set_body_dance(project, chosen, choreography))
         if id == _FROM_FILE:
             # Also where none was chosen, or it was refused: the list does not stay at the question.
             players = [self._session.project.player(player_id) for player_id in chosen]
@@ -102,7 +102,7 @@ class BodyDanceRows(QWidget):
 
     def _vary(self) -> None:
         chosen = self._session.players
-        self._edit(_VARIATION, lambda project: edit.vary_body_dances(project, chosen))
+        self._edit(_VARIATION, lambda project: vary_body_dances(project, chosen))
 
     def _edit(self, name: str, change: Callable[[Project], Project], token: object | None = None) -> None:
         self._session.attempt(parameter_edit(name, len(self._session.players)), change, token, self)

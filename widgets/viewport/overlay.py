@@ -11,7 +11,7 @@ from PySide6.QtGui import QColor, QFont, QFontMetricsF, QPainter, QPen
 
 from app.arrays import FloatArray
 from app.editor.tokens import Tokens
-from app.plan.model import PoseTarget
+from app.plan.by_hand.events import PoseTarget
 from widgets.viewport.camera import Camera
 from widgets.viewport.cast import Stage
 from widgets.viewport.contacts import ContactReading

@@ -23,8 +23,9 @@ from app.motion.gestures.held_still import held_still, holds_of
 from app.motion.gestures.idle_gestures import NOTHING_BESIDE, Concert, ConcertSamples
 from app.motion.gestures.named_gestures import Gestured, Sums
 from app.motion.gestures.nods import Nods
+from app.plan.by_hand.events import PoseTarget
 from app.plan.kinds import Part
-from app.plan.model import GestureEvent, PoseTarget
+from app.plan.model import GestureEvent
 from app.plan.styles import shown_in_style
 from app.steps import StepTable, reading
 

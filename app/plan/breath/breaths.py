@@ -38,7 +38,8 @@ from app.plan.breath.lungs import (
 )
 from app.plan.breath.rests_for_breath import ALWAYS_S, Decided, RestNeeds, breathed_in, rest_needs, why
 from app.plan.breath.staggered_breaths import BreathConstraints, within_held
-from app.plan.by_hand.corrections import BY_HAND, Correction, SetBreath, removed_ids, without_removed
+from app.plan.by_hand.corrected_events import removed_ids, without_removed
+from app.plan.by_hand.corrections import BY_HAND, Correction, SetBreath
 from app.plan.event_id import EventId
 from app.plan.kinds import BEFORE_NOTES, BREATH_KINDS
 from app.plan.model import BreathEvent, Problem, TimeFrame

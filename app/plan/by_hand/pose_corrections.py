@@ -12,7 +12,8 @@ import numpy as np
 
 from app.errors import Argument, Message
 from app.plan.by_hand.corrections import BY_HAND, Correction, PoseCorrection
-from app.plan.model import Planned, PoseEvent, PoseTarget, Problem
+from app.plan.by_hand.events import PoseEvent, PoseTarget
+from app.plan.model import Planned, Problem
 from app.plan.parameters import PlayerParameters
 from app.score.tempo import TempoMap
 from instrument_maps.model import InstrumentMap

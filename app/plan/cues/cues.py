@@ -21,7 +21,8 @@ from typing import NamedTuple
 import numpy as np
 
 from app.errors import Argument, Message
-from app.plan.by_hand.corrections import BY_HAND, SetCue, removed_ids
+from app.plan.by_hand.corrected_events import removed_ids
+from app.plan.by_hand.corrections import BY_HAND, SetCue
 from app.plan.cues.entries import ON_BEAT, Entry, beat_ticks, coming_in, played_together
 from app.plan.model import CONDUCTOR, CueEvent, TimeFrame
 from app.plan.music.dynamics import vigour_of

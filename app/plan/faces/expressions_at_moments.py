@@ -1,6 +1,7 @@
-"""Expressions that rules show at moments: with the cue of an entry, with the breath before one, after the end.
+"""Faces: neutral beneath, above it what rules show at notes (`app.plan.rules`) and at moments: with the cue of an
+entry, with the breath before one, after the end. What a name looks like is in ``metadata/expressions``.
 
-Messages: ``expression.gives_entry``, ``expression.takes_entry``, ``expression.end``.
+Messages: ``expression.default``, ``expression.gives_entry``, ``expression.takes_entry``, ``expression.end``.
 """
 
 from __future__ import annotations
@@ -11,23 +12,21 @@ from typing import NamedTuple
 import numpy as np
 
 from app.errors import Message
+from app.plan.by_hand.events import StyleEvent
 from app.plan.event_id import EventId
-from app.plan.model import (
-    BreathEvent,
-    CueEvent,
-    ExpressionEvent,
-    GestureEvent,
-    StyleEvent,
-    TimeFrame,
-)
+from app.plan.model import BreathEvent, CueEvent, ExpressionEvent, GestureEvent, TimeFrame
 from app.plan.music.ending import Ending
 from app.plan.music.piece import LineTimes, Seeds
-from app.plan.rules import Facts, by_chance, concerns, in_order, matches, shown_by
+from app.plan.rule_conditions import Facts, by_chance, concerns, matches
+from app.plan.rules import in_order, shown_by
 from app.plan.styles import styles_at
 from app.score.model import Note
 from app.score.tempo import TempoMap
 from metadata.model import Expression
 from metadata.rules import Moment, Rule, When
+
+SMILE_ID = "expression:smile"
+"""The smile after the last note, which corrections name."""
 
 
 class _Found(NamedTuple):
@@ -128,3 +127,26 @@ def _ended(gestures: tuple[GestureEvent, ...], ending: Ending, frame: TimeFrame)
     if not ending.bright or not lowered_s:
         return []
     return [_Found((lowered_s[0], frame.end_s), None, "", Message("expression.end", {"bpm": ending.bpm}))]
+
+
+def neutral_face(clock: TempoMap, frame: TimeFrame, face: Expression) -> ExpressionEvent:
+    """The face beneath all others, as long as the performance."""
+    return ExpressionEvent(
+        id="expression:neutral",
+        expression=face.name,
+        start_tick=round(clock.ticks(frame.first_frame_s)),
+        end_tick=round(clock.ticks(frame.end_s)),
+        start_s=frame.first_frame_s,
+        end_s=frame.end_s,
+        strength=1.0,
+        fade_in_s=face.fade_in_s,
+        fade_out_s=face.fade_out_s,
+        reason=Message("expression.default"),
+    )
+
+
+def all_shown(
+    neutral: ExpressionEvent, at_moments: tuple[ExpressionEvent, ...], at_notes: tuple[ExpressionEvent, ...]
+) -> tuple[ExpressionEvent, ...]:
+    """All expressions of one player, ordered by start."""
+    return tuple(sorted((neutral, *at_moments, *at_notes), key=in_order))

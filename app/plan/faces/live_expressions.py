@@ -8,7 +8,7 @@ from collections.abc import Collection
 import numpy as np
 
 from app.arrays import FloatArray
-from app.plan.rules import Facts, growth_of, matches
+from app.plan.rule_conditions import Facts, growth_of, matches
 from instrument_maps.model import InstrumentMap
 from metadata.rules import Rule, When
 

@@ -18,15 +18,9 @@ import numpy as np
 
 from app.arrays import IntArray
 from app.errors import Argument, Message
+from app.plan.fingering.costs import TOLERANCE, FingeringProblem, fingering_problem
 from app.plan.fingering.mutes import stopped_notes
-from app.plan.fingering.search import (
-    TOLERANCE,
-    FingeringProblem,
-    best_path,
-    even_trills,
-    fingering_problem,
-    never_worse,
-)
+from app.plan.fingering.search import best_path, even_trills, never_worse
 from app.plan.model import FingeringEvent, Planned, Problem, Vent
 from app.plan.music.piece import LineTimes
 from app.score.model import Note

@@ -7,14 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from app.plan.fingering.search import (
-    FULLY_AUDIBLE_S,
-    FingeringProblem,
-    best_path,
-    never_worse,
-    pitch_controls,
-    table_of,
-)
+from app.plan.fingering.costs import FingeringProblem
+from app.plan.fingering.fingering_table import FULLY_AUDIBLE_S, pitch_controls, table_of
+from app.plan.fingering.search import best_path, never_worse
 from app.plan.fingering.trills_and_runs import TRILL_NOTES
 from app.plan.music.piece import LineTimes
 from instrument_maps.model import Fingering, InstrumentMap

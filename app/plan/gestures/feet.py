@@ -16,10 +16,11 @@ import numpy as np
 
 from app.arrays import FloatArray
 from app.errors import Message
+from app.plan.by_hand.events import StyleEvent
 from app.plan.gestures.leans_and_accents import Phrase
 from app.plan.gestures.sways import Pulse
 from app.plan.kinds import GestureKind, answered_by
-from app.plan.model import GestureEvent, StyleEvent
+from app.plan.model import GestureEvent
 from app.plan.music.piece import NoteTimes, Seeds
 from app.plan.styles import amount_at
 from app.score.tempo import TempoMap

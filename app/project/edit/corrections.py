@@ -4,8 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import replace
+from typing import NamedTuple
 
-from app.plan.by_hand.corrections import Correction, SetBreath
+from app.plan.by_hand.corrections import (
+    Correction,
+    SetBreath,
+)
+from app.project.edit.found_events import OWN as OWN
+from app.project.edit.found_events import Placed as Placed
+from app.project.edit.found_events import corrections_of as corrections_of
+from app.project.edit.found_events import events_of as events_of
+from app.project.edit.found_events import is_there as is_there
+from app.project.edit.found_events import placed_events as placed_events
 from app.project.model import Project
 
 
@@ -36,3 +46,10 @@ def _with(project: Project, player_id: str, corrections: tuple[Correction, ...])
         return project
     others = {key: value for key, value in project.corrections.items() if key != player_id}
     return replace(project, corrections={**others, player_id: corrections} if corrections else others)
+
+
+class Edited(NamedTuple):
+    """A project after an edit, and the ids that the edited events have in it, in the order they were given."""
+
+    project: Project
+    event_ids: tuple[str, ...]

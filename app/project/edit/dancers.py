@@ -14,12 +14,13 @@ from typing import Any, Final
 
 import msgspec
 
+from app.chance import next_seed
 from app.encoding import shown
 from app.errors import AppError, Message
 from app.project import limits
 from app.project.casting import DANCER_ROOM_M, ELBOW_M, StagePosition
 from app.project.choreography_files import is_bundled_name, is_choreography
-from app.project.edit.players import free_name, instrument_of, moved_before, visible_name
+from app.project.edit.players import free_name, instrument_of, moved_before, set_parameters, visible_name
 from app.project.footprint import footprint
 from app.project.ids import fresh_dancer_ids
 from app.project.model import DANCER_PARAMETERS, Project
@@ -205,3 +206,26 @@ def _seldom_seen(project: Project) -> str:
     seen = Counter(player.character_id for player in project.players)
     seen.update(dancer.character_id for dancer in project.dancers)
     return min(bundled_characters(), key=lambda id: seen[id])
+
+
+def set_body_dance(project: Project, player_ids: Collection[str], choreography: str | os.PathLike[str]) -> Project:
+    """Let the bodies of players dance a choreography while they play: a bundled one by its name, any other by its file;
+    empty: they move as is generated.
+
+    Raises
+    ------
+    AppError
+        ``dancer.no_choreography``.
+    """
+    chosen = checked_choreography(choreography) if os.fspath(choreography) else ""
+    return set_parameters(project, player_ids, choreography=chosen)
+
+
+def vary_body_dances(project: Project, player_ids: Collection[str]) -> Project:
+    """Give each of these players another dance to the same music, each a different one."""
+    for player in project.players:
+        if player.id in player_ids:
+            # 0 is a dance of the player's own.
+            variation = next_seed(player.id, player.parameters.dance_variation) or 1
+            project = set_parameters(project, (player.id,), dance_variation=variation)
+    return project

@@ -8,13 +8,11 @@ Messages: ``edit.no_note_to_breathe_for``, ``edit.no_note_to_cue``.
 
 from __future__ import annotations
 
-from bisect import bisect_left
 from collections.abc import Collection, Iterable, Mapping, Sequence
-from typing import Final, NamedTuple
+from typing import Final
 
 import msgspec
 
-from app.errors import AppError
 from app.plan.by_hand.corrections import (
     AddExpression,
     AddGesture,
@@ -25,24 +23,14 @@ from app.plan.by_hand.corrections import (
     PlayStyle,
     PoseCorrection,
     RemoveEvent,
-    SetBreath,
-    SetCue,
     SetEmbouchure,
 )
-from app.plan.cues.cues import LEAD_BEATS
+from app.plan.by_hand.events import PoseEvent, StyleEvent
 from app.plan.event_id import EventId
-from app.plan.kinds import BREATH_KINDS, BreathKind, GestureKind
-from app.plan.model import (
-    BreathEvent,
-    CueEvent,
-    Event,
-    ExpressionEvent,
-    GestureEvent,
-    PlayerPlan,
-    PoseEvent,
-    StyleEvent,
-)
-from app.project.edit.corrections import take_back, with_corrections
+from app.plan.kinds import GestureKind
+from app.plan.model import BreathEvent, CueEvent, Event, ExpressionEvent, GestureEvent, PlayerPlan
+from app.project.edit.breaths_and_cues import add_breath, breath_at, breath_of, cue_at, notes_of, removals_of
+from app.project.edit.corrections import Edited, take_back, with_corrections
 from app.project.edit.found_events import OWN as OWN
 from app.project.edit.found_events import Placed as Placed
 from app.project.edit.found_events import corrections_of as corrections_of
@@ -50,10 +38,7 @@ from app.project.edit.found_events import events_of as events_of
 from app.project.edit.found_events import is_there as is_there
 from app.project.edit.found_events import placed_events as placed_events
 from app.project.model import Project
-from app.score.model import Note
 
-CATCH_S = 0.3
-"""A breath added where notes touch is this long."""
 AMOUNTS: Final[Mapping[type[Event], tuple[str, float]]] = {
     BreathEvent: ("depth", 0.0),
     GestureEvent: ("amount", -1.0),
@@ -67,13 +52,6 @@ _SPOKEN_OF: Final[Mapping[type[Event], tuple[type[Correction], ...]]] = {
     StyleEvent: (PlayStyle,),
 }
 """The corrections that speak of events."""
-
-
-class Edited(NamedTuple):
-    """A project after an edit, and the ids that the edited events have in it, in the order they were given."""
-
-    project: Project
-    event_ids: tuple[str, ...]
 
 
 # Changing
@@ -162,56 +140,16 @@ def pin_fingerings(project: Project, player_id: str, labels: Mapping[str, str]) 
 # Adding
 
 
-def add_breath(project: Project, plan: PlayerPlan, tick: int, kind: BreathKind = "breath") -> Edited:
-    """A breath (or preparation) for the first note at or after a tick. One that is there already stays as it is.
-
-    It takes the rest before the note, at most one felt beat; where notes touch, `CATCH_S` of the note before, at most
-    half of it. A preparation takes the beat before the breath.
-    """
-    notes = _notes(project, plan.player_id)
-    index = bisect_left(notes, tick, key=lambda note: note.onset_tick)
-    if index == len(notes):
-        raise AppError("edit.no_note_to_breathe_for")
-    note = notes[index]
-    event_id = f"{kind}:{note.id}"
-    there = {event.id: event for event in plan.breaths}
-    if event_id in there:
-        return Edited(project, (event_id,))
-    end = note.onset_tick
-    if not BREATH_KINDS[kind].draws_air:
-        beat = project.metre_map.felt_ticks_at(end)
-        breath = there.get(f"breath:{note.id}")
-        end = breath.start_tick if breath is not None else end - beat
-        start = end - beat
-    else:
-        start = _room_before(project, notes, index)
-    return _added(
-        project, plan.player_id, SetBreath(note.id, start - note.onset_tick, end - note.onset_tick, 1.0, kind)
-    )
-
-
 def toggle_preparation(project: Project, plan: PlayerPlan, note_id: str) -> Edited:
     """Take the preparatory motion before a note's breath away, or give it one."""
     event_id = f"preparation:{note_id}"
     if any(event.id == event_id for event in plan.breaths):
         return Edited(remove(project, plan, (event_id,)), ())
-    removed = _removals(project, plan.player_id, event_id)
+    removed = removals_of(project, plan.player_id, event_id)
     if removed:
         return Edited(take_back(project, plan.player_id, removed), (event_id,))
-    note = next((note for note in _notes(project, plan.player_id) if note.id == note_id), None)
+    note = next((note for note in notes_of(project, plan.player_id) if note.id == note_id), None)
     return Edited(project, ()) if note is None else add_breath(project, plan, note.onset_tick, "preparation")
-
-
-def add_cue(project: Project, plan: PlayerPlan, tick: int) -> Edited:
-    """A cue to the player's first entry at or after a tick. One that is there already stays as it is."""
-    notes = _notes(project, plan.player_id)
-    index = bisect_left(notes, tick, key=lambda note: note.onset_tick)
-    if index == len(notes):
-        raise AppError("edit.no_note_to_cue")
-    event_id = f"cue:{notes[index].id}"
-    if any(event.id == event_id for event in plan.cues):
-        return Edited(project, (event_id,))
-    return _added(project, plan.player_id, SetCue(notes[index].id))
 
 
 def add_gesture(
@@ -260,7 +198,7 @@ def add_style(project: Project, player_id: str, style: str, start_tick: int, end
 def remove(project: Project, plan: PlayerPlan, event_ids: Iterable[str]) -> Project:
     """Leave events out: what the user added is forgotten, what the generator made is marked as removed."""
     player_id = plan.player_id
-    note_ids = frozenset(note.id for note in _notes(project, player_id))
+    note_ids = frozenset(note.id for note in notes_of(project, player_id))
     event_ids = tuple(event_ids)
     # Bars performed again and curves are no events of the plan.
     added = [item for item in corrections_of(project, player_id, event_ids) if not item.has_event]
@@ -328,10 +266,10 @@ def _placed(project: Project, plan: PlayerPlan, event_ids: Sequence[str], start_
         made: Sequence[Correction]
         if isinstance(event, BreathEvent):
             stale += corrections_of(project, player_id, (event.id,))
-            made = (_breath_at(project, player_id, event, start, end, moves),)
+            made = (breath_at(project, player_id, event, start, end, moves),)
         elif isinstance(event, CueEvent):
             stale += corrections_of(project, player_id, (event.id,))
-            made = (_cue_at(project, player_id, event, start, end if moves else event.end_tick),)
+            made = (cue_at(project, player_id, event, start, end if moves else event.end_tick),)
         else:
             ends = {}
             if start != event.start_tick:
@@ -351,22 +289,6 @@ def _current(project: Project, plan: PlayerPlan, event_ids: Iterable[str]) -> li
     return placed_events(plan, [event_id for event_id in event_ids if is_there(project, plan.player_id, event_id)])
 
 
-def _notes(project: Project, player_id: str) -> tuple[Note, ...]:
-    return project.part(project.player(player_id)).notes
-
-
-def _removals(project: Project, player_id: str, event_id: str) -> tuple[Correction, ...]:
-    """The corrections that leave an event out, and do nothing else."""
-    return tuple(item for item in corrections_of(project, player_id, (event_id,)) if item.left_out == event_id)
-
-
-def _added(project: Project, player_id: str, item: SetBreath | SetCue) -> Edited:
-    """The project with something added, or back in place of what was removed there."""
-    removed = _removals(project, player_id, item.about)
-    item = msgspec.structs.replace(item, added=not removed)
-    return Edited(with_corrections(take_back(project, player_id, removed), player_id, (item,)), (item.about,))
-
-
 def _new_name(project: Project, player_id: str) -> str:
     """The first ``own-n`` that no added event of the player has."""
     taken = {item.anchor for item in project.corrections.get(player_id, ())}
@@ -379,7 +301,7 @@ def _new_name(project: Project, player_id: str) -> str:
 def _changed(project: Project, plan: PlayerPlan, event: Placed, **values: object) -> list[Correction]:
     """The correction that speaks of an event with other values: the one there is, or one of what was generated."""
     if isinstance(event, BreathEvent):
-        return [msgspec.structs.replace(_breath(project, plan.player_id, event), **values)]
+        return [msgspec.structs.replace(breath_of(project, plan.player_id, event), **values)]
     kinds = _SPOKEN_OF[type(event)]
     said = [item for item in corrections_of(project, plan.player_id, (event.id,)) if isinstance(item, kinds)]
     said = said or [kind(event.id) for kind in kinds if issubclass(kind, ChangeGesture | ChangeExpression)]
@@ -394,85 +316,3 @@ def _all_changed(
     return with_corrections(
         project, plan.player_id, [item for one in chosen for item in _changed(project, plan, one, **values)]
     )
-
-
-def _breath(project: Project, player_id: str, event: BreathEvent) -> SetBreath:
-    """The correction that already speaks of a breath, or one that repeats the generated one."""
-    for item in corrections_of(project, player_id, (event.id,)):
-        if isinstance(item, SetBreath):
-            return item
-    kind, note_id, number = EventId.parse(event.id)
-    onset = next(note.onset_tick for note in _notes(project, player_id) if note.id == note_id)
-    offsets = event.start_tick - onset, event.end_tick - onset
-    return SetBreath(note_id, *offsets, event.depth, kind, number=number)
-
-
-def _breath_at(
-    project: Project, player_id: str, event: BreathEvent, start: int, end: int, may_change_note: bool
-) -> SetBreath:
-    before = _breath(project, player_id, event)
-    notes = _notes(project, player_id)
-    index = next(index for index, note in enumerate(notes) if note.id == before.note_id)
-    if BREATH_KINDS[before.kind].within:
-        return _breath_within(before, notes[index], start, end, may_change_note)
-    if may_change_note:
-        index = _note_after(notes, end)
-    note = notes[index]
-    if end > note.onset_tick:
-        # A breath never ends after the onset it serves.
-        start, end = (start - end + note.onset_tick if may_change_note else start), note.onset_tick
-    return msgspec.structs.replace(
-        before,
-        note_id=note.id,
-        start_offset_tick=min(start, end - 1) - note.onset_tick,
-        end_offset_tick=end - note.onset_tick,
-        moved_from=_moved_from(before, note.id),
-    )
-
-
-def _breath_within(before: SetBreath, note: Note, start: int, end: int, moves: bool) -> SetBreath:
-    """A breath within a note stays in it."""
-    first, last = start - note.onset_tick, end - note.onset_tick
-    if moves:
-        by = max(-first, 0) + min(note.duration_tick - last, 0)
-        first, last = first + by, last + by
-    first = min(max(first, 0), note.duration_tick - 1)
-    last = min(max(last, first + 1), note.duration_tick)
-    return msgspec.structs.replace(before, start_offset_tick=first, end_offset_tick=last)
-
-
-def _note_after(notes: Sequence[Note], end: int) -> int:
-    """The note that a breath ending at a tick serves: the next one, or the one whose first half it ends in."""
-    index = bisect_left(notes, end, key=lambda note: note.onset_tick)
-    if index > 0 and (index == len(notes) or end < notes[index - 1].onset_tick + notes[index - 1].duration_tick / 2):
-        return index - 1
-    return index
-
-
-def _moved_from(before: SetBreath | SetCue, note_id: str) -> str | None:
-    if before.added:
-        return None
-    home = before.note_id if before.moved_from is None else before.moved_from
-    return None if home == note_id else home
-
-
-def _cue_at(project: Project, player_id: str, event: CueEvent, start: int, end: int) -> SetCue:
-    said = corrections_of(project, player_id, (event.id,))
-    before = next((item for item in said if isinstance(item, SetCue)), SetCue(EventId.parse(event.id).of))
-    note = next((note.id for note in _notes(project, player_id) if note.onset_tick == end), f"@{end}")
-    beats = max(round((end - start) / (LEAD_BEATS * project.metre_map.felt_ticks_at(end)), 4), 0.05)
-    return msgspec.structs.replace(before, note_id=note, beats=beats, moved_from=_moved_from(before, note))
-
-
-def _room_before(project: Project, notes: Sequence[Note], index: int) -> int:
-    """Return where an added breath before a note begins."""
-    onset, clock = notes[index].onset_tick, project.score.tempo_map
-    beat = project.metre_map.felt_ticks_at(onset)
-    if index == 0:
-        return onset - beat
-    before = notes[index - 1]
-    silence = onset - before.end_tick
-    if silence >= beat // 4:
-        return onset - min(silence, beat)
-    catch = onset - round(clock.ticks(clock.seconds(float(onset)) - CATCH_S))
-    return onset - max(min(catch, (onset - before.onset_tick) // 2), 1)

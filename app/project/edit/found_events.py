@@ -6,18 +6,10 @@ from collections.abc import Iterable, Sequence
 from typing import Final, TypeAlias
 
 from app.plan.by_hand.corrections import Correction
+from app.plan.by_hand.events import PoseEvent, StyleEvent
 from app.plan.event_id import EventId
 from app.plan.kinds import BREATH_KINDS
-from app.plan.model import (
-    BreathEvent,
-    CueEvent,
-    Event,
-    ExpressionEvent,
-    GestureEvent,
-    PlayerPlan,
-    PoseEvent,
-    StyleEvent,
-)
+from app.plan.model import BreathEvent, CueEvent, Event, ExpressionEvent, GestureEvent, PlayerPlan
 from app.project.model import Project
 
 Placed: TypeAlias = BreathEvent | CueEvent | GestureEvent | ExpressionEvent | PoseEvent | StyleEvent

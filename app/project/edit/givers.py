@@ -15,8 +15,8 @@ from app.plan.by_hand.corrections import RemoveEvent, SetCue
 from app.plan.cues.cues import LEAD_BEATS
 from app.plan.event_id import EventId
 from app.plan.model import CueEvent, PlayerPlan
-from app.project.edit.corrections import take_back, with_corrections
-from app.project.edit.events import Edited, corrections_of, is_there, move, remove
+from app.project.edit.corrections import Edited, take_back, with_corrections
+from app.project.edit.events import corrections_of, is_there, move, remove
 from app.project.model import Project
 
 LEAST_BEATS, MOST_BEATS = 0.05, 8.0

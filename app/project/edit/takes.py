@@ -11,9 +11,7 @@ Messages: ``take.none``, ``take.too_many``, ``take.invalid``, ``take.not_free``,
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, replace
-from fractions import Fraction
-from functools import lru_cache
+from dataclasses import replace
 from typing import Any, Final
 
 import msgspec
@@ -23,55 +21,19 @@ from app.arrays import FloatArray, IntArray
 from app.errors import AppError
 from app.identity_cache import IdentityCache
 from app.project import limits
-from app.project.alignment import AlignmentPart, align
 from app.project.check import take_faults
 from app.project.edit.length import with_score
-from app.project.grid import Grid
-from app.project.ids import MOST_TAKE_NOTES, fresh_take_ids, take_note_id
+from app.project.edit.placed_takes import BEFORE, recorded_of, recorded_with, source_of, take_curves, take_notes
+from app.project.ids import fresh_take_ids
 from app.project.limits import LAST_TICK
 from app.project.model import CompSpan, PlayerTakes, Project
 from app.project.names import clean_name
 from app.score.beats import find_beats, tempo_of_beats
-from app.score.clean import Cleaned, cleaned
-from app.score.metre_map import MetreMap
+from app.score.clean import cleaned
 from app.score.model import ControllerCurve, Note
 from app.score.take import Cleaning, Take
 
-
-@dataclass(frozen=True, eq=False)
-class _Placed:
-    """A take's notes in the piece, and where its onsets went: from ticks as played, ascending, to ticks as they are."""
-
-    notes: tuple[Note, ...]
-    played: FloatArray
-    here: FloatArray
-
-    def moved(self, ticks: FloatArray) -> FloatArray:
-        """Return where other moments of the take go: between two onsets in proportion, so that none overtakes
-        another."""
-        if not len(self.played):
-            return ticks
-        # An aligned note may pass another: a breath never runs backwards.
-        here = np.maximum.accumulate(self.here)
-        by = np.interp(ticks, self.played, here - self.played)
-        return np.asarray(ticks + by, np.float64)
-
-
-BEFORE: Final = ""
-"""The id of what the part was before the first take, where a take is asked for."""
-
-_PLACED: Final[IdentityCache[_Placed]] = IdentityCache(64)
-_CURVES: Final[IdentityCache[tuple[ControllerCurve, ...]]] = IdentityCache(64)
 _STEPS: Final[IdentityCache[tuple[IntArray, FloatArray]]] = IdentityCache(16)
-
-
-def recorded_of(project: Project, player_id: str) -> PlayerTakes:
-    """What was recorded of a player; nothing, with the part as it is, of one who never was."""
-    recorded = project.takes.get(player_id)
-    if recorded is not None:
-        return recorded
-    part = project.part(project.player(player_id))
-    return PlayerTakes((), (), part.notes, part.curves)
 
 
 def add_takes(project: Project, player_id: str, takes: Sequence[Take]) -> tuple[Project, tuple[str, ...]]:
@@ -107,7 +69,7 @@ def colour_take(project: Project, player_id: str, take_id: str, colour: str) -> 
 
 def remove_take(project: Project, player_id: str, take_id: str) -> Project:
     """Throw a take away; what the part has of it stays in the part, as notes of its own."""
-    recorded = _recorded(project, player_id, take_id)
+    recorded = recorded_with(project, player_id, take_id)
     takes = tuple(take for take in recorded.takes if take.id != take_id)
     comp = tuple(span for span in recorded.comp if span.take_id != take_id)
     return _with(project, player_id, msgspec.structs.replace(recorded, takes=takes, comp=comp))
@@ -115,7 +77,7 @@ def remove_take(project: Project, player_id: str, take_id: str) -> Project:
 
 def move_take(project: Project, player_id: str, take_id: str, before: int) -> Project:
     """Put a take's lane before the one that has the number ``before`` now."""
-    recorded = _recorded(project, player_id, take_id)
+    recorded = recorded_with(project, player_id, take_id)
     take = recorded.take(take_id)
     first = [one for one in recorded.takes[:before] if one is not take]
     last = [one for one in recorded.takes[before:] if one is not take]
@@ -139,8 +101,8 @@ def comp(project: Project, player_id: str, take_id: str, start_tick: int, end_ti
     start_tick, end_tick = max(start_tick, 0), min(end_tick, LAST_TICK)
     if start_tick >= end_tick:
         return project
-    recorded = _recorded(project, player_id, take_id)
-    notes, curves = _source(project, player_id, take_id)
+    recorded = recorded_with(project, player_id, take_id)
+    notes, curves = source_of(project, player_id, take_id)
     requested = [note for note in notes if start_tick <= note.onset_tick < end_tick]
     project = _replaced(project, player_id, requested, curves, start_tick, end_tick)
     spans = comp_with(recorded.comp, start_tick, end_tick, take_id)
@@ -151,7 +113,7 @@ def comp_whole(project: Project, player_id: str, take_id: str) -> Project:
     """Let the part have all of a take, from where it begins to where it ends."""
     if take_id == BEFORE:
         return comp(project, player_id, take_id, 0, LAST_TICK)
-    take = _recorded(project, player_id, take_id).take(take_id)
+    take = recorded_with(project, player_id, take_id).take(take_id)
     # A little early is still the first beat; what was played before the piece begins is left out.
     slack = project.score.ticks_per_quarter // 8
     start, end = round(take.start_tick), round(take.end_tick)
@@ -179,7 +141,7 @@ def comp_with(spans: tuple[CompSpan, ...], start_tick: int, end_tick: int, take_
 
 def set_cleaning(project: Project, player_id: str, take_id: str, cleaning: Cleaning) -> Project:
     """Clean a take otherwise; what the part has of it follows, but for notes that were changed in the part by hand."""
-    recorded = _recorded(project, player_id, take_id)
+    recorded = recorded_with(project, player_id, take_id)
     if recorded.take(take_id).cleaning == cleaning:
         return project
     before = {note.id: note for note in take_notes(project, player_id, take_id)}
@@ -189,27 +151,6 @@ def set_cleaning(project: Project, player_id: str, take_id: str, cleaning: Clean
         if span.take_id == take_id:
             project = _recleaned(project, player_id, before, after, span)
     return project
-
-
-def take_notes(project: Project, player_id: str, take_id: str) -> tuple[Note, ...]:
-    """A take's notes as the part would have them: cleaned, drawn to the score and the grid, in the piece's ticks.
-
-    A note that is taken for one of the score's keeps that one's id, so that its corrections hold for it.
-    """
-    return _placed(project, player_id, take_id).notes
-
-
-def take_cleaned(project: Project, player_id: str, take_id: str) -> Cleaned:
-    """What the cleaning of a take leaves out, and why."""
-    return cleaned(_recorded(project, player_id, take_id).take(take_id))
-
-
-def take_curves(project: Project, player_id: str, take_id: str) -> tuple[ControllerCurve, ...]:
-    """A take's breath, bite and other controllers, in the piece's ticks; they go where the notes go that are drawn to
-    the score or the grid."""
-    take = _recorded(project, player_id, take_id).take(take_id)
-    placed = _placed(project, player_id, take_id)
-    return _CURVES.step(_curves, take, placed)
 
 
 # A take without a score
@@ -224,7 +165,7 @@ def beats_of(project: Project, player_id: str, take_id: str) -> FloatArray:
         ``take.not_free``: others play too; ``take.too_few_notes``, ``take.no_beats``.
     """
     _require_free(project, player_id)
-    clean = cleaned(_recorded(project, player_id, take_id).take(take_id))
+    clean = cleaned(recorded_with(project, player_id, take_id).take(take_id))
     kept = clean.kept
     return find_beats(clean.onsets_s[kept], clean.ends_s[kept])
 
@@ -233,7 +174,7 @@ def follow_beats(project: Project, player_id: str, take_id: str, beats_s: FloatA
     """Let the piece have the tempo of a take that was played freely: its first beat begins the piece, and its notes
     lie on beats as they were meant. Raises AppError ``take.not_free``."""
     _require_free(project, player_id)
-    recorded = _recorded(project, player_id, take_id)
+    recorded = recorded_with(project, player_id, take_id)
     take = recorded.take(take_id)
     tempo_map = tempo_of_beats(beats_s, project.score.ticks_per_quarter)
     shift_us = round(float(beats_s[0]) * 1e6)
@@ -260,13 +201,6 @@ def _require_free(project: Project, player_id: str) -> None:
 # How it is done
 
 
-def _recorded(project: Project, player_id: str, take_id: str) -> PlayerTakes:
-    recorded = recorded_of(project, player_id)
-    if take_id != BEFORE and take_id not in {take.id for take in recorded.takes}:
-        raise AppError("take.none", take=take_id)
-    return recorded
-
-
 def _with(project: Project, player_id: str, recorded: PlayerTakes) -> Project:
     if recorded == project.takes.get(player_id):
         return project
@@ -274,109 +208,9 @@ def _with(project: Project, player_id: str, recorded: PlayerTakes) -> Project:
 
 
 def _changed(project: Project, player_id: str, take_id: str, **fields: Any) -> Project:
-    recorded = _recorded(project, player_id, take_id)
+    recorded = recorded_with(project, player_id, take_id)
     takes = tuple(msgspec.structs.replace(take, **fields) if take.id == take_id else take for take in recorded.takes)
     return _with(project, player_id, msgspec.structs.replace(recorded, takes=takes))
-
-
-def _source(project: Project, player_id: str, take_id: str) -> tuple[tuple[Note, ...], tuple[ControllerCurve, ...]]:
-    """What a take, or the part before the first one, has to give."""
-    if take_id == BEFORE:
-        recorded = recorded_of(project, player_id)
-        return recorded.before_notes, recorded.before_curves
-    return take_notes(project, player_id, take_id), take_curves(project, player_id, take_id)
-
-
-def _placed(project: Project, player_id: str, take_id: str) -> _Placed:
-    recorded, score = _recorded(project, player_id, take_id), project.score
-    take, before = recorded.take(take_id), recorded.before_notes
-    return _PLACED.step(_place, take, before, _same(score.metre_map))
-
-
-@lru_cache(maxsize=64)
-def _same(metre_map: MetreMap) -> MetreMap:
-    """One object for equal ones: the score has another one after every edit."""
-    return metre_map
-
-
-def _place(take: Take, before: tuple[Note, ...], metre_map: MetreMap) -> _Placed:
-    clean = cleaned(take)
-    kept = [index for index in clean.kept[:MOST_TAKE_NOTES] if clean.ends_s[index] > 0.0]
-    onsets = np.maximum(take.tempo_map.ticks(clean.onsets_s[kept]), 0.0)
-    ends = np.minimum(take.tempo_map.ticks(clean.ends_s[kept]), LAST_TICK)
-    ids = [take_note_id(take.number, index) for index in kept]
-    pitches = clean.pitches[kept].tolist()
-    played = onsets
-    if take.cleaning.align > 0.0:
-        onsets, ends, ids, pitches = _aligned(take.cleaning.align, onsets, ends, ids, pitches, before, metre_map)
-    if take.cleaning.quantise > 0.0:
-        onsets, ends = _quantised(take.cleaning, onsets, ends, metre_map)
-    notes = [
-        Note(id, round(onset), max(round(end) - round(onset), 1), pitch, velocity)
-        for id, onset, end, pitch, velocity in zip(
-            ids, onsets.tolist(), ends.tolist(), pitches, clean.velocities[kept].tolist(), strict=True
-        )
-        if round(onset) < LAST_TICK
-    ]
-    return _Placed(tuple(sorted(notes, key=lambda note: (note.onset_tick, note.pitch))), played, onsets)
-
-
-def _aligned(
-    strength: float,
-    onsets: FloatArray,
-    ends: FloatArray,
-    ids: list[str],
-    pitches: list[int],
-    before: tuple[Note, ...],
-    metre_map: MetreMap,
-) -> tuple[FloatArray, FloatArray, list[str], list[int]]:
-    """Notes drawn to those of the score that they are taken for, which give them pitch and name; others move with
-    their neighbours, so that what was played between stays between."""
-    quarter = metre_map.ticks_per_quarter
-    order = np.lexsort((np.array(pitches), onsets))
-    played = AlignmentPart(
-        onsets[order] / quarter, (ends - onsets)[order] / quarter, np.array(pitches, np.int64)[order]
-    )
-    pairs = align(AlignmentPart.of(before, quarter), played)
-    if not len(pairs):
-        return onsets, ends, ids, pitches
-    meant = [before[index] for index in pairs[:, 0].tolist()]
-    found = order[pairs[:, 1]]
-    at, by = onsets[found], np.array([note.onset_tick for note in meant]) - onsets[found]
-    moved = strength * np.interp(onsets, at, by)
-    moved_ends = strength * np.interp(ends, at, by)
-    lengths = np.maximum(ends + moved_ends - onsets - moved, 1.0)
-    ids, pitches = list(ids), list(pitches)
-    for index, note in zip(found.tolist(), meant, strict=True):
-        ids[index], pitches[index] = note.id, note.pitch
-        lengths[index] += strength * (note.duration_tick - lengths[index])
-    onsets = np.maximum(onsets + moved, 0.0)
-    return onsets, onsets + lengths, ids, pitches
-
-
-def _quantised(
-    cleaning: Cleaning, onsets: FloatArray, ends: FloatArray, metre_map: MetreMap
-) -> tuple[FloatArray, FloatArray]:
-    """Onsets drawn to the grid; where a legato note's successor goes its end goes with it."""
-    grid = Grid(Fraction(cleaning.grid_quarters).limit_denominator(960))
-    by = cleaning.quantise * np.array([grid.snap(metre_map, onset) - onset for onset in onsets.tolist()])
-    if not len(onsets):
-        return onsets, ends
-    ends_by = np.interp(ends, onsets, by) if np.all(np.diff(onsets) > 0.0) else by
-    new = np.maximum(onsets + by, 0.0)
-    return new, np.maximum(ends + ends_by, new + 1.0)
-
-
-def _curves(take: Take, placed: _Placed) -> tuple[ControllerCurve, ...]:
-    curves = []
-    for kind, curve in take.played.curves.items():
-        ticks = np.rint(placed.moved(take.tempo_map.ticks(curve.times_s))).astype(np.int64)
-        # What was sent before the piece holds at its beginning; of several at one tick the last.
-        ticks, values = np.maximum(ticks[ticks <= LAST_TICK], 0), curve.values[ticks <= LAST_TICK]
-        last = np.append(ticks[1:] != ticks[:-1], True)[: len(ticks)]
-        if len(ticks):
-            curves.append(ControllerCurve(kind, tuple(ticks[last].tolist()), tuple(values[last].tolist())))
-    return tuple(curves)
 
 
 def _replaced(

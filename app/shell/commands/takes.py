@@ -12,7 +12,7 @@ from app.editor.session import Session, Severity
 from app.editor.tasks import Progress, StopRequested
 from app.errors import AppError, Message
 from app.project.edit import takes as edit
-from app.project.edit.takes import BEFORE
+from app.project.edit.placed_takes import BEFORE
 from app.project.limits import LAST_TICK
 from app.project.model import Project
 from app.project.performers import Player

@@ -6,7 +6,8 @@ import time
 
 import pytest
 
-from app.plan.fingering.search import best_path, fingering_problem
+from app.plan.fingering.costs import fingering_problem
+from app.plan.fingering.search import best_path
 from app.plan.generate import MonophonicPart, make_plans, time_frame
 from app.plan.music.piece import line_times
 from app.score.metre_map import Metre

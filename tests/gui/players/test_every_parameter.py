@@ -8,8 +8,7 @@ from PySide6.QtWidgets import QApplication, QWidget
 from app.editor.session import Session
 from app.messages import WORDINGS
 from app.plan.parameters import PARAMETERS, Parameter
-from app.project.edit.body_dance import set_body_dance
-from app.project.edit.dancers import add_dancer
+from app.project.edit.dancers import add_dancer, set_body_dance
 from app.project.model import DANCER_PARAMETERS
 from app.shell.language import TextTranslator
 from metadata.acting import names_in

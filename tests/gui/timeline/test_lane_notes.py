@@ -18,6 +18,7 @@ from app.editor.session import Session
 from app.errors import Message
 from app.plan.by_hand.corrections import PinFingering, SetEmbouchure
 from app.plan.model import FingeringEvent
+from app.project.edit import breaths_and_cues
 from app.project.edit import events as edit
 from app.project.recording import AudioTrack
 from tests.gui.timeline.lane_hands import CTRL, SHIFT, click, double_click, drag, front_plan, shown_panel, viewport
@@ -262,7 +263,9 @@ def test_a_problem_is_marked_and_a_click_selects_its_note(panel: TimelinePanel, 
         if note.end_tick == following.onset_tick and f"breath:{following.id}" not in breaths
     )
     before = len(lane.problems)
-    session.attempt(Message("edit.add_breath"), lambda project: edit.add_breath(project, plan, note.onset_tick).project)
+    session.attempt(
+        Message("edit.add_breath"), lambda project: breaths_and_cues.add_breath(project, plan, note.onset_tick).project
+    )
     reported: list[Message] = []
     session.noticed.connect(lambda message, severity: reported.append(message))
     assert len(lane.problems) > before

@@ -16,7 +16,8 @@ from app.editor.selection import Selection
 from app.editor.session import Session
 from app.editor.settings import Settings
 from app.errors import Message
-from app.project.edit.takes import BEFORE, add_takes, set_cleaning
+from app.project.edit.placed_takes import BEFORE
+from app.project.edit.takes import add_takes, set_cleaning
 from app.project.grid import Grid
 from app.score.take import Cleaning
 from app.shell.actions import ActionTable

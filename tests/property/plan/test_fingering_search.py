@@ -9,8 +9,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from app.arrays import IntArray
+from app.plan.fingering.costs import FingeringProblem, fingering_problem
 from app.plan.fingering.fingerings import plan_fingerings
-from app.plan.fingering.search import FingeringProblem, best_path, fingering_problem
+from app.plan.fingering.search import best_path
 from app.plan.generate import MonophonicPart
 from app.plan.music.piece import line_times
 from instrument_maps.load import bundled_maps

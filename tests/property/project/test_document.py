@@ -38,9 +38,21 @@ from app.plan.model import PlayerPlan
 from app.project.casting import StagePosition
 from app.project.check import faults
 from app.project.document import Change, Document
-from app.project.edit import dance_corrections, dancers, events, generation, notes, piece, players, takes, tempo
+from app.project.edit import (
+    breaths_and_cues,
+    dance_corrections,
+    dancers,
+    events,
+    generation,
+    notes,
+    piece,
+    players,
+    takes,
+    tempo,
+)
 from app.project.edit.corrections import take_back, with_corrections
 from app.project.edit.found_events import events_of
+from app.project.edit.placed_takes import BEFORE
 from app.project.model import Project
 from app.project.orphans import orphaned, reattached
 from app.project.reimport import reimport
@@ -127,7 +139,7 @@ def edit_event(data: st.DataObject, project: Project) -> Project:
         return events.set_amounts(project, plan, {chosen[0]: 0.3})
     if kind == 3:
         return events.remove(project, plan, chosen)
-    return events.add_breath(project, plan, data.draw(places)).project
+    return breaths_and_cues.add_breath(project, plan, data.draw(places)).project
 
 
 def edit_notes(data: st.DataObject, project: Project) -> Project:
@@ -376,10 +388,10 @@ def edit_takes(data: st.DataObject, project: Project) -> Project:
         case 4:
             return takes.move_take(project, player_id, take_id, data.draw(st.integers(0, len(known))))
         case 5:
-            return takes.comp_whole(project, player_id, data.draw(st.sampled_from([takes.BEFORE, *known])))
+            return takes.comp_whole(project, player_id, data.draw(st.sampled_from([BEFORE, *known])))
         case 6 | 7:
             first, length = data.draw(spans)
-            owner = data.draw(st.sampled_from([takes.BEFORE, *known]))
+            owner = data.draw(st.sampled_from([BEFORE, *known]))
             return takes.comp(project, player_id, owner, first, first + length)
         case 8:
             beats_s = np.array([0.1, 0.6, 1.2, 1.7])

@@ -6,7 +6,8 @@ import pytest
 
 from app.performance.ensemble import Performance
 from app.plan.model import PlayerPlan
-from app.project.edit.takes import BEFORE, add_takes, comp, comp_whole
+from app.project.edit.placed_takes import BEFORE
+from app.project.edit.takes import add_takes, comp, comp_whole
 from app.project.model import Project
 from app.score.take import Cleaning
 from tests.support.takes import take_of

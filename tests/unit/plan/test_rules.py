@@ -13,7 +13,7 @@ from app.plan.model import PlayerPlan
 from app.plan.music.dynamics import dynamics_of
 from app.plan.music.piece import line_times
 from app.plan.parameters import PlayerParameters
-from app.plan.rules import facts_of, matches
+from app.plan.rule_conditions import facts_of, matches
 from metadata.gestures import AngleKey, AngleTrack, Gesture
 from metadata.library import _all_rules, bundled_gestures, bundled_rules
 from metadata.rules import Do, Rule, RuleSet, When, rule_faults

@@ -23,8 +23,9 @@ from app.plan.model import (
     GestureEvent,
     PlayerPlan,
 )
+from app.project.edit import breaths_and_cues
 from app.project.edit import events as edit
-from app.project.edit.corrections import with_corrections
+from app.project.edit.corrections import Edited, with_corrections
 from app.project.model import Project, map_choices, project_from_score
 from app.score.model import Note
 from app.score.read import read_midi
@@ -249,11 +250,11 @@ def test_what_is_deleted_is_gone_and_comes_back(event_id: str) -> None:
 def test_what_was_added_is_forgotten_when_deleted() -> None:
     plan = made()
     free = next(note for note in notes()[1:] if f"breath:{note.id}" not in edit.events_of(plan))
-    breath = edit.add_breath(piece(), plan, free.onset_tick)
+    breath = breaths_and_cues.add_breath(piece(), plan, free.onset_tick)
     assert breath.event_ids == (f"breath:{free.id}",)
     gesture = edit.add_gesture(breath.project, player_id(), "bell_height", 100, 500, 0.4)
     smile = edit.add_expression(gesture.project, player_id(), "smile", 100, 500)
-    cue = edit.add_cue(smile.project, plan, free.onset_tick)
+    cue = breaths_and_cues.add_cue(smile.project, plan, free.onset_tick)
     ids = (*breath.event_ids, *gesture.event_ids, *smile.event_ids, *cue.event_ids)
     full = plan_of(cue.project)
     assert set(ids) <= set(edit.events_of(full))
@@ -272,7 +273,7 @@ def test_a_changed_breath_that_is_deleted_does_not_return() -> None:
 def test_adding_where_something_was_deleted_brings_it_under_ones_hand() -> None:
     breath = made().breaths[-1]
     project = edit.remove(piece(), made(), (breath.id,))
-    added = edit.add_breath(project, plan_of(project), breath.end_tick)
+    added = breaths_and_cues.add_breath(project, plan_of(project), breath.end_tick)
     assert added.event_ids == (breath.id,)
     (correction,) = added.project.corrections[player_id()]
     assert isinstance(correction, SetBreath)
@@ -281,17 +282,17 @@ def test_adding_where_something_was_deleted_brings_it_under_ones_hand() -> None:
 
 def test_adding_twice_selects_what_is_there() -> None:
     breath = next(item for item in made().breaths if item.kind == "breath")
-    assert edit.add_breath(piece(), made(), breath.end_tick) == edit.Edited(piece(), (breath.id,))
+    assert breaths_and_cues.add_breath(piece(), made(), breath.end_tick) == Edited(piece(), (breath.id,))
     cue = made().cues[0]
-    assert edit.add_cue(piece(), made(), cue.end_tick) == edit.Edited(piece(), (cue.id,))
+    assert breaths_and_cues.add_cue(piece(), made(), cue.end_tick) == Edited(piece(), (cue.id,))
 
 
 def test_there_is_nothing_to_breathe_for_after_the_last_note() -> None:
     after = notes()[-1].onset_tick + 1
     with pytest.raises(AppError, match=r"edit\.no_note_to_breathe_for"):
-        edit.add_breath(piece(), made(), after)
+        breaths_and_cues.add_breath(piece(), made(), after)
     with pytest.raises(AppError, match=r"edit\.no_note_to_cue"):
-        edit.add_cue(piece(), made(), after)
+        breaths_and_cues.add_cue(piece(), made(), after)
 
 
 def test_preparations_go_and_come() -> None:

@@ -19,7 +19,7 @@ from app.messages import error_text, text
 from app.plan.by_hand.additive_curve import AdditiveCurve
 from app.plan.by_hand.corrections import AddGesture, PlayStyle, SetCue
 from app.plan.parameters import PARAMETERS, PlayerParameters
-from app.project.edit.body_dance import set_body_dance
+from app.project.edit.dancers import set_body_dance
 from app.project.edit.piece import set_audio
 from app.project.migrations import CURRENT, MIGRATIONS, STRUCTURE, Raw, migrated
 from app.project.model import Project

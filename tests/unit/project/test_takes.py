@@ -13,9 +13,9 @@ from hypothesis import strategies as st
 
 from app.errors import AppError
 from app.project.edit.notes import add_note, move, resize
+from app.project.edit.placed_takes import BEFORE, take_curves, take_notes
 from app.project.edit.players import duplicate_players, remove_players
 from app.project.edit.takes import (
-    BEFORE,
     add_takes,
     beats_of,
     comp,
@@ -24,8 +24,6 @@ from app.project.edit.takes import (
     remove_take,
     rename_take,
     set_cleaning,
-    take_curves,
-    take_notes,
 )
 from app.project.model import CompSpan, Project
 from app.project.storage import load, save

@@ -12,7 +12,7 @@ from typing import get_args
 
 from app.messages import LANGUAGES, WORDINGS
 from app.plan.by_hand.corrections import REMOVABLE
-from app.plan.model import PoseTarget
+from app.plan.by_hand.events import PoseTarget
 from app.shell.language import ROOMS
 from app.shell.rows import rows
 from metadata.load import load_expressions

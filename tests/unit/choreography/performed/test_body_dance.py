@@ -21,7 +21,7 @@ from app.performance.ensemble import Performance
 from app.performance.live import LiveMotion
 from app.performance.span import bars_span, whole_span
 from app.project.choreography_files import choreography_path
-from app.project.edit.body_dance import set_body_dance, vary_body_dances
+from app.project.edit.dancers import set_body_dance, vary_body_dances
 from app.project.edit.players import set_parameters
 from app.project.model import Project, map_choices, project_from_score
 from app.project.performers import Player

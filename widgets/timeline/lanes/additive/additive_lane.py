@@ -13,7 +13,7 @@ from app.editor.session import Session
 from app.editor.tasks import Progress, StopRequested
 from app.errors import AppError, Message
 from app.performance.ensemble import Performance
-from app.performance.generated_channels import generated_anew, generated_channel
+from app.performance.motion import generated_anew, generated_channel
 from app.plan.by_hand.additive_events import channel_limits
 from app.plan.model import PlayerPlan
 from app.plan.parameters import PlayerParameters

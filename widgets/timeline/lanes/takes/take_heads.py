@@ -20,7 +20,7 @@ from PySide6.QtGui import (
 )
 from PySide6.QtWidgets import QLineEdit, QMenu, QToolTip, QWidget
 
-from app.project.edit.takes import BEFORE
+from app.project.edit.placed_takes import BEFORE
 from widgets.common.actions import actions
 from widgets.common.controls import Retranslated, named
 from widgets.common.icons import icon

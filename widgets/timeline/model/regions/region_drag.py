@@ -12,7 +12,8 @@ from app.editor.selection import EventKey, Selection
 from app.errors import Message
 from app.plan.by_hand.corrections import SetBreath
 from app.plan.model import PlayerPlan
-from app.project.edit.events import Edited, corrections_of, move, resize, set_amounts, set_fades
+from app.project.edit.corrections import Edited
+from app.project.edit.events import corrections_of, move, resize, set_amounts, set_fades
 from app.project.model import Project
 from widgets.timeline.model.gestures import DRAG_PX, Band, Editing, LiveEdit, MouseGesture, Plane, either, moved_edge
 from widgets.timeline.model.hand import LaneMouse, PixelRect

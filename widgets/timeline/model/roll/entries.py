@@ -9,7 +9,7 @@ from typing import Final, Literal, NamedTuple, Protocol, TypeAlias
 from app.editor.selection import EventKey, Selection
 from app.errors import Message
 from app.plan.model import PlayerPlan
-from app.project.edit.events import Edited
+from app.project.edit.corrections import Edited
 from app.project.edit.givers import hand_over, set_giver
 from app.project.model import Project
 from app.project.performers import Player

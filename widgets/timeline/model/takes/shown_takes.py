@@ -7,7 +7,8 @@ from typing import Protocol
 from app.editor.selection import Selection
 from app.editor.tokens import Tokens
 from app.errors import Message
-from app.project.edit.takes import BEFORE, comp, comp_whole, comp_with, move_take, rename_take
+from app.project.edit.placed_takes import BEFORE
+from app.project.edit.takes import comp, comp_whole, comp_with, move_take, rename_take
 from app.project.model import CompSpan, PlayerTakes, Project
 from app.project.performers import Player
 from app.score.metre_map import Metre

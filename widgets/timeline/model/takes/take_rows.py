@@ -11,7 +11,7 @@ import numpy as np
 
 from app.arrays import FloatArray, IntArray
 from app.identity_cache import IdentityCache
-from app.project.edit.takes import BEFORE, recorded_of, take_cleaned, take_notes
+from app.project.edit.placed_takes import BEFORE, recorded_of, take_cleaned, take_notes
 from app.project.model import CompSpan, PlayerTakes, Project
 from app.score.clean import Cleaned, Fault
 from app.score.model import ControllerCurve, Note

@@ -1,0 +1,361 @@
+"""What every fingering and every motion between two costs, and the problem that the search solves."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from app.arrays import BoolArray, FloatArray, IntArray
+from app.plan.fingering.fingering_table import (
+    CENTS_PER_UNIT,
+    FULLY_AUDIBLE_S,
+    IN_PLACE_COST,
+    FingeringTable,
+    pitch_controls,
+    table_of,
+)
+from app.plan.fingering.trills_and_runs import TRILL_S, attacked_notes, chromatic_notes, glissando_steps, trill_steps
+from app.plan.music.piece import LineTimes
+from app.score.model import Note
+from instrument_maps.model import Control, Fingering, InstrumentMap
+
+OUT_OF_PLACE_COST = 6.0
+"""... and so much more than its rank elsewhere."""
+BESIDE_COST = -0.5
+"""A fingering that keeps a lever turned (tag "beside") costs this next to a note whose first choice turns it, ..."""
+BESIDE_S = 0.5
+"""... unless so long a silence is between them."""
+RARE_TRILL_COST = 18.0
+"""... and so much more in a trill, which saves motion with every step."""
+QUICK_S = 0.15
+"""A note is fast that lasts no longer than this, from the one before or to the next."""
+LOUD, SOFT = 0.75, 0.35
+# What moving costs.
+FAST_S = 0.085
+"""Below this time per note (16ths at about 176 beats/min) fingers begin to be the limit: tapping one finger reaches 6-7
+per second, alternating fingers about twice that."""
+TRILL_COST = 3.0
+"""A trill repeats its motion, so it tires: hurry counts this much more."""
+LIP_TRILL_WEIGHT, LEVER_TRILL_WEIGHT = 1.1, 0.75
+"""A step of a trill that nothing but the lips makes counts as so many moves; one that turns a thumb's lever as so many
+more, for the lever is slow."""
+MOVE_COST = 0.15
+"""Each finger that moves in a hurried step, where keys may be left down: it decides between what is else alike."""
+GLISSANDO_COST = 6.0
+"""A step of a glissando in which the slide does not go the way of the pitch, or a lever is turned."""
+LIFTED_S = 0.12
+"""In a silence this long a finger is free: it goes from key to key for nothing."""
+KEY_TO_KEY_MOVES = 4
+"""Such a way counts as so many moves more when passages are compared."""
+EASY_STEP_S, HURRIED_STEP_S = 0.5, 0.12
+"""What is awkward costs nothing in steps this long, all in steps this short, in proportion between."""
+ROLL_COST = 0.8
+"""A finger rolls onto a further key, or off it."""
+TOGETHER_COST = 0.9
+"""A thumb's lever is turned while fingers move: on a double horn the sides are changed."""
+TURN_COST = 0.6
+"""A hand turns to work a key with the side of a finger while others of its fingers move."""
+BREAK_COST, BREAK_FINGERS = 0.25, 3
+"""Each finger beyond so many that moves as the line crosses into another register."""
+SLIDE_EASY = 0.7
+"""A slide that needs at most this part of the time it has costs nothing."""
+SLIDE_COST = 3.0
+"""Cost of using all the time there is, above `SLIDE_EASY`."""
+SLIDE_LATE = 1.8
+"""Cost of not arriving in time, ..."""
+SLIDE_LATE_RATE = 3.0
+"""... and for each time more that it would need."""
+SLIDE_MAX_SPEED_M_S = 2.5
+"""Where the map does not say: speed of a trombonist's arm in fast passages."""
+SLIDE_METRE_COST = 1.0
+"""Each metre of a slide's way in a hurried step: of ways that all arrive in time the nearer one is taken."""
+SAME_PLACE = 0.1
+"""Places of a slide that differ by less of its travel are one position."""
+LEGATO_COST = 1.25
+"""A slide moved between notes that touch smears; counts more than one moved in a gap."""
+REVERSAL_COST = 0.5
+"""Turning the slide back at speed."""
+OTHER_PLACE_COST = 4.0
+"""A note in another place of the slide than the same pitch two notes before, in hurried steps: no one changes it within
+a figure for little."""
+REPEATED_COST, REPEATED_HOME_COST = 8.0, 0.8
+"""Another fingering for a note that is repeated: no one changes it without a trill, a correction or a silence, but to
+come back to a better one where there is time."""
+REPEATED_HURRIED_S, REPEATED_EASY_S = 0.3, 0.4
+"""There is none in steps as short as the one, and enough from the other on."""
+REPEATED_REST_S = 0.5
+"""After so long a silence another fingering costs nothing, in proportion before."""
+TOLERANCE = 1e-9
+"""Rounding of sums of metres and shares."""
+
+
+@dataclass(frozen=True)
+class Motions:
+    """What it takes to get from each fingering of a note to each of the next.
+
+    Attributes
+    ----------
+    pair : (N-1,) int64
+        Of each step, its row in ``moves``.
+    moves : (U, K, K) float64
+        Fingers that move, by pair of pitches; a way from key to key counts as several.
+    slide_m, needed_s, share : (N-1, K, K) float64, or (N-1, 1, 1) without a slide
+        Travel of slides in metres, the time that takes, and the part of the available time that it is (over 1: it
+        starts early).
+    cost : (N-1, K, K) float64
+        What the search pays.
+    """
+
+    pair: IntArray
+    moves: FloatArray
+    slide_m: FloatArray
+    needed_s: FloatArray
+    share: FloatArray
+    cost: FloatArray
+
+
+@dataclass(frozen=True)
+class FingeringProblem:
+    """The search as arrays: what each note may be played with, and what that costs."""
+
+    times: LineTimes
+    table: FingeringTable
+    pitch_index: IntArray
+    controls: tuple[Control, ...]
+    allowed: BoolArray
+
+    @property
+    def has_slide(self) -> bool:
+        """True if a slide is among the controls of pitch."""
+        return any(control.kind == "slide" for control in self.controls)
+
+    @cached_property
+    def in_trill(self) -> BoolArray:
+        """(N-1,): whether the step from a note to the next is part of a trill."""
+        return trill_steps(self.times)
+
+    @cached_property
+    def local_cost(self) -> FloatArray:
+        """(N, K): what a fingering costs by itself; inf where there is none or a correction forbids it."""
+        table, index, times = self.table, self.pitch_index, self.times
+        out_of_tune = np.maximum(np.abs(table.cents) - np.abs(table.cents[:, :1]), 0.0) / CENTS_PER_UNIT
+        audible = np.minimum(times.duration_s / FULLY_AUDIBLE_S, 1.0)[:, None]
+        cost = table.cost[index]
+        if table.meant_for:
+            least = np.full(cost.shape, np.inf)
+            meant = np.zeros(cost.shape, dtype=bool)
+            for tag, which in table.meant_for.items():
+                meant |= which[index]
+                fits = which[index] & self._where(tag)[:, None]
+                least = np.where(fits, np.minimum(least, IN_PLACE_COST[tag]), least)
+            cost = np.where(meant, np.where(np.isfinite(least), least, cost + OUT_OF_PLACE_COST), cost)
+        if table.beside.any():
+            cost = np.where(self._beside, BESIDE_COST, cost)
+        cost = cost + out_of_tune[index] * audible
+        if table.rare.any() and self.in_trill.any():
+            cost += RARE_TRILL_COST * (table.rare[index] & self._where("trill")[:, None])
+        return np.where(self.allowed, cost, np.inf)
+
+    @property
+    def _beside(self) -> BoolArray:
+        """(N, K): fingerings that keep a lever turned which the first choice of a neighbour at another pitch turns."""
+        table, times, index = self.table, self.times, self.pitch_index
+        near = (times.onset_s[1:] - times.played_end_s[:-1] < BESIDE_S) & (index[1:] != index[:-1])
+        first = table.levers[index, 0]
+        here = table.levers[index]
+        found = np.zeros(here.shape, dtype=bool)
+        found[1:] |= near[:, None] & (here[1:] == first[:-1, None])
+        found[:-1] |= near[:, None] & (here[:-1] == first[1:, None])
+        return np.asarray(found & table.beside[index] & (here != 0))
+
+    def _where(self, tag: str) -> BoolArray:
+        """(N,): the notes that fingerings with this tag are meant for."""
+        times = self.times
+        match tag:
+            case "trill":
+                return _either_side(self.in_trill, len(times.pitch))
+            case "fast":
+                quick = np.diff(times.onset_s) <= QUICK_S + TOLERANCE
+                return _either_side(quick & ~self.in_trill, len(times.pitch))
+            case "chromatic":
+                return chromatic_notes(times)
+            case "attack":
+                return attacked_notes(times, self.table.register[self.pitch_index], self.in_trill)
+            case "forte":
+                return times.loudness >= LOUD
+            case _:
+                return times.loudness <= SOFT
+
+    @cached_property
+    def motions(self) -> Motions:
+        """What every step takes."""
+        table, times, index, count = self.table, self.times, self.pitch_index, len(self.table.choices)
+        gap = np.maximum(times.onset_s[1:] - times.played_end_s[:-1], 0.0)
+        step = np.maximum(times.onset_s[1:] - times.onset_s[:-1], 1e-3)
+        pairs, pair = np.unique(index[:-1] * count + index[1:], return_inverse=True)
+        before, after = pairs // count, pairs % count
+        fingers = self.table.places.between(before, after)
+        crossing = self.table.register[before] != self.table.register[after]
+        crossed = np.where(crossing[:, None, None], np.maximum(fingers.moves - BREAK_FINGERS, 0.0), 0.0)
+        awkward = ROLL_COST * fingers.rolls + TOGETHER_COST * fingers.together + BREAK_COST * crossed
+        awkward += TURN_COST * fingers.turns
+        if table.leaves_down:
+            awkward += MOVE_COST * fingers.moves
+        pace = self._pace
+        hurry = np.maximum(FAST_S / step - 1.0, 0.0)
+        trill_hurry = TRILL_COST * np.maximum(TRILL_S / step - 1.0, 0.0)
+        hurry = np.where(self.in_trill, np.maximum(trill_hurry, hurry), hurry)
+        touching = np.clip(1.0 - gap / LIFTED_S, 0.0, 1.0)
+        trill = np.where(self.in_trill, TRILL_COST, 1.0)
+        cost = np.zeros((len(pair), *fingers.weighted.shape[1:]))
+        for amount, rate in ((fingers.weighted, hurry), (awkward, pace), (fingers.key_to_key, touching * trill)):
+            if amount.any() and rate.any():
+                cost += amount[pair] * rate[:, None, None]
+        if self.in_trill.any():
+            still = (fingers.moves == 0.0) & (before != after)[:, None, None]
+            more = LIP_TRILL_WEIGHT * still + LEVER_TRILL_WEIGHT * fingers.levers
+            cost += more[pair] * np.where(self.in_trill, hurry, 0.0)[:, None, None]
+        again, away, home = self._repeated(gap)
+        other = np.ones(cost.shape[1:])
+        cost[again] += away[:, None, None] * np.triu(other, 1) + home[:, None, None] * np.tril(other, -1)
+        moves = fingers.moves + KEY_TO_KEY_MOVES * fingers.apart
+        nothing = np.zeros((len(pair), 1, 1))
+        if not self.has_slide:
+            return Motions(pair, moves, nothing, nothing, nothing, cost)
+        slide_m, needed_s, share, slide_cost = self._slides(gap)
+        cost += SLIDE_METRE_COST * slide_m * pace[:, None, None]
+        gliding = glissando_steps(times)
+        if gliding.any():
+            back = (self._slide_change() * np.diff(times.pitch)[:, None, None] >= 0.0) | (moves[pair] > 0.0)
+            slide_cost = np.where(gliding[:, None, None], GLISSANDO_COST * back, slide_cost)
+        cost += slide_cost * trill[:, None, None]
+        return Motions(pair, moves, slide_m, needed_s, share, cost)
+
+    def _repeated(self, gap: FloatArray) -> tuple[IntArray, FloatArray, FloatArray]:
+        """Steps to the same pitch again, and what a worse and a better fingering cost there; not where a correction
+        pins one."""
+        alike = (self.allowed[1:] == self.allowed[:-1]).all(axis=1)
+        again = np.flatnonzero((self.pitch_index[1:] == self.pitch_index[:-1]) & alike)
+        touching = np.clip(1.0 - gap[again] / REPEATED_REST_S, 0.0, 1.0)
+        easy = (REPEATED_HURRIED_S, REPEATED_EASY_S)
+        home = np.interp(np.diff(self.times.onset_s)[again], easy, (REPEATED_COST, REPEATED_HOME_COST))
+        # A slide leaves a good place in time too; who lets a key go and presses another could have done so at first.
+        away = home if self.has_slide else np.full(len(again), REPEATED_COST)
+        return again, away * touching, home * touching
+
+    @cached_property
+    def _pace(self) -> FloatArray:
+        """(N-1,): how hurried every step is, from 0 to 1."""
+        step = np.diff(self.times.onset_s)
+        return np.asarray(np.clip((EASY_STEP_S - step) / (EASY_STEP_S - HURRIED_STEP_S), 0.0, 1.0))
+
+    def _slide_change(self) -> FloatArray:
+        """(N-1, K, K): how far the slides go out, as a part of their travel."""
+        places = [place for place, control in enumerate(self.controls) if control.kind == "slide"]
+        values = self.table.values[self.pitch_index][:, :, places].sum(axis=2)
+        return np.asarray(values[1:, None, :] - values[:-1, :, None], dtype=np.float64)
+
+    def _slides(self, gap: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
+        """Travel, time, share of the available time and cost of the slides' ways, each (N-1, K, K)."""
+        values, played = self.table.values[self.pitch_index], self.times.duration_s[:-1]
+        shape = (len(gap), values.shape[1], values.shape[1])
+        slide_m, needed_s, share, cost = (np.zeros(shape) for _ in range(4))
+        for place, control in enumerate(self.controls):
+            if control.kind != "slide":
+                continue
+            delta = values[1:, None, :, place] - values[:-1, :, None, place]
+            distance = np.abs(delta) * control.travel_m
+            takes = distance / (control.max_speed_m_s or SLIDE_MAX_SPEED_M_S)
+            available = np.maximum(gap + control.move_note_share * played, 1e-3)[:, None, None]
+            part = takes / available
+            slide_m += distance
+            share = np.maximum(share, part)
+            needed_s = np.maximum(needed_s, takes)
+            smear = np.where(gap > 0.0, 1.0, LEGATO_COST)[:, None, None]
+            cost += smear * SLIDE_COST * np.clip(part - SLIDE_EASY, 0.0, 1.0 - SLIDE_EASY)
+            cost += np.where(part > 1.0, SLIDE_LATE + SLIDE_LATE_RATE * (part - 1.0), 0.0)
+        return slide_m, needed_s, share, cost
+
+    @cached_property
+    def reversal_cost(self) -> FloatArray | None:
+        """(N-2, K, K, K): turning a slide back at speed, and to another place for the same pitch, by the fingerings of
+        three notes; None without a slide."""
+        slides = [place for place, control in enumerate(self.controls) if control.kind == "slide"]
+        if not slides or len(self.pitch_index) < 3:
+            return None
+        place = self.table.values[self.pitch_index][:, :, slides[0]]
+        change = place[1:, None, :] - place[:-1, :, None]
+        hurried = np.maximum(self.motions.share - SLIDE_EASY, 0.0)
+        turns = change[:-1, :, :, None] * change[1:, None, :, :] < -1e-6
+        both = np.minimum(hurried[:-1, :, :, None], hurried[1:, None, :, :])
+        elsewhere = np.abs(place[2:, None, :] - place[:-2, :, None]) > SAME_PLACE
+        returns = (self.pitch_index[2:] == self.pitch_index[:-2]) * np.minimum(self._pace[:-1], self._pace[1:])
+        cost = turns * np.minimum(both, 1.0) * REVERSAL_COST
+        cost += OTHER_PLACE_COST * (elsewhere * returns[:, None, None])[:, :, None, :]
+        return np.asarray(cost, dtype=np.float64)
+
+    def goes_further(self, path: IntArray, other: IntArray, starts: IntArray, ends: IntArray) -> BoolArray:
+        """Of spans of notes ``starts[i]``..``ends[i]``: whether a path goes further in them than another, or faster.
+
+        Compared are the travel of slides and the fastest of their motions, as a part of the time it has; where there is
+        no slide, the moves of fingers (beside one, a lever's moves are no travel).
+        """
+        inside = ends > starts
+        spans = np.stack((starts, ends), axis=1).ravel()
+        motions, steps = self.motions, np.arange(len(path) - 1)
+
+        def along(amount: FloatArray, rows: IntArray, way: IntArray) -> FloatArray:
+            # One more, for a span that begins at the last note.
+            return np.append(amount[rows, way[:-1], way[1:]], 0.0)
+
+        if not self.has_slide:
+            more = along(motions.moves, motions.pair, path) - along(motions.moves, motions.pair, other)
+            return np.asarray(inside & (np.add.reduceat(more, spans)[::2] > TOLERANCE))
+        more = along(motions.slide_m, steps, path) - along(motions.slide_m, steps, other)
+        further = np.add.reduceat(more, spans)[::2] > TOLERANCE
+        fastest, allowed = (np.maximum.reduceat(along(motions.share, steps, way), spans)[::2] for way in (path, other))
+        return np.asarray(inside & (further | (fastest > allowed + TOLERANCE)))
+
+
+def fingering_problem(
+    notes: tuple[Note, ...],
+    times: LineTimes,
+    instrument: InstrumentMap,
+    pins: dict[str, str],
+    by_hand: BoolArray | None = None,
+) -> FingeringProblem:
+    """Set up the search. ``pins`` maps note ids to labels that a correction demands; a label that is no fingering of
+    its note is passed over (see `plan_fingerings`). ``by_hand`` (N,) are notes that the hand stops."""
+    stopped = instrument.stopped if by_hand is not None and by_hand.any() else None
+    if stopped is not None and by_hand is not None:
+        times = replace(times, pitch=times.pitch + stopped.fingered_semitones * by_hand)
+    pitches, pitch_index = np.unique(times.pitch, return_inverse=True)
+    table = table_of(tuple(int(pitch) for pitch in pitches), instrument)
+    allowed = table.valid[pitch_index]
+    if stopped is not None and by_hand is not None and stopped.without:
+        without = [place for place, item in enumerate(pitch_controls(instrument)) if item.name in stopped.without]
+        plain = allowed & (table.values[pitch_index][:, :, without] == 0.0).all(axis=2)
+        allowed = np.where((by_hand & plain.any(axis=1))[:, None], plain, allowed)
+    if pins:
+        for index, note in enumerate(notes):
+            pinned = _pinned(table.choices[pitch_index[index]], pins.get(note.id))
+            if pinned is not None:
+                allowed[index] = False
+                allowed[index, pinned] = True
+    return FingeringProblem(times, table, pitch_index.astype(np.int64), pitch_controls(instrument), allowed)
+
+
+def _either_side(steps: BoolArray, count: int) -> BoolArray:
+    """(N,): whether the step to a note or from it is marked."""
+    notes = np.zeros(count, dtype=bool)
+    notes[:-1] |= steps
+    notes[1:] |= steps
+    return notes
+
+
+def _pinned(ranked: tuple[Fingering, ...], label: str | None) -> int | None:
+    if label is None:
+        return None
+    return next((column for column, fingering in enumerate(ranked) if fingering.label == label), None)

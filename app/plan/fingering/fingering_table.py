@@ -1,0 +1,126 @@
+"""The ranked fingerings of some pitches as arrays, for every pitch alike."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from app.arrays import BoolArray, FloatArray, IntArray
+from app.plan.fingering.finger_travel import FingerPlaces, finger_places
+from instrument_maps.model import Control, Fingering, InstrumentMap
+
+# What choosing an alternate costs. The unit is one step down in rank.
+RANK_COST = 1.0
+MOST_RANKS = 3
+"""Further down the list an alternate is no stranger: woodwinds have many, ordered by little."""
+CENTS_PER_UNIT = 20.0
+"""An alternate worse in tune than the first choice by this much costs one unit on a fully audible note: about
+what a listener notices in a melody."""
+FULLY_AUDIBLE_S = 0.25
+"""The intonation of shorter notes is less audible; their cost falls in proportion."""
+FORKED_COST = 0.5
+"""A forked fingering sounds covered, beside its rank."""
+IN_PLACE_COST = {"trill": 0.5, "fast": 0.5, "forte": 0.5, "piano": 0.5, "chromatic": -0.5, "attack": -4.0}
+"""A fingering that is meant for trills, fast passages, chromatic runs, attacks, loud or soft notes costs this there,
+whatever its rank, ..."""
+HELD_COST = 0.1
+"""A key left down that the note does not need (tag "held") costs this, whatever its rank."""
+RARE_COST = 10.0
+"""A fingering that players know and hardly ever take (tag "rare") costs this beside its rank, ..."""
+
+
+@dataclass(frozen=True)
+class FingeringTable:
+    """Fingerings of the pitches of a part, padded to K.
+
+    Attributes
+    ----------
+    values : (P, K, C) float64
+        Of the controls of pitch.
+    cost : (P, K) float64
+        What each costs by its rank.
+    cents : (P, K) float64
+    valid : (P, K) bool
+        Which the search may choose; obsolete ones only a correction may.
+    meant_for : dict of str to (P, K) bool
+        Which are meant for a trill, for fast, loud or soft notes.
+    register : (P,) int64
+        How many breaks lie below the pitch.
+    rare : (P, K) bool
+        Which are hardly ever used.
+    beside : (P, K) bool
+        Which keep a lever turned for their neighbours.
+    levers : (P, K) int64
+        Levers that each turns, as bits.
+    leaves_down : bool
+        Whether any fingering of the instrument leaves a key down that its note does not need (tag "held").
+    places : FingerPlaces
+        Where every finger is in each of them.
+    """
+
+    choices: tuple[tuple[Fingering, ...], ...]
+    values: FloatArray
+    cost: FloatArray
+    cents: FloatArray
+    valid: BoolArray
+    meant_for: dict[str, BoolArray]
+    register: IntArray
+    rare: BoolArray
+    beside: BoolArray
+    levers: IntArray
+    leaves_down: bool
+    places: FingerPlaces
+
+
+def pitch_controls(instrument: InstrumentMap) -> tuple[Control, ...]:
+    """The controls that fingerings name."""
+    return tuple(control for control in instrument.controls if control.role == "pitch")
+
+
+def table_of(pitches: tuple[int, ...], instrument: InstrumentMap) -> FingeringTable:
+    """The fingerings of these concert pitches, in their order."""
+    choices = tuple(instrument.fingerings_for(pitch) for pitch in pitches)
+    controls = pitch_controls(instrument)
+    shape = (len(choices), max((len(ranked) for ranked in choices), default=1))
+    values = np.zeros((*shape, len(controls)))
+    cost, cents, valid = np.zeros(shape), np.zeros(shape), np.zeros(shape, dtype=bool)
+    rare, beside, levers = np.zeros(shape, dtype=bool), np.zeros(shape, dtype=bool), np.zeros(shape, dtype=np.int64)
+    turned = {item.name: 1 << place for place, item in enumerate(controls) if item.kind == "lever"}
+    meant_for: dict[str, BoolArray] = {}
+    for row, ranked in enumerate(choices):
+        for column, fingering in enumerate(ranked):
+            values[row, column] = [fingering.controls.get(item.name, item.rest_value) for item in controls]
+            forked = FORKED_COST if fingering.rank > 1 and "forked" in fingering.tags else 0.0
+            rare[row, column] = fingering.rank > 1 and "rare" in fingering.tags
+            cost[row, column] = RANK_COST * min(fingering.rank - 1, MOST_RANKS) + forked + RARE_COST * rare[row, column]
+            if fingering.rank > 1 and "held" in fingering.tags:
+                cost[row, column] = HELD_COST
+            beside[row, column] = fingering.rank > 1 and "beside" in fingering.tags
+            if turned:
+                levers[row, column] = sum(
+                    turned.get(name, 0) for name, value in fingering.controls.items() if value > 0
+                )
+            cents[row, column] = fingering.cents
+            valid[row, column] = not fingering.is_obsolete
+            for tag in IN_PLACE_COST:
+                if fingering.rank > 1 and tag in fingering.tags:
+                    meant_for.setdefault(tag, np.zeros(shape, dtype=bool))[row, column] = True
+    written = np.array([ranked[0].written_pitch for ranked in choices], dtype=np.int64)
+    register = np.searchsorted(np.sort(np.array(instrument.breaks, dtype=np.int64)), written, side="right")
+    places = finger_places(choices, shape, controls, instrument.contacts)
+    leaves_down = any("held" in fingering.tags for fingering in instrument.fingerings)
+    return FingeringTable(
+        choices,
+        values,
+        cost,
+        cents,
+        valid,
+        meant_for,
+        register.astype(np.int64),
+        rare,
+        beside,
+        levers,
+        leaves_down,
+        places,
+    )

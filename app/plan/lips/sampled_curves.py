@@ -1,0 +1,48 @@
+"""Curves of what the lips do within the notes, sampled."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from app.arrays import FloatArray
+
+
+@dataclass(frozen=True, eq=False)
+class SampledCurves:
+    """What the lips do within the notes too, 0..1, sampled; the ends hold.
+
+    Fields as of `EmbouchureEvent`, which has the mean of each note.
+
+    Attributes
+    ----------
+    start_s, step_s : float
+        Sample k is at ``start_s + k * step_s``; ``start_s`` is a multiple of the step.
+    tension : (K,) float64
+    air, effort : (K,) float64 or None
+        None where no breath was recorded.
+    """
+
+    start_s: float
+    step_s: float
+    tension: FloatArray
+    air: FloatArray | None = None
+    effort: FloatArray | None = None
+
+    def __eq__(self, other: object) -> bool:
+        """Return whether they are the same to the last bit, as plans are compared."""
+        if not isinstance(other, SampledCurves):
+            return NotImplemented
+        return (
+            (self.start_s, self.step_s) == (other.start_s, other.step_s)
+            and np.array_equal(self.tension, other.tension)
+            and _same(self.air, other.air)
+            and _same(self.effort, other.effort)
+        )
+
+    __hash__ = None  # type: ignore[assignment]
+
+
+def _same(one: FloatArray | None, other: FloatArray | None) -> bool:
+    return one is other or (one is not None and other is not None and np.array_equal(one, other))

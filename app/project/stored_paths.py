@@ -1,0 +1,60 @@
+"""Paths in project files: as they are stored beside the file, and where they lead from it."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from pathlib import Path, PurePosixPath, PureWindowsPath
+from typing import TypeVar
+
+import msgspec
+
+from app.encoding import PREFIX, restored, stored
+from app.project.choreography_files import is_bundled_name
+from app.project.performers import Player
+from app.project.recording import AudioTrack
+from app.project.video import VideoTrack
+
+Track = TypeVar("Track", AudioTrack, VideoTrack)
+
+
+def moved_track(track: Track | None, path: Callable[[str, Path], str], folder: Path) -> Track | None:
+    """A recording or video with its path as the file has it, or as this machine does."""
+    return None if track is None else msgspec.structs.replace(track, path=path(track.path, folder))
+
+
+def stored_path(path: str, folder: Path) -> str:
+    """As the file has it: relative, with slashes, where both lie in one tree below the root."""
+    if path and Path(path).is_absolute():
+        try:
+            shared = Path(os.path.commonpath([path, folder]))
+        except ValueError:  # two drives
+            return stored(path)
+        if shared != Path(shared.anchor):
+            path = Path(os.path.relpath(path, folder)).as_posix()
+    return stored(path)
+
+
+def full_path(path: str, folder: Path) -> str:
+    """Absolute; a path that is absolute on another system only stays what it is."""
+    path = restored(path)
+    if not path or path.startswith(PREFIX) or PurePosixPath(path).is_absolute() or PureWindowsPath(path).is_absolute():
+        return path
+    return os.path.normpath(folder / path)
+
+
+def stored_choreography(choreography: str, folder: Path) -> str:
+    """Nothing and the name of a bundled one stay what they are."""
+    return stored_path(choreography, folder) if choreography and not is_bundled_name(choreography) else choreography
+
+
+def full_choreography(choreography: str, folder: Path) -> str:
+    return full_path(choreography, folder) if choreography and not is_bundled_name(choreography) else choreography
+
+
+def with_choreography(player: Player, choreography: str) -> Player:
+    """The player with another choreography."""
+    if choreography == player.parameters.choreography:
+        return player
+    parameters = msgspec.structs.replace(player.parameters, choreography=choreography)
+    return msgspec.structs.replace(player, parameters=parameters)
