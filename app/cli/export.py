@@ -216,34 +216,10 @@ def export(arguments: argparse.Namespace) -> int:
     clean_up()
     project = open_project(arguments, if_empty="export.no_players")
     performance = Performance(project)
-    names = [*(player.name for player in project.players), *(dancer.name for dancer in project.dancers)]
-    chosen = select_players(arguments.players, names)
-    count = len(project.players)
-    players = tuple(project.players[index] for index in chosen if index < count)
-    # Before the plans, which say what a body does not reach.
-    musicians = dict.fromkeys(project.musician(player) for player in players)
-    find_holds(performance, [player for musician in musicians for player in project.played_by(musician)])
-    progress = Progress(sys.stderr)
     skeleton: SkeletonChoice = arguments.skeleton or ("own" if unreal is None else "ue5")
-    request = ExportRequest(
-        performance=performance,
-        players=players,
-        folder=arguments.to if unreal is None else unreal.folder,
-        formats=formats,
-        span=requested_span(performance, arguments, project.fps),
-        bars=requested_bars(performance, arguments),
-        source=shown(arguments.file.name),
-        creator=f"Suisou {program_version()}",
-        skeleton=skeleton,
-        rig=RigOptions(arguments.instrument, arguments.root_bone, arguments.rest_pose, arguments.twist_bones),
-        asset=arguments.check_skeleton,
-        sound=arguments.sound,
-        stage=arguments.stage,
-        bvh_names=arguments.bvh_names,
-        dancers=tuple(project.dancers[index - count] for index in chosen if index >= count),
-        processes=arguments.jobs,
-        keys=arguments.keys,
-    )
+    folder = arguments.to if unreal is None else unreal.folder
+    request = _request(arguments, performance, formats, folder, skeleton)
+    progress = Progress(sys.stderr)
     try:
         with interrupted_by(signal.SIGTERM):
             if unreal is None:
@@ -259,6 +235,43 @@ def export(arguments: argparse.Namespace) -> int:
         progress.clear()
     say(*reported)
     return report_left_out((one.player, one.reason) for one in report.left_out)
+
+
+def _request(
+    arguments: argparse.Namespace,
+    performance: Performance,
+    formats: frozenset[Format],
+    folder: Path,
+    skeleton: SkeletonChoice,
+) -> ExportRequest:
+    """What is to be exported, once it is known how the instruments are held."""
+    project = performance.project
+    names = [*(player.name for player in project.players), *(dancer.name for dancer in project.dancers)]
+    chosen = select_players(arguments.players, names)
+    count = len(project.players)
+    players = tuple(project.players[index] for index in chosen if index < count)
+    # Before the plans, which say what a body does not reach.
+    musicians = dict.fromkeys(project.musician(player) for player in players)
+    find_holds(performance, [player for musician in musicians for player in project.played_by(musician)])
+    return ExportRequest(
+        performance=performance,
+        players=players,
+        folder=folder,
+        formats=formats,
+        span=requested_span(performance, arguments, project.fps),
+        bars=requested_bars(performance, arguments),
+        source=shown(arguments.file.name),
+        creator=f"Suisou {program_version()}",
+        skeleton=skeleton,
+        rig=RigOptions(arguments.instrument, arguments.root_bone, arguments.rest_pose, arguments.twist_bones),
+        asset=arguments.check_skeleton,
+        sound=arguments.sound,
+        stage=arguments.stage,
+        bvh_names=arguments.bvh_names,
+        dancers=tuple(project.dancers[index - count] for index in chosen if index >= count),
+        processes=arguments.jobs,
+        keys=arguments.keys,
+    )
 
 
 def _requested_formats(arguments: argparse.Namespace) -> frozenset[Format]:

@@ -95,11 +95,8 @@ def make_evaluation(
     videos |= _keyframes(performance, request, variants)
     scenes = _scenes(performance, request, videos, report, stop_requested)
     drawn = _clips(project, request, variants, scenes[:-1])
-    pairs = (
-        pairs_of([(clip.code, clip.variant, clip.excerpt) for clip in drawn])
-        if request.presentation != "single"
-        else ()
-    )
+    pairs = pairs_of([(clip.code, clip.variant, clip.excerpt) for clip in drawn])
+    pairs = pairs if request.presentation != "single" else ()
     table = orders(tuple(clip.code for clip in drawn) if request.presentation != "pair" else (), pairs)
     key = _key(project, request, drawn)
 

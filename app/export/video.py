@@ -12,7 +12,7 @@ import errno
 import hashlib
 import os
 import subprocess
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from fractions import Fraction
 from pathlib import Path
 from typing import IO
@@ -38,8 +38,8 @@ _TOLD = 2000
 class VideoWriter:
     """Takes pictures one after the other; see `video_into`."""
 
-    def __init__(self, encoder: subprocess.Popen[bytes], pipe: IO[bytes], size: tuple[int, int]) -> None:
-        self._encoder, self._pipe, self._size = encoder, pipe, size
+    def __init__(self, pipe: IO[bytes], size: tuple[int, int]) -> None:
+        self._pipe, self._size = pipe, size
 
     def write(self, picture: npt.NDArray[np.uint8]) -> None:
         """Add a picture.
@@ -98,42 +98,61 @@ def video_into(
     making = path.with_name(f".{hashlib.sha256(os.fsencode(path.name)).hexdigest()[:16]}.making")
     with tree_into(path.parent, making) as change:
         partial = change.new / path.name
-        with contextlib.ExitStack() as stack:
-            try:
-                folder = stack.enter_context(scratch_folder())
-                wave = folder / "sound.wav"
-                if sound is not None:
-                    soundfile.write(wave, sound, sound_rate, subtype="PCM_16")
-                complaint = stack.enter_context((folder / "complaint.txt").open("w+b"))
-                encoder = subprocess.Popen(
-                    limited_command(
-                        "ffmpeg.encode", _command(partial, size, fps, wave if sound is not None else None, crf)
-                    ),
-                    stdin=subprocess.PIPE,
-                    stdout=subprocess.DEVNULL,
-                    stderr=complaint,
-                )
-            except (OSError, RuntimeError, soundfile.SoundFileError) as error:
-                raise FileError("video.failed", file=str(path), detail=str(error)) from error
-            pipe = encoder.stdin
-            assert pipe is not None
-            try:
-                yield VideoWriter(encoder, pipe, size)
+        with _encoder(path, lambda wave: _command(partial, size, fps, wave, crf), sound, sound_rate) as encoder:
+            yield VideoWriter(encoder, size)
+
+
+@contextlib.contextmanager
+def _encoder(
+    path: Path, command: Callable[[Path | None], list[str]], sound: SingleArray | None, sound_rate: int
+) -> Iterator[IO[bytes]]:
+    """Where pictures are written to; the encoder has ended well when the block is done.
+
+    Parameters
+    ----------
+    path : path
+        Named in errors.
+    command : callable
+        Given the file of the sound, or None.
+    """
+    with contextlib.ExitStack() as stack:
+        try:
+            folder = stack.enter_context(scratch_folder())
+            wave = folder / "sound.wav"
+            if sound is not None:
+                soundfile.write(wave, sound, sound_rate, subtype="PCM_16")
+            complaint = stack.enter_context((folder / "complaint.txt").open("w+b"))
+            encoder = subprocess.Popen(
+                limited_command("ffmpeg.encode", command(None if sound is None else wave)),
+                stdin=subprocess.PIPE,
+                stdout=subprocess.DEVNULL,
+                stderr=complaint,
+            )
+        except (OSError, RuntimeError, soundfile.SoundFileError) as error:
+            raise FileError("video.failed", file=str(path), detail=str(error)) from error
+        pipe = encoder.stdin
+        assert pipe is not None
+        try:
+            yield pipe
+            pipe.close()
+            status = encoder.wait()
+        except BrokenPipeError:
+            status = encoder.wait() or 1
+        except BaseException:
+            encoder.kill()
+            encoder.wait()
+            raise
+        finally:
+            with contextlib.suppress(OSError):
                 pipe.close()
-                status = encoder.wait()
-            except BrokenPipeError:
-                status = encoder.wait() or 1
-            except BaseException:
-                encoder.kill()
-                encoder.wait()
-                raise
-            finally:
-                with contextlib.suppress(OSError):
-                    pipe.close()
-            if status:
-                complaint.seek(0)
-                detail = complaint.read().decode(errors="replace").strip()[-_TOLD:]
-                raise FileError("video.failed", file=str(path), detail=detail or f"status {status}")
+        if status:
+            complaint.seek(0)
+            raise _failed(path, complaint.read(), status)
+
+
+def _failed(path: Path, complaint: bytes, status: int) -> FileError:
+    detail = complaint.decode(errors="replace").strip()[-_TOLD:]
+    return FileError("video.failed", file=str(path), detail=detail or f"status {status}")
 
 
 def side_by_side(path: Path, left: Path, right: Path, crf: int = QUALITY_CRF) -> None:
@@ -155,8 +174,7 @@ def side_by_side(path: Path, left: Path, right: Path, crf: int = QUALITY_CRF) ->
     except (OSError, RuntimeError) as error:
         raise FileError("video.failed", file=str(path), detail=str(error)) from error
     if done.returncode:
-        detail = done.stderr.decode(errors="replace").strip()[-_TOLD:]
-        raise FileError("video.failed", file=str(path), detail=detail or f"status {done.returncode}")
+        raise _failed(path, done.stderr, done.returncode)
 
 
 def _command(path: Path, size: tuple[int, int], fps: Fraction, wave: Path | None, crf: int) -> list[str]:

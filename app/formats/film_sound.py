@@ -125,6 +125,25 @@ def film_sound(
         ``video.no_sound``, those of `app.formats.ffmpeg`, those of ``check``.
     Cancelled
     """
+    made, timing, status = _decoded(path, rate_hz, check, stop_requested)
+    report = timing.report()
+    if status:
+        kinds = kinds_in(report)
+        if b"Video" in kinds and b"Audio" not in kinds and status > 0:
+            raise FileError("video.no_sound", file=path)
+        raise refusal(report, path, status)
+    sound = np.frombuffer(made, "<i2", len(made) // 4 * 2).reshape(-1, 2)
+    late_s = timing.first_block_s if delay_s is None else delay_s
+    placed, left_out = _placed(sound, timing.stretches, rate_hz)
+    if left_out > _MOST_LEFT_OUT * len(sound):
+        raise FileError("video.sound_times", file=path)
+    return placed[round(late_s * rate_hz) :]
+
+
+def _decoded(
+    path: str, rate_hz: int, check: Callable[[float], None], stop_requested: Callable[[], bool]
+) -> tuple[bytearray, _Timing, int]:
+    """The blocks of sound that there are, one after the other, when each begins, and the status of ffmpeg."""
     # ffmpeg would take a gap of more than thirty hours for a mistake and leave it out.
     exact = ("-dts_error_threshold", "1e12")
     heard = ("-map", "0:a:0", "-af", "ashowinfo", "-ac", "2", "-ar", str(rate_hz))
@@ -146,18 +165,7 @@ def film_sound(
                 timing.thread.join()
     raise_if_stopped(stop_requested)
     check(max(len(made) / (4 * rate_hz), timing.reached_s))
-    report = timing.report()
-    if status:
-        kinds = kinds_in(report)
-        if b"Video" in kinds and b"Audio" not in kinds and status > 0:
-            raise FileError("video.no_sound", file=path)
-        raise refusal(report, path, status)
-    sound = np.frombuffer(made, "<i2", len(made) // 4 * 2).reshape(-1, 2)
-    late_s = timing.first_block_s if delay_s is None else delay_s
-    placed, left_out = _placed(sound, timing.stretches, rate_hz)
-    if left_out > _MOST_LEFT_OUT * len(sound):
-        raise FileError("video.sound_times", file=path)
-    return placed[round(late_s * rate_hz) :]
+    return made, timing, status
 
 
 def _placed(sound: Samples, stretches: list[tuple[float, float]], rate_hz: int) -> tuple[Samples, int]:

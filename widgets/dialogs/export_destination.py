@@ -57,44 +57,43 @@ class Done:
     new_plugin: bool = False
 
 
-def foresee(
-    destination: Destination,
-    place: Path,
-    performance: Performance,
-    player_ids: tuple[str, ...],
-    formats: frozenset[Format],
-    source: str,
-    sound: bool,
-    stage: bool = False,
-) -> Foreseen:
-    """What an export will do.
-
-    Parameters
-    ----------
-    place : path
-        The folder, or the Unreal project's file or folder.
-    source : str
-        Name of the piece's file.
-    sound : bool
-        Whether a folder gets the sound; an Unreal project always does.
-    stage : bool
-        Whether a folder gets the whole stage in one file; an Unreal project does not need it.
+def foresee_unreal(place: Path, performance: Performance, player_ids: tuple[str, ...], source: str) -> Foreseen:
+    """What an export into an Unreal project, by its file or folder, will do.
 
     Raises
     ------
     FileError
         There is no project, or files of another program are in the way.
     """
-    if destination == "unreal":
-        unreal = find_project(place)
-        plan = plan_export(performance, player_ids, source, unreal, by_length=True)
-        return Foreseen(
-            count=len(plan.written),
-            replaced=tuple(shown(path.name) for path in plan.replaced),
-            removed=tuple(shown(path.name) for path in plan.removed),
-            kept=plan.kept,
-            project=unreal,
-        )
+    unreal = find_project(place)
+    plan = plan_export(performance, player_ids, source, unreal, by_length=True)
+    return Foreseen(
+        count=len(plan.written),
+        replaced=tuple(shown(path.name) for path in plan.replaced),
+        removed=tuple(shown(path.name) for path in plan.removed),
+        kept=plan.kept,
+        project=unreal,
+    )
+
+
+def foresee_folder(
+    folder: Path,
+    performance: Performance,
+    player_ids: tuple[str, ...],
+    formats: frozenset[Format],
+    source: str,
+    sound: bool,
+    stage: bool,
+) -> Foreseen:
+    """What an export into a folder will do.
+
+    Parameters
+    ----------
+    source : str
+        Name of the piece's file.
+    sound, stage : bool
+        Whether the sound is written too, and the whole stage in one file.
+    """
     names = file_names(performance, formats)
     project = performance.project
     # Of a musician also the other instruments.
@@ -107,7 +106,7 @@ def foresee(
         requested.append(sound_name(source))
     if stage:
         requested += stage_names(performance, formats, source).values()
-    return Foreseen(len(requested), tuple(name for name in requested if os.path.exists(place / name)))
+    return Foreseen(len(requested), tuple(name for name in requested if os.path.exists(folder / name)))
 
 
 def write(

@@ -33,7 +33,7 @@ from widgets.common.layouts import in_column, in_form, in_row
 from widgets.common.paths import show_folder
 from widgets.common.plain import ComboBox, Label
 from widgets.common.text import message_text, sentence
-from widgets.dialogs.export_destination import Destination, Done, foresee, write
+from widgets.dialogs.export_destination import Destination, Done, foresee_folder, foresee_unreal, write
 from widgets.dialogs.export_formats import FormatChooser
 from widgets.dialogs.export_place import PlaceChooser
 from widgets.dialogs.export_range import TEXT_MARGIN_PX, RangeChooser
@@ -47,6 +47,17 @@ OUTCOME_PX = 84
 """Room for some lines of what comes of an export; more are scrolled to."""
 _NAMES = 6
 """Of the files that are replaced or removed, so many are named."""
+
+
+def _profiles() -> ComboBox:
+    """The tables of bone names, after an entry for the skeleton's own."""
+    box = named(ComboBox(), "export_bvh_names")
+    # As wide as there is room, not as the longest title.
+    box.setSizeAdjustPolicy(ComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
+    box.addItem("", "")
+    for profile, table in load_bone_names().items():
+        box.addItem(table.title, profile)
+    return box
 
 
 def _some(names: tuple[str, ...]) -> str:
@@ -82,6 +93,7 @@ class ExportDialog(WorkingDialog):
         source: str,
         creator: str,
         parent: QWidget | None = None,
+        *,
         unreal: Path | None = None,
         destination: Destination = "folder",
         keys: KeyChoice = "every",
@@ -96,13 +108,7 @@ class ExportDialog(WorkingDialog):
         self._place = PlaceChooser(folder, unreal, destination)
         self._shown_folder = folder
         self._formats = FormatChooser()
-        self._bvh_names = named(ComboBox(), "export_bvh_names")
-        # As wide as there is room, not as the longest title.
-        self._bvh_names.setSizeAdjustPolicy(ComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
-        self._bvh_names.addItem("", "")
-        for profile, table in load_bone_names().items():
-            self._bvh_names.addItem(table.title, profile)
-        self.texted(self._bvh_names, items="export_dialog.those_of_skeleton")
+        self._bvh_names = _profiles()
         self.texted(self._bvh_names, items="export_dialog.those_of_skeleton")
         self._keys = self.texted(named(ComboBox(), "export_keys"), tip="export_dialog.reduced_keys_tip")
         key_texts = ("export_dialog.key_on_every_frame", "export_dialog.reduced_keys")
@@ -315,16 +321,12 @@ class ExportDialog(WorkingDialog):
     def _foreseen(self) -> str:
         """What will be written, replaced and removed."""
         performance = Performance(self._project)
-        seen = foresee(
-            self._place.destination,
-            self._place.path,
-            performance,
-            self.player_ids,
-            self._formats.formats,
-            self._source,
-            self._formats.sound,
-            self._formats.stage,
-        )
+        place, formats = self._place.path, self._formats
+        if self._place.destination == "unreal":
+            seen = foresee_unreal(place, performance, self.player_ids, self._source)
+        else:
+            ids, source = self.player_ids, self._source
+            seen = foresee_folder(place, performance, ids, formats.formats, source, formats.sound, formats.stage)
         lines = []
         if seen.project is not None:
             engine = self.tr("export_dialog.version_unknown") if seen.project.version is None else seen.project.engine

@@ -130,9 +130,9 @@ def export_files(editor: Editor) -> None:
         editor.files.name,
         f"Suisou {program_version()}",
         editor.window,
-        Path(unreal) if unreal else None,
-        "unreal" if unreal and editor.settings.export_into == "unreal" else "folder",
-        editor.settings.export_keys,
+        unreal=Path(unreal) if unreal else None,
+        destination="unreal" if unreal and editor.settings.export_into == "unreal" else "folder",
+        keys=editor.settings.export_keys,
     )
 
     def remember(destination: str, place: Path) -> None:
