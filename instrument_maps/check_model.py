@@ -14,7 +14,7 @@ from app.formats.gltf.model import GltfModel
 from app.formats.gltf.read import read_glb
 from instrument_maps.model import ROOT, InstrumentMap
 from instrument_maps.surface import nearest_point
-from instrument_maps.validate import Problem
+from instrument_maps.value_checks import Problem
 
 SURFACE_M = 0.001
 """A touch point further from the surface than this hangs in the air or lies inside."""

@@ -27,7 +27,8 @@ from instrument_maps.extend import BASE
 from instrument_maps.fingering_label import HALF, NONE, OPEN, controls_of, says_words, words_of
 from instrument_maps.load import bundled_maps, parse_map, parse_table
 from instrument_maps.model import Fingering, InstrumentMap
-from instrument_maps.validate import Problem, problems
+from instrument_maps.validate import problems
+from instrument_maps.value_checks import Problem
 
 Table: TypeAlias = tuple[Fingering, ...]
 

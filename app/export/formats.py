@@ -8,7 +8,8 @@ from pathlib import Path
 from typing import Final, Literal, TypeAlias
 
 from app.formats.scene import Scene
-from app.formats.usd import UsdSound, refuse_without_usd
+from app.formats.usd import UsdSound
+from app.formats.usd_package import refuse_without_usd
 
 Format: TypeAlias = str
 """The id of a `FileFormat`."""

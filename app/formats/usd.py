@@ -6,20 +6,14 @@ are made valid, and stay whole as the prim's display name, in the skeleton's ``j
 tokens. The package usd-core (module ``pxr``) is loaded here and nowhere else, when a file is written; it is optional.
 
 Source: OpenUSD documentation, "UsdSkel: Skeleton Schema", "UsdPreviewSurface Specification", "UsdMedia".
-
-Message: ``usd.missing``: "USD files need the package usd-core, which is not installed: pip install usd-core".
 """
 
 from __future__ import annotations
 
-import ctypes
-import importlib.util
 import os
 import shutil
-import sys
 from collections.abc import Iterable
 from dataclasses import dataclass
-from functools import cache
 from pathlib import Path
 from threading import Lock
 from typing import Any, Final
@@ -27,7 +21,7 @@ from typing import Any, Final
 import numpy as np
 
 from app.arrays import AnyFloatArray, AnyIntArray, FloatArray
-from app.errors import FileError, UsageError
+from app.errors import FileError
 from app.formats.atomic import atomic_write
 from app.formats.continuous import continuous
 from app.formats.euler import matrices
@@ -35,10 +29,9 @@ from app.formats.names import numbered
 from app.formats.scene import Clip, Material, MorphTarget, Scene, SkinnedMesh, checked_scenes
 from app.formats.scratch import scratch_folder
 from app.formats.skin import influences
+from app.formats.usd_package import open_libraries, refuse_without_usd
 
 METERS_PER_UNIT = 0.01
-_MODULES: Final = ("Tf", "Gf", "Kind", "Sdf", "Usd", "UsdGeom", "UsdMedia", "UsdShade", "UsdSkel", "UsdUtils", "Vt")
-"""Modules of the package that are used here."""
 
 
 @dataclass(frozen=True)
@@ -59,17 +52,6 @@ class UsdSound:
 
 _ONE_AT_A_TIME: Final = Lock()
 """Two threads in the USD library wait for each other for ever."""
-
-
-def usd_installed() -> bool:
-    """Return whether USD files can be written."""
-    return importlib.util.find_spec("pxr") is not None
-
-
-def refuse_without_usd() -> None:
-    """Raise UsageError (``usd.missing``) where USD files cannot be written."""
-    if not usd_installed():
-        raise UsageError("usd.missing")
 
 
 def write_usd(path: str | os.PathLike[str], scene: Scene, sound: UsdSound | None = None) -> None:
@@ -98,7 +80,7 @@ def write_usds(path: str | os.PathLike[str], scenes: Iterable[Scene], sound: Usd
     """Write scenes into one file as `write_usd`; each is let go when the next is asked for."""
     refuse_without_usd()
     with _ONE_AT_A_TIME:
-        _open_libraries()
+        open_libraries()
         from pxr import Tf, UsdUtils
 
         layer = _stage_layer(scenes, sound)
@@ -116,25 +98,6 @@ def write_usds(path: str | os.PathLike[str], scenes: Iterable[Scene], sound: Usd
         except (OSError, Tf.ErrorException) as error:
             reason = getattr(error, "strerror", None) or str(error)
             raise FileError("file.cannot_write", file=os.fspath(path), reason=reason) from error
-
-
-@cache
-def _open_libraries() -> None:
-    """Open the package's libraries without the interpreter's lock, as an import does not.
-
-    While it opens them the system's loader is locked, and they wait for the interpreter's lock. numpy has that when it
-    asks the loader in another thread where a function is, as it does now and then: both would wait for ever.
-    """
-    found = importlib.util.find_spec("pxr")
-    if sys.platform != "linux" or found is None:
-        return
-    # What cannot be opened is reported by the import that follows.
-    system = ctypes.CDLL(None)
-    system.dlopen.argtypes, system.dlopen.restype = (ctypes.c_char_p, ctypes.c_int), ctypes.c_void_p
-    for folder in found.submodule_search_locations or ():
-        for name in _MODULES:
-            library = Path(folder) / name / f"_{name[0].lower()}{name[1:]}.so"
-            system.dlopen(os.fsencode(library), os.RTLD_NOW)
 
 
 def _stage_layer(scenes: Iterable[Scene], sound: UsdSound | None) -> Any:

@@ -23,7 +23,8 @@ from app.formats.bvh import BvhClip, write_bvh
 from app.formats.fbx.write import write_scene
 from app.formats.gltf.write import write_glb
 from app.formats.scene import Bone, Clip, Material, MorphTarget, Scene, SkinnedMesh
-from app.formats.usd import usd_installed, write_usd
+from app.formats.usd import write_usd
+from app.formats.usd_package import usd_installed
 
 BONES, FRAMES, FPS = 60, 3_600, 60
 TOOL = Path(__file__).parent.parent / "support" / "blender_reference.py"

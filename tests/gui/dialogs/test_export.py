@@ -16,7 +16,7 @@ from app.editor.session import Session
 from app.editor.tasks import ThreadTasks
 from app.export.request import ExportRequest
 from app.export.run import export
-from app.formats import usd
+from app.formats import usd_package
 from app.formats.bvh import read_bvh
 from app.messages import text
 from app.performance.ensemble import Performance
@@ -153,7 +153,7 @@ def test_cancelled_it_leaves_nothing(show_export: ShowExport, qt_app: object, qt
 def test_usd_is_greyed_where_it_cannot_be_written(
     show_export: ShowExport, session: Session, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(usd, "usd_installed", lambda: False)
+    monkeypatch.setattr(usd_package, "usd_installed", lambda: False)
     dialog = show_export(session)
     box = dialog.findChild(QCheckBox, "export_usd")
     assert box is not None
@@ -170,7 +170,7 @@ def test_usd_is_greyed_where_it_cannot_be_written(
 
 def test_all_kinds_of_file_at_once(dialog: ExportDialog, session: Session, tmp_path: Path) -> None:
     one_player_two_bars(dialog)
-    for name in ("export_sound", "export_glb", *(["export_usd"] if usd.usd_installed() else [])):
+    for name in ("export_sound", "export_glb", *(["export_usd"] if usd_package.usd_installed() else [])):
         box = dialog.findChild(QCheckBox, name)
         assert box is not None
         QTest.mouseClick(box, Qt.MouseButton.LeftButton)
@@ -181,7 +181,7 @@ def test_all_kinds_of_file_at_once(dialog: ExportDialog, session: Session, tmp_p
     start(dialog)
     assert str(len(list((tmp_path / "out").iterdir()))) in promised
     suffixes = sorted(path.suffix for path in (tmp_path / "out").iterdir())
-    usdc = [".usdc"] * 3 if usd.usd_installed() else []
+    usdc = [".usdc"] * 3 if usd_package.usd_installed() else []
     assert suffixes == sorted([".bvh", ".glb", ".glb", ".glb", ".json", ".wav", *usdc])
     assert (tmp_path / "out" / "quartet_stage.glb").exists()
 

@@ -19,7 +19,8 @@ from app.formats.fbx.read import read_scene
 from app.formats.fbx.write import write_scene
 from app.formats.gltf.write import write_glb
 from app.formats.scene import Scene
-from app.formats.usd import usd_installed, write_usd
+from app.formats.usd import write_usd
+from app.formats.usd_package import usd_installed
 from app.motion.model import Motion
 from app.performance.bodies import character_of, model_of
 from app.performance.ensemble import Performance

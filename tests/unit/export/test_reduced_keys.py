@@ -27,7 +27,8 @@ from app.formats.gltf.read import read_glb
 from app.formats.gltf.write import write_glb
 from app.formats.keys import Keys
 from app.formats.scene import Scene
-from app.formats.usd import usd_installed, write_usd
+from app.formats.usd import write_usd
+from app.formats.usd_package import usd_installed
 from app.performance.bodies import character_of, model_of
 from app.performance.ensemble import Performance
 from app.performance.span import bars_span

@@ -21,7 +21,7 @@ import soundfile
 from app.cli import main
 from app.export.playback import ScenePlayback
 from app.export.report import PlayerReport, failures
-from app.formats import usd
+from app.formats import usd_package
 from app.formats.bvh import read_bvh
 from app.formats.fbx.read import read_scene
 from app.formats.gltf.read import read_glb
@@ -210,7 +210,7 @@ def test_several_formats_at_once_and_nothing_to_measure_without_fbx(tmp_path: Pa
 
 
 def test_the_sound_starts_with_the_first_frame_and_usd_refers_to_it(tmp_path: Path) -> None:
-    kind = "usd" if usd.usd_installed() else "bvh"
+    kind = "usd" if usd_package.usd_installed() else "bvh"
     arguments = ("--fps", "25", "--from-bar", "1", "--to-bar", "1", "--player", PLAYERS[0], "--format", kind, "--sound")
     report = export(tmp_path / "out", *arguments)
     assert report["sound"] == "quartet.wav"
@@ -231,7 +231,7 @@ def test_the_sound_starts_with_the_first_frame_and_usd_refers_to_it(tmp_path: Pa
 def test_without_usd_core_nothing_is_begun(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr(usd, "usd_installed", lambda: False)
+    monkeypatch.setattr(usd_package, "usd_installed", lambda: False)
     assert main(["export", str(QUARTET), "--to", str(tmp_path / "out"), "--format", "fbx,usd"]) == 2
     assert "pip install usd-core" in capsys.readouterr().err
     assert not (tmp_path / "out").exists()

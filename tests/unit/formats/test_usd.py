@@ -14,7 +14,8 @@ import pytest
 
 from app.errors import FileError, UsageError
 from app.formats.scene import Scene
-from app.formats.usd import UsdSound, usd_installed, write_usd
+from app.formats.usd import UsdSound, write_usd
+from app.formats.usd_package import usd_installed
 from app.messages import text
 from tests.support.skinned import UsdFile
 from tests.unit.export.scenes import random_scene, slow_positions_m
@@ -168,7 +169,7 @@ def test_a_folder_that_is_not_there_is_reported(tmp_path: Path) -> None:
 
 
 def test_without_usd_core_the_remedy_is_reported(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("app.formats.usd.importlib.util.find_spec", lambda name: None)
+    monkeypatch.setattr("app.formats.usd_package.importlib.util.find_spec", lambda name: None)
     with pytest.raises(UsageError) as reported:
         write_usd(tmp_path / "scene.usdc", scenes.instrument(Fraction(24)))
     assert "pip install usd-core" in text(reported.value.message)

@@ -1,0 +1,49 @@
+"""The package usd-core, which writes USD files and may not be installed.
+
+Message: ``usd.missing``: "USD files need the package usd-core, which is not installed: pip install usd-core".
+"""
+
+from __future__ import annotations
+
+import ctypes
+import importlib.util
+import os
+import sys
+from functools import cache
+from pathlib import Path
+from typing import Final
+
+from app.errors import UsageError
+
+_MODULES: Final = ("Tf", "Gf", "Kind", "Sdf", "Usd", "UsdGeom", "UsdMedia", "UsdShade", "UsdSkel", "UsdUtils", "Vt")
+"""Modules of the package that are used here."""
+
+
+def usd_installed() -> bool:
+    """Return whether USD files can be written."""
+    return importlib.util.find_spec("pxr") is not None
+
+
+def refuse_without_usd() -> None:
+    """Raise UsageError (``usd.missing``) where USD files cannot be written."""
+    if not usd_installed():
+        raise UsageError("usd.missing")
+
+
+@cache
+def open_libraries() -> None:
+    """Open the package's libraries without the interpreter's lock, as an import does not.
+
+    While it opens them the system's loader is locked, and they wait for the interpreter's lock. numpy has that when it
+    asks the loader in another thread where a function is, as it does now and then: both would wait for ever.
+    """
+    found = importlib.util.find_spec("pxr")
+    if sys.platform != "linux" or found is None:
+        return
+    # What cannot be opened is reported by the import that follows.
+    system = ctypes.CDLL(None)
+    system.dlopen.argtypes, system.dlopen.restype = (ctypes.c_char_p, ctypes.c_int), ctypes.c_void_p
+    for folder in found.submodule_search_locations or ():
+        for name in _MODULES:
+            library = Path(folder) / name / f"_{name[0].lower()}{name[1:]}.so"
+            system.dlopen(os.fsencode(library), os.RTLD_NOW)
