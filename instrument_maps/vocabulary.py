@@ -14,13 +14,13 @@ from collections.abc import Mapping, Set
 from functools import cache, lru_cache
 from pathlib import Path
 from types import MappingProxyType
-from typing import Literal, NamedTuple, TypeVar
+from typing import TypeVar
 
 import msgspec
 
-from app.errors import MapError
 from app.formats.table_cache import kept
 from app.formats.toml import read_toml, shaped
+from instrument_maps.instruments import Instrument, InstrumentRelations, VocabularyTable, invalid
 from instrument_maps.name_words import is_katakana, is_wide, words_of
 
 T = TypeVar("T")
@@ -59,181 +59,42 @@ _PLURALS = (
 the longest come first."""
 
 
-class Instrument(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """One instrument.
-
-    Attributes
-    ----------
-    kind : {"wind", "percussion", "other"}
-    names : tuple of str
-        The first is the English name for people; matching ignores case, diacritics, width and punctuation.
-    programs : tuple of int
-        General MIDI programs, 0..127.
-    family : str
-        Of a wind: the section it sits in, one of those in the table's ``seating``.
-    sort_of : str
-        Id of the more general instrument that this is a size or key of: a clarinet in A is a sort of clarinet. A part
-        for the one may be played by the other where nothing fits better.
-    by_name_only : bool
-        No one is given this instrument because of the range of the notes alone.
-    key_by_part : bool
-        Players choose its key by the part, as tuba players do: a sort of it that reaches all notes goes before a map of
-        its own that does not.
-    any_pitch : bool
-        A wind section without a range of its own ("brass"): the range of its notes decides who plays, among
-        ``families`` where they are named.
-    vague : bool
-        Its names may mean a part of any instrument ("Voice 1"): a program other than 0 says more.
-    vague_names : tuple of str
-        Names that mean a part of this instrument in some ensembles only ("Tenor 1"); found by one of them, it is vague.
-    keyed_names : tuple of str
-        Names that mean a part of this instrument only beside a key, its own or one of its forms ("Bass in C").
-    key : str
-        Its own key, one of the table.
-    form_of : tuple of str
-        Ids of the instruments whose names, beside one of the ``marks``, name this one ("Clarinet" and "bass").
-    marks : tuple of str
-        Sizes, keys or clefs of the table; of two joined by a plus ("contrabass+E♭") both are required.
-    """
-
-    id: str
-    kind: Literal["wind", "percussion", "other"]
-    names: tuple[str, ...]
-    programs: tuple[int, ...] = ()
-    family: str = ""
-    sort_of: str = ""
-    by_name_only: bool = False
-    families: tuple[str, ...] = ()
-    key_by_part: bool = False
-    any_pitch: bool = False
-    vague: bool = False
-    vague_names: tuple[str, ...] = ()
-    keyed_names: tuple[str, ...] = ()
-    key: str = ""
-    form_of: tuple[str, ...] = ()
-    marks: tuple[str, ...] = ()
-
-
-class Ensemble(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """Who plays together.
-
-    Attributes
-    ----------
-    parts : tuple of str
-        Ids of instruments in the order of the staves.
-    pitches : tuple of int
-        The usual median of each part's notes at concert pitch, MIDI numbers.
-    names : tuple of str
-        What titles call it.
-    unusual : float
-        Semitones by which each part must fit better than that of a usual ensemble.
-    """
-
-    parts: tuple[str, ...]
-    pitches: tuple[int, ...]
-    names: tuple[str, ...] = ()
-    unusual: float = 0.0
-
-
-class Compass(NamedTuple):
-    """Concert pitches, MIDI numbers, both ends included: all that occur in parts, and what most parts move within."""
-
-    low: int
-    easy_low: int
-    easy_high: int
-    high: int
-
-
-class _Table(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    ranges: dict[str, Compass]
-    ensembles: tuple[Ensemble, ...]
-    seating: tuple[tuple[str, ...], ...]
-    score_order: tuple[str, ...]
-    sizes: dict[str, tuple[str, ...]]
-    keys: dict[str, tuple[str, ...]]
-    clefs: dict[str, tuple[str, ...]]
-    prefixes: tuple[str, ...]
-    sounds: dict[str, str]
-    strokes: dict[str, int]
-    instruments: tuple[Instrument, ...]
-
-
-class Vocabulary:
+class Vocabulary(InstrumentRelations):
     """Finds instruments by name and by program; immutable once built.
 
     Parameters
     ----------
-    instruments : tuple of Instrument
-        Names and programs belong to one instrument each.
+    table : VocabularyTable
     file : str
         The table's name for messages.
-    seating : tuple of tuple of str
-        Families of winds, by row from the audience's side, each row from the audience's left.
-    sizes, keys, clefs : dict of str to tuple of str
-        The marks that tell the forms of an instrument apart, and the words for each.
-    score_order : tuple of str
-        The same families, from the top of a score to its foot.
-    ensembles : tuple of Ensemble
-        Those that are known by their parts.
-    ranges : mapping of str to Compass
-        Concert pitches of the parts of ensembles, by instrument.
-    prefixes : tuple of str
-        Words that may be joined to a name and do not change its meaning ("Soloflöte", "ソロホルン").
-    sounds : mapping of str to str
-        Instruments of the standard list of sounds.
-    strokes : mapping of str to int
-        Keys of a drum kit, by such sounds and by ids of percussion.
     words_known : mapping of str to tuple of str
         What `words_of` says of names, where it is known already.
 
     Raises
     ------
     MapError
-        If a name or a program belongs to two, or a family, a form or a mark is not in the table.
+        ``vocabulary.invalid``: a name belongs to two; see `InstrumentRelations`.
     """
 
     def __init__(
-        self,
-        instruments: tuple[Instrument, ...],
-        file: str,
-        seating: tuple[tuple[str, ...], ...] = (),
-        sizes: Mapping[str, tuple[str, ...]] = MappingProxyType({}),
-        keys: Mapping[str, tuple[str, ...]] = MappingProxyType({}),
-        clefs: Mapping[str, tuple[str, ...]] = MappingProxyType({}),
-        prefixes: tuple[str, ...] = (),
-        score_order: tuple[str, ...] = (),
-        words_known: Mapping[str, tuple[str, ...]] = MappingProxyType({}),
-        ensembles: tuple[Ensemble, ...] = (),
-        ranges: Mapping[str, Compass] = MappingProxyType({}),
-        sounds: Mapping[str, str] = MappingProxyType({}),
-        strokes: Mapping[str, int] = MappingProxyType({}),
+        self, table: VocabularyTable, file: str, words_known: Mapping[str, tuple[str, ...]] = MappingProxyType({})
     ) -> None:
-        self._sounds, self._strokes = sounds, strokes
-        self.ensembles, self.ranges = ensembles, ranges
-        self.seating, self.score_order = seating, score_order
+        super().__init__(table, file)
         self._meant = lru_cache(_MOST_MEANINGS)(self._by_name)
-        self.instruments = {instrument.id: instrument for instrument in instruments}
-        self._by_program: dict[int, Instrument] = {}
         self._by_tokens: dict[tuple[str, ...], Instrument] = {}
 
         @cache
         def words(name: str) -> tuple[str, ...]:
             return words_known.get(name) or words_of(name)
 
+        instruments = table.instruments
         for instrument in instruments:
-            for program in instrument.programs:
-                if self._by_program.setdefault(program, instrument) is not instrument:
-                    raise MapError(
-                        "vocabulary.invalid", file=file, detail=f"program {program} belongs to two instruments"
-                    )
             vague = msgspec.structs.replace(instrument, vague=True)
-            called = [(name, instrument) for name in instrument.names] + [
-                (name, vague) for name in instrument.vague_names
-            ]
-            for name, found in called:
+            called = [(name, instrument) for name in instrument.names]
+            for name, found in called + [(name, vague) for name in instrument.vague_names]:
                 tokens = words(name)
                 if not tokens or self._by_tokens.setdefault(tokens, found) is not found:
-                    raise MapError("vocabulary.invalid", file=file, detail=f"'{name}' belongs to two instruments")
+                    raise invalid(file, f"'{name}' belongs to two instruments")
         self._written_out = frozenset(
             words(name)
             for instrument in instruments
@@ -243,10 +104,13 @@ class Vocabulary:
         self._keyed = {words(name): each for each in instruments for name in each.keyed_names}
         self._longest = max(map(len, (*self._by_tokens, *self._keyed)), default=0)
         self._marks = {
-            words(word): mark for table in (sizes, keys, clefs) for mark, called in table.items() for word in called
+            words(word): mark
+            for marks in (table.sizes, table.keys, table.clefs)
+            for mark, called_by in marks.items()
+            for word in called_by
         }
-        self._keys, self._clefs = frozenset(keys), frozenset(clefs)
-        self._prefixes = frozenset(map(words, prefixes))
+        self._keys, self._clefs = frozenset(table.keys), frozenset(table.clefs)
+        self._prefixes = frozenset(map(words, table.prefixes))
         self._short_kana = frozenset(
             words(name)
             for instrument in instruments
@@ -256,66 +120,11 @@ class Vocabulary:
         )
         self._words = frozenset(word for name in (*self._by_tokens, *self._marks) for word in name)
         self._longest_mark = max(map(len, self._marks), default=0)
-        self._forms: dict[str, list[Instrument]] = {}
-        marks = {*sizes, *keys, *clefs}
-        for instrument in instruments:
-            own = {part for mark in instrument.marks for part in mark.split("+")}
-            if not self.instruments.keys() >= {*instrument.form_of} or not marks >= own:
-                detail = f"'{instrument.id}' is a form that the table does not have"
-                raise MapError("vocabulary.invalid", file=file, detail=detail)
-            for general in instrument.form_of:
-                self._forms.setdefault(general, []).append(instrument)
-        for ensemble in ensembles:
-            if not {*ensemble.parts} <= self.instruments.keys() & ranges.keys() or len(ensemble.parts) != len(
-                ensemble.pitches
-            ):
-                detail = f"an ensemble of {', '.join(ensemble.parts)} has a part without instrument, range or pitch"
-                raise MapError("vocabulary.invalid", file=file, detail=detail)
-        for id in sounds.values():
-            if id not in self.instruments:
-                detail = f"'{id}' is a form that the table does not have"
-                raise MapError("vocabulary.invalid", file=file, detail=detail)
-        families = {"", *(family for row in seating for family in row)}
-        if families != {"", *score_order}:
-            detail = "the seating and the score order have different families"
-            raise MapError("vocabulary.invalid", file=file, detail=detail)
-        for instrument in instruments:
-            for family in (instrument.family, *instrument.families):
-                if family not in families:
-                    raise MapError("vocabulary.invalid", file=file, detail=f"'{family}' has no place in the seating")
-            above = [instrument.id]
-            while (more := self.instruments.get(above[-1])) is not None and more.sort_of:
-                if more.sort_of in above or more.sort_of not in self.instruments:
-                    detail = f"'{instrument.id}' is a sort of '{more.sort_of}', which is no other instrument"
-                    raise MapError("vocabulary.invalid", file=file, detail=detail)
-                above.append(more.sort_of)
-
-    def by_program(self, program: int) -> Instrument | None:
-        """The instrument of a General MIDI program, 0..127."""
-        return self._by_program.get(program)
-
-    def by_sound(self, sound: str) -> Instrument | None:
-        """The instrument of an id in the standard list of sounds, or of the nearest that it is a sort of."""
-        id = _nearest(self._sounds, sound)
-        return None if id is None else self.instruments[id]
-
-    def stroke_by_sound(self, sound: str) -> int | None:
-        """The key of a drum kit that percussion of the standard list of sounds has."""
-        return _nearest(self._strokes, sound)
 
     def stroke(self, text: str) -> int | None:
         """The key of a drum kit that percussion of a name has."""
         found = self.by_name(text)
         return None if found is None else self._strokes.get(found.id)
-
-    def is_sort(self, id: str, general: str) -> bool:
-        """Return whether an instrument is a sort of another one, over any number of steps."""
-        known = self.instruments.get(id)
-        return (
-            known is not None
-            and bool(known.sort_of)
-            and (known.sort_of == general or self.is_sort(known.sort_of, general))
-        )
 
     def within(self, text: str, member: Instrument) -> Instrument | None:
         """The instrument of the same family that a text names by a size or key alone, as "Alto" and "Bari 1" do among
@@ -336,28 +145,6 @@ class Vocabulary:
             general = self.instruments[general.sort_of]
         form, reported_by = self._form(general, beside.keys())
         return form if reported_by else None
-
-    def relatives(self, instrument: Instrument) -> list[tuple[Instrument, ...]]:
-        """The other winds that a part for an instrument may be meant for, the likeliest first: its sizes and keys; of
-        those that the range may choose, the ones whose English names end in the same word, its section, any."""
-        general = instrument
-        while general.sort_of:
-            general = self.instruments[general.sort_of]
-        winds = [one for one in self.instruments.values() if one.kind == "wind" and not one.any_pitch]
-        usual = [one for one in winds if not one.by_name_only]
-        last = words_of(instrument.names[0])[-1]
-        sections = [one.families for one in self.instruments.values() if instrument.family in one.families]
-        return [
-            tuple(one for one in winds if self.is_kind(one, general) or one == general),
-            tuple(one for one in usual if words_of(one.names[0])[-1] == last),
-            tuple(one for one in usual if any(one.family in families for families in sections)),
-            tuple(usual),
-        ]
-
-    def family(self, ids: tuple[str, ...]) -> str:
-        """The section of the first of these instruments that has one; empty if none has."""
-        families = (self.instruments[id].family for id in ids if id in self.instruments)
-        return next((family for family in families if family), "")
 
     def all_by_name(self, text: str) -> tuple[Instrument, ...]:
         """Every instrument that a running text names, once, in its order. Abbreviations do not count."""
@@ -395,10 +182,6 @@ class Vocabulary:
         if found is None or first is None or first.vague or self.is_kind(found, first):
             return found
         return first
-
-    def is_kind(self, named: Instrument, general: Instrument) -> bool:
-        """Return whether one instrument is a form or a sort of another one."""
-        return general.id in named.form_of or self.is_sort(named.id, general.id)
 
     def _of_player(self, text: str) -> Instrument | None:
         split = _DOUBLING.split(text, _MOST_PARTS)
@@ -539,17 +322,10 @@ class Vocabulary:
         return found
 
 
-def _nearest(table: Mapping[str, T], sound: str) -> T | None:
-    """The value of an id of words with dots between, or else of as many of its first words as the table has."""
-    while sound and sound not in table:
-        sound = sound.rpartition(".")[0]
-    return table.get(sound)
-
-
 class _Kept(msgspec.Struct, frozen=True):
     """The table, and the words of everything named in it."""
 
-    table: _Table
+    table: VocabularyTable
     words: dict[str, tuple[str, ...]]
 
 
@@ -563,26 +339,11 @@ def vocabulary() -> Vocabulary:
         If the table is not valid.
     """
     found = kept("maps", "vocabulary", PATH.parent, _DECODER, _read)
-    table = found.table
-    return Vocabulary(
-        table.instruments,
-        PATH.name,
-        table.seating,
-        table.sizes,
-        table.keys,
-        table.clefs,
-        table.prefixes,
-        table.score_order,
-        found.words,
-        table.ensembles,
-        table.ranges,
-        table.sounds,
-        table.strokes,
-    )
+    return Vocabulary(found.table, PATH.name, found.words)
 
 
 def _read() -> _Kept:
-    table = shaped(read_toml(PATH, PATH.name), _Table, PATH.name)
+    table = shaped(read_toml(PATH, PATH.name), VocabularyTable, PATH.name)
     names = [name for one in table.instruments for name in (*one.names, *one.vague_names, *one.keyed_names)]
     marks = [word for marks in (table.sizes, table.keys, table.clefs) for words in marks.values() for word in words]
     return _Kept(table, {name: words_of(name) for name in (*names, *marks, *table.prefixes)})

@@ -19,7 +19,8 @@ from app.errors import Argument, Message, UsageError
 from app.score.marks import Mark, Source
 from app.score.model import ControllerCurve, Note
 from app.score.sound_module import KIT_PROGRAMS, Use
-from instrument_maps.vocabulary import Instrument, vocabulary
+from instrument_maps.instruments import Instrument
+from instrument_maps.vocabulary import vocabulary
 
 _KIT, _EFFECT, _VOICE = "drums", "effect", "voice"
 """Ids in the vocabulary."""

@@ -17,8 +17,9 @@ from typing import Final, NamedTuple
 import msgspec
 
 from app.score.choose import TrackChannel, recognised, says_nothing, use_of
+from instrument_maps.instruments import Ensemble, Instrument
 from instrument_maps.name_words import words_of
-from instrument_maps.vocabulary import Ensemble, Instrument, vocabulary
+from instrument_maps.vocabulary import vocabulary
 
 _LEAST_SHARE: Final = 0.98
 """Of a part's notes that its instrument's range holds."""

@@ -111,7 +111,8 @@ from app.score.switches import without_key_switches
 from app.score.take_tracks import without_faults
 from app.score.tempo import TempoMap
 from app.score.voices import TrackVoices, file_id, split_voices
-from instrument_maps.vocabulary import Instrument, vocabulary
+from instrument_maps.instruments import Instrument
+from instrument_maps.vocabulary import vocabulary
 
 PERCUSSION: Final = "percussion"
 """What is assigned to a part in place of an instrument where dancers are to hear its notes as percussion."""

@@ -8,7 +8,8 @@ from xml.etree.ElementTree import Element
 
 from app.score.limits import MOST_NAME
 from app.score.musicxml.written import Place
-from instrument_maps.vocabulary import Instrument, vocabulary
+from instrument_maps.instruments import Instrument
+from instrument_maps.vocabulary import vocabulary
 
 _NO_NAME = re.compile(r"(?:MusicXML Part|Part[_ ]?\d*|P\d+)", re.IGNORECASE)
 """What converters call a part or an instrument that no one has named."""

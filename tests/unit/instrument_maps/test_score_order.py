@@ -7,9 +7,10 @@ import pytest
 
 from app.cli import main
 from app.errors import MapError
+from instrument_maps.instruments import Instrument, VocabularyTable
 from instrument_maps.load import bundled_maps
 from instrument_maps.score_order import in_score_order
-from instrument_maps.vocabulary import Instrument, Vocabulary, vocabulary
+from instrument_maps.vocabulary import Vocabulary, vocabulary
 
 EXPECTED = (
     *("piccolo", "flute", "oboe", "english_horn"),
@@ -55,5 +56,7 @@ def test_names_begin_with_a_capital_and_go_on_without() -> None:
 
 def test_every_family_has_its_place_in_both_orders() -> None:
     assert sorted(vocabulary().score_order) == sorted(family for row in vocabulary().seating for family in row)
+    played = (Instrument("a", "wind", ("Blow",)),)
+    table = VocabularyTable(instruments=played, seating=(("flutes",),), score_order=("oboes",))
     with pytest.raises(MapError):
-        Vocabulary((Instrument("a", "wind", ("Blow",)),), "test.toml", (("flutes",),), score_order=("oboes",))
+        Vocabulary(table, "test.toml")

@@ -7,8 +7,9 @@ from pathlib import Path
 import pytest
 
 from app.errors import MapError
+from instrument_maps.instruments import Instrument, VocabularyTable
 from instrument_maps.library import all_maps
-from instrument_maps.vocabulary import PATH, Instrument, Vocabulary, vocabulary
+from instrument_maps.vocabulary import PATH, Vocabulary, vocabulary
 
 DATA = Path(__file__).parents[2] / "data"
 
@@ -69,8 +70,9 @@ def test_what_the_bundled_maps_play_is_in_the_vocabulary_and_blown() -> None:
 
 
 def test_a_name_that_belongs_to_two_is_refused() -> None:
+    both = Instrument("a", "wind", ("Blow",)), Instrument("b", "wind", ("blow!",))
     with pytest.raises(MapError, match="blow"):
-        Vocabulary((Instrument("a", "wind", ("Blow",)), Instrument("b", "wind", ("blow!",))), "test.toml")
+        Vocabulary(VocabularyTable(instruments=both), "test.toml")
 
 
 @pytest.mark.parametrize(

@@ -1,0 +1,267 @@
+"""Instruments of the vocabulary: what the table says of each, and how they are related.
+
+Messages: ``vocabulary.invalid``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Literal, NamedTuple, TypeVar
+
+import msgspec
+
+from app.errors import MapError
+from instrument_maps.name_words import words_of
+
+T = TypeVar("T")
+
+
+class Instrument(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """One instrument.
+
+    Attributes
+    ----------
+    kind : {"wind", "percussion", "other"}
+    names : tuple of str
+        The first is the English name for people; matching ignores case, diacritics, width and punctuation.
+    programs : tuple of int
+        General MIDI programs, 0..127.
+    family : str
+        Of a wind: the section it sits in, one of those in the table's ``seating``.
+    sort_of : str
+        Id of the more general instrument that this is a size or key of: a clarinet in A is a sort of clarinet. A part
+        for the one may be played by the other where nothing fits better.
+    by_name_only : bool
+        No one is given this instrument because of the range of the notes alone.
+    key_by_part : bool
+        Players choose its key by the part, as tuba players do: a sort of it that reaches all notes goes before a map of
+        its own that does not.
+    any_pitch : bool
+        A wind section without a range of its own ("brass"): the range of its notes decides who plays, among
+        ``families`` where they are named.
+    vague : bool
+        Its names may mean a part of any instrument ("Voice 1"): a program other than 0 says more.
+    vague_names : tuple of str
+        Names that mean a part of this instrument in some ensembles only ("Tenor 1"); found by one of them, it is vague.
+    keyed_names : tuple of str
+        Names that mean a part of this instrument only beside a key, its own or one of its forms ("Bass in C").
+    key : str
+        Its own key, one of the table.
+    form_of : tuple of str
+        Ids of the instruments whose names, beside one of the ``marks``, name this one ("Clarinet" and "bass").
+    marks : tuple of str
+        Sizes, keys or clefs of the table; of two joined by a plus ("contrabass+E♭") both are required.
+    """
+
+    id: str
+    kind: Literal["wind", "percussion", "other"]
+    names: tuple[str, ...]
+    programs: tuple[int, ...] = ()
+    family: str = ""
+    sort_of: str = ""
+    by_name_only: bool = False
+    families: tuple[str, ...] = ()
+    key_by_part: bool = False
+    any_pitch: bool = False
+    vague: bool = False
+    vague_names: tuple[str, ...] = ()
+    keyed_names: tuple[str, ...] = ()
+    key: str = ""
+    form_of: tuple[str, ...] = ()
+    marks: tuple[str, ...] = ()
+
+
+class Ensemble(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """Who plays together.
+
+    Attributes
+    ----------
+    parts : tuple of str
+        Ids of instruments in the order of the staves.
+    pitches : tuple of int
+        The usual median of each part's notes at concert pitch, MIDI numbers.
+    names : tuple of str
+        What titles call it.
+    unusual : float
+        Semitones by which each part must fit better than that of a usual ensemble.
+    """
+
+    parts: tuple[str, ...]
+    pitches: tuple[int, ...]
+    names: tuple[str, ...] = ()
+    unusual: float = 0.0
+
+
+class Compass(NamedTuple):
+    """Concert pitches, MIDI numbers, both ends included: all that occur in parts, and what most parts move within."""
+
+    low: int
+    easy_low: int
+    easy_high: int
+    high: int
+
+
+class VocabularyTable(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
+    """What the file holds.
+
+    Attributes
+    ----------
+    instruments : tuple of Instrument
+        Names and programs belong to one instrument each.
+    seating : tuple of tuple of str
+        Families of winds, by row from the audience's side, each row from the audience's left.
+    sizes, keys, clefs : dict of str to tuple of str
+        The marks that tell the forms of an instrument apart, and the words for each.
+    score_order : tuple of str
+        The same families, from the top of a score to its foot.
+    ensembles : tuple of Ensemble
+        Those that are known by their parts.
+    ranges : mapping of str to Compass
+        Concert pitches of the parts of ensembles, by instrument.
+    prefixes : tuple of str
+        Words that may be joined to a name and do not change its meaning ("Soloflöte", "ソロホルン").
+    sounds : mapping of str to str
+        Instruments of the standard list of sounds.
+    strokes : mapping of str to int
+        Keys of a drum kit, by such sounds and by ids of percussion.
+    """
+
+    instruments: tuple[Instrument, ...]
+    ranges: dict[str, Compass] = {}
+    ensembles: tuple[Ensemble, ...] = ()
+    seating: tuple[tuple[str, ...], ...] = ()
+    score_order: tuple[str, ...] = ()
+    sizes: dict[str, tuple[str, ...]] = {}
+    keys: dict[str, tuple[str, ...]] = {}
+    clefs: dict[str, tuple[str, ...]] = {}
+    prefixes: tuple[str, ...] = ()
+    sounds: dict[str, str] = {}
+    strokes: dict[str, int] = {}
+
+
+class InstrumentRelations:
+    """Instruments of a vocabulary, and which of them are sorts or forms of others; immutable once built.
+
+    Parameters
+    ----------
+    table : VocabularyTable
+    file : str
+        The table's name for messages.
+
+    Raises
+    ------
+    MapError
+        ``vocabulary.invalid``: a program belongs to two, or a family, a form or a mark is not in the table.
+    """
+
+    def __init__(self, table: VocabularyTable, file: str) -> None:
+        self.seating, self.score_order = table.seating, table.score_order
+        self.ensembles, self.ranges = table.ensembles, table.ranges
+        self.instruments = {instrument.id: instrument for instrument in table.instruments}
+        self._sounds, self._strokes = table.sounds, table.strokes
+        self._by_program: dict[int, Instrument] = {}
+        self._forms: dict[str, list[Instrument]] = {}
+        for instrument in table.instruments:
+            for program in instrument.programs:
+                if self._by_program.setdefault(program, instrument) is not instrument:
+                    raise invalid(file, f"program {program} belongs to two instruments")
+        for problem in (*self._of_forms(table), *self._of_ensembles(), *self._of_families(), *self._of_sorts()):
+            raise invalid(file, problem)
+        for instrument in table.instruments:
+            for general in instrument.form_of:
+                self._forms.setdefault(general, []).append(instrument)
+
+    def _of_forms(self, table: VocabularyTable) -> Iterator[str]:
+        """Yield what is wrong with forms and sounds."""
+        marks = {*table.sizes, *table.keys, *table.clefs}
+        for instrument in self.instruments.values():
+            own = {part for mark in instrument.marks for part in mark.split("+")}
+            if not self.instruments.keys() >= {*instrument.form_of} or not marks >= own:
+                yield f"'{instrument.id}' is a form that the table does not have"
+        for id in self._sounds.values():
+            if id not in self.instruments:
+                yield f"'{id}' is a form that the table does not have"
+
+    def _of_ensembles(self) -> Iterator[str]:
+        known = self.instruments.keys() & self.ranges.keys()
+        for one in self.ensembles:
+            if not {*one.parts} <= known or len(one.parts) != len(one.pitches):
+                yield f"an ensemble of {', '.join(one.parts)} has a part without instrument, range or pitch"
+
+    def _of_families(self) -> Iterator[str]:
+        families = {"", *(family for row in self.seating for family in row)}
+        if families != {"", *self.score_order}:
+            yield "the seating and the score order have different families"
+        for instrument in self.instruments.values():
+            for family in (instrument.family, *instrument.families):
+                if family not in families:
+                    yield f"'{family}' has no place in the seating"
+
+    def _of_sorts(self) -> Iterator[str]:
+        for instrument in self.instruments.values():
+            above = [instrument.id]
+            while (more := self.instruments.get(above[-1])) is not None and more.sort_of:
+                if more.sort_of in above or more.sort_of not in self.instruments:
+                    yield f"'{instrument.id}' is a sort of '{more.sort_of}', which is no other instrument"
+                    break
+                above.append(more.sort_of)
+
+    def by_program(self, program: int) -> Instrument | None:
+        """The instrument of a General MIDI program, 0..127."""
+        return self._by_program.get(program)
+
+    def by_sound(self, sound: str) -> Instrument | None:
+        """The instrument of an id in the standard list of sounds, or of the nearest that it is a sort of."""
+        id = _nearest(self._sounds, sound)
+        return None if id is None else self.instruments[id]
+
+    def stroke_by_sound(self, sound: str) -> int | None:
+        """The key of a drum kit that percussion of the standard list of sounds has."""
+        return _nearest(self._strokes, sound)
+
+    def is_sort(self, id: str, general: str) -> bool:
+        """Return whether an instrument is a sort of another one, over any number of steps."""
+        known = self.instruments.get(id)
+        return (
+            known is not None
+            and bool(known.sort_of)
+            and (known.sort_of == general or self.is_sort(known.sort_of, general))
+        )
+
+    def is_kind(self, named: Instrument, general: Instrument) -> bool:
+        """Return whether one instrument is a form or a sort of another one."""
+        return general.id in named.form_of or self.is_sort(named.id, general.id)
+
+    def relatives(self, instrument: Instrument) -> list[tuple[Instrument, ...]]:
+        """The other winds that a part for an instrument may be meant for, the likeliest first: its sizes and keys; of
+        those that the range may choose, the ones whose English names end in the same word, its section, any."""
+        general = instrument
+        while general.sort_of:
+            general = self.instruments[general.sort_of]
+        winds = [one for one in self.instruments.values() if one.kind == "wind" and not one.any_pitch]
+        usual = [one for one in winds if not one.by_name_only]
+        last = words_of(instrument.names[0])[-1]
+        sections = [one.families for one in self.instruments.values() if instrument.family in one.families]
+        return [
+            tuple(one for one in winds if self.is_kind(one, general) or one == general),
+            tuple(one for one in usual if words_of(one.names[0])[-1] == last),
+            tuple(one for one in usual if any(one.family in families for families in sections)),
+            tuple(usual),
+        ]
+
+    def family(self, ids: tuple[str, ...]) -> str:
+        """The section of the first of these instruments that has one; empty if none has."""
+        families = (self.instruments[id].family for id in ids if id in self.instruments)
+        return next((family for family in families if family), "")
+
+
+def invalid(file: str, detail: str) -> MapError:
+    """The error of a table."""
+    return MapError("vocabulary.invalid", file=file, detail=detail)
+
+
+def _nearest(table: Mapping[str, T], sound: str) -> T | None:
+    """The value of an id of words with dots between, or else of as many of its first words as the table has."""
+    while sound and sound not in table:
+        sound = sound.rpartition(".")[0]
+    return table.get(sound)
