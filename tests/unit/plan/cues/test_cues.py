@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-import itertools
-
 import pytest
 
+from app.plan.cues.cues import plan_cues
+from app.plan.cues.entries import Entry
 from app.plan.generate import MonophonicPart, make_plans, time_frame
 from app.plan.model import CueEvent
+from app.plan.music.piece import line_times
 from app.plan.parameters import PlayerParameters
 from app.score.metre_map import Metre
 from tests.support.plan import PlainClock, line_of, piece_of, slide, valves
@@ -99,14 +100,13 @@ def test_no_notes_no_cue() -> None:
 
 
 def test_no_one_nods_twice_at_once() -> None:
-    # The others come in half a beat after the leader, who gives both entries.
-    lines = (
-        led(HIGH, True),
-        MonophonicPart("low", line_of((0, 4 * Q, 60), (16 * Q + Q // 2, Q, 65), track=2), valves()),
-    )
-    found = cues(*lines)
-    assert [cue.player_id for cue in found] == ["high"] * len(found)
-    assert all(after.start_s >= before.end_s for before, after in itertools.pairwise(found))
+    # The second entry is half a beat after the first; the third, a beat and a half after it, is a nod of its own.
+    notes = line_of(*((round(beat * Q), Q // 4, 60) for beat in (4, 4.5, 6)))
+    line = MonophonicPart("p", notes, valves())
+    entries = tuple(Entry(note.onset_tick, "cue.start", None, ((0, place),)) for place, note in enumerate(notes))
+    frame = time_frame((line,), PlainClock())
+    found = plan_cues(entries, (line,), (line_times(line, PlainClock()),), piece_of(PlainClock()), frame)
+    assert [cue.end_tick / Q for cue in found.events] == [4, 6]
 
 
 def test_who_plays_a_part_of_the_melody_only_does_not_have_it() -> None:
