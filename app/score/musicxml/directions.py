@@ -116,7 +116,8 @@ def read_sound(sound: Element, at: Time, bar: Bar, place: Place) -> Iterator[Dir
         if child.tag == "play" and (mute := (child.findtext("mute") or "").strip()):
             yield Direction(at, "mute", _MUTES.get(mute, "mute"))
         elif child.tag == "instrument-change":
-            yield Direction(at, "instrument", (child.findtext("instrument-sound") or "").strip().lower())
+            sounding = (child.findtext("instrument-sound") or "").strip().lower()
+            yield Direction(at, "instrument", sounding, child.get("id", ""))
     if sound.get("dacapo") == "yes":
         bar.da_capo = True
     if sound.get("fine") is not None and sound.get("fine") != "no":

@@ -131,7 +131,7 @@ def _kinds(part: WrittenPart, played: PlayedPart, transposition: int | None) -> 
         if one.kind == "words":
             asked = requested_instrument(one.text)
         elif one.kind == "instrument":
-            asked = vocabulary().by_sound(one.text)
+            asked = vocabulary().by_sound(one.text or instruments.get(one.number, PartInstrument()).sound)
         if asked is not None and asked.kind == "wind":
             changes.append((tick, base if asked.id in mine else asked.id))
     kinds: dict[int, str] = {}
@@ -140,8 +140,9 @@ def _kinds(part: WrittenPart, played: PlayedPart, transposition: int | None) -> 
         while place < len(changes) and changes[place][0] <= note.onset:
             current = changes[place][1]
             place += 1
-        own = ids.get(note.tone.instrument, base)
-        kinds[id_of(note)] = _STRUCK if note.tone.struck else own if own != base else current
+        # Where notes name their instruments, words add nothing.
+        said = len(instruments) > 1 and note.tone.instrument in instruments
+        kinds[id_of(note)] = _STRUCK if note.tone.struck else ids[note.tone.instrument] if said else current
     return kinds
 
 

@@ -254,6 +254,27 @@ def test_a_change_to_the_piccolo_is_a_stream_of_its_own(tmp_path: Path) -> None:
     ]
 
 
+def test_notes_that_name_their_instrument_need_no_words(tmp_path: Path) -> None:
+    """The program that wrote it says "to Picc." early, and not that the flute comes back."""
+    inside = "".join(
+        f'<score-instrument id="I{n}"><instrument-name>{name}</instrument-name>'
+        f"<instrument-sound>wind.flutes.flute{more}</instrument-sound></score-instrument>"
+        for n, name, more in ((1, "Flute", ""), (2, "Piccolo", ".piccolo"))
+    )
+    first, second = '<instrument id="I1"/>', '<instrument id="I2"/>'
+    bars = (
+        words("to Picc.") + note("C5", 16, first),
+        "<attributes><transpose><chromatic>0</chromatic><octave-change>1</octave-change></transpose></attributes>"
+        + note("C5", 16, second),
+        "<attributes><transpose><chromatic>0</chromatic></transpose></attributes>" + note("C5", 16, first),
+    )
+    contents = read(tmp_path, document(*bars, name="Flute", inside=inside))
+    assert [(stream.played_on, stream.numbers, stream.pitches) for stream in contents.streams] == [
+        ("flute", [1, 3], [72, 72]),
+        ("piccolo", [2], [84]),
+    ]
+
+
 def test_percussion_without_pitches(tmp_path: Path) -> None:
     inside = "".join(
         f'<score-instrument id="I{n}"><instrument-name>{name}</instrument-name>{sound}</score-instrument>'
