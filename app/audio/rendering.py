@@ -12,7 +12,7 @@ import numpy as np
 import soundfile
 
 from app.audio.track import RATE_HZ, Samples
-from app.score.sound_module import DRUM_CHANNEL
+from app.score.channel_sound import DRUM_CHANNEL
 
 FOLDER: Final = Path(__file__).parents[2] / "resources" / "soundfont"
 _FIRST_STATUS: Final = 23

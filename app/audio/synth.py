@@ -22,8 +22,8 @@ from app.audio.rendering import rendered, soundfont
 from app.audio.track import RATE_HZ, AudioSegment, Samples
 from app.performance.loudness import sounding_curve
 from app.score.bend_range import USUAL_SEMITONES, range_controls, range_for, wheel
+from app.score.channel_sound import DRUM_CHANNEL
 from app.score.model import SAME_SOUND, CurveKind, Note, Part, PercussionHit
-from app.score.sound_module import DRUM_CHANNEL
 from app.score.tempo import TempoMap
 from instrument_maps.model import InstrumentMap
 from instrument_maps.vocabulary import vocabulary

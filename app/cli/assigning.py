@@ -14,8 +14,10 @@ from app.encoding import shown
 from app.errors import Message
 from app.project.importing import ImportRow
 from app.project.names import unique_names
-from app.score.choose import How, MapCandidates, MapChoice, TrackChannel, candidates, use_of
+from app.score.choose import How, MapCandidates, MapChoice, candidates
 from app.score.parts import stream_name
+from app.score.track_channel import TrackChannel
+from app.score.track_instrument import use_of
 
 _SPECIAL: Final = re.compile(r'["$`\\!]')
 """Characters that mean something between double quotes."""

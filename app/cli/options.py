@@ -27,10 +27,11 @@ from app.project.names import unique_names
 from app.project.parameters import parameter_names, parse_settings, select_players
 from app.project.storage import is_project_file, load
 from app.rig.characters.character_library import characters
-from app.score.choose import TrackChannel, require_map
+from app.score.assignments import PERCUSSION
+from app.score.choose import require_map
 from app.score.contents import PieceContents
-from app.score.parts import PERCUSSION
 from app.score.read import read_contents
+from app.score.track_channel import TrackChannel
 from instrument_maps.library import library
 from instrument_maps.model import InstrumentMap
 from metadata.library import metadata_library

@@ -15,10 +15,12 @@ from app.project.likeness import shares, sketch, turns
 from app.project.model import Project
 from app.project.part_matching import turns_of
 from app.project.rereading import recognised_streams
-from app.score.choose import MapChoice, TrackChannel
+from app.score.assignments import PartAssignment, Split
+from app.score.choose import MapChoice
 from app.score.contents import PieceContents, assigned_score
 from app.score.model import Note, Part
-from app.score.parts import PartAssignment, Split, stream_name
+from app.score.parts import stream_name
+from app.score.track_channel import TrackChannel
 
 _FILE_NOTE = re.compile(r"([1-9]\d*):[1-9]\d*", re.ASCII)
 _SPLITS: tuple[Split, ...] = ("sustained", "never", "every")

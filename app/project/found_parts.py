@@ -21,8 +21,7 @@ from app.project.model import Project
 from app.project.moved_ticks import place_map
 from app.project.part_matching import matched_parts
 from app.score.marks import renamed_marks
-from app.score.model import Note, Part, Score
-from app.score.parts import transposed
+from app.score.model import Note, Part, Score, transposed
 
 
 @dataclass(frozen=True)

@@ -10,11 +10,11 @@ from typing import Final, TypeAlias
 import msgspec
 
 from app.project.likeness import sketch, turns
-from app.score.choose import TrackChannel
+from app.score.assignments import Split
 from app.score.limits import MOST_STREAMS
 from app.score.metre_map import Metre
-from app.score.parts import Split
 from app.score.tempo import TempoMap
+from app.score.track_channel import TrackChannel
 
 Place: TypeAlias = tuple[int, int, int]
 """Track, channel, and which of its player's instruments."""

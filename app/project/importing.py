@@ -11,9 +11,9 @@ from app.errors import Message
 from app.project.doubling import doubled_parts
 from app.project.import_decisions import ImportDecisions, RowDecision, TrackMark, mark_of
 from app.project.model import Project, map_choices, project_from_score
+from app.score.assignments import PERCUSSION, PartAssignment, suggestions
 from app.score.contents import PieceContents, assigned_score
 from app.score.model import Score, UnplayedPart
-from app.score.parts import PERCUSSION, PartAssignment, suggestions
 from app.score.take_tracks import take_reason
 from instrument_maps.model import InstrumentMap
 

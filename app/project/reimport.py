@@ -50,7 +50,8 @@ from app.project.recording import with_places
 from app.project.rereading import MidiReading, characters_of, read_as_decided
 from app.score.marks import moved_marks
 from app.score.model import Part, Score, UnplayedPart
-from app.score.read import Assumed, read_contents
+from app.score.read import read_contents
+from app.score.stated_timing import Assumed
 from instrument_maps.model import InstrumentMap
 
 ReplacedKind: TypeAlias = Literal["tempo", "metres", "controllers"]

@@ -25,9 +25,10 @@ from app.project.import_decisions import (
 )
 from app.project.importing import ImportRow, decision_of, usual_rows
 from app.project.likeness import ALIKE, sketched_shares
-from app.score.choose import How, MapCandidates, MapChoice, TrackChannel, candidates, refusal
+from app.score.assignments import PERCUSSION, PartAssignment
+from app.score.choose import How, MapCandidates, MapChoice, candidates, refusal
 from app.score.contents import PieceContents
-from app.score.parts import PERCUSSION, PartAssignment
+from app.score.track_channel import TrackChannel
 from instrument_maps.model import InstrumentMap
 from instrument_maps.vocabulary import vocabulary
 

@@ -7,11 +7,14 @@ from collections.abc import Callable, Sequence
 import msgspec
 
 from app.errors import Message
-from app.score.choose import MapChoice, TrackChannel, use_of
+from app.score.assignments import PartAssignment
+from app.score.choose import MapChoice
 from app.score.metre_map import Metre
 from app.score.model import MOST_VOICES, Marker, Part, PercussionHit, Score, UnplayedPart
-from app.score.parts import PartAssignment, assigned_parts, rhythm_parts, stream_name
+from app.score.parts import assigned_parts, rhythm_parts, stream_name
 from app.score.tempo import TempoMap
+from app.score.track_channel import TrackChannel
+from app.score.track_instrument import use_of
 
 
 class PieceContents(msgspec.Struct, frozen=True):

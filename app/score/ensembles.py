@@ -16,7 +16,8 @@ from typing import Final, NamedTuple
 
 import msgspec
 
-from app.score.choose import TrackChannel, recognised, says_nothing, use_of
+from app.score.track_channel import TrackChannel
+from app.score.track_instrument import recognised, says_nothing, use_of
 from instrument_maps.instruments import Ensemble, Instrument
 from instrument_maps.name_words import words_of
 from instrument_maps.vocabulary import vocabulary

@@ -265,3 +265,10 @@ class Score(msgspec.Struct, frozen=True, dict=True):
         The first is the pickup (bar 0) if there is one, else bar 1.
         """
         return self.metre_map.bars(0, max(self.end_tick, 1))
+
+
+def transposed(notes: tuple[Note, ...], semitones: int) -> tuple[Note, ...]:
+    """The notes so much higher; those that MIDI has no number for as far as it goes."""
+    if not semitones:
+        return notes
+    return tuple(msgspec.structs.replace(note, pitch=min(max(note.pitch + semitones, 0), 127)) for note in notes)

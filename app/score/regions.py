@@ -14,9 +14,10 @@ from typing import Final
 
 import msgspec
 
-from app.score.choose import TrackChannel, is_named, use_of
 from app.score.limits import LAST_TICK
 from app.score.model import ControllerCurve, CurveKind
+from app.score.track_channel import TrackChannel
+from app.score.track_instrument import is_named, use_of
 
 _COPY: Final = re.compile(r"(?:[ _-]*(?:copy|kopie|copie|copia|コピー)(?:[ _]*\d+)?|[ _]*#\d+|\.\d+)+$", re.IGNORECASE)
 """What sequencers add to the name of another region."""

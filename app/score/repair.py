@@ -18,9 +18,17 @@ midi.bytes_not_understood : track, byte, count
 
 from __future__ import annotations
 
+import io
 import re
 
+import mido
 import msgspec
+
+from app.errors import FileError, Message
+from app.score.chunks import TrackChunk
+
+# What mido raises on bytes it does not understand, found by reading it and by fuzzing.
+_MIDO_ERRORS = (OSError, EOFError, ValueError, LookupError, TypeError, AttributeError, mido.KeySignatureError)
 
 # Bytes of data after each status; 0xF1..0xFE have no place in a file, but sequencers have written them.
 _CHANNEL_DATA = {0x8: 2, 0x9: 2, 0xA: 2, 0xB: 2, 0xC: 1, 0xD: 1, 0xE: 2}
@@ -60,6 +68,45 @@ class _TruncatedError(Exception):
     """The track ends within an event."""
 
 
+def track_messages(track: TrackChunk, index: int, file: str) -> tuple[mido.MidiTrack, list[Message]]:
+    """The messages of one track, repaired as far as needed."""
+    until = last_suspicious(track.data)
+    repair = repaired(track.data, until) if until else None
+    try:
+        messages = _parsed(repair.data if repair else track.data)
+    except _MIDO_ERRORS:
+        repair = repaired(track.data)
+        try:
+            messages = _parsed(repair.data)
+        except _MIDO_ERRORS as error:
+            raise FileError(
+                "midi.track_unreadable",
+                file=file,
+                track=index + 1,
+                byte=track.first_byte,
+                detail=str(error) or type(error).__name__,
+            ) from error
+    return messages, _repair_warnings(repair, track, index) if repair else []
+
+
+def _parsed(data: bytes) -> mido.MidiTrack:
+    header = b"MThd" + bytes([0, 0, 0, 6, 0, 0, 0, 1, 1, 0xE0]) + b"MTrk" + len(data).to_bytes(4, "big")
+    return mido.MidiFile(file=io.BytesIO(header + data), clip=True, charset="latin-1").tracks[0]
+
+
+def _repair_warnings(repair: Repaired, track: TrackChunk, index: int) -> list[Message]:
+    warnings = []
+    if repair.skipped:
+        byte = track.first_byte + repair.first_skipped
+        warnings.append(
+            Message("midi.bytes_not_understood", {"track": index + 1, "byte": byte, "count": repair.skipped})
+        )
+    if repair.truncated_at is not None:
+        byte = track.first_byte + repair.truncated_at
+        warnings.append(Message("midi.track_truncated", {"track": index + 1, "byte": byte}))
+    return warnings
+
+
 def last_suspicious(data: bytes) -> int:
     """Offset after the last byte that may be a system message's status, or part of a quantity that is too long; 0 if
     there is none.
@@ -83,80 +130,110 @@ def repaired(data: bytes, until: int | None = None) -> Repaired:
     until : int, optional
         From the first event at or after this offset on, the bytes are taken as they are.
     """
-    out = bytearray()
-    exclusive = bytearray()
-    at, delta, status = 0, 0, 0
-    skipped, first_skipped = 0, len(data)
-    truncated_at = None
-    ended: tuple[int, int, int] | None = None
-    closed = -1
-    end = len(data)
-    while at < end:
-        event_at = at
+    copy, at = _TrackCopy(data), 0
+    while at < len(data):
         try:
-            wait, at = _variable_length(data, at)
-            delta += wait
-            byte = _byte(data, at)
-            if until is not None and event_at >= until:
-                running = bytes([status]) if byte < 0x80 and status else b""
-                out += encoded_length(delta) + running + data[at:]
-                return Repaired(bytes(out), None, skipped, first_skipped)
-            if byte == 0xFF:
-                kind = _byte(data, at + 1)
-                length, begin = _variable_length(data, at + 2)
-                if begin + length > end and kind != _END_OF_TRACK:
-                    raise _TruncatedError
-                at = begin + length
-                if kind == _END_OF_TRACK:
-                    ended = ended or (len(out), delta, skipped)
-                if kind == _END_OF_TRACK or kind in _TEXTS or _LENGTHS.get(kind) == length:
-                    out += encoded_length(delta) + bytes([0xFF, kind]) + encoded_length(length) + data[begin:at]
-                    delta = 0
-                    closed = len(out) if kind == _END_OF_TRACK else closed
-            elif byte in (0xF0, 0xF7):
-                length, begin = _variable_length(data, at + 1)
-                if begin + length > end:
-                    raise _TruncatedError
-                at = begin + length
-                if byte == 0xF0 or data[begin : begin + 1] == b"\xf0":
-                    exclusive.clear()
-                if len(exclusive) <= _LONGEST_EXCLUSIVE:
-                    exclusive += data[begin : min(at, begin + _LONGEST_EXCLUSIVE)]
-                # An unfinished message goes on in an F7 event that follows; many have no F7 at all.
-                if data[at - 1] == 0xF7 or not _goes_on(data, at):
-                    whole = bytes(value for value in exclusive if value < 0x80)
-                    exclusive.clear()
-                    if whole and len(whole) <= _LONGEST_EXCLUSIVE:
-                        out += encoded_length(delta) + b"\xf0" + encoded_length(len(whole) + 1) + whole + b"\xf7"
-                        delta = 0
-            elif byte > 0xF0:
-                at = _after_system_message(data, at)
-                skipped, first_skipped = skipped + at - event_at, min(first_skipped, event_at)
-            else:
-                if byte >= 0x80:
-                    status, at = byte, at + 1
-                size = _CHANNEL_DATA.get(status >> 4, 0)
-                if size == 0:  # running status without a status before it
-                    skipped, first_skipped = skipped + 1, min(first_skipped, at)
-                    at += 1
-                    continue
-                message = data[at : at + size]
-                if len(message) < size:
-                    raise _TruncatedError
-                out += encoded_length(delta) + bytes([status, *(min(value, 0x7F) for value in message)])
-                delta, at = 0, at + size
+            wait, place = _variable_length(data, at)
+            copy.delta += wait
+            if until is not None and at >= until:
+                return copy.with_rest(place)
+            at = copy.after_event(at, place)
         except _TruncatedError:
-            truncated_at = event_at
-            break
-    properly = data.endswith(bytes([0xFF, _END_OF_TRACK, 0]))
-    if ended is not None and (truncated_at is not None or (skipped > ended[2] and not properly)):
-        # What follows the end is no music.
-        del out[ended[0] :]
-        delta, skipped, truncated_at = ended[1], ended[2], None
-        first_skipped = first_skipped if skipped else len(data)
-    if closed != len(out):
-        out += encoded_length(min(delta, 0x0FFFFFFF)) + bytes([0xFF, _END_OF_TRACK, 0])
-    return Repaired(bytes(out), truncated_at, skipped, first_skipped)
+            return copy.closed(truncated_at=at)
+    return copy.closed(truncated_at=None)
+
+
+class _TrackCopy:
+    """A track that is being copied: ``delta`` are the ticks since the last event that was."""
+
+    def __init__(self, data: bytes) -> None:
+        self.delta = 0
+        self._data, self._out, self._exclusive = data, bytearray(), bytearray()
+        self._status = 0
+        self._skipped, self._first_skipped = 0, len(data)
+        self._ended: tuple[int, int, int] | None = None
+        self._closed_at = -1
+
+    def with_rest(self, at: int) -> Repaired:
+        """The track with all bytes from an event on."""
+        running = bytes([self._status]) if _byte(self._data, at) < 0x80 and self._status else b""
+        out = bytes(self._out) + encoded_length(self.delta) + running + self._data[at:]
+        return Repaired(out, None, self._skipped, self._first_skipped)
+
+    def after_event(self, event_at: int, at: int) -> int:
+        """Copy the event whose status is at an offset; where the next one begins."""
+        byte = _byte(self._data, at)
+        if byte == 0xFF:
+            return self._after_meta(at)
+        if byte in (0xF0, 0xF7):
+            return self._after_exclusive(byte, at)
+        if byte > 0xF0:
+            after = _after_system_message(self._data, at)
+            self._skip(event_at, after - event_at)
+            return after
+        if byte >= 0x80:
+            self._status, at = byte, at + 1
+        size = _CHANNEL_DATA.get(self._status >> 4, 0)
+        if size == 0:  # running status without a status before it
+            self._skip(at, 1)
+            return at + 1
+        message = self._data[at : at + size]
+        if len(message) < size:
+            raise _TruncatedError
+        self._write(bytes([self._status, *(min(value, 0x7F) for value in message)]))
+        return at + size
+
+    def _skip(self, at: int, count: int) -> None:
+        self._skipped, self._first_skipped = self._skipped + count, min(self._first_skipped, at)
+
+    def _write(self, event: bytes) -> None:
+        self._out += encoded_length(self.delta) + event
+        self.delta = 0
+
+    def _after_meta(self, at: int) -> int:
+        kind = _byte(self._data, at + 1)
+        is_end = kind == _END_OF_TRACK
+        length, begin = _variable_length(self._data, at + 2)
+        end = begin + length
+        if end > len(self._data) and not is_end:
+            raise _TruncatedError
+        if is_end:
+            self._ended = self._ended or (len(self._out), self.delta, self._skipped)
+        if is_end or kind in _TEXTS or _LENGTHS.get(kind) == length:
+            self._write(bytes([0xFF, kind]) + encoded_length(length) + self._data[begin:end])
+            self._closed_at = len(self._out) if is_end else self._closed_at
+        return end
+
+    def _after_exclusive(self, byte: int, at: int) -> int:
+        length, begin = _variable_length(self._data, at + 1)
+        end = begin + length
+        if end > len(self._data):
+            raise _TruncatedError
+        if byte == 0xF0 or self._data[begin : begin + 1] == b"\xf0":
+            self._exclusive.clear()
+        if len(self._exclusive) <= _LONGEST_EXCLUSIVE:
+            self._exclusive += self._data[begin : min(end, begin + _LONGEST_EXCLUSIVE)]
+        # An unfinished message goes on in an F7 event that follows; many have no F7 at all.
+        if self._data[end - 1] == 0xF7 or not _goes_on(self._data, end):
+            whole = bytes(value for value in self._exclusive if value < 0x80)
+            self._exclusive.clear()
+            if whole and len(whole) <= _LONGEST_EXCLUSIVE:
+                self._write(b"\xf0" + encoded_length(len(whole) + 1) + whole + b"\xf7")
+        return end
+
+    def closed(self, truncated_at: int | None) -> Repaired:
+        """The track with an end, and without what follows the end it had where that is no music."""
+        properly = self._data.endswith(bytes([0xFF, _END_OF_TRACK, 0]))
+        broken = truncated_at is not None
+        if self._ended is not None and (broken or (self._skipped > self._ended[2] and not properly)):
+            end, self.delta, self._skipped = self._ended
+            del self._out[end:]
+            truncated_at = None
+            self._first_skipped = self._first_skipped if self._skipped else len(self._data)
+        if self._closed_at != len(self._out):
+            self.delta = min(self.delta, 0x0FFFFFFF)
+            self._write(bytes([0xFF, _END_OF_TRACK, 0]))
+        return Repaired(bytes(self._out), truncated_at, self._skipped, self._first_skipped)
 
 
 def _goes_on(data: bytes, at: int) -> bool:

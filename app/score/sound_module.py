@@ -36,26 +36,19 @@ from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from heapq import merge
 from typing import Final, Literal, NamedTuple, TypeAlias, TypeVar
 
-import msgspec
-
 from app.score.bend_range import USUAL_SEMITONES, ModuleRange
+from app.score.channel_sound import (
+    DRUM_CHANNEL,
+    ChannelSound,
+    SoundChange,
+    System,
+    timeline,
+)
 
-Use: TypeAlias = Literal["melodic", "rhythm", "effect"]
-System: TypeAlias = Literal["", "gm", "gs", "xg", "gm2"]
 Port: TypeAlias = tuple[int, bytes]
 """Number of a port (meta event 33) and name of a device (meta event 9)."""
 
-DRUM_CHANNEL: Final = 9
-"""Channel 10, which has the percussion of General MIDI."""
 FIRST_PORT: Final[Port] = (0, b"")
-EFFECT_PROGRAMS: Final = range(120, 128)
-"""General MIDI's sound effects, from the fret noise of a guitar to a gun shot."""
-KIT_PROGRAMS: Final = frozenset((0, 1, 2, 3, 4, 8, 16, 24, 25, 26, 27, 28, 29, 30, 31, 32, 40, 48, 49, 50))
-"""Numbers of drum kits in GS, XG and GM2, those of effects aside."""
-_EFFECT_KITS: Final = (56, 57)
-_DRUM_BANKS: Final = frozenset((120, 126, 127))
-_PERCUSSION_BANK, _MELODY_BANK, _EFFECT_KIT_BANK, _KIT_BANK, _EFFECT_BANK = 120, 121, 126, 127, 64
-_ORCHESTRA, _BRUSH = 48, 40
 LATE_QUARTERS: Final = 4
 """What says for the first time what a channel is may come so much later than its first note: programs write it into the
 first bar, some ticks apart."""
@@ -102,54 +95,6 @@ class Setups(NamedTuple):
     port: Port | None
 
 
-class ChannelSound(msgspec.Struct, frozen=True, gc=False):
-    """A channel from some tick on.
-
-    Attributes
-    ----------
-    certain : bool
-        A message says so that means nothing else; otherwise a track's name says more.
-    program : int or None
-        None: no message gives one.
-    kit : {"", "gs", "xg"}
-        Of a rhythm part: whose numbers its sounds have. General MIDI's are common to all.
-    """
-
-    use: Use
-    certain: bool
-    program: int | None
-    kit: Literal["", "gs", "xg"] = ""
-
-    def struck(self, pitch: int) -> int:
-        """The number that General MIDI 2 has for the sound of a rhythm part's note; itself where that is the same, or
-        where it has none."""
-        if self.kit == "xg":
-            return _XG_SOUNDS.get(pitch, pitch)
-        if self.program == _ORCHESTRA:
-            return _ORCHESTRA_SOUNDS.get(pitch, pitch)
-        if self.kit == "gs":
-            found = _GS_SOUNDS.get(pitch, pitch)
-            return 38 if self.program == _BRUSH and pitch == 39 else found
-        return pitch
-
-
-# Below 35 the standard kit of XG has sounds of its own. Yamaha XG data lists, "drum map": 13 and 14 surdo, 15 high Q,
-# 16 whip slap, 17 and 18 scratch, 19 finger snap, 20 click noise, 21 and 22 metronome, 23 and 24 sequencer click, 25 to
-# 28 brush on the snare drum, 29 snare roll, 30 castanet, 31 soft snare, 32 sticks, 33 soft bass drum, 34 rim shot.
-_XG_SOUNDS: Final[Mapping[int, int]] = {
-    13: 86, 14: 87, 15: 27, 16: 28, 17: 29, 18: 30, 19: 39, 20: 32, 21: 33, 22: 34, 23: 32, 24: 32, 25: 38, 26: 38,
-    27: 38, 28: 38, 29: 38, 30: 85, 31: 38, 32: 31, 33: 35, 34: 38,
-}  # fmt: skip
-# Roland SC-88Pro owner's manual, "drum set table": 23 and 24 beeps, 25 snare roll, 26 finger snap.
-_GS_SOUNDS: Final[Mapping[int, int]] = {22: 33, 23: 34, 24: 38, 25: 38, 26: 39}
-# The orchestra sets of GS and GM2: 27 to 30 hi-hats and ride cymbal, 39 castanets, 41 to 53 timpani, which are tuned
-# toms to a dancer.
-_ORCHESTRA_SOUNDS: Final[Mapping[int, int]] = {
-    25: 38, 26: 39, 27: 42, 28: 44, 29: 46, 30: 51, 39: 85,
-    **dict.fromkeys(range(41, 47), 41), **dict.fromkeys(range(47, 54), 43),
-}  # fmt: skip
-
-
 def channel_sounds(tracks: Sequence[Setups], quarter: int) -> list[dict[int, list[tuple[int, ChannelSound]]]]:
     """Return what each channel with notes of each track sounds like, and from which tick on.
 
@@ -173,7 +118,7 @@ def channel_sounds(tracks: Sequence[Setups], quarter: int) -> list[dict[int, lis
     found = []
     for place, track in enumerate(tracks):
         port = track.port or FIRST_PORT
-        mine: dict[int, list[_Step]] = {}
+        mine: dict[int, list[SoundChange]] = {}
         for setup in track.setups:
             if setup.channel in track.first_onsets:
                 mine.setdefault(setup.channel, []).append(_step(place, setup))
@@ -183,33 +128,22 @@ def channel_sounds(tracks: Sequence[Setups], quarter: int) -> list[dict[int, lis
             said = given.get((port, channel), nothing)
             settings = [given.get((one, channel), nothing).settings for one in _listening(port)]
             steps = merge(modes[port][channel], *settings, own if own else said.others)
-            timelines[channel] = _timeline(steps, channel, onset, LATE_QUARTERS * quarter)
+            timelines[channel] = timeline(steps, channel, onset, LATE_QUARTERS * quarter)
         found.append(timelines)
     return found
 
 
-class _Step(NamedTuple):
-    """A change of one channel, in the order in which they take effect."""
-
-    tick: int
-    rank: int
-    track: int
-    number: int
-    kind: Literal["reset", "mode", "bank", "program"]
-    value: int | str | bool | None
-
-
-def _step(track: int, setup: Setup) -> _Step:
+def _step(track: int, setup: Setup) -> SoundChange:
     assert setup.kind != "exclusive"
     assert isinstance(setup.value, int)
-    return _Step(setup.tick, 2, track, setup.number, setup.kind, setup.value)
+    return SoundChange(setup.tick, 2, track, setup.number, setup.kind, setup.value)
 
 
 class _Given(NamedTuple):
     """Banks and programs of a channel that tracks give to others: tracks without notes on it, and those with some."""
 
-    settings: list[_Step]
-    others: list[_Step]
+    settings: list[SoundChange]
+    others: list[SoundChange]
 
 
 def _given(tracks: Sequence[Setups]) -> dict[tuple[Port | None, int], _Given]:
@@ -317,7 +251,7 @@ class _Row(NamedTuple):
     meaning: _Reset | _PartValue
 
 
-def _modes(tracks: Sequence[Setups], ports: Iterable[Port]) -> dict[Port, list[list[_Step]]]:
+def _modes(tracks: Sequence[Setups], ports: Iterable[Port]) -> dict[Port, list[list[SoundChange]]]:
     """Resets and modes by port and channel."""
     return _by_port(tracks, ports, ("receive", "mode"), _port_modes)
 
@@ -386,10 +320,10 @@ def _order(row: _Row) -> tuple[int, int, int, int]:
     return row[:4]
 
 
-def _port_modes(rows: Sequence[_Row]) -> list[list[_Step]]:
+def _port_modes(rows: Sequence[_Row]) -> list[list[SoundChange]]:
     """The same of one port, by channel: a reset is every channel's, a mode that of the channel on which its part
     receives."""
-    steps: list[list[_Step]] = [[] for _ in range(16)]
+    steps: list[list[SoundChange]] = [[] for _ in range(16)]
     modes: dict[int, bool] = {}
     receive = list(range(16))
     both = {"gs", "xg"} <= {row.meaning.system for row in rows if isinstance(row.meaning, _Reset)}
@@ -398,7 +332,7 @@ def _port_modes(rows: Sequence[_Row]) -> list[list[_Step]]:
             modes, receive = {}, list(range(16))
             system = "" if both and meaning.system in ("gs", "xg") else meaning.system
             for own in steps:
-                own.append(_Step(tick, rank, track, number, "reset", system))
+                own.append(SoundChange(tick, rank, track, number, "reset", system))
             continue
         before = receive[meaning.part]
         if meaning.parameter == "mode":
@@ -406,7 +340,9 @@ def _port_modes(rows: Sequence[_Row]) -> list[list[_Step]]:
         elif meaning.value < 32:
             receive[meaning.part] = meaning.value if meaning.value < 16 else -1
         for channel in {before, receive[meaning.part]} - {-1}:
-            steps[channel].append(_Step(tick, rank, track, number, "mode", _channel_mode(channel, modes, receive)))
+            steps[channel].append(
+                SoundChange(tick, rank, track, number, "mode", _channel_mode(channel, modes, receive))
+            )
     return steps
 
 
@@ -417,96 +353,3 @@ def _channel_mode(channel: int, modes: Mapping[int, bool], receive: Sequence[int
     if moved:
         return all(modes.get(part, part == DRUM_CHANNEL) for part in moved)
     return modes.get(channel) if receive[channel] == channel else None
-
-
-class _State:
-    """A channel while messages come in."""
-
-    def __init__(self, channel: int) -> None:
-        self.channel = channel
-        self.system: System = ""
-        self.mode: bool | None = None
-        self.bank: int | None = None
-        self.coming: int | None = None
-        """The bank that the next program change takes."""
-        self.program: int | None = None
-
-    @property
-    def is_said(self) -> bool:
-        """Return whether any message was about the channel itself."""
-        return self.program is not None or self.mode is not None or self.bank is not None
-
-    def take(self, step: _Step) -> None:
-        if step.kind == "reset":
-            self.system = step.value  # type: ignore[assignment]
-            self.mode = self.bank = self.coming = None
-        elif step.kind == "mode":
-            self.mode = step.value  # type: ignore[assignment]
-        elif step.kind == "bank":
-            self.coming = step.value  # type: ignore[assignment]
-        else:
-            self.program = step.value  # type: ignore[assignment]
-            self.settle()
-
-    def settle(self) -> None:
-        """Let the bank take effect; one that says what the part is goes before a mode that was set earlier."""
-        if self.coming is not None:
-            self.bank = self.coming
-            if self.system != "gs" and (self.bank in _DRUM_BANKS or self.bank == _MELODY_BANK):
-                self.mode = None
-
-    def sound(self) -> ChannelSound:
-        use, certain = self._use()
-        if use == "rhythm" and self._is_effect_kit():
-            use = "effect"
-        elif use == "melodic" and self.program in EFFECT_PROGRAMS:
-            use, certain = "effect", False
-        kit: Literal["", "gs", "xg"] = ""
-        if self.system == "xg" or (self.system not in ("gs", "gm2") and self.bank == _KIT_BANK):
-            kit = "xg"
-        elif self.system == "gs":
-            kit = "gs"
-        return ChannelSound(use, certain, self.program, kit if use == "rhythm" else "")
-
-    def _use(self) -> tuple[Use, bool]:
-        if self.mode is not None:
-            return ("rhythm" if self.mode else "melodic"), True
-        if self.bank is None or self.system == "gs":
-            return ("rhythm" if self.channel == DRUM_CHANNEL else "melodic"), False
-        if self.bank in _DRUM_BANKS:
-            certain = self.system == "gm2" if self.bank == _PERCUSSION_BANK else self.system == "xg"
-            return ("effect" if self.bank == _EFFECT_KIT_BANK else "rhythm"), certain
-        if self.system == "xg" and self.bank == _EFFECT_BANK:
-            return "effect", True
-        melody = self.bank == _MELODY_BANK or (self.system == "xg" and self.program not in KIT_PROGRAMS)
-        if self.channel == DRUM_CHANNEL and not melody:
-            return "rhythm", False
-        return "melodic", True
-
-    def _is_effect_kit(self) -> bool:
-        by_number = self.system in ("gs", "gm2") or self.bank == _PERCUSSION_BANK
-        return by_number and self.program in _EFFECT_KITS
-
-
-def _timeline(steps: Iterable[_Step], channel: int, onset: int, late: int) -> list[tuple[int, ChannelSound]]:
-    """The changes of a channel whose first note begins at a tick.
-
-    Parameters
-    ----------
-    late : int
-        What says for the first time what a channel is may come so many ticks after its first note.
-    """
-    state = _State(channel)
-    found: list[tuple[int, ChannelSound]] = []
-    for step in steps:
-        if step.tick > onset and not found:
-            state.settle()
-            if state.is_said or step.tick > onset + late:
-                found.append((0, state.sound()))
-        state.take(step)
-        if found and step.kind != "bank" and found[-1][1] != (sound := state.sound()):
-            found.append((step.tick, sound))
-    if not found:
-        state.settle()
-        found.append((0, state.sound()))
-    return found

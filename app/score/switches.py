@@ -12,8 +12,9 @@ import msgspec
 import numpy as np
 
 from app.arrays import BoolArray, IntArray
-from app.score.choose import How, MapCandidates, MapChoice, TrackChannel, candidates
+from app.score.choose import How, MapCandidates, MapChoice, candidates
 from app.score.tempo import TempoMap
+from app.score.track_channel import TrackChannel
 
 _AWAY: Final = 5
 """Semitones beyond the instrument's range, at least: a wrong note or a pedal note lies nearer."""

@@ -13,11 +13,11 @@ import msgspec
 import numpy as np
 
 from app.arrays import FloatArray, IntArray
-from app.score.choose import TrackChannel
 from app.score.clean import Fault, clean_notes
 from app.score.model import ControllerCurve, CurveKind, Note
 from app.score.take import Cleaning, Controlled, Played
 from app.score.tempo import TempoMap
+from app.score.track_channel import TrackChannel
 from instrument_maps.vocabulary import vocabulary
 
 RECORDED: Final = "Suisou: recorded take"

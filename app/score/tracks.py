@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from bisect import bisect_right
 from collections import deque
-from collections.abc import Collection, Iterable, Mapping, Sequence
-from itertools import compress, pairwise
+from collections.abc import Collection, Iterable, Sequence
 from operator import itemgetter
 from typing import Any, Final, Literal, TypeAlias
 
@@ -13,9 +12,11 @@ import msgspec
 
 from app.errors import Message
 from app.score.bend_range import PARAMETERS, RESET
+from app.score.channel_notes import ChannelNotes, end_late, end_unended, end_where_struck_again
+from app.score.channel_sound import ChannelSound
 from app.score.limits import LAST_TICK, MOST_NAME
 from app.score.model import CurveKind
-from app.score.sound_module import FIRST_PORT, ChannelSound, Port, Setup, Setups
+from app.score.sound_module import FIRST_PORT, Port, Setup, Setups
 from app.score.texts import TextDecoder
 
 CONTROLLERS: Final[dict[CurveKind, int]] = {"breath": 2, "volume": 7, "expression": 11, "bite": 16}
@@ -37,29 +38,8 @@ _LONGEST_EXCLUSIVE: Final = 256
 """Bytes of a message to a sound module; longer ones are dumps of its memory."""
 _SOUND_MODULES: Final = frozenset((0x41, 0x43, 0x7E))
 """Roland, Yamaha, and what all makers share."""
-_MOST_TOGETHER: Final = 0.05
-"""Of a melody, the share of its notes that covers others: legato and short wrong notes of a wind controller."""
 _TRACKS_NAMED: Final = 8
 """Of a file without notes so many tracks are named."""
-
-
-class ChannelNotes(msgspec.Struct):
-    """The notes of one channel while they are gathered; parallel lists, by onset.
-
-    ``numbers`` is the place of each among the note-ons of the track, from 1.
-    """
-
-    onset_ticks: list[int] = []
-    end_ticks: list[int] = []
-    pitches: list[int] = []
-    velocities: list[int] = []
-    numbers: list[int] = []
-
-    def where(self, kept: list[bool]) -> ChannelNotes:
-        """Some of the notes; the same object if that is all of them."""
-        if all(kept):
-            return self
-        return ChannelNotes(*(list(compress(column, kept)) for column in msgspec.structs.astuple(self)))
 
 
 class TrackEvents(msgspec.Struct):
@@ -180,10 +160,7 @@ def gather(messages: Iterable[Any], begin_tick: int, most_unended_ticks: int) ->
     channels = events.channels
     tick = begin_tick
     number = 0
-    messages = list(messages)
-    ends = next((place for place, message in enumerate(messages) if message.type == "end_of_track"), len(messages))
-    events.after_end = sum(message.type == "note_on" and message.velocity > 0 for message in messages[ends:])
-    for message in messages if events.after_end else messages[: ends + 1]:
+    for message in _until_end(events, list(messages)):
         tick += message.time
         kind = message.type
         if kind == "note_on" and message.velocity:
@@ -220,12 +197,19 @@ def gather(messages: Iterable[Any], begin_tick: int, most_unended_ticks: int) ->
     events.end_tick = tick
     for channel, notes in channels.items():
         if min(notes.end_ticks) < 0:
-            events.hanging += _end_unended(notes, silenced[channel], most_unended_ticks, tick)
-    for channel in struck_again:
-        _end_where_struck_again(channels[channel])
-        _end_late(channels[channel])
+            events.hanging += end_unended(notes, silenced[channel], most_unended_ticks, tick)
+        if channel in struck_again:
+            end_where_struck_again(notes)
+            end_late(notes)
     _close(events)
     return events
+
+
+def _until_end(events: TrackEvents, messages: Sequence[Any]) -> Sequence[Any]:
+    """The messages of a track up to its end, or all where notes follow it: it is none then."""
+    ends = next((place for place, message in enumerate(messages) if message.type == "end_of_track"), len(messages))
+    events.after_end = sum(message.type == "note_on" and message.velocity > 0 for message in messages[ends:])
+    return messages if events.after_end else messages[: ends + 1]
 
 
 def _note_other(events: TrackEvents, message: Any, kind: str, tick: int) -> None:
@@ -281,134 +265,6 @@ def _connect(events: TrackEvents, message: Any) -> None:
         events.port = message.port, device
     else:
         events.port = number, message.name.encode("latin-1")
-
-
-def _end_unended(notes: ChannelNotes, silenced: Mapping[int, int], most_ticks: int, track_end: int) -> int:
-    """End every note of the pitches that have lost a note-off, and leave out notes struck twice at once; how many
-    notes had no end.
-
-    The note-offs that there were are those that ended notes first in, first out; now the first one after a note ends
-    it, if the pitch is not struck again before.
-
-    Parameters
-    ----------
-    notes : ChannelNotes
-        With a negative end where there was none.
-    silenced : mapping of int to int
-        Where all notes were ended at once, by place of the note.
-    """
-    onsets, ends = notes.onset_ticks, notes.end_ticks
-    count = 0
-    doubled: set[int] = set()
-    of_pitch: dict[int, list[int]] = {pitch: [] for pitch, end in zip(notes.pitches, ends, strict=True) if end < 0}
-    for index, pitch in enumerate(notes.pitches):
-        if pitch in of_pitch:
-            of_pitch[pitch].append(index)
-    for places in of_pitch.values():
-        offs = sorted(ends[index] for index in places if ends[index] >= 0)
-        struck: dict[int, int] = {}
-        for index in places:
-            if struck.setdefault(onsets[index], index) != index:
-                doubled.add(index)
-        count += len(places) - len(struck)
-        again = [*list(struck)[1:], track_end + 1]
-        for (onset, index), following in zip(struck.items(), again, strict=True):
-            at = bisect_right(offs, onset)
-            if at < len(offs) and offs[at] <= following:
-                ends[index] = offs[at]
-                continue
-            later = bisect_right(onsets, onset)
-            next_onset = onsets[later] if later < len(onsets) else track_end
-            silence = silenced.get(index, track_end)
-            ends[index] = min(next_onset, onset + most_ticks, silence)
-            count += index not in silenced or ends[index] < silence
-    if doubled:
-        for name in notes.__struct_fields__:
-            values = getattr(notes, name)
-            values[:] = [value for index, value in enumerate(values) if index not in doubled]
-    return count
-
-
-def _end_where_struck_again(notes: ChannelNotes) -> None:
-    """Let notes of one pitch that overlap follow one another, where that alone makes the channel one melody.
-
-    A wind controller may strike a note again without having ended it, and end it twice later. First in, first out, the
-    second one would then sound below whole other notes.
-    """
-    onsets, ends = notes.onset_ticks, notes.end_ticks
-    of_pitch: dict[int, list[int]] = {}
-    for index, pitch in enumerate(notes.pitches):
-        of_pitch.setdefault(pitch, []).append(index)
-    followed = list(ends)
-    for places in of_pitch.values():
-        offs = sorted(ends[index] for index in places)
-        for index, again in pairwise(places):
-            if onsets[index] == onsets[again]:
-                # A unison of two players.
-                return
-        for index, again in pairwise([*places, -1]):
-            if ends[index] > onsets[index]:
-                first_off = offs[bisect_right(offs, onsets[index])]
-                followed[index] = first_off if again < 0 else min(first_off, onsets[again])
-    swallowed, together = _covered(notes, ends)
-    if not swallowed or not together:
-        return
-    swallowed_then, together_then = _covered(notes, followed)
-    sounding = sum(followed) - sum(onsets)
-    if swallowed_then < swallowed and together_then < together and together_then <= _MOST_TOGETHER * sounding:
-        ends[:] = followed
-
-
-def _end_late(notes: ChannelNotes) -> None:
-    """End notes where their pitch is struck again, if their own ends come late.
-
-    A key is struck again once it is up, so no instrument sounds one pitch twice; two players on one channel may, where
-    other notes sound together too and at most two of the pitch do. What lasts into the next by less than a quarter of
-    its length is legato.
-    """
-    onsets, ends = notes.onset_ticks, notes.end_ticks
-    of_pitch: dict[int, list[int]] = {}
-    for index, pitch in enumerate(notes.pitches):
-        of_pitch.setdefault(pitch, []).append(index)
-    cut = list(ends)
-    deep: set[int] = set()
-    for pitch, places in of_pitch.items():
-        at = list(dict.fromkeys(onsets[index] for index in places))
-        for index in places:
-            later = bisect_right(at, onsets[index])
-            again = at[later] if later < len(at) else ends[index]
-            if ends[index] > again and 4 * (ends[index] - again) >= ends[index] - onsets[index]:
-                cut[index] = again
-            if later + 1 < len(at) and ends[index] > at[later + 1]:
-                deep.add(pitch)
-    melody = _covered(notes, cut)[1] <= _MOST_TOGETHER * (sum(cut) - sum(onsets))
-    ends[:] = [
-        new if melody or pitch in deep else old for new, old, pitch in zip(cut, ends, notes.pitches, strict=True)
-    ]
-
-
-def _covered(notes: ChannelNotes, ends: Sequence[int]) -> tuple[int, int]:
-    """Count the notes that lie wholly within one of another pitch, and the ticks of notes that such a one covers."""
-    swallowed = together = 0
-    # The latest ends so far of the two pitches that end last: of the pitch whose last one that is, and of any other.
-    last, last_end, other_end = -1, -1, -1
-    for onset, end, pitch in zip(notes.onset_ticks, ends, notes.pitches, strict=True):
-        until = other_end if pitch == last else last_end
-        if until < 0:
-            until = onset
-        if until >= end:
-            swallowed += 1
-            together += end - onset if end > onset else 0
-        elif until > onset:
-            together += until - onset
-        if pitch == last:
-            if end > last_end:
-                last_end = end
-        elif end > last_end:
-            last, last_end, other_end = pitch, end, last_end
-        elif end > other_end:
-            other_end = end
-    return swallowed, together
 
 
 def _close(events: TrackEvents) -> None:

@@ -25,10 +25,11 @@ from app.project.importing import (
     automatic,
 )
 from app.rig.characters.character_library import characters
-from app.score.choose import use_of
+from app.score.assignments import PERCUSSION, PartAssignment
 from app.score.contents import PieceContents
-from app.score.parts import PERCUSSION, PartAssignment, stream_name
+from app.score.parts import stream_name
 from app.score.take_tracks import TakeReason, take_reason
+from app.score.track_instrument import use_of
 from instrument_maps.model import InstrumentMap
 from instrument_maps.score_order import in_score_order
 from widgets.common.controls import Retranslated, named

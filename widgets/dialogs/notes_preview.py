@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QWidget
 
 from app.arrays import IntArray
 from app.editor.tokens import Tokens
-from app.score.choose import TrackChannel
+from app.score.track_channel import TrackChannel
 
 ROW_PX = 40
 """Height of a row of the import."""

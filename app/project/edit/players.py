@@ -31,10 +31,10 @@ from app.project.ids import MADE_PART, fresh_note_ids, fresh_part_ids, fresh_pla
 from app.project.model import Project, characters_for
 from app.project.names import clean_name
 from app.project.performers import Dancer, Player
+from app.score.channel_sound import DRUM_CHANNEL
 from app.score.choose import require_map
 from app.score.marks import renamed_marks
 from app.score.model import Part
-from app.score.sound_module import DRUM_CHANNEL
 from instrument_maps.library import all_maps, find_map
 from instrument_maps.model import InstrumentMap, Posture
 from metadata.acting import as_text, names_in

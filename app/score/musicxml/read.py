@@ -30,7 +30,6 @@ from xml.etree.ElementTree import Element
 
 from app.encoding import shown
 from app.errors import FileError, Message
-from app.score.choose import named_by_title
 from app.score.contents import PieceContents
 from app.score.ensembles import named_by_ensemble
 from app.score.limits import LAST_TICK, MOST_NAME, MOST_STREAMS, too_long
@@ -45,6 +44,7 @@ from app.score.musicxml.played import PlayedPart, played_part
 from app.score.musicxml.streams import part_streams
 from app.score.musicxml.tempos import Held, TempoEvent, said_of_tempo, tempo_map
 from app.score.musicxml.written import Bar, Measure, Place, Time
+from app.score.track_instrument import named_by_title
 
 MOST_ITEMS: Final = 1_000_000
 """Notes, rests and directions, as often as they are played..."""

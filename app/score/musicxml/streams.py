@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Final
 
-from app.score.choose import TrackChannel
+from app.score.channel_sound import DRUM_CHANNEL
 from app.score.doublings import requested_instrument
 from app.score.limits import MOST_NAME
 from app.score.marks import Mark
@@ -15,7 +15,7 @@ from app.score.musicxml.parts import PartInstrument, WrittenPart, said_instrumen
 from app.score.musicxml.played import PlayedChord, PlayedNote, PlayedPart
 from app.score.mutes import How, joined_spans, said_of_mute
 from app.score.solos import words_of_players
-from app.score.sound_module import DRUM_CHANNEL
+from app.score.track_channel import TrackChannel
 from instrument_maps.vocabulary import vocabulary
 
 _STRUCK: Final = "*"

@@ -18,8 +18,8 @@ from app.plan.by_hand.corrections import Correction, PinFingering, SetBreath, Se
 from app.project.edit.corrections import with_corrections
 from app.project.importing import ImportRequest, ImportRow
 from app.project.reimport import reimported
+from app.score.assignments import PartAssignment
 from app.score.contents import PieceContents
-from app.score.parts import PartAssignment
 from app.shell.app import Program
 from instrument_maps.load import bundled_maps
 from tests.gui.shell.conftest import Answers, Start, trigger

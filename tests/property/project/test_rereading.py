@@ -25,8 +25,8 @@ from app.project.importing import ImportRow, import_project, usual_rows
 from app.project.model import Project
 from app.project.reimport import reimported
 from app.project.storage import decode, encode
+from app.score.assignments import PartAssignment
 from app.score.model import ControllerCurve
-from app.score.parts import PartAssignment
 from app.score.read import read_contents
 from instrument_maps.load import bundled_maps
 from tests.support.projects import decisions

@@ -14,11 +14,11 @@ import msgspec
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from app.score.assignments import PartAssignment
 from app.score.contents import assigned_score
 from app.score.limits import MOST_HOURS
 from app.score.metre_map import Metre
 from app.score.model import ControllerCurve, CurveKind, Marker, Note, Part, Score
-from app.score.parts import PartAssignment
 from app.score.read import read_contents, read_midi
 from app.score.tempo import TempoChange, TempoMap
 from app.score.write import midi_file

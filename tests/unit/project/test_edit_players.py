@@ -13,10 +13,11 @@ from app.project.casting import StagePosition, stage_arc
 from app.project.edit import players as edit
 from app.project.edit.corrections import with_corrections
 from app.project.model import Project, map_choices, project_from_score
-from app.score.choose import TrackChannel
+from app.score.assignments import PartAssignment
 from app.score.model import Note, Part, Score
-from app.score.parts import PartAssignment, assigned_parts
+from app.score.parts import assigned_parts
 from app.score.tempo import TempoMap
+from app.score.track_channel import TrackChannel
 from instrument_maps.load import bundled_maps
 
 MAPS = bundled_maps()

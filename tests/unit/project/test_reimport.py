@@ -36,10 +36,10 @@ from app.project.orphans import orphaned, reattached
 from app.project.performers import Dancer
 from app.project.reimport import reimport, reimported
 from app.project.storage import load, save
+from app.score.assignments import usual_assignments
 from app.score.contents import assigned_score
 from app.score.metre_map import Metre
 from app.score.model import Marker, Note, Part, PercussionHit, Score
-from app.score.parts import usual_assignments
 from app.score.read import read_contents, read_midi
 from app.score.tempo import TempoChange, TempoMap
 from instrument_maps.load import bundled_maps

@@ -19,8 +19,8 @@ from app.project.importing import ImportRow, import_project, merged, usual_rows
 from app.project.model import Project
 from app.project.reimport import Reimport, reimported
 from app.project.storage import load, save
+from app.score.assignments import PartAssignment
 from app.score.model import ControllerCurve
-from app.score.parts import PartAssignment
 from app.score.read import read_contents
 from instrument_maps.load import bundled_maps
 

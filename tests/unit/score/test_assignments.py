@@ -8,8 +8,9 @@ import msgspec
 import pytest
 
 from app.project.model import map_choices
+from app.score.assignments import PartAssignment, usual_assignments
 from app.score.contents import assigned_score
-from app.score.parts import PartAssignment, stream_name, usual_assignments
+from app.score.parts import stream_name
 from app.score.read import read_contents, read_midi
 from instrument_maps.load import bundled_maps
 

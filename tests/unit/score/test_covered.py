@@ -5,7 +5,7 @@ from __future__ import annotations
 from hypothesis import given
 from hypothesis import strategies as st
 
-from app.score.tracks import ChannelNotes, _covered
+from app.score.channel_notes import ChannelNotes, covered
 
 NOTES = st.lists(st.tuples(st.integers(0, 30), st.integers(0, 20), st.integers(60, 64)), max_size=40)
 
@@ -24,4 +24,4 @@ def test_each_note_is_compared_with_the_latest_end_of_another_pitch(drawn: list[
         latest = max(others, default=onset)
         swallowed += latest >= end
         together += max(min(latest, end) - onset, 0)
-    assert _covered(notes, ends) == (swallowed, together)
+    assert covered(notes, ends) == (swallowed, together)

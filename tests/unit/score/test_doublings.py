@@ -9,9 +9,9 @@ import pytest
 from app.messages import text
 from app.project.importing import ImportRow, import_project, usual_rows
 from app.project.model import map_choices
+from app.score.assignments import PartAssignment
 from app.score.contents import assigned_score
 from app.score.model import MOST_VOICES, Score
-from app.score.parts import PartAssignment
 from app.score.read import read_contents, read_midi
 from instrument_maps.load import bundled_maps
 from tests.unit.score.midi_bytes import END, chunk, header, meta, note

@@ -14,11 +14,12 @@ from app.project.edit.players import duplicate_players
 from app.project.model import Project, map_choices, project_from_score
 from app.project.reimport import reimport
 from app.project.storage import decode, encode, load, save
-from app.score.choose import TrackChannel
+from app.score.assignments import PartAssignment
 from app.score.marks import MARK_KINDS, Mark
 from app.score.model import Part, Score
-from app.score.parts import PartAssignment, assigned_parts
+from app.score.parts import assigned_parts
 from app.score.tempo import TempoMap
+from app.score.track_channel import TrackChannel
 from app.score.voices import file_id
 from instrument_maps.load import bundled_maps
 from tests.unit.project.pieces import small_project

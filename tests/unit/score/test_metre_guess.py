@@ -12,7 +12,8 @@ from app.errors import Message
 from app.messages import text
 from app.score.metre_guess import Line, guessed_metres
 from app.score.metre_map import Metre
-from app.score.read import UNSTATED, Assumed, read_contents
+from app.score.read import read_contents
+from app.score.stated_timing import UNSTATED, Assumed
 
 MIDI = Path(__file__).parents[2] / "data" / "midi"
 Q = 480

@@ -10,11 +10,11 @@ import pytest
 from app.errors import Message
 from app.messages import text
 from app.project.model import map_choices
-from app.score.choose import players_named
+from app.score.assignments import PartAssignment
 from app.score.contents import assigned_score
 from app.score.model import Score
-from app.score.parts import PartAssignment
 from app.score.read import read_contents, read_midi
+from app.score.track_instrument import players_named
 from instrument_maps.load import bundled_maps
 from tests.support.played import Manner, played
 from tests.unit.score.midi_bytes import END, TROMBONE, TRUMPET, chunk, header, meta, note, score_of

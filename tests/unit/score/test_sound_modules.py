@@ -8,9 +8,9 @@ from time import process_time
 import pytest
 
 from app.project.model import map_choices
+from app.score.assignments import PartAssignment
 from app.score.contents import assigned_score
 from app.score.model import Score
-from app.score.parts import PartAssignment
 from app.score.read import read_contents, read_midi
 from instrument_maps.library import all_maps
 from tests.unit.score.midi_bytes import END, chunk, header, meta, note, score_of

@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 
 from app.errors import FileError
-from app.score.choose import TrackChannel
 from app.score.contents import PieceContents
+from app.score.track_channel import TrackChannel
 from tests.unit.score.musicxml.documents import (
     articulation,
     direction,

@@ -1,0 +1,175 @@
+"""Reports of what was guessed about parts, left out of them, or excluded.
+
+Warnings
+--------
+Those about notes name the first of them: ``place``, its position as `MetreMap.label` writes it, and ``pitch``.
+
+score.substituted : part, instrument, map
+    "{part}: there is no instrument map for {instrument}; {map} plays it instead"
+score.instrument_from_title : part, map
+    "{part}: neither its name nor its program says what it is; the title does, so {map} plays it"
+score.chosen_by_ensemble : part, map
+    "{part}: neither its name nor its program says what it is; the staves together are those of a known ensemble,
+    in which {map} plays it"
+score.program_gives_way : part, instrument, map, outside, total, place, pitch
+    "{part}: its program names {instrument}, but {outside} of {total} notes lie outside its range, the first at ...;
+    {map} fits and plays it"
+score.chosen_by_range : part, map
+    "{part}: neither its name nor its program says what it is; {map} plays it because the range fits"
+score.chosen_by_range_partly : part, map, outside, total, place, pitch
+    "{part}: neither its name nor its program says what it is; {map} plays it, though {outside} of {total} notes lie
+    outside its range, the first at ..."
+score.looks_written : part, map, outside, total, place, pitch
+    "{part}: {outside} of {total} notes lie outside the range of {map}, the first at ..., but all fit as written
+    pitches: the part looks untransposed; import its pitches as written"
+score.read_as_written : part, map, outside, total, place, pitch
+    "{part}: {outside} of {total} notes lie outside the range of {map} as sounding pitches, the first at ..., but
+    all fit as written ones, so they were read as such"
+score.written : part, map
+    "{part}: read as written pitches for {map}"
+score.left_out : (a reason)
+    "excluded on import"
+score.too_many_players : most (a reason)
+    "the piece has {most} players already, and more cannot play"
+score.too_many_for_hours : most, hours (a reason)
+    "at most {most} players play a piece of {hours} hours"
+score.regions : part, count
+    "{part}: {count} tracks of this name, channel and program follow one another, so one player plays them; if they
+    are several players, split them in the import dialog"
+score.spread : part, count
+    "{part}: one line goes through {count} tracks, as controllers with a channel for each note write it, so one player
+    plays them; if they are several players, split them in the import dialog"
+score.voices : part, voices, count, place, pitch
+    "{part}: {voices} players share it, for {count} notes sound together with others, the first at ..."
+score.unisons : part, count, place, pitch
+    "{part}: {count} notes are struck twice in unison, the first at ...; one player has each of them once"
+score.take_cleaned : part, count, slips, doubles, silent, places
+    "{part}: this track looks like a take of a wind controller; {count} notes were left out (...), at ..."
+score.solos : part, count, place, pitch
+    "{part}: {count} notes are marked for one of its players, the first at ...; the others rest"
+score.doubling : part, instrument, count, place, pitch
+    "{part}: the player of this track changes to {instrument} for {count} notes, the first at ...; a player has one
+    instrument here, so another one plays them"
+score.notes_left_out : part, most, count, place, pitch
+    "{part}: {most} players share it, and {count} notes that sound together with theirs are excluded, the first at ..."
+score.slurred : part, count, place, pitch
+    "{count} notes last into the next one and end there as slurred notes, the first in {part} at ..."
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Final
+
+import msgspec
+
+from app.errors import Argument, Message
+from app.score.assignments import PartAssignment, fits_as_written
+from app.score.choose import How, MapCandidates, MapChoice, plays
+from app.score.clean import Fault
+from app.score.model import Note, Part, Score, UnplayedPart, transposed
+from instrument_maps.instruments import Instrument
+
+_MOST_PLACES: Final = 5
+"""Places that a message lists."""
+
+
+def about_notes(id_: str, part: str, notes: Sequence[Note], piece: Score, **more: Argument) -> Message:
+    """A message about some notes: how many, and where the first one is."""
+    first = notes[0]
+    where: dict[str, Argument] = {"place": piece.metre_map.label(first.onset_tick), "pitch": first.pitch}
+    return Message(id_, {"part": part, "count": len(notes), **where, **more})
+
+
+def cleaned_take(part: str, faults: Mapping[Fault, list[Note]], piece: Score) -> Message:
+    """What was left out of a take: how many notes, why, and where the first ones are."""
+    notes = sorted((note for own in faults.values() for note in own), key=lambda note: note.onset_tick)
+    places = list(dict.fromkeys(piece.metre_map.label(note.onset_tick) for note in notes))
+    said = ", ".join(places[:_MOST_PLACES]) + (", ..." if len(places) > _MOST_PLACES else "")
+    slips, doubles = (len(faults.get(fault, ())) for fault in ("slip", "double"))
+    counts: dict[str, Argument] = {"slips": slips, "doubles": doubles, "silent": len(notes) - slips - doubles}
+    return Message("score.take_cleaned", {"part": part, "count": len(notes), **counts, "places": said})
+
+
+def silent_notes(id_: str, part: str, notes: Sequence[Note], piece: Score) -> list[UnplayedPart]:
+    """The notes of a part that its players do not play, as a silent part: a few stray notes and key switches are no
+    accompaniment."""
+    if not notes:
+        return []
+    return [UnplayedPart(part, about_notes(id_, part, notes, piece), len(notes), max(note.end_tick for note in notes))]
+
+
+def instrument_warnings(
+    parts: Sequence[Part], found: MapCandidates, assignment: PartAssignment, maps: Sequence[MapChoice], piece: Score
+) -> list[Message]:
+    """What was guessed about the instrument."""
+    warnings = []
+    if found.how is not How.RANGE:
+        warnings += _written_warnings(parts, maps, piece)
+    if assignment.map_id is not None:
+        return warnings
+    if found.how is How.RANGE:
+        return [*warnings, *(_range_warning(part, maps, piece) for part in parts)]
+    if found.how in _REASONS:
+        warnings.append(Message(_REASONS[found.how], {"part": parts[0].name, "map": parts[0].map_id}))
+    if found.refused is not None:
+        warnings.append(_refused(parts, found.refused, maps, piece))
+    elif found.instrument is not None:
+        warnings += _substitutions(parts, found.instrument, maps)
+    return warnings
+
+
+_REASONS: Final = {How.TITLE: "score.instrument_from_title", How.ENSEMBLE: "score.chosen_by_ensemble"}
+
+
+def _refused(parts: Sequence[Part], instrument: Instrument, maps: Sequence[MapChoice], piece: Score) -> Message:
+    """A message about the notes that the instrument of a program does not reach."""
+    own = [choice for choice in maps if plays(choice, instrument) or instrument.id in choice.substitutes_for]
+    notes = sorted((note for part in parts for note in part.notes), key=lambda note: (note.onset_tick, note.pitch))
+    outside = [note for note in notes if all(choice.outside([note.pitch]) for choice in own)]
+    more: dict[str, Argument] = {
+        "instrument": instrument.names[0],
+        "map": parts[0].map_id,
+        "outside": len(outside),
+        "total": len(notes),
+    }
+    return about_notes("score.program_gives_way", parts[0].name, outside or notes, piece, **more)
+
+
+def _substitutions(parts: Sequence[Part], instrument: Instrument, maps: Sequence[MapChoice]) -> list[Message]:
+    """A warning for each map that only stands in for the instrument."""
+    return [
+        Message("score.substituted", {"part": parts[0].name, "instrument": instrument.names[0], "map": map_id})
+        for map_id in dict.fromkeys(part.map_id for part in parts)
+        if not any(choice.map_id == map_id and plays(choice, instrument) for choice in maps)
+    ]
+
+
+def _written_warnings(parts: Sequence[Part], maps: Sequence[MapChoice], piece: Score) -> list[Message]:
+    """Of parts that the instrument has no notes for unless they are read as they are written, and those that are."""
+    choices = {choice.map_id: choice for choice in maps}
+    found = []
+    for part in parts:
+        shift = part.transposed_semitones
+        given = msgspec.structs.replace(part, notes=transposed(part.notes, -shift))
+        choice, pitches = choices[part.map_id], [note.pitch for note in given.notes]
+        if shift and choice.outside(pitches) and not choice.outside(pitches, written=True):
+            found.append(_outside("score.read_as_written", given, choice, piece))
+        elif shift:
+            found.append(Message("score.written", {"part": part.name, "map": part.map_id}))
+        elif fits_as_written(choice, pitches):
+            found.append(_outside("score.looks_written", given, choice, piece))
+    return found
+
+
+def _range_warning(part: Part, maps: Sequence[MapChoice], piece: Score) -> Message:
+    choice = next(choice for choice in maps if choice.map_id == part.map_id)
+    if choice.outside([note.pitch for note in part.notes]):
+        return _outside("score.chosen_by_range_partly", part, choice, piece)
+    return Message("score.chosen_by_range", {"part": part.name, "map": part.map_id})
+
+
+def _outside(id_: str, part: Part, choice: MapChoice, piece: Score) -> Message:
+    """A message about the notes of a part that its instrument does not reach."""
+    notes = [note for note in part.notes if choice.outside([note.pitch])]
+    return about_notes(id_, part.name, notes, piece, map=part.map_id, outside=len(notes), total=len(part.notes))
