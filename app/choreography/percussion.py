@@ -2,9 +2,9 @@
 
 Rules, none of which invents a symbol:
 
-- A hit is a note of a rhythm part (`app.score.choose.use_of`), with the number that General MIDI has for its sound. The
-  edges of the hi-hat, notes 22 and 26 of common electronic kits, are the closed and the open hi-hat, 42 and 46. Other
-  numbers outside 35 to 81 name none of the 47 sounds and are left out.
+- A hit is a note of a rhythm part (`app.score.track_instrument.use_of`), with the number that General MIDI has for its
+  sound. The edges of the hi-hat, notes 22 and 26 of common electronic kits, are the closed and the open hi-hat, 42 and
+  46. Other numbers outside 35 to 81 name none of the 47 sounds and are left out.
 - Hits at one time stay hits of their own, by symbol; the same symbol several times at one tick is one hit, as strong
   as the strongest.
 """

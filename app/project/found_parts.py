@@ -6,7 +6,7 @@ A note found again keeps its id; of a change here and one in the file the file's
 from __future__ import annotations
 
 from bisect import bisect_right
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -124,56 +124,80 @@ def found_again(project: Project, score: Score, places_now: Mapping[Place, Place
     score = _as_read(score, old, former_of)
     part_ids = iter(fresh_part_ids(project, len(score.parts), READ_PART))
     note_ids = iter(fresh_note_ids(project, sum(len(part.notes) for part in score.parts), READ_NOTE))
-    parts: list[Part] = []
-    matches: list[PartMatch] = []
-    conflicts: list[Conflict] = []
-    read_notes: dict[str, dict[str, Note]] = {}
-    added: list[str] = []
-    places: dict[str, list[tuple[int, int]]] = {}
-    for index, part in enumerate(score.parts):
-        former = former_of.get(index)
-        if former is None:
-            ids = [next(note_ids) for _ in part.notes]
-            added += ids
-            parts.append(_renamed(part, next(part_ids), ids))
-            read_notes[parts[-1].id] = {note.id: note for note in parts[-1].notes}
-            continue
-        before = old.parts[former]
-        was = held_by_file(project, before)
-        read = project.read_notes.get(before.id) or {note.id: note for note in was}
-        pairs = _same_notes([index for index, note in enumerate(was) if note.id in read], was, part.notes, scale)
-        if pairs is None:
-            lines = (was, old.ticks_per_quarter), (part.notes, score.ticks_per_quarter)
-            pairs = [(int(one), int(new)) for one, new in align(*(AlignmentPart.of(*line) for line in lines))]
-        kept = {new: was[one].id for one, new in pairs}
-        ids = [kept[number] if number in kept else next(note_ids) for number in range(len(part.notes))]
-        renamed = _renamed(part, before.id, ids)
-        read_notes[before.id] = {note.id: note for note in renamed.notes}
-        merged = _merged(before, was, renamed, pairs, scale)
-        conflicts += merged.conflicts
-        known = {note.id: note for note in before.notes}
-        places[before.id] = [
-            (known[note.id].onset_tick, note.onset_tick) for note in merged.part.notes if note.id in known
-        ]
-        drawn = _drawn(before, frozenset(kept.values()), place_map(places[before.id], scale), scale, merged.part)
-        parts.append(_with_more(merged.part, drawn))
-        stayed, came = len(places[before.id]), [note.id for note in merged.part.notes if note.id not in known]
-        added += came
-        lost = len(before.notes) - stayed - len(drawn)
-        matches.append(
-            PartMatch(before.id, before.name, part.name, stayed + len(drawn), len(came), lost, merged.by_hand)
-        )
+    quarters = old.ticks_per_quarter, score.ticks_per_quarter
+    found = [
+        _found_part(project, old.parts[former_of[index]], part, scale, quarters, note_ids)
+        if index in former_of
+        else _new_part(part, next(part_ids), note_ids)
+        for index, part in enumerate(score.parts)
+    ]
     again = set(former_of.values())
     return FoundParts(
-        parts=tuple(parts),
-        former=tuple(old.parts[former_of[index]] if index in former_of else None for index in range(len(parts))),
+        parts=tuple(one.part for one in found),
+        former=tuple(one.former for one in found),
         others=tuple(part for index, part in enumerate(old.parts) if index not in again),
-        matches=tuple(matches),
-        conflicts=tuple(conflicts),
-        read_notes=read_notes,
+        matches=tuple(one.match for one in found if one.match is not None),
+        conflicts=tuple(conflict for one in found for conflict in one.conflicts),
+        read_notes={one.part.id: one.read for one in found},
+        places={one.part.id: [*one.places] for one in found if one.former is not None},
+        added=tuple(id for one in found for id in one.added),
+        still=scale == 1 and all(tick == now for one in found for tick, now in one.places),
+    )
+
+
+@dataclass(frozen=True)
+class _FoundPart:
+    """One part, as `FoundParts` has all; ``read`` are its notes in the file by id."""
+
+    part: Part
+    read: dict[str, Note]
+    added: list[str]
+    former: Part | None = None
+    match: PartMatch | None = None
+    conflicts: Sequence[Conflict] = ()
+    places: Sequence[tuple[int, int]] = ()
+
+
+def _new_part(part: Part, id: str, note_ids: Iterator[str]) -> _FoundPart:
+    ids = [next(note_ids) for _ in part.notes]
+    renamed = _renamed(part, id, ids)
+    return _FoundPart(renamed, {note.id: note for note in renamed.notes}, ids)
+
+
+def _found_part(
+    project: Project, before: Part, part: Part, scale: Fraction, quarters: tuple[int, int], note_ids: Iterator[str]
+) -> _FoundPart:
+    """A part that was found again, with what was done to it by hand.
+
+    Parameters
+    ----------
+    quarters : (int, int)
+        Ticks of a quarter in the project and in the file.
+    """
+    was = held_by_file(project, before)
+    read = project.read_notes.get(before.id) or {note.id: note for note in was}
+    pairs = _same_notes([index for index, note in enumerate(was) if note.id in read], was, part.notes, scale)
+    if pairs is None:
+        lines = zip((was, part.notes), quarters, strict=True)
+        pairs = [(int(one), int(new)) for one, new in align(*(AlignmentPart.of(*line) for line in lines))]
+    kept = {new: was[one].id for one, new in pairs}
+    ids = [kept[number] if number in kept else next(note_ids) for number in range(len(part.notes))]
+    renamed = _renamed(part, before.id, ids)
+    merged = _merged(before, was, renamed, pairs, scale)
+    known = {note.id: note for note in before.notes}
+    places = [(known[note.id].onset_tick, note.onset_tick) for note in merged.part.notes if note.id in known]
+    drawn = _drawn(before, frozenset(kept.values()), place_map(places, scale), scale, merged.part)
+    came = [note.id for note in merged.part.notes if note.id not in known]
+    stayed = len(places) + len(drawn)
+    lost = len(before.notes) - stayed
+    return _FoundPart(
+        part=_with_more(merged.part, drawn),
+        read={note.id: note for note in renamed.notes},
+        added=came,
+        former=before,
+        match=PartMatch(before.id, before.name, part.name, stayed, len(came), lost, merged.by_hand),
+        conflicts=merged.conflicts,
         places=places,
-        added=tuple(added),
-        still=scale == 1 and all(tick == now for own in places.values() for tick, now in own),
     )
 
 

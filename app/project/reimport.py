@@ -149,18 +149,11 @@ def reimport(
         source=project.source if source is None else source,
         imported=project.imported if reading is None else reading.decisions,
     )
-    # What is only known better than before is nothing new.
-    fields = ("imported", "read_curves", "read_timing", *(("read_notes",) if not project.read_notes else ()))
-    known: dict[str, Any] = {field: getattr(project, field) for field in fields}
-    if project.imported is None:
-        # Derived decisions may make the reader warn of other things.
-        known["score"] = msgspec.structs.replace(result.score, warnings=project.score.warnings)
-    same = result == project or replace(result, **known) == project
     alive = {note.id for part in parts for note in part.notes}
     before_ids = {player.id for player in project.players}
     gone = {id for id, now in part_of.items() if id != now}
     return Reimport(
-        project=project if same else result,
+        project=project if _says_nothing_new(project, result) else result,
         parts=found.matches,
         added=found.added,
         removed=tuple(note.id for part in project.score.parts for note in part.notes if note.id not in alive),
@@ -171,6 +164,16 @@ def reimport(
         replaced=(*timing.replaced, *replaced),
         new_unplayed=_new_unplayed(project.score, score),
     )
+
+
+def _says_nothing_new(project: Project, result: Project) -> bool:
+    """Decide whether a file has left a project as it was; what is only known better than before is nothing new."""
+    fields = ("imported", "read_curves", "read_timing", *(("read_notes",) if not project.read_notes else ()))
+    known: dict[str, Any] = {field: getattr(project, field) for field in fields}
+    if project.imported is None:
+        # Derived decisions may make the reader warn of other things.
+        known["score"] = msgspec.structs.replace(result.score, warnings=project.score.warnings)
+    return result == project or replace(result, **known) == project
 
 
 def _new_unplayed(before: Score, now: Score) -> tuple[UnplayedPart, ...]:

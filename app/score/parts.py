@@ -1,7 +1,7 @@
 """Tracks to parts: which instrument a track is for, which map plays it, and how many players it needs.
 
 A name beats a program; what an instrument is called in the track's name beats its instrument name. What is percussion
-and what sound effects `app.score.choose.use_of` says.
+and what sound effects `app.score.track_instrument.use_of` says.
 
 Reasons for not playing a part
 ------------------------------

@@ -184,15 +184,11 @@ def gather(messages: Iterable[Any], begin_tick: int, most_unended_ticks: int) ->
             open_notes = sounding[channel].get(message.note) if channel in channels else None
             if open_notes:
                 channels[channel].end_ticks[open_notes.popleft()] = tick
-        elif kind == "end_of_track":
-            pass
         elif kind == "control_change" and message.control in _NOTES_OFF:
             for open_notes in sounding.pop(message.channel, {}).values():
                 silenced[message.channel].update(dict.fromkeys(open_notes, tick))
             sounding[message.channel] = {}
-        elif tick > LAST_TICK:
-            events.beyond += 1
-        else:
+        elif kind != "end_of_track":
             _note_other(events, message, kind, tick)
     events.end_tick = tick
     for channel, notes in channels.items():
@@ -214,7 +210,9 @@ def _until_end(events: TrackEvents, messages: Sequence[Any]) -> Sequence[Any]:
 
 def _note_other(events: TrackEvents, message: Any, kind: str, tick: int) -> None:
     """Keep a message that is about no note."""
-    if kind == "control_change":
+    if tick > LAST_TICK:
+        events.beyond += 1
+    elif kind == "control_change":
         if message.control == _BANK:
             _set_up(events, tick, message.channel, "bank", message.value)
         curve = _KINDS.get(message.control)
