@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import os
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
-from functools import partial
-from pathlib import Path, PureWindowsPath
+from pathlib import Path
 from typing import Final
 
 from PySide6.QtCore import QByteArray, QEvent, QPoint, QSize, Qt, QTimer, Signal
@@ -20,16 +18,15 @@ from app.editor.questions import Questions
 from app.editor.session import Session
 from app.editor.settings import Settings
 from app.editor.tasks import ThreadTasks
-from app.encoding import is_text, shown
-from app.errors import Message
-from app.formats.other_computers import host_of, is_file, may_touch
-from app.project.recovery import Recoverable
+from app.encoding import shown
+from app.formats.other_computers import is_file, may_touch
 from app.project.storage import SUFFIX
 from app.rig.characters.read_figure import SUFFIXES as CHARACTER_SUFFIXES
 from app.score.suffixes import MUSIC
 from app.shell.actions import CONTEXTS, ActionTable
 from app.shell.banner import Banner
 from app.shell.docks import Dock, TabsStay
+from app.shell.file_questions import FileQuestions
 from app.shell.menus import Menus
 from app.shell.palette import Palette
 from app.shell.start_page import StartPage
@@ -42,7 +39,6 @@ from widgets.common.icons import icon
 from widgets.common.layouts import in_column, in_row, panel
 from widgets.common.paths import dropped_paths
 from widgets.common.plain import verbatim, verbatim_title
-from widgets.common.text import message_text, sentence
 from widgets.inspector.panel import InspectorPanel
 from widgets.players.panel import PlayersPanel
 from widgets.recording.panel import RecordingPanel
@@ -56,8 +52,6 @@ NARROW_PX: Final = 1060
 """In a window narrower than this the field for commands does not show its keys beside menus and workspaces."""
 DOCKED: Final = ("players", "inspector", "timeline", "recording")
 """Panels beside the viewport."""
-_REASONS: Final = 4
-"""At most so many reasons are shown why no part is played."""
 
 
 class Window(Retranslated, QMainWindow):
@@ -114,6 +108,7 @@ class Window(Retranslated, QMainWindow):
             "transport": TransportBar(self.session),
         }
         self.banner = Banner(self.session)
+        self.file_questions = FileQuestions(self.banner, session, files, questions, table)
         self.start_page = StartPage(self.session, self._files, settings)
         self._pages = QStackedWidget()
         for page in (self.start_page, self.viewport):
@@ -172,12 +167,6 @@ class Window(Retranslated, QMainWindow):
         self.menus.menu("file/open_recent").aboutToShow.connect(self._fill_recent)
         self._files.changed.connect(self._report_title)
         self._files.opened.connect(self._show_page)
-        self._files.found.connect(self._offer_recovery)
-        self._files.missing.connect(self._ask_for_media)
-        self._files.elsewhere.connect(self._ask_to_look_elsewhere)
-        self._files.silent.connect(self._say_why_no_one_plays)
-        self._files.overtaken.connect(self._ask_to_save_over)
-        self._files.unsaveable.connect(self._say_what_cannot_be_saved)
         self.session.theme_changed.connect(self._apply_theme)
         picture = self.viewport.findChild(QOpenGLWidget)
         if isinstance(picture, QOpenGLWidget):
@@ -296,84 +285,6 @@ class Window(Retranslated, QMainWindow):
             on_click(row, self._files.open, path)
         if menu.isEmpty():
             menu.addAction(self.tr("window.nothing_yet")).setEnabled(False)
-
-    # What files say
-
-    def _offer_recovery(self, item: Recoverable) -> None:
-        self.banner.ask(
-            lambda: (
-                self.tr("window.there_is_unsaved_work_on")
-                if item.is_file_changed
-                else self.tr("window.there_is_unsaved_work_on_this_project"),
-                (self.tr("window.recover"), self.tr("window.discard")),
-            ),
-            (partial(self._files.recover, item), partial(self._files.discard, item)),
-        )
-
-    def _ask_for_media(self, path: Path) -> None:
-        self.banner.ask(
-            lambda: (
-                self.tr("window.media_not_found").format(name=shown(path.name)),
-                (self.tr("window.find_it"), self.tr("window.remove_it")),
-            ),
-            (partial(self._find_media, path), partial(self._files.locate, path, None)),
-        )
-
-    def _ask_to_look_elsewhere(self, paths: tuple[str, ...]) -> None:
-        names = [*(shown(PureWindowsPath(path).name) for path in paths[:_REASONS]), *["…"] * (len(paths) > _REASONS)]
-        hosts = ", ".join(dict.fromkeys(host_of(path) for path in paths))
-        self.banner.ask(
-            lambda: (
-                self.tr("window.files_elsewhere").format(hosts=hosts, names=", ".join(names)),
-                (self.tr("window.look_there"), self.tr("window.leave_out")),
-            ),
-            (partial(self._files.agree_to, paths), lambda: None),
-        )
-
-    def _say_why_no_one_plays(self, path: Path) -> None:
-        score = self.session.project.score
-
-        def why() -> str:
-            lines = [self.tr("window.has_no_players").format(name=shown(path.name))]
-            lines += [sentence(message) for message in score.warnings[:_REASONS] if not score.unplayed]
-            line = self.tr("import_dialog.is_not_played")
-            lines += [
-                line.format(name=part.name, reason=message_text(part.reason)) for part in score.unplayed[:_REASONS]
-            ]
-            return "\n".join([*lines, *["…"] * (len(score.unplayed) > _REASONS)])
-
-        another = (self.tr("window.open_another_file"), self._table.actions["file.open"].trigger)
-        again = (self.tr("window.assign_tracks"), partial(self._files.open, path))
-        answers = (again, another) if score.unplayed else (another,)
-        self.banner.ask(lambda: (why(), tuple(text for text, _ in answers)), tuple(run for _, run in answers))
-
-    def _ask_to_save_over(self, path: Path, then: Callable[[], None] | None) -> None:
-        self.banner.ask(
-            lambda: (
-                self.tr("window.was_changed_outside").format(name=shown(path.name)),
-                (self.tr("window.save_as"), self.tr("window.replace_it")),
-            ),
-            (partial(self._files.save_as, then), partial(self._files.save_over, then)),
-        )
-
-    def _say_what_cannot_be_saved(self, message: Message) -> None:
-        answers = {"window.undo_last_edit": self._table.actions["edit.undo"].trigger}
-        if self._files.can_leave_out:
-            answers["window.remove_it"] = self._files.leave_out
-        self.banner.ask(
-            lambda: (sentence(message, self.session), tuple(map(self.tr, answers))), tuple(answers.values())
-        )
-
-    def _find_media(self, path: Path) -> None:
-        audio = self.session.project.audio
-        suffixes = AUDIO_SUFFIXES if audio is not None and audio.path == os.fspath(path) else VIDEO_SUFFIXES
-        kinds = f"({' '.join(f'*{suffix}' for suffix in suffixes)})"
-        if is_text(path.name):
-            kinds = f"{path.name} ({path.name});;{kinds}"
-        title = self.tr("window.find").format(name=shown(path.name))
-        found = self._questions.open_file(title, self._files.folder, kinds)
-        if found is not None:
-            self._files.locate(path, found)
 
     # Looks
 

@@ -265,7 +265,7 @@ class Look:
         self.session.set_players((player.id,))
         self.takes(player.id)
         lost = Recoverable(self.folder / "a.suisou", None, "work", 1.0e9, 400, is_file_changed=True)
-        self.window._offer_recovery(lost)
+        self.window.file_questions.offer_recovery(lost)
         files = self.program.editor.files
         files.risk = Message("autosave.nowhere", {"folder": "/home/user/.local/state", "reason": "disk full"})
         self.session.notice(files.risk, Severity.ERROR)
@@ -273,7 +273,7 @@ class Look:
         self.at("banner")
         files.risk = None
         files.changed.emit()
-        self.window._ask_to_save_over(Path(f"{LUTKIN.stem}.suisou"), None)
+        self.window.file_questions.ask_to_save_over(Path(f"{LUTKIN.stem}.suisou"), None)
         self.at("banner_long")
         self.window.banner.hide()
 

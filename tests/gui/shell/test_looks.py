@@ -91,7 +91,9 @@ def test_a_banner_pushes_no_panel_aside(program: Program, qtbot: QtBot) -> None:
     window.reset_workspace()
     QApplication.processEvents()
     before = window.docks["players"].width(), window.docks["inspector"].width()
-    window._ask_to_save_over(Path("a_rather_long_name_of_a_project_that_nobody_would_shorten.suisou"), None)
+    window.file_questions.ask_to_save_over(
+        Path("a_rather_long_name_of_a_project_that_nobody_would_shorten.suisou"), None
+    )
     QApplication.processEvents()
     assert (window.docks["players"].width(), window.docks["inspector"].width()) == before
     buttons = window.banner.findChildren(QPushButton)
@@ -99,7 +101,7 @@ def test_a_banner_pushes_no_panel_aside(program: Program, qtbot: QtBot) -> None:
 
 
 def test_paths_can_be_copied_from_banners_and_dialogs(program: Program) -> None:
-    program.window._ask_to_save_over(Path("project.suisou"), None)
+    program.window.file_questions.ask_to_save_over(Path("project.suisou"), None)
     for action in ("file.rules", "application.characters"):
         actions(program.session)[action].trigger()
     labels = {label.objectName(): label for top in QApplication.topLevelWidgets() for label in top.findChildren(QLabel)}

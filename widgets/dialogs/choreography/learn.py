@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
 
@@ -13,7 +13,7 @@ from PySide6.QtGui import QColor, QDragEnterEvent, QDropEvent, QKeyEvent
 from PySide6.QtWidgets import QPushButton, QSpinBox, QTreeWidgetItem, QWidget
 
 from app.choreography.cuts_by_hand import Cuts
-from app.choreography.learn import Pair, analyse, learn, summary
+from app.choreography.learn import analyse, learn, summary
 from app.choreography.model import ChoreographyModel
 from app.choreography.model_file import write_model
 from app.choreography.music_offset import CONFIDENT
@@ -33,21 +33,19 @@ from widgets.common.text import message_text, sentence
 from widgets.dialogs.automatic_number import TEXT_MARGIN_PX, AutomaticNumber
 from widgets.dialogs.choreography.cut_panel import CutHistory, CutPanel
 from widgets.dialogs.choreography.learn_draft import MOTION_SUFFIXES, PairContents, PairDraft, with_files
-from widgets.dialogs.choreography.learn_pair import PairForm, file_name
+from widgets.dialogs.choreography.learn_pair import PairForm
+from widgets.dialogs.choreography.learn_rows import (
+    COLUMNS,
+    PairRead,
+    PairRow,
+    offset_confidence,
+    row_texts,
+    training_pair,
+)
 from widgets.dialogs.working import WorkingDialog
 
 MOST_STATES: Final = 1000
 MOST_SEED: Final = 2**31 - 1
-_COLUMNS: Final = {
-    "motion": "learn_dialog.motion",
-    "music": "learn_dialog.music",
-    "length": "learn_dialog.seconds",
-    "segments": "learn_dialog.segments",
-    "states": "learn_dialog.states",
-    "offset": "learn_dialog.offset_s",
-    "confidence": "learn_dialog.confidence",
-}
-"""The list's columns, and the ids of their headings."""
 _POLL_MS: Final = 100
 _FORM_PX: Final = 420
 _SIZE: Final = QSize(1180, 840)
@@ -55,40 +53,11 @@ _LEAST_PX: Final = 900
 _RIGHT: Final = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
 
 
-@dataclass(eq=False)
-class _Row:
-    """A pair of the list.
-
-    Attributes
-    ----------
-    history : CutHistory
-        Of the cuts of the draft.
-    reading : int
-        Number of the reading whose result is awaited; 0: none.
-    states : int or None
-        Basic motions of it in what was learned last, from what the list says now.
-    """
-
-    draft: PairDraft
-    found: PairContents = field(default_factory=PairContents)
-    history: CutHistory = field(default_factory=CutHistory)
-    reading: int = 0
-    states: int | None = None
-
-
-@dataclass(frozen=True, eq=False)
-class _Read:
-    """What came of reading a pair's files."""
-
-    number: int
-    found: PairContents
-
-
 @dataclass(frozen=True, eq=False)
 class _Learned:
     path: Path
     model: ChoreographyModel
-    rows: tuple[_Row, ...]
+    rows: tuple[PairRow, ...]
 
 
 class LearnDialog(WorkingDialog):
@@ -111,7 +80,7 @@ class LearnDialog(WorkingDialog):
         super().__init__("learn_choreography", "learn", parent)
         self.setAcceptDrops(True)
         self._session, self._folder = session, folder
-        self._rows: list[_Row] = []
+        self._rows: list[PairRow] = []
         self._readings = 0
         self._share: list[float] = [0.0]
         """How far the learning is; its thread writes it."""
@@ -120,7 +89,7 @@ class LearnDialog(WorkingDialog):
         self._unknown: tuple[Path, ...] = ()
 
         self.list = self.texted(
-            ColumnList("learn_pairs", *_COLUMNS.values(), stretches=(0, 1)),
+            ColumnList("learn_pairs", *COLUMNS.values(), stretches=(0, 1)),
             name="learn_dialog.pairs_of_motion_and_music",
         )
         self.form, self.cuts = PairForm(), CutPanel(session)
@@ -149,7 +118,7 @@ class LearnDialog(WorkingDialog):
     def _build(self) -> None:
         for button in (self._use, self._close):
             button.setAutoDefault(False)
-        for column in range(2, len(_COLUMNS)):
+        for column in range(2, len(COLUMNS)):
             self.list.headerItem().setTextAlignment(column, _RIGHT)
         self._seed.setRange(0, MOST_SEED)
         self._seed.lineEdit().setTextMargins(TEXT_MARGIN_PX, 0, 0, 0)
@@ -193,7 +162,7 @@ class LearnDialog(WorkingDialog):
         return tuple(row.draft for row in self._rows)
 
     @property
-    def _row(self) -> _Row | None:
+    def _row(self) -> PairRow | None:
         """The selected pair."""
         item = self.list.currentItem()
         at = -1 if item is None else self.list.indexOfTopLevelItem(item)
@@ -203,7 +172,7 @@ class LearnDialog(WorkingDialog):
         """Add motions, pieces and credits, as pairs; see `with_files`."""
         drafts, unknown = with_files(self.drafts, paths)
         before = len(self._rows)
-        self._rows += [_Row(PairDraft()) for _ in drafts[before:]]
+        self._rows += [PairRow(PairDraft()) for _ in drafts[before:]]
         for row, draft in zip(self._rows, drafts, strict=True):
             if draft != row.draft:
                 row.draft = draft
@@ -246,7 +215,7 @@ class LearnDialog(WorkingDialog):
             row.draft = msgspec.structs.replace(row.draft, cuts=cuts)
             self._edited()
 
-    def _read(self, row: _Row) -> None:
+    def _read(self, row: PairRow) -> None:
         """Read the files of a pair beside the window; what was found before is of others."""
         self._readings += 1
         draft, number = row.draft, self._readings
@@ -256,18 +225,18 @@ class LearnDialog(WorkingDialog):
         row.reading = number
         motion, music = draft.motion, draft.music
 
-        def work(progress: Progress, stop_requested: StopRequested) -> _Read:
+        def work(progress: Progress, stop_requested: StopRequested) -> PairRead:
             try:
                 read = read_pair(motion, music, fps=draft.fps, credits=draft.credits)
-                return _Read(number, PairContents(read, analyse(read.pair)))
+                return PairRead(number, PairContents(read, analyse(read.pair)))
             except Cancelled:
                 raise
             except AppError as error:
-                return _Read(number, PairContents(error=error.message))
+                return PairRead(number, PairContents(error=error.message))
 
         self._session.tasks.run(Message("work.read_motion", {"file": motion.name}), work, self._was_read)
 
-    def _was_read(self, result: _Read) -> None:
+    def _was_read(self, result: PairRead) -> None:
         for row in self._rows:
             if row.reading == result.number:
                 row.reading, row.found = 0, result.found
@@ -289,7 +258,7 @@ class LearnDialog(WorkingDialog):
         path = self._target
         if self._running or path is None or self._missing():
             return
-        pairs = [pair for row in self._rows if (pair := _pair(row)) is not None]
+        pairs = [pair for row in self._rows if (pair := training_pair(row)) is not None]
         rows = tuple(self._rows)
         states, seed = self._states.value, self._seed.value()
         self._result, self._failure = None, None
@@ -390,13 +359,13 @@ class LearnDialog(WorkingDialog):
         for at, row in enumerate(self._rows):
             item = self.list.topLevelItem(at)
             assert item is not None, "one for each pair"
-            for column, text in enumerate(_cells(row)):
+            for column, text in enumerate(row_texts(row)):
                 item.setText(column, text)
                 if column > 1:
                     item.setTextAlignment(column, _RIGHT)
             wrong = row.found.error is not None
-            doubtful = row.draft.offset_s is None and _confidence(row) < CONFIDENT
-            for column, name in enumerate(_COLUMNS):
+            doubtful = row.draft.offset_s is None and offset_confidence(row) < CONFIDENT
+            for column, name in enumerate(COLUMNS):
                 colour = tokens.error if wrong else tokens.text
                 if name in ("offset", "confidence") and doubtful:
                     colour = tokens.warning
@@ -475,35 +444,3 @@ class LearnDialog(WorkingDialog):
 
 def _with_suffix(path: Path) -> Path:
     return path if path.suffix.lower() == SUFFIX else path.with_name(f"{path.name}{SUFFIX}")
-
-
-def _pair(row: _Row) -> Pair | None:
-    """What is learned from, as it is filled in; None before the files are read."""
-    read = row.found.read
-    if read is None:
-        return None
-    offset_s = row.draft.offset_s
-    # Typed is a time of the file, of which the clip may be a later part.
-    of_clip_s = None if offset_s is None else offset_s - read.motion.start_s
-    return replace(read.pair, offset_s=of_clip_s, cuts=row.draft.cuts)
-
-
-def _confidence(row: _Row) -> float:
-    return 1.0 if row.found.analysis is None else row.found.analysis.offset.confidence
-
-
-def _cells(row: _Row) -> tuple[str, ...]:
-    """The texts of a row, by `_COLUMNS`."""
-    read, analysis, draft = row.found.read, row.found.analysis, row.draft
-    names = file_name(draft.motion), file_name(draft.music)
-    if read is None or analysis is None:
-        return *names, *("…" if row.reading else "–" for _ in range(2, len(_COLUMNS)))
-    found_s = analysis.offset.offset_s + read.motion.start_s
-    return (
-        *names,
-        f"{analysis.clip.length_s:.1f}",
-        str(len(analysis.segmentation.cuts if draft.cuts is None else draft.cuts)),
-        "–" if row.states is None else str(row.states),
-        f"{found_s if draft.offset_s is None else draft.offset_s:.2f}",
-        f"{analysis.offset.confidence:.2f}" if draft.offset_s is None else "–",
-    )

@@ -34,6 +34,7 @@ from widgets.timeline.model.curves import (
     with_values,
 )
 from widgets.timeline.model.geometry import StepCurve, step_path
+from widgets.timeline.model.gestures import LiveEdit
 from widgets.timeline.plot.drawing import draw_lines, draw_mark, draw_path, draw_rects, draw_text, shade, small_font
 from widgets.timeline.plot.time_axis import TimeAxis
 
@@ -262,7 +263,7 @@ class CurvesLane(Lane):
         curve = next((curve for curve in self._part.curves if curve.kind == kind), None)
         low, high = (0.0, 1.0) if curve is None else curve.shown_range
         height_px = (self.plot_rect.height() - 2 * MARGIN_PX) / (high - low)
-        return DragController(self.session, self, mouse, player_id, kind, spans, blend_beats, height_px)
+        return DragController(LiveEdit(self.session, self), mouse, player_id, kind, spans, blend_beats, height_px)
 
     def drag(self, mouse: LaneMouse) -> None:
         if self._drag is not None:

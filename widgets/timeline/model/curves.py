@@ -82,6 +82,8 @@ class DragController(MouseGesture):
 
     Parameters
     ----------
+    step : LiveEdit
+        The edit that the drag makes.
     blend_beats : float
         Over which it blends back.
     height_px : float
@@ -90,8 +92,7 @@ class DragController(MouseGesture):
 
     def __init__(
         self,
-        session: Editing,
-        origin: object,
+        step: LiveEdit,
         at: LaneMouse,
         player_id: str,
         kind: CurveKind,
@@ -100,7 +101,7 @@ class DragController(MouseGesture):
         height_px: float,
     ) -> None:
         super().__init__(at, across(DRAG_PX))
-        self._step = LiveEdit(session, origin)
+        self._step = step
         self._player_id, self._kind, self._spans, self._blend_beats = player_id, kind, spans, blend_beats
         self._height_px = max(height_px, 1.0)
 

@@ -26,8 +26,7 @@ from widgets.common.event_names import expression_name, gesture_name, kind_name,
 from widgets.common.menus import passing_menu
 from widgets.common.plain import verbatim
 from widgets.timeline.lanes.acting.acting_drawing import ActingPainter
-from widgets.timeline.lanes.acting.giver_menu import add_givers, add_takers
-from widgets.timeline.lanes.acting.style_menu import add_styles_menus
+from widgets.timeline.lanes.acting.acting_menus import add_givers, add_styles_menus, add_takers
 from widgets.timeline.lanes.regions import RegionLane
 from widgets.timeline.lanes.row_names import RowNames
 from widgets.timeline.model.hand import LaneMouse, PixelRect

@@ -193,7 +193,7 @@ class AdditiveLane(CurveEditing):
         elif key not in self.selected:
             self.select_keys(frozenset({key}))
         moving = self.selected | {key}
-        self._gesture = DragKeys(self.session, None, mouse, player, self.channel, key, moving, self.follow_keys)
+        self._gesture = DragKeys(self.session, mouse, player, self.channel, key, moving, self.follow_keys)
 
     def _take(self, kept: frozenset[KeyRef], box: PixelRect, _: LaneMouse) -> None:
         self.selected = kept | model.keys_in(self.curves, self, *box)

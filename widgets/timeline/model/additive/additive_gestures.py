@@ -37,7 +37,6 @@ class DragKeys(MouseGesture):
     def __init__(
         self,
         session: Editing,
-        origin: object,
         at: LaneMouse,
         player_id: str,
         channel: str,
@@ -46,7 +45,7 @@ class DragKeys(MouseGesture):
         moved: Callable[[frozenset[KeyRef]], None],
     ) -> None:
         super().__init__(at, either(DRAG_PX))
-        self._session, self._step = session, LiveEdit(session, origin)
+        self._session, self._step = session, LiveEdit(session, None)
         self._player_id, self._channel, self._grabbed, self._keys = player_id, channel, grabbed, keys
         self._moved = moved
 

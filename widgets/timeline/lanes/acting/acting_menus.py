@@ -1,16 +1,23 @@
-"""The menus from which the giver of an entry and those who take it are chosen."""
+"""The menus of the lane of acting: styles of bars, the giver of an entry, and those who take it."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import partial
+
 from PySide6.QtWidgets import QMenu
 
+from app.editor.additions import add_styles, bars_of, change_styles
 from app.editor.selection import EventKey, Selection
 from app.editor.session import Session
+from app.editor.translated import tr
 from app.errors import Message
 from app.project.edit.givers import set_giver, set_takers
 from app.project.model import Project
 from widgets.common.clicks import on_click
+from widgets.common.event_names import style_name
 from widgets.common.plain import verbatim
+from widgets.timeline.model.regions.acting_regions import STYLE
 from widgets.timeline.model.regions.shown_event import Region
 
 
@@ -66,3 +73,29 @@ def _give(session: Session, cue: Region, giver_id: str) -> None:
     message = Message("edit.set_giver", {"player": session.project.player(giver_id).name})
     if session.attempt(message, edit) and ids:
         session.select(Selection(events=frozenset(EventKey(giver_id, event_id) for event_id in ids)))
+
+
+def add_styles_menus(menu: QMenu, session: Session, region: Region | None, tick: float) -> None:
+    """Another style for the selected regions, and a new region at a place for the selected players or for everyone."""
+    if region is not None and region.kind == STYLE:
+        other = _add_styles(
+            menu, tr("acting_lane.another_style"), "another_style", session, lambda name: change_styles(session, name)
+        )
+        for entry in other.actions():
+            entry.setCheckable(True)
+            entry.setChecked(entry.text() == verbatim(region.label))
+    everyone = tuple(player.id for player in session.project.players)
+    own, of_all = tr("acting_lane.style_here"), tr("acting_lane.style_of_all_here")
+    for title, name, players in ((own, "style_here", session.players), (of_all, "style_of_all_here", everyone)):
+        bars = partial(bars_of, session, players, tick)
+        _add_styles(menu, title, name, session, lambda style, bars=bars: add_styles(session, style, bars()))  # type: ignore[misc]
+
+
+def _add_styles(menu: QMenu, title: str, name: str, session: Session, chosen: Callable[[str], None]) -> QMenu:
+    styles = menu.addMenu(title)
+    styles.setObjectName(name)
+    for style in sorted(session.performance.metadata.styles.items, key=style_name):
+        entry = styles.addAction(verbatim(style_name(style)))
+        entry.setObjectName(f"style_{style}")
+        on_click(entry, chosen, style)
+    return styles
