@@ -14,7 +14,7 @@ from app.score.tempo import TempoMap
 def takes_of(
     journal: Journal,
     tempo_map: TempoMap,
-    wiring: ControllerMapping,
+    mapping: ControllerMapping,
     name: str,
     start_s: float | None = None,
     taken: Collection[str] = (),
@@ -25,7 +25,7 @@ def takes_of(
     ----------
     tempo_map : TempoMap
         What was played back.
-    wiring : ControllerMapping
+    mapping : ControllerMapping
         With what the device sends breath and bite.
     name : str
         What a take is called, ``{number}`` for its number.
@@ -52,7 +52,7 @@ def takes_of(
                 colour="",
                 device=journal.header.port,
                 recorded=journal.header.started,
-                wiring=wiring,
+                wiring=mapping,
                 cleaning=Cleaning(),
                 tempo_map=tempo_map,
                 start_us=first_us,

@@ -39,27 +39,27 @@ class Unassigned(NamedTuple):
 
 
 def unassigned_parts(
-    streams: Sequence[TrackChannel], rows: Sequence[ImportRow], maps: Sequence[MapChoice], of_others: bool = False
+    channels: Sequence[TrackChannel], rows: Sequence[ImportRow], maps: Sequence[MapChoice], of_others: bool = False
 ) -> tuple[Unassigned, ...]:
     """The parts that neither the file nor the user gives an instrument, in the order of the file; ``of_others``: those
     of instruments that no map plays, as of a piano."""
     found = []
-    for row, name in zip(rows, part_names(streams, rows), strict=True):
-        played = [streams[index] for index in row.assignment.streams]
-        if row.assignment.map_id is None and all(use_of(stream) == "melodic" for stream in played):
+    for row, name in zip(rows, part_names(channels, rows), strict=True):
+        played = [channels[index] for index in row.assignment.streams]
+        if row.assignment.map_id is None and all(use_of(channel) == "melodic" for channel in played):
             possible = candidates(played, maps)
             if of_others and not possible.maps:
                 possible = MapCandidates(How.RANGE, None, tuple(maps))
             elif of_others or possible.how is not How.RANGE or not possible.maps:
                 continue
-            pitches = [pitch for stream in played for pitch in stream.pitches]
+            pitches = [pitch for channel in played for pitch in channel.pitches]
             found.append(Unassigned(name, possible.best(pitches).map_id))
     return tuple(found)
 
 
-def part_names(streams: Sequence[TrackChannel], rows: Sequence[ImportRow]) -> tuple[str, ...]:
+def part_names(channels: Sequence[TrackChannel], rows: Sequence[ImportRow]) -> tuple[str, ...]:
     """Names of the parts for ``--assign``: a row is called like its first stream."""
-    return unique_names(stream_name(streams[row.assignment.streams[0]]) for row in rows)
+    return unique_names(stream_name(channels[row.assignment.streams[0]]) for row in rows)
 
 
 def assign_message(arguments: argparse.Namespace, parts: Sequence[Unassigned], id: str = "assign.parts") -> Message:

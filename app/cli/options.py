@@ -373,7 +373,7 @@ def _with_pitches(
 
 
 def _assigned(
-    streams: Sequence[TrackChannel], rows: Sequence[ImportRow], texts: Sequence[str], maps: Sequence[str]
+    channels: Sequence[TrackChannel], rows: Sequence[ImportRow], texts: Sequence[str], maps: Sequence[str]
 ) -> Sequence[ImportRow]:
     """The rows with the instruments that are assigned to parts as ``PART=INSTRUMENT``; a row is called like its first
     stream.
@@ -383,7 +383,7 @@ def _assigned(
     UsageError
         ``assign.malformed`` (assignment), ``assign.instrument_unknown`` (instrument, possible), ``player.unknown``.
     """
-    names = part_names(streams, rows) if texts else ()
+    names = part_names(channels, rows) if texts else ()
     assigned = list(rows)
     for text in texts:
         part, equals, map_id = (piece.strip() for piece in text.rpartition("="))

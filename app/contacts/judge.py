@@ -34,11 +34,11 @@ class ContactJudge:
     model : InstrumentModel
     """
 
-    def __init__(self, playing: PerformanceCurves, character: Character, model: InstrumentModel) -> None:
-        plan, instrument = playing.plan, playing.instrument_map
-        self._playing, self._model = playing, model
-        self._character = with_lip_landmarks(character, instrument, playing.body)
-        self._missed = missed_mm(playing.player.hold)
+    def __init__(self, curves: PerformanceCurves, character: Character, model: InstrumentModel) -> None:
+        plan, instrument = curves.plan, curves.instrument_map
+        self._playing, self._model = curves, model
+        self._character = with_lip_landmarks(character, instrument, curves.body)
+        self._missed = missed_mm(curves.player.grip)
         self._starts_s = np.array([event.start_s for event in plan.grips])
         self._until_s = np.maximum.accumulate(np.array([event.end_s for event in plan.grips]))
         self._breaths_s = [(event.start_s, event.end_s) for event in plan.breaths]
@@ -46,7 +46,7 @@ class ContactJudge:
         self._marks = tuple(dict.fromkeys(marks))
         self._nodes = {contact.node: model.node_names.index(contact.node) for contact in instrument.contacts}
         skeleton = character.skeleton
-        self._wrists = {hand.side: skeleton.index(f"{hand.side}Hand") for hand in playing.player.hold.hands}
+        self._wrists = {hand.side: skeleton.index(f"{hand.side}Hand") for hand in curves.player.grip.hands}
         self._joints = sorted({*landmark_joints(self._character, self._marks), *self._wrists.values()})
 
     def breaks(self, motion: Motion) -> tuple[Break, ...]:
@@ -99,7 +99,7 @@ class ContactJudge:
         placed = self._playing.placed(times_s)
         stopped, stopping = instrument.stopped, self._playing.stopping.sample(times_s)
         off: dict[str, BoolArray] = {}
-        for hand in self._playing.player.hold.hands:
+        for hand in self._playing.player.grip.hands:
             wrist_m = joints.of(self._wrists[hand.side])[0]
             gaps_m = hand_gaps_m(hand, wrist_m, place_m, turn, controls, placed)
             if stopped is not None and hand.side == stopped.hand and stopping.any():

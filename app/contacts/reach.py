@@ -38,7 +38,7 @@ class Holding(NamedTuple):
 
     player_id: str
     character: Character
-    hold: GripPose
+    grip: GripPose
     body: Body
     posture: Posture
 
@@ -146,13 +146,13 @@ def _gaps_m(holding: Holding, instrument: InstrumentMap, examples: list[Fingerin
         for index, event in enumerate(examples)
     )
     frame = TimeFrame(-_APART_S, _APART_S * len(held))
-    player_id, character, hold, body, posture = holding
+    player_id, character, grip, body, posture = holding
     still = PlayerPlan(player_id, frame, held, (), (), (), (), (), (), ())
     parameters = PlayerParameters(amplitude=0.0, posture=posture, sway=0.0, weight_shift=0.0)
-    playing = prepare(still, parameters, instrument, character, hold, body, felt_beats=((0, 1),))
+    curves = prepare(still, parameters, instrument, character, grip, body, felt_beats=((0, 1),))
     # One frame in the middle of each note.
     fps = Fraction(1, round(_NOTE_S / 2.0))
-    motion = playing.motion(fps, 0, round((frame.end_s - frame.first_frame_s) * fps))
+    motion = curves.motion(fps, 0, round((frame.end_s - frame.first_frame_s) * fps))
     times_s = motion.first_frame_s + np.arange(motion.frames) / float(fps)
     frames = [int(np.argmin(np.abs(times_s - (event.start_s + _NOTE_S / 2.0)))) for event in held]
     skeleton = character.skeleton
@@ -163,7 +163,7 @@ def _gaps_m(holding: Holding, instrument: InstrumentMap, examples: list[Fingerin
     gaps = np.zeros(len(held))
     place_m = motion.instrument_position_m[frames].astype(np.float64)
     turn = motion.instrument_rotation[frames].astype(np.float64)
-    for hand in hold.hands:
+    for hand in grip.hands:
         wrist = skeleton.index(f"{hand.side}Hand")
         joints = forward(skeleton, motion.rotations[frames].astype(np.float64), motion.hips_m[frames], (wrist,))
         gaps = np.maximum(gaps, hand_gaps_m(hand, joints.of(wrist)[0], place_m, turn, asked))

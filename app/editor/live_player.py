@@ -40,7 +40,7 @@ class LivePlayer(QObject):
         self._rest = QTimer(self, singleShot=True, interval=round(1000 * REST_S))
         self._rest.timeout.connect(self._rested)
 
-    def report(self, time_s: float, raw: str, wiring: ControllerMapping) -> None:
+    def report(self, time_s: float, raw: str, mapping: ControllerMapping) -> None:
         """Something was played.
 
         Parameters
@@ -52,7 +52,7 @@ class LivePlayer(QObject):
         """
         playing = self._ready()
         if playing is not None:
-            self._session.live_players.receive(playing.player_id, time_s, raw, wiring)
+            self._session.live_players.receive(playing.player_id, time_s, raw, mapping)
             self._rest.start()
 
     def silence(self) -> None:

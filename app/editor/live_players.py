@@ -91,11 +91,11 @@ class LivePlayers(QObject):
         if gone is not None:
             self.changed.emit()
 
-    def receive(self, player_id: str, time_s: float, raw: str, wiring: ControllerMapping) -> None:
+    def receive(self, player_id: str, time_s: float, raw: str, mapping: ControllerMapping) -> None:
         """A player is played so: a MIDI message in hexadecimal, see `PlayAlong.receive`."""
         with self._lock:
             play_along = self._playing.get(player_id)
-            struck = play_along is not None and play_along.receive(time_s, raw, wiring)
+            struck = play_along is not None and play_along.receive(time_s, raw, mapping)
             if struck:
                 self._poses.pop(player_id, None)
         if struck:

@@ -208,9 +208,9 @@ class Recorder(QObject):
         self._settings.set_midi_device(self._state.port, "breath", "")
         self._know(self._state.port)
 
-    def set_wiring(self, wiring: ControllerMapping) -> None:
+    def set_wiring(self, mapping: ControllerMapping) -> None:
         """Say with what the device sends breath and bite, as it was learned or chosen."""
-        for name, value in (("channel", str(wiring.channel)), ("breath", wiring.breath), ("bite", wiring.bite)):
+        for name, value in (("channel", str(mapping.channel)), ("breath", mapping.breath), ("bite", mapping.bite)):
             self._settings.set_midi_device(self._state.port, name, value)
         self._know(self._state.port)
 
@@ -305,15 +305,15 @@ class Recorder(QObject):
         self._session.notice(reason, Severity.ERROR)
 
     def _on_received(self, events: Events) -> None:
-        wiring = self._state.wiring
+        mapping = self._state.wiring
         breath = self._state.breath
         for ns, raw in zip(events.times_ns, events.messages, strict=True):
             message = decoded(raw.hex())
-            if message is None or not is_wired(message, wiring):
+            if message is None or not is_wired(message, mapping):
                 continue
             self._sounding.receive(raw, None)
-            breath = next((value for kind, value in curve_values(message, wiring) if kind == "breath"), breath)
-            self._live.report(ns / 1e9, raw.hex(), wiring)
+            breath = next((value for kind, value in curve_values(message, mapping) if kind == "breath"), breath)
+            self._live.report(ns / 1e9, raw.hex(), mapping)
         self._state.set_played(breath, next((pitch for _, pitch in reversed(self._sounding.notes)), None))
         self._state.received.emit(events)
 
@@ -555,9 +555,9 @@ class Recorder(QObject):
         project = self._session.project
         known = {take.recorded for recorded in project.takes.values() for take in recorded.takes}
         controller = load_controllers().get(journal.header.controller) or recognised_controller(journal.header.port)
-        wiring = ControllerMapping(controller.channel, controller.breath[0], controller.bite)
+        mapping = ControllerMapping(controller.channel, controller.breath[0], controller.bite)
         name = tr("recorder.recovered_take")
-        takes = takes_of(journal, project.score.tempo_map, wiring, name, taken=_names(project, journal.header.player))
+        takes = takes_of(journal, project.score.tempo_map, mapping, name, taken=_names(project, journal.header.player))
         if not takes or journal.header.started in known:
             path.unlink(missing_ok=True)
             return

@@ -106,7 +106,7 @@ class PlayerKeyframes:
 
     def _held(self, seen: Pose, pose: Pose) -> Pose:
         """A pose with the instrument in the hand that bears it, but for one that is put aside."""
-        hold, instrument = self.performer.hold, self.performer.instrument
+        hold, instrument = self.performer.grip, self.performer.instrument
         side = instrument.hold.support_hand
         hand = next((one for one in hold.hands if one.side == side), hold.hands[0])
         joint = self.performer.character.skeleton.index(f"{hand.side}Hand")

@@ -213,7 +213,7 @@ def _reported(
         part=performance.project.part(player).name,
         instrument=player.instrument_id,
         size=performer.instrument.size,
-        missed=missed_mm(performer.hold),
+        missed=missed_mm(performer.grip),
         files=file_names(performance, request.formats)[player.id],
         socket=musician.sockets.get(player.id),
         notes=sum(span.shows_onset(note.start_s) for note in plan.fingerings),

@@ -73,6 +73,6 @@ def floor_place(stage: StagePosition) -> NodePlace:
 
 def _grip(performer: Performer) -> Grip:
     side = performer.instrument.hold.support_hand
-    hand = next(one for one in performer.hold.hands if one.side == side)
+    hand = next(one for one in performer.grip.hands if one.side == side)
     rotation = quaternion.conjugate(hand.instrument_from_hand_rotation[0])
     return Grip(side, -quaternion.rotate(rotation, hand.instrument_from_hand_m[0]), rotation)

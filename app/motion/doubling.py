@@ -35,15 +35,15 @@ class LastChunk:
         self._kept: tuple[tuple[Fraction, int, int, int] | None, dict[int, Motion]] = None, {}
 
     def motion(
-        self, number: int, playing: PerformanceCurves, fps: Fraction, first_frame: int, frames: int, every: int
+        self, number: int, curves: PerformanceCurves, fps: Fraction, first_frame: int, frames: int, every: int
     ) -> Motion:
-        """The motion of one instrument, as ``playing`` makes it. Threads may make the same at once."""
+        """The motion of one instrument, as ``curves`` makes it. Threads may make the same at once."""
         kept, asked = self._kept, (fps, first_frame, frames, every)
         if kept[0] != asked:
             kept = self._kept = asked, {}
         made = kept[1]
         if number not in made:
-            made[number] = playing.motion(*asked)
+            made[number] = curves.motion(*asked)
         return made[number]
 
 
@@ -171,29 +171,29 @@ def _doubling(
 
 
 def _with_ways(
-    playing: PerformanceCurves, number: int, first: str, found: Sequence[InstrumentChange]
+    curves: PerformanceCurves, number: int, first: str, found: Sequence[InstrumentChange]
 ) -> PerformanceCurves:
     """A player's motion with the instrument put aside while another is played."""
     ways = []
     for change in found:
-        if change.before == playing.player_id:
+        if change.before == curves.player_id:
             ways.append((change.start_s, change.put_s, 1.0))
-        elif change.after == playing.player_id:
+        elif change.after == curves.player_id:
             ways.append((change.taken_s, change.end_s, 0.0))
-    begins = 0.0 if playing.player_id == first else 1.0
-    lowered = _lowered(playing, ways, begins)
-    side = playing.instrument_map.hold.support_hand
+    begins = 0.0 if curves.player_id == first else 1.0
+    lowered = _lowered(curves, ways, begins)
+    side = curves.instrument_map.hold.support_hand
     return replace(
-        playing,
-        player=replace(playing.player, aside=Aside(side, number)),
-        layers=replace(playing.layers, lowered=lowered),
+        curves,
+        player=replace(curves.player, aside=Aside(side, number)),
+        layers=replace(curves.layers, lowered=lowered),
         stowed=moves(ways, begins),
     )
 
 
-def _lowered(playing: PerformanceCurves, ways: Sequence[tuple[float, float, float]], begins: float) -> Curve:
+def _lowered(curves: PerformanceCurves, ways: Sequence[tuple[float, float, float]], begins: float) -> Curve:
     """Return how far the instrument is lowered: as planned, and wholly while it is aside."""
-    bell = playing.body.bell
+    bell = curves.body.bell
     spans: list[tuple[float, float, float]] = []
     away_s = float("-inf") if begins else None
     for start_s, end_s, aside in ways:
@@ -208,7 +208,7 @@ def _lowered(playing: PerformanceCurves, ways: Sequence[tuple[float, float, floa
     rows = [(start_s, end_s, quick.get(start_s, bell.lower_s), back_s, 1.0) for start_s, end_s, back_s in spans]
     rows += [
         (event.start_s, event.end_s, bell.lower_s / LOWERS, bell.raise_s / LOWERS, event.amount)
-        for event in playing.plan.gestures
+        for event in curves.plan.gestures
         if event.part == "lowering" and event.end_s > event.start_s
     ]
     united: list[tuple[float, float, float, float, float]] = []

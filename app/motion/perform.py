@@ -195,7 +195,7 @@ class PerformanceCurves:
         styles = self.plan.styles
         morphs = face_morphs(
             frames.face,
-            self.player.hold.lips,
+            self.player.grip.lips,
             self.expressions,
             frames.look,
             moved.lowered,
@@ -247,7 +247,7 @@ class PerformanceCurves:
 
     def placed(self, times_s: FloatArray) -> dict[str, StationBlend]:
         """Where the fingers are, and the hands that give way for some of them, at ascending times."""
-        hands = self.player.hold.hands
+        hands = self.player.grip.hands
         asked = {table.finger for hand in hands for table in hand.fingers}
         asked |= {giving_for(finger) for hand in hands for lean in hand.leans for finger, _ in lean.places}
         return {name: sampled(curve, times_s) for name, curve in self.stations.items() if name in asked}
@@ -314,7 +314,7 @@ class PerformanceCurves:
             put,
             self.plan.traces is None,
         )
-        return (values, still.skeleton, still.hold, self.body, self.dance)
+        return (values, still.skeleton, still.grip, self.body, self.dance)
 
 
 def prepare(
@@ -322,7 +322,7 @@ def prepare(
     parameters: PlayerParameters,
     instrument_map: InstrumentMap,
     character: Character,
-    hold: GripPose,
+    grip: GripPose,
     body: Body,
     *,
     felt_beats: FeltBeats,
@@ -332,7 +332,7 @@ def prepare(
 ) -> PerformanceCurves:
     """Make a plan ready to be seen.
 
-    Parameters set amplitude, posture, seed and the sizes of layers; ``hold`` is fitted for this character and
+    Parameters set amplitude, posture, seed and the sizes of layers; ``grip`` is fitted for this character and
     instrument; a rest as long as a felt beat brings controls back to rest; expressions are the bundled ones by default.
     Curves that are as in ``before`` (the player prior to an edit) are taken from there. ``dance`` is added to the body
     by the parameters' amount, and takes the place of as much of the generated sway and shift of weight.
@@ -343,7 +343,7 @@ def prepare(
     shown = most_shown(plan.styles, acting_of(parameters))
     acting = shown_by(parameters, carriage, shown, dancing=dance is not None)
     parameters = limited_to_carriage(parameters, carriage)
-    player = player_body(parameters, instrument_map, character, hold, body)
+    player = player_body(parameters, instrument_map, character, grip, body)
     steps = _steps_of(plan, parameters, acting, player, instrument_map, body, felt_beats=felt_beats, before=before)
     face, fingers = steps.face.of(FaceCurves), steps.fingers.of(fingers_of)
     made = PerformanceCurves(

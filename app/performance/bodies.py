@@ -103,8 +103,8 @@ def lies_at(player: Player, instrument: InstrumentMap, number: int) -> tuple[Flo
     if not is_held(player, instrument):
         return None
     suitable = suited_to(player, instrument).instrument
-    hold = hold_of(player, suitable)
-    rest = put_aside_transform(player.parameters, suitable, character_of(player), hold, body_of(player), number)
+    grip = hold_of(player, suitable)
+    rest = put_aside_transform(player.parameters, suitable, character_of(player), grip, body_of(player), number)
     return rest.position_m[0], rest.rotation[0]
 
 

@@ -69,7 +69,7 @@ class Performer:
     body: Body
     instrument: InstrumentMap
     model: InstrumentModel
-    hold: GripPose
+    grip: GripPose
 
 
 def attempt(
@@ -110,7 +110,7 @@ def performer_of(performance: Performance, player: Player) -> Performer:
         body=body_of(player),
         instrument=instrument,
         model=model_of(instrument),
-        hold=hold_of(player, instrument),
+        grip=hold_of(player, instrument),
     )
 
 

@@ -270,10 +270,10 @@ class LiveMotion:
         if not _soon_made(shown, track):
             return self.pose(player_id, time_s)
         with self._own_fault(track):
-            playing = self._playing(shown, track)
-            if playing is None or track.error is not None:
+            curves = self._playing(shown, track)
+            if curves is None or track.error is not None:
                 return None
-            made = Chunk.of(playing.motion(shown.grid.fps, frame, 2 if share > 0.0 else 1))
+            made = Chunk.of(curves.motion(shown.grid.fps, frame, 2 if share > 0.0 else 1))
             return poses_of([made], 0, share)[0]
 
     def error(self, player_id: str) -> Message | None:
@@ -326,12 +326,12 @@ class LiveMotion:
         with self._own_fault(track):
             if prove and (track.playing is None or track.basis is not None):
                 self._prove(shown, track)
-            playing = self._playing(shown, track)
-            if playing is None or track.error is not None or index in track.chunks:
+            curves = self._playing(shown, track)
+            if curves is None or track.error is not None or index in track.chunks:
                 return None
             if not self._make_room(shown, track, index):
                 return False
-            motion = playing.motion(shown.grid.fps, *shown.grid.span(index))
+            motion = curves.motion(shown.grid.fps, *shown.grid.span(index))
             chunk = Chunk.of(motion)
             if isinstance(track.player, Dancer):
                 self._name_problems(track)
@@ -501,8 +501,8 @@ class LiveMotion:
 
     def _prove(self, shown: _Shown, track: _Track) -> None:
         """Find out which chunks of the performance before are still right."""
-        playing = self._playing(shown, track)
-        if playing is None:
+        curves = self._playing(shown, track)
+        if curves is None:
             track.unproven, track.outdated, track.basis = {}, {}, None
             track.breaks = {}
             if isinstance(track.player, Player):
@@ -510,7 +510,7 @@ class LiveMotion:
             return
         kept: dict[int, Chunk] = {}
         if track.basis is not None:
-            touched = shown.grid.touched(_changed_s(playing, track.basis))
+            touched = shown.grid.touched(_changed_s(curves, track.basis))
             for index, chunk in track.unproven.items():
                 right = index < len(touched) and not touched[index] and chunk.frames == shown.grid.span(index)[1]
                 (kept if right else track.outdated)[index] = chunk
@@ -518,7 +518,7 @@ class LiveMotion:
             track.breaks = {index: breaks for index, breaks in track.breaks.items() if index < shown.grid.chunks}
         with self._lock:
             # What is there already was made from the same.
-            track.playing, track.chunks, track.basis, track.unproven = playing, kept | track.chunks, None, {}
+            track.playing, track.chunks, track.basis, track.unproven = curves, kept | track.chunks, None, {}
         if track.breaks or track.problems:
             self._name_problems(track)
 
@@ -569,12 +569,12 @@ class LiveMotion:
         return False
 
 
-def _changed_s(playing: PerformanceCurves | Dancing, basis: PerformanceCurves | Dancing) -> FloatArray:
+def _changed_s(curves: PerformanceCurves | Dancing, basis: PerformanceCurves | Dancing) -> FloatArray:
     """Spans (K, 2) in which the motion of one is not that of the other."""
-    if isinstance(playing, PerformanceCurves) and isinstance(basis, PerformanceCurves):
-        return playing.changed_s(basis)
-    assert not isinstance(playing, PerformanceCurves)
-    return playing.changed_s(basis)
+    if isinstance(curves, PerformanceCurves) and isinstance(basis, PerformanceCurves):
+        return curves.changed_s(basis)
+    assert not isinstance(curves, PerformanceCurves)
+    return curves.changed_s(basis)
 
 
 def _soon_made(shown: _Shown, track: _Track) -> bool:

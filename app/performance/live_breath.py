@@ -84,11 +84,11 @@ class LiveBreath:
     """
 
     def __init__(
-        self, playing: PerformanceCurves, expressions: dict[str, Expression], rules: tuple[Rule, ...] | None = None
+        self, curves: PerformanceCurves, expressions: dict[str, Expression], rules: tuple[Rule, ...] | None = None
     ) -> None:
         rules = bundled_rules() if rules is None else rules
-        self._instrument, self._parameters = playing.instrument_map, playing.parameters
-        self._lung_s = lungful_s(playing.parameters, playing.instrument_map.air)
+        self._instrument, self._parameters = curves.instrument_map, curves.parameters
+        self._lung_s = lungful_s(curves.parameters, curves.instrument_map.air)
         self._breath: float | None = None
         self._bite = self._bend = 0.0
         self._pitch: float | None = None
@@ -103,11 +103,11 @@ class LiveBreath:
         """When the breath that is being drawn in is complete; inf where none is."""
         self._rested = True
         self._at_lips, self._mouth, self._full = (Reach.at_rest(0.0) for _ in range(3))
-        self._tongue = LiveTongue(playing)
+        self._tongue = LiveTongue(curves)
         self._tension = Spring(float(tension_of(np.array([float(self._middle)]), self._instrument)[0]), TENSION_S)
         self._air, self._effort = Spring(0.0, AIR_S), Spring(0.0, EFFORT_S)
         self._bell = Spring(0.0, RAISES_S)
-        self._load = playing.body.face.load
+        self._load = curves.body.face.load
         self._working, self._strain = Spring(0.0, WORKS_S), Spring(0.0, STRAINS_S)
         self._pressed, self._usual_bite = Spring(0.0, PRESSED_S), Spring(0.0, USUAL_BITE_S)
         self._rules = live_rules(rules, expressions)
@@ -294,8 +294,8 @@ class LiveBreath:
 class LiveLook:
     """Eyes that rest on the music, and lids that close now and then, but not on an entry."""
 
-    def __init__(self, playing: PerformanceCurves) -> None:
-        self._random = generator(playing.player_id, playing.parameters.seed, "look")
+    def __init__(self, curves: PerformanceCurves) -> None:
+        self._random = generator(curves.player_id, curves.parameters.seed, "look")
         self._yaw, self._head_yaw, self._head_pitch = (Reach.at_rest(0.0) for _ in range(3))
         self._pitch = Reach.at_rest(MUSIC_PITCH_RAD)
         self._lids = Reach.at_rest(0.0)

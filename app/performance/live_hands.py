@@ -73,15 +73,15 @@ class LiveHands:
         Whose instrument and hold; its notes are not looked at.
     """
 
-    def __init__(self, playing: PerformanceCurves) -> None:
-        instrument = self._instrument = playing.instrument_map
+    def __init__(self, curves: PerformanceCurves) -> None:
+        instrument = self._instrument = curves.instrument_map
         self._choice = NextFingering(instrument)
         self._before: deque[Fingered] = deque(maxlen=REMEMBERED)
         self._grips: dict[tuple[int, int], _Grip] = {}
         self._reaches = {control.name: Reach.at_rest(control.rest_value) for control in instrument.controls}
         self._controls = {control.name: control for control in instrument.controls}
-        hands = playing.player.hold.hands
-        self._farthest = playing.player.farthest
+        hands = curves.player.grip.hands
+        self._farthest = curves.player.farthest
         self._carrying = [hand.motion.control for hand in hands if hand.motion is not None]
         leaning = {finger for hand in hands for lean in hand.leans for finger, _ in lean.places}
         posed = {table.finger for hand in hands for table in hand.fingers}

@@ -60,19 +60,19 @@ class PlayAlong:
 
     def __init__(
         self,
-        playing: PerformanceCurves,
+        curves: PerformanceCurves,
         expressions: Mapping[str, Expression] | None = None,
         rules: tuple[Rule, ...] | None = None,
     ) -> None:
         known = dict(load_expressions() if expressions is None else expressions)
-        self._whole = playing
-        self._playing = replace(playing, expressions=known)
-        self._hands = LiveHands(playing)
-        self._breath = LiveBreath(playing, known, rules)
-        self._look = LiveLook(playing)
+        self._whole = curves
+        self._playing = replace(curves, expressions=known)
+        self._hands = LiveHands(curves)
+        self._breath = LiveBreath(curves, known, rules)
+        self._look = LiveLook(curves)
         self._help = LiveHelp()
-        self._poses, self._at_s = playing.layers.held, -math.inf
-        self._additive = playing.additive
+        self._poses, self._at_s = curves.layers.held, -math.inf
+        self._additive = curves.additive
         self._held: dict[int, int] = {}
         """Pitches that are held with their velocities, in the order they began."""
         self._received: SoundingNotes[None] = SoundingNotes()
@@ -151,17 +151,17 @@ class PlayAlong:
         self._time(time_s)
         self._breath.bend(value)
 
-    def receive(self, time_s: float, raw: str, wiring: ControllerMapping) -> bool:
+    def receive(self, time_s: float, raw: str, mapping: ControllerMapping) -> bool:
         """Take a MIDI message, in hexadecimal, as takes keep them; what says nothing of notes, breath or lips is passed
         over. Whether a note began or ended.
 
         Parameters
         ----------
-        wiring : ControllerMapping
+        mapping : ControllerMapping
             With what the controller sends breath and bite.
         """
         message = decoded(raw)
-        if message is None or not is_wired(message, wiring):
+        if message is None or not is_wired(message, mapping):
             return False
         data = bytes.fromhex(raw)
         ended = self._received.receive(data, None)
@@ -175,7 +175,7 @@ class PlayAlong:
             for (_, pitch), _ in ended:
                 if pitch not in held:
                     self.note_off(time_s, pitch)
-        for kind, value in curve_values(message, wiring, self._ranges):
+        for kind, value in curve_values(message, mapping, self._ranges):
             if kind == "breath":
                 self.breath(time_s, value)
             elif kind == "bite":

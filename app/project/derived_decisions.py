@@ -59,10 +59,10 @@ def derived_decisions(project: Project, contents: PieceContents, choices: Sequen
     marks = {place: [mark_of(contents.streams[one], quarter) for one in own] for place, own in owned.items()}
     free = [index for index in range(len(contents.streams)) if not any(index in own for own in owned.values())]
     rest = {place: list(_marks(project, parts)) for place, parts in groups.items() if place not in owned}
-    streams = [contents.streams[index] for index in free]
+    channels = [contents.streams[index] for index in free]
     found = iter(
         recognised_streams(
-            [mark for own in rest.values() for mark in own], streams, [melody_of(one, quarter) for one in streams]
+            [mark for own in rest.values() for mark in own], channels, [melody_of(one, quarter) for one in channels]
         )
     )
     for place, own in rest.items():
@@ -94,12 +94,12 @@ def _owned(project: Project, groups: Mapping[Place, Sequence[Part]], contents: P
         if not is_made_here(note.id)
     }
     result: dict[Place, list[int]] = {}
-    for index, stream in enumerate(contents.streams):
-        ids = (f"{stream.track + 1}:{number}" for number in stream.numbers)
-        notes = zip(ids, (onset * old for onset in stream.onset_ticks), stream.pitches, strict=True)
+    for index, channel in enumerate(contents.streams):
+        ids = (f"{channel.track + 1}:{number}" for number in channel.numbers)
+        notes = zip(ids, (onset * old for onset in channel.onset_ticks), channel.pitches, strict=True)
         counted = Counter(owners[note] for note in notes if note in owners)
         for place, count in counted.most_common(1):
-            if 2 * count > len(stream.onset_ticks):
+            if 2 * count > len(channel.onset_ticks):
                 result.setdefault(place, []).append(index)
     whole = {place: {key[1:] for key, owner in owners.items() if owner == place} for place in result}
     for place, own in list(result.items()):
@@ -194,11 +194,11 @@ def _same_lengths(one: Part, other: Part, one_quarter: int, other_quarter: int) 
     return same / len(one.notes)
 
 
-def _left_out(project: Project, streams: Sequence[TrackChannel], silent: Sequence[int]) -> Iterator[int]:
+def _left_out(project: Project, channels: Sequence[TrackChannel], silent: Sequence[int]) -> Iterator[int]:
     """Those of the streams that no part was read from which the project knows as unplayed."""
     unplayed = list(project.score.unplayed)
     for index in silent:
-        name, count = stream_name(streams[index]), len(streams[index].pitches)
+        name, count = stream_name(channels[index]), len(channels[index].pitches)
         # Its name or its notes may have changed.
         like = [part for part in unplayed if part.name == name] or [
             part for part in unplayed if part.note_count == count

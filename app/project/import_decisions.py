@@ -107,7 +107,7 @@ class ReadTiming(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     pickup_ticks: int
 
 
-def mark_of(stream: TrackChannel, quarter: int, decided: TrackMark | None = None) -> TrackMark:
+def mark_of(channel: TrackChannel, quarter: int, decided: TrackMark | None = None) -> TrackMark:
     """The mark of a stream.
 
     Parameters
@@ -117,21 +117,21 @@ def mark_of(stream: TrackChannel, quarter: int, decided: TrackMark | None = None
     decided : TrackMark, optional
         The instrument was chosen by what this one says.
     """
-    source = stream if decided is None else decided
+    source = channel if decided is None else decided
     return TrackMark(
-        track=stream.track,
-        channel=stream.channel,
-        change=stream.change,
+        track=channel.track,
+        channel=channel.channel,
+        change=channel.change,
         name=source.name,
         instrument_name=source.instrument_name,
         program=source.program,
         reported=source.reported,
-        called=stream.name,
-        melody=melody_of(stream, quarter),
+        called=channel.name,
+        melody=melody_of(channel, quarter),
     )
 
 
-def melody_of(stream: TrackChannel, quarter: int) -> tuple[int, ...]:
+def melody_of(channel: TrackChannel, quarter: int) -> tuple[int, ...]:
     """The sketch of a stream's notes."""
-    notes = sorted(zip(stream.onset_ticks, stream.pitches, strict=True))
+    notes = sorted(zip(channel.onset_ticks, channel.pitches, strict=True))
     return sketch(turns([onset for onset, _ in notes], [pitch for _, pitch in notes], quarter))

@@ -59,8 +59,8 @@ def usual_rows(contents: PieceContents, maps: Mapping[str, InstrumentMap]) -> tu
     found = suggestions(contents.streams, map_choices(maps.values()))
     rows = []
     for one in found:
-        own = (contents.streams[stream] for stream in one.assignment.streams)
-        takes = all(take_reason(stream, contents.tempo_map) for stream in own)
+        own = (contents.streams[channel] for channel in one.assignment.streams)
+        takes = all(take_reason(channel, contents.tempo_map) for channel in own)
         rows.append(ImportRow(msgspec.structs.replace(one.assignment, clean=takes), one.playable))
     return tuple(rows)
 
@@ -75,9 +75,9 @@ def cleaning(rows: Sequence[ImportRow], clean: bool) -> tuple[ImportRow, ...]:
 def merged(rows: Sequence[ImportRow], places: Sequence[int]) -> tuple[ImportRow, ...]:
     """The rows with those at some places made into one, where the first of them stood."""
     first, *others = sorted(places)
-    streams = tuple(stream for place in (first, *others) for stream in rows[place].assignment.streams)
+    channels = tuple(channel for place in (first, *others) for channel in rows[place].assignment.streams)
     together = msgspec.structs.replace(
-        rows[first], assignment=msgspec.structs.replace(rows[first].assignment, streams=streams), requested=True
+        rows[first], assignment=msgspec.structs.replace(rows[first].assignment, streams=channels), requested=True
     )
     gone = set(others)
     return tuple(together if place == first else row for place, row in enumerate(rows) if place not in gone)
@@ -98,17 +98,17 @@ def carried_over(
     usual, usual_again : sequence of ImportRow
         Rows by default of ``contents`` and of ``again``.
     """
-    now = {stream.place: index for index, stream in enumerate(again.streams)}
+    now = {channel.place: index for index, channel in enumerate(again.streams)}
     by_default = {row.assignment.streams: row for row in usual}
     kept: list[ImportRow] = []
     for row in rows:
-        places = [now.get(contents.streams[stream].place) for stream in row.assignment.streams]
-        streams = tuple(place for place in places if place is not None)
-        if streams and row != by_default.get(row.assignment.streams):
+        places = [now.get(contents.streams[channel].place) for channel in row.assignment.streams]
+        channels = tuple(place for place in places if place is not None)
+        if channels and row != by_default.get(row.assignment.streams):
             kept.append(
-                msgspec.structs.replace(row, assignment=msgspec.structs.replace(row.assignment, streams=streams))
+                msgspec.structs.replace(row, assignment=msgspec.structs.replace(row.assignment, streams=channels))
             )
-    chosen = {stream for row in kept for stream in row.assignment.streams}
+    chosen = {channel for row in kept for channel in row.assignment.streams}
     kept += (row for row in usual_again if chosen.isdisjoint(row.assignment.streams))
     return tuple(sorted(kept, key=lambda row: row.assignment.streams[0]))
 
@@ -117,8 +117,8 @@ def separated(rows: Sequence[ImportRow], place: int) -> tuple[ImportRow, ...]:
     """The rows with the one at a place taken apart into its tracks."""
     row = rows[place]
     alone = tuple(
-        msgspec.structs.replace(row, assignment=msgspec.structs.replace(row.assignment, streams=(stream,), name=""))
-        for stream in row.assignment.streams
+        msgspec.structs.replace(row, assignment=msgspec.structs.replace(row.assignment, streams=(channel,), name=""))
+        for channel in row.assignment.streams
     )
     return (*rows[:place], *alone, *rows[place + 1 :])
 
@@ -190,7 +190,7 @@ def _instruments(
 ) -> tuple[str, ...]:
     """What plays the tracks of an assignment."""
     # As if the file had no others.
-    own = msgspec.structs.replace(contents, streams=tuple(contents.streams[stream] for stream in assignment.streams))
+    own = msgspec.structs.replace(contents, streams=tuple(contents.streams[channel] for channel in assignment.streams))
     alone = msgspec.structs.replace(assignment, streams=tuple(range(len(assignment.streams))))
     return tuple(part.map_id for part in score_of_rows(own, [ImportRow(alone)], maps, stop_requested).parts)
 
@@ -252,7 +252,7 @@ def decisions_of(contents: PieceContents, rows: Sequence[ImportRow], encoding: s
     return ImportDecisions(
         encoding,
         tuple(
-            decision_of(row, (mark_of(contents.streams[stream], quarter) for stream in row.assignment.streams))
+            decision_of(row, (mark_of(contents.streams[channel], quarter) for channel in row.assignment.streams))
             for row in rows
         ),
     )

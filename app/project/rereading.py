@@ -74,15 +74,15 @@ def read_as_decided(
     played_on : mapping of Place to str
         The map that each part of the project was read for, by its place: it stays where nothing else is known.
     """
-    streams = list(contents.streams)
+    channels = list(contents.streams)
     quarter = contents.tempo_map.ticks_per_quarter
     marks = [mark for row in decisions.rows for mark in row.tracks]
-    found = iter(recognised_streams(marks, streams, [melody_of(stream, quarter) for stream in streams]))
+    found = iter(recognised_streams(marks, channels, [melody_of(channel, quarter) for channel in channels]))
     rows: list[ImportRow] = []
     kept: list[RowDecision] = []
     places: dict[Place, Place] = {}
     known: set[int] = set()
-    spare = MOST_ROWS - len(streams)
+    spare = MOST_ROWS - len(channels)
     for decision in decisions.rows:
         own = [(mark, next(found)) for mark in decision.tracks]
         there = [(mark, place) for mark, place in own if place is not None]
@@ -92,10 +92,10 @@ def read_as_decided(
             if place is None:
                 renewed.append(mark)
                 continue
-            stream = contents.streams[place]
-            says = not decision.requested or _says_who(stream, mark, choices)
-            streams[place] = stream if says else _as_before(stream, mark)
-            renewed.append(mark_of(stream, quarter, None if says else mark))
+            channel = contents.streams[place]
+            says = not decision.requested or _says_who(channel, mark, choices)
+            channels[place] = channel if says else _as_before(channel, mark)
+            renewed.append(mark_of(channel, quarter, None if says else mark))
         spare -= not there
         if there or spare >= 0:
             kept.append(msgspec.structs.replace(decision, tracks=tuple(renewed)))
@@ -103,7 +103,7 @@ def read_as_decided(
             lead = decision.tracks[0].place
             places[lead] = contents.streams[there[0][1]].place
             before = played_on.get(lead)
-            rows.append(_row(decision, [place for _, place in there], contents.streams, streams, choices, before))
+            rows.append(_row(decision, [place for _, place in there], contents.streams, channels, choices, before))
     for row in usual_rows(contents, maps):
         new = tuple(place for place in row.assignment.streams if place not in known)
         if new:
@@ -111,27 +111,27 @@ def read_as_decided(
             added = _played(added, contents.streams, choices)
             rows.append(added)
             kept.append(decision_of(added, [mark_of(contents.streams[place], quarter) for place in new]))
-    read = msgspec.structs.replace(contents, streams=tuple(streams))
+    read = msgspec.structs.replace(contents, streams=tuple(channels))
     return MidiReading(read, tuple(rows), msgspec.structs.replace(decisions, rows=tuple(kept)), places)
 
 
-def _played(row: ImportRow, streams: Sequence[TrackChannel], choices: Sequence[MapChoice]) -> ImportRow:
+def _played(row: ImportRow, channels: Sequence[TrackChannel], choices: Sequence[MapChoice]) -> ImportRow:
     """The row of new tracks; where a name that tells no instrument keeps them from being played, the map whose range
     fits plays them, for no one is asked here."""
     own = [
-        msgspec.structs.replace(streams[place], name="", instrument_name="", program=None)
+        msgspec.structs.replace(channels[place], name="", instrument_name="", program=None)
         for place in row.assignment.streams
     ]
-    unknown = not row.requested and candidates([streams[place] for place in row.assignment.streams], choices).unknown
-    if not unknown or any(refusal(stream, choices) is not None for stream in own):
+    unknown = not row.requested and candidates([channels[place] for place in row.assignment.streams], choices).unknown
+    if not unknown or any(refusal(channel, choices) is not None for channel in own):
         return row
-    pitches = [pitch for stream in own for pitch in stream.pitches]
+    pitches = [pitch for channel in own for pitch in channel.pitches]
     map_id = candidates(own, choices).best(pitches).map_id
     return ImportRow(msgspec.structs.replace(row.assignment, map_id=map_id))
 
 
 def recognised_streams(
-    marks: Sequence[TrackMark], streams: Sequence[TrackChannel], melodies: Sequence[tuple[int, ...]]
+    marks: Sequence[TrackMark], channels: Sequence[TrackChannel], melodies: Sequence[tuple[int, ...]]
 ) -> list[int | None]:
     """The stream that each mark is of, by its place; None: it is not there. As much as possible in common, all in all.
 
@@ -141,10 +141,10 @@ def recognised_streams(
         Sketches of the streams.
     """
     result: list[int | None] = [None] * len(marks)
-    if not marks or not streams:
+    if not marks or not channels:
         return result
     content = sketched_shares([mark.melody for mark in marks], melodies)
-    kin = np.array([[_kinship(mark, stream) for stream in streams] for mark in marks])
+    kin = np.array([[_kinship(mark, channel) for channel in channels] for mark in marks])
     from scipy.optimize import linear_sum_assignment  # heavy, and seldom needed
 
     for one, other in zip(*linear_sum_assignment(-(content + kin)), strict=True):
@@ -153,26 +153,26 @@ def recognised_streams(
     return result
 
 
-def _kinship(mark: TrackMark, stream: TrackChannel) -> float:
+def _kinship(mark: TrackMark, channel: TrackChannel) -> float:
     """Return what speaks for a stream being the marked one beside what it plays."""
-    named = stream.name.casefold() in (mark.called.casefold(), mark.name.casefold())
+    named = channel.name.casefold() in (mark.called.casefold(), mark.name.casefold())
     return (
-        (0.25 if stream.name else 0.1) * named
-        + 0.04 * (stream.instrument_name == mark.instrument_name)
-        + 0.06 * (stream.program == mark.program)
-        + 0.06 * (stream.track == mark.track)
-        + 0.04 * (stream.channel == mark.channel)
-        + 0.06 * (stream.change == mark.change)
+        (0.25 if channel.name else 0.1) * named
+        + 0.04 * (channel.instrument_name == mark.instrument_name)
+        + 0.06 * (channel.program == mark.program)
+        + 0.06 * (channel.track == mark.track)
+        + 0.04 * (channel.channel == mark.channel)
+        + 0.06 * (channel.change == mark.change)
     )
 
 
-def _says_who(stream: TrackChannel, mark: TrackMark, choices: Sequence[MapChoice]) -> bool:
+def _says_who(channel: TrackChannel, mark: TrackMark, choices: Sequence[MapChoice]) -> bool:
     """Return whether a track says who plays it at least as well as it did."""
-    found = candidates([stream], choices)
+    found = candidates([channel], choices)
     if found.how is not How.SAID or not found.maps or found.unknown:
         return False
     # A name says more than a program: how many players there are, for one.
-    return _understood(stream) >= _understood(mark)
+    return _understood(channel) >= _understood(mark)
 
 
 def _understood(track: TrackChannel | TrackMark) -> int:
@@ -181,16 +181,16 @@ def _understood(track: TrackChannel | TrackMark) -> int:
     return max((1 if found.vague else 2 for found in named if found is not None), default=0)
 
 
-def _says_the_same(stream: TrackChannel, marks: Sequence[TrackMark]) -> bool:
+def _says_the_same(channel: TrackChannel, marks: Sequence[TrackMark]) -> bool:
     """Return whether a track says what one of the marks did when its player was chosen."""
-    said = stream.name, stream.instrument_name, stream.program
+    said = channel.name, channel.instrument_name, channel.program
     return any((mark.name, mark.instrument_name, mark.program) == said for mark in marks)
 
 
-def _as_before(stream: TrackChannel, mark: TrackMark) -> TrackChannel:
+def _as_before(channel: TrackChannel, mark: TrackMark) -> TrackChannel:
     """The stream as it said at its import who plays it."""
     return msgspec.structs.replace(
-        stream,
+        channel,
         name=mark.name,
         instrument_name=mark.instrument_name,
         program=mark.program,
@@ -202,7 +202,7 @@ def _row(
     decision: RowDecision,
     places: Sequence[int],
     called: Sequence[TrackChannel],
-    streams: Sequence[TrackChannel],
+    channels: Sequence[TrackChannel],
     choices: Sequence[MapChoice],
     before: str | None,
 ) -> ImportRow:
@@ -210,12 +210,12 @@ def _row(
 
     Parameters
     ----------
-    called, streams : sequence of TrackChannel
+    called, channels : sequence of TrackChannel
         As the file has them, and as they say who plays them.
     before : str or None
         The map that played them.
     """
-    own = [streams[place] for place in places]
+    own = [channels[place] for place in places]
     installed = {PERCUSSION, *(choice.map_id for choice in choices)}
     map_id = decision.map_id if decision.map_id in installed else None
     if map_id is None and decision.requested and before is not None:
@@ -225,7 +225,7 @@ def _row(
             map_id = None if any(choice.map_id == before for choice in found.maps) else before
         elif found.unknown or not found.maps:
             # Its player stays, and has an instrument of its own; any map reads the notes.
-            pitches = [pitch for stream in own for pitch in stream.pitches]
+            pitches = [pitch for channel in own for pitch in channel.pitches]
             map_id = (
                 before if before in installed else MapCandidates(How.RANGE, None, tuple(choices)).best(pitches).map_id
             )

@@ -156,11 +156,11 @@ def require_map(map_id: str, known: Collection[str]) -> str:
     return map_id
 
 
-def candidates(streams: Sequence[TrackChannel], maps: Sequence[MapChoice]) -> MapCandidates:
+def candidates(channels: Sequence[TrackChannel], maps: Sequence[MapChoice]) -> MapCandidates:
     """The maps that tracks which are played as one may go to; those whose range fits where nothing is said."""
-    lead = next((one for one in streams if said_of(one) is not None), streams[0])
+    lead = next((one for one in channels if said_of(one) is not None), channels[0])
     said = said_of(lead)
-    pitches = [pitch for stream in streams for pitch in stream.pitches]
+    pitches = [pitch for channel in channels for pitch in channel.pitches]
     if said is not None and not said.any_pitch:
         found = _of_instrument(How.SAID, said, maps)
         numbered, general = by_program_alone(lead), said_plainly(lead)
@@ -168,8 +168,8 @@ def candidates(streams: Sequence[TrackChannel], maps: Sequence[MapChoice]) -> Ma
             # A size of its family that no map plays.
             found = _of_instrument(How.SAID, general, maps)
         return found if numbered is None else _instead(numbered, found, pitches, maps) or found
-    reported = dict.fromkeys(id for stream in streams for id in stream.reported) if said is None else {}
-    how = How.ENSEMBLE if any(one.reported_by == "ensemble" for one in streams) else How.TITLE
+    reported = dict.fromkeys(id for channel in channels for id in channel.reported) if said is None else {}
+    how = How.ENSEMBLE if any(one.reported_by == "ensemble" for one in channels) else How.TITLE
     named = [vocabulary().instruments[id] for id in reported]
     possible = [_of_instrument(how, one, maps) for one in named if not one.any_pitch]
     fitting = [one for one in possible if any(_share(pitches, choice) > _NEEDED_SHARE for choice in one.maps)]
@@ -181,25 +181,25 @@ def candidates(streams: Sequence[TrackChannel], maps: Sequence[MapChoice]) -> Ma
     section = said or next((one for one in named if one.any_pitch), None)
     families = () if section is None else section.families
     usual = _where(maps, lambda one: not one.by_name_only and (not families or one.family in families))
-    unknown = section is None and any(map(is_named, streams))
+    unknown = section is None and any(map(is_named, channels))
     return MapCandidates(How.RANGE, section, tuple(usual or maps), unknown=unknown)
 
 
-def refusal(stream: TrackChannel, maps: Sequence[MapChoice]) -> Message | None:
+def refusal(channel: TrackChannel, maps: Sequence[MapChoice]) -> Message | None:
     """Why a track has no player; None if it has one."""
-    if use_of(stream) == "effect":
+    if use_of(channel) == "effect":
         return Message("score.sound_effect")
-    instrument = said_of(stream)
-    found = candidates([stream], maps)
+    instrument = said_of(channel)
+    found = candidates([channel], maps)
     if instrument is not None and not instrument.any_pitch:
         if instrument.kind != "wind":
             id_ = "score.percussion" if instrument.kind == "percussion" else "score.not_wind"
             return Message(id_, {"instrument": instrument.names[0]})
         return None if found.maps else Message("score.no_map", {"instrument": instrument.names[0]})
-    range_: dict[str, Argument] = {"lowest": min(stream.pitches), "highest": max(stream.pitches)}
+    range_: dict[str, Argument] = {"lowest": min(channel.pitches), "highest": max(channel.pitches)}
     if found.unknown:
         return Message("score.unknown_instrument", range_)
-    if max((_share(stream.pitches, choice) for choice in found.maps), default=0.0) <= _NEEDED_SHARE:
+    if max((_share(channel.pitches, choice) for choice in found.maps), default=0.0) <= _NEEDED_SHARE:
         return Message("score.outside_ranges", range_)
     return None
 

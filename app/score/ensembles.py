@@ -40,35 +40,35 @@ _LINE_SHARE: Final = 0.95
 """Notes of a line that end when the next one begins."""
 
 
-def named_by_ensemble(streams: Sequence[TrackChannel], title: str) -> list[TrackChannel]:
+def named_by_ensemble(channels: Sequence[TrackChannel], title: str) -> list[TrackChannel]:
     """Give the instruments of a known ensemble to the tracks that say nothing themselves; the streams as they are where
     they are none."""
-    silent = [says_nothing(stream) for stream in streams]
+    silent = [says_nothing(channel) for channel in channels]
     sizes = {len(ensemble.parts) for ensemble in vocabulary().ensembles}
-    if not any(silent) or len(streams) not in sizes:
-        return list(streams)
-    said = [None if quiet else recognised(stream) for stream, quiet in zip(streams, silent, strict=True)]
-    sections = [recognised(stream) if quiet else None for stream, quiet in zip(streams, silent, strict=True)]
+    if not any(silent) or len(channels) not in sizes:
+        return list(channels)
+    said = [None if quiet else recognised(channel) for channel, quiet in zip(channels, silent, strict=True)]
+    sections = [recognised(channel) if quiet else None for channel, quiet in zip(channels, silent, strict=True)]
     if not all(
-        use_of(stream) == "melodic" and (quiet or (found is not None and found.kind == "wind"))
-        for stream, quiet, found in zip(streams, silent, said, strict=True)
-    ) or not all(_is_line(stream) for stream, quiet in zip(streams, silent, strict=True) if quiet):
-        return list(streams)
+        use_of(channel) == "melodic" and (quiet or (found is not None and found.kind == "wind"))
+        for channel, quiet, found in zip(channels, silent, said, strict=True)
+    ) or not all(_is_line(channel) for channel, quiet in zip(channels, silent, strict=True) if quiet):
+        return list(channels)
     words = words_of(title)
     ranked = [
         (not named, away.unlike + ensemble.unusual, place)
         for place, ensemble in enumerate(vocabulary().ensembles)
-        if len(ensemble.parts) == len(streams)
+        if len(ensemble.parts) == len(channels)
         and _agrees(ensemble, said, sections)
-        and (away := _away(ensemble, streams, silent)) is not None
+        and (away := _away(ensemble, channels, silent)) is not None
         and away.median <= (_MOST_AWAY_NAMED if (named := _is_named(ensemble, words)) else _MOST_AWAY)
     ]
     if not ranked:
-        return list(streams)
+        return list(channels)
     parts = vocabulary().ensembles[min(ranked)[-1]].parts
     return [
-        msgspec.structs.replace(stream, reported=(part,), reported_by="ensemble") if quiet else stream
-        for stream, quiet, part in zip(streams, silent, parts, strict=True)
+        msgspec.structs.replace(channel, reported=(part,), reported_by="ensemble") if quiet else channel
+        for channel, quiet, part in zip(channels, silent, parts, strict=True)
     ]
 
 
@@ -93,15 +93,15 @@ class _Away(NamedTuple):
     unlike: float
 
 
-def _away(ensemble: Ensemble, streams: Sequence[TrackChannel], silent: Sequence[bool]) -> _Away | None:
+def _away(ensemble: Ensemble, channels: Sequence[TrackChannel], silent: Sequence[bool]) -> _Away | None:
     """The distance of the silent parts from those of an ensemble, each in its usual place among the others or all in
     the middle of their instruments' compass, whichever is nearer; None where one does not fit."""
     in_place, in_middle, beyond = [], [], []
-    for stream, quiet, part, usual in zip(streams, silent, ensemble.parts, ensemble.pitches, strict=True):
+    for channel, quiet, part, usual in zip(channels, silent, ensemble.parts, ensemble.pitches, strict=True):
         if not quiet:
             continue
         compass = vocabulary().ranges[part]
-        pitches = sorted(stream.pitches)
+        pitches = sorted(channel.pitches)
         if sum(compass.low <= pitch <= compass.high for pitch in pitches) < _LEAST_SHARE * len(pitches):
             return None
         few = int(_FEW_SHARE * len(pitches))
@@ -130,9 +130,9 @@ def _is_named(ensemble: Ensemble, title: tuple[str, ...]) -> bool:
     )
 
 
-def _is_line(stream: TrackChannel) -> bool:
+def _is_line(channel: TrackChannel) -> bool:
     """Return whether one player can have the notes."""
-    rows = sorted(zip(stream.onset_ticks, stream.end_ticks, strict=True))
+    rows = sorted(zip(channel.onset_ticks, channel.end_ticks, strict=True))
     free = sum(
         end - following <= _LEGATO_SHARE * min(end - onset, after - following)
         for (onset, end), (following, after) in pairwise(rows)

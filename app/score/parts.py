@@ -48,7 +48,7 @@ from instrument_maps.vocabulary import vocabulary
 
 
 def parts_of(
-    streams: Sequence[TrackChannel], maps: Sequence[MapChoice], piece: Score
+    channels: Sequence[TrackChannel], maps: Sequence[MapChoice], piece: Score
 ) -> tuple[tuple[Part, ...], tuple[UnplayedPart, ...], tuple[Message, ...]]:
     """Sort tracks into parts with players and parts without, and say what was guessed.
 
@@ -59,11 +59,11 @@ def parts_of(
     piece : Score
         Its tempo and metres.
     """
-    return assigned_parts(streams, usual_assignments(streams, maps), maps, piece)
+    return assigned_parts(channels, usual_assignments(channels, maps), maps, piece)
 
 
 def assigned_parts(
-    streams: Sequence[TrackChannel],
+    channels: Sequence[TrackChannel],
     assignments: Sequence[PartAssignment],
     maps: Sequence[MapChoice],
     piece: Score,
@@ -85,7 +85,7 @@ def assigned_parts(
     Cancelled
         ``stop_requested`` said so.
     """
-    sorting = _Sorting(streams, maps, piece)
+    sorting = _Sorting(channels, maps, piece)
     for assignment in assignments:
         raise_if_stopped(stop_requested)
         sorting.add(assignment)
@@ -95,14 +95,14 @@ def assigned_parts(
 class _Sorting:
     """Tracks that are sorted into parts, assignment by assignment."""
 
-    def __init__(self, streams: Sequence[TrackChannel], maps: Sequence[MapChoice], piece: Score) -> None:
+    def __init__(self, channels: Sequence[TrackChannel], maps: Sequence[MapChoice], piece: Score) -> None:
         self.parts: list[Part] = []
-        self._streams, self._maps, self._piece = list(streams), maps, piece
+        self._streams, self._maps, self._piece = list(channels), maps, piece
         self._warnings: list[Message] = []
         self._slurred: list[tuple[str, Note]] = []
         self._silent: list[UnplayedPart] = []
         self._played, self._crowded, self._percussion = set[int](), set[int](), set[int]()
-        ends = [max(stream.end_ticks) for stream in streams if stream.end_ticks]
+        ends = [max(channel.end_ticks) for channel in channels if channel.end_ticks]
         self._hours = piece.tempo_map.seconds(float(max(ends, default=0))) / 3600.0
         self._most = most_parts(self._hours)
 
@@ -121,11 +121,11 @@ class _Sorting:
         if found.unknown:
             return
         read = [without_key_switches(self._streams[index], found, maps, self._piece.tempo_map) for index in own]
-        chosen = [stream for stream, _ in read]
+        chosen = [channel for channel, _ in read]
         if any(places for _, places in read):
             found = _found(chosen, assignment.map_id, maps)
         self._played.update(own)
-        notes = [note for stream in chosen for note in stream.notes()]
+        notes = [note for channel in chosen for note in channel.notes()]
         notes.sort(key=lambda note: (note.onset_tick, note.pitch))
         shared = _shared(assignment, chosen, notes, self._piece.tempo_map, min(MOST_VOICES, room))
         name = assignment.name or chosen[0].name or chosen[0].instrument_name
@@ -176,26 +176,26 @@ class _Sorting:
 
     def unplayed(self) -> tuple[UnplayedPart, ...]:
         """The streams that no one plays, and the notes of parts that their players do not play."""
-        streams = (
+        channels = (
             UnplayedPart(
-                stream_name(stream),
+                stream_name(channel),
                 self._reason(index),
-                len(stream.pitches),
-                max(stream.end_ticks),
-                sounding_spans(zip(stream.onset_ticks, stream.end_ticks, strict=True), self._piece.ticks_per_quarter),
+                len(channel.pitches),
+                max(channel.end_ticks),
+                sounding_spans(zip(channel.onset_ticks, channel.end_ticks, strict=True), self._piece.ticks_per_quarter),
             )
-            for index, stream in enumerate(self._streams)
+            for index, channel in enumerate(self._streams)
             if index not in self._played
         )
-        return *streams, *self._silent
+        return *channels, *self._silent
 
     def _reason(self, index: int) -> Message:
         """Why no one plays a stream."""
-        stream = self._streams[index]
-        if index in self._percussion and use_of(stream) != "rhythm":
-            return Message("score.percussion", {"instrument": stream_name(stream)})
+        channel = self._streams[index]
+        if index in self._percussion and use_of(channel) != "rhythm":
+            return Message("score.percussion", {"instrument": stream_name(channel)})
         if index not in self._crowded:
-            return refusal(stream, self._maps) or Message("score.left_out")
+            return refusal(channel, self._maps) or Message("score.left_out")
         if self._most == MOST_PARTS:
             return Message("score.too_many_players", {"most": self._most})
         return Message("score.too_many_for_hours", {"most": self._most, "hours": round(self._hours, 1)})
@@ -232,22 +232,22 @@ def _shared(
     return shared._replace(voices=with_solos(shared.voices, solos, original), solos=sorted(solos))
 
 
-def rhythm_parts(streams: Sequence[TrackChannel], assignments: Sequence[PartAssignment] = ()) -> list[TrackChannel]:
+def rhythm_parts(channels: Sequence[TrackChannel], assignments: Sequence[PartAssignment] = ()) -> list[TrackChannel]:
     """The streams whose notes are the sounds of a drum kit: those that say so, but for what the user assigned."""
     assigned = {index: one.map_id for one in assignments if one.map_id is not None for index in one.streams}
     return [
-        stream
-        for index, stream in enumerate(streams)
-        if (assigned[index] == PERCUSSION if index in assigned else use_of(stream) == "rhythm")
+        channel
+        for index, channel in enumerate(channels)
+        if (assigned[index] == PERCUSSION if index in assigned else use_of(channel) == "rhythm")
     ]
 
 
-def _switches(streams: Sequence[TrackChannel], own: Sequence[int], places: Sequence[Sequence[int]]) -> list[Note]:
+def _switches(channels: Sequence[TrackChannel], own: Sequence[int], places: Sequence[Sequence[int]]) -> list[Note]:
     """The key switches of some streams, by onset."""
     found = []
     for index, switches in zip(own, places, strict=True):
         if switches:
-            notes = streams[index].notes()
+            notes = channels[index].notes()
             found += [notes[place] for place in switches]
     return sorted(found, key=lambda note: note.onset_tick)
 
@@ -265,39 +265,41 @@ def _found(chosen: Sequence[TrackChannel], map_id: str | None, maps: Sequence[Ma
     return found
 
 
-def stream_name(stream: TrackChannel) -> str:
+def stream_name(channel: TrackChannel) -> str:
     """What the user calls a stream."""
-    instrument = recognised(stream)
-    return stream.name or stream.instrument_name or (instrument.names[0] if instrument else f"Track {stream.track + 1}")
+    instrument = recognised(channel)
+    return (
+        channel.name or channel.instrument_name or (instrument.names[0] if instrument else f"Track {channel.track + 1}")
+    )
 
 
 def _parts(
-    stream: TrackChannel, name: str, found: MapCandidates, voices: Sequence[tuple[Note, ...]], written: bool
+    channel: TrackChannel, name: str, found: MapCandidates, voices: Sequence[tuple[Note, ...]], written: bool
 ) -> list[Part]:
     """A part for every voice."""
     parts = []
     instrument = found.instrument
-    onsets = {file_id(note.id): note.onset_tick for notes in voices for note in notes} if stream.marks else {}
-    for voice, notes in enumerate(voices, stream.change * MOST_VOICES):
+    onsets = {file_id(note.id): note.onset_tick for notes in voices for note in notes} if channel.marks else {}
+    for voice, notes in enumerate(voices, channel.change * MOST_VOICES):
         chosen = found.best([note.pitch for note in notes], written)
         shift = -chosen.transposition_semitones if written else 0
         parts.append(
             Part(
-                id=f"{stream.track + 1}.{stream.channel + 1}.{voice + 1}",
+                id=f"{channel.track + 1}.{channel.channel + 1}.{voice + 1}",
                 name=name or (instrument.names[0] if instrument else "") or _name_of(chosen),
-                track=stream.track,
+                track=channel.track,
                 voice=voice,
-                channel=stream.channel,
-                program=stream.program,
+                channel=channel.channel,
+                program=channel.program,
                 instrument=instrument.id if instrument is not None else None,
                 map_id=chosen.map_id,
                 notes=transposed(notes, shift),
-                curves=stream.curves,
+                curves=channel.curves,
                 transposed_semitones=shift,
-                muted=stream.muted,
-                stopped=stream.stopped,
-                marks=_marks(stream.marks, onsets, notes),
-                source=stream.source,
+                muted=channel.muted,
+                stopped=channel.stopped,
+                marks=_marks(channel.marks, onsets, notes),
+                source=channel.source,
             )
         )
     return parts

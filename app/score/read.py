@@ -174,15 +174,15 @@ def _midi_contents(
     stuck = cut_stuck_notes(tracks, timing.tempo_map, empty.metre_map, unended)
     _require_length(empty, tracks, str(path))
     texts = _texts(tracks, encoding)
-    streams = streams_of(tracks, settle_bends(tracks), texts, alone, frozenset(apart))
-    _require_few(len(streams), str(path))
+    channels = streams_of(tracks, settle_bends(tracks), texts, alone, frozenset(apart))
+    _require_few(len(channels), str(path))
     title = _title(tracks[0], texts, alone)
     return PieceContents(
         title=title or shown(path.stem),
         tempo_map=timing.tempo_map,
         metres=timing.metres,
         pickup_ticks=timing.pickup_ticks,
-        streams=tuple(named_by_ensemble(named_by_title(streams, title), title)),
+        streams=tuple(named_by_ensemble(named_by_title(channels, title), title)),
         warnings=(*no_notes(tracks, counts, texts), *warnings, *timing.warnings, *stuck),
         markers=_markers(tracks, texts),
         encoding=texts.encoding,

@@ -25,81 +25,81 @@ _LEGATO_SHARE: Final = 0.5
 """Share of a region's last note that may sound into the next region."""
 
 
-def groups(streams: Sequence[TrackChannel]) -> list[tuple[int, ...]]:
+def groups(channels: Sequence[TrackChannel]) -> list[tuple[int, ...]]:
     """The places of streams that are one player's, in the order of their first ones; most stand alone."""
-    alone = _alone(streams)
+    alone = _alone(channels)
     same: dict[tuple[object, ...], list[int]] = {}
-    for place, stream in enumerate(streams):
-        key = ("line", stream.line) if stream.line >= 0 else _key(stream) if place in alone else (place,)
+    for place, channel in enumerate(channels):
+        key = ("line", channel.line) if channel.line >= 0 else _key(channel) if place in alone else (place,)
         same.setdefault(key, []).append(place)
     found: list[tuple[int, ...]] = []
     for places in same.values():
-        in_time = sorted(places, key=lambda place: streams[place].onset_ticks[0])
-        one = len(places) == 1 or are_one_line([streams[place] for place in in_time])
+        in_time = sorted(places, key=lambda place: channels[place].onset_ticks[0])
+        one = len(places) == 1 or are_one_line([channels[place] for place in in_time])
         found += [tuple(in_time)] if one else [(place,) for place in places]
     return sorted(found, key=min)
 
 
-def _alone(streams: Sequence[TrackChannel]) -> frozenset[int]:
+def _alone(channels: Sequence[TrackChannel]) -> frozenset[int]:
     """The places of named melodies that are all their track has on their channel."""
     owners: dict[tuple[int, int], list[int]] = {}
-    for place, stream in enumerate(streams):
-        owners.setdefault((stream.track, stream.channel), []).append(place)
+    for place, channel in enumerate(channels):
+        owners.setdefault((channel.track, channel.channel), []).append(place)
     single = [places[0] for places in owners.values() if len(places) == 1]
-    return frozenset(place for place in single if is_named(streams[place]) and use_of(streams[place]) == "melodic")
+    return frozenset(place for place in single if is_named(channels[place]) and use_of(channels[place]) == "melodic")
 
 
-def _key(stream: TrackChannel) -> tuple[object, ...]:
-    return _COPY.sub("", stream.name).casefold(), stream.instrument_name, stream.channel, stream.program
+def _key(channel: TrackChannel) -> tuple[object, ...]:
+    return _COPY.sub("", channel.name).casefold(), channel.instrument_name, channel.channel, channel.program
 
 
-def are_one_line(streams: Sequence[TrackChannel]) -> bool:
+def are_one_line(channels: Sequence[TrackChannel]) -> bool:
     """Return whether streams are one player's: regions of one track, or all that a line is spread over."""
-    return is_spread(streams) or follow_one_another(streams)
+    return is_spread(channels) or follow_one_another(channels)
 
 
-def is_spread(streams: Sequence[TrackChannel]) -> bool:
+def is_spread(channels: Sequence[TrackChannel]) -> bool:
     """Return whether one line is spread over streams."""
-    return len(streams) > 1 and len({stream.line for stream in streams}) == 1 and streams[0].line >= 0
+    return len(channels) > 1 and len({channel.line for channel in channels}) == 1 and channels[0].line >= 0
 
 
-def follow_one_another(streams: Sequence[TrackChannel]) -> bool:
+def follow_one_another(channels: Sequence[TrackChannel]) -> bool:
     """Return whether streams are regions of one track, in their order."""
-    if len(streams) < 2 or len(set(map(_key, streams))) > 1:
+    if len(channels) < 2 or len(set(map(_key, channels))) > 1:
         return False
     return all(
         end - after.onset_ticks[0] <= _LEGATO_SHARE * (end - onset)
-        for before, after in pairwise(streams)
+        for before, after in pairwise(channels)
         for onset, end in zip(before.onset_ticks, before.end_ticks, strict=True)
         if end > after.onset_ticks[0]
     )
 
 
-def joined(streams: Sequence[TrackChannel]) -> TrackChannel:
+def joined(channels: Sequence[TrackChannel]) -> TrackChannel:
     """The first of some streams, with the curves, the muted spans and the marks of all.
 
     Where the streams do not follow one another the curves are those of the first that has any.
     """
-    curves = next((stream.curves for stream in streams if stream.curves), ())
-    if not is_spread(streams) and follow_one_another(streams):
-        curves = _curves(streams)
-    muted = tuple(sorted({span for stream in streams for span in stream.muted}))
-    stopped = tuple(sorted({span for stream in streams for span in stream.stopped}))
-    marks = tuple(dict.fromkeys(mark for stream in streams for mark in stream.marks))
-    return msgspec.structs.replace(streams[0], curves=curves, muted=muted, stopped=stopped, marks=marks)
+    curves = next((channel.curves for channel in channels if channel.curves), ())
+    if not is_spread(channels) and follow_one_another(channels):
+        curves = _curves(channels)
+    muted = tuple(sorted({span for channel in channels for span in channel.muted}))
+    stopped = tuple(sorted({span for channel in channels for span in channel.stopped}))
+    marks = tuple(dict.fromkeys(mark for channel in channels for mark in channel.marks))
+    return msgspec.structs.replace(channels[0], curves=curves, muted=muted, stopped=stopped, marks=marks)
 
 
-def _curves(streams: Sequence[TrackChannel]) -> tuple[ControllerCurve, ...]:
+def _curves(channels: Sequence[TrackChannel]) -> tuple[ControllerCurve, ...]:
     """The curves of regions: each holds from where the region before has ended."""
-    starts = [0, *(max(before.end_ticks) for before in streams[:-1]), LAST_TICK + 1]
-    kinds = sorted({curve.kind for stream in streams for curve in stream.curves})
-    return tuple(_curve(kind, streams, starts) for kind in kinds)
+    starts = [0, *(max(before.end_ticks) for before in channels[:-1]), LAST_TICK + 1]
+    kinds = sorted({curve.kind for channel in channels for curve in channel.curves})
+    return tuple(_curve(kind, channels, starts) for kind in kinds)
 
 
-def _curve(kind: CurveKind, streams: Sequence[TrackChannel], starts: Sequence[int]) -> ControllerCurve:
+def _curve(kind: CurveKind, channels: Sequence[TrackChannel], starts: Sequence[int]) -> ControllerCurve:
     points: dict[int, float] = {}
-    for stream, (start, stop) in zip(streams, pairwise(starts), strict=True):
-        curve = next((curve for curve in stream.curves if curve.kind == kind), None)
+    for channel, (start, stop) in zip(channels, pairwise(starts), strict=True):
+        curve = next((curve for curve in channel.curves if curve.kind == kind), None)
         if curve is None:
             if kind == "pitch_bend" and points:
                 points[start] = 0.0

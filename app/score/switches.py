@@ -33,7 +33,7 @@ _MOST_ODD: Final = 0.2
 
 
 def without_key_switches(
-    stream: TrackChannel, found: MapCandidates, maps: Sequence[MapChoice], tempo_map: TempoMap
+    channel: TrackChannel, found: MapCandidates, maps: Sequence[MapChoice], tempo_map: TempoMap
 ) -> tuple[TrackChannel, tuple[int, ...]]:
     """A stream without its key switches, and their places among its notes; the same stream where it has none.
 
@@ -44,17 +44,17 @@ def without_key_switches(
     maps : sequence of MapChoice
         All there are.
     """
-    pitches = np.array(stream.pitches)
+    pitches = np.array(channel.pitches)
     for away in _far(pitches):
-        rest = _kept(stream, ~away)
+        rest = _kept(channel, ~away)
         # Where nothing but the range chose them, what was found fits the switches too.
         own = found if found.how is not How.RANGE else candidates([rest], maps)
         choice = own.best(rest.pitches)
         low, high = choice.usual_range
         low, high = low - _AWAY, high + _AWAY
-        if ((pitches[away] <= low) | (pitches[away] >= high)).all() and _switch(stream, away, tempo_map):
+        if ((pitches[away] <= low) | (pitches[away] >= high)).all() and _switch(channel, away, tempo_map):
             return rest, tuple(np.flatnonzero(away).tolist())
-    return stream, ()
+    return channel, ()
 
 
 def _far(pitches: IntArray) -> list[BoolArray]:
@@ -69,10 +69,10 @@ def _far(pitches: IntArray) -> list[BoolArray]:
     return [part for part in few if len(np.unique(pitches[part])) <= _MOST_PITCHES]
 
 
-def _switch(stream: TrackChannel, away: BoolArray, tempo_map: TempoMap) -> bool:
+def _switch(channel: TrackChannel, away: BoolArray, tempo_map: TempoMap) -> bool:
     """Return whether notes are played as key switches are: short, before the music, or held while it sounds."""
-    onsets = tempo_map.seconds(np.array(stream.onset_ticks))
-    ends = tempo_map.seconds(np.array(stream.end_ticks))
+    onsets = tempo_map.seconds(np.array(channel.onset_ticks))
+    ends = tempo_map.seconds(np.array(channel.end_ticks))
     music_onsets, music_ends = onsets[~away], np.maximum.accumulate(ends[~away])
     following = np.append(music_onsets, np.inf)[np.searchsorted(music_onsets, onsets[away])]
     sounding_until = np.append(-np.inf, music_ends)[np.searchsorted(music_onsets, onsets[away], side="right")]
@@ -83,10 +83,10 @@ def _switch(stream: TrackChannel, away: BoolArray, tempo_map: TempoMap) -> bool:
     return bool(np.count_nonzero(odd) <= _MOST_ODD * len(odd))
 
 
-def _kept(stream: TrackChannel, kept: BoolArray) -> TrackChannel:
+def _kept(channel: TrackChannel, kept: BoolArray) -> TrackChannel:
     """Some notes of a stream."""
     places = np.flatnonzero(kept).tolist()
     columns = ("onset_ticks", "end_ticks", "pitches", "velocities", "numbers")
     return msgspec.structs.replace(
-        stream, **{name: [getattr(stream, name)[place] for place in places] for name in columns}
+        channel, **{name: [getattr(channel, name)[place] for place in places] for name in columns}
     )

@@ -173,7 +173,7 @@ class Played:
 _PLAYED: Final[IdentityCache[Played]] = IdentityCache(64)
 
 
-def _played(times_us: tuple[int, ...], messages: tuple[str, ...], wiring: ControllerMapping, end_us: int) -> Played:
+def _played(times_us: tuple[int, ...], messages: tuple[str, ...], mapping: ControllerMapping, end_us: int) -> Played:
     """Decode a take; messages that say nothing of notes, breath or lips are passed over."""
     notes: list[tuple[float, float, int, int]] = []
     sounding: SoundingNotes[tuple[float, int]] = SoundingNotes()
@@ -181,13 +181,13 @@ def _played(times_us: tuple[int, ...], messages: tuple[str, ...], wiring: Contro
     ranges = BendRanges()
     for time_us, raw in zip(times_us, messages, strict=True):
         message = decoded(raw)
-        if message is None or not is_wired(message, wiring):
+        if message is None or not is_wired(message, mapping):
             continue
         time_s = time_us / 1e6
         data = bytes.fromhex(raw)
         ended = sounding.receive(data, (time_s, data[-1]))
         notes += [(onset_s, time_s, pitch, velocity) for (_, pitch), (onset_s, velocity) in ended]
-        for curve, value in curve_values(message, wiring, ranges):
+        for curve, value in curve_values(message, mapping, ranges):
             times, values = sent.setdefault(curve, ([], []))
             if times and times[-1] == time_s:
                 values[-1] = value
@@ -208,9 +208,9 @@ def _played(times_us: tuple[int, ...], messages: tuple[str, ...], wiring: Contro
     )
 
 
-def is_wired(message: mido.Message, wiring: ControllerMapping) -> bool:
+def is_wired(message: mido.Message, mapping: ControllerMapping) -> bool:
     """Return whether a message comes on the wired channel."""
-    return not wiring.channel or bool(message.channel + 1 == wiring.channel)
+    return not mapping.channel or bool(message.channel + 1 == mapping.channel)
 
 
 @lru_cache(8192)
@@ -233,7 +233,7 @@ def is_message(raw: str) -> bool:
 
 
 def curve_values(
-    message: mido.Message, wiring: ControllerMapping, ranges: BendRanges | None = None
+    message: mido.Message, mapping: ControllerMapping, ranges: BendRanges | None = None
 ) -> Iterator[tuple[CurveKind, float]]:
     """Return what a message says of breath, bite and bend, as values of a part's curves.
 
@@ -246,12 +246,12 @@ def curve_values(
     ranges = BendRanges() if ranges is None else ranges
     if message.type == "control_change" and message.control in PARAMETERS:
         ranges.receive(message.channel, message.control, message.value)
-    if source == wiring.bite:
+    if source == mapping.bite:
         yield "bite", abs(value)
-    if source == wiring.breath:
+    if source == mapping.breath:
         yield "breath", value
     # Who bites to bend does both.
-    elif source in _USUAL and (source != wiring.bite or source == "pitch_bend"):
+    elif source in _USUAL and (source != mapping.bite or source == "pitch_bend"):
         share = ranges.semitones(message.channel) / USUAL_SEMITONES if source == "pitch_bend" else 1.0
         yield _USUAL[source], share * value
 

@@ -43,19 +43,19 @@ _REST_S, _FALLS = 0.15, 0.8
 _LEAST_NOTES: Final = 4
 
 
-def take_reason(stream: TrackChannel, tempo_map: TempoMap) -> TakeReason:
+def take_reason(channel: TrackChannel, tempo_map: TempoMap) -> TakeReason:
     """Why a track is taken for a take that was recorded from a wind controller."""
-    if stream.recorded:
+    if channel.recorded:
         return "recorded"
-    if stream.use != "melodic" or len(stream.pitches) < _LEAST_NOTES:
+    if channel.use != "melodic" or len(channel.pitches) < _LEAST_NOTES:
         return ""
-    notes = notes_as_played(stream, tempo_map)
+    notes = notes_as_played(channel, tempo_map)
     breath = notes.curves.get("breath")
     if breath is None or not _is_one_line(notes) or not _is_blown(notes, breath):
         return ""
-    if _is_named(" ".join((stream.name, stream.instrument_name))):
+    if _is_named(" ".join((channel.name, channel.instrument_name))):
         return "name"
-    return "breath" if _falls_in_rests(notes, breath) and not _is_on_grid(stream, tempo_map) else ""
+    return "breath" if _falls_in_rests(notes, breath) and not _is_on_grid(channel, tempo_map) else ""
 
 
 def _is_named(name: str) -> bool:
@@ -66,37 +66,37 @@ def _is_named(name: str) -> bool:
     return any(instrument is not None and instrument.family == _FAMILY for instrument in found)
 
 
-def without_faults(stream: TrackChannel, tempo_map: TempoMap) -> tuple[TrackChannel, dict[Fault, list[Note]]]:
+def without_faults(channel: TrackChannel, tempo_map: TempoMap) -> tuple[TrackChannel, dict[Fault, list[Note]]]:
     """A stream with its notes cleaned as a take's, and the notes that are left out by why, as they were played."""
-    clean = clean_notes(notes_as_played(stream, tempo_map), Cleaning())
-    before = stream.notes()
+    clean = clean_notes(notes_as_played(channel, tempo_map), Cleaning())
+    before = channel.notes()
     found: dict[Fault, list[Note]] = {}
     for fault, note in zip(clean.faults, before, strict=True):
         if fault:
             found.setdefault(fault, []).append(note)
     kept = clean.kept
     if not found or not kept:
-        return stream, {}
+        return channel, {}
     onsets = np.round(tempo_map.ticks(clean.onsets_s[kept])).astype(np.int64)
     ends = np.maximum(np.round(tempo_map.ticks(clean.ends_s[kept])).astype(np.int64), onsets + 1)
-    columns = {name: [getattr(stream, name)[index] for index in kept] for name in ("pitches", "velocities", "numbers")}
-    return msgspec.structs.replace(stream, onset_ticks=onsets.tolist(), end_ticks=ends.tolist(), **columns), found
+    columns = {name: [getattr(channel, name)[index] for index in kept] for name in ("pitches", "velocities", "numbers")}
+    return msgspec.structs.replace(channel, onset_ticks=onsets.tolist(), end_ticks=ends.tolist(), **columns), found
 
 
-def notes_as_played(stream: TrackChannel, tempo_map: TempoMap) -> Played:
+def notes_as_played(channel: TrackChannel, tempo_map: TempoMap) -> Played:
     """A stream as a take has its notes, with the curve that carries its breath."""
 
     def seconds(ticks: list[int]) -> FloatArray:
         return tempo_map.seconds(np.array(ticks, np.float64))
 
-    onsets_s, ends_s = seconds(stream.onset_ticks), seconds(stream.end_ticks)
+    onsets_s, ends_s = seconds(channel.onset_ticks), seconds(channel.end_ticks)
     sounding_s = float(np.sum(ends_s - onsets_s))
-    curves = {curve.kind: curve for curve in stream.curves}
+    curves = {curve.kind: curve for curve in channel.curves}
     breaths = [curves[kind] for kind in _BREATHS if kind in curves and _carries_breath(curves[kind], sounding_s)]
     breath: dict[CurveKind, Controlled] = {}
     if breaths:
         breath["breath"] = Controlled(seconds(list(breaths[0].ticks)), np.array(breaths[0].values))
-    pitches, velocities = (np.array(column, np.int64) for column in (stream.pitches, stream.velocities))
+    pitches, velocities = (np.array(column, np.int64) for column in (channel.pitches, channel.velocities))
     return Played(onsets_s, ends_s, pitches, velocities, breath)
 
 
@@ -134,8 +134,8 @@ def _falls_in_rests(notes: Played, breath: Controlled) -> bool:
     return bool(np.count_nonzero(breath.at(middles_s) < _AUDIBLE) >= _FALLS * len(middles_s))
 
 
-def _is_on_grid(stream: TrackChannel, tempo_map: TempoMap) -> bool:
+def _is_on_grid(channel: TrackChannel, tempo_map: TempoMap) -> bool:
     step = tempo_map.ticks_per_quarter / _GRID
-    onsets = np.array(stream.onset_ticks, np.float64)
+    onsets = np.array(channel.onset_ticks, np.float64)
     off = np.abs(onsets - step * np.round(onsets / step))
     return bool(np.count_nonzero(off <= max(0.05 * step, 1.0)) > _ON_GRID * len(onsets))

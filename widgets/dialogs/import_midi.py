@@ -280,10 +280,10 @@ class ImportDialog(Retranslated, QDialog):
         """Why a part is not played, and that it is for dancers where it is."""
         reason = message_text(part.reason)
         percussion = {
-            stream_name(self._table.contents.streams[stream])
+            stream_name(self._table.contents.streams[channel])
             for row in self._table.rows
             if self._table.is_percussion(row)
-            for stream in row.assignment.streams
+            for channel in row.assignment.streams
         }
         if part.reason.id == "score.percussion" and part.name in percussion:
             return self.tr("import_dialog.is_not_played_dancers_dance").format(name=part.name, reason=reason)

@@ -20,11 +20,11 @@ ROW_PX = 40
 class NotesPreview(QWidget):
     """A track's notes over the whole piece, as a small piano roll."""
 
-    def __init__(self, streams: Sequence[TrackChannel], end_tick: int, tokens: Tokens) -> None:
+    def __init__(self, channels: Sequence[TrackChannel], end_tick: int, tokens: Tokens) -> None:
         super().__init__()
-        self._onsets = np.concatenate([np.asarray(stream.onset_ticks, np.float64) for stream in streams])
-        self._ends = np.concatenate([np.asarray(stream.end_ticks, np.float64) for stream in streams])
-        self._pitches = np.concatenate([np.asarray(stream.pitches, np.intp) for stream in streams])
+        self._onsets = np.concatenate([np.asarray(channel.onset_ticks, np.float64) for channel in channels])
+        self._ends = np.concatenate([np.asarray(channel.end_ticks, np.float64) for channel in channels])
+        self._pitches = np.concatenate([np.asarray(channel.pitches, np.intp) for channel in channels])
         self._end_tick, self._tokens = max(end_tick, 1), tokens
         self.setMinimumHeight(ROW_PX - 8)
 

@@ -74,7 +74,7 @@ class Member:
     """
 
     player_id: str
-    kit: RenderAssets
+    assets: RenderAssets
     world_from_player: FloatArray
     seat_m: FloatArray | None
     musician_id: str
@@ -99,17 +99,17 @@ def dancer_kit(dancer: Dancer) -> RenderAssets:
     return RenderAssets(character_named(dancer.character_id), None)
 
 
-def dancing_member(dancer: Dancer, kit: RenderAssets) -> Member:
+def dancing_member(dancer: Dancer, assets: RenderAssets) -> Member:
     """A dancer at their place."""
-    return Member(dancer.id, kit, placed(dancer.stage), None, dancer.id)
+    return Member(dancer.id, assets, placed(dancer.stage), None, dancer.id)
 
 
-def stand_of(player: Player, kit: RenderAssets, number: int) -> FloatArray | None:
+def stand_of(player: Player, assets: RenderAssets, number: int) -> FloatArray | None:
     """Top of the stand for one of the instruments of a musician, counted from 0; None as long as no one knows."""
     found = lies_at(player, find_map(player.instrument_id), number)
     if found is None:
         return None
-    points = np.concatenate([mesh.positions_m for mesh in kit.instrument.meshes]).astype(np.float64)
+    points = np.concatenate([mesh.positions_m for mesh in assets.instrument.meshes]).astype(np.float64)
     middle = (points.min(axis=0) + points.max(axis=0)) / 2.0
     # It lies on what is nearest to its middle.
     nearest = points[int(np.argmin(np.linalg.norm(points - middle, axis=1)))]
@@ -117,12 +117,12 @@ def stand_of(player: Player, kit: RenderAssets, number: int) -> FloatArray | Non
     return top_m
 
 
-def member_of(player: Player, kit: RenderAssets, musician_id: str = "", stand_m: FloatArray | None = None) -> Member:
+def member_of(player: Player, assets: RenderAssets, musician_id: str = "", stand_m: FloatArray | None = None) -> Member:
     """A player at their place, with the body of a musician; empty: one of their own."""
     musician_id = musician_id or player.id
-    posture = body_of(player).postures[kit.map.hold.possible(player.parameters.posture)]
-    seat_m = seat(kit.character.skeleton, posture) if musician_id == player.id else None
-    return Member(player.id, kit, placed(player.stage), seat_m, musician_id, stand_m)
+    posture = body_of(player).postures[assets.map.hold.possible(player.parameters.posture)]
+    seat_m = seat(assets.character.skeleton, posture) if musician_id == player.id else None
+    return Member(player.id, assets, placed(player.stage), seat_m, musician_id, stand_m)
 
 
 def placed(stage: StagePosition) -> FloatArray:
@@ -160,7 +160,7 @@ class SkeletonBatch:
 
     def __init__(self, members: Sequence[Member], rows: Sequence[int]) -> None:
         self.rows: IndexArray = np.array(rows, np.intp)
-        characters = [members[row].kit.character for row in rows]
+        characters = [members[row].assets.character for row in rows]
         skeleton = characters[0].skeleton
         self.joint_count = len(skeleton.names)
         order, self._levels = _levels(skeleton)
@@ -213,16 +213,16 @@ class Stage:
     def __init__(self, members: Sequence[Member]) -> None:
         self.members = tuple(members)
         count = len(self.members)
-        self.first_node = max((len(member.kit.character.skeleton.names) for member in members), default=0)
-        self._instruments = Instruments([member.kit.held for member in members])
+        self.first_node = max((len(member.assets.character.skeleton.names) for member in members), default=0)
+        self._instruments = Instruments([member.assets.held for member in members])
         self.seat_bone = self.first_node + self._instruments.nodes
         self.stand_bone = self.seat_bone + 1
         self.bones = np.zeros((count, self.stand_bone + 1, 3, 4), np.float32)
         self.joints = np.zeros((count, self.first_node, 3, 4))
-        self.heads = np.array([member.kit.character.skeleton.index("head") for member in members], np.intp)
+        self.heads = np.array([member.assets.character.skeleton.index("head") for member in members], np.intp)
         self.poses: list[Pose | None] = [None] * count
         self.shown = np.zeros(count, dtype=bool)
-        skeletons = [member.kit.character.skeleton for member in members]
+        skeletons = [member.assets.character.skeleton for member in members]
         self._troupes = [
             SkeletonBatch(members, rows) for rows in _grouped([(own.names, own.parents) for own in skeletons])
         ]
@@ -250,7 +250,7 @@ class Stage:
             if (
                 pose is not None
                 and pose is not self.poses[row]
-                and len(pose.rotations) == len(member.kit.character.skeleton.names)
+                and len(pose.rotations) == len(member.assets.character.skeleton.names)
             ):
                 self._take(row, pose)
                 fresh = True
@@ -293,7 +293,7 @@ class Stage:
 
     def joint_m(self, row: int, name: str) -> FloatArray:
         """Where a joint is (3,)."""
-        skeleton = self.members[row].kit.character.skeleton
+        skeleton = self.members[row].assets.character.skeleton
         place: FloatArray = self.joints[row, skeleton.index(name), :, 3]
         return place
 

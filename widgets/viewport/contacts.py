@@ -49,7 +49,7 @@ class ContactReading:
 
 def touches(stage: Stage, row: int) -> tuple[ContactReading, ...]:
     """The contacts of a player that hold in the present pose."""
-    kit, pose = stage.members[row].kit, stage.poses[row]
+    kit, pose = stage.members[row].assets, stage.poses[row]
     if pose is None:
         return ()
     holding = [

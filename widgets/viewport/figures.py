@@ -73,7 +73,7 @@ def same_figures(one: CastKey, other: CastKey) -> bool:
 
 def load(project: Project, before: Shapes | None, progress: Progress, stop_requested: StopRequested) -> DrawableFigures:
     """Load all performers. A player with something missing is excluded. Raises Cancelled."""
-    kits: dict[tuple[str, str], RenderAssets] = {}
+    assets: dict[tuple[str, str], RenderAssets] = {}
     musicians: dict[str, str] = {}
     done = 0
 
@@ -83,20 +83,20 @@ def load(project: Project, before: Shapes | None, progress: Progress, stop_reque
         progress(0.5 * done / len(project.players))
         done += 1
         pair = (player.character_id, player.instrument_id)
-        if pair not in kits:
-            kits[pair] = kit_of(player)
+        if pair not in assets:
+            assets[pair] = kit_of(player)
         # Where what the musician plays first cannot be seen, the next has the body.
         musician = musicians.setdefault(project.musician(player).id, player.id)
         played = project.played_by(player)
-        stand_m = stand_of(player, kits[pair], played.index(player)) if len(played) > 1 else None
-        return member_of(player, kits[pair], musician, stand_m)
+        stand_m = stand_of(player, assets[pair], played.index(player)) if len(played) > 1 else None
+        return member_of(player, assets[pair], musician, stand_m)
 
     def make_dancer(dancer: Dancer) -> Member:
         raise_if_stopped(stop_requested)
         pair = (dancer.character_id, "")
-        if pair not in kits:
-            kits[pair] = dancer_kit(dancer)
-        return dancing_member(dancer, kits[pair])
+        if pair not in assets:
+            assets[pair] = dancer_kit(dancer)
+        return dancing_member(dancer, assets[pair])
 
     all_players = [player for musician in project.bodies for player in project.played_by(musician)]
     found, dancers = attempt(all_players, make), attempt(project.dancers, make_dancer)
@@ -114,9 +114,9 @@ def moved(project: Project, loaded: DrawableFigures) -> DrawableFigures:
     players: dict[str, Player] = {player.id: player for player in project.players}
     dancers: dict[str, Dancer] = {dancer.id: dancer for dancer in project.dancers}
     members = [
-        dancing_member(dancers[member.player_id], member.kit)
+        dancing_member(dancers[member.player_id], member.assets)
         if member.player_id in dancers
-        else member_of(players[member.player_id], member.kit, member.musician_id, member.stand_m)
+        else member_of(players[member.player_id], member.assets, member.musician_id, member.stand_m)
         for member in loaded.stage.members
     ]
     stage = Stage(members)

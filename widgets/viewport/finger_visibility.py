@@ -53,7 +53,7 @@ def clearest(gained: FloatArray, usual: Direction) -> Direction:
 def visible_finger_shares(stage: Stage, row: int, towards_deg: Sequence[Direction], turn_rad: float) -> FloatArray:
     """Which share (D,) of the player's fingers is seen from each direction past the instrument; ``turn_rad`` is which
     way the player faces, from +Z towards +X."""
-    kit = stage.members[row].kit
+    kit = stage.members[row].assets
     held = stage.node_matrix(row)
     places_m = _fingers(stage, row)
     towards = np.array([_unit(math.radians(side) + turn_rad, math.radians(height)) for side, height in towards_deg])

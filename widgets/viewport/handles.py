@@ -58,7 +58,7 @@ def handles(stage: Stage, row: int) -> tuple[Handle, ...]:
         return ()
     frame = stage.members[row].world_from_player
     left, up, ahead = frame[:, 0], frame[:, 1], frame[:, 2]
-    kit = stage.members[row].kit
+    kit = stage.members[row].assets
     held = stage.node_matrix(row)
     bell_m = held[:, :3] @ _bell(kit.instrument) + held[:, 3]
     rim_m = held[:, :3] @ np.asarray(kit.map.mouthpiece.position_m) + held[:, 3]

@@ -34,10 +34,12 @@ class Instruments:
     """
 
     def __init__(self, kits: Sequence[tuple[InstrumentModel, InstrumentMap] | None]) -> None:
-        self.nodes = max((len(kit[0].node_names) for kit in kits if kit is not None), default=0)
+        self.nodes = max((len(assets[0].node_names) for assets in kits if assets is not None), default=0)
         self._names = [
-            () if kit is None else tuple(dict.fromkeys(name for part in kit[1].moving_parts for name in part.controls))
-            for kit in kits
+            ()
+            if assets is None
+            else tuple(dict.fromkeys(name for part in assets[1].moving_parts for name in part.controls))
+            for assets in kits
         ]
         starts = np.cumsum([0, *(len(names) for names in self._names)])
         self._own = [slice(int(start), int(end)) for start, end in pairwise(starts)]
@@ -46,10 +48,10 @@ class Instruments:
         nodes: list[int] = []
         controls: list[list[int]] = []
         parts: list[MovingPart] = []
-        for row, kit in enumerate(kits):
-            if kit is None:
+        for row, assets in enumerate(kits):
+            if assets is None:
                 continue
-            model, instrument = kit
+            model, instrument = assets
             for part in instrument.moving_parts:
                 rows.append(row)
                 nodes.append(model.node_names.index(part.node))

@@ -100,13 +100,13 @@ class LimbCapsules:
 
     def __init__(self, stage: Stage) -> None:
         self._stage = stage
-        anatomies = [_anatomy(member.kit.character.skeleton) for member in stage.members]
+        anatomies = [_anatomy(member.assets.character.skeleton) for member in stage.members]
         self._joints = np.array([anatomy.joints for anatomy in anatomies], np.intp)
         self._offsets = np.array([anatomy.offsets_m for anatomy in anatomies])
         self._radii = np.array([anatomy.radii_m for anatomy in anatomies])
         nothing = (np.zeros(3), np.zeros(3), 0.0)
         capsules = [
-            nothing if member.kit.held is None else instrument_capsule(member.kit.instrument)
+            nothing if member.assets.held is None else instrument_capsule(member.assets.instrument)
             for member in stage.members
         ]
         self._held = np.array([(first, last) for first, last, _ in capsules])

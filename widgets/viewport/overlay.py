@@ -92,7 +92,7 @@ def handle_at(
 def _paint_skeleton(
     painter: QPainter, stage: Stage, row: int, color: str, camera: Camera, size: tuple[float, float], tokens: Tokens
 ) -> None:
-    skeleton = stage.members[row].kit.character.skeleton
+    skeleton = stage.members[row].assets.character.skeleton
     places, depths = camera.project(stage.joints[row, : len(skeleton.names), :, 3], *size)
     lines, dots = [], []
     for joint, parent in enumerate(skeleton.parents):

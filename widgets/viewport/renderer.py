@@ -308,17 +308,17 @@ class Renderer:
         program = self._figures
         program["u_shaded"] = 1.0
         bodies = [row for row in near if stage.members[row].has_body]
-        for row in sorted(bodies, key=lambda row: (stage.members[row].kit.character.id, level[row])):
-            solid = self._solid(shapes.characters[stage.members[row].kit.character.id][level[row]])
+        for row in sorted(bodies, key=lambda row: (stage.members[row].assets.character.id, level[row])):
+            solid = self._solid(shapes.characters[stage.members[row].assets.character.id][level[row]])
             program.bind(self._shape(stage, row, int(level[row]), solid))
             program.bind(solid.surface)
             self._draw_solid(solid, row, mode)
         # A capsule is too coarse a likeness of an instrument to shade the instrument itself.
         program["u_shaded"] = 0.0
         bound: Solid | None = None
-        holding = [row for row in near if stage.members[row].kit.held is not None]
-        for row in sorted(holding, key=lambda row: (stage.members[row].kit.map.id, level[row])):
-            solid = self._solid(shapes.instruments[stage.members[row].kit.map.id][level[row]])
+        holding = [row for row in near if stage.members[row].assets.held is not None]
+        for row in sorted(holding, key=lambda row: (stage.members[row].assets.map.id, level[row])):
+            solid = self._solid(shapes.instruments[stage.members[row].assets.map.id][level[row]])
             bound = self._draw_shared(solid, bound, row, mode)
         for row in near:
             if stage.members[row].seat_m is not None:

@@ -36,15 +36,15 @@ def shapes_of(stage: Stage, before: Shapes | None = None) -> Shapes:
     """Make what a stage is drawn from; what ``before`` has is taken from there."""
     characters = dict(before.characters) if before is not None else {}
     for member in stage.members:
-        character = member.kit.character
+        character = member.assets.character
         if character.id not in characters:
             characters[character.id] = character_levels(character)
     # The instruments' nodes and the seat follow the joints: their numbers depend on who else is there.
     instruments = {}
     height_m = 0.42
     for member in stage.members:
-        if member.kit.held is not None and member.kit.map.id not in instruments:
-            instruments[member.kit.map.id] = instrument_levels(member.kit.instrument, stage.first_node)
+        if member.assets.held is not None and member.assets.map.id not in instruments:
+            instruments[member.assets.map.id] = instrument_levels(member.assets.instrument, stage.first_node)
         if member.seat_m is not None:
             height_m = float(member.seat_m[1])
     return Shapes(characters, instruments, stool(stage.seat_bone, height_m), stand(stage.stand_bone))
@@ -55,9 +55,9 @@ def crowd_of(stage: Stage, shapes: Shapes) -> Crowd:
     parts: list[tuple[int, Geometry]] = []
     for row, member in enumerate(stage.members):
         if member.has_body:
-            parts.append((row, shapes.characters[member.kit.character.id][-1]))
-        if member.kit.held is not None:
-            parts.append((row, shapes.instruments[member.kit.map.id][-1]))
+            parts.append((row, shapes.characters[member.assets.character.id][-1]))
+        if member.assets.held is not None:
+            parts.append((row, shapes.instruments[member.assets.map.id][-1]))
         if member.seat_m is not None:
             parts.append((row, shapes.stool))
         if member.stand_m is not None:
@@ -67,7 +67,7 @@ def crowd_of(stage: Stage, shapes: Shapes) -> Crowd:
 
 def looks_same(one: Stage, other: Stage) -> bool:
     return len(one.members) == len(other.members) and all(
-        own.kit is its.kit and parts_of(own) == parts_of(its)
+        own.assets is its.assets and parts_of(own) == parts_of(its)
         for own, its in zip(one.members, other.members, strict=True)
     )
 

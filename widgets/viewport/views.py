@@ -96,7 +96,7 @@ def tracked(view: View, stage: Stage, row: int) -> FloatArray | None:
         return hands
     if view == "mouth":
         held = stage.node_matrix(row)
-        kit = stage.members[row].kit
+        kit = stage.members[row].assets
         lips = held[:, :3] @ np.asarray(kit.map.mouthpiece.position_m) + held[:, 3]
         # Lips and eyes both, and in a long rest, when the instrument is lowered, still the face.
         head = stage.joints[row, kit.character.skeleton.index("head")]
@@ -136,7 +136,7 @@ def bounds(stage: Stage, rows: Sequence[int]) -> tuple[FloatArray, FloatArray]:
     """The box around players with their instruments, from the floor up."""
     points = []
     for row in rows:
-        kit = stage.members[row].kit
+        kit = stage.members[row].assets
         points.append(stage.joints[row, 1 : len(kit.character.skeleton.names), :, 3])
         head_m = stage.joint_m(row, "head")
         points.append(head_m[None] + [0.0, (face_size(kit.character) - 1.0) * HEAD_M, 0.0])
@@ -170,7 +170,7 @@ def _hands(stage: Stage, row: int) -> FloatArray:
 
 
 def _half(view: View, stage: Stage, row: int) -> FloatArray:
-    kit = stage.members[row].kit
+    kit = stage.members[row].assets
     half = _HALF_M[view]
     if view == "mouth":
         half *= face_size(kit.character)

@@ -69,7 +69,7 @@ def solve_arms(
     rotations: dict[int, FloatArray] = {}
     body, carried = upper.trunk, upper.carried
     with_chest = quaternion.multiply(body.chest, quaternion.conjugate(player.base.chest))
-    for hand in player.hold.hands:
+    for hand in player.grip.hands:
         target = hand_targets(hand, carried.position_m, carried.rotation, curves.controls, curves.placed)
         turned = with_chest if swung is None else quaternion.multiply(swung, with_chest)
         freely = None
@@ -77,7 +77,7 @@ def solve_arms(
             target, freely = away.targets(hand.side, *target), away.elbows.get(hand.side)
         rotations |= _solve_arm(player, hand, body, turned, curves.body, target, freely)
     for side, sign in (("left", -1.0), ("right", 1.0)):
-        if all(hand.side != side for hand in player.hold.hands):
+        if all(hand.side != side for hand in player.grip.hands):
             hangs = quaternion.from_axis_angle(np.array([0.0, 0.0, 1.0]), sign * HANGS_RAD)
             rotations[player.skeleton.index(f"{side}UpperArm")] = np.tile(hangs, (len(with_chest), 1))
     return rotations

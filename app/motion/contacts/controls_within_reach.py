@@ -64,7 +64,7 @@ def controls_within_reach(player: StillPlayer, curves: ContactCurves, upper: Upp
     Where a hand comes everywhere they are the very arrays given.
     """
     skeleton, carried, placed, result = player.skeleton, upper.carried, curves.placed, dict(curves.controls)
-    for hand in player.hold.hands:
+    for hand in player.grip.hands:
         if hand.motion is None or hand.motion.control not in result:
             continue
         asked = np.clip(np.asarray(result[hand.motion.control], dtype=np.float64), 0.0, 1.0)

@@ -51,16 +51,16 @@ def wrist_shift(skeleton: Skeleton, stopped: Stopped, share: FloatArray, carried
 
 
 def with_fingers_kept(
-    skeleton: Skeleton, hold: GripPose, stopped: Stopped, share: FloatArray, rotations: FloatArray
+    skeleton: Skeleton, grip: GripPose, stopped: Stopped, share: FloatArray, rotations: FloatArray
 ) -> FloatArray:
     """Rotations (F, joints, 4) of `GripPose.finger_joints` with the fingers on the bell's wall as before, whatever the
     palm does."""
-    (hand,) = (one for one in hold.hands if one.side == stopped.hand)
+    (hand,) = (one for one in grip.hands if one.side == stopped.hand)
     # The palm's turn seen from the hand.
     turned = quaternion.conjugate(hand.instrument_from_hand_rotation[0])
     back_rad = quaternion.rotate(turned, -np.deg2rad(np.asarray(stopped.turned_deg)))
     back = quaternion.from_rotation_vector(share[:, None] * back_rad)
-    joints = list(hold.finger_joints)
+    joints = list(grip.finger_joints)
     for joint in _knuckles(skeleton, stopped):
         if joint in joints:
             column = joints.index(joint)

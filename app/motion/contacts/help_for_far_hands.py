@@ -68,7 +68,7 @@ class Help:
 
 def needed_help(
     skeleton: Skeleton,
-    hold: GripPose,
+    grip: GripPose,
     body: Trunk,
     carried: InstrumentTransform,
     controls: Mapping[str, FloatArray],
@@ -84,7 +84,7 @@ def needed_help(
     protraction: dict[str, FloatArray] = {}
     most_turn: dict[str, FloatArray] = {}
     most_protraction: dict[str, FloatArray] = {}
-    for hand in hold.hands:
+    for hand in grip.hands:
         target_m, rotation = hand_targets(hand, carried.position_m, carried.rotation, controls, placed)
         if away is not None:
             target_m, _ = away.targets(hand.side, target_m, rotation)

@@ -76,13 +76,13 @@ class AsidePlace:
     rest: InstrumentTransform
 
     @classmethod
-    def of(cls, aside: Aside, skeleton: Skeleton, hold: GripPose, base: Trunk, low: InstrumentTransform) -> AsidePlace:
+    def of(cls, aside: Aside, skeleton: Skeleton, grip: GripPose, base: Trunk, low: InstrumentTransform) -> AsidePlace:
         """From where a body that keeps still has the lowered instrument."""
         joint, reaches_m = clavicle_of(skeleton, aside.side)
         begins_m = base.chest_m + quaternion.rotate(base.chest, skeleton.offsets_m[joint])
         pivot_m = (begins_m + quaternion.rotate(base.chest, reaches_m))[0]
         turn = quaternion.from_axis_angle(Y_AXIS, aside.angle_rad)
-        hand = next((hand for hand in hold.hands if hand.side == aside.side), None)
+        hand = next((hand for hand in grip.hands if hand.side == aside.side), None)
         borne_m = low.position_m if hand is None else hand_targets(hand, low.position_m, low.rotation, {})[0]
         out_m = quaternion.rotate(turn, borne_m[0] - pivot_m) * np.array([1.0, 0.0, 1.0])
         axis = np.cross(Y_AXIS, out_m / max(float(np.linalg.norm(out_m)), LEAST_M))
@@ -121,11 +121,11 @@ class AsidePlace:
         )
 
     def let_go(
-        self, skeleton: Skeleton, hold: GripPose, arms: dict[int, FloatArray], stowed: FloatArray
+        self, skeleton: Skeleton, grip: GripPose, arms: dict[int, FloatArray], stowed: FloatArray
     ) -> dict[int, FloatArray]:
         """The arm that does not bear the instrument, on its way to hanging down."""
         result: dict[int, FloatArray] = {}
-        for hand in hold.hands:
+        for hand in grip.hands:
             if hand.side == self.aside.side:
                 continue
             limb, sign = arm(skeleton, hand.side), 1.0 if hand.side == "right" else -1.0

@@ -31,7 +31,7 @@ def with_bell_room(player: PlayerBody) -> PlayerBody:
     if player.stand is not None or not tips_freely(player.carriage):
         return player
     tipped = np.deg2rad(np.arange(-MOST_DEG, MOST_DEG + 1, STEP_DEG))
-    leans = [lean for hand in player.hold.hands for lean in hand.leans]
+    leans = [lean for hand in player.grip.hands for lean in hand.leans]
     # As the hands lie, and as they give way for a finger, a row each.
     placed: dict[str, StationBlend] = {}
     for finger in sorted({finger for lean in leans for finger, _ in lean.places}):
@@ -57,7 +57,7 @@ def _wrists_and_elbows(
     curves = replace(curves, body=body_with_help(player, still, needs(player, curves)))
     arms = solve_arms(player, curves, upper_body(player, curves))
     bent, raised = np.zeros(len(tipped_rad)), np.full(len(tipped_rad), -np.inf)
-    for hand in player.hold.hands:
+    for hand in player.grip.hands:
         limb = arm(player.skeleton, hand.side)
         bent = np.maximum(bent, player.wrists[hand.side].outside_rad(arms[limb.end]))
         clavicle, _ = clavicle_of(player.skeleton, hand.side)

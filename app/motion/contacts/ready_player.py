@@ -37,33 +37,33 @@ def put_aside_transform(
     parameters: PlayerParameters,
     instrument_map: InstrumentMap,
     character: Character,
-    hold: GripPose,
+    grip: GripPose,
     body: Body,
     number: int,
 ) -> InstrumentTransform:
     """Return where an instrument lies while its player has another in the hands, one frame; ``number`` as of
     `Aside`."""
-    still = player_body(parameters, instrument_map, character, hold, body)
+    still = player_body(parameters, instrument_map, character, grip, body)
     place = replace(still, aside=Aside(instrument_map.hold.support_hand, number)).put_aside
     assert place is not None
     return place.rest
 
 
-def _curved(hold: GripPose, skeleton: Skeleton) -> GripPose:
-    return with_curved_fingers(hold, skeleton, load_skeleton())
+def _curved(grip: GripPose, skeleton: Skeleton) -> GripPose:
+    return with_curved_fingers(grip, skeleton, load_skeleton())
 
 
 def player_body(
-    parameters: PlayerParameters, instrument_map: InstrumentMap, character: Character, hold: GripPose, body: Body
+    parameters: PlayerParameters, instrument_map: InstrumentMap, character: Character, grip: GripPose, body: Body
 ) -> PlayerBody:
     """Return what does not change with time: the same object for the same body in the same posture, which knows already
     how far its hands come and its instrument tips."""
-    curved = _CURVED.step(_curved, hold, character.skeleton)
+    curved = _CURVED.step(_curved, grip, character.skeleton)
     return _PLAYERS.step(_made, sys.intern(parameters.posture), instrument_map, character.skeleton, curved, body)
 
 
 def _made(
-    posture_name: str, instrument_map: InstrumentMap, skeleton: Skeleton, hold: GripPose, body: Body
+    posture_name: str, instrument_map: InstrumentMap, skeleton: Skeleton, grip: GripPose, body: Body
 ) -> PlayerBody:
     named = cast(PostureName, posture_name)
     carriage = instrument_map.hold.carriage(named)
@@ -72,13 +72,13 @@ def _made(
     still = BodyMotion.still(posture)
     made = PlayerBody(
         skeleton=skeleton,
-        hold=hold,
+        grip=grip,
         place=place,
         carriage=carriage,
         lowered=instrument_map.hold.lowered(named),
         still=still,
         base=trunk(skeleton, *hips_path(place, skeleton, still), still),
-        grip_of_lips_m=_grip_of_lips(hold.lips, body.embouchure[instrument_map.embouchure.kind]),
+        grip_of_lips_m=_grip_of_lips(grip.lips, body.embouchure[instrument_map.embouchure.kind]),
         water=instrument_map.water,
         stopped=instrument_map.stopped,
         wrists=wrists_of(body, load_skeleton()),

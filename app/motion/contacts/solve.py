@@ -63,7 +63,7 @@ class PlayerBody(StillPlayer):
             return None
         low = replace(self.still, lowered=np.ones(1))
         carried = upper_body(replace(self, aside=None, stand=None), ContactCurves(low, {}, {}, np.zeros(1))).carried
-        return AsidePlace.of(self.aside, self.skeleton, self.hold, self.base, carried)
+        return AsidePlace.of(self.aside, self.skeleton, self.grip, self.base, carried)
 
     @cached_property
     def drawn_m(self) -> float:
@@ -133,13 +133,13 @@ def poses(
         hips_m[part], instrument_m[part], instrument[part] = chunk_hips_m, carried.position_m, carried.rotation
         for joint, values in local.items():
             rotations[part, joint] = values
-        posed = finger_rotations(player.hold, chunk.controls, len(chunk), chunk.placed, chunk.raised)
+        posed = finger_rotations(player.grip, chunk.controls, len(chunk), chunk.placed, chunk.raised)
         if chunk.body.hands:
-            posed = with_shapes(player.skeleton, chunk.body.hands, list(player.hold.finger_joints), posed)
+            posed = with_shapes(player.skeleton, chunk.body.hands, list(player.grip.finger_joints), posed)
         if player.stopped is not None and STOPPING in chunk.body.hands:
-            posed = with_fingers_kept(player.skeleton, player.hold, player.stopped, chunk.body.hands[STOPPING], posed)
+            posed = with_fingers_kept(player.skeleton, player.grip, player.stopped, chunk.body.hands[STOPPING], posed)
         # Joint by joint: all at once takes three times as long.
-        for column, joint in enumerate(player.hold.finger_joints):
+        for column, joint in enumerate(player.grip.finger_joints):
             rotations[part, joint] = posed[:, column]
         for name, values in stops.items():
             controls[name][part] = values
@@ -174,7 +174,7 @@ def _pose(
     arms = solve_arms(player, curves, known, late, player.away(motion, carried))
     if player.put_aside is not None and curves.stowed is not None and np.any(curves.stowed):
         # The other hand lets go where the instrument was lowered, and does not follow it.
-        letting_go = player.put_aside.let_go(skeleton, player.hold, arms, curves.stowed)
+        letting_go = player.put_aside.let_go(skeleton, player.grip, arms, curves.stowed)
         carried = player.put_aside.put(carried, curves.stowed)
         swung = player.put_aside.turned(curves.stowed)
         if late is not None:
@@ -204,7 +204,7 @@ def needs(player: PlayerBody, curves: ContactCurves) -> Help:
 
 def _needs(player: PlayerBody, curves: ContactCurves, upper: UpperBody) -> Help:
     free = player.away(curves.body, upper.carried)
-    needed = needed_help(player.skeleton, player.hold, upper.trunk, upper.carried, curves.controls, curves.placed, free)
+    needed = needed_help(player.skeleton, player.grip, upper.trunk, upper.carried, curves.controls, curves.placed, free)
     # The chest carries a lowered instrument: turning would take it along and bring no hand nearer.
     turning = 1.0 - curves.body.lowered
     return replace(needed, turn_rad=needed.turn_rad * turning, short_m=needed.short_m * turning)
@@ -235,7 +235,7 @@ def _drawn_m(player: PlayerBody) -> float:
     do."""
     one, nothing = np.ones(1), np.zeros(1)
     nearer = []
-    for hand in player.hold.hands:
+    for hand in player.grip.hands:
         if hand.motion is None:
             continue
         right = 1.0 if hand.side == "right" else -1.0
@@ -266,7 +266,7 @@ def _aside_per_turn(player: PlayerBody) -> float:
 def _farthest(player: PlayerBody) -> dict[str, float]:
     one = np.ones(1)
     result: dict[str, float] = {}
-    for hand in player.hold.hands:
+    for hand in player.grip.hands:
         if hand.motion is None:
             continue
         curves = ContactCurves(player.still, {hand.motion.control: one}, {}, np.zeros(1))

@@ -30,7 +30,7 @@ class StillPlayer:
     """
 
     skeleton: Skeleton
-    hold: GripPose
+    grip: GripPose
     place: Stance
     carriage: Carriage
     lowered: LoweredPlace

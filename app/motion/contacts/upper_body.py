@@ -95,7 +95,7 @@ def _carry(player: StillPlayer, curves: ContactCurves, body: Trunk) -> Instrumen
 def _at_lips(player: StillPlayer, curves: ContactCurves, body: Trunk) -> FloatArray:
     """Return where lips have the mouthpiece (F, 3); in a breath one of them alone carries it, and keeps its playing
     place."""
-    lips, frames = player.hold.lips, len(curves)
+    lips, frames = player.grip.lips, len(curves)
     lips_m = lips.contact_m(curves.morphs, frames)
     # The jaw is far enough down to have left the rim long before the mouth is fully open.
     on_one = 1.0 - (1.0 - curves.mouth_open) ** 4
@@ -132,7 +132,7 @@ def _lowered(
     """The instrument on its way before the body, where the chest carries it."""
     base, lowered = player.base, player.lowered
     with_chest = quaternion.multiply(body.chest, quaternion.conjugate(base.chest))
-    base_lips_m = base.head_m + quaternion.rotate(base.head, player.hold.lips.usual_m)
+    base_lips_m = base.head_m + quaternion.rotate(base.head, player.grip.lips.usual_m)
     low_m = body.chest_m + quaternion.rotate(with_chest, base_lips_m + np.array(lowered.offset_m) - base.chest_m)
     low = quaternion.multiply(
         with_chest,

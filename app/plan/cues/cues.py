@@ -41,7 +41,7 @@ SMALLEST, LARGEST = 0.4, 1.2
 
 
 def leader_of(
-    entry: Entry, lines: tuple[MonophonicPart, ...], all_times: tuple[LineTimes, ...], piece: Piece
+    entry: Entry, parts: tuple[MonophonicPart, ...], all_times: tuple[LineTimes, ...], piece: Piece
 ) -> tuple[int | None, str]:
     """Index of the line that gives an entry, and why ("chosen" or "melody").
 
@@ -49,34 +49,34 @@ def leader_of(
     Who comes in while others play is brought in by one of themselves. Otherwise it is the first part of the section
     that has the melody, leaving out who must not lead. None where no one may.
     """
-    chosen = [index for index, line in enumerate(lines) if line.parameters.cue_leader]
-    entering = {line for line, _ in entry.players}
+    chosen = [index for index, part in enumerate(parts) if part.parameters.cue_leader]
+    entering = {part for part, _ in entry.players}
     if chosen and (entry.reason != "cue.joins" or entering.intersection(chosen)):
         return next((index for index in chosen if index in entering), chosen[0]), "chosen"
-    free = sorted(line for line in entering if lines[line].parameters.cue_leader is not False)
+    free = sorted(part for part in entering if parts[part].parameters.cue_leader is not False)
     if len(free) <= 1:
         return (free[0] if free else None), "melody"
     end = entry.tick + MELODY_BARS * piece.metre_map.bar_ticks_at(entry.tick)
     heights, tunes = {}, {}
-    for line in free:
-        times = all_times[line]
+    for part in free:
+        times = all_times[part]
         here = slice(*np.searchsorted(times.onset_tick, (entry.tick, end)).tolist())
-        heights[line] = float(np.average(times.pitch[here], weights=np.maximum(times.duration_s[here], 1e-3)))
-        tunes[line] = set(zip(times.onset_tick[here].tolist(), (times.pitch[here] % 12).tolist(), strict=True))
-    highest = max(free, key=lambda line: (heights[line], -line))
+        heights[part] = float(np.average(times.pitch[here], weights=np.maximum(times.duration_s[here], 1e-3)))
+        tunes[part] = set(zip(times.onset_tick[here].tolist(), (times.pitch[here] % 12).tolist(), strict=True))
+    highest = max(free, key=lambda part: (heights[part], -part))
     tune = tunes[highest]
-    sections = {line: _section(lines[line]) for line in free}
-    having = [line for line in free if len(tunes[line] & tune) >= DOUBLED_SHARE * max(len(tunes[line]), len(tune))]
-    counts = {line: sum(sections[other] == sections[line] for other in having) for line in having}
-    section = sections[max(having, key=lambda line: (counts[line], line == highest, -line))]
-    return next(line for line in free if sections[line] == section), "melody"
+    sections = {part: _section(parts[part]) for part in free}
+    having = [part for part in free if len(tunes[part] & tune) >= DOUBLED_SHARE * max(len(tunes[part]), len(tune))]
+    counts = {part: sum(sections[other] == sections[part] for other in having) for part in having}
+    section = sections[max(having, key=lambda part: (counts[part], part == highest, -part))]
+    return next(part for part in free if sections[part] == section), "melody"
 
 
-def _at_hand(leader: int, tick: int, lines: tuple[MonophonicPart, ...], all_times: tuple[LineTimes, ...]) -> int:
+def _at_hand(leader: int, tick: int, parts: tuple[MonophonicPart, ...], all_times: tuple[LineTimes, ...]) -> int:
     """Of all lines of the leader's musician the one whose instrument is in the hands: what begins there, or began last
     before it."""
-    musician = lines[leader].musician or lines[leader].player_id
-    own = [index for index, line in enumerate(lines) if (line.musician or line.player_id) == musician]
+    musician = parts[leader].musician or parts[leader].player_id
+    own = [index for index, part in enumerate(parts) if (part.musician or part.player_id) == musician]
     if len(own) == 1:
         return leader
 
@@ -88,9 +88,9 @@ def _at_hand(leader: int, tick: int, lines: tuple[MonophonicPart, ...], all_time
     return max(own, key=lambda index: (last(index), index == leader))
 
 
-def _section(line: MonophonicPart) -> str:
+def _section(part: MonophonicPart) -> str:
     """Return who sits together: the family of the instrument, or the instrument."""
-    return vocabulary().family(line.instrument_map.plays) or line.instrument_map.id
+    return vocabulary().family(part.instrument_map.plays) or part.instrument_map.id
 
 
 class CuePlan(NamedTuple):
@@ -102,7 +102,7 @@ class CuePlan(NamedTuple):
 
 def plan_cues(
     found: tuple[Entry, ...],
-    lines: tuple[MonophonicPart, ...],
+    parts: tuple[MonophonicPart, ...],
     all_times: tuple[LineTimes, ...],
     piece: Piece,
     frame: TimeFrame,
@@ -116,76 +116,76 @@ def plan_cues(
     generated: list[CueEvent] = []
     busy_until_s: dict[int, float] = {}
     for entry in found:
-        leader, why = leader_of(entry, lines, all_times, piece)
+        leader, why = leader_of(entry, parts, all_times, piece)
         if conducted and why != "chosen":
-            generated.append(_conducted(entry, lines, all_times, piece, frame))
+            generated.append(_conducted(entry, parts, all_times, piece, frame))
             continue
         if leader is None:
             continue
-        leader = _at_hand(leader, entry.tick, lines, all_times)
-        own = next((lines[line].notes[index] for line, index in entry.players if line == leader), None)
+        leader = _at_hand(leader, entry.tick, parts, all_times)
+        own = next((parts[part].notes[index] for part, index in entry.players if part == leader), None)
         note = own.id if own is not None and own.onset_tick == entry.tick else f"@{entry.tick}"
         amount = _size(entry, all_times)
-        takers = _takers(leader, entry.players, lines)
-        cue = _cue(lines[leader].player_id, note, entry, why, piece, frame, amount=amount, takers=takers)
+        takers = _takers(leader, entry.players, parts)
+        cue = _cue(parts[leader].player_id, note, entry, why, piece, frame, amount=amount, takers=takers)
         # No one nods twice at once.
         if cue.start_s >= busy_until_s.get(leader, -np.inf):
             busy_until_s[leader] = cue.end_s
             generated.append(cue)
     events = {event.id + event.player_id: event for event in generated}
-    for place, line in enumerate(lines):
-        removed = removed_ids(line.corrections)
+    for place, part in enumerate(parts):
+        removed = removed_ids(part.corrections)
         for event in generated:
-            if event.player_id == line.player_id and event.id in removed:
+            if event.player_id == part.player_id and event.id in removed:
                 del events[event.id + event.player_id]
-        if not any(isinstance(item, SetCue) for item in line.corrections):
+        if not any(isinstance(item, SetCue) for item in part.corrections):
             continue
-        onsets = {note.id: note.onset_tick for note in line.notes}
-        for item in line.corrections:
+        onsets = {note.id: note.onset_tick for note in part.notes}
+        for item in part.corrections:
             if isinstance(item, SetCue):
                 tick = onsets.get(item.note_id, item.tick)
                 if tick is None:
                     continue
-                entering = _entering(tick, all_times, piece) if item.takers is None else _chosen(item.takers, lines)
-                takers = _takers(place, entering, lines)
-                event = _cue_by_hand(line.player_id, item.note_id, tick, item.beats, piece, frame, takers)
+                entering = _entering(tick, all_times, piece) if item.takers is None else _chosen(item.takers, parts)
+                takers = _takers(place, entering, parts)
+                event = _cue_by_hand(part.player_id, item.note_id, tick, item.beats, piece, frame, takers)
                 events[event.id + event.player_id] = event
     ordered = sorted(events.values(), key=lambda event: (event.start_s, event.player_id))
     return CuePlan(tuple(ordered), frozenset(event.id for event in generated))
 
 
 def _size(entry: Entry, all_times: tuple[LineTimes, ...]) -> float:
-    loudness = float(np.mean([all_times[line].loudness[index] for line, index in entry.players]))
+    loudness = float(np.mean([all_times[part].loudness[index] for part, index in entry.players]))
     return round(min(max(float(vigour_of(np.array([loudness]))[0]), SMALLEST), LARGEST), 4)
 
 
 def _conducted(
-    entry: Entry, lines: tuple[MonophonicPart, ...], all_times: tuple[LineTimes, ...], piece: Piece, frame: TimeFrame
+    entry: Entry, parts: tuple[MonophonicPart, ...], all_times: tuple[LineTimes, ...], piece: Piece, frame: TimeFrame
 ) -> CueEvent:
     """An entry that the conductor gives, to all who come in."""
-    takers = tuple(lines[line].player_id for line, _ in entry.players)
+    takers = tuple(parts[part].player_id for part, _ in entry.players)
     return _cue(
         CONDUCTOR, f"@{entry.tick}", entry, "conductor", piece, frame, amount=_size(entry, all_times), takers=takers
     )
 
 
-def _takers(leader: int, players: tuple[tuple[int, int], ...], lines: tuple[MonophonicPart, ...]) -> tuple[str, ...]:
+def _takers(leader: int, players: tuple[tuple[int, int], ...], parts: tuple[MonophonicPart, ...]) -> tuple[str, ...]:
     """Ids of who comes in with a cue, without the leader and what else the leader's musician plays."""
-    own = lines[leader].musician or lines[leader].player_id
-    entering = [lines[line] for line, _ in players if line != leader]
-    return tuple(line.player_id for line in entering if (line.musician or line.player_id) != own)
+    own = parts[leader].musician or parts[leader].player_id
+    entering = [parts[part] for part, _ in players if part != leader]
+    return tuple(part.player_id for part in entering if (part.musician or part.player_id) != own)
 
 
-def _chosen(takers: tuple[str, ...], lines: tuple[MonophonicPart, ...]) -> tuple[tuple[int, int], ...]:
+def _chosen(takers: tuple[str, ...], parts: tuple[MonophonicPart, ...]) -> tuple[tuple[int, int], ...]:
     """Players who were chosen by hand, as `_takers` has them; who is gone is left out."""
-    return tuple((index, 0) for index, line in enumerate(lines) if line.player_id in takers)
+    return tuple((index, 0) for index, part in enumerate(parts) if part.player_id in takers)
 
 
 def _entering(tick: int, all_times: tuple[LineTimes, ...], piece: Piece) -> tuple[tuple[int, int], ...]:
     """Players who begin with a cue placed by hand: those who were silent before, or else all."""
-    found = coming_in([(line, times) for line, times in enumerate(all_times)], tick, played_together(piece, tick))
+    found = coming_in([(part, times) for part, times in enumerate(all_times)], tick, played_together(piece, tick))
     least = beat_ticks(piece, tick) / 2
-    rested = tuple((line, index) for line, index in found if all_times[line].silence_tick[index] >= least)
+    rested = tuple((part, index) for part, index in found if all_times[part].silence_tick[index] >= least)
     return rested or found
 
 

@@ -26,12 +26,12 @@ class Single(NamedTuple):
     problems: tuple[Problem, ...]
 
 
-def one_at_a_time(line: MonophonicPart, clock: TempoMap) -> Single:
+def one_at_a_time(part: MonophonicPart, clock: TempoMap) -> Single:
     """The line without notes that cannot sound beside others: of those struck at one tick the highest is played.
 
     The line stays the same object where nothing had to go.
     """
-    notes = line.notes
+    notes = part.notes
     left_out: set[int] = set()
     problems: list[Problem] = []
     held: int | None = None
@@ -47,10 +47,10 @@ def one_at_a_time(line: MonophonicPart, clock: TempoMap) -> Single:
             _note_overlap(other, note, clock, problems)
         held = index
     if not left_out:
-        return Single(line, tuple(problems))
+        return Single(part, tuple(problems))
     kept = [index for index in range(len(notes)) if index not in left_out]
-    loudness = tuple(line.loudness[index] for index in kept) if line.loudness else ()
-    playable = msgspec.structs.replace(line, notes=tuple(notes[index] for index in kept), loudness=loudness)
+    loudness = tuple(part.loudness[index] for index in kept) if part.loudness else ()
+    playable = msgspec.structs.replace(part, notes=tuple(notes[index] for index in kept), loudness=loudness)
     return Single(playable, tuple(problems))
 
 

@@ -238,10 +238,10 @@ def staccato(onset_tick: IntArray, end_tick: IntArray, quarter_ticks: int) -> Bo
     return short & (between <= STACCATO_QUARTERS * quarter_ticks)
 
 
-def line_times(line: MonophonicPart, clock: TempoMap) -> LineTimes:
+def line_times(part: MonophonicPart, clock: TempoMap) -> LineTimes:
     """The times of a line's notes. A line without notes gives empty arrays."""
-    written = written_marks(line.notes, line.marks, line.source, clock.ticks_per_quarter)
-    return note_times(line.notes, line.loudness, clock, written)
+    written = written_marks(part.notes, part.marks, part.source, clock.ticks_per_quarter)
+    return note_times(part.notes, part.loudness, clock, written)
 
 
 def note_times(

@@ -44,7 +44,7 @@ GIVES = 0.10
 
 
 def finger_rotations(
-    hold: GripPose,
+    grip: GripPose,
     controls: Controls,
     frames: int,
     placed: Mapping[str, StationBlend] | None = None,
@@ -66,12 +66,12 @@ def finger_rotations(
     Returns
     -------
     (F, len(hold.finger_joints), 4) float64
-        ``parent_from_joint`` rotations in the order of ``hold.finger_joints``.
+        ``parent_from_joint`` rotations in the order of ``grip.finger_joints``.
     """
-    result = np.empty((len(hold.finger_joints), 4, frames)).transpose(2, 0, 1)
+    result = np.empty((len(grip.finger_joints), 4, frames)).transpose(2, 0, 1)
     height = np.broadcast_to(np.asarray(raised, dtype=np.float64), (frames,))
     start = 0
-    for hand in hold.hands:
+    for hand in grip.hands:
         ways: list[_Way] = []
         moved = _moved(hand, frames, placed)
         for table in hand.fingers:
@@ -124,8 +124,8 @@ class _Way:
 def _moved(hand: HandHold, frames: int, placed: Mapping[str, StationBlend] | None) -> BoolArray:
     """In which frames (F,) a hand gives way, or one of its fingers waits for that."""
     moved = np.zeros(frames, dtype=np.bool_)
-    for lean in hand.leans:
-        for share in (given_way(lean, placed), come_to(lean, placed)):
+    for offset in hand.leans:
+        for share in (given_way(offset, placed), come_to(offset, placed)):
             if share is not None:
                 moved |= share > 0.0
     return moved
@@ -156,7 +156,7 @@ def _posed(
 
     At their places first, for the wrist there is; what is between two places is lifted over what lies between.
     """
-    given = [(lean, weight) for lean in hand.leans for weight in [given_way(lean, placed)] if weight is not None]
+    given = [(offset, weight) for offset in hand.leans for weight in [given_way(offset, placed)] if weight is not None]
     wrist = wrist_given(hand, given)
     ends: list[FloatArray | ReachTarget] = []
     for way in ways:
@@ -261,9 +261,9 @@ class _Given:
     frames: IndexArray
     wrist: tuple[FloatArray, FloatArray]
 
-    def waits(self, lean: WristOffset) -> FloatArray:
+    def waits(self, offset: WristOffset) -> FloatArray:
         """Return how far (K,) it is from giving way."""
-        weight = next((weight[self.frames] for one, weight in self.leans if one is lean), np.zeros(len(self.frames)))
+        weight = next((weight[self.frames] for one, weight in self.leans if one is offset), np.zeros(len(self.frames)))
         return 1.0 - weight
 
 
@@ -274,11 +274,11 @@ def _at_place(
     station = table.stations[index]
     if station.tip_joint < 0:
         return rotations
-    lean = next((lean for lean in hand.leans if lean.places == ((table.finger, index),)), None)
-    if lean is None:
+    offset = next((offset for offset in hand.leans if offset.places == ((table.finger, index),)), None)
+    if offset is None:
         return with_wrist(table, station, rotations, wrist_given(hand, []), given.wrist)
-    lifted = np.multiply.outer(given.waits(lean), station.waits_m)
-    own = wrist_given(hand, [(lean, np.ones(1))])
+    lifted = np.multiply.outer(given.waits(offset), station.waits_m)
+    own = wrist_given(hand, [(offset, np.ones(1))])
     return with_wrist(table, station, rotations, own, given.wrist, lifted)
 
 

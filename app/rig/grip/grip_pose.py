@@ -333,7 +333,7 @@ def hand_targets(
             turn = quaternion.multiply(moved, turn)
         else:
             local = local + np.multiply.outer(motion.travel_m, value).T
-    given = [(lean, weight) for lean in hand.leans for weight in [given_way(lean, placed)] if weight is not None]
+    given = [(offset, weight) for offset in hand.leans for weight in [given_way(offset, placed)] if weight is not None]
     if given:
         local, turn = wrist_given(hand, given)
     positions = world_from_instrument_m + quaternion.rotate(world_from_instrument_rotation, local)
@@ -345,19 +345,19 @@ def giving_for(finger: str) -> str:
     return f"{finger}.hand"
 
 
-def given_way(lean: WristOffset, placed: Mapping[str, StationBlend] | None) -> FloatArray | None:
+def given_way(offset: WristOffset, placed: Mapping[str, StationBlend] | None) -> FloatArray | None:
     """Return how far (F,) a hand gives way, 0..1; None where it never does."""
-    return _all_at(lean, placed, [giving_for(finger) for finger, _ in lean.places])
+    return _all_at(offset, placed, [giving_for(finger) for finger, _ in offset.places])
 
 
-def come_to(lean: WristOffset, placed: Mapping[str, StationBlend] | None) -> FloatArray | None:
+def come_to(offset: WristOffset, placed: Mapping[str, StationBlend] | None) -> FloatArray | None:
     """Return how far (F,) fingers have come to where their hand gives way for them, 0..1; None where they never do."""
-    return _all_at(lean, placed, [finger for finger, _ in lean.places])
+    return _all_at(offset, placed, [finger for finger, _ in offset.places])
 
 
-def _all_at(lean: WristOffset, placed: Mapping[str, StationBlend] | None, names: Sequence[str]) -> FloatArray | None:
+def _all_at(offset: WristOffset, placed: Mapping[str, StationBlend] | None, names: Sequence[str]) -> FloatArray | None:
     weight: FloatArray | None = None
-    for (finger, station), name in zip(lean.places, names, strict=True):
+    for (finger, station), name in zip(offset.places, names, strict=True):
         where = None if placed is None else placed.get(name, placed.get(finger))
         share = None if where is None else _share_at(where, station)
         if share is None:
@@ -377,8 +377,8 @@ def wrist_given(hand: HandHold, given: Sequence[tuple[WristOffset, FloatArray]])
     place, turn = np.atleast_2d(hand.instrument_from_hand_m), np.atleast_2d(hand.instrument_from_hand_rotation)
     if not given:
         return place, turn
-    moved = np.sum([np.multiply.outer(weight, lean.moved_m) for lean, weight in given], axis=0)
-    turned = np.sum([np.multiply.outer(weight, lean.turned) for lean, weight in given], axis=0)
+    moved = np.sum([np.multiply.outer(weight, offset.moved_m) for offset, weight in given], axis=0)
+    turned = np.sum([np.multiply.outer(weight, offset.turned) for offset, weight in given], axis=0)
     return place + moved, quaternion.multiply(quaternion.from_rotation_vector(turned), turn)
 
 

@@ -71,9 +71,9 @@ class _Finger:
         return float(np.abs(quaternion.to_rotation_vector(swing) @ sideways).max())
 
 
-def with_curved_fingers(hold: GripPose, skeleton: Skeleton, profile: SkeletonProfile) -> GripPose:
+def with_curved_fingers(grip: GripPose, skeleton: Skeleton, profile: SkeletonProfile) -> GripPose:
     """The hold whose waiting fingers are curved, but for those that bear the instrument: they stay on it."""
-    return replace(hold, hands=tuple(_of_hand(hand, skeleton, profile) for hand in hold.hands))
+    return replace(grip, hands=tuple(_of_hand(hand, skeleton, profile) for hand in grip.hands))
 
 
 def _of_hand(hand: HandHold, skeleton: Skeleton, profile: SkeletonProfile) -> HandHold:

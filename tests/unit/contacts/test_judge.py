@@ -125,7 +125,7 @@ def test_a_finger_that_misses_its_valve_is_reported_alone() -> None:
     player = project.players[0]
     performance = Performance(project)
     playing = playing_of(performance, player)
-    hold = playing.player.hold
+    hold = playing.player.grip
     hands = []
     for hand in hold.hands:
         tables = [
@@ -135,7 +135,7 @@ def test_a_finger_that_misses_its_valve_is_reported_alone() -> None:
             for table in hand.fingers
         ]
         hands.append(replace(hand, fingers=tuple(tables)))
-    stiff = replace(playing, player=replace(playing.player, hold=replace(hold, hands=tuple(hands))))
+    stiff = replace(playing, player=replace(playing.player, grip=replace(hold, hands=tuple(hands))))
     reported = {
         (item.message.id, item.message.arguments["touch"]) for item in judged(performance, player, playing=stiff)
     }

@@ -101,7 +101,7 @@ def test_the_page_is_taken_and_the_hand_is_back_for_the_next_note(instrument_id:
     assert np.linalg.norm(tips[0] - tips[1]) < 0.06
     _back_on_the_grip(playing, motion, times_s)
     after = times_s >= PLACED_S + gesture.length_s + 0.2
-    fingers = list(playing.player.hold.finger_joints)
+    fingers = list(playing.player.grip.finger_joints)
     assert np.array_equal(motion.rotations[after][:, fingers], without.rotations[after][:, fingers])
     _other_hand_and_feet_stay(playing, motion, side)
     _within_bounds(motion, without, playing)
@@ -154,7 +154,7 @@ def _on_the_grip(playing: PerformanceCurves, motion: Motion) -> None:
     skeleton = playing.player.skeleton
     place = motion.instrument_position_m.astype(float), motion.instrument_rotation.astype(float)
     placed = playing.placed(motion.first_frame_s + np.arange(motion.frames) / FPS)
-    for hand in playing.player.hold.hands:
+    for hand in playing.player.grip.hands:
         wrist = skeleton.index(f"{hand.side}Hand")
         asked_m, _ = hand_targets(hand, *place, motion.controls, placed)
         there_m, _ = forward(skeleton, motion.rotations, motion.hips_m, [wrist]).of(wrist)
@@ -171,7 +171,7 @@ def _back_on_the_grip(playing: PerformanceCurves, motion: Motion, times_s: Float
 def _other_hand_and_feet_stay(playing: PerformanceCurves, motion: Motion, side: str) -> None:
     skeleton = playing.player.skeleton
     place = motion.instrument_position_m.astype(float), motion.instrument_rotation.astype(float)
-    for hand in playing.player.hold.hands:
+    for hand in playing.player.grip.hands:
         if hand.side != side:
             wrist = skeleton.index(f"{hand.side}Hand")
             asked_m, _ = hand_targets(hand, *place, motion.controls)

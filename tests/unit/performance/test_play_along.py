@@ -67,7 +67,7 @@ def test_soon_after_every_onset_the_controls_are_those_of_the_performance(instru
     seen = run(instrument_id)
     offline = offline_motion(instrument_id)
     held = {control.name for control in seen.playing.instrument_map.controls if control.role == "intonation"}
-    slides = {hand.motion.control for hand in seen.playing.player.hold.hands if hand.motion is not None}
+    slides = {hand.motion.control for hand in seen.playing.player.grip.hands if hand.motion is not None}
     compared = 0
     for event, own in zip(seen.playing.plan.fingerings, seen.plan.fingerings, strict=True):
         if event.label != own.label:

@@ -23,7 +23,7 @@ from widgets.viewport.limbs import LIMBS, LimbCapsules, hit
 @pytest.mark.parametrize("row", range(4))
 def test_joints_and_skin_are_where_the_rig_puts_them(row: int) -> None:
     stage, player = posed_stage(), quartet().players[row]
-    character = stage.members[row].kit.character
+    character = stage.members[row].assets.character
     own = pose(row)
     transforms = forward(character.skeleton, own.rotations[None], own.hips_m[None])
     world = placed(player.stage)
@@ -41,7 +41,7 @@ def test_joints_and_skin_are_where_the_rig_puts_them(row: int) -> None:
 @pytest.mark.parametrize("row", range(4))
 def test_instruments_nodes_are_where_the_map_moves_them(row: int) -> None:
     stage, player = posed_stage(), quartet().players[row]
-    kit, own, world = stage.members[row].kit, pose(row), placed(player.stage)
+    kit, own, world = stage.members[row].assets, pose(row), placed(player.stage)
     controls = {name: np.array([value]) for name, value in own.controls.items()}
     places, turns = node_transforms(model_of(kit.map), kit.map, controls, 1)
     for node, rest in enumerate(kit.instrument.node_positions_m):

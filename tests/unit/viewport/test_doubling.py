@@ -32,8 +32,8 @@ def test_the_body_is_drawn_once_and_both_instruments_have_a_stand() -> None:
     for row in (0, 1):
         bone = stage.bones[row, stage.stand_bone].astype(float)
         assert abs((bone[:, :3] @ [0.0, -1.0, 0.0] + bone[:, 3])[1]) < 1e-6
-    bodies = [len(found.shapes.characters[member.kit.character.id][-1].shape) for member in (flute, oboe)]
-    held = [len(found.shapes.instruments[member.kit.map.id][-1].shape) for member in stage.members]
+    bodies = [len(found.shapes.characters[member.assets.character.id][-1].shape) for member in (flute, oboe)]
+    held = [len(found.shapes.instruments[member.assets.map.id][-1].shape) for member in stage.members]
     assert len(crowd_of(stage, found.shapes).shape) == sum(bodies) + sum(held) + 2 * len(found.shapes.stand.shape)
 
 

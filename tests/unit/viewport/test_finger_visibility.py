@@ -64,7 +64,7 @@ def test_a_finger_behind_a_tube_is_not_seen() -> None:
     """Against a slow count: every line of sight against every vertex of the drawn model."""
     stage = playing("tuba_BBb")
     share = visible_finger_shares(stage, 0, [USUAL], turn_rad(stage, 0))[0]
-    kit, held = stage.members[0].kit, stage.node_matrix(0)
+    kit, held = stage.members[0].assets, stage.node_matrix(0)
     points = np.concatenate([mesh.positions_m for mesh in kit.instrument.meshes]) @ held[:, :3].T + held[:, 3]
     names = [
         f"{side}{finger}{joint}"

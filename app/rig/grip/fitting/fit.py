@@ -162,7 +162,7 @@ def _held(
     pole = quaternion.rotate(
         stand.instrument_rotation, np.cos(best[6]) * problem.swivel_frame[0] + np.sin(best[6]) * problem.swivel_frame[1]
     )
-    hold = HandHold(
+    grip = HandHold(
         side=hand.side,
         node=seed.node,
         motion=motion,
@@ -177,9 +177,9 @@ def _held(
     )
     if leans:
         whole = [touch.positions[0] for touch in problem.touches if touch.contact.part in whole_hand(hand.side)]
-        more = leans_beside(hold, np.reshape(whole, (-1, 3)), asked_together(scene.instrument_map))
-        hold = replace(hold, leans=leans + more)
-    return hold
+        more = leans_beside(grip, np.reshape(whole, (-1, 3)), asked_together(scene.instrument_map))
+        grip = replace(grip, leans=leans + more)
+    return grip
 
 
 def _leant_tables(

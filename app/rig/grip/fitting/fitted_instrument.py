@@ -183,9 +183,9 @@ def _lowered(instrument: InstrumentMap, share: float) -> InstrumentMap:
 
     if share == 0.0:
         return instrument
-    hold = instrument.hold
-    hold = msgspec.structs.replace(hold, standing=lower(hold.standing), seated=lower(hold.seated))
-    return msgspec.structs.replace(instrument, hold=hold)
+    grip = instrument.hold
+    grip = msgspec.structs.replace(grip, standing=lower(grip.standing), seated=lower(grip.seated))
+    return msgspec.structs.replace(instrument, hold=grip)
 
 
 def _asked(

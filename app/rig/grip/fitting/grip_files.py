@@ -122,18 +122,18 @@ def usual_wrists(instrument_id: str) -> Mapping[str, tuple[FloatArray, FloatArra
     return {}
 
 
-def write_hold(path: Path, digest: str, hold: GripPose) -> None:
+def write_hold(path: Path, digest: str, grip: GripPose) -> None:
     """Write a hold; the file appears whole or not at all. Raises FileError."""
     with atomic_write(path) as file:
-        stored = _StoredHold(digest, hold.character_id, hold.instrument_id, hold.hands)
+        stored = _StoredHold(digest, grip.character_id, grip.instrument_id, grip.hands)
         file.write(msgspec.json.encode(stored, enc_hook=_plain))
 
 
-def stored(hold: GripPose) -> GripPose:
+def stored(grip: GripPose) -> GripPose:
     """The hold as it comes back from a file: with rounded numbers."""
-    kept = _StoredHold("", hold.character_id, hold.instrument_id, hold.hands)
+    kept = _StoredHold("", grip.character_id, grip.instrument_id, grip.hands)
     back = msgspec.json.decode(msgspec.json.encode(kept, enc_hook=_plain), type=_StoredHold, dec_hook=_array)
-    return replace(hold, hands=back.hands)
+    return replace(grip, hands=back.hands)
 
 
 def read_hold(path: Path, digest: str, lips: Lips) -> GripPose | None:
@@ -163,17 +163,17 @@ def hold_for(
     cached = cache_folder("holds") / f"{digest}.json"
     lips = fit_lips(character, instrument, body)
     for path in (bundled_path(character.id, instrument.id), cached):
-        hold = read_hold(path, digest, lips)
-        if hold is not None:
-            return hold
+        grip = read_hold(path, digest, lips)
+        if grip is not None:
+            return grip
     from app.rig.grip.fitting.fit import fit_hold  # heavy; holds are fitted seldom
 
-    hold = stored(fit_hold(character, model, instrument, body, progress))
+    grip = stored(fit_hold(character, model, instrument, body, progress))
     # A cache that cannot be written costs the next run some seconds and nothing else.
     with contextlib.suppress(OSError, FileError):
         cached.parent.mkdir(parents=True, exist_ok=True)
-        write_hold(cached, digest, hold)
-    return hold
+        write_hold(cached, digest, grip)
+    return grip
 
 
 def _read(path: Path) -> _StoredHold:

@@ -60,7 +60,7 @@ def test_bells_lift_and_dip_no_further_than_wrists_follow(
     curves, motion = _shown(instrument_id, character_id, posture)
     skeleton, limits = curves.player.skeleton, load_body().limits["hand"]
     joints = forward(skeleton, motion.rotations.astype(np.float64), motion.hips_m.astype(np.float64))
-    for hand in curves.player.hold.hands:
+    for hand in curves.player.grip.hands:
         axes, joint = load_skeleton().joint_axes(f"{hand.side}Hand"), skeleton.index(f"{hand.side}Hand")
         rotations = motion.rotations[:, joint].astype(np.float64)
         degrees = np.degrees(
