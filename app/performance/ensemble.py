@@ -428,17 +428,17 @@ def changes_of(performance: Performance, played: Sequence[Player]) -> tuple[str,
     return first_played(plans), changes(plans)
 
 
-def _work(line: MonophonicPart, before: MonophonicPart | None) -> int:
-    """What planning a line costs after an edit, in notes."""
-    if line is before:
+def _work(part: MonophonicPart, before: MonophonicPart | None) -> int:
+    """What planning a part costs after an edit, in notes."""
+    if part is before:
         return 0
-    if before is None or line.notes is not before.notes or line.instrument_map is not before.instrument_map:
-        return len(line.notes)
-    same = deciding_values(line.parameters, "breaths", "cues") == deciding_values(before.parameters, "breaths", "cues")
-    kept, said = set(before.corrections), set(line.corrections)
+    if before is None or part.notes is not before.notes or part.instrument_map is not before.instrument_map:
+        return len(part.notes)
+    same = deciding_values(part.parameters, "breaths", "cues") == deciding_values(before.parameters, "breaths", "cues")
+    kept, said = set(before.corrections), set(part.corrections)
     if not same or any(isinstance(item, RemoveEvent | SetBreath | SetCue | Vary) for item in kept ^ said):
-        return len(line.notes)
-    return len(line.notes) // LIGHT
+        return len(part.notes)
+    return len(part.notes) // LIGHT
 
 
 def _all_expressions(installed: dict[str, Expression], own: tuple[Expression, ...]) -> dict[str, Expression]:

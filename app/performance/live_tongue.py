@@ -46,8 +46,8 @@ class LiveTongue:
     Threes are not told from twos: what comes next is not known. An attack louder than those before it is pushed.
     """
 
-    def __init__(self, playing: PerformanceCurves) -> None:
-        self._limit_s = single_limit_s(playing.instrument_map, Seeds((playing.parameters.seed, playing.player_id)))
+    def __init__(self, curves: PerformanceCurves) -> None:
+        self._limit_s = single_limit_s(curves.instrument_map, Seeds((curves.parameters.seed, curves.player_id)))
         self._tip, self._back = _Stroke(TONGUE_UP_S, TONGUE_DOWN_S), _Stroke(TONGUE_UP_S, TONGUE_DOWN_S)
         self._push = _Stroke(PUSH_UP_S, PUSH_UNTIL_S - PUSH_UP_S)
         self._struck_s, self._quick, self._was_back = -math.inf, 0, False

@@ -204,9 +204,9 @@ def _shared_by_all(
     )
 
 
-def _plan_player(made: EnsemblePlan, line: MonophonicPart, everyone: Mapping[str, object], known: EnsemblePlan) -> None:
+def _plan_player(made: EnsemblePlan, part: MonophonicPart, everyone: Mapping[str, object], known: EnsemblePlan) -> None:
     """Plan a player after those whose plans are made."""
-    player_id, musicians = line.player_id, made.shared["musicians"]
+    player_id, musicians = part.player_id, made.shared["musicians"]
     results, together = made.lines[player_id], {id: one.of(shared_line) for id, one in made.shared_lines.items()}
     own: dict[str, object] = {**everyone, "times": results.of(note_times), "shared_line": together.pop(player_id)}
     among = AMONG_OTHERS.begin(
@@ -220,18 +220,18 @@ def _plan_player(made: EnsemblePlan, line: MonophonicPart, everyone: Mapping[str
     made.players[player_id] = PLAYER.begin(
         known.players.get(player_id),
         **own,
-        **_fields(line) | {"notes": results["played_notes"], "corrections": results["sound_corrections"]},
+        **_fields(part) | {"notes": results["played_notes"], "corrections": results["sound_corrections"]},
         **{name: among[name] for name in AMONG_OTHERS.functions},
         reported=results["reported"],
         written=results.of(written_marks),
-        alone=musicians.count(line.musician or player_id) == 1,
+        alone=musicians.count(part.musician or player_id) == 1,
     )
     made.plans[player_id] = made.players[player_id].of(PlayerPlan)
 
 
-def _fields(line: MonophonicPart) -> dict[str, object]:
-    """Return the fields of a line by name, its map as the instrument."""
-    given = msgspec.structs.asdict(line)
+def _fields(part: MonophonicPart) -> dict[str, object]:
+    """Return the fields of a part by name, its map as the instrument."""
+    given = msgspec.structs.asdict(part)
     return {**given, "instrument": given.pop("instrument_map")}
 
 

@@ -61,13 +61,13 @@ class Suggestion(msgspec.Struct, frozen=True):
     playable: bool
 
 
-def usual_assignments(streams: Sequence[TrackChannel], maps: Sequence[MapChoice]) -> tuple[PartAssignment, ...]:
+def usual_assignments(channels: Sequence[TrackChannel], maps: Sequence[MapChoice]) -> tuple[PartAssignment, ...]:
     """Suggested assignments by names, programs and ranges, for the user to change: one for every playable stream, and
     one for the regions of a track."""
-    return tuple(found.assignment for found in suggestions(streams, maps) if found.playable)
+    return tuple(found.assignment for found in suggestions(channels, maps) if found.playable)
 
 
-def suggestions(streams: Sequence[TrackChannel], maps: Sequence[MapChoice]) -> list[Suggestion]:
+def suggestions(channels: Sequence[TrackChannel], maps: Sequence[MapChoice]) -> list[Suggestion]:
     """Suggested assignments of all streams, those that are one player's together.
 
     The pitches of a part are taken for written ones where many lie outside its instrument's range as they sound and
@@ -77,13 +77,13 @@ def suggestions(streams: Sequence[TrackChannel], maps: Sequence[MapChoice]) -> l
     found = []
     likely: list[tuple[bool, str]] = []
     certain = set()
-    for own in groups(streams):
-        tracks = [streams[index] for index in own]
-        playable = all(refusal(stream, maps) is None for stream in tracks)
+    for own in groups(channels):
+        tracks = [channels[index] for index in own]
+        playable = all(refusal(channel, maps) is None for channel in tracks)
         written, family = False, ""
         possible = candidates(tracks, maps) if playable else None
         if possible is not None and possible.how is not How.RANGE:
-            pitches = [pitch for stream in tracks for pitch in stream.pitches]
+            pitches = [pitch for channel in tracks for pitch in channel.pitches]
             choice = possible.best(pitches)
             family = vocabulary().family(choice.plays)
             high = choice.outside(pitches, usual=True) > 0

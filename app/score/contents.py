@@ -56,19 +56,19 @@ def uncast_score(contents: PieceContents) -> Score:
     listening only. No part has an instrument map."""
     parts = tuple(
         Part(
-            id=f"{stream.track + 1}.{stream.channel + 1}.{stream.change + 1}",
-            name=stream_name(stream),
-            track=stream.track,
-            voice=MOST_VOICES * stream.change,
-            channel=stream.channel,
-            program=stream.program,
+            id=f"{channel.track + 1}.{channel.channel + 1}.{channel.change + 1}",
+            name=stream_name(channel),
+            track=channel.track,
+            voice=MOST_VOICES * channel.change,
+            channel=channel.channel,
+            program=channel.program,
             instrument=None,
             map_id="",
-            notes=tuple(sorted(stream.notes(), key=lambda note: (note.onset_tick, note.pitch))),
-            curves=stream.curves,
+            notes=tuple(sorted(channel.notes(), key=lambda note: (note.onset_tick, note.pitch))),
+            curves=channel.curves,
         )
-        for stream in contents.streams
-        if use_of(stream) == "melodic"
+        for channel in contents.streams
+        if use_of(channel) == "melodic"
     )
     return score_of(contents, parts)
 
@@ -94,11 +94,11 @@ def score_of(
     )
 
 
-def _percussion(streams: Sequence[TrackChannel]) -> tuple[PercussionHit, ...]:
+def _percussion(channels: Sequence[TrackChannel]) -> tuple[PercussionHit, ...]:
     """Every note of some percussion tracks."""
     hits = (
         hit
-        for stream in streams
-        for hit in zip(stream.onset_ticks, stream.struck or stream.pitches, stream.velocities, strict=True)
+        for channel in channels
+        for hit in zip(channel.onset_ticks, channel.struck or channel.pitches, channel.velocities, strict=True)
     )
     return tuple(PercussionHit(tick, pitch, velocity) for tick, pitch, velocity in sorted(hits))

@@ -45,39 +45,41 @@ def players_named(name: str) -> int:
     return min(said[1] - said[0] + 1 if through else len(set(said)), 16)
 
 
-def recognised(stream: TrackChannel) -> Instrument | None:
+def recognised(channel: TrackChannel) -> Instrument | None:
     """The instrument that a track's names or numbers, or else the title, give to it; None if they give none."""
-    said = said_of(stream)
-    return vocabulary().instruments[stream.reported[0]] if said is None and len(stream.reported) == 1 else said
+    said = said_of(channel)
+    return vocabulary().instruments[channel.reported[0]] if said is None and len(channel.reported) == 1 else said
 
 
-def use_of(stream: TrackChannel) -> Use:
+def use_of(channel: TrackChannel) -> Use:
     """Return what a track is: a melody, a rhythm part, whose notes name the sounds of a drum kit, or sound effects.
 
     What the sound module was set to decides, but where that is only what channel 10 or a bank usually is, a name of
     anything but percussion makes it a melody. The name of a drum kit makes a rhythm part of any channel, if its
     program may be a kit's and most notes are those of a kit.
     """
-    telling, vague = _named(stream)
-    if stream.use == "melodic":
-        kit = telling is not None and telling.id == _KIT and (stream.program is None or stream.program in KIT_PROGRAMS)
-        return "rhythm" if kit and _names_kit(stream.pitches) else "melodic"
+    telling, vague = _named(channel)
+    if channel.use == "melodic":
+        kit = (
+            telling is not None and telling.id == _KIT and (channel.program is None or channel.program in KIT_PROGRAMS)
+        )
+        return "rhythm" if kit and _names_kit(channel.pitches) else "melodic"
     named = telling or vague
-    return stream.use if stream.certain or named is None or named.kind == "percussion" else "melodic"
+    return channel.use if channel.certain or named is None or named.kind == "percussion" else "melodic"
 
 
-def _named(stream: TrackChannel) -> tuple[Instrument | None, Instrument | None]:
+def _named(channel: TrackChannel) -> tuple[Instrument | None, Instrument | None]:
     """Return what the names of a track mean: the first that tells, and the first that may mean a part of any
     instrument."""
     words = vocabulary()
-    named = [found for text in (stream.name, stream.instrument_name) if text and (found := words.by_name(text))]
+    named = [found for text in (channel.name, channel.instrument_name) if text and (found := words.by_name(text))]
     telling = next((found for found in named if not found.vague), None)
     return telling, next(iter(named), None) if telling is None else None
 
 
-def is_named(stream: TrackChannel) -> bool:
+def is_named(channel: TrackChannel) -> bool:
     """Return whether someone named a track, not the program that wrote it."""
-    return not all(map(is_no_name, (stream.name, stream.instrument_name)))
+    return not all(map(is_no_name, (channel.name, channel.instrument_name)))
 
 
 def is_no_name(text: str) -> bool:
@@ -90,80 +92,80 @@ def _names_kit(pitches: Sequence[int]) -> bool:
     return 2 * sum(map(_KIT_NOTES.__contains__, pitches)) > len(pitches)
 
 
-def says_nothing(stream: TrackChannel) -> bool:
+def says_nothing(channel: TrackChannel) -> bool:
     """Return whether a melody has neither a name nor a program that tells more than a section; the piano's program is
     what many programs write for none."""
-    if stream.played_on or is_named(stream) or any(_named(stream)):
+    if channel.played_on or is_named(channel) or any(_named(channel)):
         return False
-    numbered = None if stream.program is None else vocabulary().by_program(stream.program)
-    return numbered is None or stream.program == _NO_PROGRAM or numbered.any_pitch
+    numbered = None if channel.program is None else vocabulary().by_program(channel.program)
+    return numbered is None or channel.program == _NO_PROGRAM or numbered.any_pitch
 
 
-def by_program_alone(stream: TrackChannel) -> Instrument | None:
+def by_program_alone(channel: TrackChannel) -> Instrument | None:
     """The wind that nothing but a track's program names; None where a name does, or the program names none."""
-    telling, _ = _named(stream)
-    if stream.played_on or stream.program is None or telling is not None or use_of(stream) != "melodic":
+    telling, _ = _named(channel)
+    if channel.played_on or channel.program is None or telling is not None or use_of(channel) != "melodic":
         return None
-    numbered = vocabulary().by_program(stream.program)
+    numbered = vocabulary().by_program(channel.program)
     return numbered if numbered is not None and numbered.kind == "wind" and not numbered.any_pitch else None
 
 
-def _member(stream: TrackChannel) -> Instrument | None:
+def _member(channel: TrackChannel) -> Instrument | None:
     """The instrument of its program's family that a track's name says by a size or key alone: "Alto" among saxophones;
     of a name that is an instrument's too, as "Baritone", only where voices are called so."""
     words = vocabulary()
-    numbered = None if stream.program in (None, _NO_PROGRAM) else words.by_program(stream.program or _NO_PROGRAM)
-    if numbered is None or numbered.kind != "wind" or use_of(stream) != "melodic":
+    numbered = None if channel.program in (None, _NO_PROGRAM) else words.by_program(channel.program or _NO_PROGRAM)
+    if numbered is None or numbered.kind != "wind" or use_of(channel) != "melodic":
         return None
-    text = next(filter(None, (stream.name, stream.instrument_name)), "")
+    text = next(filter(None, (channel.name, channel.instrument_name)), "")
     member = words.within(text, numbered)
-    if member is None or (_named(stream)[0] is not None and words.within(text, words.instruments[_VOICE]) is None):
+    if member is None or (_named(channel)[0] is not None and words.within(text, words.instruments[_VOICE]) is None):
         return None
     return member
 
 
-def said_of(stream: TrackChannel) -> Instrument | None:
+def said_of(channel: TrackChannel) -> Instrument | None:
     """What a track says of itself, in the ensemble that it is in."""
-    if stream.reported and stream.reported_by == "ensemble":
+    if channel.reported and channel.reported_by == "ensemble":
         return None
-    return (None if stream.played_on else _member(stream)) or said_plainly(stream)
+    return (None if channel.played_on else _member(channel)) or said_plainly(channel)
 
 
-def said_plainly(stream: TrackChannel) -> Instrument | None:
+def said_plainly(channel: TrackChannel) -> Instrument | None:
     """What the names or the program of a track are called."""
     words = vocabulary()
-    if stream.played_on:
-        return words.instruments[stream.played_on]
-    telling, vague = _named(stream)
-    use = use_of(stream)
+    if channel.played_on:
+        return words.instruments[channel.played_on]
+    telling, vague = _named(channel)
+    use = use_of(channel)
     if use == "rhythm":
         return telling if telling is not None and telling.kind == "percussion" else words.instruments[_KIT]
     if use == "effect":
         return words.instruments[_EFFECT]
     if telling is not None:
         return telling
-    numbered = None if stream.program is None else words.by_program(stream.program)
+    numbered = None if channel.program is None else words.by_program(channel.program)
     # Many programs write 0, the piano, for no program at all: a name that is not understood is not a piano's for that.
-    if stream.program == _NO_PROGRAM and vague is None and is_named(stream):
+    if channel.program == _NO_PROGRAM and vague is None and is_named(channel):
         return None
     if vague is None or numbered is None:
         return numbered or vague
-    says_more = numbered.kind == "wind" or (vague.kind == "wind" and stream.program != _NO_PROGRAM)
+    says_more = numbered.kind == "wind" or (vague.kind == "wind" and channel.program != _NO_PROGRAM)
     return numbered if says_more else vague
 
 
-def named_by_title(streams: Sequence[TrackChannel], title: str) -> list[TrackChannel]:
+def named_by_title(channels: Sequence[TrackChannel], title: str) -> list[TrackChannel]:
     """Give the winds that a piece's title names to the tracks that say nothing themselves.
 
     As many as there are such tracks go to them in their order ("oboe and bassoon"); else each of them may be any of
     those named, as its notes fit. A section alone ("brass quintet") leaves it to them who of the section plays.
     """
-    silent = [index for index, stream in enumerate(streams) if said_of(stream) is None]
+    silent = [index for index, channel in enumerate(channels) if said_of(channel) is None]
     winds = [found for found in vocabulary().all_by_name(title) if found.kind == "wind"]
     sections = [found.id for found in winds if found.any_pitch]
     named = [found.id for found in winds if not found.any_pitch] or sections[:1]
-    reported = list(streams)
+    reported = list(channels)
     for place, index in enumerate(silent):
         own = (named[place],) if len(named) == len(silent) else tuple(dict.fromkeys(named))
-        reported[index] = msgspec.structs.replace(streams[index], reported=own)
+        reported[index] = msgspec.structs.replace(channels[index], reported=own)
     return reported
