@@ -1,1 +1,1 @@
-"""MIDI file to score: notes, tempo map, metres, controller curves, parts."""
+"""Files of music to score: notes, tempo map, metres, controller curves, marks, parts."""
