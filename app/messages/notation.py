@@ -57,6 +57,10 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         "{file} has {parts} parts, but at most {most} can be read; export fewer parts",
         "{file} にパートが {parts} あります。読み込めるのは {most} までです。パートを減らして書き出してください",
     ),
+    "musicxml.too_many_measures": (
+        "{file} has more than {most} measures in all its parts; export fewer parts or a part of the piece",
+        "{file} の小節が全パートの合計で {most} を超えています。パートを減らすか、曲の一部を書き出してください",
+    ),
     "musicxml.too_many_notes": (
         "{file} has more than {most} notes with its repeats; export fewer parts or a part of the piece",
         "{file} の音符が繰り返しを含めて {most} を超えています。パートを減らすか、曲の一部を書き出してください",

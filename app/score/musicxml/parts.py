@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass, field
+from typing import Final
 from xml.etree.ElementTree import Element
 
+from app.errors import FileError
 from app.score.limits import MOST_NAME
 from app.score.musicxml.written import Place
 from instrument_maps.instruments import Instrument
@@ -13,6 +15,8 @@ from instrument_maps.vocabulary import vocabulary
 
 _NO_NAME = re.compile(r"(?:MusicXML Part|Part[_ ]?\d*|P\d+)", re.IGNORECASE)
 """What converters call a part or an instrument that no one has named."""
+MOST_MEASURES: Final = 400_000
+"""Of all parts together: two thousand in two hundred parts."""
 _KIT_CHANNEL = 10
 _KEYS = {10: "B♭", 9: "A", 3: "E♭", 5: "F", 2: "D", 7: "G"}
 """Keys of instruments by what a written C sounds like, in semitones above C."""
@@ -60,25 +64,39 @@ class WrittenPart:
 
 
 def written_parts(root: Element, place: Place) -> list[WrittenPart]:
-    """The parts of a score in the order of their list, those that the list does not have behind them."""
+    """The parts of a score in the order of their list, those that the list does not have behind them.
+
+    Raises FileError ``musicxml.too_many_measures``.
+    """
     found: dict[str, WrittenPart] = {}
     listed = root.find("part-list")
     for one in () if listed is None else listed.iter("score-part"):
         id = one.get("id", "")
         if id not in found:
             found[id] = _listed(one, id, place)
+    count = 0
     if root.tag == "score-partwise":
         for part in root.iterfind("part"):
             own = found.setdefault(part.get("id", ""), WrittenPart(part.get("id", "")))
             own.measures += [(measure, measure) for measure in part.iterfind("measure")]
+            count += len(own.measures)
+            _require_few(count, place)
     else:
         for number, measure in enumerate(root.iterfind("measure")):
             for part in measure.iterfind("part"):
                 own = found.setdefault(part.get("id", ""), WrittenPart(part.get("id", "")))
                 # A part that is not in every measure rests there.
+                count += number + 1 - len(own.measures)
+                _require_few(count, place)
                 own.measures += [(measure, Element("part"))] * (number - len(own.measures))
                 own.measures.append((measure, part))
     return list(found.values())
+
+
+def _require_few(measures: int, place: Place) -> None:
+    """Refuse more measures of all parts together than any score has."""
+    if measures > MOST_MEASURES:
+        raise FileError("musicxml.too_many_measures", file=place.file, most=MOST_MEASURES)
 
 
 def _listed(one: Element, id: str, place: Place) -> WrittenPart:

@@ -10,7 +10,7 @@ The errors are those of `app.score.musicxml.container`, and:
 
 musicxml.bad_value : file, part, measure, element, value
 musicxml.too_many_parts : file, parts, most
-musicxml.too_many_notes : file, most
+musicxml.too_many_measures, musicxml.too_many_notes : file, most
 musicxml.too_many_repeats : file, most
 musicxml.too_long : file, and as `app.score.limits.too_long` says it
 

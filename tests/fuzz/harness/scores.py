@@ -101,6 +101,13 @@ def measures(size: int) -> bytes:
     return packed(document(*[""] * (4 * size)))
 
 
+def late_parts(size: int) -> bytes:
+    """Return a score by measures whose parts all begin in the last one, compressed."""
+    measures, late = "<measure/>" * (2 * size), "".join(f'<part id="{number}"/>' for number in range(size))
+    text = f"<score-timewise><part-list/>{measures}<measure>{late}</measure></score-timewise>"
+    return packed(text)
+
+
 def parts(size: int) -> bytes:
     """Return parts without notes, compressed."""
     return packed(score(*(listed(f"P{number}", "") for number in range(size))))
@@ -132,6 +139,6 @@ def tempi(size: int) -> bytes:
 
 
 COSTLY_SCORES: Final[tuple[Callable[[int], bytes], ...]] = (
-    *(repeats, squeezed, spaces, elements, measures, parts),
+    *(repeats, squeezed, spaces, elements, measures, parts, late_parts),
     *(trills, chords, slurs, tempi),
 )

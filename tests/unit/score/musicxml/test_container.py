@@ -116,6 +116,9 @@ def test_bombs_are_refused(tmp_path: Path) -> None:
     assert refused(tmp_path, spaces, "a.mxl") == "musicxml.archive_too_large"
     assert refused(tmp_path, "<a>" * 100_000) == "musicxml.too_deep"
     assert refused(tmp_path, score(*(listed(f"P{n}", "x") for n in range(50_000)))) == "musicxml.too_many_parts"
+    late = "".join(f'<part id="P{number}"/>' for number in range(3000))
+    timewise = f"{HEAD}<score-timewise><part-list/>{'<measure/>' * 3000}<measure>{late}</measure></score-timewise>"
+    assert refused(tmp_path, timewise) == "musicxml.too_many_measures"
     long = document(note("C4", 16).replace("<duration>16<", "<duration>999999999<"))
     assert refused(tmp_path, long) in ("musicxml.too_long", "musicxml.too_many_repeats")
 
