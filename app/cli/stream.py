@@ -6,7 +6,6 @@ import argparse
 import sys
 import time
 from collections.abc import Mapping
-from fractions import Fraction
 from typing import TYPE_CHECKING, Final
 
 from app.cli.options import add_players_option, add_source_options, bounded_number, frame_rate, open_project, seconds
@@ -16,6 +15,7 @@ from app.cli.summary import look_at
 from app.cli.terminal import say
 from app.errors import UsageError
 from app.messages import text
+from app.project.frame_rate import USUAL_RATE
 from app.project.parameters import select_players
 from app.project.performers import Dancer, Player
 from app.stream.faces import FACE_NAMES
@@ -23,7 +23,6 @@ from app.stream.sender import (
     LEAST_PORT,
     LOOPBACK,
     MOST_PORT,
-    PORT,
     Sender,
     SendOutcome,
     checked_port,
@@ -31,6 +30,7 @@ from app.stream.sender import (
     is_loopback,
     reaches_many,
 )
+from app.stream.vmc import PORT
 
 if TYPE_CHECKING:
     from app.motion.model import Motion
@@ -41,7 +41,6 @@ if TYPE_CHECKING:
     from app.project.casting import StagePosition
     from app.stream.vmc import Sent
 
-_USUAL_RATE: Final = Fraction(60)
 _REPORT_S: Final = 1.0
 
 
@@ -68,7 +67,7 @@ def add_arguments(command: argparse.ArgumentParser) -> None:
         help=f"of the first performer (default: {PORT})",
     )
     command.add_argument(
-        "--fps", type=frame_rate, default=_USUAL_RATE, metavar="RATE", help="frames per second (default: 60)"
+        "--fps", type=frame_rate, default=USUAL_RATE, metavar="RATE", help="frames per second (default: 60)"
     )
     command.add_argument("--faces", choices=FACE_NAMES, default="arkit", help="blendshape naming (default: arkit)")
     command.add_argument(

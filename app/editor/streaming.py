@@ -11,7 +11,8 @@ from app.editor.state import State
 from app.errors import Message
 from app.project.model import Project
 from app.stream.faces import FaceNames
-from app.stream.sender import LOOPBACK, MOST_PORT, PORT
+from app.stream.sender import LOOPBACK, MOST_PORT
+from app.stream.vmc import PORT
 
 StreamState = Literal["off", "looking", "sending", "no_receiver", "failed"]
 """Nothing is sent; the computer is looked up; it is sent; it is sent, but no receiver answers; nothing can be sent."""

@@ -24,6 +24,9 @@ USUAL_RATES: Final = (
 )
 """Of film, television and games, in ascending order (SMPTE ST 12-1 and ST 12-3; 120 is what capture and games have)."""
 
+USUAL_RATE: Final = Fraction(60)
+"""Of a new piece's animation, of its export and of the live pose."""
+
 USUAL_FILM_RATE: Final = Fraction(30)
 """Of a film of the viewport, unless the piece has fewer frames per second."""
 

@@ -26,6 +26,7 @@ from app.project.casting import (
 from app.project.dance_corrections import DanceCorrection
 from app.project.doubling import common_postures, doubled_parts, embodied
 from app.project.footprint import footprint, together
+from app.project.frame_rate import USUAL_RATE
 from app.project.import_decisions import ImportDecisions, ReadTiming
 from app.project.names import unique_names
 from app.project.parameters import ParameterSetting
@@ -139,7 +140,7 @@ class Project:
     seed: int = 0
     preroll_beats: float = PREROLL_BEATS
     felt_beat_quarters: float | None = None
-    fps: Fraction = Fraction(60)
+    fps: Fraction = USUAL_RATE
     audio: AudioTrack | None = None
     expressions: tuple[Expression, ...] = ()
     source: str = ""

@@ -17,8 +17,6 @@ from app.errors import AppError
 
 LOOPBACK: Final = "127.0.0.1"
 """This computer."""
-PORT: Final = 39539
-"""Usual port of a receiver of the VMC protocol."""
 LEAST_PORT, MOST_PORT = 1024, 65535
 TO_MANY: Final = "stream.to_many"
 

@@ -8,7 +8,7 @@ model to be attached.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 import numpy as np
 
@@ -24,6 +24,8 @@ if TYPE_CHECKING:
     from app.performance.chunks import Pose
 
 
+PORT: Final = 39539
+"""Usual port of a receiver."""
 LOADED = 1
 """A character is there, and moves."""
 _TRANSFORM = 7

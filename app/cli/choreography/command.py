@@ -17,6 +17,7 @@ from app.cli.terminal import say, warn
 from app.encoding import shown
 from app.errors import UsageError
 from app.messages import text
+from app.project.frame_rate import USUAL_RATE
 
 if TYPE_CHECKING:
     from app.choreography.dance import Dance
@@ -260,7 +261,7 @@ def _add_generate(actions: Actions) -> None:
         help="from -1, light, to 1, heavy: how deep knees bend (default: 0, as captured)",
     )
     command.add_argument(
-        "--fps", type=frame_rate, default=Fraction(60), metavar="RATE", help="frames per second (default: 60)"
+        "--fps", type=frame_rate, default=USUAL_RATE, metavar="RATE", help="frames per second (default: 60)"
     )
     command.set_defaults(run=generate)
 
