@@ -15,9 +15,11 @@ At rest the frames of all nodes of a model differ from the root's by a translati
 
 from __future__ import annotations
 
-from typing import Literal, NamedTuple, TypeAlias, TypeVar
+from typing import Literal, NamedTuple, TypeAlias
 
-import msgspec
+from instrument_maps.hold import Contact, HandSeed, Hold, Proxy
+from instrument_maps.map_table import MapTable, Vector
+from instrument_maps.wind import Acoustics, Air, Embouchure, Mouthpiece, Stopped, Water
 
 SCHEMA_VERSION = 1
 """The schema these records describe; a file that says another number is refused."""
@@ -25,10 +27,6 @@ SCHEMA_VERSION = 1
 ROOT = "root"
 """Name of the node that stands for the instrument itself."""
 
-Vector: TypeAlias = tuple[float, float, float]
-Hand: TypeAlias = Literal["left", "right"]
-Posture: TypeAlias = Literal["standing", "seated"]
-_Kind = TypeVar("_Kind")
 
 FINGERS = ("thumb", "index", "middle", "ring", "little")
 PLACES = ("pad", "side", "pad_middle", "side_middle", "pad_proximal", "side_proximal")
@@ -44,18 +42,14 @@ MOVERS = frozenset(f"{hand}.{mover}" for hand in ("left", "right") for mover in 
 """What may move a control: a finger, or a whole hand (a playing slide)."""
 
 
-class _Table(msgspec.Struct, frozen=True, forbid_unknown_fields=True, omit_defaults=True):
-    """A table of the file: immutable, and a key it does not know is an error."""
-
-
-class InstrumentName(_Table, frozen=True):
+class InstrumentName(MapTable, frozen=True):
     """Name of the instrument by language (BCP 47 primary tags that the program supports)."""
 
     en: str
     ja: str
 
 
-class Range(_Table, frozen=True):
+class Range(MapTable, frozen=True):
     """Concert MIDI pitches, both ends inclusive.
 
     ``low``..``high`` is what the table of fingerings covers; ``easy_low``..``easy_high`` is where the
@@ -77,53 +71,7 @@ class Range(_Table, frozen=True):
         return low, self.high if self.usual_high is None else self.usual_high
 
 
-EmbouchureKind: TypeAlias = Literal["cup", "single_reed", "double_reed", "air_jet", "fipple"]
-
-
-class Embouchure(_Table, frozen=True):
-    """How the lips meet the instrument.
-
-    Attributes
-    ----------
-    kind : str
-        ``"cup"``: both lips inside a cup mouthpiece. ``"single_reed"``: upper teeth on the mouthpiece, lower lip over
-        the lower teeth under the reed. ``"double_reed"``: both lips drawn over the teeth around the reed.
-        ``"air_jet"``: the plate under the lower lip, a small opening between the lips blows across the hole.
-        ``"fipple"``: a beak between relaxed lips.
-    lips_apart_m : float
-        Height of what lies between the lips where they close around it; 0 for a cup and an air jet.
-    puff : float
-        How far low and loud notes fill the cheeks: 1 as a brass player's may, 0 where cheeks stay flat.
-    vibrato : float
-        How much vibrato held notes usually have, 0..1.
-    """
-
-    kind: EmbouchureKind
-    lips_apart_m: float = 0.0
-    puff: float = 1.0
-    vibrato: float = 0.5
-
-
-class Mouthpiece(_Table, frozen=True):
-    """The frame the lips are put to, in the model's root frame.
-
-    ``position_m`` is the centre of the rim plane, ``air_axis`` the direction of the air stream,
-    ``up_axis`` up as played (unit vectors, orthogonal); ``rim_radius_m`` is the crest of the rim, where
-    it presses on the lips, ``rim_outer_radius_m`` its outer edge.
-
-    Of a reed or a beak the position is the middle of what the lips close around, there where they close (the tip lies
-    behind it, in the mouth); of an air jet it is the edge of the plate where the lower lip rests. The radii are then
-    half the width of mouthpiece, reed or plate that the lips meet.
-    """
-
-    position_m: Vector
-    air_axis: Vector
-    up_axis: Vector
-    rim_radius_m: float
-    rim_outer_radius_m: float
-
-
-class ControlMotion(_Table, frozen=True):
+class ControlMotion(MapTable, frozen=True):
     """Motion of a node while its control goes from 0 to 1, in the root frame.
 
     Either a translation (``axis`` and ``travel_m``) or a rotation about ``pivot_m`` (a point in the root
@@ -139,7 +87,7 @@ class ControlMotion(_Table, frozen=True):
 ControlKind: TypeAlias = Literal["press", "lever", "slide", "key", "hole"]
 
 
-class Control(_Table, frozen=True):
+class Control(MapTable, frozen=True):
     """Something the player moves: a valve, a slide, a lever, a key; or a hole a finger covers.
 
     Attributes
@@ -203,7 +151,7 @@ class Control(_Table, frozen=True):
         return 0.0 if self.motion is None or self.motion.travel_m is None else self.motion.travel_m
 
 
-class Link(_Table, frozen=True):
+class Link(MapTable, frozen=True):
     """A part that other controls move: the pad a key's rod closes far from the finger, the ring of a neighbouring hole.
 
     Attributes
@@ -224,7 +172,7 @@ class Link(_Table, frozen=True):
     when: Literal["any", "all"] = "any"
 
 
-class Endpin(_Table, frozen=True):
+class Endpin(MapTable, frozen=True):
     """The pin an instrument stands on the floor with, as long as its player needs it.
 
     Attributes
@@ -259,225 +207,7 @@ class MovingPart(NamedTuple):
     when: Literal["any", "all"] = "any"
 
 
-class Contact(_Table, frozen=True):
-    """A part of a hand that touches the instrument.
-
-    Attributes
-    ----------
-    part : str
-        One of `PARTS`.
-    node : str
-        The node that is touched (`ROOT` or the node of a control): position and normal are in its frame.
-    position_m, normal : vector
-        A point of the surface and the unit normal that points out of it, towards the skin.
-    control : str or None
-        The control this touch works, if any. A finger may work several, each with a touch of its own; the first in
-        the file is where it is at home. Thumb and little fingers go from one to the other.
-    together : tuple of str
-        Other controls that the same finger works at the same time in this place (a thumb on hole and register key).
-    when : str
-        ``"always"``; ``"pressed"``: only while the control is away from rest; ``"released"``: only at rest.
-    grip : str
-        ``"firm"``: the touch that carries or works the instrument, exact. ``"resting"``: the part lies
-        against the surface where the hand allows it (judged as the hand's grip, not as a touch). ``"guide"``, never in
-        a file: about here lies a part that cannot bend, and no one judges it (a mitten's finger).
-    """
-
-    part: str
-    node: str
-    position_m: Vector
-    normal: Vector
-    control: str | None = None
-    together: tuple[str, ...] = ()
-    when: Literal["always", "pressed", "released"] = "always"
-    grip: Literal["firm", "resting", "guide"] = "firm"
-
-
-class HandSeed(_Table, frozen=True):
-    """Where a solver starts a hand from: a plausible pose of a medium hand, not a contact.
-
-    ``palm_position_m`` is the middle of the palm's skin, ``palm_normal`` points out of the palm,
-    ``finger_direction`` from the wrist to the knuckles; in the frame of ``node``. ``curl`` is the bend of the
-    fingers without a contact: 0 straight, 1 a fist; in the order index, middle, ring, little.
-    ``elbow_off_ribs_deg`` is the swing of the elbow to the outside; None as the body's posture has it.
-    """
-
-    hand: Hand
-    node: str
-    palm_position_m: Vector
-    palm_normal: Vector
-    finger_direction: Vector
-    curl: tuple[float, float, float, float] = (0.35, 0.4, 0.45, 0.45)
-    elbow_off_ribs_deg: float | None = None
-
-
-class Capsule(_Table, frozen=True, tag="capsule", tag_field="shape"):
-    """A tube or bar: all points within ``radius_m`` of the segment ``a_m``..``b_m``."""
-
-    node: str
-    a_m: Vector
-    b_m: Vector
-    radius_m: float
-
-
-class Cylinder(_Table, frozen=True, tag="cylinder", tag_field="shape"):
-    """A flat-ended round body between ``a_m`` and ``b_m``."""
-
-    node: str
-    a_m: Vector
-    b_m: Vector
-    radius_m: float
-
-
-class Cone(_Table, frozen=True, tag="cone", tag_field="shape"):
-    """A flat-ended round body whose radius goes from ``radius_a_m`` to ``radius_b_m``."""
-
-    node: str
-    a_m: Vector
-    b_m: Vector
-    radius_a_m: float
-    radius_b_m: float
-
-
-class Ring(_Table, frozen=True, tag="ring", tag_field="shape"):
-    """A torus about ``axis``: ``radius_m`` to the middle of its tube, which is ``tube_radius_m`` thick."""
-
-    node: str
-    centre_m: Vector
-    axis: Vector
-    radius_m: float
-    tube_radius_m: float
-
-
-class Box(_Table, frozen=True, tag="box", tag_field="shape"):
-    """A box with half sizes ``half_m`` along the unit vectors ``x_axis``, ``y_axis`` and their cross product."""
-
-    node: str
-    centre_m: Vector
-    half_m: Vector
-    x_axis: Vector
-    y_axis: Vector
-
-
-Proxy: TypeAlias = Capsule | Cylinder | Cone | Ring | Box
-"""A closed body that stands for a part of the model when a hand is checked against it."""
-
-
-class Carriage(_Table, frozen=True):
-    """How the instrument is carried while playing, as (lowest, usual, highest) angles in degrees.
-
-    From the horizontal, straight ahead of the player: ``pitch_down_deg`` bell below the mouthpiece,
-    ``yaw_left_deg`` bell to the player's left, ``roll_left_deg`` the instrument's up leaning to the left.
-    Applied in the order yaw, pitch, roll.
-
-    How the player turns to it, in degrees: ``head_left_deg`` the head to the left of the trunk, ``head_lean_left_deg``
-    its ear towards the left shoulder, ``trunk_left_deg`` the shoulders to the left of the feet.
-    """
-
-    pitch_down_deg: Vector
-    yaw_left_deg: Vector
-    roll_left_deg: Vector
-    head_left_deg: float = 0.0
-    head_lean_left_deg: float = 0.0
-    trunk_left_deg: float = 0.0
-
-
-class LoweredPlace(_Table, frozen=True):
-    """Place of the instrument in a long rest.
-
-    ``offset_m`` is the mouthpiece's place relative to where it is while playing, in the player's frame
-    (left, up, ahead); the angles are as in `Carriage`.
-    """
-
-    offset_m: Vector
-    pitch_down_deg: float
-    yaw_left_deg: float
-    roll_left_deg: float
-
-
-class Hold(_Table, frozen=True):
-    """How a trained player carries the instrument.
-
-    ``support_hand`` bears its weight. ``standing`` and ``seated`` are for playing; the two ``lowered``
-    tables are for long rests. An instrument that is only played seated has no tables for standing, and the other way
-    round.
-
-    ``free_hand``: which hand can leave the instrument while it is lowered, and comes past it to the music; None: the
-    one that does not bear its weight.
-
-    ``size_range``: a player with small hands or short arms gets it smaller, one with large hands larger, but never
-    beyond these multiples of the model's size.
-    """
-
-    support_hand: Hand
-    standing: Carriage | None = None
-    seated: Carriage | None = None
-    lowered_standing: LoweredPlace | None = None
-    lowered_seated: LoweredPlace | None = None
-    size_range: tuple[float, float] = (0.5, 1.25)
-    free_hand: Literal["left", "right", "none"] | None = None
-
-    @property
-    def leaving_hand(self) -> Hand | None:
-        """The hand that can leave the lowered instrument: what else holds it bears it meanwhile. None: neither."""
-        if self.free_hand is None:
-            return "left" if self.support_hand == "right" else "right"
-        return None if self.free_hand == "none" else self.free_hand
-
-    @property
-    def postures(self) -> tuple[Posture, ...]:
-        """In what the instrument is played, the usual one first."""
-        both: tuple[tuple[Posture, Carriage | None], ...] = (("standing", self.standing), ("seated", self.seated))
-        return tuple(posture for posture, carriage in both if carriage is not None)
-
-    def possible(self, posture: Posture) -> Posture:
-        """The posture itself, or the only one the instrument is played in."""
-        return posture if posture in self.postures else self.postures[0]
-
-    def carriage(self, posture: Posture) -> Carriage:
-        """Return how it is carried, in the only posture it is played in where the requested one is not possible."""
-        return self._either(posture, self.standing, self.seated)
-
-    def lowered(self, posture: Posture) -> LoweredPlace:
-        """Return where it is in a long rest; likewise."""
-        return self._either(posture, self.lowered_standing, self.lowered_seated)
-
-    @staticmethod
-    def _either(posture: Posture, standing: _Kind | None, seated: _Kind | None) -> _Kind:
-        requested, other = (seated, standing) if posture == "seated" else (standing, seated)
-        found = other if requested is None else requested
-        if found is None:
-            raise ValueError("a map without any posture")
-        return found
-
-
-class Acoustics(_Table, frozen=True):
-    """The tube behind the table of fingerings: lets a test, or a reader, check it.
-
-    Attributes
-    ----------
-    fundamental_pitch : int
-        Concert MIDI pitch of the first harmonic of the plain tube.
-    tube_m : float
-        Effective length of the plain tube.
-    semitones : dict of str to int
-        What each pitch control lowers the tube by when it is alone (valves, a trigger).
-    compensator : str or None
-        The valve with which the others lengthen the tube in proportion, so that their sum with it is in tune: it sends
-        the air through them once more, or to tubes of their own (the other side of a double horn).
-    slide_control : str or None
-        The playing slide, whose places are ``tube_m x (2**(semitones/12) - 1) / 2`` from closed, times the
-        length of the tube with the other controls.
-    """
-
-    fundamental_pitch: int
-    tube_m: float
-    semitones: dict[str, int]
-    slide_control: str | None = None
-    compensator: str | None = None
-
-
-class Fingering(_Table, frozen=True):
+class Fingering(MapTable, frozen=True):
     """One way to play one written note.
 
     Attributes
@@ -517,54 +247,7 @@ class Fingering(_Table, frozen=True):
         return self.rank > 1 and "obsolete" in self.tags
 
 
-class Water(_Table, frozen=True):
-    """How water is let out of the instrument in a long rest.
-
-    Attributes
-    ----------
-    gesture : str
-        Its name in `metadata.gestures`.
-    position_m, normal : vector or None
-        Of the water key: where the forefinger presses it, and the way out of it; in the root frame. None where there is
-        none to press.
-    """
-
-    gesture: str
-    position_m: Vector | None = None
-    normal: Vector | None = None
-
-
-class Stopped(_Table, frozen=True):
-    """How notes are played with the bell closed by the hand, which makes the tube shorter.
-
-    Attributes
-    ----------
-    fingered_semitones : int
-        How much higher than it sounds a note is fingered; -1: a semitone lower.
-    hand : "left" or "right"
-        The hand in the bell.
-    without : tuple of str
-        Controls of pitch that are at rest meanwhile.
-    turned_deg : vector
-        Rotation vector, in the root frame, by which the palm turns about its knuckles to close the bell; the fingers
-        stay where they lie.
-    """
-
-    fingered_semitones: int
-    hand: Hand
-    without: tuple[str, ...] = ()
-    turned_deg: Vector = (0.0, 0.0, 0.0)
-
-
-class Air(_Table, frozen=True):
-    """How long one full breath of an adult lasts on the instrument, seconds of playing by dynamic."""
-
-    piano_s: float
-    mezzoforte_s: float
-    forte_s: float
-
-
-class InstrumentMap(_Table, frozen=True):
+class InstrumentMap(MapTable, frozen=True):
     """One instrument, as its file says it.
 
     Attributes

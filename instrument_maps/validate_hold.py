@@ -5,21 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from instrument_maps.model import (
-    MOVERS,
-    PARTS,
-    ROOT,
-    Box,
-    Capsule,
-    Carriage,
-    Cone,
-    Contact,
-    Control,
-    Cylinder,
-    InstrumentMap,
-    Proxy,
-    Ring,
-)
+from instrument_maps.hold import Box, Capsule, Carriage, Cone, Contact, Cylinder, Proxy, Ring
+from instrument_maps.model import MOVERS, PARTS, ROOT, Control, InstrumentMap
 from instrument_maps.value_checks import REACH_M, UNIT_TOLERANCE, Problem, dot, near_point, unit_vector, within
 
 _SMALLEST, _LARGEST = 0.2, 4.0

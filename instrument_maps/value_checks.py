@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator
 from typing import TypeAlias
 
-from instrument_maps.model import Vector
+from instrument_maps.map_table import Vector
 
 Problem: TypeAlias = tuple[str, str]
 """Key path and what is wrong there, e.g. ``("controls[2].finger", "'right.indx' is not a finger")``."""

@@ -12,16 +12,9 @@ from typing import TypeVar, get_args
 
 from app.errors import MapError
 from metadata.face_model import EMBOUCHURE_WEIGHTS, FACE_WEIGHTS, UPPER_FACE, FaceMotion
-from metadata.model import (
-    ARKIT_MORPHS,
-    Body,
-    BoneNames,
-    Controller,
-    EmbouchureKind,
-    Expression,
-    FaceNames,
-    SkeletonProfile,
-)
+from metadata.known_names import BoneNames, FaceNames
+from metadata.model import ARKIT_MORPHS, Body, Controller, EmbouchureKind, Expression
+from metadata.skeleton_profile import SkeletonProfile
 from metadata.tables import ROOT, bundled, check_name, decoded, invalid, label
 
 _KIND_FOLDERS = {

@@ -11,7 +11,8 @@ from app.arrays import BoolArray, FloatArray
 from app.rig.grip.finger_stations import MOST_HOVER_M
 from app.rig.grip.fitting.fit_terms import GRIP_M, INSIDE_M, TOUCH_M
 from app.rig.grip.grip_pose import ContactFit
-from instrument_maps.model import Contact, Control
+from instrument_maps.hold import Contact
+from instrument_maps.model import Control
 
 TOUCH_MM, GRIP_MM, PENETRATION_MM = 1000.0 * TOUCH_M, 1000.0 * GRIP_M, 1000.0 * INSIDE_M
 LIPS_MM = 2.0

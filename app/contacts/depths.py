@@ -29,7 +29,7 @@ from app.contacts.hand_poses import (
 )
 from app.contacts.similar_frames import order_by_similarity
 from app.rig.skinning import Skin
-from instrument_maps.model import Proxy
+from instrument_maps.hold import Proxy
 
 BLOCKS = (128, 16, 4, 1)
 """Frames of the blocks, each a multiple of the next."""

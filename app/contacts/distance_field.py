@@ -16,7 +16,7 @@ import numpy.typing as npt
 
 from app.arrays import AnyFloatArray, AnyIntArray, FloatArray, IndexArray, SingleArray
 from app.rig.grip.instrument_proxy import Bodies, bodies, distances
-from instrument_maps.model import Proxy
+from instrument_maps.hold import Proxy
 
 CELL_M = 0.003
 BRICK_CELLS = 4

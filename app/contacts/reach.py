@@ -23,7 +23,8 @@ from app.plan.parameters import PlayerParameters
 from app.rig.grip.grip_pose import GripPose
 from app.rig.model import Character
 from app.rig.skeleton import forward
-from instrument_maps.model import InstrumentMap, Posture
+from instrument_maps.map_table import Posture
+from instrument_maps.model import InstrumentMap
 from metadata.model import Body
 
 OUT_OF_REACH: Final = "contact.out_of_reach"

@@ -18,7 +18,8 @@ from app.motion.contacts.hand_in_bell import FINGERS_KEPT
 from app.rig import quaternion
 from app.rig.grip.finger_stations import aside_m, only_at, stations, stations_of_notes, worked_by
 from app.rig.grip.grip_pose import HandHold, StationBlend, hand_targets
-from instrument_maps.model import ROOT, Contact, InstrumentMap
+from instrument_maps.hold import Contact
+from instrument_maps.model import ROOT, InstrumentMap
 
 LIPS, UPPER_LIP = "lips.contact", "lips.upper"
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from app.export.target import TargetSkeleton
 from app.rig.model import Skeleton
+from metadata.known_names import BoneNames
 from metadata.load import load_bone_names
-from metadata.model import BoneNames
 
 SPINE = ("spine", "chest", "upperChest")
 

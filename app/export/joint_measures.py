@@ -11,7 +11,8 @@ import numpy as np
 from app.arrays import FloatArray
 from app.export.joint_playback import JointPlayback
 from app.export.joints import anatomical_angles, angular_accelerations
-from metadata.model import Body, JointLimits, SkeletonProfile
+from metadata.model import Body, JointLimits
+from metadata.skeleton_profile import SkeletonProfile
 
 _CHUNK = 512
 _BEYOND_DEG = 0.01

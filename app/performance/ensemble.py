@@ -37,7 +37,8 @@ from app.rig.characters.character_library import character_library
 from app.score.limits import too_long
 from app.steps import StepResults, StepTable, reading
 from instrument_maps.library import library
-from instrument_maps.model import InstrumentMap, Posture
+from instrument_maps.map_table import Posture
+from instrument_maps.model import InstrumentMap
 from metadata.acting import Habit, Style
 from metadata.library import MetadataLibrary, metadata_library
 from metadata.model import Expression

@@ -10,7 +10,7 @@ from itertools import pairwise
 import msgspec
 
 from app.chance import chance, seed_of
-from instrument_maps.model import Posture
+from instrument_maps.map_table import Posture
 
 SPACING_M = 1.3
 """Between neighbours: room for a long instrument's bell and an elbow."""

@@ -18,7 +18,8 @@ import numpy as np
 from app.project.performers import Player
 from app.score.model import MOST_VOICES, Note, Part
 from app.score.tempo import TempoMap
-from instrument_maps.model import InstrumentMap, Posture
+from instrument_maps.map_table import Posture
+from instrument_maps.model import InstrumentMap
 
 TOGETHER_S: Final = 1.0
 """The longest total time for which two instruments of one musician may sound at once: a held last note, a pickup

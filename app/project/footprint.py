@@ -10,7 +10,8 @@ from app.arrays import FloatArray
 from app.identity_cache import IdentityCache
 from app.project.casting import Footprint
 from app.rig import quaternion
-from instrument_maps.model import ROOT, Box, Carriage, Cone, InstrumentMap, Ring
+from instrument_maps.hold import Box, Carriage, Cone, Ring
+from instrument_maps.model import ROOT, InstrumentMap
 from instrument_maps.vocabulary import vocabulary
 
 LIPS_AHEAD_M = 0.12

@@ -14,7 +14,7 @@ import numpy as np
 from app.arrays import AnyFloatArray, AnyIntArray, FloatArray
 from app.rig.grip.instrument_proxy import signed_distance
 from app.rig.skinning import Skin
-from instrument_maps.model import Proxy
+from instrument_maps.hold import Proxy
 
 GROUP = 8
 """Vertices per group, about."""

@@ -12,19 +12,9 @@ import numpy as np
 
 from app.plan.music.piece import Piece
 from app.score.metre_map import Metre, MetreMap
-from instrument_maps.model import (
-    Carriage,
-    Control,
-    ControlMotion,
-    Embouchure,
-    Fingering,
-    Hold,
-    InstrumentMap,
-    InstrumentName,
-    LoweredPlace,
-    Mouthpiece,
-    Range,
-)
+from instrument_maps.hold import Carriage, Hold, LoweredPlace
+from instrument_maps.model import Control, ControlMotion, Fingering, InstrumentMap, InstrumentName, Range
+from instrument_maps.wind import Embouchure, Mouthpiece
 
 
 @dataclass(frozen=True)

@@ -17,7 +17,7 @@ from app.motion.by_hand.pose_corrections import within
 from app.plan.acting import Acting
 from app.plan.parameters import PlayerParameters
 from app.rig import quaternion
-from instrument_maps.model import Carriage
+from instrument_maps.hold import Carriage
 
 X_AXIS, Y_AXIS, Z_AXIS = np.eye(3)
 

@@ -14,7 +14,8 @@ from app.arrays import AnyFloatArray, FloatArray
 from app.motion.body_motion import BodyMotion
 from app.motion.contacts.carried_instrument import InstrumentTransform, attitude, held_angles
 from app.rig import quaternion
-from instrument_maps.model import Carriage, Endpin
+from instrument_maps.hold import Carriage
+from instrument_maps.model import Endpin
 
 UPRIGHT = 0.5
 """A pin that points less down than this (the cosine) is not what an instrument stands on."""

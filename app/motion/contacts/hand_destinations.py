@@ -18,7 +18,7 @@ from app.rig import quaternion
 from app.rig.grip.empty_hand_shapes import shaped, tip_m
 from app.rig.ik import arm
 from app.rig.model import Skeleton
-from instrument_maps.model import Stopped, Water
+from instrument_maps.wind import Stopped, Water
 
 USUAL_ARM_M: Final = 0.5
 """Upper and lower arm of an adult: places are farther from longer arms."""

@@ -17,7 +17,7 @@ from app.plan.model import MuteEvent
 from app.rig import quaternion
 from app.rig.grip.grip_pose import GripPose
 from app.rig.model import Skeleton
-from instrument_maps.model import Stopped
+from instrument_maps.wind import Stopped
 
 STOPPING: Final = "stopping"
 """Its share among what hands do (`app.motion.gestures.body_layers.BodyMotion.hands`)."""

@@ -23,8 +23,8 @@ from app.rig.grip.carriage import carrying
 from app.rig.grip.grip_pose import GripPose, Lips
 from app.rig.grip.lifted_fingers import with_curved_fingers
 from app.rig.model import Character, Skeleton
+from instrument_maps.map_table import Posture as PostureName
 from instrument_maps.model import InstrumentMap
-from instrument_maps.model import Posture as PostureName
 from metadata.load import load_skeleton
 from metadata.model import Body, EmbouchureWeights
 

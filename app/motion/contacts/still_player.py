@@ -16,7 +16,8 @@ from app.motion.contacts.trunk_and_legs import Side, Stance, Trunk
 from app.motion.contacts.wrists import ANYWHERE, BellRoom, Wrist
 from app.rig.grip.grip_pose import GripPose, StationBlend
 from app.rig.model import Skeleton
-from instrument_maps.model import Carriage, LoweredPlace, Stopped, Water
+from instrument_maps.hold import Carriage, LoweredPlace
+from instrument_maps.wind import Stopped, Water
 
 
 @dataclass(frozen=True)

@@ -15,7 +15,8 @@ from app.arrays import BoolArray, FloatArray
 from app.motion.contacts.trunk_and_legs import SIDES, Side
 from app.motion.curves.soft_bounds import softly_capped, softly_over
 from app.rig import quaternion
-from metadata.model import Body, SkeletonProfile
+from metadata.model import Body
+from metadata.skeleton_profile import SkeletonProfile
 
 EASE_RAD = float(np.deg2rad(3.0))
 """The elbow begins to go this much before the end of the range."""

@@ -18,7 +18,7 @@ from app.motion.curves.spline import Spline
 from app.plan.breath.lungs import air_rate, lungful_s
 from app.plan.model import PlayerPlan
 from app.plan.parameters import PlayerParameters
-from instrument_maps.model import Air
+from instrument_maps.wind import Air
 from metadata.face_model import FaceMotion
 
 Whole: TypeAlias = npt.NDArray[np.int32]

@@ -49,7 +49,7 @@ from app.plan.music.piece import EPSILON, LineTimes, Piece, Seeds, gaps_s
 from app.plan.music.rests import Rests, are_audible, rest_ticks
 from app.plan.parameters import PlayerParameters
 from app.score.model import Note
-from instrument_maps.model import Air
+from instrument_maps.wind import Air
 
 
 class BreathPlan(msgspec.Struct, frozen=True):

@@ -9,7 +9,7 @@ from app.plan.music.breath_controller import STOPS_AT, BreathEnvelope, step_mean
 from app.plan.music.dynamics import mean_around
 from app.plan.music.piece import EPSILON, MEZZOFORTE, LineTimes, marked_loudness
 from app.plan.parameters import PlayerParameters
-from instrument_maps.model import Air
+from instrument_maps.wind import Air
 
 FULL_BREATH_S = 0.5
 """Time a trained player needs to fill the lungs."""

@@ -12,7 +12,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from app.arrays import FloatArray, IntArray
-from instrument_maps.model import Contact, Control, Fingering
+from instrument_maps.hold import Contact
+from instrument_maps.model import Control, Fingering
 
 _DOWN = 0.5
 """A control is held beyond this part of its way; short of it, a hole is half closed."""

@@ -36,7 +36,8 @@ from app.score.choose import require_map
 from app.score.marks import renamed_marks
 from app.score.model import Part
 from instrument_maps.library import all_maps, find_map
-from instrument_maps.model import InstrumentMap, Posture
+from instrument_maps.map_table import Posture
+from instrument_maps.model import InstrumentMap
 from metadata.acting import as_text, names_in
 from metadata.library import HABITS
 

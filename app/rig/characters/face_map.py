@@ -16,8 +16,9 @@ from weakref import WeakKeyDictionary
 
 from app.errors import FileError
 from app.rig.figure import Figure
+from metadata.known_names import FaceNames, morph_key
 from metadata.load import load_face_names
-from metadata.model import ARKIT_MORPHS, FaceNames, morph_key
+from metadata.model import ARKIT_MORPHS
 
 SHAPES: Final = frozenset(ARKIT_MORPHS)
 LEAST_ALIKE: Final = 2

@@ -22,8 +22,9 @@ from app.errors import FileError
 from app.rig.characters.bone_placements import world_placements
 from app.rig.characters.joints_by_shape import Tree, joints_by_shape, spread_spine, tree_of
 from app.rig.figure import Figure
+from metadata.known_names import bone_key
 from metadata.load import load_bone_names, load_skeleton
-from metadata.model import REQUIRED_JOINTS, bone_key
+from metadata.model import REQUIRED_JOINTS
 
 ENDS: Final = re.compile(r"(Toes|Eye|Metacarpal|Proximal|Intermediate|Distal)$")
 """Joints that names may add to what a file says of itself."""

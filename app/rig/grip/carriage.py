@@ -11,8 +11,9 @@ from app.rig import quaternion
 from app.rig.grip.grip_pose import Lips
 from app.rig.model import Character, Skeleton
 from app.rig.skeleton import forward
-from instrument_maps import model as maps
-from instrument_maps.model import Carriage, InstrumentMap
+from instrument_maps import map_table as maps
+from instrument_maps.hold import Carriage
+from instrument_maps.model import InstrumentMap
 from metadata.model import Body, Posture
 
 

@@ -16,7 +16,8 @@ import numpy as np
 import numpy.typing as npt
 
 from app.arrays import FloatArray, IndexArray
-from instrument_maps.model import FINGERS, Contact, Control, InstrumentMap
+from instrument_maps.hold import Contact
+from instrument_maps.model import FINGERS, Control, InstrumentMap
 
 HOVER_POWER = 2.0
 """A finger drops to its key ahead of the key's way down: what is left of its height goes with this power."""

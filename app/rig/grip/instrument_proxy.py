@@ -16,7 +16,7 @@ import numpy as np
 import numpy.typing as npt
 
 from app.arrays import AnyFloatArray, BoolArray, FloatArray, IndexArray
-from instrument_maps.model import Box, Capsule, Cone, Cylinder, Proxy, Ring
+from instrument_maps.hold import Box, Capsule, Cone, Cylinder, Proxy, Ring
 
 _STEP_M = 1e-6
 _Measure = Callable[[npt.NDArray[Any], npt.NDArray[Any]], npt.NDArray[Any]]

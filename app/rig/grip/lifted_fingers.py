@@ -16,7 +16,7 @@ from app.arrays import FloatArray
 from app.rig import quaternion
 from app.rig.grip.grip_pose import FingerTable, GripPose, HandHold, StationTable
 from app.rig.model import Skeleton
-from metadata.model import SkeletonProfile
+from metadata.skeleton_profile import SkeletonProfile
 
 CURVED_RAD = (float(np.deg2rad(26.0)), float(np.deg2rad(62.0)))
 """So far the middle joint of a waiting finger is bent, at least and at most ..."""

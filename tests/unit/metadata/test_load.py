@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from app.errors import FileError, MapError
+from metadata.known_names import BoneNames, FaceNames, bone_key, morph_key
 from metadata.load import (
     GENERIC_CONTROLLER,
     load_body,
@@ -25,18 +26,8 @@ from metadata.load import (
     read_skeleton,
     recognised_controller,
 )
-from metadata.model import (
-    ARKIT_MORPHS,
-    Body,
-    BoneNames,
-    Controller,
-    Expression,
-    FaceNames,
-    SkeletonProfile,
-    at_amplitude,
-    bone_key,
-    morph_key,
-)
+from metadata.model import ARKIT_MORPHS, Body, Controller, Expression, at_amplitude
+from metadata.skeleton_profile import SkeletonProfile
 from metadata.tables import ROOT
 
 READERS = {

@@ -7,7 +7,9 @@ import numpy as np
 from app.rig import quaternion
 from app.rig.grip.grip_pose import FingerTable, GripPose, HandHold, Lips, NodeMotion, StationTable
 from app.rig.model import Character, Skeleton
+from instrument_maps import hold as holding
 from instrument_maps import model as maps
+from instrument_maps import wind
 from instrument_maps.model import InstrumentMap
 from metadata.load import load_skeleton
 
@@ -99,8 +101,8 @@ def hold(bones: Skeleton, slide_m: float = 0.0, sliding: str = "right") -> GripP
 
 def instrument_map(*controls: maps.Control) -> InstrumentMap:
     """A map with these controls and a usual carriage."""
-    carriage = maps.Carriage((-10.0, 10.0, 40.0), (-5.0, 0.0, 5.0), (-10.0, 0.0, 10.0))
-    lowered = maps.LoweredPlace((0.0, -0.30, 0.05), 40.0, 10.0, 0.0)
+    carriage = holding.Carriage((-10.0, 10.0, 40.0), (-5.0, 0.0, 5.0), (-10.0, 0.0, 10.0))
+    lowered = holding.LoweredPlace((0.0, -0.30, 0.05), 40.0, 10.0, 0.0)
     return InstrumentMap(
         schema_version=1,
         id="thing",
@@ -110,12 +112,12 @@ def instrument_map(*controls: maps.Control) -> InstrumentMap:
         transposition_semitones=0,
         range=maps.Range(40, 80, 45, 75),
         model="thing.glb",
-        embouchure=maps.Embouchure("cup"),
-        mouthpiece=maps.Mouthpiece((0, 0, 0), (0, 0, 1), (0, 1, 0), 0.008, 0.013),
+        embouchure=wind.Embouchure("cup"),
+        mouthpiece=wind.Mouthpiece((0, 0, 0), (0, 0, 1), (0, 1, 0), 0.008, 0.013),
         controls=controls,
         contacts=(),
         hands=(),
         proxy=(),
-        hold=maps.Hold("left", carriage, carriage, lowered, lowered),
+        hold=holding.Hold("left", carriage, carriage, lowered, lowered),
         fingerings=(),
     )

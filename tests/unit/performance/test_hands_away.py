@@ -22,7 +22,8 @@ from app.rig.ik import arm
 from app.rig.skeleton import forward
 from metadata.library import bundled_gestures
 from metadata.load import load_body, load_skeleton
-from metadata.model import Body, JointAxes
+from metadata.model import Body
+from metadata.skeleton_profile import JointAxes
 from tests.support.live import performance_of
 from tests.support.performed import playing_of
 

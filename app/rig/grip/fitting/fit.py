@@ -41,7 +41,8 @@ from app.rig.grip.fitting.ways_between_stations import lifted_ways
 from app.rig.grip.grip_pose import GripPose, HandHold, NodeMotion, StationTable
 from app.rig.grip.lips import fit_lips
 from app.rig.model import Character, InstrumentModel
-from instrument_maps.model import Control, HandSeed, InstrumentMap
+from instrument_maps.hold import HandSeed
+from instrument_maps.model import Control, InstrumentMap
 from instrument_maps.size import scaled
 from metadata.model import Body
 

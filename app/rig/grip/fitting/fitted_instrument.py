@@ -34,7 +34,9 @@ from app.rig.grip.lips import fit_lips
 from app.rig.model import Character, InstrumentModel
 from app.rig.skeleton import forward, rest_positions
 from app.rig.skinning import landmark_joints, landmark_positions, mesh_named
-from instrument_maps.model import FINGERS, Carriage, Contact, Hand, HandSeed, InstrumentMap
+from instrument_maps.hold import Carriage, Contact, HandSeed
+from instrument_maps.map_table import Hand
+from instrument_maps.model import FINGERS, InstrumentMap
 from instrument_maps.size import scaled
 from metadata.load import load_skeleton
 from metadata.model import Body

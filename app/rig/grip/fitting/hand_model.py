@@ -17,7 +17,8 @@ from app.rig.grip.grip_pose import Side
 from app.rig.model import Character
 from app.rig.skeleton import ancestors, rest_positions
 from app.rig.skinning import mesh_named, patch
-from metadata.model import Body, SkeletonProfile
+from metadata.model import Body
+from metadata.skeleton_profile import SkeletonProfile
 
 FINGERS = ("thumb", "index", "middle", "ring", "little")
 _CELL_M = 0.006

@@ -22,7 +22,8 @@ from app.rig.grip.grip_pose import Side
 from app.rig.grip.instrument_proxy import Bodies, bodies, near
 from app.rig.instrument import node_transforms, part_transform, part_values
 from app.rig.model import Character, InstrumentModel
-from instrument_maps.model import ROOT, Contact, Control, HandSeed, InstrumentMap
+from instrument_maps.hold import Contact, HandSeed
+from instrument_maps.model import ROOT, Control, InstrumentMap
 from metadata.load import load_skeleton
 from metadata.model import Body, Posture
 

@@ -15,7 +15,8 @@ from app.plan.parameters import PlayerParameters
 from app.rig import quaternion
 from app.rig.grip.carriage import carriage_rotation, carrying, joint_rotations, upright
 from app.rig.skeleton import forward
-from instrument_maps.model import Carriage, InstrumentMap
+from instrument_maps.hold import Carriage
+from instrument_maps.model import InstrumentMap
 from metadata.load import load_body
 from metadata.model import NECK_JOINTS, TRUNK_JOINTS
 from tests.support.performed import perform

@@ -16,8 +16,9 @@ from app.plan.parameters import PlayerParameters
 from app.rig import quaternion
 from app.rig.characters.character_library import character_named
 from app.rig.grip.fitting.grip_files import hold_for
+from instrument_maps.hold import Carriage
 from instrument_maps.load import bundled_maps
-from instrument_maps.model import Carriage, Endpin
+from instrument_maps.model import Endpin
 from metadata.load import load_body
 from tests.support.models import bundled_instrument
 from tests.unit.motion.events import fingerings, plan_of

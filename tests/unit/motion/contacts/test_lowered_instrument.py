@@ -24,7 +24,8 @@ from app.rig.grip.grip_pose import GripPose, hand_targets
 from app.rig.model import Character
 from app.rig.skeleton import JointTransforms, forward
 from instrument_maps.load import bundled_maps
-from instrument_maps.model import InstrumentMap, Posture
+from instrument_maps.map_table import Posture
+from instrument_maps.model import InstrumentMap
 from metadata.load import load_body, load_skeleton
 from tests.support.deformed import deform
 from tests.support.models import bundled_instrument

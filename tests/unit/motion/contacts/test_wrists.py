@@ -26,7 +26,7 @@ from app.rig.grip.grip_pose import hand_targets
 from app.rig.ik import arm
 from app.rig.skeleton import forward
 from instrument_maps.load import bundled_maps
-from instrument_maps.model import Posture
+from instrument_maps.map_table import Posture
 from metadata.load import load_body, load_skeleton
 from tests.support.models import bundled_instrument
 from tests.unit.motion.events import cue, fingerings, plan_of

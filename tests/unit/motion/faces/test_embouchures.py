@@ -23,8 +23,10 @@ from app.rig.model import Character, Landmark
 from app.rig.skeleton import forward
 from app.rig.skinning import mesh_named, patch
 from app.score.metre_map import Metre
+from instrument_maps.hold import Carriage
 from instrument_maps.load import bundled_maps
-from instrument_maps.model import Carriage, Embouchure, InstrumentMap
+from instrument_maps.model import InstrumentMap
+from instrument_maps.wind import Embouchure
 from metadata.load import load_body
 from tests.support.deformed import deform
 from tests.support.models import bundled_instrument

@@ -15,7 +15,7 @@ from app.plan.generate import MonophonicPart, make_plans, time_frame
 from app.plan.model import BreathEvent, PlayerPlan
 from app.plan.parameters import PlayerParameters
 from app.score.metre_map import Metre
-from instrument_maps.model import Air
+from instrument_maps.wind import Air
 from tests.support.plan import PlainClock, PlainNote, even, line_of, piece_of, valves
 
 Q = 480

@@ -15,8 +15,9 @@ from app.messages import WORDINGS
 from app.rig.characters.face_map import map_morphs
 from app.rig.characters.load_character import load_character
 from app.rig.characters.read_figure import read_figure
+from metadata.known_names import FaceNames
 from metadata.load import load_face_names
-from metadata.model import ARKIT_MORPHS, FaceNames
+from metadata.model import ARKIT_MORPHS
 from tests.support.skeletons import face_of
 
 CHARACTERS = Path(__file__).parents[3] / "data" / "characters"

@@ -13,8 +13,9 @@ from hypothesis import strategies as st
 from app.errors import FileError
 from app.messages import WORDINGS
 from app.rig.characters.joint_mapping import JointMapping, map_joints
+from metadata.known_names import BoneNames
 from metadata.load import load_bone_names, load_skeleton
-from metadata.model import REQUIRED_JOINTS, BoneNames
+from metadata.model import REQUIRED_JOINTS
 from tests.support.skeletons import FOLDER, ListedBone, figure_of, listed
 
 LISTS = sorted(path.stem for path in FOLDER.glob("*.tsv"))

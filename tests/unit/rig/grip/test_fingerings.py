@@ -20,8 +20,9 @@ from app.rig.grip.grip_pose import FingerTable, GripPose, HandHold, StationBlend
 from app.rig.instrument import node_transforms
 from app.rig.model import Character, InstrumentModel
 from app.rig.skeleton import JointTransforms, forward
+from instrument_maps.hold import Contact
 from instrument_maps.load import bundled_maps
-from instrument_maps.model import Contact, InstrumentMap
+from instrument_maps.model import InstrumentMap
 from metadata.load import load_body
 from tests.support.deformed import deform
 from tests.support.models import bundled_instrument

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from app.rig.grip import instrument_proxy
-from instrument_maps.model import Box, Capsule, Cone, Cylinder, Proxy, Ring
+from instrument_maps.hold import Box, Capsule, Cone, Cylinder, Proxy, Ring
 
 SHAPES: list[Proxy] = [
     Cone("root", (0.0, 0.0, 0.0), (0.01, 0.02, 0.05), 0.02, 0.005),

@@ -7,7 +7,7 @@ import pytest
 import trimesh
 
 from app.rig.grip.instrument_proxy import signed_distance
-from instrument_maps.model import Box, Capsule, Cone, Cylinder, Proxy, Ring
+from instrument_maps.hold import Box, Capsule, Cone, Cylinder, Proxy, Ring
 
 
 def mesh_of(shape: Proxy) -> trimesh.Trimesh:

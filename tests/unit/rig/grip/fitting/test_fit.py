@@ -21,8 +21,9 @@ from app.rig.grip.lips import fit_lips, lip_places
 from app.rig.instrument import node_transforms, part_transform
 from app.rig.model import Character, InstrumentModel
 from app.rig.skeleton import JointTransforms, forward
+from instrument_maps.hold import Contact
 from instrument_maps.load import bundled_maps
-from instrument_maps.model import Contact, InstrumentMap
+from instrument_maps.model import InstrumentMap
 from metadata.load import load_body, load_skeleton
 from tests.support.deformed import deform
 from tests.support.models import bundled_instrument

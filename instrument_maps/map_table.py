@@ -1,0 +1,15 @@
+"""What the records of an instrument map are made of."""
+
+from __future__ import annotations
+
+from typing import Literal, TypeAlias
+
+import msgspec
+
+Vector: TypeAlias = tuple[float, float, float]
+Hand: TypeAlias = Literal["left", "right"]
+Posture: TypeAlias = Literal["standing", "seated"]
+
+
+class MapTable(msgspec.Struct, frozen=True, forbid_unknown_fields=True, omit_defaults=True):
+    """A table of the file: immutable, and a key it does not know is an error."""

@@ -1,0 +1,86 @@
+"""A table of a skeleton: its joints, the axes they turn about, and fingers."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+import msgspec
+
+from metadata.face_model import EmbouchureKind as EmbouchureKind
+from metadata.face_model import EmbouchureWeights as EmbouchureWeights
+from metadata.face_model import FaceMotion as FaceMotion
+from metadata.units import AmplitudeScale as AmplitudeScale
+from metadata.units import Axis as Axis
+from metadata.units import Delay as Delay
+from metadata.units import Fraction01 as Fraction01
+from metadata.units import NotNegative as NotNegative
+from metadata.units import Positive as Positive
+from metadata.units import Range as Range
+from metadata.units import at_amplitude as at_amplitude
+
+
+class JointAxes(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """Anatomical axes of a joint in the T-pose. Positive flexion closes the joint or bends it forward; positive
+    sideways and twist are what the profile's comments say."""
+
+    flexion: Axis
+    sideways: Axis
+    twist: Axis
+
+
+class ProfileJoint(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """A joint of the profile, its parent (empty for the root) and the key of its axes and limits."""
+
+    name: str
+    parent: str
+    kind: str
+    required: bool = True
+
+
+class Finger(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """The three joints of a finger, from the palm outwards."""
+
+    joints: tuple[str, str, str]
+
+
+class SkeletonProfile(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """Names and roles of a skeleton's joints.
+
+    Attributes
+    ----------
+    joints : tuple of ProfileJoint
+        In topological order.
+    axes : dict of str to JointAxes
+        By joint kind, for the left side and the middle; see `joint_axes`.
+    chains : dict of str to tuple of str
+        ``spine``, ``neck``, ``left_arm`` (clavicle to hand), ``right_arm``, ``left_leg``, ``right_leg``.
+    fingers : dict of str to dict of str to Finger
+        By side (``left``, ``right``) and finger (``thumb``, ``index``, ``middle``, ``ring``, ``little``).
+    """
+
+    name: str
+    description: str
+    joints: tuple[ProfileJoint, ...]
+    axes: dict[str, JointAxes]
+    chains: dict[str, tuple[str, ...]]
+    fingers: dict[Literal["left", "right"], dict[Literal["thumb", "index", "middle", "ring", "little"], Finger]]
+
+    def joint(self, name: str) -> ProfileJoint:
+        """The joint of this name; KeyError where there is none."""
+        for joint in self.joints:
+            if joint.name == name:
+                return joint
+        raise KeyError(name)
+
+    def joint_axes(self, name: str) -> JointAxes:
+        """Anatomical axes of a joint; a right joint's are the left one's mirrored in the plane X = 0, so that the
+        signs mean the same on both sides (axes are pseudovectors: y and z change sign)."""
+        axes = self.axes[self.joint(name).kind]
+        if not name.startswith("right"):
+            return axes
+        return JointAxes(_mirrored(axes.flexion), _mirrored(axes.sideways), _mirrored(axes.twist))
+
+
+def _mirrored(axis: Axis) -> Axis:
+    # 0.0 - y rather than -y: no negative zeros.
+    return (axis[0], 0.0 - axis[1], 0.0 - axis[2])
