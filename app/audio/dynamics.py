@@ -1,4 +1,4 @@
-"""How loud a recording is while players play, as a curve of their dynamics.
+"""Loudness of a recording while players play, as a curve of their dynamics.
 
 Loudness is measured as broadcasters do (ITU-R BT.1770: a shelf and a high pass before the power), smoothed beyond
 vibrato. In a recording of all players the number of those who sound is taken out of it, as a quiet tutti may be louder
@@ -42,7 +42,7 @@ _RESOLUTION: Final = 127
 
 @dataclass(frozen=True)
 class RecordingLoudness:
-    """How loud a recording is.
+    """Loudness of a recording.
 
     Attributes
     ----------
@@ -146,7 +146,7 @@ def _weighting(rate_hz: int) -> FloatArray:
 
 @dataclass(frozen=True)
 class _Sounding:
-    """When a part sounds: a grid of seconds of the score, and where in it a note is."""
+    """Times at which a part sounds: a grid of seconds of the score, and where in it a note is."""
 
     at_s: FloatArray
     sounds: BoolArray

@@ -1,4 +1,4 @@
-"""What a sound is made of, moment by moment: its pitch classes (chroma), where tones begin (onsets), and its tuning.
+"""Features of a sound, moment by moment: pitch classes (chroma), beginnings of tones (onsets), and tuning.
 
 Usual features of music analysis, as far as `offset` needs them. librosa has them too, but cannot be installed without
 numba, LLVM and scikit-learn: 270 MB.

@@ -1,4 +1,4 @@
-"""When every beat of a score sounds in a recording of it that keeps its own time.
+"""Times of every beat of a score in a recording that keeps its own tempo.
 
 Three steps, each finer: dynamic time warping of the chroma of both (`app.audio.warping`); then the onsets of the score,
 chord by chord, are put on those of the recording so that the tempo between them stays as even as the onsets allow; then

@@ -1,4 +1,4 @@
-"""What a recording says about a piece, found beside the document and taken over in one edit."""
+"""Beats, dynamics and offset that a recording gives a piece, found beside the document and applied in one edit."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from app.score.model import ControllerCurve, Score
 
 @dataclass(frozen=True)
 class FollowOptions:
-    """What is to be taken from a recording beside the beats.
+    """Choices of what is applied from a recording besides the beats.
 
     Attributes
     ----------
@@ -42,7 +42,7 @@ class FollowOptions:
 
 @dataclass(frozen=True)
 class Followed:
-    """What was found.
+    """Result of following a recording.
 
     Attributes
     ----------

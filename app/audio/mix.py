@@ -1,4 +1,4 @@
-"""What a project sounds like: its recording, its players and its percussion by the synthesiser, the metronome."""
+"""Mix of a project: its recording, its players and percussion by the synthesiser, the metronome."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""When single notes begin in a recording, where that can be heard: by the rise of their own partials.
+"""Onsets of single notes in a recording, where they can be heard: by the rise of their own partials.
 
 A note is looked for near where its beat puts it. What it is not sure of stays there: where its partials rise little, or
 at several moments alike, or sound already in another part.

@@ -1,4 +1,4 @@
-"""Where a recording stands against the score: from what sounds (chroma) and when tones begin (onsets).
+"""Offset of a recording against the score, by chroma and onsets.
 
 The recording may begin earlier or later than the score, end elsewhere, be tuned differently, and be a few per cent
 faster or slower. What the score should sound like is made from its notes. The chroma of both is correlated at every

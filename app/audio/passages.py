@@ -1,4 +1,4 @@
-"""Which passages of a score a recording plays, one after the other: it may begin anywhere, repeat bars, leave some out.
+"""Passages of a score that a recording plays in turn: it may begin anywhere, repeat bars or leave some out.
 
 Dynamic programming over the frames of the recording: from each to the next the score goes on by a frame, stands still,
 skips one, or jumps to any other place, which costs as much as half a second that is alike. So a jump is found without

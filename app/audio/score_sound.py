@@ -1,4 +1,4 @@
-"""What a score should sound like and what a recording does, frame by frame: the two that are laid on one another."""
+"""Expected sound of a score and features of a recording, frame by frame, for their alignment."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ built-in synthesiser."""
 
 @dataclass(frozen=True)
 class RecordedSound:
-    """What a recording sounds like: chroma (12, frames), onset strength (frames,), length in seconds."""
+    """Features of a recording: chroma (12, frames), onset strength (frames,), length in seconds."""
 
     chroma: FloatArray
     onsets: FloatArray
@@ -45,7 +45,7 @@ class RecordedSound:
 
 @dataclass(frozen=True)
 class ExpectedSound:
-    """What a score asks for: notes' onsets and ends in seconds, pitches, weights; and how its tones sound."""
+    """Expected sound of a score: onsets and ends of notes in seconds, pitches, weights, and timbre."""
 
     onset_s: FloatArray
     end_s: FloatArray

@@ -1,4 +1,4 @@
-"""Where sound goes: what a player of sound asks of a device, and the silent one that stands in for it."""
+"""Outputs for sound: the interface of a device, and a silent one that stands in for it."""
 
 from __future__ import annotations
 

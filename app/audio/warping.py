@@ -1,4 +1,4 @@
-"""Which moments of a score and of a recording belong together, by dynamic time warping of the chroma of both.
+"""Alignment of a score with a recording, by dynamic time warping of their chroma.
 
 By dtaidistance, which is far smaller than librosa: that needs numba and LLVM, 208 MB.
 
@@ -66,7 +66,7 @@ NO_PINS: Final = Pins(np.empty(0), np.empty(0))
 
 @dataclass(frozen=True)
 class Jump:
-    """Where a recording leaves the score and where it goes on: seconds of both, of which only one has those between."""
+    """A jump of a recording: the seconds where it leaves the score and where it goes on."""
 
     from_s: float
     to_s: float

@@ -84,7 +84,7 @@ class SyncPoint(msgspec.Struct, frozen=True, gc=False):
 
 
 class Journal(msgspec.Struct, frozen=True):
-    """What a journal holds.
+    """Contents of a journal.
 
     Attributes
     ----------

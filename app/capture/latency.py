@@ -1,4 +1,4 @@
-"""How late a device comes, measured while the user blows on every click."""
+"""Latency of a device, measured while the user blows on every click."""
 
 from __future__ import annotations
 

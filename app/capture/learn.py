@@ -1,4 +1,4 @@
-"""Where a player's breath is, found from a few seconds of blowing, and the bite, from a few of biting."""
+"""Controllers for breath and bite, recognised from a few seconds of blowing and biting."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ _AS_MUCH: Final = 0.8
 
 
 class Learned(msgspec.Struct, frozen=True):
-    """What breathes, and on which channel, 1..16."""
+    """Controller of the breath, with its channel, 1..16."""
 
     source: BreathSource
     channel: int

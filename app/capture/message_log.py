@@ -1,4 +1,4 @@
-"""What a device sent lately, in few lines, for a monitor of the input."""
+"""Latest messages of a device, in few lines, for the input monitor."""
 
 from __future__ import annotations
 

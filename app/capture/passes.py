@@ -1,4 +1,4 @@
-"""What was played in each pass of a loop, by a take's journal, in the performance's time."""
+"""Events of each pass of a loop, from a take's journal, in the performance's time."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from app.score.sounding import SoundingNotes, note_off
 
 
 class Pass(msgspec.Struct, frozen=True):
-    """What was played in one pass of a loop, in the performance's time.
+    """Events of one pass of a loop, in the performance's time.
 
     Attributes
     ----------

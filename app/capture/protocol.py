@@ -113,7 +113,7 @@ class SystemEnded(_Report, frozen=True):
 
 
 class Events(_Report, frozen=True):
-    """What was played: moments of `time.perf_counter_ns` and the bytes of the messages (of channels only)."""
+    """Received events: moments of `time.perf_counter_ns` and the bytes of the messages (channel messages only)."""
 
     times_ns: tuple[int, ...]
     messages: tuple[bytes, ...]

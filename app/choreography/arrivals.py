@@ -1,4 +1,4 @@
-"""When the body of a dance arrives, and time that goes so that it arrives on the beats.
+"""Arrivals of the body in a dance, and a time map that puts them on the beats.
 
 A body arrives where the mean speed of its joints has a minimum. Where that is depends on the dance as it is seen: faded
 joins and feet that stand change speeds, and time that goes faster and slower moves their minima. So it is looked up in

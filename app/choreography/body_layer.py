@@ -1,4 +1,4 @@
-"""What of a dance a wind player can do while playing: hips, trunk and head, about the place where the player stays.
+"""The part of a dance that a wind player can do while playing: hips, trunk and head, around the player's place.
 
 A dancer walks, turns round and looks everywhere; a player stands and has a mouthpiece at the lips. So the motion is
 taken relative to itself: speeds are seen from where the dancer faces, those of spins are cut, and what is slower than

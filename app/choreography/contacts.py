@@ -1,4 +1,4 @@
-"""When the feet of a motion stand on the floor."""
+"""Contacts of the feet of a motion with the floor."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Where a motion is cut into basic motions: minimum, maximum, minimum of the angular acceleration of the whole body.
+"""Cuts of a motion into basic motions: minimum, maximum, minimum of the angular acceleration of the whole body.
 
 Source: K. Kameda, I. Watanabe, M. Yamamoto, "Music Driven Computer Animation Based On HMM". Weights, filters, floor and
 prominence are ours; all are stated in seconds and radians and are local, so that a cut depends neither on the frame

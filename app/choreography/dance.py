@@ -11,7 +11,7 @@ from app.choreography.feet import FootPlant
 
 @dataclass(frozen=True)
 class Manner:
-    """How one dancer dances.
+    """Style of one dancer.
 
     Attributes
     ----------
@@ -56,7 +56,7 @@ class SegmentStep:
 
 @dataclass(frozen=True, eq=False)
 class Dance:
-    """What was generated.
+    """A generated dance.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""What makes two motions alike: the poses at their minimum, maximum and minimum, as the paper has it.
+"""Features for the likeness of motions: the poses at their minimum, maximum and minimum, as in the paper.
 
 A pose is where its joints and ends are, over the floor below the hips, seen from where the body faces at the accent,
 and in parts of the body's height. So it depends neither on where the body dances nor where it looks nor how tall it is,

@@ -27,7 +27,7 @@ ENDS_S: Final = 2.0
 
 @dataclass(frozen=True)
 class Role:
-    """What one of several dancers does.
+    """Role of one of several dancers.
 
     Attributes
     ----------

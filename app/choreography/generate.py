@@ -56,7 +56,7 @@ UPPER_BODY: Final = ("spine", "chest", "head", *(f"left{part}" for part in ARM),
 
 @dataclass(frozen=True, eq=False)
 class _Plan:
-    """What is danced when.
+    """Sequence of danced segments with their times.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""Where motions can follow one another, and how one goes over into the next so that no seam shows (H6).
+"""Joins between motions: which can follow one another, and a blend that shows no seam (H6).
 
 Two motions are compared at a join as clouds of points of the body, shortly before, at and shortly after it, so that
 poses and velocities both count; the second is turned about the vertical and moved over the floor to where it fits best

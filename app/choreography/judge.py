@@ -1,4 +1,4 @@
-"""What an animator would see of a dance: joins that jerk, and standing feet that slide.
+"""Visible flaws of a dance: joins that jerk, and standing feet that slide.
 
 Judged on the captured body, before the dance is put onto a character.
 """

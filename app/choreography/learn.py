@@ -64,7 +64,7 @@ class Pair:
 
 @dataclass(frozen=True, eq=False)
 class Analysis:
-    """What is found in a pair before anything is learned from it.
+    """Analysis of a pair before a model learns from it.
 
     Attributes
     ----------

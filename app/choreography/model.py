@@ -56,7 +56,7 @@ class MotionSegment:
 
 @dataclass(frozen=True, eq=False)
 class ChoreographyModel:
-    """What is stored in a ``.choreography`` file.
+    """Contents of a ``.choreography`` file.
 
     Attributes
     ----------

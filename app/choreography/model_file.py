@@ -167,7 +167,7 @@ def decode_model(content: bytes, file: str) -> ChoreographyModel:
 
 
 class _Check:
-    """What a file may hold; everything else is an error that says where it is."""
+    """Allowed contents of a file; all else is an error that names its place."""
 
     def __init__(self, file: str) -> None:
         self._file = file

@@ -1,4 +1,4 @@
-"""Where in a motion its music begins, found from the beats of both.
+"""Start of the music within a motion, found from the beats of both.
 
 The beats of a motion are the local minima of the summed speed of the body (Li et al., "AI Choreographer: Music
 Conditioned 3D Dance Generation with AIST++", ICCV 2021): where it stops or turns. They are matched with the hits and

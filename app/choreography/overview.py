@@ -1,4 +1,4 @@
-"""What a choreography has learned, to be looked at: its basic motions, and the percussion it was learned with."""
+"""Overview of a learned choreography: its basic motions, and the percussion of its music."""
 
 from __future__ import annotations
 

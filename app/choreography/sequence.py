@@ -1,4 +1,4 @@
-"""Which segment of a model is danced when: the Viterbi algorithm over segments with their accents on the beats (H5).
+"""Sequence of segments for a piece: the Viterbi algorithm over segments with their accents on the beats (H5).
 
 A state of the search is a segment whose accent is at a place of the grid of beats and half beats. Going from one to
 the next counts
@@ -35,7 +35,7 @@ MOST_STEPS: Final = 8
 
 @dataclass(frozen=True)
 class Weights:
-    """What counts how much, in natural logarithms of probability.
+    """Weights of the terms, in natural logarithms of probability.
 
     Attributes
     ----------
@@ -109,7 +109,7 @@ class SegmentCandidates:
 
 @dataclass(frozen=True)
 class Constraints:
-    """What the user decided.
+    """The user's corrections as constraints of the search.
 
     Attributes
     ----------

@@ -36,7 +36,7 @@ _UP: Final = np.array([0.0, 1.0, 0.0])
 
 @dataclass(frozen=True, eq=False)
 class Frames:
-    """Which moment of the captured motion each frame shows.
+    """Moment of the captured motion that each frame shows.
 
     Attributes
     ----------

@@ -41,7 +41,7 @@ _STEP_S: Final = 0.002
 
 @dataclass(frozen=True, eq=False)
 class TimeMap:
-    """Which moment of a dance's motions, laid end to end, is seen when; without a kink, never backwards.
+    """Map from time to moments of a dance's motions, laid end to end: smooth, and never backwards.
 
     Attributes
     ----------

@@ -85,14 +85,14 @@ class BatchOutcome(msgspec.Struct, frozen=True):
 
 
 class _Note(msgspec.Struct, frozen=True):
-    """Of a piece that was exported: from what, and the outcome."""
+    """Record of one exported piece: its inputs and its result."""
 
     digest: str
     outcome: BatchOutcome
 
 
 class _Reported(msgspec.Struct):
-    """What is read of a report."""
+    """Fields of a report that a batch reads."""
 
     players: list[msgspec.Raw]
     left_out: list[msgspec.Raw]

@@ -1,4 +1,4 @@
-"""Whether there is a display; asked before Qt, which would end the process. Imports nothing of Qt."""
+"""Check for a display, made before Qt is imported, which would end the process. Imports nothing of Qt."""
 
 from __future__ import annotations
 

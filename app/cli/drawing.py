@@ -1,4 +1,4 @@
-"""What commands that draw players have in common: who is seen, where it may be written, and how it is stopped."""
+"""Shared options of commands that draw players: view, output file, and cancelling."""
 
 from __future__ import annotations
 

@@ -107,7 +107,7 @@ def _size_text(size: tuple[int, int]) -> str:
 
 @dataclass(frozen=True, eq=False)
 class _Film:
-    """What is to be drawn, and where it goes.
+    """Settings of a film: its contents and its file.
 
     Attributes
     ----------

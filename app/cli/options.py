@@ -1,4 +1,4 @@
-"""What is typed on the command line, as values: numbers, frame rates, players."""
+"""Parsers of command line values: numbers, frame rates, players."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What an export wrote and how good it is, as a table for people."""
+"""Summary of an export as a table: the written files and their quality."""
 
 from __future__ import annotations
 

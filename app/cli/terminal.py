@@ -1,4 +1,4 @@
-"""What the command line prints, in one place; only `app.cli.progress` has a line of its own.
+"""Output of the command line, in one place; only `app.cli.progress` has a line of its own.
 
 Names of files and texts in them come from anywhere. An escape sequence in one would be obeyed by the terminal, and a
 newline would begin what looks like a line of the program's own; so whatever is printed is lines, and what is not

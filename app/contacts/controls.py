@@ -1,4 +1,4 @@
-"""What the notes ask for, frame by frame, and whether controls are there as far as they may not have left."""
+"""Control positions that the notes require, frame by frame, and checks that controls stay there long enough."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from instrument_maps.model import Control
 
 
 class ControlMeasure(msgspec.Struct, frozen=True):
-    """Whether a control is in place at the judged frames, and stays there until it may leave.
+    """Measure of a control: in place at the judged frames, and staying there until it may leave.
 
     ``stopped_short`` and ``held_stopped_short`` are those of the judged notes, and of the frames held, at which it
     stays on the near side of a place that is out of the player's reach: neither right nor wrong, and distinguished. How

@@ -1,4 +1,4 @@
-"""How deep hands and fingers go into the closed bodies that stand for an instrument.
+"""Depths of hands and fingers in the closed bodies that stand for an instrument.
 
 The deepest vertex of every frame is found by branch and bound. A block of frames is judged by its middle frame: how far
 a vertex moves from there is bounded by how far its joints and the instrument's parts move, and a distance changes by no
@@ -129,7 +129,7 @@ class HandDepths:
 
 @dataclass(frozen=True, eq=False)
 class _Pairs:
-    """What may be deepest in blocks, and in the bodies of which nodes.
+    """Candidates for the deepest vertices in blocks, with the nodes whose bodies they may be in.
 
     Attributes
     ----------

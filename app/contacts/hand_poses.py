@@ -1,4 +1,4 @@
-"""Where vertices of a hand are in the frames of an instrument's nodes, and how far they move.
+"""Positions and movement of a hand's vertices in the frames of an instrument's nodes.
 
 For `app.contacts.depths`: all in single precision, and over whole arrays of vertices and frames. Places and matrices
 are kept one coordinate after another, since arithmetic on whole rows is faster than on three or four numbers at a time.
@@ -148,7 +148,7 @@ class VertexPoses:
 
 @dataclass(frozen=True, eq=False)
 class Moves:
-    """How far joints move from the middle frame of each block.
+    """Movement of joints from the middle frame of each block.
 
     Attributes
     ----------
@@ -211,7 +211,7 @@ def moving_parts_m(world_from_node: Sequence[FloatArray], base: int, point_m: Si
 
 
 class Parts:
-    """Where the nodes of an instrument are in the frame of one of them.
+    """Positions of an instrument's nodes in the frame of one of them.
 
     Parameters
     ----------
@@ -249,7 +249,7 @@ class Parts:
 
 @dataclass(frozen=True, eq=False)
 class PartMoves:
-    """How far nodes move from the middle frame of each block.
+    """Movement of nodes from the middle frame of each block.
 
     Attributes
     ----------

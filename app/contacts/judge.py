@@ -1,4 +1,4 @@
-"""Where a player's made motion breaks a contact: lips, hands, single fingers and feet, judged as an export is."""
+"""Contacts that a player's motion breaks: lips, hands, single fingers and feet, judged as an export is."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a hold itself misses, however its player moves: hands and instrument do not go together.
+"""Contacts that a grip itself misses, however its player moves.
 
 Messages: ``character.touches_missed`` (count, touch, gap_mm): "{count} contact points do not reach ...".
 """

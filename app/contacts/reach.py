@@ -1,4 +1,4 @@
-"""Whether a player's hands reach everything the fingerings ask for.
+"""Reach of a player's hands: whether they get to everything that the fingerings require.
 
 Messages: ``contact.out_of_reach`` (label, control, gap_mm): "{label} is out of this player's reach: ...", a problem of
 a note. What the hand carries stops where the hand does (`app.motion.contacts.controls_within_reach`).
@@ -46,7 +46,7 @@ class Holding(NamedTuple):
 
 @dataclass(frozen=True)
 class Reached:
-    """How far a player's hands come.
+    """Reach of a player's hands.
 
     Attributes
     ----------

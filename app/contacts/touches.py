@@ -26,7 +26,7 @@ LIPS, UPPER_LIP = "lips.contact", "lips.upper"
 
 @dataclass(frozen=True, eq=False)
 class Traces:
-    """Where everything is that touches, or is touched.
+    """Positions of everything that touches or is touched.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""What threads want done in the window's thread.
+"""Calls from other threads into the window's thread.
 
 A thread puts a call into a queue and wakes the window by a byte; it touches no object of Qt, so that none can vanish
 under it, and none dies in it.

@@ -49,7 +49,7 @@ Then = Callable[[], None]
 
 
 class Files(QObject):
-    """What file the session's project lives in.
+    """File of the session's project: new, open, save and recovery.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""What the user has of a kind in a folder of their own, read again as soon as its files change."""
+"""User libraries in folders, read again as soon as their files change."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What sounds and how: state of the editor that the transport, the commands and the sound share."""
+"""Listening settings: state of the editor that transport, commands and sound share."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ class RecordedTake:
 
 
 class Listening(State):
-    """How the user listens.
+    """Listening settings of the user.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""Who is played now, from a controller: the viewport shows them as they play and not as the performance has them."""
+"""Players driven by a controller at the moment: the viewport shows them as they play."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ BLEND_S: Final = 0.2
 
 @dataclass(frozen=True)
 class _Blend:
-    """How much of a player is played now, 0..1."""
+    """Share of a player that is live, 0..1."""
 
     since_s: float
     before: float

@@ -44,7 +44,7 @@ REST_WHILE_PLAYING = 1.0
 
 
 class _Clock(Protocol):
-    """What the module `time` has of clocks: a module is of no class that could be named."""
+    """Protocol of the clocks in the module `time`: a module has no class that could be named."""
 
     def monotonic(self) -> float: ...
 
@@ -57,7 +57,7 @@ class _Clock(Protocol):
 
 @dataclass(frozen=True)
 class Reports(Generic[T]):
-    """What a listener does with what the worker reports to it, in the window's thread."""
+    """Receiver of the worker's reports, in the window's thread."""
 
     planned: Callable[[T, Performance, int, AppError | None], None]
     moved: Callable[[T], None]

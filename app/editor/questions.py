@@ -1,4 +1,4 @@
-"""What the user is asked, so that files need no dialog; the shell asks in dialogs, tests answer by themselves."""
+"""Questions for the user, so that files need no dialog; the shell asks in dialogs, tests answer by themselves."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ ReadAgain: TypeAlias = Callable[[str | None], PieceContents]
 
 
 class Questions(Protocol):
-    """How the user is asked."""
+    """Interface for asking the user."""
 
     def open_file(self, title: str, folder: str, filters: str) -> Path | None:
         """An existing file; None: the user thought better of it."""

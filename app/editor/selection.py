@@ -1,4 +1,4 @@
-"""What is selected, as a value."""
+"""The selection, as a value."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ class EventKey(msgspec.Struct, frozen=True, order=True):
 
 
 class Selection(msgspec.Struct, frozen=True):
-    """What is selected.
+    """The selected notes, events and players.
 
     Attributes
     ----------

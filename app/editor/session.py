@@ -1,4 +1,4 @@
-"""What the panels share: the document, the plans made from it, and the state of the editor that is in no file.
+"""State that panels share: the document, the plans made from it, and what no file keeps.
 
 Panels read it, listen to its signals and edit through `Session.apply`; they do not know one another.
 """
@@ -38,7 +38,7 @@ TimeDisplay = Literal["bars", "seconds", "frames"]
 
 
 class Severity(Enum):
-    """How much a notice matters."""
+    """Severity of a notice."""
 
     INFORMATION = "information"
     WARNING = "warning"
@@ -46,7 +46,7 @@ class Severity(Enum):
 
 
 class PitchDisplay(State):
-    """How pitches are named: concert or written, which octave middle C is in, letters or syllables."""
+    """Display of pitches: concert or written, the octave of middle C, letters or syllables."""
 
     def __init__(self) -> None:
         super().__init__()

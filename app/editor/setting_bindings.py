@@ -1,4 +1,4 @@
-"""Where a session has the settings that it is restored to, and that are remembered whenever they change there."""
+"""Bindings between settings and the session that they are restored to and remembered from."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from app.editor.tokens import THEMES
 
 @dataclass(frozen=True)
 class SettingBinding:
-    """Where a session has a setting while the editor runs."""
+    """Place of a setting in a running session."""
 
     get: Callable[[Session], Any]
     set: Callable[[Session, Any], object]

@@ -1,4 +1,4 @@
-"""What the user chose for the editor on this machine; in a file of their configuration folder, never in a project.
+"""Settings of the editor on this machine, in the user's configuration folder, never in a project.
 
 The file is a TOML table that may be edited by hand. A value that is not possible is as if it were not there; a file
 that cannot be read at all is left as it is, and what is chosen meanwhile is kept until it can be, or the editor ends.
@@ -35,7 +35,7 @@ def settings_path() -> Path:
 
 
 class Settings(StoredSettings):
-    """What the user chose for the editor on this machine, and what the editor remembers of it."""
+    """Settings of the editor on this machine, and what it remembers."""
 
     language = Setting(
         "interface/language", "", label="setting.language", options=(("", "setting_choice.systems"), *LANGUAGES.items())

@@ -236,7 +236,7 @@ class _Request:
 
 @dataclass(frozen=True)
 class _Anchor:
-    """Where the performance was at a moment of `time.perf_counter`, and how fast it goes."""
+    """Position of the performance at a moment of `time.perf_counter`, with its speed."""
 
     position_s: float
     at_s: float

@@ -30,7 +30,7 @@ class StreamTarget:
 
 
 class Streaming(State):
-    """How streaming stands.
+    """State of the streaming.
 
     Attributes
     ----------

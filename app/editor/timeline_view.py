@@ -1,4 +1,4 @@
-"""What commands may ask of the timeline, so that the shell need not know its widgets."""
+"""Interface of the timeline for commands, so that the shell need not know its widgets."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import Protocol
 
 
 class Tool(Enum):
-    """What the left button does to notes."""
+    """Tool of the left button on notes."""
 
     SELECT = "select"
     DRAW = "draw"
@@ -16,7 +16,7 @@ class Tool(Enum):
 
 
 class Ghosts(Enum):
-    """How the players behind the one in front are seen."""
+    """Display of the players behind the one in front."""
 
     GHOSTS = "ghosts"
     ALL = "all"

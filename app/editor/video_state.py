@@ -1,4 +1,4 @@
-"""How the reference video is seen, and its picture of now: state of the editor that is in no file."""
+"""Display of the reference video and its current picture: state of the editor that no file keeps."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ DEFAULT_OPACITY: Final = 0.6
 
 
 class VideoState(State):
-    """What the viewport, the commands and the reader of the video share.
+    """State that the viewport, the commands and the reader of the video share.
 
     Attributes
     ----------

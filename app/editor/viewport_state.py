@@ -1,4 +1,4 @@
-"""What the viewport shows, so that commands, menus and the viewport's own buttons are one thing."""
+"""State of the viewport, shared by commands, menus and the viewport's own buttons."""
 
 from __future__ import annotations
 

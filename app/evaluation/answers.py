@@ -1,4 +1,4 @@
-"""What viewers answered: the files that the questionnaire page writes, one for each viewer.
+"""Answers of viewers: the files that the questionnaire page writes, one for each viewer.
 
 A file is read as the page writes it or as a spreadsheet saves it again: with or without a byte order mark, with commas,
 semicolons or tabs between the fields, and with decimal commas. Whatever else is wrong with it is refused.

@@ -65,7 +65,7 @@ Stages: TypeAlias = Callable[
 
 @dataclass(frozen=True, eq=False)
 class ClipScene:
-    """What is shown of an excerpt, the same in every variant.
+    """Scene of an excerpt, the same in every variant.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""What may be concluded of results, and what may not: messages, which the command line and the report word."""
+"""Conclusions that results allow, and warnings about those they do not, as messages."""
 
 from __future__ import annotations
 

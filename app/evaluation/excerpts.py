@@ -1,4 +1,4 @@
-"""Which seconds of a piece are judged: bars that are asked for, or places with much to see and hear."""
+"""Excerpts of a piece to be judged: requested bars, or places with much to see and hear."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Which variant is behind which clip: the file of the one who evaluates, never given to viewers.
+"""Key of an evaluation, which names the variant of each clip: for the evaluator, never given to viewers.
 
 Messages
 --------

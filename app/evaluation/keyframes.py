@@ -51,7 +51,7 @@ _REPORT_BYTES: Final = 64_000_000
 
 
 class _Report(msgspec.Struct, frozen=True):
-    """What is read of the report beside exported files."""
+    """Fields read from the report beside exported files."""
 
     first_frame_s: float
 

@@ -48,7 +48,7 @@ _PRACTICE: Final = "practice"
 
 @dataclass(frozen=True)
 class Made:
-    """What was written.
+    """Result of making an evaluation.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""What can be measured of a variant without viewers: lag, quantity of motion, breaths that show, contact."""
+"""Measures of a variant without viewers: lag, quantity of motion, visible breaths, contact."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ _LEAST_FRAMES: Final = 3
 
 
 class Visible(msgspec.Struct, frozen=True):
-    """How far something moves while breaths are drawn, and in spans of the same lengths between them.
+    """Movement of a body part during breaths, and in spans of the same lengths between them.
 
     Both are medians over the breaths of highest minus lowest; None without a breath.
     """
@@ -52,7 +52,7 @@ class Visible(msgspec.Struct, frozen=True):
 
 
 class BreathVisibility(msgspec.Struct, frozen=True):
-    """What shows of breathing.
+    """Visibility of breathing.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""When valves, keys, holes and slides arrive where a note needs them, against when it sounds.
+"""Lag between the arrival of valves, keys, holes and slides and the sound of their notes.
 
 Thresholds are those of ITU-R BT.1359-1 (1998) for sound and vision in broadcasting: on average viewers detect sound
 that is 45 ms ahead of the picture or 125 ms behind it, and accept up to 90 and 185 ms. A positive lag is an action that

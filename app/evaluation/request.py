@@ -1,4 +1,4 @@
-"""What an evaluation is to be made of: a value that another process can be given.
+"""Settings of an evaluation, as a value that can be sent to another process.
 
 Messages (`UsageError`)
 --------

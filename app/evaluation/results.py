@@ -35,7 +35,7 @@ PRESENTATIONS: Final[tuple[Presentation, ...]] = get_args(Presentation)
 
 
 class Question(msgspec.Struct, frozen=True):
-    """What is asked of every variant, in one way of showing clips."""
+    """A question about every variant, in one way of showing clips."""
 
     presentation: Presentation
     aspect: Aspect
@@ -107,7 +107,7 @@ class ManipulationCheck(msgspec.Struct, frozen=True):
 
 
 class OrderEffect(msgspec.Struct, frozen=True):
-    """How much higher answers are in the second half of a session, of what variants and questions do not explain."""
+    """Rise of answers in the second half of a session that variants and questions do not explain."""
 
     presentation: Presentation
     later: Summary

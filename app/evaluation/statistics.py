@@ -1,4 +1,4 @@
-"""What is computed of answers: intervals, rank tests, agreement. Values of one viewer are never mixed with another's.
+"""Statistics of answers: intervals, rank tests, agreement. Viewers' values are never pooled.
 
 Nothing here is NaN, and nothing warns: what cannot be computed is None.
 """

@@ -1,4 +1,4 @@
-"""Where a skin is bound: the pose that a body was modelled in, or its arms level or down; and twist bones' skin.
+"""Bind pose of a skin: the modelled pose, or arms level or down; and the skin of twist bones.
 
 Only the arms are posed again: what hangs rigidly on a hand, head or foot moves with it as before, to rounding. Skin
 that several bones of an arm share lies a little otherwise, as linear blending has it.

@@ -1,4 +1,4 @@
-"""What the files of an export are called, and with them the figures in the files."""
+"""Names of an export's files, and of the figures in them."""
 
 from __future__ import annotations
 

@@ -18,7 +18,7 @@ FileContent = Literal["character", "instrument"]
 
 @dataclass(frozen=True)
 class WriteOptions:
-    """What some kinds of file take beside the scene.
+    """Options of some file formats.
 
     Attributes
     ----------

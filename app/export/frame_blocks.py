@@ -1,4 +1,4 @@
-"""What the files of a player and its instrument are asked for at every frame, read some frames at a time."""
+"""Blocks of frames of a player's and its instrument's files, read once for all measures."""
 
 from __future__ import annotations
 

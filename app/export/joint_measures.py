@@ -1,4 +1,4 @@
-"""Whether the joints of a file stay within human ranges and accelerations."""
+"""Measures of a file's joints: human ranges and accelerations."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the joints of the normalised character do in a file, whatever skeleton the file is on."""
+"""Motion of the normalised character's joints in a file, whatever its skeleton."""
 
 from __future__ import annotations
 

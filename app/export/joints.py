@@ -1,4 +1,4 @@
-"""What is asked of joints: world transforms, human ranges, angular accelerations."""
+"""Quantities of joints: world transforms, human ranges, angular accelerations."""
 
 from __future__ import annotations
 

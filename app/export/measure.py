@@ -1,4 +1,4 @@
-"""What the written files hold: contacts, controls, joints, feet and breaths, measured on what our reader reads back.
+"""Measures of the written files: contacts, controls, joints, feet and breaths, as our reader reads them back.
 
 Nothing here looks at the motion the files were made from; only the plan (what should happen) and the map (where things
 are) are known beside the files.
@@ -98,7 +98,7 @@ class PlayerMeasurement:
 
 @dataclass(frozen=True, eq=False)
 class PlayerJudge:
-    """What a player's files are measured against.
+    """References that a player's files are measured against.
 
     Attributes
     ----------

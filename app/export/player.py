@@ -38,7 +38,7 @@ _MOTION_WORK, _MEASURES_WORK = 1.0, 5.0
 
 
 class ExportedPlayer(msgspec.Struct, frozen=True):
-    """What was written of a musician.
+    """Result of exporting a musician.
 
     Attributes
     ----------

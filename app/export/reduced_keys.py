@@ -115,7 +115,7 @@ def _weight_keys(clip: Clip, marks: SkinnedMarks, most_m: float) -> tuple[dict[s
 
 
 class _Motion:
-    """What the bones of a scene do, and where that brings its marks.
+    """Motion of a scene's bones and of the marks on them.
 
     Attributes
     ----------

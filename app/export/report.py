@@ -1,4 +1,4 @@
-"""What an export says about itself: ``report.json``, and the bounds that its measures are held against."""
+"""Report of an export, ``report.json``, and the bounds for its measures."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ BONES_BOUND_MM = 0.1
 
 
 class DancerMeasures(msgspec.Struct, frozen=True):
-    """Of an exported FBX file.
+    """Measures of an exported FBX file of a dancer.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""What the generator itself does on a channel that the animator can lay a curve over."""
+"""Generated values of a channel that the animator can lay a curve over."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How a performance looks: sampled arrays at a frame rate, derived from a plan and thrown away at will."""
+"""Motion of a performance: sampled arrays at a frame rate, derived from a plan and never edited."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a player does at some frames, sampled from curves or played live: what poses are solved from."""
+"""Frames of a player, sampled from curves or played live, from which poses are solved."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from app.rig.grip.grip_pose import StationBlend
 
 @dataclass(frozen=True)
 class PlayedFrames:
-    """What a player does at some frames, before any contact is solved.
+    """Frames of a player before any contact is solved.
 
     Attributes
     ----------

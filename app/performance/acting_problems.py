@@ -1,4 +1,4 @@
-"""What is wrong with how a player is to act and to dance: styles, habits and choreographies that are not there.
+"""Problems of a player's acting and dancing: styles, habits and choreographies that are missing.
 
 Messages: ``project.style_missing``, ``project.habit_missing`` (player, name, known); ``project.no_dances`` (dancer), or
 what the maker of dances reports of a choreography.

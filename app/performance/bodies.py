@@ -1,4 +1,4 @@
-"""Who plays, with what: characters, bodies, instruments as they play them, models and holds; each is made once.
+"""Characters, bodies, instruments, models and grips of players; each is made once.
 
 Messages: ``character.hold_failed`` (character, instrument, detail): "{character} cannot be made to hold ...".
 """

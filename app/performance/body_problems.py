@@ -1,4 +1,4 @@
-"""What a player's body lacks for its instrument, and what its hands do not reach: problems of the performance."""
+"""Problems of a player's body with its instrument: what it lacks and what its hands do not reach."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from instrument_maps.model import InstrumentMap
 
 
 class BodyProblems(NamedTuple):
-    """What is wrong with one player's body.
+    """Problems of one player's body.
 
     Attributes
     ----------

@@ -40,7 +40,7 @@ class LeftOut(msgspec.Struct, frozen=True):
 
 @dataclass(frozen=True)
 class Attempt(Generic[T]):
-    """What was made of some players.
+    """Result of preparing some players.
 
     Attributes
     ----------

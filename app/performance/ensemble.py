@@ -1,4 +1,4 @@
-"""What all players of a project do: plans from a snapshot of the project, made once and shared by everyone who asks.
+"""Plans of all players of a project, made once from a snapshot and shared.
 
 Messages: ``piece.too_long`` (as `app.score.limits.too_long` says it): "the piece would last {hours} hours, ...";
 as problems of the player's plan ``project.instrument_missing``, ``project.character_missing`` (player, id),

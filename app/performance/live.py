@@ -45,7 +45,7 @@ class PlayerFault(Exception):
 
 @dataclass(eq=False)
 class _Track:
-    """What is there of one performer.
+    """Prepared motion of one performer.
 
     Attributes
     ----------

@@ -73,7 +73,7 @@ class BreathFrames:
 
 
 class LiveBreath:
-    """What breath and lips of one player do.
+    """Breath and lips of one live player.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""How trunk and shoulders help the far hands of a live player.
+"""Help of trunk and shoulders for the far hands of a live player.
 
 Where the notes are known a body begins to turn before its hand goes far (`app.motion.contacts.solve`). Here it turns as
 the hand goes: it has to be there before the hand needs it, so a hand that a control carries waits for it.

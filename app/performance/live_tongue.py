@@ -40,7 +40,7 @@ class _Stroke:
 
 
 class LiveTongue:
-    """What the tongue of one player does.
+    """Tongue of one live player.
 
     Two quick strokes are made with the tip; in a longer run of them the back of the tongue makes every other one.
     Threes are not told from twos: what comes next is not known. An attack louder than those before it is pushed.

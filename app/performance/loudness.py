@@ -1,4 +1,4 @@
-"""How loud a part plays each note and how it was blown, where a controller says so."""
+"""Loudness of each note of a part, and its breath where a controller recorded it."""
 
 from __future__ import annotations
 

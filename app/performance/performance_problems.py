@@ -41,7 +41,7 @@ LEAST_PER_S: Final = 2.0
 
 
 class _Looked(NamedTuple):
-    """Which frames are looked at: every how many-th at a rate."""
+    """Frames that are judged: every n-th at a rate."""
 
     fps: Fraction
     every: int

@@ -1,4 +1,4 @@
-"""Which frames of a performance are requested."""
+"""Requested frames of a performance."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How much of each layer a player shows: the parameters, and what style and habits make of them."""
+"""Amounts of each layer for a player: the parameters, adjusted by style and habits."""
 
 from __future__ import annotations
 

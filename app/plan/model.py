@@ -1,4 +1,4 @@
-"""What each player does, and when: named events, each with its reason.
+"""Plan of each player: named events in time, each with its reason.
 
 Times stand twice: in integer ticks of the score (where an event is anchored, and what a correction moves) and in
 float64 seconds of the performance, which may be negative before the first tick. Ranges are half-open.

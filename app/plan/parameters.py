@@ -1,4 +1,4 @@
-"""What the user may set of a performer: each parameter is declared once, where it is a field.
+"""Parameters of a performer: each is declared once, where it is a field.
 
 Its type, name and default are the field's; all else is said by the `Parameter` in its annotation. Sliders and lists of
 choices, ``--set``, checks, presets, randomising, the history, older files and what is made again after a change follow
@@ -30,7 +30,7 @@ NONE: Final = "none"
 
 @dataclass(frozen=True)
 class Parameter:
-    """What is said of a parameter once.
+    """Declaration of a parameter.
 
     Attributes
     ----------
@@ -169,7 +169,7 @@ _BREATHS: Final[frozenset[Decided]] = frozenset({"breaths"})
 
 
 class PlayerParameters(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """What the animator may set for one player; every field is a `--set` parameter by its name."""
+    """Parameters of one player; every field is a `--set` parameter by its name."""
 
     # fmt: off
     amplitude: Annotated[float, Parameter(

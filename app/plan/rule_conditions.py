@@ -29,7 +29,7 @@ DEPTH_SEMITONES: Final = 6.0
 
 @dataclass(frozen=True, eq=False)
 class Facts:
-    """What rules ask of the notes of a line: arrays (N,)."""
+    """Facts about the notes of a part for the conditions of rules: arrays (N,)."""
 
     loudness: FloatArray
     pitch: FloatArray

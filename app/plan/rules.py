@@ -1,4 +1,4 @@
-"""What rules (`metadata.rules`) make players show and do: events whose ids name the rule and the note.
+"""Events that rules (`metadata.rules`) generate; their ids name the rule and the note.
 
 Messages: ``rule.applied`` (rule), ``expression.effort``, ``expression.low_loud``, ``rule.unknown_expression``,
 ``rule.unknown_gesture`` (rule, name, known).
@@ -40,7 +40,7 @@ E = TypeVar("E", GestureEvent, ExpressionEvent)
 
 
 class Ruled(NamedTuple):
-    """What the rules make of a line, and what is wrong with them."""
+    """Events that the rules generate for a part, with the problems of the rules."""
 
     expressions: tuple[ExpressionEvent, ...]
     gestures: tuple[GestureEvent, ...]

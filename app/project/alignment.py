@@ -1,4 +1,4 @@
-"""Which note of one line is which note of another: alignment by pitch and place.
+"""Alignment of the notes of two lines by pitch and place.
 
 The two are versions of one line: notes were added, taken out, moved or changed, bars inserted or cut, the whole
 transposed. So most notes are found again exactly, at one of a few distances in time; which distance holds where is

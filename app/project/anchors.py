@@ -1,4 +1,4 @@
-"""What a correction hangs on, and how it is hung on something else.
+"""Anchors of corrections, and moving corrections to others.
 
 Fields say it by their names: ``note_id`` and ``moved_from`` are notes (or ``"@tick"``, a place), ``event_id`` ends
 with the note or the place of its event, ``..._offset_tick`` and ``..._ticks`` are lengths, ``tick`` and

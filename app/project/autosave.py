@@ -191,7 +191,7 @@ def _reason(error: FileError | OSError) -> str:
 
 
 class Autosave:
-    """When one editor's unsaved work is written, and where.
+    """Schedule and files of one editor's autosaves.
 
     Parameters
     ----------

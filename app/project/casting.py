@@ -1,4 +1,4 @@
-"""Who plays what: characters, places on the stage and amplitudes, chosen the same way in every run."""
+"""Casting: characters, places on the stage and amplitudes of players, the same in every run."""
 
 from __future__ import annotations
 
@@ -43,8 +43,8 @@ FAR_REACH_M = 0.4
 
 
 class StagePosition(msgspec.Struct, frozen=True):
-    """Where a player stands: metres from the middle of the stage, the audience towards +Z, and the turn from +Z towards
-    +X in radians."""
+    """Place of a player: metres from the middle of the stage, the audience towards +Z, and the turn from +Z towards +X
+    in radians."""
 
     x_m: float
     z_m: float

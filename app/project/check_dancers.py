@@ -1,4 +1,4 @@
-"""What makes dancers and the corrections of their dances sound."""
+"""Checks of dancers and the corrections of their dances."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What makes the kept decisions of an import sound."""
+"""Checks of the stored decisions of an import."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Whether a file gives values back: each is written as the file would have it, and read again.
+"""Check that a file gives values back: each is encoded as in the file and decoded again.
 
 The bounds of `app.project.check` say which values make sense. This says that none is lost on the way: a number that is
 not finite becomes ``null`` in JSON, a whole number that arithmetic made a float is none of the file's, a lone surrogate

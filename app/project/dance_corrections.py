@@ -1,4 +1,4 @@
-"""What an animator corrected of a dance, in musical time: generating the dance again solves around it."""
+"""Corrections of a dance, in musical time: generating the dance again solves around them."""
 
 from __future__ import annotations
 

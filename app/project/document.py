@@ -32,7 +32,7 @@ class UndoStep:
 
 @dataclass(frozen=True, eq=False)
 class Change:
-    """What observers receive: compare what you show by identity (``is``), and never write while notified.
+    """Notification for observers: compare what you show by identity (``is``), and never write while notified.
 
     ``origin`` is the object that requested the edit, so that it can skip its own echo; None for undo, redo and opening.
     ``opened`` says that another document has taken the place of the one before.

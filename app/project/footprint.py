@@ -1,4 +1,4 @@
-"""How much room an instrument takes on the stage, and where its section sits: from its map and the vocabulary alone."""
+"""Room of an instrument on the stage, and place of its section: from its map and the vocabulary alone."""
 
 from __future__ import annotations
 

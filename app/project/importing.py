@@ -36,7 +36,7 @@ class ImportRow(msgspec.Struct, frozen=True):
 
 
 class ImportRequest(msgspec.Struct, frozen=True):
-    """How a MIDI file is to become a project.
+    """Settings for importing a MIDI file as a project.
 
     Attributes
     ----------

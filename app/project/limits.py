@@ -1,4 +1,4 @@
-"""How far a project's numbers may go: what an edit refuses, and what a file may not hold.
+"""Limits of a project's numbers, for edits and for files.
 
 How long a piece may be is in `app.score.limits`. The bounds lie far beyond music, and near enough that no hostile file
 can make the program run for hours or out of memory.

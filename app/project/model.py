@@ -63,7 +63,7 @@ class CompSpan(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 class PlayerTakes(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """What was recorded of a player's part.
+    """Takes of a player's part.
 
     Attributes
     ----------

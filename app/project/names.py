@@ -1,4 +1,4 @@
-"""What players are called, and what their files may be called.
+"""Names of players and of their files.
 
 A name from a MIDI file is only ever a text: it is shown as it stands, and a file is named after a cleaned form of it,
 so that it can never become a path, a device or a hidden file on any system.

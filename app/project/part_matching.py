@@ -1,4 +1,4 @@
-"""Which part of a score is which in a newer version of it."""
+"""Matching of the parts of a score with those of a newer version."""
 
 from __future__ import annotations
 

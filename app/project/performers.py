@@ -1,4 +1,4 @@
-"""Who is seen in a performance: players of parts, and dancers."""
+"""Performers: players of parts, and dancers."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What an animator said of the acting in a piece, apart from its notes: saved, loaded into it again, and compared.
+"""Acting of a piece apart from its notes: saved, loaded into it again, and compared.
 
 A TOML file: the section's intensity, of each player by name style, habits, amounts and layers that are off, and what
 was corrected of gestures, expressions and poses, anchored in ticks; and the piece's own expressions.
@@ -41,14 +41,14 @@ _NOT_ACTING: Final = frozenset({*BREATH_KINDS, "cue", "fingering", "embouchure"}
 
 
 class PlayerMetadata(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """Of one player."""
+    """Metadata of one player."""
 
     parameters: dict[str, Any] = {}
     corrections: tuple[Correction, ...] = ()
 
 
 class PieceMetadata(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """Of a piece.
+    """Metadata of a piece.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""Which editors are alive: each keeps a locked file, and beside it a note of what it works on.
+"""Presence of running editors: each keeps a locked file, with a note of its project beside it.
 
 The system takes a lock away when its process ends, however it ends; so a file that can be locked belonged to an
 editor that is gone. Process numbers alone would not do: they are given again.

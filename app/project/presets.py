@@ -1,4 +1,4 @@
-"""What the user keeps for other projects: presets of a player's parameters, and expressions of their own.
+"""Presets of the user for other projects: a player's parameters, and expressions.
 
 Each is a small TOML file in a folder of the user's; its name stands in it, and the file is called by a cleaned form of
 that, so that a name can be anything and never becomes a path. A project holds a copy of the expressions it uses and

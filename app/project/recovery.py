@@ -1,4 +1,4 @@
-"""What a crash left behind: found when the program starts or a file is opened, described, taken over or discarded.
+"""Recovery after a crash: unsaved work is found, described, and restored or discarded.
 
 Which work is newer, and whether the file has what it holds, is known by what both say and hold, never by the times of
 the files: clocks are set back.

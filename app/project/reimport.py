@@ -59,7 +59,7 @@ ReplacedKind: TypeAlias = Literal["tempo", "metres", "controllers"]
 
 @dataclass(frozen=True)
 class Reimport:
-    """What came of it.
+    """Result of a re-import.
 
     Attributes
     ----------

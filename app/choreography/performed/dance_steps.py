@@ -1,4 +1,4 @@
-"""What each dancer of a project dances when, as a lane shows it: basic motions in order, and what is corrected of them.
+"""Steps of each dancer of a project for its lane: basic motions in order, with their corrections.
 
 A correction belongs to the place of the beats that is nearest to its tick, as `assignments_of` of the dances here
 has it.

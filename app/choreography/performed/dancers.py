@@ -1,4 +1,4 @@
-"""How the dancers of a project move: generated from their choreographies to its music, on their characters.
+"""Motion of a project's dancers: generated from their choreographies to its music, on their characters.
 
 A dance is generated for the whole performance at once, whatever frames are asked for: where a dancer goes depends on
 everything before. It is made once for each frame rate and kept while nothing changes that it is made from.

@@ -45,7 +45,7 @@ def add_arguments(command: argparse.ArgumentParser) -> None:
 
 @dataclass(frozen=True)
 class PairFiles:
-    """What is typed of a pair."""
+    """Files of a pair, as typed."""
 
     motion: Path
     music: Path

@@ -1,4 +1,4 @@
-"""What viewers of an evaluation read: the page has both languages in it."""
+"""Texts of the page for viewers, which has both languages in it."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Where every finger is: which of its places it goes to, made from the notes as curves of time.
+"""Curves of every finger between its places, made from the notes.
 
 A finger is over its key before the key goes down and stays for repeats. Once it has let go it goes straight to the next
 key it is needed at, and home where that is a while off. It waits higher over its keys in fast passages (Palmer &

@@ -17,7 +17,7 @@ from instrument_maps.model import InstrumentMap
 
 
 class Fingers(NamedTuple):
-    """What fingers do.
+    """Motion of the fingers.
 
     Attributes
     ----------

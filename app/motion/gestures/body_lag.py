@@ -25,7 +25,7 @@ class Overlapped(NamedTuple):
 
 
 class Sampled(Protocol):
-    """What has values at times."""
+    """Protocol of values that can be sampled at times."""
 
     def sample(self, times_s: FloatArray) -> FloatArray: ...
 

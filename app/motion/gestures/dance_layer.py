@@ -44,7 +44,7 @@ LEGS_EASE_M: Final = 0.008
 
 @dataclass(frozen=True, eq=False)
 class BodyLayer:
-    """What a dance adds to a body.
+    """Contribution of a dance to a body.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""How deep breaths are, and where their air does not last.
+"""Depths of breaths, and places where their air does not last.
 
 Messages: ``breath.too_long``.
 """

@@ -142,7 +142,7 @@ class _Breather(NamedTuple):
 
 
 class _Score(NamedTuple):
-    """What the line says about breathing.
+    """Breathing clues of a part.
 
     Attributes
     ----------
@@ -191,7 +191,7 @@ class _Given(NamedTuple):
 
 
 class _RestsUsed(NamedTuple):
-    """Which of the breaths in rests are taken.
+    """Breaths in rests that are taken.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""How long a catch breath before each note of a line may be.
+"""Possible lengths of a catch breath before each note of a part.
 
 It is taken in the silence there, and out of the tail of the note before; where that is too little, notes are left out
 for it, and the one before them is shortened: as players do in running notes that nothing interrupts.

@@ -1,4 +1,4 @@
-"""Where catch breaths are best taken: when no rest comes in time, and at clear ends of phrases."""
+"""Best places for catch breaths: where no rest comes in time, and at clear ends of phrases."""
 
 from __future__ import annotations
 

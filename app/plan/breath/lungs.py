@@ -1,4 +1,4 @@
-"""How far the air of a breath reaches."""
+"""Air supply: how far one breath reaches."""
 
 from __future__ import annotations
 

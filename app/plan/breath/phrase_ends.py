@@ -1,4 +1,4 @@
-"""How good a place every note of a line is for a catch breath before it: where phrases end.
+"""Suitability of the place before each note for a catch breath: ends of phrases.
 
 What speaks for a phrase's end is added up as log odds. They were learned by logistic regression on sung lines, which
 say where their phrases end: the Essen Folksong Collection (Schaffrath, 1995; marked phrases of 902 songs) and the

@@ -1,4 +1,4 @@
-"""Which rests are breathed in: by length, by what was played since the last breath in a rest, and by the air used.
+"""Choice of rests to breathe in: by length, by the playing since the last breath, and by the air used.
 
 In a long rest a player breathes whatever was played before; the shorter a rest is, the more must have been played, or
 the less air be left. `app.plan.breath.breaths_in_rests` decides how a rest is used that is breathed in.

@@ -56,7 +56,7 @@ Place: TypeAlias = int
 
 
 class SharedLine(NamedTuple):
-    """What others who play the same need to know of a line.
+    """Summary of a part for others who play the same.
 
     Attributes
     ----------

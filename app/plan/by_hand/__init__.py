@@ -1,1 +1,1 @@
-"""What an animator changes by hand: corrections, poses, additive curves."""
+"""Changes of an animator by hand: corrections, poses, additive curves."""

@@ -1,4 +1,4 @@
-"""What the animator's curves say, in seconds and as far as a body goes.
+"""Additive curves of the animator, in seconds and within the limits of a body.
 
 Messages: ``additive.beyond_reach``, ``additive.not_here``, ``additive.too_fast``.
 """

@@ -1,4 +1,4 @@
-"""What all corrections can say of themselves: what they are about, and whether they can be done."""
+"""Base of all corrections: what they are about, and whether they can be applied."""
 
 from __future__ import annotations
 

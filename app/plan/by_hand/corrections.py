@@ -1,4 +1,4 @@
-"""What an animator changed by hand, anchored to note ids, event ids and ticks, so that regenerating keeps it.
+"""Corrections of an animator, anchored to note ids, event ids and ticks, so that regenerating keeps them.
 
 A correction wins over the generator and its result carries ``corrected=True``. One whose anchor is gone (its note was
 deleted, its event is no longer made) is handed back as a problem, never dropped silently.

@@ -1,4 +1,4 @@
-"""What an animator holds differently, or lays over what is generated: events that only a hand makes."""
+"""Events that are only made by hand: poses held and curves laid over what is generated."""
 
 from __future__ import annotations
 

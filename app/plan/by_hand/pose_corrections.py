@@ -1,4 +1,4 @@
-"""What the animator holds differently: bell, head, elbows and trunk, as far as a body goes.
+"""Pose corrections: bell, head, elbows and trunk, within the limits of a body.
 
 Messages: ``pose.beyond_reach``.
 """

@@ -1,4 +1,4 @@
-"""What players do who come in with another player's cue: a smaller nod, a little later.
+"""Nods of players who come in on another player's cue: smaller, and a little later.
 
 Messages: ``gesture.nod``.
 """

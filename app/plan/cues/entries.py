@@ -1,4 +1,4 @@
-"""Where players come in together and need a cue for it: by the rhythm of the lines and the tempo alone."""
+"""Entries that need a cue: places where players come in together, by rhythm and tempo alone."""
 
 from __future__ import annotations
 

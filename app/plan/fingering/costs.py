@@ -1,4 +1,4 @@
-"""What every fingering and every motion between two costs, and the problem that the search solves."""
+"""Costs of every fingering and every motion between two, for the search."""
 
 from __future__ import annotations
 
@@ -93,7 +93,7 @@ TOLERANCE = 1e-9
 
 @dataclass(frozen=True)
 class Motions:
-    """What it takes to get from each fingering of a note to each of the next.
+    """Motions from each fingering of a note to each of the next.
 
     Attributes
     ----------

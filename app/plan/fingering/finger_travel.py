@@ -1,4 +1,4 @@
-"""What each finger does on the way from one fingering to another: lifts, presses, rolls, goes from key to key.
+"""Movement of each finger from one fingering to another: lifts, presses, rolls, changes of key.
 
 A finger is where the controls are that it holds; those that two pitches' fingerings ask for are compared all at once.
 """
@@ -61,7 +61,7 @@ class Ways:
 
 @dataclass(frozen=True)
 class FingerPlaces:
-    """Where every finger is in every fingering of a table, as bits of controls.
+    """Place of every finger in every fingering of a table, as bits of controls.
 
     Attributes
     ----------

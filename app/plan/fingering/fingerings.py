@@ -1,4 +1,4 @@
-"""Which fingering every note is played with: a search over the whole line, as a player would choose.
+"""Fingering of every note: a search over the whole part, as a player would choose.
 
 The search (Viterbi over the ranked fingerings of every note) keeps the first choice unless speed or a trill makes an
 alternate worth its intonation and its unfamiliarity. Afterwards every run of alternates and every phrase is compared

@@ -1,5 +1,5 @@
-"""What feet do: a small step at the end of a phrase and back at the end of another, toes that tap with the beat in some
-phrases, and the heel that comes up where the weight is on the other foot.
+"""Gestures of the feet: small steps at ends of phrases, tapping toes in some phrases, and a raised heel where the
+weight is on the other foot.
 
 An event's ``amount`` is positive for the left foot, negative for the right one; its size is 0..1. A step goes out as it
 begins, stands, and is home again as it ends. A tap ends on its beat. Feet that do nothing here do not leave the ground.

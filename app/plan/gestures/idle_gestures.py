@@ -1,4 +1,4 @@
-"""What players do beside playing: in long rests, and after the last note of all.
+"""Gestures of players who do not play: in long rests, and after the last note.
 
 In a rest in which the instrument is lowered long enough the hands settle on it, the player looks about and counts the
 last bars. After the last note of all they look up to the audience and bow, together.

@@ -1,4 +1,4 @@
-"""What trunk and head do by phrase and accent: a lean towards each climax and back, and a dip on strong notes.
+"""Motion of trunk and head by phrase and accent: a lean towards each climax and back, and a dip on strong notes.
 
 A phrase lasts from breath to breath, or from rest to rest. Everything random is drawn from player and tick.
 

@@ -1,4 +1,4 @@
-"""Where the instrument is off the lips: before the first note, in long rests, and after the last note.
+"""Spans in which the instrument is off the lips: before the first note, in long rests, and after the last note.
 
 ``lower_instrument`` spans from leaving the lips to being back at them; one that reaches beyond the time frame begins
 (or stays) lowered.

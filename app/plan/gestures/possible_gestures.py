@@ -1,4 +1,4 @@
-"""When gestures of tables may be done, and with which instruments.
+"""Conditions for gestures of tables: possible times and instruments.
 
 Messages: ``gesture.hand_holds`` (name), ``gesture.no_water_key`` (name).
 """

@@ -11,7 +11,7 @@ from app.arrays import FloatArray
 
 @dataclass(frozen=True, eq=False)
 class SampledCurves:
-    """What the lips do within the notes too, 0..1, sampled; the ends hold.
+    """Sampled curves of the lips within the notes, 0..1; the ends hold.
 
     Fields as of `EmbouchureEvent`, which has the mean of each note.
 

@@ -1,1 +1,1 @@
-"""What a player sees in the notes: pieces and parts as arrays, rests, fermatas, dynamics, felt bars."""
+"""The notes as a player sees them: pieces and parts as arrays, rests, fermatas, dynamics, felt bars."""

@@ -1,4 +1,4 @@
-"""What a part's controllers say about how it was blown: when there was no breath, how strong it was, what the lips did.
+"""Breath from a part's controllers: gaps without breath, its strength, and the motion of the lips.
 
 The curve of a wind controller's breath sensor goes to zero when the player stops blowing, and stays there while they
 breathe in. A curve that a sequencer or an engraver drew for the dynamics does not: it shows how loud, not where the

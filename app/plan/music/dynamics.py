@@ -1,4 +1,4 @@
-"""How strongly a line is played, as far as the body shows it: larger motion when loud, little when soft."""
+"""Strength of playing as the body shows it: larger motion when loud, little when soft."""
 
 from __future__ import annotations
 

@@ -17,7 +17,7 @@ THIRD_SHARE = 1.5
 
 
 class Ending(msgspec.Struct, frozen=True):
-    """How a piece ends: ``bright`` is in major, lively and not soft; ``bpm`` are beats a minute before the end."""
+    """Ending of a piece: ``bright`` is in major, lively and not soft; ``bpm`` are beats a minute before the end."""
 
     bright: bool
     bpm: float

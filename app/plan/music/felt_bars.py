@@ -1,4 +1,4 @@
-"""Where the bars begin that are felt: a MIDI file does not say that a piece begins with a pickup.
+"""Bars as they are felt: a MIDI file does not say that a piece begins with a pickup.
 
 Notes on the first beat of a bar are longer than others and the bass plays there (Lerdahl & Jackendoff, A Generative
 Theory of Tonal Music, 1983, ch. 4: metrical preference rules for long notes and a stable bass). Where nearly all long

@@ -1,4 +1,4 @@
-"""Where played notes would stand in a score: breathing and phrasing follow that, not the exact timing."""
+"""Positions of played notes in a score: breathing and phrasing follow those, not the exact timing."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a plan is made from: the piece all players share and one player's line, with its times as arrays."""
+"""Inputs of a plan: the piece that all players share and one player's part, with its times as arrays."""
 
 from __future__ import annotations
 
@@ -75,7 +75,7 @@ class ControllerInput:
 
 
 class MonophonicPart(msgspec.Struct, frozen=True):
-    """What one player plays, on what, and what the animator said about it.
+    """One player's part, with instrument, parameters and corrections.
 
     Attributes
     ----------
@@ -117,7 +117,7 @@ class MonophonicPart(msgspec.Struct, frozen=True):
 
 
 class Piece(msgspec.Struct, frozen=True):
-    """What all players share.
+    """Data of a piece that all players share.
 
     Attributes
     ----------
@@ -299,7 +299,7 @@ def _digests(parts: tuple[str | int, ...], places: bytes) -> bytes:
 
 
 class Seeds(msgspec.Struct, frozen=True):
-    """What one player's chances are drawn from.
+    """Seeds of one player's random choices.
 
     Attributes
     ----------

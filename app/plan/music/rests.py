@@ -1,4 +1,4 @@
-"""Which silences between the notes of a line are rests of the score.
+"""Rests of the score among the silences between the notes of a part.
 
 A MIDI file has no rests: a note that stops early may be followed by one, or may be played detached. A silence of a beat
 is a rest, and so is one that lasts, or that is audible after a long note, whatever the notes around do. Of the other

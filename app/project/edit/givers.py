@@ -1,4 +1,4 @@
-"""Who gives an entry and who takes it: a cue that another player takes over, or that brings in others.
+"""Givers and takers of entries: a cue that another player takes over, or that brings in others.
 
 Messages: ``edit.no_note_to_take``.
 """

@@ -1,4 +1,4 @@
-"""How long a piece may become: no edit makes one that no file could hold.
+"""Limit of a piece's length: no edit makes one that no file could hold.
 
 Messages (`UsageError`): ``piece.too_long``.
 """

@@ -89,7 +89,7 @@ def set_seed(project: Project, seed: int) -> Project:
 
 
 class PieceSettings(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """What holds for the piece as a whole; fields as in `Project`, and the title of its score."""
+    """Settings of the piece as a whole; fields as in `Project`, and the title of its score."""
 
     title: str
     fps: Fraction

@@ -1,4 +1,4 @@
-"""Where the notes and curves of a take are in the score."""
+"""Places of a take's notes and curves in the score."""
 
 from __future__ import annotations
 
