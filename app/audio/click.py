@@ -1,4 +1,4 @@
-"""The metronome: a track of clicks on the beats of the score."""
+"""The metronome, a track of clicks on the beats of the score, and a tone to test the audio output."""
 
 from __future__ import annotations
 
@@ -48,3 +48,15 @@ def _click(hz: float) -> Samples:
     fade = np.exp(-times_s / 0.008) * np.minimum(times_s / 0.0005, 1.0)
     click: Samples = np.round(np.sin(2 * np.pi * hz * times_s) * fade * 14000).astype(np.int16)
     return click
+
+
+BEEP_S: Final = 0.5
+_HZ: Final = 440.0
+_FADE_S: Final = 0.02
+
+
+def beep_track() -> MixTrack:
+    """A tone of the tuning pitch at 0 s."""
+    times_s = np.arange(round(BEEP_S * RATE_HZ)) / RATE_HZ
+    fade = np.minimum(1.0, np.minimum(times_s, BEEP_S - times_s) / _FADE_S)
+    return MixTrack([AudioSegment(0, np.round(np.sin(2 * np.pi * _HZ * times_s) * fade * 12000).astype(np.int16))])

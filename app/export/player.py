@@ -14,7 +14,6 @@ from app.contacts.missed_contacts import missed_mm
 from app.contacts.reach import notes_out_of_reach
 from app.encoding import shown
 from app.export.attachment import in_world, without_place
-from app.export.bone_names import profile_names
 from app.export.figures import held_scene, musician_scene
 from app.export.file_names import file_names, sound_name
 from app.export.formats import FileContent, FileFormat, WriteOptions, requested
@@ -22,6 +21,7 @@ from app.export.keyed import KeyCount, key_count
 from app.export.measure import PlayerJudge, PlayerMeasurement
 from app.export.report import DoubleReport, MutedSpan, PlayerReport, SkeletonReport, stage_place
 from app.export.request import CastMusician, ExportRequest
+from app.export.skeleton import profile_names
 from app.export.target import TargetSkeleton
 from app.export.targets import CheckedTarget
 from app.export.threads import in_threads

@@ -1,4 +1,5 @@
-"""A character's scene as a BVH clip: the joints from the one that moves on, in centimetres."""
+"""A character's scene as a BVH clip: the joints from the one that moves on, in centimetres; and the names that
+other programs give its bones."""
 
 from __future__ import annotations
 
@@ -9,10 +10,14 @@ import numpy as np
 
 from app.arrays import FloatArray
 from app.export.joints import world_transforms
+from app.export.target import TargetSkeleton
 from app.formats.bvh import BvhClip
 from app.formats.names import numbered
 from app.formats.scene import Clip, Scene
 from app.rig import quaternion
+from app.rig.model import Skeleton
+from metadata.known_names import BoneNames
+from metadata.load import load_bone_names
 
 OWN_VERTEX = 0.5
 """A vertex belongs to the joint that holds more than this share of it."""
@@ -127,3 +132,32 @@ def _own_points_cm(scene: Scene, bones: Sequence[int]) -> dict[int, list[FloatAr
                 bind = np.asarray(mesh.world_from_bone_bind[bone], np.float64)
                 found[bone].append((mesh.vertices_cm[own] - bind[:3, 3]) @ bind[:3, :3])
     return found
+
+
+SPINE = ("spine", "chest", "upperChest")
+
+
+def joint_names(table: BoneNames) -> dict[str, str]:
+    """The name of every joint that a table knows: of several the first. Of the bones between hips and neck the lowest
+    are ours."""
+    result = {joint: names[0] for joint, names in table.middle.items()}
+    result |= {joint: names[0] for joint, names in zip(SPINE, table.spine, strict=False)}
+    for side, words in (("left", table.left), ("right", table.right)):
+        result |= {side + joint: names[0].replace("{side}", words[0]) for joint, names in table.sides.items()}
+    return result
+
+
+def profile_names(profile: str, target: TargetSkeleton, skeleton: Skeleton) -> dict[int, str]:
+    """Names by bone for a skeleton that is written on; a bone that is no joint of the profile keeps its own.
+
+    Parameters
+    ----------
+    profile : str
+        Name of a table of bone names.
+    target : TargetSkeleton
+    skeleton : Skeleton
+        The character's, whose joints the target's bones are.
+    """
+    names = joint_names(load_bone_names()[profile])
+    joints = {joint: names[name] for joint, name in enumerate(skeleton.names) if name in names}
+    return {bone: joints[joint] for joint, bone in target.bone_of_joint.items() if joint in joints}

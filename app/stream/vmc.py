@@ -12,13 +12,12 @@ from typing import TYPE_CHECKING, Final
 
 import numpy as np
 
-from app.arrays import AnyFloatArray
+from app.arrays import AnyFloatArray, FloatArray
 from app.project.casting import StagePosition
 from app.rig import quaternion
 from app.rig.model import Character
 from app.stream.faces import FaceNames, face_layout
 from app.stream.packets import Head, Packets
-from app.stream.unity import unity_bone, unity_positions, unity_rotations
 
 if TYPE_CHECKING:
     from app.performance.chunks import Pose
@@ -122,3 +121,29 @@ class Sent:
 def _transforms(positions_m: AnyFloatArray, rotations: AnyFloatArray) -> AnyFloatArray:
     """Position and rotation of each, one after the other, in Unity's space."""
     return np.concatenate([unity_positions(positions_m), unity_rotations(rotations)], axis=1).ravel()
+
+
+# Our world as Unity sees it: left-handed, Y up, +X to the right when facing +Z; bones by `HumanBodyBones`.
+_UNITY_POSITION = np.array([-1.0, 1.0, 1.0])
+_UNITY_ROTATION = np.array([1.0, -1.0, -1.0, 1.0])
+# The thumb's first bone is a metacarpal in VRM 1.0, and already the proximal one in Unity.
+_THUMB = {"ThumbMetacarpal": "ThumbProximal", "ThumbProximal": "ThumbIntermediate"}
+
+
+def unity_positions(positions_m: AnyFloatArray) -> FloatArray:
+    """Positions (..., 3) in Unity's space, metres."""
+    return np.asarray(positions_m * _UNITY_POSITION + 0.0, np.float64)
+
+
+def unity_rotations(rotations: AnyFloatArray) -> FloatArray:
+    """Rotations (..., 4), xyzw, in Unity's space."""
+    return np.asarray(rotations * _UNITY_ROTATION, np.float64)
+
+
+def unity_bone(joint: str) -> str:
+    """The name in `HumanBodyBones` of a VRM 1.0 joint."""
+    for side in ("left", "right"):
+        if joint.startswith(side):
+            part = joint.removeprefix(side)
+            return side.capitalize() + _THUMB.get(part, part)
+    return joint[:1].upper() + joint[1:]

@@ -10,7 +10,7 @@ from PySide6.QtCore import Qt, QTimer, Signal
 from PySide6.QtGui import QColor, QKeyEvent
 from PySide6.QtWidgets import QDialog, QGroupBox, QPushButton, QTreeWidgetItem, QWidget
 
-from app.audio.beep import BEEP_S, beep_track
+from app.audio.click import BEEP_S, beep_track
 from app.audio.playback import Playback
 from app.audio.track import Mix
 from app.capture.learn import Learned, learned_bite, recognised_controller

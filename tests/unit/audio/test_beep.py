@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from app.audio.beep import BEEP_S, beep_track
+from app.audio.click import BEEP_S, beep_track
 from app.audio.track import RATE_HZ, Mix
 
 

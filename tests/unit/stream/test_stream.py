@@ -34,8 +34,7 @@ from app.score.read import read_midi
 from app.stream.faces import FACE_NAMES, VRM_PRESETS
 from app.stream.packets import MOST_BYTES
 from app.stream.sender import Sender, SendOutcome, StreamError, find_address, is_loopback, reaches_many
-from app.stream.unity import unity_bone
-from app.stream.vmc import Sent
+from app.stream.vmc import Sent, unity_bone
 from instrument_maps.load import bundled_maps
 from metadata.load import load_skeleton
 from tests.support.doubled import flutist
