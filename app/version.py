@@ -1,4 +1,4 @@
-"""Which program this is."""
+"""Name and version of the program."""
 
 from __future__ import annotations
 

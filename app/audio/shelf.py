@@ -46,7 +46,7 @@ class _File:
 
 
 class Shelved:
-    """What renders sound, with all that it has rendered put into files; where there is no room, memory keeps it.
+    """Renderer that keeps what it has rendered in files; if the disk is full, in memory.
 
     Parameters
     ----------

@@ -1,5 +1,4 @@
-"""Who is recorded, from what, and how it stands: state of the editor that the transport, the panels and the recorder
-share."""
+"""State of the recording, shared by the transport, the panels and the recorder: player, device and progress."""
 
 from __future__ import annotations
 

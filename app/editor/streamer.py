@@ -222,7 +222,7 @@ class Streamer(QObject):
 
 @dataclass(frozen=True)
 class _Request:
-    """What the thread sends; ``beside`` is what each performer plays besides."""
+    """Data for the streaming thread; ``beside`` are the other parts that each performer plays."""
 
     address: Address
     performers: tuple[Player | Dancer, ...]

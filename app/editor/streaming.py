@@ -1,5 +1,4 @@
-"""What is streamed to other programs, where, and how that stands: state that the dialog, the commands, the status line
-and the streamer share."""
+"""State of streaming to other programs, shared by the dialog, the commands, the status line and the streamer."""
 
 from __future__ import annotations
 

@@ -16,7 +16,7 @@ from app.evaluation.results import EvaluationResults, tabulate
 
 @dataclass(frozen=True)
 class Gathered:
-    """What viewers answered, and what was measured without them; the key that said what they saw."""
+    """Answers of viewers with the measures made without them, and the key of the clips."""
 
     results: EvaluationResults
     measures: tuple[VariantMeasures, ...]

@@ -69,7 +69,7 @@ def stage_place(place: StagePosition) -> PlaceReport:
 
 
 class SkeletonReport(msgspec.Struct, frozen=True):
-    """What a player's character is written on, and in what that differs from the asset it was compared with.
+    """Skeleton of a player's character, with its differences from the asset it was compared with.
 
     A character of ours asked for on its own skeleton is on ``suisou``.
     """
@@ -92,8 +92,8 @@ class MutedSpan(msgspec.Struct, frozen=True):
 
 
 class DoubleReport(msgspec.Struct, frozen=True):
-    """What a player plays on another instrument. It is measured with the player's character; while the other is played
-    it lies beside the player."""
+    """Report on a player's second instrument. It is measured with the player's character; while the other is played it
+    lies beside the player."""
 
     name: str
     part: str

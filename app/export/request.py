@@ -1,4 +1,4 @@
-"""What to export, and which requested players can be exported: the others are excluded with the reason.
+"""Request of an export, and its cast: players that cannot be exported are excluded with the reason.
 
 Messages: ``export.no_players`` (file); ``export.too_long`` (file, frames,
 most); ``work.stopped``; those of `app.performance.cast`.
@@ -139,7 +139,7 @@ class CastDancing:
 
 @dataclass(frozen=True, eq=False)
 class ExportCast:
-    """Who of a request is exported, and who is not."""
+    """Cast of an export: the exported performers, and the excluded ones with reasons."""
 
     musicians: tuple[CastMusician, ...]
     dancers: tuple[CastDancing, ...]

@@ -1,4 +1,4 @@
-"""What one performer's skeleton is equipped with."""
+"""Equipment of one performer's skeleton."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ ORIGIN: Final = NodePlace(np.zeros(3), quaternion.IDENTITY)
 
 @dataclass(frozen=True, eq=False)
 class Grip:
-    """How an instrument lies in the hand that bears it.
+    """Place of an instrument in the hand that bears it.
 
     Attributes
     ----------
@@ -41,7 +41,7 @@ class Grip:
 
 @dataclass(frozen=True, eq=False)
 class Rig:
-    """What a performer's skeleton is equipped with.
+    """Equipment of a performer's skeleton.
 
     Attributes
     ----------

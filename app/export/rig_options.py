@@ -1,4 +1,4 @@
-"""What an export makes of skeletons beside their bones: how instruments hang, root bone, rest pose, twist bones."""
+"""Options for skeletons: attachment of instruments, root bone, rest pose, twist bones."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ REST_POSES: Final[tuple[RestPose, ...]] = get_args(RestPose)
 
 
 class RigOptions(msgspec.Struct, frozen=True):
-    """What is requested.
+    """Requested options for skeletons.
 
     Attributes
     ----------

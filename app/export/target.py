@@ -148,7 +148,7 @@ def matrices(positions: FloatArray, turned: FloatArray) -> FloatArray:
 
 @dataclass(frozen=True, eq=False)
 class Trajectory:
-    """Where something is in the player's space: positions (F, 3), metres, and rotations (F, 4)."""
+    """Path of an object in the player's space: positions (F, 3), metres, and rotations (F, 4)."""
 
     positions_m: AnyFloatArray
     rotations: AnyFloatArray

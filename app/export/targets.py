@@ -1,4 +1,4 @@
-"""Which skeleton a player's files are written on, and how it compares with an asset's."""
+"""Choice of the skeleton for a player's files, and its comparison with an asset's."""
 
 from __future__ import annotations
 

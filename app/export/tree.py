@@ -47,7 +47,7 @@ _MOST_NOTE: Final = 2**20
 
 @dataclass
 class TreeChange:
-    """What is to become of a tree.
+    """Changes to a tree of bones.
 
     Attributes
     ----------

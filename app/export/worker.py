@@ -55,7 +55,7 @@ class ExportJob(msgspec.Struct, frozen=True):
 
 
 class Share(msgspec.Struct, frozen=True, tag=True):
-    """How much of the work on a musician is done, 0..1."""
+    """Progress of the work on a musician, 0..1."""
 
     done: float
 

@@ -1,4 +1,4 @@
-"""How much motion a file may hold: few keys can stand for many frames, so frames are counted before any is made.
+"""Limits of the motion in a file: few keys can stand for many frames, so frames are counted before any is made.
 
 Messages: ``motion.too_long`` (seconds, frames, nodes, most), ``motion.rate_impossible`` (frame_s, slowest, fastest).
 """

@@ -39,7 +39,7 @@ _RESYNC: Final = 1 << 16
 
 @dataclass(frozen=True)
 class MpegAudio:
-    """What the frames of a file say.
+    """Facts read from the frames of a file.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""What an animation file holds, as plain values: bones, skinned meshes, morphs, materials, one clip; or several such
+"""Contents of an animation file, as plain values: bones, skinned meshes, morphs, materials, one clip; or several such
 scenes, each at its place.
 
 Space: centimetres, right-handed, Y up. Quaternions are xyzw, matrices act on column vectors. Nothing is scaled.

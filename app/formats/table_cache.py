@@ -1,4 +1,4 @@
-"""What is made of tables that come with the program, kept in the user's cache: reading it takes a tenth of the time."""
+"""Cache of parsed bundled tables in the user's folder: ten times as fast as parsing them."""
 
 from __future__ import annotations
 

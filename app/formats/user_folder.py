@@ -1,4 +1,4 @@
-"""What the user has of a kind: the bundled ones and those of their own folder, read again when its files change.
+"""Library of bundled items and those of a user's folder, read again when its files change.
 
 Each is a ``.toml`` file and what lies beside it. The user's own one wins over the bundled one of its id; what is wrong
 with a file is reported by file, and the last good version of it stays in use. Everybody asks for the same value;
@@ -60,7 +60,7 @@ class Shelf(Generic[V]):
 
 @dataclass(frozen=True)
 class Read(Generic[V]):
-    """What a file of the user's holds: a value and the files it is made of, or what is wrong with it."""
+    """Result of reading a user's file: a value and its files, or the problem."""
 
     value: V | None
     files: tuple[Path, ...] = ()

@@ -36,7 +36,7 @@ Picture = npt.NDArray[np.uint8]
 
 @dataclass(frozen=True)
 class VideoFacts:
-    """What a film is.
+    """Facts about a film.
 
     Attributes
     ----------

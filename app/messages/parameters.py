@@ -1,4 +1,4 @@
-"""What may be set of performers: labels, tips, units and choices of parameters."""
+"""Texts of performers' parameters: labels, tips, units and choices."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the user asked for on the command line or in a dialog."""
+"""Messages about requests on the command line or in a dialog."""
 
 from __future__ import annotations
 

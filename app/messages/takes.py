@@ -1,4 +1,4 @@
-"""What is done with takes, and why not."""
+"""Messages about edits of takes."""
 
 from __future__ import annotations
 

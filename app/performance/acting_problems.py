@@ -31,7 +31,8 @@ def unknown_acting(player: Player, library: MetadataLibrary) -> tuple[Message, .
 
 
 class JudgeOfChoreographies(Protocol):
-    """Of the package that makes dances (`app.performance.dances`), what is asked before there is a performance."""
+    """Interface for checks by the package that makes dances (`app.performance.dances`) before there is a
+    performance."""
 
     def unfit_choreography(self, player: Player, frame: TimeFrame) -> Message | None:
         """Why a player cannot dance what was selected; None where nothing was, or nothing is wrong with it."""

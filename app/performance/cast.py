@@ -1,5 +1,5 @@
-"""Which players are visible: what each needs is found player by player, and one that lacks something is excluded with
-the reason, so that the others continue.
+"""Cast of visible players: prepared one by one; a player that lacks something is excluded with the reason, and the
+others continue.
 
 Messages: ``player.left_out``, ``player.not_seen``, ``player.all_left_out``.
 """

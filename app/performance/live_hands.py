@@ -38,8 +38,8 @@ _ON_WAY = np.linspace(0.0, 1.0, FRAMES)
 
 @dataclass(frozen=True)
 class Hands:
-    """What hands and fingers do at a moment, and (other frames) on their way; members as of
-    `app.motion.perform.Frames`, of `FRAMES` frames."""
+    """Hands and fingers at a moment, and (other frames) on their way; members as of `app.motion.perform.Frames`, of
+    `FRAMES` frames."""
 
     controls: dict[str, FloatArray]
     placed: dict[str, StationBlend]

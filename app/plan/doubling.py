@@ -1,4 +1,4 @@
-"""When one musician who plays several instruments changes from one to the other, and what remains of the plan for each.
+"""Doubling: changes of one musician between several instruments, and the remaining plan for each.
 
 The change is in the middle of the rest between the last note of one and the first of the next: the first is put aside,
 the hand moves, the second is picked up. Players are assumed to need about two seconds: the three steps at an

@@ -1,5 +1,5 @@
-"""Where the journals of running takes lie: beside the project's file; of a project without one, where its unsaved work
-is kept. A journal whose disk is full goes on in a second place."""
+"""Folders of running takes' journals: beside the project's file; without a file, beside its unsaved work. A journal
+whose disk is full goes on in a second place."""
 
 from __future__ import annotations
 

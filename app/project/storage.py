@@ -46,7 +46,7 @@ MOST_BYTES: Final = 256 * 2**20
 
 
 class Autosaved(msgspec.Struct, frozen=True):
-    """What an autosave says of itself, under the key ``autosave``; a file that was saved does not have it.
+    """Facts of an autosave, under the key ``autosave``; a saved file does not have it.
 
     Nothing here depends on a clock: one may have been set back.
 
@@ -72,13 +72,13 @@ class Autosaved(msgspec.Struct, frozen=True):
 
 
 class _Autosave(Content):
-    """What an autosave holds."""
+    """Contents of an autosave."""
 
     autosave: Autosaved
 
 
 class _Facts(msgspec.Struct):
-    """What is read of an autosave beside its project."""
+    """Facts of an autosave that are read besides its project."""
 
     autosave: Autosaved | None = None
 

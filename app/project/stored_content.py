@@ -48,7 +48,7 @@ _CHECKED: Final = (
 
 
 class Content(msgspec.Struct, forbid_unknown_fields=True):
-    """What a file of the present version holds; corrections are read player by player, so that a fault in one of them
+    """Contents of a file of the present version; corrections are read player by player, so that a fault in one of them
     is found by name."""
 
     schema_version: int

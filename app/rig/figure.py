@@ -62,7 +62,7 @@ class Figure:
 
 @dataclass(frozen=True, eq=False)
 class OwnSkeleton:
-    """Where a character's joints came from.
+    """Origin of a character's joints.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""What characters and instruments are built from: a glTF file's nodes at rest and its meshes, joined by material.
+"""Source of characters and instruments: a glTF file's nodes at rest and its meshes, joined by material.
 
 Messages: ``model.invalid``.
 """

@@ -49,7 +49,7 @@ class PartAssignment(msgspec.Struct, frozen=True):
 
 
 class Suggestion(msgspec.Struct, frozen=True):
-    """How the tracks of one player are imported by default.
+    """Default import of the tracks of one player.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""When the beats of a score sound in a recording of it."""
+"""Times of the beats of a score in a recording of it."""
 
 from __future__ import annotations
 
@@ -74,7 +74,7 @@ def message_of_place(id: str, arguments: dict[str, Argument], runner_up: RunnerU
 
 @dataclass(frozen=True)
 class Following:
-    """How a recording follows a score.
+    """Alignment of a recording with a score.
 
     Attributes
     ----------

@@ -157,7 +157,7 @@ class ModuleRange(NamedTuple):
 
 
 class RangeHistory(msgspec.Struct, frozen=True):
-    """What some controllers say, in the order of time.
+    """Values of some controllers in the order of time.
 
     Attributes
     ----------

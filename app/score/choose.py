@@ -37,7 +37,7 @@ for the sake of a few; three in a short part may be more."""
 
 
 class MapChoice(msgspec.Struct, frozen=True):
-    """What an instrument map can be chosen for.
+    """Facts about an instrument map by which it is chosen.
 
     Attributes
     ----------

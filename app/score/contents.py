@@ -1,4 +1,4 @@
-"""What a file of music holds, whatever format it has, and the score that comes of it once players are assigned."""
+"""Contents of a music file, whatever its format, and the score made from them once players are assigned."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from app.score.track_instrument import use_of
 
 
 class PieceContents(msgspec.Struct, frozen=True):
-    """What a file of music holds, before players are assigned.
+    """Contents of a music file, before players are assigned.
 
     Attributes
     ----------

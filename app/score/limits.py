@@ -1,4 +1,4 @@
-"""How far a score may go: beyond it a file is refused or cut, and an edit refused.
+"""Limits of a score: beyond them a file is refused or cut, and an edit refused.
 
 The bounds lie far beyond music, and near enough that no file can make the program run for hours or out of memory.
 Everything that a piece asks for by time (bars, beats, frames) is bounded by its length; everything else by its notes.

@@ -1,4 +1,4 @@
-"""What is played: the score and its parts, in ticks."""
+"""Score and its parts, in ticks."""
 
 from __future__ import annotations
 
@@ -82,7 +82,7 @@ def value_range(kind: CurveKind) -> tuple[float, float]:
 
 
 class Marker(msgspec.Struct, frozen=True):
-    """What a place of the piece is called: a rehearsal letter, a section, a cue. Its text is one line, not empty."""
+    """Name of a place of the piece: a rehearsal letter, a section, a cue. Its text is one line, not empty."""
 
     tick: int
     text: str
@@ -109,7 +109,7 @@ class PercussionHit(msgspec.Struct, frozen=True, gc=False):
 
 
 class Part(msgspec.Struct, frozen=True, dict=True):
-    """What one player plays: one voice of one track.
+    """Part of one player: one voice of one track.
 
     Attributes
     ----------

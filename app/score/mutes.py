@@ -1,4 +1,4 @@
-"""Where a part is played with a mute or stopped by the hand: by its program, its name, or what the track says.
+"""Spans with a mute or a hand in the bell: by the part's program, its name, or texts of the track.
 
 A muted note is played by the same player; the mute is a technique, kept in spans of ticks.
 """

@@ -1,4 +1,4 @@
-"""What the channels of a file sound like on a sound module: melodies, rhythm parts, sound effects, and their programs.
+"""Sounds of a file's channels on a sound module: melodies, rhythm parts, sound effects, and their programs.
 
 General MIDI has its drum kit on channel 10. The systems that extend it have rhythm parts on any channel, and melodies
 on channel 10. Messages that decide are gathered from all tracks, in the order of their ticks; at one tick a reset comes
@@ -80,7 +80,7 @@ class Setup(NamedTuple):
 
 
 class Setups(NamedTuple):
-    """What one track has of them.
+    """Setups of one track.
 
     Attributes
     ----------
@@ -242,7 +242,7 @@ _CENTRE, _MOST_BENT = 0x40, 24
 
 
 class _Row(NamedTuple):
-    """What a system exclusive message says, in the order in which it takes effect."""
+    """Effects of a system exclusive message, in the order in which they apply."""
 
     tick: int
     rank: int

@@ -1,4 +1,4 @@
-"""How many notes of a track sound together beyond what is legato, and how many players that calls for."""
+"""Number of notes of a track that sound together beyond legato, and of players they need."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ _MUCH: Final = 0.25
 
 
 class VoiceSpans(NamedTuple):
-    """When notes sound, in seconds, by onset: a note's release is where another one may begin in its voice."""
+    """Times of notes in seconds, by onset: a note's release is where another one may begin in its voice."""
 
     onsets: FloatArray
     ends: FloatArray

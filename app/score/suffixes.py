@@ -1,4 +1,4 @@
-"""How files of music are called; what they hold is known by their content."""
+"""Suffixes of music files; their kind is known by their content."""
 
 from __future__ import annotations
 

@@ -27,7 +27,7 @@ _BEND_RANGE = 8192
 
 
 class ControllerMapping(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """With what a controller sends the player's breath and lips.
+    """Controllers that send the player's breath and lips.
 
     Attributes
     ----------
@@ -41,7 +41,7 @@ class ControllerMapping(msgspec.Struct, frozen=True, forbid_unknown_fields=True)
 
 
 class Cleaning(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """How notes are made from what was played; see `app.score.clean`.
+    """Settings for making notes from played events; see `app.score.clean`.
 
     Attributes
     ----------

@@ -43,7 +43,7 @@ _TRACKS_NAMED: Final = 8
 
 
 class TrackEvents(msgspec.Struct):
-    """What one track says.
+    """Events of one track.
 
     Attributes
     ----------

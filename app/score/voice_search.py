@@ -27,7 +27,7 @@ _History: TypeAlias = "tuple[_History, tuple[int, ...]] | None"
 
 
 class LastPlayed(NamedTuple):
-    """What a player did last: pitch (-1 before the first note), when the player is free, when the note ended."""
+    """Last note of a player: pitch (-1 before the first note), time the player is free, end of the note."""
 
     pitch: int
     free_s: float
@@ -35,7 +35,7 @@ class LastPlayed(NamedTuple):
 
 
 class _Hypothesis(NamedTuple):
-    """Who plays what so far, and what it cost."""
+    """Partial assignment of notes to players, with its cost."""
 
     cost: float
     voices: tuple[LastPlayed, ...]

@@ -1,4 +1,4 @@
-"""Who plays what in one track: how many players share its notes, and which notes are whose.
+"""Division of one track among players: their number, and the notes of each.
 
 Notes that overlap are legato: a player of keys or of a wind controller holds a note some way into the next. Only where
 notes go on sounding together beyond that, over several notes and for a while, or in much of the track, there is another

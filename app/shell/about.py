@@ -1,4 +1,4 @@
-"""Which program this is, what it runs on, and where things are."""
+"""Dialog about the program: version, libraries and folders."""
 
 from __future__ import annotations
 

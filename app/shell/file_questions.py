@@ -1,4 +1,4 @@
-"""What files ask in the banner: unsaved work, missing media, other computers, changes from outside."""
+"""Questions about files in the banner: unsaved work, missing media, other computers, changes from outside."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How well a few typed letters fit a name."""
+"""Score of how well a few typed letters fit a name."""
 
 from __future__ import annotations
 

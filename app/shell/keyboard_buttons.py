@@ -1,4 +1,4 @@
-"""Which button the keyboard came to, and what Space does there."""
+"""Buttons focused by the keyboard, and Space on them."""
 
 from __future__ import annotations
 

@@ -42,7 +42,7 @@ def system_language() -> str:
 
 
 class Language(QObject):
-    """Which language is shown.
+    """Display language.
 
     Signals
     -------

@@ -54,7 +54,7 @@ class Package(msgspec.Struct, frozen=True):
 
 
 class _Fact(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """What a package's metadata leave out."""
+    """Facts that a package's metadata leave out."""
 
     licence: str = ""
     source: str = ""

@@ -1,4 +1,4 @@
-"""What was said in the status line, in full: to be read, copied, and looked for in its folder."""
+"""List of notices from the status line, in full: to be read, copied, and looked for in its folder."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ WIDTH_PX = 520
 
 
 class NoticeList(QFrame):
-    """What was said, in full, the newest on top."""
+    """Notices in full, the newest on top."""
 
     def __init__(self, session: Session, parent: QWidget) -> None:
         super().__init__(parent, Qt.WindowType.Popup)

@@ -1,4 +1,4 @@
-"""What the editor asks the user in a dialog: which file, and what becomes of unsaved work."""
+"""Questions of the editor in dialogs: files to open, and unsaved work."""
 
 from __future__ import annotations
 

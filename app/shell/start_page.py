@@ -1,4 +1,4 @@
-"""What is shown while no project is open: begin, open, go on, try the example."""
+"""Start page while no project is open: new, open, recent files, example."""
 
 from __future__ import annotations
 

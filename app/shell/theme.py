@@ -1,4 +1,4 @@
-"""How Qt looks: the palette and the style sheet, both from the design tokens."""
+"""Theme of Qt: the palette and the style sheet, both from the design tokens."""
 
 from __future__ import annotations
 

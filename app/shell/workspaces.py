@@ -33,7 +33,7 @@ Whole = Literal["always", "never", "if_high", "if_low"]
 
 @dataclass(frozen=True)
 class Workspace:
-    """How panels stand at first.
+    """Default layout of the panels.
 
     Attributes
     ----------

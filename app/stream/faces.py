@@ -1,4 +1,4 @@
-"""What a face is called where it is received: ARKit's names in either spelling, or the presets of VRM 0."""
+"""Names of face shapes at the receiver: ARKit's names in either spelling, or the presets of VRM 0."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
-"""What players dance while they play: the layer of their bodies, from the dance that a dancer of the same choreography
-and variation dances to the piece (`app.choreography.performed.dancers`), or from one of the player's own.
+"""Dances of players while they play: a layer of the body, from the dance of a dancer with the same choreography and
+variation (`app.choreography.performed.dancers`), or from one of the player's own.
 
 A player whose choreography is not there or damaged moves as generated, and the plan reports why. Messages: those of
 `app.project.storage.choreography_missing` and of `app.choreography.model_file`.

@@ -1,4 +1,4 @@
-"""What a written file must be before it may take its place in a project, asked of the file itself.
+"""Checks of a written file before it may replace one in a project.
 
 Messages
 --------
@@ -38,7 +38,7 @@ _SAME_CM: Final = 0.01
 
 @dataclass(frozen=True, eq=False)
 class Expected:
-    """What a file must hold.
+    """Expected contents of a file.
 
     Attributes
     ----------

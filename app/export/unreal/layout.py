@@ -1,4 +1,4 @@
-"""Where everything of a piece is in an Unreal project: sources beside the content, assets under ``/Game/Suisou``."""
+"""Paths of a piece in an Unreal project: sources beside the content, assets under ``/Game/Suisou``."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ DESCRIPTION, REPORT, MANIFEST = "performance.json", "report.json", "manifest.jso
 
 @dataclass(frozen=True)
 class FigurePlace:
-    """Where a character or an instrument is.
+    """Paths of a character or an instrument.
 
     Attributes
     ----------
@@ -44,7 +44,7 @@ class FigurePlace:
 
 @dataclass(frozen=True)
 class Layout:
-    """Where a piece is.
+    """Paths of a piece.
 
     Attributes
     ----------

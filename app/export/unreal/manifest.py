@@ -1,4 +1,4 @@
-"""Which files are ours: a list in each folder that we write into, with what each file held when we wrote it.
+"""Manifest of our files: a list in each folder that we write into, with the digest of each file as written.
 
 Messages
 --------
@@ -28,7 +28,7 @@ _TEXTS: Final = frozenset((".json", ".py", ".uplugin"))
 
 
 class OwnFile(msgspec.Struct, frozen=True):
-    """What a file of ours held. Line ends of texts count as ``\\n``: version control may have changed them."""
+    """Digest of one of our files. Line ends of texts count as ``\n``: version control may have changed them."""
 
     bytes: int
     sha256: str
@@ -44,7 +44,7 @@ class Manifest(msgspec.Struct, frozen=True):
 
 @dataclass(frozen=True)
 class Changes:
-    """What writing into a folder does to what is there.
+    """Effects of writing into a folder on its present files.
 
     Attributes
     ----------

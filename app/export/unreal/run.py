@@ -61,7 +61,7 @@ _SHARES = {"files": 0.8, "sound": 0.15, "checks": 0.05}
 
 @dataclass(frozen=True)
 class Plan:
-    """What an export into a project will do there.
+    """Planned changes of an export in a project.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""What is put together of a file before its bytes are written: objects, their ids, and what is connected to what."""
+"""Objects of an FBX file with their ids and connections, before they are written as bytes."""
 
 from __future__ import annotations
 

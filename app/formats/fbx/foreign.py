@@ -89,7 +89,7 @@ class FbxCluster:
 
 @dataclass(frozen=True, eq=False)
 class FbxMorph:
-    """What a blend shape channel is at full weight: some points and how they move."""
+    """Blend shape at full weight: the points that move, and their offsets."""
 
     name: str
     points: IntArray
@@ -139,7 +139,7 @@ class FbxMesh:
 
 @dataclass(frozen=True, eq=False)
 class FbxContent:
-    """What a file holds; `nodes` in the file's order, the first is the file's own root."""
+    """Contents of a file; `nodes` in the file's order, the first is the file's own root."""
 
     nodes: tuple[FbxNode, ...]
     meshes: tuple[FbxMesh, ...]
@@ -147,7 +147,7 @@ class FbxContent:
 
 @dataclass(frozen=True, eq=False)
 class FbxMotion:
-    """What an animation does to the nodes of a file.
+    """Animation of the nodes of a file.
 
     Attributes
     ----------

@@ -17,7 +17,7 @@ _MOST_KEPT_BYTES: Final = 2**26
 
 
 class PackedMesh(msgspec.Struct, frozen=True, eq=False):
-    """What a file holds of a mesh beside names, materials and the bind pose.
+    """Mesh data of a file besides names, materials and the bind pose.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""What an animation's channels are at given times.
+"""Values of an animation's channels at given times.
 
 Source: Khronos, "glTF 2.0 Specification", section 3.11 and appendix C (interpolation).
 """

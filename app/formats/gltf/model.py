@@ -1,4 +1,4 @@
-"""What a glTF file holds, as plain values.
+"""Contents of a glTF file, as plain values.
 
 Units are glTF's: metres, right-handed, Y up, quaternions xyzw.
 """
@@ -121,7 +121,7 @@ class GltfNode:
 
 @dataclass(frozen=True, eq=False)
 class GltfChannel:
-    """What an animation does to a part of a node's transform; see `app.formats.gltf.animation`.
+    """Animation of one part of a node's transform; see `app.formats.gltf.animation`.
 
     Attributes
     ----------

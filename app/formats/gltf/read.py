@@ -47,7 +47,7 @@ _TRIANGLES, _STRIP, _FAN = 4, 5, 6
 
 
 class _Vertices(NamedTuple):
-    """What `GltfPrimitive` has by vertex."""
+    """Arrays by vertex for a `GltfPrimitive`."""
 
     positions: FloatArray
     normals: FloatArray | None

@@ -130,7 +130,7 @@ class _Buffer:
 
 @dataclass
 class _Document:
-    """What is to be written, and the ways to add to it."""
+    """A document under construction."""
 
     gltf: gltf.GLTF2
     buffer: _Buffer = field(default_factory=_Buffer)

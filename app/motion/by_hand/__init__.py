@@ -1,1 +1,1 @@
-"""What an animator adds by hand, before any contact is solved."""
+"""Motion that an animator adds by hand, before any contact is solved."""

@@ -29,7 +29,7 @@ OF_LIPS: Final = ("mouth", "jaw", "tongue", "cheekPuff")
 
 @dataclass(frozen=True)
 class Added:
-    """What is added to a channel: values (F,), and how far they go at most; radians, metres or weights."""
+    """Values (F,) added to a channel, with their limits; radians, metres or weights."""
 
     values: FloatArray
     low: float

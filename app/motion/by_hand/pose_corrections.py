@@ -1,4 +1,4 @@
-"""What the animator holds differently, added to the layers of the body before any contact is solved.
+"""Pose corrections of the animator, added to the layers of the body before any contact is solved.
 
 Offsets come in and go smoothly, may lie over one another, and stop softly where a joint's range ends.
 """

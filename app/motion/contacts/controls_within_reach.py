@@ -1,4 +1,4 @@
-"""Where a control that carries a hand stops because the arm ends before it.
+"""Limits of controls that carry a hand: they stop where the arm ends.
 
 A hand never leaves what it carries: where trunk, shoulders and instrument have helped as far as they do and the place
 is still too far, the control stays as far out as the hand comes. Frame by frame, from nothing but the frame itself: so

@@ -1,4 +1,4 @@
-"""What stands on the floor by its endpin: the tip stays where it is put, and the instrument turns about it.
+"""Instruments on an endpin: the tip stays where it is put, and the instrument turns about it.
 
 Lips and tip are the two ends it is held by. A pin keeps its length and lets the player move about it; a body that moves
 as this one does would tear the mouthpiece from its lips by some millimetres, so the pin gives way by these.

@@ -1,4 +1,4 @@
-"""Where hands are that have left the instrument (`app.motion.contacts.hand_destinations`), for whoever moves arms."""
+"""Hands that have left the instrument (`app.motion.contacts.hand_destinations`), for modules that move arms."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from app.rig.grip.grip_pose import Side
 
 
 class Shift(NamedTuple):
-    """How a wrist leaves its grip: how it is turned in the world (F, 4), about a point (3,) of the hand's frame."""
+    """Displacement of a wrist from its grip: a turn in the world (F, 4) about a point (3,) of the hand's frame."""
 
     turned: FloatArray
     about_m: FloatArray

@@ -1,4 +1,4 @@
-"""How a body helps far hands: shoulders come forwards, the trunk turns, at last head and instrument give way."""
+"""Help of the body for far hands: shoulders come forwards, the trunk turns, at last head and instrument give way."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ FOLLOWS_RAD, TURNS_ALONG_RAD = float(np.deg2rad(4.5)), float(np.deg2rad(2.5))
 
 @dataclass(frozen=True)
 class Help:
-    """What trunk and shoulders must add so that both hands are reached.
+    """Share that trunk and shoulders must add so that both hands reach.
 
     Attributes
     ----------

@@ -40,7 +40,7 @@ TURNS = {"spine": 0.09, "chest": 0.16, "upperChest": 0.12}
 
 @dataclass(frozen=True)
 class Aside:
-    """Where an instrument is put aside: by which hand, and as which one of the musician's, from 0."""
+    """Way of putting an instrument aside: the hand, and the instrument's number among the musician's, from 0."""
 
     side: Side
     number: int

@@ -1,4 +1,4 @@
-"""How far an instrument tips from the chest before a wrist leaves its range, or an elbow is flung up."""
+"""Limits of tipping an instrument from the chest, by the range of the wrists and the height of the elbows."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How trunk, shoulders, head and instrument give way to a far hand: the shares each takes, and how slowly."""
+"""Shares of trunk, shoulders, head and instrument in helping a far hand, smoothed over time."""
 
 from __future__ import annotations
 

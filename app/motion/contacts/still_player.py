@@ -64,7 +64,7 @@ class StillPlayer:
 
 @dataclass(frozen=True)
 class ContactCurves:
-    """What the solvers start from, all sampled at the same frames.
+    """Inputs of the contact solvers, all sampled at the same frames.
 
     Attributes
     ----------

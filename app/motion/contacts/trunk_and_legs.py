@@ -1,4 +1,4 @@
-"""Where feet and hips are, and the upright chain from hips to head: what contacts are solved on."""
+"""Feet, hips, and the upright chain from hips to head, on which contacts are solved."""
 
 from __future__ import annotations
 
@@ -99,7 +99,7 @@ def stance(skeleton: Skeleton, posture: Posture) -> Stance:
 
 @dataclass(frozen=True)
 class Footing:
-    """Where one foot is: ankle (F, 3) and rotation (F, 4), and the rotation of its toes (F, 4), None: as at rest."""
+    """Place of one foot: ankle (F, 3) and rotation (F, 4), and the rotation of its toes (F, 4), None: as at rest."""
 
     ankle_m: FloatArray
     foot: FloatArray

@@ -34,7 +34,7 @@ LEAST_SINE = 1e-9
 
 @dataclass(frozen=True, eq=False)
 class Wrist:
-    """How far one hand bends in its wrist.
+    """Range of one hand's wrist.
 
     Attributes
     ----------
@@ -119,7 +119,7 @@ def wrists_of(body: Body, profile: SkeletonProfile) -> dict[Side, Wrist]:
 
 @dataclass(frozen=True)
 class BellRoom:
-    """How far an instrument tips from the chest while both wrists stay within their range: down is positive."""
+    """Range in which an instrument tips from the chest while both wrists stay within theirs: down is positive."""
 
     low_rad: float = -np.inf
     high_rad: float = np.inf

@@ -93,7 +93,7 @@ class Spring:
 
 
 class Journey:
-    """Which of its places something is at, or between which two of them.
+    """Place of a moving object, or the two places it is between.
 
     A finger on the way to one place when another is requested first goes on to the nearer end: ways lead from place
     to place only.

@@ -1,5 +1,5 @@
-"""When the eyelids close: at the ends of phrases, in breaths and rests, seldom within a phrase, never in a quick run or
-on an entry (people blink about 17 times a minute at rest, and much less at a visual task: Bentivoglio et al. 1997).
+"""Blinks: at the ends of phrases, in breaths and rests, seldom within a phrase, never in a quick run or on an entry
+(people blink about 17 times a minute at rest, and much less at a visual task: Bentivoglio et al. 1997).
 
 Chances belong to places in time, so that an edit changes the blinks around it and no others.
 """

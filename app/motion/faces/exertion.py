@@ -1,4 +1,4 @@
-"""What playing costs and where the music goes, as the face shows it: slow curves from the notes of a plan.
+"""Exertion and direction of the music as the face shows them: slow curves from the notes of a plan.
 
 All of it is worked out in whole numbers on a grid of absolute time, so that a note far away changes not even the last
 bit: after an edit only what is near it is another face. What lasts long (where the melody goes, a phrase, the air left,
@@ -65,7 +65,7 @@ class Exertion(NamedTuple):
 
 @dataclass(frozen=True)
 class Lungs:
-    """How long a full breath lasts at mezzoforte, and how the loudness changes that."""
+    """Duration of a full breath at mezzoforte, and its change with loudness."""
 
     full_s: float
     air: Air | None = None

@@ -1,4 +1,4 @@
-"""What a plan asks of a face, as curves of time: embouchure, breath, tongue, effort, expressions, what playing costs.
+"""Curves of a face from a plan: embouchure, breath, tongue, effort, expressions, exertion.
 
 `app.motion.faces.morph_weights` makes the weights of a character's morphs of them.
 """
@@ -133,7 +133,7 @@ def _shown(plan: PlayerPlan) -> dict[str, Envelopes]:
 
 @dataclass(frozen=True)
 class Drivers:
-    """What moves the face at some frames: members as of `FaceCurves`, each (F,) float64."""
+    """Inputs of the face at some frames: members as of `FaceCurves`, each (F,) float64."""
 
     at_lips: FloatArray
     tension: FloatArray

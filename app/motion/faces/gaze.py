@@ -1,4 +1,4 @@
-"""Where a player looks, and how the head goes along.
+"""Gaze of a player, and the turn of the head with it.
 
 The eyes read the music line by line, leave it for the glances of the plan and for a cue, wander in rests and now and
 then while playing, and meet the audience at the end. Saccades last 50 ms and more (Bahill et al.

@@ -1,4 +1,4 @@
-"""What is one player's own about a face: which side is stronger, the rate of the vibrato, how it wanders by itself."""
+"""Individual traits of a player's face: the stronger side, the rate of the vibrato, slow wandering."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ _BANDS: Final = {
 
 @dataclass(frozen=True, eq=False)
 class Wandering:
-    """How a face wanders at some frames, each (F,) float64 of about 1; ``sides`` within -1 and 1."""
+    """Slow wandering of a face at some frames, each (F,) float64 of about 1; ``sides`` within -1 and 1."""
 
     lips: FloatArray
     corners: FloatArray

@@ -1,5 +1,5 @@
-"""What the lips do within a note: they firm up just before an attack and settle soon after it, give way between notes,
-and a vibrato comes in on notes that are held.
+"""Lips within a note: they firm up just before an attack and settle soon after it, give way between notes, and a
+vibrato comes in on held notes.
 
 Muscles of the lips are active before a tone begins (trumpeters: Heuser and McNitt-Gray 1991).
 """

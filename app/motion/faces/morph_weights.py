@@ -35,7 +35,7 @@ TIRED_WANDERS: float = 0.8
 
 @dataclass(frozen=True)
 class FaceSizes:
-    """How one player's face moves.
+    """Sizes of one player's facial motion.
 
     Attributes
     ----------

@@ -1,4 +1,5 @@
-"""What shows of the tongue: it comes up, touches, and leaves at the onset; jaw and lips go along, slower than its tip.
+"""Visible strokes of the tongue: it comes up, touches, and leaves at the onset; jaw and lips go along, slower than its
+tip.
 
 A stroke of the tip (*ta*, soft *da*) and one of the tongue's back (*ka*) are curves of their own, since other parts of
 the mouth go along with each. An attack with stress is pushed by the breath as well.

@@ -1,4 +1,4 @@
-"""What an edit changes of curves that follow the notes: made again around it, and taken from before elsewhere.
+"""Update of curves after an edit: made again around it, and taken from the former curves elsewhere.
 
 In a silence long enough every control is at rest and every finger at home, whatever is played on either side. So the
 notes between two such silences can be made by themselves.

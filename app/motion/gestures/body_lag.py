@@ -31,7 +31,7 @@ class Sampled(Protocol):
 
 
 class Leads(NamedTuple):
-    """How much earlier than the head each part moves, seconds. The head is in time: what is before it prepares."""
+    """Lead of each part over the head, seconds. The head is in time: what is before it prepares."""
 
     hips_s: float
     chest_s: float

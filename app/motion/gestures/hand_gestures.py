@@ -26,7 +26,7 @@ LEAST_SIZE: Final = 0.05
 
 
 class ReachingHands(NamedTuple):
-    """How hands are on their way at some frames, of what grows alike with the amplitude; empty: they are not.
+    """Hands on their way in some frames, as far as it scales with the amplitude; empty: none.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""What the body does beside playing: counts, looks about, settles the hands on the instrument, looks up and bows."""
+"""Motion of the body besides playing: counting, looking about, settling the hands, looking up and bowing."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ MOST_BOW_RAD = float(np.deg2rad(36.0))
 
 @dataclass(frozen=True)
 class ConcertSamples:
-    """How much of each is done at some frames, 0..1, each (F,) float64; 0: nothing."""
+    """Amount of each gesture at some frames, 0..1, each (F,) float64; 0: none."""
 
     bow: FloatArray | float = 0.0
     up: FloatArray | float = 0.0

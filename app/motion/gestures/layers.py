@@ -68,7 +68,7 @@ class LayerSamples:
 
 @dataclass(frozen=True)
 class Layers:
-    """What one player's plan asks of the body, as curves of time; each is sampled with the sizes of the player.
+    """Layers of one player's body, as curves of time; each is sampled with the sizes of the player.
 
     Attributes
     ----------

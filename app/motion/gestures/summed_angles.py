@@ -128,7 +128,7 @@ class Sum:
 
 @dataclass(frozen=True)
 class Angles:
-    """What overlaps of one player, as angles of hips, chest, head and elbows in the world.
+    """Sums of one player's overlapping motions, as angles of hips, chest, head and elbows in the world.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""Where a player breathes.
+"""Breaths of a player.
 
 Which rests are breathed in says `app.plan.breath.rests_for_breath`: by seconds, playing and air. How, says the length
 of the rest in felt beats (T6 of the 2018 thesis; the thresholds are the player's): below last_beat the breath takes the
@@ -128,7 +128,7 @@ def plan_breaths(
 
 
 class _Breather(NamedTuple):
-    """Who breathes for which notes; ``index_of`` is by their ids."""
+    """A player with the notes of one breathing line; ``index_of`` is by their ids."""
 
     notes: tuple[Note, ...]
     times: LineTimes

@@ -93,7 +93,7 @@ def blown_breaths(
 
 
 class _Report(NamedTuple):
-    """Why a breath, and the preparation for one, are there: by note, length in beats, and which thresholds it has."""
+    """Reasons of breaths and their preparations: by note, length in beats, and thresholds."""
 
     breath: Callable[[int, float, bool, bool], Message]
     preparation: Callable[[int, float], Message]

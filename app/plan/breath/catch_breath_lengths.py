@@ -29,7 +29,7 @@ MOST_DROPPED = 2
 
 @dataclass(frozen=True, eq=False)
 class Room:
-    """What a catch breath before each note may be, each (N,); 0 where there is none.
+    """Room for a catch breath before each note, each (N,); 0 where there is none.
 
     Attributes
     ----------

@@ -62,7 +62,7 @@ class RestNeeds(NamedTuple):
 
 
 class Decided(NamedTuple):
-    """Which rests are breathed in, and what was known there: (N,) each.
+    """Choice of rests to breathe in, with the values it was made by: (N,) each.
 
     Attributes
     ----------

@@ -98,8 +98,8 @@ class SharedLine(NamedTuple):
 
 
 class Breathed(NamedTuple):
-    """Where a player of a line breathes: catch breaths by the place of the note after, the notes that are left out for
-    them by their onsets, other breaths within held notes."""
+    """Breaths of a player: catch breaths by the place of the note after, the notes that are left out for them by their
+    onsets, other breaths within held notes."""
 
     line: SharedLine
     caught: frozenset[Place]
@@ -156,8 +156,8 @@ def after_holds(held: tuple[Fermata, ...], times: LineTimes) -> frozenset[int]:
 
 
 class Met(NamedTuple):
-    """Where a line meets others who have breathed: by player the notes before which these take catch breaths, and the
-    notes that these leave out."""
+    """Breaths of others in unison with a part: by player the notes before which these take catch breaths, and the notes
+    that these leave out."""
 
     line: SharedLine
     breathed: tuple[Breathed, ...]

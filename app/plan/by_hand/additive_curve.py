@@ -70,8 +70,8 @@ CHANNELS: Final[dict[str, AdditiveChannel]] = BODY_CHANNELS | {
 
 
 class Tangent(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """Where a handle of a key is, seen from the key: ``ticks`` away (never negative, on the handle's own side) and
-    ``value`` higher."""
+    """Handle of a key, relative to the key: ``ticks`` away (never negative, on the handle's own side) and ``value``
+    higher."""
 
     ticks: int
     value: float

@@ -1,4 +1,4 @@
-"""Who gives the entries, and when.
+"""Cues for entries: who gives them, and when.
 
 A conductor gives all of them; the players look there and breathe together. Without one the players give the entries
 themselves, by body and instrument, with a preparatory beat: the start, and the new start after a rest or a general

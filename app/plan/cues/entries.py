@@ -83,7 +83,7 @@ def entries(all_times: tuple[NoteTimes, ...], piece: Piece, musicians: tuple[str
 
 
 class _Spans(msgspec.Struct, frozen=True):
-    """Where something sounds: starts in order, and the latest end of those up to each."""
+    """Spans in which something sounds: starts in order, and the latest end of those up to each."""
 
     starts: IntArray
     ends: IntArray

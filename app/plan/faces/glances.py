@@ -42,7 +42,7 @@ SIDE_RAD: Final = (0.5, 1.0)
 
 
 class StagePlace(msgspec.Struct, frozen=True):
-    """Where a player is: metres, the audience towards +Z, and the turn from +Z towards +X in radians; ``eyes_m`` above
+    """Place of a player: metres, the audience towards +Z, and the turn from +Z towards +X in radians; ``eyes_m`` above
     the floor."""
 
     x_m: float

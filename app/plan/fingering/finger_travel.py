@@ -35,7 +35,7 @@ finger, which is why its keys are there twice."""
 
 @dataclass(frozen=True)
 class Ways:
-    """What fingers do between two pitches, for all their fingerings; each (U, K, K) float64.
+    """Movements of fingers between two pitches, for all their fingerings; each (U, K, K) float64.
 
     Attributes
     ----------

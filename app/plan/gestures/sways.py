@@ -78,7 +78,7 @@ def pulse(piece: Piece, frame: TimeFrame, swing_at_s: float) -> Pulse:
 
 @dataclass(frozen=True, eq=False)
 class Swings:
-    """Where the trunk is at the end of each of the shortest swings, arrays (N,).
+    """Position of the trunk at the end of each of the shortest swings, arrays (N,).
 
     Attributes
     ----------

@@ -1,5 +1,5 @@
-"""What lips and cheeks do within the notes, where controllers tell: the air follows the breath, the strain with it, and
-the lips give and press with bite and pitch bend, so that a vibrato shows at its own rate.
+"""Lips and cheeks within the notes, from controllers: the air follows the breath, the strain with it, and the lips give
+and press with bite and pitch bend, so that a vibrato shows at its own rate.
 
 A note whose embouchure was set by hand keeps what was set, from its beginning to its end.
 """

@@ -57,7 +57,7 @@ class ControllerSteps:
 
 @dataclass(frozen=True)
 class ControllerInput:
-    """What recorded or drawn controller curves say about how a line is played; None: nothing.
+    """Playing of a part by recorded or drawn controller curves; None: no curve.
 
     Attributes
     ----------

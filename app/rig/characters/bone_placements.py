@@ -1,4 +1,4 @@
-"""Where bones are in the world, and where they are on their parents: either from the other."""
+"""Transforms of bones in the world and on their parents, each from the other."""
 
 from __future__ import annotations
 

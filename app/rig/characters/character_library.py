@@ -40,7 +40,7 @@ RESERVED: Final = re.compile(r"(con|prn|aux|nul|com\d|lpt\d)", re.IGNORECASE)
 
 
 class CharacterEntry(msgspec.Struct, frozen=True, forbid_unknown_fields=True, omit_defaults=True):
-    """What ``<id>.toml`` says.
+    """Contents of ``<id>.toml``.
 
     Attributes
     ----------

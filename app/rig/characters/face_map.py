@@ -1,4 +1,4 @@
-"""Which of a foreign figure's own morphs make the 52 ARKit shapes that faces are played with.
+"""Mapping from a foreign figure's own morphs to the 52 ARKit shapes that faces are played with.
 
 Names come from the tables in ``metadata/faces``. The table that makes most shapes leads; what it leaves out is taken
 from the others. What no table makes is missing, and is reported as such.
@@ -29,7 +29,7 @@ SHORTEST_AFFIXED: Final = 4
 
 @dataclass(frozen=True)
 class FaceMapping:
-    """What of a figure's own morphs makes which ARKit shape.
+    """Mapping from a figure's own morphs to ARKit shapes.
 
     Attributes
     ----------

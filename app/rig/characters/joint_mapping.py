@@ -1,4 +1,4 @@
-"""Which bones of a foreign figure are which joints: by what the file says, by the names, by shape.
+"""Mapping from a foreign figure's bones to joints: by what the file says, by the names, by shape.
 
 Names come from the tables in ``metadata/bone_names``; of all tables the one counts that most joints and the hierarchy
 agree with. Left is where +X is, whatever a name says.
@@ -43,7 +43,7 @@ SHORTEST_AFFIXED: Final = 3
 
 @dataclass(frozen=True)
 class JointMapping:
-    """Which bones are which joints.
+    """Mapping from bones to joints.
 
     Attributes
     ----------
@@ -65,7 +65,7 @@ class JointMapping:
 
 @dataclass(frozen=True)
 class _Found:
-    """What one way of mapping says."""
+    """Result of one way of mapping."""
 
     profile: str
     bones: dict[str, int]

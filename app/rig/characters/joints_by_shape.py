@@ -1,4 +1,4 @@
-"""Which bones are which joints, by shape alone: symmetry, chains and extents. For skeletons whose names say nothing.
+"""Mapping from bones to joints by shape alone: symmetry, chains and extents. For skeletons whose names say nothing.
 
 Everything found here is a guess from a usual figure's proportions and must be reported as one.
 """
@@ -100,7 +100,7 @@ def tree_of(parents: Sequence[int], positions_m: FloatArray, skinned: frozenset[
 
 
 class _Halves:
-    """What is left, right and in the middle, and who mirrors whom."""
+    """Bones of the left, the right and the middle, and their mirror images."""
 
     def __init__(self, tree: Tree) -> None:
         self.tree = tree

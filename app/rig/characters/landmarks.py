@@ -170,7 +170,7 @@ def _sole(skeleton: Skeleton, skins: list[_Skin], side: Side) -> dict[str, Landm
 
 @dataclass(frozen=True, eq=False)
 class _Head:
-    """Where a head is, and how large.
+    """Place and size of a head.
 
     Attributes
     ----------

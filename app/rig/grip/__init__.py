@@ -1,1 +1,1 @@
-"""How a body holds an instrument."""
+"""Grips of a body on an instrument."""

@@ -1,4 +1,4 @@
-"""How large a body is beside a grown-up player, and bodies, models and holds made larger or smaller as a whole.
+"""Size of a body relative to a grown-up player, and scaling of bodies, models and grips as a whole.
 
 What is between the sizes of our own two grown-ups counts as theirs: instruments are built for all of them.
 """

@@ -1,4 +1,4 @@
-"""How a body carries an instrument before any motion: the angles of a map's `Carriage` and the upright posture."""
+"""Carriage of an instrument before any motion: the angles of a map's `Carriage` and the upright posture."""
 
 from __future__ import annotations
 

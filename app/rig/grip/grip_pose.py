@@ -1,4 +1,4 @@
-"""How one body holds one instrument: fixed hand frames, finger poses over the controls, the lips.
+"""Grip of one body on one instrument: fixed hand frames, finger poses over the controls, the lips.
 
 A `GripPose` is fitted once per character and instrument (`app.rig.grip.fitting.fit.fit_hold`) and then only evaluated,
 vectorised over frames:
@@ -31,7 +31,7 @@ Side = Literal["left", "right"]
 
 @dataclass(frozen=True)
 class NodeMotion:
-    """How a node of the instrument moves with one control, in the instrument's frame.
+    """Motion of a node of the instrument with one control, in the instrument's frame.
 
     The node's transform is a translation by ``value * travel_m`` or a rotation by ``value * angle_rad`` about the axis
     ``axis`` through ``pivot_m``; the other one is zero.
@@ -137,7 +137,7 @@ class StationBlend(NamedTuple):
 
 @dataclass(frozen=True)
 class ContactFit:
-    """How well one contact of the map is met, the worst over the samples of its control.
+    """Accuracy of one contact of the map, the worst over the samples of its control.
 
     ``distance_m`` is from the landmark on the deformed mesh to the touch point, ``angle_rad`` between the pad's outward
     normal and the reversed normal of the surface: of a finger that hovers, when its control is fully worked;
@@ -156,7 +156,7 @@ class ContactFit:
 
 @dataclass(frozen=True)
 class WristOffset:
-    """How a hand gives way so that one finger reaches one of its stations.
+    """Offset of a hand that lets one finger reach one of its stations.
 
     Attributes
     ----------
@@ -184,7 +184,7 @@ class WristOffset:
 
 @dataclass(frozen=True)
 class HandHold:
-    """How one hand lies on the instrument.
+    """Grip of one hand on the instrument.
 
     Attributes
     ----------
@@ -221,7 +221,7 @@ class HandHold:
 
 @dataclass(frozen=True)
 class Lips:
-    """Where an instrument is on the lips, in the frame of the head joint, linear in the morph weights.
+    """Place of an instrument on the lips, in the frame of the head joint, linear in the morph weights.
 
     Attributes
     ----------

@@ -46,7 +46,7 @@ ROUNDS = 3
 
 @dataclass(frozen=True, eq=False)
 class LipPlaces:
-    """Where an instrument is on a character's lips, as vertices.
+    """Place of an instrument on a character's lips, as vertices.
 
     Attributes
     ----------

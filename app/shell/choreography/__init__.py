@@ -1,1 +1,1 @@
-"""What the window does with dancers and choreographies."""
+"""Dancers and choreographies in the window."""

@@ -1,1 +1,1 @@
-"""What the actions of the editor do: each module declares rows of the one table (`app.shell.actions`)."""
+"""Actions of the editor: each module declares rows of the one table (`app.shell.actions`)."""

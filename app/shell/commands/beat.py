@@ -1,4 +1,4 @@
-"""Which beat is felt: breaths, cues and sway count in it."""
+"""Commands for the felt beat, in which breaths, cues and sway count."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a command is about, and when it makes sense: the selection, by player, the timeline."""
+"""Targets and conditions of commands: the selection, by player, the timeline."""
 
 from __future__ import annotations
 

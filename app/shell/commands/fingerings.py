@@ -20,7 +20,7 @@ TYPED_TOGETHER_S = 0.6
 
 
 class _Typed:
-    """What of a fingering has been typed so far."""
+    """Beginning of a fingering that is being typed."""
 
     def __init__(self) -> None:
         self.text = ""

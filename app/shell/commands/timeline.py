@@ -1,4 +1,4 @@
-"""How the timeline is seen. The timeline itself is `Session.timeline_view`."""
+"""Commands for the display of the timeline. The timeline itself is `Session.timeline_view`."""
 
 from __future__ import annotations
 

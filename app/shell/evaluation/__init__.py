@@ -1,1 +1,1 @@
-"""What the window does with evaluations."""
+"""Evaluations in the window."""

@@ -1,4 +1,4 @@
-"""What a fit of a hold (`app.rig.grip.fitting.fit`) needs and keeps to, for what starts one or uses its results.
+"""Terms of fitting a grip (`app.rig.grip.fitting.fit`), for what starts one or uses its results.
 
 Messages: ``character.landmarks_missing``.
 """

@@ -1,4 +1,4 @@
-"""How a hand gives way where a finger does not reach one of its stations with the wrist at home.
+"""Giving way of a hand for a finger that does not reach one of its stations with the wrist at home.
 
 A player rolls the hand to a side key and lifts it to a palm key while the other fingers stay on their holes. For such a
 station the wrist is solved again, near its home, and the other fingers with it.

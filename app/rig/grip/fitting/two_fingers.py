@@ -1,4 +1,4 @@
-"""How a hand gives way for two fingers at once, where what it gives way for each alone is not right for both.
+"""Giving way of a hand for two fingers at once, where the single offsets are not right for both.
 
 The leans of single fingers (`app.rig.grip.fitting.leaning_hand`) are added. Where a finger then misses its place the
 wrist is solved again for the two, with the poses that `app.rig.grip.finger_poses` makes, and the difference is kept.

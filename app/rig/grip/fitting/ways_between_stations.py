@@ -1,4 +1,4 @@
-"""How high fingers are lifted on the ways between their places, and where they wait for their hand to give way."""
+"""Heights of fingers on the ways between their places, and places where they wait for their hand."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ it."""
 
 @dataclass(frozen=True)
 class _Height:
-    """How high a finger is lifted on a way, and how deep in the instrument the deepest of it still is."""
+    """Height of a finger on a way, and the depth of its deepest point in the instrument."""
 
     lift_m: float
     deep_m: float
