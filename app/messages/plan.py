@@ -138,6 +138,7 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         "the air does not last until a better place",
         "次のよい場所まで息が続かない",
     ),
+    "breath.why_written": ("there is a breath mark in the score", "楽譜にブレス記号がある"),
     "breath.why_not_recorded": (
         "no breath was recorded for this note",
         "この音のブレスは録音されていない",
@@ -155,6 +156,21 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
             "音符 {after_note} の後の息継ぎ: 休符でブレスできない {phrase_s:g} 秒に {air_s:g} 秒分の息が必要ですが、"
             "{lung_s:g} 秒分しかありません。その音を {from_note_ms:g} ms 短くします"
         ),
+    ),
+    "breath.catch_slurred": (
+        (
+            "catch breath after note {after_note}, which breaks a slur in the score: {phrase_s:g} s without a breath "
+            "in a rest need {air_s:g} s of air, but {lung_s:g} s are available; the note is shortened by "
+            "{from_note_ms:g} ms"
+        ),
+        (
+            "音符 {after_note} の後の息継ぎ（楽譜のスラーの途中）: 休符でブレスできない {phrase_s:g} 秒に {air_s:g} "
+            "秒分の息が必要ですが、{lung_s:g} 秒分しかありません。その音を {from_note_ms:g} ms 短くします"
+        ),
+    ),
+    "breath.written": (
+        "breath mark in the score after note {after_note}, which is shortened by {from_note_ms:g} ms",
+        "楽譜のブレス記号。前の音符 {after_note} を {from_note_ms:g} ms 短くします",
     ),
     "breath.phrase_end": (
         "short breath at the end of a phrase, after note {after_note}, which is shortened by {from_note_ms:g} ms",
@@ -204,6 +220,10 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
             "音符 {note} から {phrase_s:g} 秒を一息で吹く必要があります。{air_s:g} 秒分の息が必要ですが、"
             "{lung_s:g} 秒分しかありません。ブレスを追加してください"
         ),
+    ),
+    "breath.breaks_slur": (
+        "the air does not last for the slur over note {note}: this breath breaks it; move the breath or add one before",
+        "音符 {note} のスラーの終わりまで息が続かず、途中でブレスします。ブレスを移動するか、前に追加してください",
     ),
     "breath.inside_note": (
         "this manually placed breath is inside the sounding note {note}; move or remove it",

@@ -203,6 +203,7 @@ PLAYER: Final = StepTable(
         times="contour",
         parameters="breath_parameters",
         corrections="breath_corrections",
+        written="written",
     ),
     breaths="planned_breaths.events",
     breath_problems="planned_breaths.problems",

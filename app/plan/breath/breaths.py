@@ -10,7 +10,8 @@ out a note: its lips leave at once.
 
 Messages: ``breath.first``, ``breath.rest_whole``, ``breath.last_beat``, ``breath.prepared``, ``breath.preparation``,
 ``breath.catch``, ``breath.catch_dropped``, ``breath.catch_dropped_two``, ``breath.phrase_end``, ``breath.after_hold``,
-``breath.blown``, ``breath.blown_preparation``, ``breath.blown_short``.
+``breath.blown``, ``breath.blown_preparation``, ``breath.blown_short``, ``breath.written``, ``breath.catch_slurred``,
+``breath.breaks_slur``.
 """
 
 from __future__ import annotations
@@ -24,9 +25,17 @@ import numpy as np
 from app.arrays import BoolArray, FloatArray, IntArray
 from app.errors import Argument, Message
 from app.plan.breath.breath_depths import too_long, with_depths
-from app.plan.breath.breaths_in_rests import AIR_SHORT, because, blown_breaths, blown_catch, rest_breaths, within_note
+from app.plan.breath.breaths_in_rests import (
+    AIR_SHORT,
+    WRITTEN,
+    because,
+    blown_breaths,
+    blown_catch,
+    rest_breaths,
+    within_note,
+)
 from app.plan.breath.catch_breath_lengths import CATCH_MIN_S, Room, catch_lengths_s, drop_lengths_s
-from app.plan.breath.catch_breath_places import catch_places
+from app.plan.breath.catch_breath_places import AirSupply, catch_places
 from app.plan.breath.lungs import (
     FULL_BREATH_S,
     air_used_s,
@@ -36,6 +45,7 @@ from app.plan.breath.lungs import (
     short_catches,
     with_circular_breathing,
 )
+from app.plan.breath.phrase_ends import ComparedLine
 from app.plan.breath.rests_for_breath import ALWAYS_S, Decided, RestNeeds, breathed_in, rest_needs, why
 from app.plan.breath.staggered_breaths import BreathConstraints, within_held
 from app.plan.by_hand.corrected_events import removed_ids, without_removed
@@ -47,6 +57,7 @@ from app.plan.music.breath_controller import BreathEnvelope, BreathGaps, gaps_wi
 from app.plan.music.notation import at_score_tempo, heard_rests_s, notated, usual_release
 from app.plan.music.piece import EPSILON, LineTimes, Piece, Seeds, gaps_s
 from app.plan.music.rests import Rests, are_audible, rest_ticks
+from app.plan.music.written_marks import WrittenMarks, unwritten
 from app.plan.parameters import PlayerParameters
 from app.score.model import Note
 from instrument_maps.wind import Air
@@ -87,6 +98,7 @@ def plan_breaths(
     seeds: Seeds,
     air: Air | None,
     envelope: BreathEnvelope | None,
+    written: WrittenMarks | None = None,
 ) -> BreathPlan:
     """Place every breath of a line.
 
@@ -99,11 +111,15 @@ def plan_breaths(
     seeds : Seeds
         What distinguishes this player where places are equally good.
     envelope : BreathEnvelope or None
-        The breath that was blown. Where it shows breaths, they are where it has gaps and nowhere else.
+        The breath that was blown. Where it shows breaths, they are where it has gaps and nowhere else but at breath
+        marks.
+    written : WrittenMarks, optional
+        Breath marks, at which a breath is always taken, and slurs, within which none is taken while there is air.
     """
     if not notes:
         return BreathPlan((), (), frozenset(), {}, ())
-    line = _Breather(notes, times, piece, parameters, {note.id: index for index, note in enumerate(notes)})
+    written = written or unwritten(len(notes))
+    line = _Breather(notes, times, piece, parameters, {note.id: index for index, note in enumerate(notes)}, written)
     score = _read(line, air, envelope)
     given = _given(line, score, frame, corrections, shared)
     rests = _rests_used(line, score, given)
@@ -117,9 +133,10 @@ def plan_breaths(
             refill[line.number_of(event)] = drawn_share(event.end_s - event.start_s)
     events = tuple(sorted([*in_rests, *given.by_hand, *caught], key=lambda event: (event.start_s, event.end_s)))
     early_end_s, cut = _cut_notes(line, events)
+    slurs = _broken_slurs(line, caught, stock.room)
     return BreathPlan(
         events=with_depths(events, stock.used, score.lung_s, refill, line.index_of),
-        problems=(*cut, *too_long(notes, times, stock.used, score.lung_s, refill)),
+        problems=(*cut, *slurs, *too_long(notes, times, stock.used, score.lung_s, refill)),
         generated_ids=frozenset(event.id for event in (*given.generated, *caught)),
         early_end_s=early_end_s,
         catches=tuple(catches),
@@ -135,6 +152,13 @@ class _Breather(NamedTuple):
     piece: Piece
     parameters: PlayerParameters
     index_of: dict[str, int]
+    written: WrittenMarks
+
+    @property
+    def marked(self) -> list[int]:
+        """The notes before which the score has a breath mark."""
+        found: list[int] = (1 + np.flatnonzero(self.written.breath[:-1])).tolist()
+        return found
 
     def number_of(self, event: BreathEvent) -> int:
         """The note that a breath is before, or within."""
@@ -281,15 +305,25 @@ def _given(
     by_hand = tuple(_by_hand(item, times, line.index_of[item.note_id], piece) for item in placed.values())
     removed, hand_ids = removed_ids(corrections), frozenset(event.id for event in by_hand)
     kept = [event for event in without_removed(generated, removed) if event.id not in hand_ids]
-    if score.gaps is None and parameters.breath_need > 0.0:
-        # In a rest too short for it no one breathes unless the note before is shortened too: a catch breath.
-        gasps = {line.number_of(event) for event in kept if event.draws_air
-                 and event.end_s - event.start_s < CATCH_MIN_S - EPSILON}  # fmt: skip
-        kept = [event for event in kept if line.number_of(event) not in gasps]
+    if score.gaps is None:
+        unused = {line.number_of(event) for event in kept if event.draws_air and not event.is_within
+                  and _is_unused(line, score, event)}  # fmt: skip
+        kept = [event for event in kept if event.is_within or line.number_of(event) not in unused]
     may = np.ones(len(notes), dtype=bool)
     ids = [id for id in map(EventId.parse, removed | hand_ids) if id.kind in BEFORE_NOTES and id.of in line.index_of]
     may[[line.index_of[id.of] for id in ids if BREATH_KINDS[id.kind].draws_air]] = False
     return _Given(generated, tuple(kept), by_hand, may)
+
+
+def _is_unused(line: _Breather, score: _Score, event: BreathEvent) -> bool:
+    """Return whether no breath is taken in a rest, unless as a catch breath: the rest is too short without a part of
+    the note before, or it is under a slur."""
+    index = line.number_of(event)
+    is_marked = index > 0 and bool(line.written.breath[index - 1])
+    if event.end_s - event.start_s < CATCH_MIN_S - EPSILON and (is_marked or line.parameters.breath_need > 0.0):
+        return True
+    is_slurred = index > 0 and bool(line.written.joined[index - 1])
+    return is_slurred and not is_marked and float(score.rests.lasts_s[index]) < ALWAYS_S - EPSILON
 
 
 def _stock(line: _Breather, score: _Score, given: _Given, spare: dict[int, BreathEvent]) -> _Stock:
@@ -308,7 +342,8 @@ def _stock(line: _Breather, score: _Score, given: _Given, spare: dict[int, Breat
         used = with_circular_breathing(used, lung_s, refill)
         steady_used = with_circular_breathing(steady_used, lung_s, refill)
     air_s = levels(used, lung_s, refill) * lung_s
-    return _Stock(used, steady_used, refill, air_s, Room(length_s, drop_s, dropped))
+    room = Room(length_s, drop_s, dropped).with_marks(line.marked, times)
+    return _Stock(used, steady_used, refill, air_s, room)
 
 
 def _taken(
@@ -377,10 +412,10 @@ def _lasts_s(score: _Score, line: _Breather, event: BreathEvent) -> float:
 
 
 def _rests_used(line: _Breather, score: _Score, given: _Given) -> _RestsUsed:
-    """Decide which rests are breathed in: the first breath, those set by hand and those that were blown always are."""
+    """Decide which rests are breathed in: the first breath, those set by hand, written and blown always are."""
     _, steady_used, refill = _taken(line, score, given)
     needs = rest_needs(score.rests.lasts_s, line.parameters.breath_need, score.lung_s)
-    certain = [line.number_of(event) for event in given.by_hand]
+    certain = [*line.marked, *(line.number_of(event) for event in given.by_hand)]
     # No rest is needed for a breath within a note.
     within = [line.number_of(event) for event in given.kept if event.is_within]
     certain += [index for index in within if not score.rests.lasts_s[index]]
@@ -406,7 +441,12 @@ def _in_rests(
         if event.is_within or index == 0 or score.gaps is not None:
             result.append(event)
         elif index not in unused:
-            reason = AIR_SHORT if index in rests.spare else why(index, score.rests.lasts_s, rests.needs, rests.decided)
+            if line.written.breath[index - 1]:
+                reason = WRITTEN
+            elif index in rests.spare:
+                reason = AIR_SHORT
+            else:
+                reason = why(index, score.rests.lasts_s, rests.needs, rests.decided)
             if event.draws_air:
                 event = msgspec.structs.replace(event, reason=because(event.reason, reason))
             result.append(event)
@@ -423,36 +463,23 @@ def _catches(
     missing = np.bincount(np.array(shared.left_out, np.int64), minlength=len(line.notes))
 
     def between(times: LineTimes, used: FloatArray, filled: FloatArray, free_s: float) -> list[int]:
-        full = levels(used, score.lung_s, filled)
-        return catch_places(
-            times,
-            used,
-            line.piece,
-            score.lung_s,
-            filled,
-            full,
-            may,
-            taken,
-            missing,
-            seeds,
-            score.rests.sounding_tick,
-            stock.room,
-            free_s,
-        )
+        compared = ComparedLine(times, line.piece, score.rests.sounding_tick, line.written, taken, seeds)
+        return catch_places(compared, AirSupply(used, score.lung_s, filled, free_s), may, missing, stock.room)
 
-    # All breathe after what they held together, and no one just before it.
+    # All breathe where it is written and after what they held together, and no one just before that.
     after_hold = sorted(shared.after_hold) if score.gaps is None else []
-    first = [index for index in after_hold if may[index] and stock.refill[index] == 0.0]
-    first = [index for index in first if stock.room.length_s[index] > 0.0]
+    first = {*line.marked, *(index for index in after_hold if not line.written.joined[index - 1])}
+    first = {index for index in first if may[index] and stock.refill[index] == 0.0 and stock.room.length_s[index] > 0.0}
     given = stock.refill.copy()
-    given[first] = np.minimum(stock.room.lasts_s[first] / FULL_BREATH_S, 1.0)
+    at = sorted(first)
+    given[at] = np.minimum(stock.room.lasts_s[at] / FULL_BREATH_S, 1.0)
     may = may.copy()
     may[[index - 1 for index in after_hold]] = False
     # Who breathes in every rest, as the thesis has it, or only when empty, needs no breath for a phrase's end.
     free_s = (line.parameters.breath_need or 1.0) * score.lung_s
     catches = between(score.steady, stock.steady_used, given, free_s)
     if score.steady is score.written:
-        return stock.room.apart(sorted((*first, *catches)))
+        return stock.room.apart(sorted({*first, *catches}))
     filled = given.copy()
     filled[catches] = np.minimum(stock.room.lasts_s[catches] / FULL_BREATH_S, 1.0)
     again = short_catches(stock.used, score.lung_s, given, filled)
@@ -467,7 +494,7 @@ def _caught(
     """The catch breaths before some notes, but for those in rests that would have given one."""
     found: dict[int, BreathEvent] = {}
     if score.gaps is not None:
-        blown = [index for index in catches if score.gaps.played[index]]
+        blown = [index for index in catches if score.gaps.played[index] and not line.written.breath[index - 1]]
         found = {index: blown_catch(line.notes[index], line.piece, score.gaps, index) for index in blown}
     found |= _made(line, stock, score.lung_s, [index for index in catches if index not in found], after_hold)
     return [found[index] for index in catches]
@@ -491,6 +518,19 @@ def _cut_notes(line: _Breather, events: tuple[BreathEvent, ...]) -> tuple[dict[i
             early_end_s[before] = max(event.start_s, float(times.onset_s[before]))
             before -= 1
     return early_end_s, problems
+
+
+def _broken_slurs(line: _Breather, caught: list[BreathEvent], room: Room) -> list[Problem]:
+    """Return what is to be said of catch breaths under slurs, unless they are written too."""
+    problems = []
+    for event in caught:
+        index = line.number_of(event)
+        first = index - 1 - (int(room.dropped[index]) if room.length_s[index] == 0.0 else 0)
+        if line.written.joined[[first, index - 1]].any() and not line.written.breath[index - 1]:
+            note_id = line.notes[index - 1].id
+            message = Message("breath.breaks_slur", {"note": note_id})
+            problems.append(Problem(message, note_id, event.start_s, event.end_s))
+    return problems
 
 
 def _needed_s(stock: _Stock, lung_s: float, first: IntArray, last: IntArray) -> tuple[FloatArray, FloatArray]:
@@ -553,7 +593,10 @@ def _made(
             "lung_s": round(full_s, 2),
         }
         after = notes[index - 1].id
-        if index in after_hold and not dropped:
+        short: dict[str, Argument] = {"after_note": after, "from_note_ms": round(from_note_s * 1000.0)}
+        if line.written.breath[index - 1]:
+            reason = Message("breath.written", short)
+        elif index in after_hold and not dropped:
             reason = Message("breath.after_hold", {"after_note": after})
         elif dropped > 1:
             first_note = notes[index - dropped].id
@@ -561,9 +604,10 @@ def _made(
         elif dropped:
             reason = Message("breath.catch_dropped", {"after_note": after, **why})
         elif index in phrase_ends:
-            reason = Message("breath.phrase_end", {"after_note": after, "from_note_ms": round(from_note_s * 1000.0)})
+            reason = Message("breath.phrase_end", short)
         else:
-            reason = Message("breath.catch", {"after_note": after, **why, "from_note_ms": round(from_note_s * 1000.0)})
+            is_slurred = line.written.joined[index - 1]
+            reason = Message("breath.catch_slurred" if is_slurred else "breath.catch", {**short, **why})
         found[index] = BreathEvent(
             id=f"breath:{notes[index].id}",
             kind="breath",

@@ -1,6 +1,7 @@
 """The breaths in rests, or in the silences of a recorded breath.
 
-Their messages are those of `app.plan.breath.breaths`; and ``breath.why_short``, ``breath.why_not_recorded``.
+Their messages are those of `app.plan.breath.breaths`; and ``breath.why_short``, ``breath.why_written``,
+``breath.why_not_recorded``.
 """
 
 from __future__ import annotations
@@ -25,6 +26,7 @@ from app.score.model import Note
 
 AIR_SHORT: Final[Mapping[str, Argument]] = {"why": "breath.why_short"}
 """Reason for a breath in a rest that is not needed as such, for `because`: nothing better comes in time."""
+WRITTEN: Final[Mapping[str, Argument]] = {"why": "breath.why_written"}
 NOT_RECORDED: Final[Mapping[str, Argument]] = {"why": "breath.why_not_recorded"}
 
 

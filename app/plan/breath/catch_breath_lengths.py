@@ -50,6 +50,25 @@ class Room:
         """(N,): how long it is, of the one kind or the other."""
         return np.where(self.length_s > 0.0, self.length_s, self.drop_s)
 
+    def with_marks(self, marked: Sequence[int], times: LineTimes) -> Room:
+        """The same where a breath before some notes is in the score: as long as the note before allows, however short
+        that is, and no note around is left out for another breath.
+
+        Parameters
+        ----------
+        times : LineTimes
+            The line as it sounds.
+        """
+        if not marked:
+            return self
+        before_s = np.append(0.0, times.duration_s[:-1])
+        most_s = gaps_s(times) + np.maximum(before_s - LEAST_PLAYED_S, before_s / 2.0)
+        length_s, at = self.length_s.copy(), np.array(marked)
+        length_s[at] = np.where(length_s[at] > 0.0, length_s[at], np.minimum(most_s[at], CATCH_MIN_S))
+        until = np.searchsorted(at, np.arange(len(length_s)))
+        free = until == np.searchsorted(at, np.arange(len(length_s)) - self.dropped)
+        return Room(length_s, np.where(free, self.drop_s, 0.0), self.dropped)
+
     def left_out(self, catches: Sequence[int]) -> tuple[int, ...]:
         """The notes (by index) that are left out for catch breaths before some notes."""
         dropping = [index for index in catches if self.length_s[index] == 0.0]

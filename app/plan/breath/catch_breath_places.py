@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 from functools import lru_cache
+from typing import NamedTuple
 
 import numpy as np
 
 from app.arrays import BoolArray, FloatArray, IntArray
 from app.plan.breath.catch_breath_lengths import MOST_DROPPED, Room
-from app.plan.breath.lungs import FULL_BREATH_S, HASTY_SHARE
-from app.plan.breath.phrase_ends import place_costs, slur_costs
+from app.plan.breath.lungs import FULL_BREATH_S, HASTY_SHARE, levels
+from app.plan.breath.phrase_ends import ComparedLine, place_costs, slur_costs
 from app.plan.breath.rests_for_breath import LEAST_PLAYED_S
-from app.plan.music.piece import EPSILON, LineTimes, Piece, Seeds
+from app.plan.music.piece import EPSILON
 
 LEAST_COST = 0.2
 """A breath costs so much at least before the air is used up that asks for one at a phrase's end."""
@@ -32,21 +33,28 @@ NEAR = MOST_DROPPED
 """So many notes apart they are near."""
 
 
-def catch_places(
-    times: LineTimes,
-    used: FloatArray,
-    piece: Piece,
-    lung_s: float,
-    refill: FloatArray,
-    level: FloatArray,
-    may: BoolArray,
-    taken: BoolArray,
-    missing: IntArray,
-    seeds: Seeds,
-    rests: IntArray,
-    room: Room,
-    free_s: float,
-) -> list[int]:
+class AirSupply(NamedTuple):
+    """The air of a line.
+
+    Attributes
+    ----------
+    used : (N + 1,) float64
+        `air_used_s`.
+    lung_s : float
+        `lungful_s`.
+    refill : (N,) float64
+        Part of the lungs that the breath before each note fills; 0 where there is none.
+    free_s : float
+        Air that is used before a breath is taken for a phrase's end alone.
+    """
+
+    used: FloatArray
+    lung_s: float
+    refill: FloatArray
+    free_s: float
+
+
+def catch_places(line: ComparedLine, lungs: AirSupply, may: BoolArray, missing: IntArray, room: Room) -> list[int]:
     """Indices of the notes before which a catch breath is taken.
 
     Between two breaths that the rests give, the cheapest chain of places such that no stretch takes more air than
@@ -55,27 +63,15 @@ def catch_places(
 
     Parameters
     ----------
-    used : (N + 1,) float
-        `air_used_s`.
-    lung_s : float
-        `lungful_s`.
-    refill : (N,) float
-        Part of the lungs that the breath before each note fills; 0 where there is none.
-    level : (N,) float
-        How full the lungs are at each note.
     may : (N,) bool
         Before which notes the rules may place a breath.
-    taken : (N,) bool
-        Before which notes another player of the same line breathes.
     missing : (N,) int64
         How many other players of the same rhythm leave out each note.
-    rests : (N,) int64
-        Ticks of rest before each note, as `app.plan.music.rests.rest_ticks` finds them.
     room : Room
         What is left out of a line is left out only where nothing else gives the air.
-    free_s : float
-        Air that is used before a breath is taken for a phrase's end alone.
     """
+    used, lung_s, refill, free_s = lungs
+    level = levels(used, lung_s, refill)
     may = may & (refill == 0.0)
     open_ = may & (room.length_s > 0.0)
     open_[0] = False
@@ -91,9 +87,9 @@ def catch_places(
     dropping = may & ~open_ & (room.drop_s > 0.0)
     cost = np.full(len(refill), np.inf)
     at = np.concatenate([start + 1 + np.flatnonzero(open_[start + 1 : end]) for start, end, _ in stretches])
-    cost[at] = place_costs(times, piece, rests, at, taken, seeds)
+    cost[at] = place_costs(line, at)
     air_s = np.minimum(room.lasts_s / FULL_BREATH_S, 1.0) * lung_s
-    played_s = np.concatenate(([0.0], np.cumsum(times.duration_s)))
+    played_s = np.concatenate(([0.0], np.cumsum(line.times.duration_s)))
 
     def chain(start: int, end: int, allowed: BoolArray) -> tuple[list[int], bool]:
         places = start + 1 + np.flatnonzero(allowed[start + 1 : end])
@@ -111,7 +107,7 @@ def catch_places(
 
     # Where the air lasts only a phrase's end is worth a breath, and in no rest: `app.plan.breath.rests_for_breath` says
     # in which.
-    ends_phrase = open_ & (cost < 0.0) & (rests == 0)
+    ends_phrase = open_ & (cost < 0.0) & (line.rests == 0)
     result: list[int] = []
     for start, end, is_short in stretches:
         if not is_short:
@@ -123,8 +119,8 @@ def catch_places(
         if len(also) and not (is_enough and (cost[found] < DROPPED_COST).all()):
             # As good as a breath before the notes that are left out, but for these.
             dropped = room.dropped[also]
-            cost[also] = place_costs(times, piece, rests, also - dropped, taken, seeds, dropped)
-            cost[also] += DROPPED_COST * dropped + slur_costs(times, rests, also)
+            cost[also] = place_costs(line, also - dropped, dropped)
+            cost[also] += DROPPED_COST * dropped + slur_costs(line, also)
             before = np.concatenate(([0], np.cumsum(missing)))
             others = before[np.minimum(also + NEAR, len(missing))] - before[np.maximum(also - dropped - NEAR, 0)]
             cost[also] += MISSING_COST * others

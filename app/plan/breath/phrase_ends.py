@@ -18,6 +18,7 @@ from app.arrays import BoolArray, FloatArray, IntArray
 from app.plan.breath.catch_breath_lengths import CATCH_MIN_S, CATCH_NOTE_SHARE, MOST_DROPPED
 from app.plan.music.notation import PLACES, written_onsets
 from app.plan.music.piece import EPSILON, LineTimes, Piece, Seeds, gaps_s, staccato
+from app.plan.music.written_marks import WrittenMarks
 
 # Learned: log odds of a phrase's end, each where ...
 LONG_NOTE: Final = 0.8
@@ -69,6 +70,8 @@ IN_STACCATO: Final = -40.0
 AGAIN_NOTES: Final = 4
 SLURRED: Final = -40.0
 """Within a slur: only without any air left."""
+WRITTEN_SLUR: Final = -300.0
+"""Within a slur of the score: rather notes are left out, or two breaths come close together, elsewhere."""
 ALL_SLURRED: Final = (0.75, 0.9)
 """Where more than this part of the notes run into the next one, this is how they are played and no phrasing: the slurs
 count less, and from the second value on not at all."""
@@ -80,6 +83,27 @@ JITTER: Final = 0.2
 """Players differ where places are equally good."""
 TAKEN_COST: Final = 6.0
 """Where another player of the same line breathes: players stagger."""
+
+
+class ComparedLine(NamedTuple):
+    """A line, and what is known of it where places for breaths are compared.
+
+    Attributes
+    ----------
+    rests : (N,) int64
+        Ticks of rest before each note, as `app.plan.music.rests.rest_ticks` finds them.
+    taken : (N,) bool
+        Before which notes another player of the same line breathes.
+    seeds : Seeds
+        What distinguishes this player where places are equally good.
+    """
+
+    times: LineTimes
+    piece: Piece
+    rests: IntArray
+    written: WrittenMarks
+    taken: BoolArray
+    seeds: Seeds
 
 
 class _Places(NamedTuple):
@@ -113,45 +137,36 @@ class _Places(NamedTuple):
     long: FloatArray
 
 
-def place_costs(
-    times: LineTimes,
-    piece: Piece,
-    rests: IntArray,
-    at: IntArray,
-    taken: BoolArray,
-    seeds: Seeds,
-    dropped: IntArray | int = 0,
-) -> FloatArray:
+def place_costs(line: ComparedLine, at: IntArray, dropped: IntArray | int = 0) -> FloatArray:
     """(K,): what a breath before each of the notes ``at`` (1 and up) costs.
 
     Below 0 the end of the phrase asks for a breath while there is air.
 
     Parameters
     ----------
-    taken : (N,) bool
-        Before which notes another player of the same line breathes.
     dropped : (K,) int64
         How many notes from there on are left out for it.
     """
     if not len(at):
         return np.zeros(0)
-    places = _places(times, piece, rests, at, dropped)
+    times, rests = line.times, line.rests
+    places = _places(line, at, dropped)
     onset, rest = places.onsets[at], rests[at] > 0
+    quarter = line.piece.clock.ticks_per_quarter
     good = _phrase_end(times, places, rests, at)
     good += REST * rest + SILENCE * (times.silence_tick[at] > 0)
-    good += _against(times, places, rests, at, piece.clock.ticks_per_quarter)
-    good -= slur_costs(times, rests, at)
+    good += _against(line, places, at)
+    good -= slur_costs(line, at)
     good += BEFORE_REST * (~rest & _rest_follows(rests, places.onsets, at, places.beat))
     taken_share = (CATCH_MIN_S - gaps_s(times)[at]) / np.maximum(times.duration_s[at - 1], EPSILON)
     good += CLIPPED * np.clip(taken_share / CATCH_NOTE_SHARE - 1.0, 0.0, 1.0)
-    quarter = piece.clock.ticks_per_quarter
-    good += JITTER * seeds.chances_at("catch", onset, (2 * PLACES * onset + quarter) // (2 * quarter))
-    good -= TAKEN_COST * taken[at]
+    good += JITTER * line.seeds.chances_at("catch", onset, (2 * PLACES * onset + quarter) // (2 * quarter))
+    good -= TAKEN_COST * line.taken[at]
     return np.asarray(PLACE_COST - good, dtype=np.float64)
 
 
-def _places(times: LineTimes, piece: Piece, rests: IntArray, at: IntArray, dropped: IntArray | int) -> _Places:
-    onsets = times.onset_tick
+def _places(line: ComparedLine, at: IntArray, dropped: IntArray | int) -> _Places:
+    piece, onsets = line.piece, line.times.onset_tick
     beat = piece.beat_ticks_at(onsets[at])
     bars = piece.bars(int(onsets[0]), int(onsets[-1]) + 1)
     onsets = written_onsets(onsets, piece.clock.ticks_per_quarter, bars)
@@ -159,7 +174,7 @@ def _places(times: LineTimes, piece: Piece, rests: IntArray, at: IntArray, dropp
     strength = _strength(onsets, bars, piece.beat_ticks_at(onsets))
     strongest = np.max([strength[at + np.minimum(dropped, more)] for more in range(MOST_DROPPED + 1)], axis=0)
     runs = steps[at - 1] <= RUNNING * beat
-    like = _like_entries(rests, onsets, at, bars)
+    like = _like_entries(line.rests, onsets, at, bars)
     long = np.clip(np.log2(steps[at - 1] / _lengths_around(steps.astype(np.float64))[at]), 0.0, 2.0)
     return _Places(onsets, steps, strength, bars, beat, strength[at - 1] - strongest, runs, like, long)
 
@@ -182,21 +197,21 @@ def _phrase_end(times: LineTimes, places: _Places, rests: IntArray, at: IntArray
     return good
 
 
-def _against(times: LineTimes, places: _Places, rests: IntArray, at: IntArray, quarter_ticks: int) -> FloatArray:
+def _against(line: ComparedLine, places: _Places, at: IntArray) -> FloatArray:
     """(K,): what speaks for and, mostly, against breaths among running, dotted and staccato notes."""
     onsets, steps, strength, runs, falls = places.onsets, places.steps, places.strength, places.runs, places.falls
-    rest = rests[at] > 0
+    times, rest = line.times, line.rests[at] > 0
     # Slurs that are known say where a short note before a bar line is an upbeat.
-    slurs_known = bool(times.slurs_next[:-1].any()) and _legato(times, rests) == 0.0
+    slurs_known = bool(times.slurs_next[:-1].any()) and _legato(line) == 0.0
     leads_to = strength[np.minimum(at + 1, len(onsets) - 1)]
     tail = ~rest & (2 * steps[at] <= places.beat - (slurs_known & (leads_to == BAR_STRENGTH)))
     tail &= _are_dotted(steps[at - 1], steps[at]) & (leads_to > 0 if slurs_known else strength[at] == 0)
-    short = staccato(onsets, onsets + times.played_end_tick - times.onset_tick, quarter_ticks)
+    short = staccato(onsets, onsets + times.played_end_tick - times.onset_tick, line.piece.clock.ticks_per_quarter)
     # A long note or a rest ends what led to the next one.
     leads = ~rest & (places.long < 1.0)
     good: FloatArray = BEFORE_TAIL * tail + IN_STACCATO * (~rest & _in_a_row(short)[at])
     good += runs * (BEFORE_UPBEAT * np.maximum(falls, 0) + AFTER_UPBEAT * np.maximum(-falls, 0) * leads)
-    good += AFTER_ENTRY * (~rest & runs & (falls < 0) & (rests[at - 1] > 0))
+    good += AFTER_ENTRY * (~rest & runs & (falls < 0) & (line.rests[at - 1] > 0))
     return good
 
 
@@ -213,17 +228,21 @@ def _are_dotted(long: IntArray, short: IntArray) -> BoolArray:
     return (long > 2 * short) & (long < 4 * short) | doubly
 
 
-def slur_costs(times: LineTimes, rests: IntArray, at: IntArray) -> FloatArray:
+def slur_costs(line: ComparedLine, at: IntArray) -> FloatArray:
     """(K,): what a breath before each of the notes ``at`` costs for the slur that leads to it."""
-    return np.asarray(-SLURRED * (1.0 - _legato(times, rests)) * times.slurs_next[at - 1], dtype=np.float64)
+    heard = -SLURRED * (1.0 - _legato(line)) * line.times.slurs_next[at - 1]
+    return np.asarray(np.where(line.written.joined[at - 1], -WRITTEN_SLUR, heard), dtype=np.float64)
 
 
-def _legato(times: LineTimes, rests: IntArray) -> float:
-    """0..1: how far notes are slurred throughout, so that slurs say nothing about phrases.
+def _legato(line: ComparedLine) -> float:
+    """0..1: how far notes are slurred throughout, so that slurs say nothing about phrases; those of a score always do.
 
     Notes before a rest do not count, nor repeated notes: a key has to be let go before it is pressed again.
     """
-    could = (rests[1:] == 0) & (np.diff(times.pitch) != 0)
+    if line.written.is_score:
+        return 0.0
+    times = line.times
+    could = (line.rests[1:] == 0) & (np.diff(times.pitch) != 0)
     share = float(times.slurs_next[:-1][could].mean()) if could.any() else 0.0
     return float(np.interp(share, ALL_SLURRED, (0.0, 1.0)))
 

@@ -44,7 +44,9 @@ class WrittenMarks:
     source : {"sound", "score"}
         Of a score a note without marks has none; of a sound they are unknown.
     slurred : bool
-        Whether the next note lies under one slur with it.
+        Whether the next note is slurred to it.
+    joined : bool
+        Whether one slur is over it and the next note, divided or not.
     divided : bool
         Whether it is tongued softly under a slur (portato).
     breath : bool
@@ -61,6 +63,7 @@ class WrittenMarks:
 
     source: Source
     slurred: BoolArray
+    joined: BoolArray
     divided: BoolArray
     breath: BoolArray
     stroke: tuple[str, ...]
@@ -121,16 +124,17 @@ def written_marks(
     dividing = np.fromiter((mark in DIVIDING for mark in stroke), bool, count)
     divided = under & dividing
     # The stroke of the next note divides them.
-    slurred &= ~np.append(divided[1:], False)[:count]
+    joined = slurred
+    slurred = joined & ~np.append(divided[1:], False)[:count]
     level, struck = _levels(notes, marks, ticks_per_quarter)
-    return WrittenMarks(source, slurred, divided, breath, tuple(stroke), tuple(tonguing), level, struck)
+    return WrittenMarks(source, slurred, joined, divided, breath, tuple(stroke), tuple(tonguing), level, struck)
 
 
 def unwritten(count: int) -> WrittenMarks:
     """Return the marks of so many notes without any, read from sound."""
     none = np.zeros(count, dtype=bool)
     names = ("",) * count
-    return WrittenMarks("sound", none, none, none, names, names, np.full(count, np.nan), none)
+    return WrittenMarks("sound", none, none, none, none, names, names, np.full(count, np.nan), none)
 
 
 def _levels(notes: Sequence[Note], marks: Iterable[Mark], quarter: int) -> tuple[FloatArray, BoolArray]:
