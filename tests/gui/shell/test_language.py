@@ -35,7 +35,21 @@ from widgets.common.font import JAPANESE_FAMILIES
 KEPT = (
     ".toml",
     ".glb",
-    *("MIDI", "FBX", "BVH", "VMC", "Suisou", "Qt", "Python", "PySide6", "English", "Apache License", "OpenGL", "Esc"),
+    *(
+        "MIDI",
+        "MusicXML",
+        "FBX",
+        "BVH",
+        "VMC",
+        "Suisou",
+        "Qt",
+        "Python",
+        "PySide6",
+        "English",
+        "Apache License",
+        "OpenGL",
+        "Esc",
+    ),
     *("Ctrl", "Shift", "Alt", "Home", "End", "Space", "Enter", "Return", "Backspace", "Del", "Delete", "Tab", "Ins"),
     *("Left", "Right", "Up", "Down", "PgUp", "PgDown", "fps", "CPU", "GL", "ms"),
 )

@@ -236,7 +236,7 @@ def test_the_windows_thread_copies_no_figures(
     assert loaded.crowd is not None
     assert {row for row, _ in loaded.crowd.parts} == set(range(len(loaded.stage.members)))
     made = []
-    monkeypatch.setattr("widgets.viewport.renderer.crowd", lambda parts: made.append(parts))
+    monkeypatch.setattr("widgets.viewport.shapes.crowd", lambda parts: made.append(parts))
     panel.resize(*SIZE)
     show(panel)
     panel.render_image(64, 36, AT_S)

@@ -9,14 +9,13 @@ from typing import Final
 
 import msgspec
 from PySide6.QtCore import QSize, Qt, QTimer, Signal
-from PySide6.QtGui import QColor, QDragEnterEvent, QDropEvent, QKeyEvent
-from PySide6.QtWidgets import QPushButton, QSpinBox, QTreeWidgetItem, QWidget
+from PySide6.QtGui import QDragEnterEvent, QDropEvent, QKeyEvent
+from PySide6.QtWidgets import QPushButton, QSpinBox, QWidget
 
 from app.choreography.cuts_by_hand import Cuts
 from app.choreography.learn import analyse, learn, summary
 from app.choreography.model import ChoreographyModel
 from app.choreography.model_file import write_model
-from app.choreography.music_offset import CONFIDENT
 from app.choreography.read_pair import CREDITS_SUFFIX, read_pair
 from app.editor.session import Session
 from app.editor.tasks import Progress, StopRequested
@@ -25,7 +24,7 @@ from app.errors import AppError, Cancelled, Message
 from app.project.choreography_files import SUFFIX
 from app.score.suffixes import MUSIC
 from widgets.common.clicks import on_click
-from widgets.common.controls import Button, Caption, ColumnList, named, selectable
+from widgets.common.controls import Button, Caption, named, selectable
 from widgets.common.layouts import STRETCH, begin_with_size, in_column, in_form, in_row, panel
 from widgets.common.paths import PathEdit, ask_for_files, ask_where_to_save, dropped_paths
 from widgets.common.plain import Label
@@ -35,11 +34,10 @@ from widgets.dialogs.choreography.cut_panel import CutHistory, CutPanel
 from widgets.dialogs.choreography.learn_draft import MOTION_SUFFIXES, PairContents, PairDraft, with_files
 from widgets.dialogs.choreography.learn_pair import PairForm
 from widgets.dialogs.choreography.learn_rows import (
-    COLUMNS,
+    PairList,
     PairRead,
     PairRow,
-    offset_confidence,
-    row_texts,
+    missing_text,
     training_pair,
 )
 from widgets.dialogs.working import WorkingDialog
@@ -50,7 +48,6 @@ _POLL_MS: Final = 100
 _FORM_PX: Final = 420
 _SIZE: Final = QSize(1180, 840)
 _LEAST_PX: Final = 900
-_RIGHT: Final = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
 
 
 @dataclass(frozen=True, eq=False)
@@ -88,10 +85,7 @@ class LearnDialog(WorkingDialog):
         self._failure: Message | None = None
         self._unknown: tuple[Path, ...] = ()
 
-        self.list = self.texted(
-            ColumnList("learn_pairs", *COLUMNS.values(), stretches=(0, 1)),
-            name="learn_dialog.pairs_of_motion_and_music",
-        )
+        self.list = self.texted(PairList(), name="learn_dialog.pairs_of_motion_and_music")
         self.form, self.cuts = PairForm(), CutPanel(session)
         self._add = Button("learn_dialog.add", self._ask_for_files, "learn_add")
         self._remove = Button("learn_dialog.remove", self._remove_pair, "learn_remove")
@@ -118,8 +112,6 @@ class LearnDialog(WorkingDialog):
     def _build(self) -> None:
         for button in (self._use, self._close):
             button.setAutoDefault(False)
-        for column in range(2, len(COLUMNS)):
-            self.list.headerItem().setTextAlignment(column, _RIGHT)
         self._seed.setRange(0, MOST_SEED)
         self._seed.lineEdit().setTextMargins(TEXT_MARGIN_PX, 0, 0, 0)
         # Files that are dropped are the dialog's, not text of a field.
@@ -313,20 +305,8 @@ class LearnDialog(WorkingDialog):
 
     def _missing(self) -> str:
         """What is to be done before anything can be learned; empty: nothing."""
-        if not self._rows:
-            return self.tr("learn_dialog.add_motion_files_and_midi")
-        for at, row in enumerate(self._rows):
-            if row.draft.motion is None:
-                return self.tr("learn_dialog.pair_choose_its_motion").format(n=at + 1)
-            if row.draft.music is None:
-                return self.tr("learn_dialog.pair_choose_its_music").format(n=at + 1)
-            if row.found.error is not None:
-                return self.tr("learn_dialog.pair").format(n=at + 1, error=message_text(row.found.error))
-        if any(row.reading for row in self._rows):
-            return self.tr("learn_dialog.reading_files")
-        if self._target is None:
-            return self.tr("learn_dialog.choose_where_to_save_choreography")
-        return ""
+        nowhere = "" if self._target is not None else self.tr("learn_dialog.choose_where_to_save_choreography")
+        return missing_text(self._rows) or nowhere
 
     def _ask_where(self) -> None:
         proposal = self._target or self._folder / f"choreography{SUFFIX}"
@@ -350,29 +330,7 @@ class LearnDialog(WorkingDialog):
         self._show_state()
 
     def _show_list(self) -> None:
-        tokens = self._session.tokens
-        self.list.blockSignals(True)
-        while self.list.topLevelItemCount() > len(self._rows):
-            self.list.takeTopLevelItem(self.list.topLevelItemCount() - 1)
-        while self.list.topLevelItemCount() < len(self._rows):
-            self.list.addTopLevelItem(QTreeWidgetItem())
-        for at, row in enumerate(self._rows):
-            item = self.list.topLevelItem(at)
-            assert item is not None, "one for each pair"
-            for column, text in enumerate(row_texts(row)):
-                item.setText(column, text)
-                if column > 1:
-                    item.setTextAlignment(column, _RIGHT)
-            wrong = row.found.error is not None
-            doubtful = row.draft.offset_s is None and offset_confidence(row) < CONFIDENT
-            for column, name in enumerate(COLUMNS):
-                colour = tokens.error if wrong else tokens.text
-                if name in ("offset", "confidence") and doubtful:
-                    colour = tokens.warning
-                item.setForeground(column, QColor(colour))
-                path = getattr(row.draft, name, None)
-                item.setToolTip(column, shown(str(path)) if isinstance(path, Path) else "")
-        self.list.blockSignals(False)
+        self.list.show_rows(self._rows, self._session.tokens)
         self._remove.setEnabled(self._row is not None and not self._running)
 
     def _show_pair(self) -> None:

@@ -2,14 +2,27 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
+from pathlib import Path
 from typing import Final
 
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QColor
+from PySide6.QtWidgets import QTreeWidgetItem
+
 from app.choreography.learn import Pair
+from app.choreography.music_offset import CONFIDENT
+from app.editor.tokens import Tokens
+from app.editor.translated import tr
+from app.encoding import shown
+from widgets.common.controls import ColumnList
+from widgets.common.text import message_text
 from widgets.dialogs.choreography.cut_panel import CutHistory
 from widgets.dialogs.choreography.learn_draft import PairContents, PairDraft
 from widgets.dialogs.choreography.learn_pair import file_name
 
+_RIGHT: Final = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
 COLUMNS: Final = {
     "motion": "learn_dialog.motion",
     "music": "learn_dialog.music",
@@ -63,6 +76,7 @@ def training_pair(row: PairRow) -> Pair | None:
 
 
 def offset_confidence(row: PairRow) -> float:
+    """Return how sure the found offset is, 0..1; 1 before there is one."""
     return 1.0 if row.found.analysis is None else row.found.analysis.offset.confidence
 
 
@@ -81,3 +95,53 @@ def row_texts(row: PairRow) -> tuple[str, ...]:
         f"{found_s if draft.offset_s is None else draft.offset_s:.2f}",
         f"{analysis.offset.confidence:.2f}" if draft.offset_s is None else "–",
     )
+
+
+def missing_text(rows: Sequence[PairRow]) -> str:
+    """Return what is to be done with the pairs before anything can be learned; empty: nothing."""
+    if not rows:
+        return tr("learn_dialog.add_motion_files_and_midi")
+    for at, row in enumerate(rows):
+        if row.draft.motion is None:
+            return tr("learn_dialog.pair_choose_its_motion").format(n=at + 1)
+        if row.draft.music is None:
+            return tr("learn_dialog.pair_choose_its_music").format(n=at + 1)
+        if row.found.error is not None:
+            return tr("learn_dialog.pair").format(n=at + 1, error=message_text(row.found.error))
+    if any(row.reading for row in rows):
+        return tr("learn_dialog.reading_files")
+    return ""
+
+
+class PairList(ColumnList):
+    """The pairs as rows: their files, and what was found in them."""
+
+    def __init__(self) -> None:
+        super().__init__("learn_pairs", *COLUMNS.values(), stretches=(0, 1))
+        for column in range(2, len(COLUMNS)):
+            self.headerItem().setTextAlignment(column, _RIGHT)
+
+    def show_rows(self, rows: Sequence[PairRow], tokens: Tokens) -> None:
+        """Show these pairs."""
+        self.blockSignals(True)
+        while self.topLevelItemCount() > len(rows):
+            self.takeTopLevelItem(self.topLevelItemCount() - 1)
+        while self.topLevelItemCount() < len(rows):
+            self.addTopLevelItem(QTreeWidgetItem())
+        for at, row in enumerate(rows):
+            item = self.topLevelItem(at)
+            assert item is not None, "one for each pair"
+            for column, text in enumerate(row_texts(row)):
+                item.setText(column, text)
+                if column > 1:
+                    item.setTextAlignment(column, _RIGHT)
+            wrong = row.found.error is not None
+            doubtful = row.draft.offset_s is None and offset_confidence(row) < CONFIDENT
+            for column, name in enumerate(COLUMNS):
+                colour = tokens.error if wrong else tokens.text
+                if name in ("offset", "confidence") and doubtful:
+                    colour = tokens.warning
+                item.setForeground(column, QColor(colour))
+                path = getattr(row.draft, name, None)
+                item.setToolTip(column, shown(str(path)) if isinstance(path, Path) else "")
+        self.blockSignals(False)

@@ -19,6 +19,7 @@ from widgets.timeline.lane import LaneMouse
 from widgets.timeline.lanes.problems import ProblemMarks
 from widgets.timeline.lanes.regions import RegionLane
 from widgets.timeline.model.regions.shown_event import Region
+from widgets.timeline.model.regions.shown_regions import removed_regions
 from widgets.timeline.plot.drawing import draw_mark, draw_text, shade
 from widgets.timeline.plot.time_axis import TimeAxis
 
@@ -53,7 +54,7 @@ class BreathLane(RegionLane):
             )
             for event in plan.breaths
         ]  # fmt: skip
-        return regions + self.removed_regions(plan, BREATH_KINDS, lambda kind: 0), 1
+        return regions + removed_regions(self.session.project, plan, BREATH_KINDS, lambda kind: 0), 1
 
     def paint_region(self, painter: QPainter, region: Region, box: QRectF, selected: bool) -> None:
         tokens, player = self.session.tokens, self.session.player

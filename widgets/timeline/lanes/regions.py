@@ -14,7 +14,6 @@ from app.editor.selection import EventKey, Selection
 from app.editor.session import Session
 from app.errors import Message
 from app.plan.by_hand.corrections import RemoveEvent
-from app.plan.event_id import EventId
 from app.plan.model import PlayerPlan
 from app.project.document import Change
 from app.project.edit.events import set_amounts
@@ -26,7 +25,7 @@ from widgets.timeline.lanes.number_field import NumberField
 from widgets.timeline.model.gestures import snapped
 from widgets.timeline.model.hand import PixelRect
 from widgets.timeline.model.regions.region_drag import RegionDrag
-from widgets.timeline.model.regions.shown_event import Region, place_of
+from widgets.timeline.model.regions.shown_event import Region
 from widgets.timeline.model.regions.shown_regions import (
     GLYPH_PX,
     RegionTable,
@@ -222,38 +221,6 @@ class RegionLane(Lane):
 
     def regions_refreshed(self) -> None:
         """The regions are others."""
-
-    def removed_regions(self, plan: PlayerPlan, kinds: Iterable[str], row: Callable[[str], int]) -> list[Region]:
-        """Marks of what the user took out of the generator's."""
-        project, among = self.session.project, frozenset(kinds)
-        onsets: dict[str, int] = {}
-        result = []
-        for item in project.corrections.get(plan.player_id, ()):
-            kind = EventId.parse(item.event_id).kind if isinstance(item, RemoveEvent) else ""
-            if not isinstance(item, RemoveEvent) or kind not in among:
-                continue
-            if not onsets:
-                onsets = {note.id: note.onset_tick for note in project.part(project.player(plan.player_id)).notes}
-            tick = place_of(item.event_id, onsets)
-            at_s = plan.time_frame.first_frame_s if tick is None else project.score.tempo_map.seconds(float(tick))
-            tick = round(project.score.tempo_map.ticks(at_s))
-            result.append(
-                Region(
-                    plan.player_id,
-                    item.event_id,
-                    kind,
-                    tick,
-                    tick,
-                    at_s,
-                    at_s,
-                    row(kind),
-                    reason=Message("correction.by_hand"),
-                    by_hand=True,
-                    steady=True,
-                    removed=True,
-                )
-            )
-        return result
 
     # What happens around
 

@@ -50,6 +50,7 @@ from widgets.timeline.model.regions.acting_regions import (
     style_region,
 )
 from widgets.timeline.model.regions.shown_event import Region
+from widgets.timeline.model.regions.shown_regions import removed_regions
 from widgets.timeline.plot.drawing import draw_columns, draw_mark, draw_rects, shade
 from widgets.timeline.plot.time_axis import TimeAxis
 
@@ -128,7 +129,7 @@ class ActingLane(RegionLane):
             first |= dict.fromkeys(kinds, row)
             self.groups.append((kinds[0], row, count))
             row += count
-        removed = self.removed_regions(plan, (*GESTURE_KINDS, "cue", "expression"), first.__getitem__)
+        removed = removed_regions(self.session.project, plan, (*GESTURE_KINDS, "cue", "expression"), first.__getitem__)
         return result + removed, row
 
     def _gestures(self, plan: PlayerPlan) -> list[Region]:

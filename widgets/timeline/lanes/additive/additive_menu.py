@@ -3,36 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection
-from typing import Protocol
 
 from PySide6.QtGui import QAction, QActionGroup
 from PySide6.QtWidgets import QMenu
 
 from app.editor.translated import tr
-from app.plan.by_hand.additive_curve import INTERPOLATIONS, AdditiveCurve, CurveKey, Interpolation
+from app.plan.by_hand.additive_curve import INTERPOLATIONS, AdditiveCurve
 from widgets.common.channel_names import body_groups, face_groups, way_name
 from widgets.common.clicks import on_click, on_switch
 from widgets.common.plain import verbatim
+from widgets.timeline.lanes.additive.additive_edits import CurveEditing
 
 MARKED = "• "
 """Before the names of channels that have curves."""
-
-
-class AdditiveMenuTarget(Protocol):
-    """Interface of the additive lane for its menus: state they read and edits they start."""
-
-    def chosen(self) -> tuple[CurveKey, ...]: ...
-    def interpolate(self, interpolation: Interpolation) -> None: ...
-    def free(self) -> None: ...
-    def flatten(self) -> None: ...
-    def type_value(self) -> None: ...
-    def copy(self) -> None: ...
-    def delete(self) -> None: ...
-    def select_all(self) -> None: ...
-    def type_weight(self, name: str) -> None: ...
-    def type_title(self, name: str) -> None: ...
-    def enable(self, name: str, enabled: bool) -> None: ...
-    def delete_curve(self, name: str) -> None: ...
 
 
 def fill_channels(menu: QMenu, channel: str, used: Collection[str], chosen: Callable[[str], None]) -> None:
@@ -61,7 +44,7 @@ def fill_channels(menu: QMenu, channel: str, used: Collection[str], chosen: Call
         offer(face.addMenu(marked(name, channels)), channels)
 
 
-def add_key_entries(menu: QMenu, lane: AdditiveMenuTarget) -> None:
+def add_key_entries(menu: QMenu, lane: CurveEditing) -> None:
     """Entries about the selected keys."""
     keys = lane.chosen()
     names = {
@@ -87,7 +70,7 @@ def add_key_entries(menu: QMenu, lane: AdditiveMenuTarget) -> None:
     add_entry(menu, "delete_keys", tr("additive_lane.delete_keys"), lane.delete)
 
 
-def add_curve_entries(menu: QMenu, lane: AdditiveMenuTarget, curve: AdditiveCurve) -> None:
+def add_curve_entries(menu: QMenu, lane: CurveEditing, curve: AdditiveCurve) -> None:
     """Entries about a whole curve."""
     name = curve.name
     menu.addSeparator()

@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 
 import numpy as np
 
 from app.arrays import AnyIntArray, IntArray
 from app.editor.selection import EventKey
+from app.errors import Message
+from app.plan.by_hand.corrections import RemoveEvent
+from app.plan.event_id import EventId
+from app.plan.model import PlayerPlan
+from app.project.model import Project
 from widgets.timeline.model.hand import LaneMouse, PixelRect
-from widgets.timeline.model.regions.shown_event import Region, spans_of
+from widgets.timeline.model.regions.shown_event import Region, place_of, spans_of
 from widgets.timeline.model.view import Scale
 
 EDGE_PX = 6.0
@@ -169,3 +174,38 @@ class RegionTable:
         else:
             index = min(range(len(own)), key=lambda place: abs(own[place].start_s - at_s))
         return own[min(max(index, 0), len(own) - 1)]
+
+
+def removed_regions(
+    project: Project, plan: PlayerPlan, kinds: Iterable[str], row: Callable[[str], int]
+) -> list[Region]:
+    """Marks of what the user took out of the generator's."""
+    among = frozenset(kinds)
+    onsets: dict[str, int] = {}
+    result = []
+    for item in project.corrections.get(plan.player_id, ()):
+        kind = EventId.parse(item.event_id).kind if isinstance(item, RemoveEvent) else ""
+        if not isinstance(item, RemoveEvent) or kind not in among:
+            continue
+        if not onsets:
+            onsets = {note.id: note.onset_tick for note in project.part(project.player(plan.player_id)).notes}
+        tick = place_of(item.event_id, onsets)
+        at_s = plan.time_frame.first_frame_s if tick is None else project.score.tempo_map.seconds(float(tick))
+        tick = round(project.score.tempo_map.ticks(at_s))
+        result.append(
+            Region(
+                plan.player_id,
+                item.event_id,
+                kind,
+                tick,
+                tick,
+                at_s,
+                at_s,
+                row(kind),
+                reason=Message("correction.by_hand"),
+                by_hand=True,
+                steady=True,
+                removed=True,
+            )
+        )
+    return result
