@@ -116,7 +116,7 @@ class Files(QObject):
 
     @property
     def name(self) -> str:
-        """What the project is called in the title."""
+        """Name of the project in the title."""
         if self.path is not None:
             return shown(self.path.name)
         score, source = self.session.project.score, self.session.project.source
@@ -126,7 +126,7 @@ class Files(QObject):
 
     @property
     def stem(self) -> str:
-        """What files of the project are proposed to be called, without an ending."""
+        """Proposed name of the project's files, without a suffix."""
         return shown(self.path.stem) if self.path is not None else file_stem(self.name)
 
     @property
@@ -143,8 +143,8 @@ class Files(QObject):
 
     @property
     def recovery_stems(self) -> tuple[Path, ...]:
-        """What unsaved work on this project is called in the folder of unsaved work, without a suffix: this editor's,
-        and that of editors whose work was taken over."""
+        """Paths of this project's unsaved work, without a suffix: this editor's, and those of editors whose work was
+        taken over."""
         if self.autosave is None:
             return ()
         presence = self.autosave.presence

@@ -108,7 +108,7 @@ class PlanWorker(Generic[T]):
             self._changed.notify()
 
     def drop(self) -> None:
-        """What is planned is of no use any more."""
+        """Discard the plans that are being made."""
         with self._changed:
             self._pending = None
             self._dropped.set()

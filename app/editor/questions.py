@@ -26,7 +26,7 @@ class Questions(Protocol):
         """A file to write, its name with one of the suffixes; whether one may be replaced was asked."""
 
     def unsaved(self, name: str) -> Answer:
-        """What becomes of the changes that are in no file."""
+        """Ask whether changes that are in no file are saved, discarded or kept."""
 
     def import_midi(
         self, contents: PieceContents, read_again: ReadAgain, tokens: Tokens, tasks: Tasks

@@ -220,7 +220,7 @@ class Recorder(QObject):
         self._know(self._state.port)
 
     def _know(self, port: str) -> None:
-        """What is remembered of a device."""
+        """Load the stored settings of a device."""
         controllers = load_controllers()
         controller = self._settings.midi_device(port, "controller")
         if controller not in controllers:
@@ -234,7 +234,7 @@ class Recorder(QObject):
         self._state.set(controller=controller, latency_s=latency_s, wiring=self._wiring(port, controllers[controller]))
 
     def _wiring(self, port: str, controller: Controller) -> ControllerMapping:
-        """With what a device sends breath and bite: as was said, else as its kind does."""
+        """Return the controllers that send breath and bite: as set for the device, else as usual for its kind."""
         said = {name: self._settings.midi_device(port, name) for name in ("channel", "breath", "bite")}
         try:
             return msgspec.convert({**said, "channel": int(said["channel"])}, ControllerMapping)
@@ -574,7 +574,7 @@ class Recorder(QObject):
 
 
 def _names(project: Project, player_id: str) -> tuple[str, ...]:
-    """What the takes of a player are called."""
+    """Names of a player's takes."""
     recorded = project.takes.get(player_id)
     return tuple(take.name for take in recorded.takes) if recorded is not None else ()
 

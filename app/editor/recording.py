@@ -87,7 +87,7 @@ class RecordingState(State):
         self.latency_s = 0.0
 
     def set_played(self, breath: float, pitch: int | None) -> None:
-        """What is played now."""
+        """Report the breath and the pitch of the moment."""
         if (breath, pitch) != (self.breath, self.pitch):
             self.breath, self.pitch = breath, pitch
             self.played.emit()

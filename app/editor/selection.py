@@ -42,7 +42,7 @@ class Selection(msgspec.Struct, frozen=True):
         return bool(self.notes or self.events or self.span or self.take is not None)
 
     def within(self, project: Project) -> Selection:
-        """What of it a project has; the same value where that is everything."""
+        """The part of the selection that exists in `project`; `self` if all of it does."""
         notes = self.notes
         if notes:
             notes = frozenset().union(*(notes & part.note_ids for part in project.score.parts))
@@ -56,7 +56,7 @@ class Selection(msgspec.Struct, frozen=True):
         return self if kept == self else kept
 
     def planned(self, plans: Mapping[str, PlayerPlan]) -> Selection:
-        """What of it plans have, by player; the same value where that is everything."""
+        """The part of the selection that exists in the plans, by player; `self` if all of it does."""
         known = {
             player_id: events_of(plans[player_id])
             for player_id in {key.player_id for key in self.events} & plans.keys()

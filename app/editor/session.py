@@ -181,9 +181,8 @@ class Session(QObject):
         return self.plans.get(self._players[0]) if self._players else None
 
     def problems(self, player_id: str) -> tuple[Problem, ...]:
-        """What is wrong with a player's performance, its motion as far as it was made included, by time; the same tuple
-        until that changes, and none before there are plans. Of a dancer, who has no plan, what is wrong with the
-        dance."""
+        """Problems of a player's performance by time, including its motion as far as it was made; the same tuple until
+        they change, and none before there are plans. For a dancer, who has no plan, the problems of the dance."""
         performance, broken = self._performance, self._broken.get(player_id, ())
         planned = performance.problems(player_id) if performance.planned else ()
         if not broken:
@@ -298,7 +297,7 @@ class Session(QObject):
 
     @property
     def selection(self) -> Selection:
-        """What is selected; always of the project as it is."""
+        """The selection; always part of the present project."""
         return self._selection
 
     def select(self, selection: Selection) -> None:

@@ -31,7 +31,7 @@ def in_pitches(name: str) -> SettingBinding:
 
 
 def in_listening(name: str) -> SettingBinding:
-    """How the user listens."""
+    """Binding to a listening setting."""
     return SettingBinding(
         lambda session: getattr(session.listening, name),
         lambda session, value: session.listening.set(**{name: value}),
@@ -40,7 +40,7 @@ def in_listening(name: str) -> SettingBinding:
 
 
 def in_video(name: str) -> SettingBinding:
-    """How the reference video is seen."""
+    """Binding to a display setting of the reference video."""
     return SettingBinding(
         lambda session: getattr(session.video, name),
         lambda session, value: session.video.set(**{name: value}),

@@ -153,7 +153,7 @@ class Settings(StoredSettings):
     # Values that are several
 
     def midi_device(self, port: str, name: str) -> str:
-        """What is remembered of a device; empty: nothing."""
+        """Stored settings of a device; empty: none."""
         return self._midi_devices.get(port, {}).get(name, "")
 
     def set_midi_device(self, port: str, name: str, value: str) -> None:
@@ -169,7 +169,7 @@ class Settings(StoredSettings):
             self._midi_devices = {**devices, port: {**devices[before], **devices.get(port, {})}}
 
     def workspace_state(self, workspace_id: str) -> dict[str, str]:
-        """How a workspace was left, by what is remembered of it; empty: it is as at first."""
+        """Stored layout of a workspace, by panel; empty: the default layout."""
         return dict(self._workspaces.get(workspace_id, {}))
 
     def set_workspace_state(self, workspace_id: str, **parts: str) -> None:

@@ -188,7 +188,7 @@ class Stems(QObject):
 def _next_phrases(
     phrases: Sequence[tuple[str, RenderedPhrase]], from_s: float
 ) -> tuple[tuple[tuple[str, RenderedPhrase], ...], tuple[float, float]]:
-    """As many players' phrases as there is room for, what sounds next first, and the seconds that they cover."""
+    """Phrases of as many players as there is room for, the next to sound first, and the seconds that they cover."""
     ordered = sorted(phrases, key=lambda item: (item[1].end < from_s * RATE_HZ, item[1].start))
     taken = 0
     for index, (_, phrase) in enumerate(ordered):

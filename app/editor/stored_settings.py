@@ -85,7 +85,7 @@ class Setting(Generic[T]):
         return value
 
     def written(self, value: T) -> object:
-        """As the file has it."""
+        """Return a value in the file's form."""
         return value
 
 
@@ -153,7 +153,7 @@ class StoredSettings(QObject):
         return tuple(value for value in vars(cls).values() if isinstance(value, Setting))
 
     def stored(self, keys: tuple[str, str]) -> object:
-        """What the file has under a section and a name; None: nothing."""
+        """Return the file's value under a section and a name; None: none."""
         section, name = keys
         values = self._table.get(section)
         return values if not name else values.get(name) if isinstance(values, dict) else None

@@ -162,7 +162,7 @@ class Streamer(QObject):
         self._state.set(state="off", lines=(), sent_hz=0, trouble=None)
 
     def _request(self, *_: object) -> None:
-        """Who is sent where."""
+        """Update the performers that are sent, and the receiver."""
         if self._address is None or self._thread is None:
             return
         state, project = self._state, self._session.project

@@ -131,7 +131,7 @@ class Doubling(PerformanceCurves):
                 values[here] = first + (second - first) * share
 
     def changed_s(self, other: PerformanceCurves) -> FloatArray:
-        """As of `PerformanceCurves`, by all that the musician plays."""
+        """Changed spans as in `PerformanceCurves`, over all instruments of the musician."""
         if not isinstance(other, Doubling):
             return EVERYWHERE
         if len(self.played) != len(other.played) or self.number != other.number:

@@ -135,7 +135,7 @@ class PerformanceCurves:
 
     @property
     def player_id(self) -> str:
-        """Whose."""
+        """The player's id."""
         return self.plan.player_id
 
     @property
@@ -152,7 +152,7 @@ class PerformanceCurves:
         return solve(self.player, curves, fps, float(frame_times(self.start_s, fps, first_frame, 1)[0]), every)
 
     def frames(self, times_s: FloatArray) -> PlayedFrames:
-        """What the player does at ascending times."""
+        """Sample the player's frames at ascending times."""
         levels = replace(self.layers.sample(times_s), further=self._further.sample(times_s))
         return PlayedFrames(
             times_s=times_s,
@@ -174,7 +174,7 @@ class PerformanceCurves:
         return giving_way(self.dance.sample(times_s), self.inhaling.sample(times_s))
 
     def curves(self, frames: PlayedFrames) -> ContactCurves:
-        """What the contacts are solved from, of frames wherever they come from."""
+        """Inputs of the contact solvers for frames from any source."""
         levels = self._breathing(replace(frames.levels, push=frames.face.push), frames.times_s)
         added = frames.added
         if added:
@@ -246,14 +246,14 @@ class PerformanceCurves:
         return replace(levels, **shown)
 
     def placed(self, times_s: FloatArray) -> dict[str, StationBlend]:
-        """Where the fingers are, and the hands that give way for some of them, at ascending times."""
+        """Stations of the fingers, and of the hands that give way for some of them, at ascending times."""
         hands = self.player.grip.hands
         asked = {table.finger for hand in hands for table in hand.fingers}
         asked |= {giving_for(finger) for hand in hands for lean in hand.leans for finger, _ in lean.places}
         return {name: sampled(curve, times_s) for name, curve in self.stations.items() if name in asked}
 
     def ankles_m(self, times_s: FloatArray) -> dict[Side, FloatArray]:
-        """Where both ankles (F, 3) are meant to be at ascending times."""
+        """Intended places of both ankles (F, 3) at ascending times."""
         levels, amplitude = self.layers.feet.sample(times_s), self.parameters.amplitude
         moved = feet_moved(levels, self.body, amplitude, self.acting.footwork, steps=self.player.steps)
         return {side: footing(self.player.place, side, moved, len(times_s)).ankle_m for side in SIDES}
@@ -298,7 +298,7 @@ class PerformanceCurves:
 
     @property
     def _settings(self) -> tuple[object, ...]:
-        """What every frame depends on: values first, the others by identity."""
+        """Settings that every frame depends on: values first, the others by identity."""
         still = self.player
         endpin = None if still.stand is None else still.stand.endpin
         shown, put = deciding_values(self.parameters, "motion"), (still.aside, self.stowed is None)

@@ -17,7 +17,7 @@ from metadata.library import MetadataLibrary
 
 
 def unknown_acting(player: Player, library: MetadataLibrary) -> tuple[Message, ...]:
-    """What to report about a style or habits that are not there: they change nothing."""
+    """Warnings about a missing style or habits, which change nothing."""
     styles, habits = library.styles.items, library.habits.items
     style, found = player.parameters.style, list[Message]()
     if style not in styles:
@@ -39,7 +39,7 @@ class JudgeOfChoreographies(Protocol):
 
 
 def unfit_choreography(player: Player, frame: TimeFrame) -> tuple[Message, ...]:
-    """What to report about a choreography that a player cannot dance. Makers of dances are loaded for it."""
+    """Warnings about a choreography that a player cannot dance. Makers of dances are loaded for it."""
     if not player.parameters.choreography:
         return ()
     for _, module in modules("dances"):

@@ -43,7 +43,7 @@ def character_of(player: Player) -> Character:
 
 
 def body_of(player: Player) -> Body:
-    """How the player's kind of body moves: as far as legs of its length go."""
+    """Return the player's body, with motion scaled to the length of its legs."""
     return _body(round(leg_size(character_of(player).skeleton), 3))
 
 
@@ -75,7 +75,7 @@ def _suited(character: Character, instrument: InstrumentMap, body: Body) -> Fitt
 
 
 def hold_of(player: Player, instrument: InstrumentMap, progress: Progress = no_progress) -> GripPose:
-    """How a player's body holds an instrument that is suited to it; fitted once for each pair.
+    """Grip of a player's body on an instrument that is suited to it; fitted once for each pair.
 
     ``progress`` is called with the share of a fit that is done, and may stop it.
     """
@@ -110,8 +110,8 @@ def lies_at(player: Player, instrument: InstrumentMap, number: int) -> tuple[Flo
 
 @contextlib.contextmanager
 def _worked_out(character: Character, instrument: InstrumentMap) -> Iterator[None]:
-    """What is worked out from a character and an instrument. A user's own may be of a shape that nothing can be worked
-    out from, which concerns who has it; of our own it would be a fault of the program.
+    """Report failures of a user's own character or instrument, whose shape may be unusable, as problems of its player;
+    with bundled ones they would be faults of the program.
 
     Raises
     ------

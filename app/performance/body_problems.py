@@ -46,7 +46,7 @@ def body_problems(
     waiting: bool,
     before: StepResults | None = None,
 ) -> BodyProblems:
-    """What is wrong with a player's body.
+    """Problems of a player's body.
 
     Parameters
     ----------

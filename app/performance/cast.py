@@ -34,7 +34,7 @@ class LeftOut(msgspec.Struct, frozen=True):
     reason: Message
 
     def message(self, wording: Wording) -> Message:
-        """What is reported to the user."""
+        """Message for the user."""
         return Message("player.left_out", {"player": self.player.name, "reason": wording(self.reason)})
 
 

@@ -33,7 +33,7 @@ class Dancing(Protocol):
 
     @property
     def problems(self) -> tuple[Problem, ...]:
-        """What is wrong with the dance, once it is generated."""
+        """Problems of the dance, once it is generated."""
 
     def motion(self, fps: Fraction, first: int, count: int) -> Motion:
         """Some frames of the performance. The same frames are the same bits in every span."""

@@ -125,13 +125,13 @@ class Performance:
 
     @cached_property
     def piece(self) -> Piece:
-        """What all players share."""
+        """Data that all players share."""
         with self._lock:
             return self._whole.of(Piece)
 
     @cached_property
     def lines(self) -> tuple[MonophonicPart, ...]:
-        """What each player plays who has an instrument, in the order of the project's players."""
+        """Parts of the players with an instrument, in the order of the project's players."""
         with self._lock:
             lines = []
             for player in self.project.players:
@@ -167,8 +167,7 @@ class Performance:
         return self._lines[player.id].of(MonophonicPart)
 
     def parameters(self, player: Player) -> PlayerParameters:
-        """What a player's plan and motion are made with: the player's parameters, with what style and habits make of
-        them."""
+        """Effective parameters of a player: the player's own, adjusted by style and habits."""
         with self._lock:
             return self._players[player.id].of(with_style)
 
@@ -290,7 +289,7 @@ class Performance:
         return self._held[player.id].of(_with_parts)
 
     def _problems_of(self, player: Player, plan: PlayerPlan) -> tuple[Problem, ...]:
-        """What is wrong with a player's plan, and what the player lacks for it."""
+        """Problems of a player's plan, and what the player lacks for it."""
         lacking, unreached = self.lacking(player), tuple[Problem, ...]()
         if lacking:
             self.unseen[player.id] = lacking[0]
@@ -315,8 +314,8 @@ class Performance:
         return self._plans
 
     def problems(self, player_id: str) -> tuple[Problem, ...]:
-        """What is wrong with a player's part of the performance, by time, before anything is seen of it: with the plan,
-        with what the player is to play it with, and with what the body does not reach. Dancers have none."""
+        """Problems of a player's performance by time, known before its motion: of the plan, of the instrument and
+        character, and of the body's reach. Dancers have none."""
         self.prepare()
         return self._problems.get(player_id, ())
 
@@ -430,7 +429,7 @@ def changes_of(performance: Performance, played: Sequence[Player]) -> tuple[str,
 
 
 def _work(part: MonophonicPart, before: MonophonicPart | None) -> int:
-    """What planning a part costs after an edit, in notes."""
+    """Cost of planning a part after an edit, in notes."""
     if part is before:
         return 0
     if before is None or part.notes is not before.notes or part.instrument_map is not before.instrument_map:

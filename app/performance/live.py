@@ -159,7 +159,7 @@ class LiveMotion:
 
     @property
     def performance(self) -> Performance:
-        """What is shown."""
+        """The performance that is shown."""
         return self._shown.performance
 
     def show(self, performance: Performance) -> None:
@@ -413,7 +413,7 @@ class LiveMotion:
 
     @contextmanager
     def _own_fault(self, track: _Track) -> Iterator[None]:
-        """What goes wrong in here is this player's alone."""
+        """Confine a failure to this player."""
         try:
             yield
         except Exception as fault:
@@ -465,7 +465,7 @@ class LiveMotion:
 
     @property
     def bytes(self) -> int:
-        """What all chunks take."""
+        """Memory of all chunks."""
         return sum(track.bytes for track in tuple(self._shown.tracks.values()))
 
     def _playing(self, shown: _Shown, track: _Track) -> PerformanceCurves | Dancing | None:

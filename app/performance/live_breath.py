@@ -124,7 +124,7 @@ class LiveBreath:
 
     @property
     def loudness(self) -> float:
-        """What the breath says, or how the note was struck where no breath is sent."""
+        """Loudness by the breath, or by the note's velocity where no breath is sent."""
         return self._struck if self._breath is None else self._breath
 
     def play(self, now_s: float, pitch: int, velocity: int, attacked: bool) -> None:
@@ -143,17 +143,17 @@ class LiveBreath:
         self._turn(now_s)
 
     def blow(self, now_s: float, breath: float) -> None:
-        """How strongly is blown, 0..1."""
+        """Set the breath, 0..1."""
         self.advance(now_s)
         self._breath = breath
         self._turn(now_s)
 
     def bite(self, bite: float) -> None:
-        """How strongly is bitten, 0..1."""
+        """Set the bite, 0..1."""
         self._bite = bite
 
     def bend(self, bend: float) -> None:
-        """How the pitch is bent, -1..1."""
+        """Set the pitch bend, -1..1."""
         self._bend = bend
 
     @property

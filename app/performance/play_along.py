@@ -138,11 +138,11 @@ class PlayAlong:
         self._breath.blow(now_s, 0.0)
 
     def breath(self, time_s: float, value: float) -> None:
-        """How strongly is blown, 0..1."""
+        """Set the breath, 0..1."""
         self._breath.blow(self._time(time_s), min(max(value, 0.0), 1.0))
 
     def bite(self, time_s: float, value: float) -> None:
-        """How strongly the mouthpiece is bitten, 0..1."""
+        """Set the bite, 0..1."""
         self._time(time_s)
         self._breath.bite(min(max(value, 0.0), 1.0))
 
@@ -189,7 +189,7 @@ class PlayAlong:
         self._poses, self._additive = PoseCorrectionTable.of(poses), Additive.of(additive)
 
     def pose(self, time_s: float, at_s: float | None = None) -> Pose:
-        """How the player stands now.
+        """Pose of the player now.
 
         Parameters
         ----------
@@ -213,8 +213,8 @@ class PlayAlong:
             self._hands.carry(now_s, self._help.carries_s)
 
     def _solved(self, now_s: float) -> tuple[ContactCurves, Help]:
-        """What contacts are solved from, now and (further frames) on the way to where the hands are going, and the help
-        that far hands are given now."""
+        """Inputs of the contact solvers, now and (further frames) on the way to where the hands are going, with the
+        present help for far hands."""
         hands, breathing, look = self._hands.at(now_s), self._breath.at(now_s), self._look.at(now_s)
         times_s = np.full(FRAMES, now_s)
         here_s = np.full(FRAMES, self._at_s)

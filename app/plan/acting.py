@@ -74,7 +74,7 @@ _NOT_BY_SECTION: Final = frozenset({"stillness", "blinks"})
 
 
 def acting_of(parameters: PlayerParameters) -> Acting:
-    """What a player with these parameters shows; style and habits are in them already, see `with_style`."""
+    """Acting of a player with these parameters, in which style and habits are included already; see `with_style`."""
     usual = Acting()
     shown = {}
     for name in AMOUNTS:

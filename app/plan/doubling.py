@@ -132,7 +132,7 @@ E = TypeVar("E", bound=_Event)
 
 
 def held_plan(plan: PlayerPlan, first: str, found: Sequence[InstrumentChange], names: Mapping[str, str]) -> PlayerPlan:
-    """What remains of a player's plan: events while the instrument is put aside are removed, except manual corrections.
+    """Player's plan for one instrument: events while it is put aside are removed, except manual corrections.
 
     Parameters
     ----------

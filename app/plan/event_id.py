@@ -37,7 +37,7 @@ class EventId(NamedTuple):
 
     @property
     def places(self) -> Iterator[str]:
-        """What may be the note or the tick: ``of``, and what remains of it behind each colon (``strained:1:5``)."""
+        """Possible names of the note or the tick: ``of``, and its rest behind each colon (``strained:1:5``)."""
         rest = self.of
         yield rest
         while ":" in rest:

@@ -211,7 +211,7 @@ class GestureEvent(msgspec.Struct, frozen=True, gc=False):
 
     @property
     def part(self) -> Part:
-        """What answers it."""
+        """Part of the body that performs it."""
         return GESTURE_KINDS[self.kind].part
 
 
@@ -318,7 +318,7 @@ class PlayerPlan(msgspec.Struct, frozen=True):
 
     @property
     def grips(self) -> tuple[FingeringEvent, ...]:
-        """What the fingers hold one after another: the fingerings, one that is vented at its attack as two."""
+        """Successive fingerings; one that is vented at its attack counts as two."""
         return grips_of(self.fingerings)
 
 

@@ -93,13 +93,13 @@ class Parameter:
 
     @property
     def in_older_files(self) -> Value:
-        """What a file without it means."""
+        """Value for files without it."""
         value: Value = self.default if self.before is msgspec.UNSET else self.before
         return value
 
     @property
     def possible(self) -> str:
-        """What it may be, as a text for a message: numbers and words only."""
+        """Possible values as a text for a message: numbers and words only."""
         if self.bounds is not None:
             return f"{self.bounds[0]} ... {self.bounds[1]}"
         options = [NONE, *self.names] if self.names else []

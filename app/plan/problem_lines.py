@@ -41,7 +41,7 @@ def problem_lines(problems: Iterable[Problem], score: Score, wording: Wording, p
 
 
 def note_place(score: Score, note: Note) -> Message:
-    """Where a note is, as a message."""
+    """Place of a note, as a message."""
     return Message("note.place", {"pitch": note.pitch, "place": score.metre_map.label(note.onset_tick)})
 
 

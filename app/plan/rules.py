@@ -193,7 +193,7 @@ def shown_by(
 
 
 def _why(rule: Rule, facts: Facts, note: int, instrument: InstrumentMap) -> Message:
-    """Why an expression is shown: what the music does there, or else the rule's name."""
+    """Reason for an expression: the musical condition, or else the rule's name."""
     when, loudness, effort = rule.when, round(float(facts.loudness[note]), 2), round(float(facts.effort[note]), 2)
     if when == When(effort_above=when.effort_above):
         said: dict[str, Argument] = {"effort": effort, "threshold": when.effort_above or 0.0}

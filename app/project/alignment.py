@@ -90,7 +90,7 @@ def align(old: AlignmentPart, new: AlignmentPart) -> IntArray:
 
 
 def pair_costs(old: AlignmentPart, new: AlignmentPart, shifts: Sequence[float], transposition: int) -> FloatArray:
-    """What it costs to take an old note for a new one; shape (old, new).
+    """Cost of matching an old note with a new one; shape (old, new).
 
     Parameters
     ----------
@@ -220,7 +220,7 @@ def _held(costs: FloatArray, changes: FloatArray) -> IntArray:
 
 
 def _ascending(pairs: list[tuple[int, int]]) -> list[tuple[int, int]]:
-    """As many pairs as can be kept so that the second index ascends too (patience sorting)."""
+    """Longest selection of pairs whose second index ascends too (patience sorting)."""
     tops: list[int] = []
     last: list[int] = []
     before: list[int] = []

@@ -124,7 +124,7 @@ def conductor_place(stages: Sequence[StagePosition]) -> ConductorPlace:
 
 
 def usual_posture(count: int) -> Posture:
-    """How an ensemble of so many plays: a few stand, a band sits."""
+    """Usual posture of an ensemble of this size: a few stand, a band sits."""
     return "standing" if count <= MOST_IN_ARC else "seated"
 
 

@@ -82,7 +82,7 @@ def require_sound(project: Project, before: Project | None = None) -> None:
 
 
 def _read_faults(project: Project, before: Project | None) -> Iterator[Fault]:
-    """Of what the MIDI file held, in the order of the score."""
+    """Faults of the MIDI file's contents, in the order of the score."""
     known = {} if before is None else before.read_notes
     for part_id, notes in project.read_notes.items():
         if known.get(part_id) is notes:
@@ -165,7 +165,7 @@ def _recorded_faults(recorded: PlayerTakes, place: str) -> Iterator[Fault]:
 
 
 def take_faults(take: Take, place: str) -> Iterator[Fault]:
-    """What is wrong with a take, by itself."""
+    """Faults of a take by itself."""
     if not _TAKE.fullmatch(take.id):
         yield f"{place}.id", 'must be like "take:1"'
     yield from text_faults(f"{place}.name", take.name)
@@ -232,7 +232,7 @@ def _setting_faults(project: Project) -> Iterator[Fault]:
 
 
 def expression_faults(expression: Expression, place: str) -> Iterator[Fault]:
-    """What is wrong with an expression of the animator's own."""
+    """Faults of an expression of the animator's own."""
     yield from id_faults(f"{place}.name", expression.name)
     yield from text_faults(f"{place}.description", expression.description)
     for morph, weight in expression.weights.items():

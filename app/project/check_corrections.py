@@ -60,7 +60,7 @@ def _place(project: Project, correction: Correction, place: str) -> str:
 
 
 def _name(correction: Correction) -> str:
-    """What the panels call a correction: the user's title, or what it is of; empty for those tied to a note."""
+    """Name of a correction in the panels: the user's title, or its subject; empty for those tied to a note."""
     fields = ("title", "channel", "target", "style", "gesture", "expression")
     known = (getattr(correction, field, None) for field in fields)
     return next((name for name in known if isinstance(name, str) and name), "")
@@ -102,7 +102,7 @@ def _plain_faults(place: str, value: Any) -> Iterator[Fault]:
 
 
 def curve_faults(curve: AdditiveCurve, place: str) -> Iterator[Fault]:
-    """What is wrong with one curve."""
+    """Faults of one curve."""
     channel = CHANNELS.get(curve.channel)
     if channel is None:
         yield f"{place}.channel", f"there is no channel {shortened(curve.channel, 40)!r}; possible: {_POSSIBLE}"

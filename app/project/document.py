@@ -159,7 +159,7 @@ class Document:
         self._saved = project
 
     def mark_unsaved(self) -> None:
-        """What is here is in no file, e.g. recovered after a crash."""
+        """Mark the project as unsaved, e.g. after recovery from a crash."""
         self._saved = replace(self._project)
 
     def open(self, project: Project) -> None:

@@ -115,7 +115,7 @@ def _overlap_s(one: Sequence[tuple[int, int]], other: Sequence[tuple[int, int]],
 
 
 def _spans(notes: Iterable[Note]) -> list[tuple[int, int]]:
-    """Where notes sound, apart and in order."""
+    """Spans in which notes sound, apart and in order."""
     return _joined((note.onset_tick, note.end_tick) for note in notes)
 
 

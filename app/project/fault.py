@@ -100,7 +100,7 @@ def id_faults(place: str, value: str, least: int = 1) -> Iterator[Fault]:
 
 
 def look_faults(performer: Player | Dancer, place: str) -> Iterator[Fault]:
-    """Of where a performer is on the stage, and of the colour."""
+    """Faults of a performer's place on the stage and colour."""
     if performer.colour and not COLOUR.fullmatch(performer.colour):
         yield f"{place}.colour", 'must be empty or like "#3366cc"'
     yield from faults_of_bounds(f"{place}.stage.x_m", performer.stage.x_m, limits.STAGE_M)

@@ -28,7 +28,7 @@ def merged_curves(
     file: Sequence[ControllerCurve],
     place: Callable[[int], int],
 ) -> MergedCurves:
-    """Of three versions of each controller one: ours where the file did not change it, else the file's.
+    """Three-way merge of each controller: ours where the file did not change it, else the file's.
 
     Parameters
     ----------

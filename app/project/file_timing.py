@@ -46,7 +46,7 @@ def with_timing(score: Score, timing: ReadTiming) -> Score:
 
 
 def merged_timing(project: Project, file: Score, place: Placing, scale: Fraction, unchanged: bool) -> MergedTiming:
-    """Of three versions one: the project's where the file did not change it, else the file's.
+    """Three-way merge of tempo and metres: the project's where the file did not change it, else the file's.
 
     Parameters
     ----------

@@ -62,7 +62,7 @@ def _footprint(instrument: InstrumentMap) -> Footprint:
 
 
 def _turn(carriage: Carriage) -> FloatArray:
-    """As it is usually carried: yaw, then pitch, then roll."""
+    """Rotation as usually carried: yaw, then pitch, then roll."""
     yaw, pitch, roll = (
         np.radians(angles[1]) for angles in (carriage.yaw_left_deg, carriage.pitch_down_deg, carriage.roll_left_deg)
     )

@@ -250,7 +250,7 @@ class _Merged:
 def _merged(
     before: Part, was: Sequence[Note], part: Part, pairs: Sequence[tuple[int, int]], scale: Fraction
 ) -> _Merged:
-    """Of three versions of each note one: the user's where the file did not change it, else the file's.
+    """Three-way merge of each note: the user's where the file did not change it, else the file's.
 
     Parameters
     ----------

@@ -151,7 +151,7 @@ def outcome_of(
     before: ImportPreview | None = None,
     stop_requested: Callable[[], bool] = lambda: False,
 ) -> ImportPreview:
-    """What would come of the rows.
+    """Preview of importing the rows.
 
     Parameters
     ----------
@@ -188,7 +188,7 @@ def _instruments(
     maps: Mapping[str, InstrumentMap],
     stop_requested: Callable[[], bool],
 ) -> tuple[str, ...]:
-    """What plays the tracks of an assignment."""
+    """Instruments that play the tracks of an assignment."""
     # As if the file had no others.
     own = msgspec.structs.replace(contents, streams=tuple(contents.streams[channel] for channel in assignment.streams))
     alone = msgspec.structs.replace(assignment, streams=tuple(range(len(assignment.streams))))

@@ -66,7 +66,7 @@ def _with_video_and_pins(raw: Raw) -> Raw:
 
 
 def _with_parameters(raw: Raw, version: int) -> Raw:
-    """What players and dancers could not be set to before this version."""
+    """Add parameters of players and dancers that did not exist before this version."""
     of_players, of_dancers = (
         {name: parameter.in_older_files for name, parameter in table.items() if parameter.since == version}
         for table in (PARAMETERS, DANCER_PARAMETERS)

@@ -193,7 +193,7 @@ class Project:
         return msgspec.structs.replace(score.metre_map, felt=felt)
 
     def part(self, player: Player) -> Part:
-        """What a player plays."""
+        """Part of a player."""
         return self._parts[player.part_id]
 
     def player(self, player_id: str) -> Player:
@@ -210,8 +210,7 @@ class Project:
         return self.conductor if self.conductor is not None and self.conductor.on_stage else None
 
     def performer_names(self, but: str = "") -> list[str]:
-        """What players and dancers are called, except the one of the id ``but``: no two share a name, also where case
-        does not count."""
+        """Names of players and dancers, except the one of the id ``but``: no two share a name, ignoring case."""
         return [performer.name for performer in self.performers if performer.id != but]
 
     @cached_property
@@ -306,7 +305,7 @@ def preroll_of_new(project: Project) -> float:
 
 
 def map_choices(maps: Iterable[InstrumentMap]) -> tuple[MapChoice, ...]:
-    """What the maps can be chosen for, in the form that the score's reader takes."""
+    """Facts about the maps in the form that the score's reader takes."""
     return tuple(
         MapChoice(
             map_id=instrument.id,

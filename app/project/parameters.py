@@ -180,7 +180,7 @@ def _known(parameter: str, text: str) -> str:
 
 
 def range_text(parameter: str) -> str:
-    """What a parameter may be, as a text for a message: numbers and words only."""
+    """Range of a parameter as a text for a message: numbers and words only."""
     if parameter == _DANCED:
         return ", ".join((_GENERATED, *bundled_choreographies(), f"*{SUFFIX}"))
     if parameter == _STYLE:

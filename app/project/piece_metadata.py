@@ -156,7 +156,7 @@ def _scaled(value: Any, scale: float, key: str = "") -> Any:
 
 
 def differences(one: PieceMetadata, other: PieceMetadata) -> tuple[MetadataDifference, ...]:
-    """Where two metadata are not the same, by place."""
+    """Differences of two metadata, by place."""
     mine, theirs = dict(_flat(_table(one), "")), dict(_flat(_table(other), ""))
     return tuple(
         MetadataDifference(place, mine.get(place, ""), theirs.get(place, ""))
@@ -206,7 +206,7 @@ def _table(metadata: PieceMetadata) -> dict[str, Any]:
 
 
 def _without_none(value: Any) -> Any:
-    """What is not said is left out: TOML has no word for it."""
+    """Return the value without Nones, for which TOML has no word."""
     if isinstance(value, Mapping):
         return {key: _without_none(item) for key, item in value.items() if item is not None}
     return [_without_none(item) for item in value] if isinstance(value, list | tuple) else value

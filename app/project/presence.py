@@ -149,7 +149,7 @@ def editors(folder: Path) -> Iterator[tuple[str, bool]]:
 
 
 def note_of(folder: Path, token: str) -> PresenceNote:
-    """What an editor works on; an empty note where it left none."""
+    """Note about an editor's project; an empty note where it left none."""
     path = folder / f"{token}{NOTE}"
     try:
         note = decode_json(read_file(path, MOST_NOTE_BYTES), PresenceNote, str(path))

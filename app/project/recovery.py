@@ -127,8 +127,8 @@ def _left_behind(folder: Path) -> dict[Path, str]:
 def _described(
     left: dict[Path, str], folder: Path, real_document: str | None = None, own_token: str = ""
 ) -> tuple[Recoverable, ...]:
-    """What of the files is to be offered, the newest first; what is in the project's file, or of an older generation,
-    is removed.
+    """Files to offer for recovery, the newest first; those in the project's file, or of an older generation, are
+    removed.
 
     Parameters
     ----------

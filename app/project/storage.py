@@ -235,8 +235,8 @@ def is_project_file(path: Path) -> bool:
 
 
 def missing(project: Project) -> tuple[Message, ...]:
-    """What players and dancers need and this computer does not have; the project keeps it, and plays again where it is
-    there.
+    """Warnings about what players and dancers need and this computer lacks; the project keeps it, and plays again where
+    it is there.
 
     Messages: ``project.instrument_missing`` (player, id), ``project.character_missing`` (player, id),
     ``project.choreography_missing`` (dancer, name, known), ``project.choreography_file_missing`` (dancer, file),
@@ -259,8 +259,8 @@ def missing(project: Project) -> tuple[Message, ...]:
 
 
 def choreography_missing(dancer: str, choreography: str) -> tuple[Message, ...]:
-    """What to report about a dancer or player of this name whose choreography is not there; nothing where it is.
-    Messages: see `missing`."""
+    """Warning about the missing choreography of a dancer or player of this name; nothing if it is there. Messages: see
+    `missing`."""
     path = choreography_path(choreography)
     if not may_touch(path):
         return (

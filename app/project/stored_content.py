@@ -168,7 +168,7 @@ def project_of(raw: Raw, folder: Path, file: str) -> Project:
 
 
 def _edited_notes(project: Project) -> dict[str, tuple[Note, ...]]:
-    """What the MIDI file held of notes that are other here, or gone, or were drawn here before they were read there."""
+    """Notes as read from the MIDI file that were changed or deleted here, or drawn here before they were read there."""
     here = {part.id: {note.id: note for note in part.notes} for part in project.score.parts}
     return {
         part_id: tuple(
@@ -186,7 +186,7 @@ def _place(note: Note) -> tuple[int, int, str]:
 
 
 def _read_notes(edited: dict[str, tuple[Note, ...]], score: Score) -> dict[str, dict[str, Note]]:
-    """What the MIDI file held: the notes that are here and were not drawn here, with its version of the edited ones."""
+    """Notes as read from the MIDI file: those that were not drawn here, with the file's version of the edited ones."""
     parts = {part.id: part.notes for part in score.parts}
     return {
         part_id: {note.id: note for note in parts.get(part_id, ()) if not is_made_here(note.id)}

@@ -24,7 +24,7 @@ def moved_track(track: Track | None, path: Callable[[str, Path], str], folder: P
 
 
 def stored_path(path: str, folder: Path) -> str:
-    """As the file has it: relative, with slashes, where both lie in one tree below the root."""
+    """Path in the file's form: relative, with slashes, where both lie in one tree below the root."""
     if path and Path(path).is_absolute():
         try:
             shared = Path(os.path.commonpath([path, folder]))

@@ -61,8 +61,8 @@ class Additive:
         return cls(tuple(events), tuple(rows(event.segments) for event in events))
 
     def sample(self, times_s: FloatArray) -> dict[str, Added]:
-        """What is added at any times, by channel, to those that have a curve anywhere: so the same frame is made in
-        the same way in every span."""
+        """Sample the added values at any times, by channel, for channels with a curve anywhere: so the same frame is
+        made in the same way in every span."""
         sums: dict[str, Added] = {}
         for event, table in zip(self.events, self.tables, strict=True):
             size = float(np.deg2rad(1.0)) if CHANNELS[event.channel].unit == "deg" else 1.0
@@ -92,7 +92,7 @@ NOTHING: Final = Additive.of(())
 
 
 def with_held(held: Mapping[PoseTarget, PoseAngles], added: Mapping[str, Added]) -> dict[PoseTarget, PoseAngles]:
-    """What the animator holds differently, with the curves of the same targets as far as there is room."""
+    """Add the curves to the held angles of the same targets, as far as there is room."""
     result = dict(held)
     for channel, more in added.items():
         if channel not in POSED:

@@ -116,8 +116,8 @@ def _settling(carriage: Carriage) -> float:
 
 
 def shown_by(parameters: PlayerParameters, carriage: Carriage, acting: Acting, *, dancing: bool) -> Acting:
-    """What is left of what a player shows: less of the trunk with an instrument that lies still, and of all that moves
-    the body as far as a dance takes its place."""
+    """Amounts of a player's acting after the carriage: less of the trunk with an instrument that lies still, and less
+    of all that moves the body as far as a dance takes its place."""
     share = _settling(carriage)
     left = 1.0 - share * share * parameters.dance_amount if dancing else 1.0
     return msgspec.structs.replace(

@@ -43,7 +43,7 @@ def bell_closing(mutes: Sequence[MuteEvent], stopped: Stopped | None) -> Envelop
 
 
 def wrist_shift(skeleton: Skeleton, stopped: Stopped, share: FloatArray, carried: InstrumentTransform) -> Shift:
-    """How a wrist leaves its grip for shares (F,) of the whole way: the palm turns about the knuckles."""
+    """Displacement of a wrist from its grip for shares (F,) of the whole way: the palm turns about the knuckles."""
     turned_rad = quaternion.rotate(carried.rotation, np.deg2rad(np.asarray(stopped.turned_deg)))
     # About the first finger's knuckle, which is held against the wall.
     knuckle_m = next((skeleton.offsets_m[joint] for joint in _knuckles(skeleton, stopped)), np.zeros(3))

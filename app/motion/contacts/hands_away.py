@@ -19,7 +19,7 @@ class Shift(NamedTuple):
     about_m: FloatArray
 
     def target(self, position_m: FloatArray, rotation: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Where a wrist is that would be on its grip at ``position_m`` (F, 3) and ``rotation`` (F, 4)."""
+        """Place and rotation of the displaced wrist, from ``position_m`` (F, 3) and ``rotation`` (F, 4) on its grip."""
         about_m = quaternion.rotate(rotation, self.about_m)
         there_m = position_m + about_m - quaternion.rotate(self.turned, about_m)
         return there_m, quaternion.multiply(self.turned, rotation)

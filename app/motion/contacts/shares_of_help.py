@@ -84,7 +84,7 @@ def with_room(help_rad: FloatArray, most_rad: FloatArray) -> FloatArray:
 
 
 def _held_back(parts: list[FloatArray], half: int) -> FloatArray:
-    """What there is room for, smoothly: the least within ``half`` frames, then a smooth mean as wide."""
+    """Smooth limit: the least within ``half`` frames, then a smooth mean as wide."""
     return np.pi - _eased(np.pi - np.concatenate(parts), half)
 
 

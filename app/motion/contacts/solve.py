@@ -198,7 +198,7 @@ def _late(motion: BodyMotion) -> FloatArray | None:
 
 
 def needs(player: PlayerBody, curves: ContactCurves) -> Help:
-    """What trunk and shoulders must add for far hands, frame by frame."""
+    """Help that trunk and shoulders must add for far hands, frame by frame."""
     return _needs(player, curves, upper_body(player, curves))
 
 

@@ -72,7 +72,7 @@ def joined(parts: Sequence[UpperBody]) -> UpperBody:
 
 
 def upper_body(player: StillPlayer, curves: ContactCurves) -> UpperBody:
-    """What the contacts are solved on."""
+    """Build the upper body on which the contacts are solved."""
     hips_m, hips = hips_path(player.place, player.skeleton, curves.body)
     upper = trunk(player.skeleton, hips_m, hips, curves.body)
     carried = _carry(player, curves, upper)

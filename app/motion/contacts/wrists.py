@@ -52,7 +52,7 @@ class Wrist:
     high_rad: FloatArray
 
     def aside_rad(self, hand: FloatArray) -> FloatArray:
-        """Of ``forearm_from_hand`` (F, 4) the angle (F,) aside."""
+        """Angle (F,) aside of ``forearm_from_hand`` (F, 4)."""
         aside: FloatArray = np.ascontiguousarray(self._swing(hand)) @ self.axes[1]
         return aside
 
@@ -135,7 +135,7 @@ class BellRoom:
         )
 
     def back_rad(self, down_rad: FloatArray) -> FloatArray:
-        """What brings angles (F,) back into it; 0 where they are well within."""
+        """Correction that brings angles (F,) back into the range; 0 where they are well within."""
         back: FloatArray = softly_over(self.low_rad - down_rad, ROOM_EASE_RAD)
         return back - softly_over(down_rad - self.high_rad, ROOM_EASE_RAD)
 

@@ -96,7 +96,8 @@ class Curve:
         return result
 
     def between(self, times_s: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Of values that stand for places: the one before, the one after, and how far it is on its way, (F,) each."""
+        """Return, for values that stand for places, the one before, the one after, and the share of the way, (F,)
+        each."""
         rows = self._described(times_s)
         resting = rows[:, 1] == rows[:, 0]
         duration_s = np.where(resting, 1.0, rows[:, 1] - rows[:, 0])

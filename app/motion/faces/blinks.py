@@ -55,7 +55,7 @@ def _closing(starts_s: FloatArray, heights: FloatArray) -> Envelopes:
 def _starts(
     plan: PlayerPlan, silences: Silences, table: FloatArray, amount: float, random: np.random.Generator
 ) -> tuple[FloatArray, FloatArray]:
-    """When blinks begin, and how far they close the eyes."""
+    """Starts of blinks, and how far they close the eyes."""
     frame = plan.time_frame
     breaths_s = silences.breaths_s
     # By the place in the score: another breath has another chance.

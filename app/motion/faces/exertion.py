@@ -72,7 +72,7 @@ class Lungs:
 
     @classmethod
     def of(cls, parameters: PlayerParameters, air: Air | None) -> Lungs:
-        """Of a player with an instrument."""
+        """Lungs of a player with an instrument."""
         return cls(lungful_s(parameters, air), air)
 
 
@@ -109,7 +109,7 @@ def exertion_of(plan: PlayerPlan, face: FaceMotion, lungs: Lungs) -> Spline:
 
 
 def _load(face: FaceMotion, tension: FloatArray, air: FloatArray, effort: FloatArray, sounds: BoolArray) -> Whole:
-    """What the notes cost, on the grid."""
+    """Load of the notes, on the grid."""
     share = face.load
     cost = share.tension * tension + share.air * air + share.effort * effort - share.easy
     return _whole(np.clip(np.where(sounds, cost, 0.0), 0.0, 1.0))
@@ -141,8 +141,7 @@ def _whole(values: FloatArray) -> Whole:
 
 
 def _sum(values: Whole, before_s: float, after_s: float) -> Whole:
-    """Of the values from so long before to so long after each. What is summed up to a place of a very long piece may
-    run over: the difference of two is right all the same."""
+    """Windowed sums around each value, by cumulative sums; integer wrap-around cancels out."""
     before, after = (max(round(width_s / STEP_S), 0) for width_s in (before_s, after_s))
     total = np.zeros(before + 1 + len(values) + after, np.int32)
     upto = total[before + 1 : before + 1 + len(values)]

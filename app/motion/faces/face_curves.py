@@ -183,7 +183,7 @@ class FaceCurves:
     expressions: dict[str, Envelopes]
 
     def sample(self, times_s: FloatArray) -> Drivers:
-        """What moves the face at ascending times."""
+        """Sample the inputs of the face at ascending times."""
         alone = {name: curve for name, curve in vars(self).items() if name not in ("expressions", "exertion")}
         return Drivers(
             **{name: curve.sample(times_s) for name, curve in alone.items()},

@@ -76,7 +76,7 @@ class OwnFace:
     noises: dict[str, Noise]
 
     def wandering(self, times_s: FloatArray) -> Wandering:
-        """How the face wanders at ascending times."""
+        """Sample the wandering of the face at ascending times."""
         if len(times_s) == 0:
             return Wandering(**dict.fromkeys(self.noises, times_s))
         first = int(np.floor(times_s[0] / GRID_S)) - 1

@@ -68,7 +68,7 @@ def face_sizes(
     vibrato: float,
     recorded: bool,
 ) -> FaceSizes:
-    """Of a player.
+    """Sizes of a player's facial motion.
 
     Parameters
     ----------

@@ -43,7 +43,7 @@ class Silences:
 
     @classmethod
     def of(cls, plan: PlayerPlan) -> Silences:
-        """Of a plan."""
+        """Silences of a plan."""
         events, frame = plan.fingerings, plan.time_frame
         starts_s = np.array([event.start_s for event in events])
         ends_s = np.array([event.end_s for event in events])

@@ -82,7 +82,7 @@ def unseen_s(control: Control, distance: float, window: float) -> float:
 @lru_cache(maxsize=4096)
 @lru_cache(maxsize=4096)
 def _phase(share: float) -> float:
-    """When a minimum-jerk move has come so far, as a share of its time."""
+    """Time, as a share of a minimum-jerk move, at which it has come so far."""
     return float(np.interp(share, minimum_jerk(_PHASES), _PHASES))
 
 

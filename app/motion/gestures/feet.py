@@ -61,7 +61,7 @@ class Feet:
         return cls(kinds, sides, start_s, end_s, size, step_s)
 
     def sample(self, times_s: FloatArray) -> dict[str, FloatArray]:
-        """What feet do at ascending times, each (F,) of 0..1; what does nothing then is left out.
+        """Sample the feet at ascending times, each (F,) of 0..1; parts at rest are left out.
 
         ``left_ahead`` is how far ahead the left foot is put, ``left_up`` how high it is, ``left_push`` how its heel
         leaves before its toes, ``left_heel`` and ``left_toes`` how far these are lifted, ``left_unloaded`` how far

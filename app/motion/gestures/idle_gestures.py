@@ -54,7 +54,7 @@ class Beside:
 def beside_playing(
     done: ConcertSamples, sizes: ConcertMotion, amplitude: float, amount: FloatArray | float, seated: bool
 ) -> Beside:
-    """What the body adds at some frames; ``amount`` is times as usual."""
+    """Offsets of the body in some frames; ``amount`` is times the usual."""
 
     def rad(scale: AmplitudeScale) -> FloatArray | float:
         return amount * float(np.deg2rad(at_amplitude(scale, amplitude)))

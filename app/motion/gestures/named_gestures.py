@@ -51,7 +51,7 @@ def angles_deg(track: AngleTrack, phase: FloatArray) -> FloatArray:
 
 
 def keyed(at: FloatArray, values: FloatArray, phase: FloatArray) -> FloatArray:
-    """What goes through values at some phases, without overshooting any; 0 outside of 0..1."""
+    """Interpolate values at some phases, without overshooting any; 0 outside of 0..1."""
     return _between(at, values, _monotone(at, values), phase)
 
 
@@ -122,7 +122,7 @@ class Gestured(KeyedGestures):
     """All keyed gestures of a player, as offsets."""
 
     def sample(self, times_s: FloatArray) -> Sums:
-        """What they sum to at ascending times, before the player's amplitude."""
+        """Sum the gestures at ascending times, before the player's amplitude."""
         # Of all gestures, wherever they are: the same frames are the same bits in every span.
         sums: Sums = {}
         for gesture in self.gestures:

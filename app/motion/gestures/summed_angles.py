@@ -199,7 +199,7 @@ class Angles:
         return turned
 
     def add_to(self, total: Sum) -> None:
-        """What trunk and neck do for chest and head to be so, whatever is below them."""
+        """Add the turns of trunk and neck that give chest and head these angles, whatever is below them."""
         total.forward(TRUNK_SHARES, self.bowed.chest - self.pelvis)
         total.forward(NECK_SHARES, self.bowed.head - self.bowed.chest)
         total.left(TRUNK_SHARES, self.side.chest + WEIGHT_IN_CHEST * self.roll.chest - self.hips_roll_rad)

@@ -43,7 +43,7 @@ def with_depths(
 def too_long(
     notes: tuple[Note, ...], times: LineTimes, used: FloatArray, lung_s: float, refill: FloatArray
 ) -> list[Problem]:
-    """What is to be said of stretches that take more air than there is."""
+    """Problems of stretches that take more air than there is."""
     level = levels(used, lung_s, refill)
     starts: IntArray = np.unique(np.concatenate(([0], np.flatnonzero(refill > 0.0))))
     ends = np.append(starts[1:], len(notes))

@@ -310,7 +310,7 @@ def breathed_of(
     left_out: Sequence[int],
     events: Sequence[BreathEvent],
 ) -> Breathed:
-    """Where a player breathes, for those who play the same.
+    """Breaths of a player, for those who play the same.
 
     Parameters
     ----------

@@ -127,12 +127,12 @@ class AdditiveCurve(Own, frozen=True, tag="additive"):
 
     @property
     def start_tick(self) -> int:
-        """Of the first key."""
+        """Tick of the first key."""
         return self.keys[0].tick
 
     @property
     def end_tick(self) -> int:
-        """Of the last key."""
+        """Tick of the last key."""
         return self.keys[-1].tick
 
     @property

@@ -222,7 +222,7 @@ class PoseCorrection(Own, frozen=True, tag="pose"):
 
     @property
     def named(self) -> tuple[str, str]:
-        """What is held differently."""
+        """Name of the corrected part."""
         return "pose", self.target
 
 

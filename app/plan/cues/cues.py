@@ -73,7 +73,7 @@ def leader_of(
 
 
 def _at_hand(leader: int, tick: int, parts: tuple[MonophonicPart, ...], all_times: tuple[LineTimes, ...]) -> int:
-    """Of all lines of the leader's musician the one whose instrument is in the hands: what begins there, or began last
+    """The leader's part that is being played at this entry: the one that starts there, else the last one that started
     before it."""
     musician = parts[leader].musician or parts[leader].player_id
     own = [index for index, part in enumerate(parts) if (part.musician or part.player_id) == musician]

@@ -201,7 +201,7 @@ def _nothing_begins(times: NoteTimes, begin: int, tick: int) -> bool:
 def _tempo_entries(
     sounding: list[tuple[int, NoteTimes]], lines: _Spans, piece: Piece, held: tuple[Fermata, ...]
 ) -> list[Entry]:
-    """Where a new tempo begins and stays, or the old one goes on after a fermata."""
+    """Entries where a new tempo begins and stays, or the old one goes on after a fermata."""
     beats = piece.metre_map.felt_between(int(lines.starts[0]), int(lines.ends[-1]))
     seconds = piece.clock.seconds(beats.astype(np.float64))
     lasts_s: FloatArray = np.diff(seconds) / np.maximum(np.diff(beats), 1)

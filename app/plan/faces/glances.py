@@ -175,7 +175,7 @@ def _glance(name: str, at: str, start_s: float, end_s: float, yaw_rad: float) ->
 
 
 def _turned(glance: GlanceEvent, lowered: Spans) -> GlanceEvent:
-    """With as much of the head as is free, and as far as eyes and head go."""
+    """Return the glance with as much turn of the head as is free, and as far as eyes and head go."""
     free = lowered.hold(glance.start_s - 0.5, glance.end_s + 0.5)
     share = FREE_HEAD if free else PLAYING_HEAD
     most_rad = min(EYES_RAD / (1.0 - share), MOST_RAD)

@@ -31,7 +31,7 @@ def live_rules(rules: tuple[Rule, ...], expressions: Collection[str]) -> tuple[R
 def faces_now(
     rules: tuple[Rule, ...], pitch: FloatArray, loudness: FloatArray, effort: FloatArray, instrument: InstrumentMap
 ) -> dict[str, float]:
-    """How strongly each expression is shown to one note; arguments are (1,)."""
+    """Strength of each expression for one note; arguments are (1,)."""
     nothing = np.zeros(1)
     facts = Facts(
         loudness=loudness,

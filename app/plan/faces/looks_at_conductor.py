@@ -108,7 +108,7 @@ def _certain(times: LineTimes, piece: Piece, last_s: float) -> list[tuple[float,
 
 
 def _by_chance(times: NoteTimes, piece: Piece, amount: float, seeds: Seeds) -> list[tuple[float, float]]:
-    """As phrases begin, and now and then before a bar."""
+    """Looks at beginnings of phrases, and now and then before a bar."""
     rests_s = times.onset_s[1:] - times.played_end_s[:-1]
     starts = np.flatnonzero(np.insert(rests_s >= PHRASE_REST_S, 0, False))
     starts = starts[seeds.chances_at("up at phrase", times.onset_tick[starts]) < PHRASE_CHANCE * amount]

@@ -190,7 +190,7 @@ class FingeringProblem:
 
     @cached_property
     def motions(self) -> Motions:
-        """What every step takes."""
+        """Motions of every step."""
         table, times, index, count = self.table, self.times, self.pitch_index, len(self.table.choices)
         gap = np.maximum(times.onset_s[1:] - times.played_end_s[:-1], 0.0)
         step = np.maximum(times.onset_s[1:] - times.onset_s[:-1], 1e-3)
@@ -297,7 +297,8 @@ class FingeringProblem:
         return np.asarray(cost, dtype=np.float64)
 
     def goes_further(self, path: IntArray, other: IntArray, starts: IntArray, ends: IntArray) -> BoolArray:
-        """Of spans of notes ``starts[i]``..``ends[i]``: whether a path goes further in them than another, or faster.
+        """For each span of notes ``starts[i]``..``ends[i]``, return whether a path moves further or faster than
+        another.
 
         Compared are the travel of slides and the fastest of their motions, as a part of the time it has; where there is
         no slide, the moves of fingers (beside one, a lever's moves are no travel).

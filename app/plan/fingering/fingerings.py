@@ -142,7 +142,7 @@ def _vented(event: FingeringEvent, ranked: Sequence[Fingering], attacks: Mapping
 
 
 def _shortest_steps(problem: FingeringProblem) -> tuple[list[float], list[bool]]:
-    """Of every note the shorter of the steps to it and from it, in seconds, and whether one of them is in a trill."""
+    """For every note, the shorter of the steps to it and from it, in seconds, and whether one of them is in a trill."""
     steps = np.diff(problem.times.onset_s)
     if not len(steps):
         return [0.0], [False]

@@ -138,7 +138,7 @@ def _taps(
     tap: FloatArray | float,
     steps: Sequence[GestureEvent],
 ) -> list[GestureEvent]:
-    """With the beats of some phrases, always with the same foot."""
+    """Taps with the beats of some phrases, always with the same foot."""
     side = 1.0 if seeds.chance("tap foot") < 0.35 else -1.0
     reason = Message("gesture.tap", {"side": "left" if side > 0.0 else "right"})
     ticks = times.onset_tick[np.array([phrase.first for phrase in found])]
@@ -173,7 +173,7 @@ def _heels(
     steps: Sequence[GestureEvent],
     taps: Sequence[GestureEvent],
 ) -> list[GestureEvent]:
-    """Of the foot that has little weight to carry, while no foot steps or taps."""
+    """Raised heels of the foot that has little weight to carry, while no foot steps or taps."""
     busy = np.array(
         [(event.start_s - CLEAR_S, event.end_s + CLEAR_S) for event in (*steps, *taps)], np.float64
     ).reshape(-1, 2)

@@ -60,7 +60,7 @@ def in_long_rests(
     frame: TimeFrame,
     seeds: Seeds,
 ) -> list[GestureEvent]:
-    """What is done while the instrument is lowered (``lowered``) in rests of at least `LONG_REST_S`."""
+    """Gestures while the instrument is lowered (``lowered``) in rests of at least `LONG_REST_S`."""
     events: list[GestureEvent] = []
     onsets_s = dict(zip((note.id for note in notes), times.onset_s.tolist(), strict=True))
     ticks = {note.id: note.onset_tick for note in notes}
@@ -80,7 +80,7 @@ def in_long_rests(
 def _rest(
     note_id: str, place: int, down_s: tuple[float, float], rest_s: float, piece: Piece, seeds: Seeds
 ) -> list[GestureEvent]:
-    """What is done in the rest before the note at the tick ``place`` while the instrument is down, ``down_s``."""
+    """Gestures in the rest before the note at the tick ``place`` while the instrument is down, ``down_s``."""
     first_s, last_s = down_s
     said = {"rest_s": round(rest_s, 2)}
     events: list[GestureEvent] = []

@@ -196,7 +196,7 @@ def accents(
 
 
 def _on_beat(times: NoteTimes, pulse: Pulse, piece: Piece) -> tuple[BoolArray, FloatArray]:
-    """Which notes begin with a felt beat, and how long a beat is there."""
+    """Return which notes begin with a felt beat, and the length of a beat there."""
     lengths = piece.beat_ticks_at(times.onset_tick)
     nearest, before = (_nearest(pulse.beat_ticks, times.onset_tick, back) for back in (0, 1))
     off = np.minimum(np.abs(nearest - times.onset_tick), np.abs(before - times.onset_tick))
@@ -211,7 +211,7 @@ def _nearest(places: IntArray, ticks: IntArray, back: int = 0) -> IntArray:
 
 
 def _nodded(at_s: FloatArray, cues: Sequence[CueEvent]) -> BoolArray:
-    """Which times are near a cue, before or after it."""
+    """Return which times are near a cue, before or after it."""
     cued_s = np.sort([-np.inf, *(cue.end_s for cue in cues), np.inf])
     following = np.searchsorted(cued_s, at_s).clip(1)
     near: BoolArray = np.minimum(at_s - cued_s[following - 1], cued_s[following] - at_s) < CUED_S

@@ -196,8 +196,8 @@ def _shaped(
 
 
 def _turns() -> tuple[FloatArray, FloatArray, FloatArray, IntArray]:
-    """Of every form and unit: how much of the place before the block, of its end, and of its turn between is there, and
-    how many units the swing has."""
+    """For each form and unit: weights of the previous position, the end and the turning point, and the number of
+    units."""
     shape = (len(FORMS), BLOCK)
     before, after, between, parts = np.zeros(shape), np.zeros(shape), np.zeros(shape), np.zeros(shape, np.int64)
     for row, form in enumerate(FORMS):

@@ -99,7 +99,7 @@ def _spans(
 
 
 def _pressed(controller: ControllerInput, clock: TempoMap, at_s: FloatArray, sounds: BoolArray) -> FloatArray:
-    """What bite and pitch bend add to the tension: the bite by how far it is from the usual one."""
+    """Tension added by bite and pitch bend: the bite by its distance from the usual one."""
     bite = bend = np.zeros(len(at_s))
     if controller.bite is not None:
         bite = _sampled(controller.bite, clock, at_s)

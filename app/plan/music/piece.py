@@ -288,7 +288,8 @@ def without_sound(notes: tuple[Note, ...]) -> tuple[Note, ...]:
 
 @lru_cache(maxsize=64)
 def _digests(parts: tuple[str | int, ...], places: bytes) -> bytes:
-    """Of the parts with each place (int64) after them. Kept, since an edit of a pitch moves no note of its line."""
+    """Digests of the parts with each place (int64) after them. Kept, since an edit of a pitch moves no note of its
+    part."""
     head = partial_digest(parts)
     digests = []
     for place in np.frombuffer(places, np.int64).tolist():

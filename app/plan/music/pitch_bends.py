@@ -18,7 +18,7 @@ LEAST_BEND: Final = 0.3
 
 
 def bends(notes: Sequence[Note], bend: ControllerSteps | None) -> list[tuple[str, ...]]:
-    """How each note is bent: ``scoop`` (into its start from below) or ``plop`` (from above), ``fall`` (away at its end
+    """Bends of each note: ``scoop`` (into its start from below) or ``plop`` (from above), ``fall`` (away at its end
     downwards) or ``doit`` (upwards).
 
     Parameters

@@ -82,7 +82,7 @@ def set_values(project: Project, player_id: str, keys: Keys, value: float) -> Pr
 
 
 def set_interpolation(project: Project, player_id: str, keys: Keys, interpolation: Interpolation) -> Project:
-    """How curves go on from keys."""
+    """Set how curves continue from keys."""
     return _each_key(project, player_id, keys, lambda key, _: msgspec.structs.replace(key, interpolation=interpolation))
 
 

@@ -20,7 +20,7 @@ from app.project.model import Project
 
 
 def place(correction: Correction) -> tuple[str, ...]:
-    """What a correction is about: two of a player about the same place exclude one another."""
+    """Place of a correction: two of a player at the same place exclude one another."""
     more = (correction.kind,) if isinstance(correction, SetBreath) else ()
     return (correction.tag, correction.anchor, *more)
 

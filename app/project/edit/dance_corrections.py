@@ -42,7 +42,7 @@ def _tick(tick: int) -> int:
 
 
 def _place(item: DanceCorrection) -> tuple[int, ...]:
-    """What a correction is about: at one tick one thing is pinned."""
+    """Place of a correction: at one tick one thing is pinned."""
     return (item.start_tick, item.end_tick, item.state) if isinstance(item, ForbidState) else (item.tick,)
 
 

@@ -106,7 +106,7 @@ def change_dancers(project: Project, dancer_ids: Collection[str], **fields: Any)
 
 
 def dancer_edit(field: str, dancer: str) -> Message:
-    """What the history calls a change of a field of a dancer of this name."""
+    """Name in the history for a change of a field of a dancer of this name."""
     if field in DANCER_PARAMETERS:
         return Message("edit.dancer_parameter", {"parameter": DANCER_PARAMETERS[field].label, "dancer": dancer})
     return Message(f"edit.dancer_{field}", {"dancer": dancer})

@@ -311,7 +311,7 @@ def _changed(project: Project, plan: PlayerPlan, event: Placed, **values: object
 def _all_changed(
     project: Project, plan: PlayerPlan, event_ids: Iterable[str], kind: type[Placed], **values: object
 ) -> Project:
-    """With the events of a kind changed."""
+    """Return the project with the events of a kind changed."""
     chosen = [event for event in _current(project, plan, event_ids) if isinstance(event, kind)]
     return with_corrections(
         project, plan.player_id, [item for one in chosen for item in _changed(project, plan, one, **values)]

@@ -73,7 +73,7 @@ def variations(
 
 
 def by_hand(project: Project, player_ids: Iterable[str]) -> tuple[Correction, ...]:
-    """What was corrected of some players, variations aside."""
+    """Corrections of some players, without variations."""
     return tuple(
         item
         for player_id in player_ids

@@ -311,7 +311,7 @@ def _checked(note: Note) -> Note:
 
 
 def _notes_of(item: Correction) -> set[str]:
-    """What a correction is about, as a note's id: also of the event that belongs to a note, ``"breath:<note>"``."""
+    """Ids of the notes that a correction is about, including the note of an event, ``"breath:<note>"``."""
     return {item.anchor, EventId.parse(item.anchor).of, getattr(item, "note_id", None) or item.anchor}
 
 
@@ -322,7 +322,7 @@ def _each(project: Project, note_ids: Iterable[str], edit: Callable[[Note], Note
 
 
 def _with_more(project: Project, beside: dict[str, Note]) -> Project:
-    """With a new note in the part of each note named."""
+    """Return the project with a new note in the part of each note named."""
 
     def more(notes: tuple[Note, ...]) -> list[Note]:
         return [*notes, *(beside[note.id] for note in notes if note.id in beside)]
@@ -331,7 +331,7 @@ def _with_more(project: Project, beside: dict[str, Note]) -> Project:
 
 
 def _edited(project: Project, part_ids: Collection[str], edit: Callable[[tuple[Note, ...]], list[Note]]) -> Project:
-    """With these parts' notes edited and in order; the same project where nothing is different."""
+    """Return the project with these parts' notes edited and in order; `project` itself if nothing is different."""
     parts = []
     for part in project.score.parts:
         if part.id in part_ids:

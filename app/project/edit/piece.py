@@ -107,7 +107,7 @@ def piece_settings(project: Project) -> PieceSettings:
 
 
 def usual_settings(title: str, project: Project | None = None) -> PieceSettings:
-    """What a new piece of this title begins with, by the tempo and the notes of ``project`` where that is given."""
+    """Default settings of a new piece of this title, by the tempo and the notes of ``project`` if that is given."""
     usual = piece_settings(new_piece(title))
     if project is None:
         return usual

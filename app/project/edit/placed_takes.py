@@ -49,7 +49,7 @@ _CURVES: Final[IdentityCache[tuple[ControllerCurve, ...]]] = IdentityCache(64)
 
 
 def recorded_of(project: Project, player_id: str) -> PlayerTakes:
-    """What was recorded of a player; nothing, with the part as it is, of one who never was."""
+    """Takes of a player; for a player without any, none, with the part as it is."""
     recorded = project.takes.get(player_id)
     if recorded is not None:
         return recorded
@@ -66,7 +66,7 @@ def take_notes(project: Project, player_id: str, take_id: str) -> tuple[Note, ..
 
 
 def take_cleaned(project: Project, player_id: str, take_id: str) -> Cleaned:
-    """What the cleaning of a take leaves out, and why."""
+    """Notes that the cleaning of a take leaves out, with reasons."""
     return cleaned(recorded_with(project, player_id, take_id).take(take_id))
 
 
@@ -86,7 +86,7 @@ def recorded_with(project: Project, player_id: str, take_id: str) -> PlayerTakes
 
 
 def source_of(project: Project, player_id: str, take_id: str) -> tuple[tuple[Note, ...], tuple[ControllerCurve, ...]]:
-    """What a take, or the part before the first one, has to give."""
+    """Notes and curves of a take, or of the part before the first one."""
     if take_id == BEFORE:
         recorded = recorded_of(project, player_id)
         return recorded.before_notes, recorded.before_curves

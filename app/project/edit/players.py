@@ -72,7 +72,7 @@ def postures_of(player: Player) -> tuple[Posture, ...]:
 
 
 def posture_of(player: Player) -> Posture:
-    """How a player is seen: as set, or in the only posture the instrument is played in."""
+    """Posture of a player: as set, or the only one that the instrument is played in."""
     instrument = instrument_of(player)
     return player.parameters.posture if instrument is None else instrument.hold.possible(player.parameters.posture)
 
@@ -197,7 +197,7 @@ def show_layer(project: Project, player_ids: Collection[str], amount: str, shown
 
 
 def parameter_edit(parameter: str, count: int) -> Message:
-    """What the history calls a change of a parameter of so many players."""
+    """Name in the history for a change of a parameter of this many players."""
     return Message("edit.parameter", {"parameter": PARAMETERS[parameter].label, "count": count})
 
 

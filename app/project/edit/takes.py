@@ -192,7 +192,7 @@ def follow_beats(project: Project, player_id: str, take_id: str, beats_s: FloatA
 
 
 def _require_free(project: Project, player_id: str) -> None:
-    """Where others play, the tempo is not one take's to say."""
+    """Refuse to set the tempo by a take where others play."""
     for part in project.score.parts:
         if part.notes and part.id != project.player(player_id).part_id:
             raise AppError("take.not_free", part=part.name)
@@ -305,7 +305,7 @@ def _arrays(curve: ControllerCurve) -> tuple[IntArray, FloatArray]:
 
 
 def _held(ticks: IntArray, values: FloatArray, tick: int) -> float:
-    """What holds at a tick; 0 before the first."""
+    """Value that holds at a tick; 0 before the first."""
     index = int(np.searchsorted(ticks, tick, side="right")) - 1
     return float(values[index]) if index >= 0 else 0.0
 
