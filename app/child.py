@@ -242,7 +242,7 @@ def can_fork() -> bool:
 
 
 def own_process(module: str, *arguments: str) -> dict[str, Any]:
-    """What `subprocess` needs to run one of our modules: the command, its environment and its process group.
+    """Arguments of `subprocess` for one of our modules: the command, its environment and its process group.
 
     The child finds the packages that this process finds, wherever it is started, and none that happen to lie in the
     folder where it is: what the user has downloaded is not run. Ctrl-C in the terminal is not sent to it: this process

@@ -63,7 +63,7 @@ TOO_DEEP: Final = "lists or objects nested too deeply"
 
 
 def shortened(detail: object, most: int = 200) -> str:
-    """What a library says about a fault, for a message: it may quote any amount of the file."""
+    """Shorten what a library says about a fault, for a message: it may quote any amount of the file."""
     text = TOO_DEEP if isinstance(detail, RecursionError) else str(detail)
     return text if len(text) <= most else f"{text[: most - 1]}…"
 

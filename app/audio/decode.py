@@ -216,5 +216,5 @@ def _stereo(block: Block) -> Block:
 
 
 def _detail(error: Exception) -> str:
-    """What the library says, without the path that the message names already."""
+    """Message of the library, without the path that our message names already."""
     return str(error).rsplit(": ", 1)[-1].rstrip(".")

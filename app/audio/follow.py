@@ -289,7 +289,7 @@ def _present(
 
 
 def _pins(score: Score, pinned: Mapping[int, float]) -> Pins:
-    """What was pinned, as the analysis hears it."""
+    """Pins in the analysis's own units."""
     return Pins(
         score.tempo_map.seconds(np.array([*pinned], np.float64)), np.array([*pinned.values()], np.float64) - EARLY_S
     )
@@ -331,8 +331,8 @@ def _confidence(
     times: FloatArray,
     found: FloatArray,
 ) -> FloatArray:
-    """How sure each beat is, 0..1: whether what sounds around it is what the score has there, rather than the score
-    transposed, and whether notes begin where they should."""
+    """Confidence of each beat, 0..1: whether the sound around it matches the score rather than the score transposed,
+    and whether notes begin where they should."""
     frames = np.arange(shapes.shape[1])
     at = np.interp((frames + 0.5) * CHROMA_S, beat_s, recording_s, left=-1.0, right=-1.0) / CHROMA_S
     inside = (at >= 0) & (at < recorded.chroma.shape[1])

@@ -27,7 +27,7 @@ _SIDE: Final = 0.6
 
 
 def player_phrases(project: Project, player: Player) -> tuple[RenderedPhrase, ...]:
-    """What the synthesiser renders for a player, also where the instrument's map is missing."""
+    """Phrases that the synthesiser renders for a player, also where the instrument's map is missing."""
     part = project.part(player)
     return phrases(part, project.score.tempo_map, program_of(part, all_maps().get(player.instrument_id)))
 

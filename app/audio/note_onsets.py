@@ -92,7 +92,7 @@ def _own_partials(pitch: float, others: FloatArray) -> FloatArray:
 
 
 def _without_lateness(score: Score, shifts: dict[str, float]) -> dict[str, float]:
-    """Without what all notes of a part have in common: how softly its instrument speaks."""
+    """Subtract each part's common onset delay."""
     result = {}
     for part in score.parts:
         own = {note.id: shifts[note.id] for note in part.notes if note.id in shifts}

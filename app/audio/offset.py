@@ -147,7 +147,7 @@ def _by_onsets(recorded: RecordedSound, expected: ExpectedSound, rough: Recordin
 
 
 def _likeness(recorded: RecordedSound, expected: ExpectedSound, place: RecordingPlace) -> float:
-    """How alike the chroma of both are where the score now lies, against the score transposed: 0 for another piece."""
+    """Likeness of both chroma at the present offset, against the score transposed: 0 for another piece."""
     lag = int(np.floor(place.start_s / CHROMA_S))
     expected_chroma = score_chroma(expected, place.ratio, place.start_s / CHROMA_S - lag)
     first, last = max(lag, 0), min(lag + expected_chroma.shape[1], recorded.chroma.shape[1])

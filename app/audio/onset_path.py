@@ -99,7 +99,7 @@ def chroma_similarity(
 
 
 def _even_path(strength: FloatArray, shifts: FloatArray, gaps_s: FloatArray, uneven: float) -> IntArray:
-    """Of each onset the shift, so that strong places are chosen and neighbours shift alike: Viterbi's algorithm.
+    """Shift of each onset, so that strong places are chosen and neighbours shift alike: Viterbi's algorithm.
 
     Parameters
     ----------

@@ -103,7 +103,7 @@ _playing: Final[set[OutputSink]] = set()
 
 @atexit.register
 def _stop_all() -> None:
-    """Without this the interpreter would wait at its end for the device's thread, and that thread for it."""
+    """Stop all devices at exit; otherwise the interpreter and the device's thread would wait for each other."""
     for sink in tuple(_playing):
         sink.stop()
 

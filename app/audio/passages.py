@@ -41,7 +41,7 @@ class Passage:
 
 
 def passages(score: FloatArray, recording: FloatArray, frame_s: float = CHROMA_S) -> tuple[Passage, ...]:
-    """What is played of a score, in order, without what is played again: of a repeat the first time.
+    """Passages of a score that are played, in order; of a repeat, the first time only.
 
     Parameters
     ----------
@@ -76,7 +76,7 @@ def passages(score: FloatArray, recording: FloatArray, frame_s: float = CHROMA_S
 
 
 def _path(score: FloatArray, recording: FloatArray) -> IntArray:
-    """Of every frame of the recording the frame of the score."""
+    """Frame of the score for every frame of the recording."""
     count = len(score)
     places = np.arange(count)
     how = np.empty((len(recording), count), np.int8)
@@ -102,8 +102,8 @@ def _path(score: FloatArray, recording: FloatArray) -> IntArray:
 
 
 def _rising(runs: list[tuple[int, int]], path: IntArray) -> list[tuple[int, int]]:
-    """Of runs of the recording those that go on in the score, and together are longest; what was played already is cut
-    off their beginnings."""
+    """Runs of the recording that go on in the score and together are longest; what was played already is cut off their
+    beginnings."""
     # By the last run: length, runs as they are cut.
     found: list[tuple[int, list[tuple[int, int]]]] = []
     for first, last in runs:

@@ -88,7 +88,7 @@ class Playback(QObject):
 
     @property
     def mix(self) -> Mix:
-        """What is played."""
+        """The mix that is played."""
         return self._mix
 
     def set_mix(self, mix: Mix) -> None:
@@ -96,7 +96,7 @@ class Playback(QObject):
         self._mix = self._reader.mix = mix
 
     def set_span(self, start_s: float, end_s: float) -> None:
-        """Where the performance begins and ends; playing stops at the end."""
+        """Set the beginning and the end of the performance; playing stops at the end."""
         self._span_s = (start_s, end_s)
 
     def set_loop(self, loop_s: tuple[float, float] | None) -> None:

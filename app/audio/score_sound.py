@@ -55,7 +55,7 @@ class ExpectedSound:
 
 
 def expected_sound(score: Score) -> ExpectedSound:
-    """What a score asks for, note by note in the order of its parts."""
+    """Expected sound of a score, note by note in the order of its parts."""
     notes = [note for part in score.parts for note in part.notes]
     seconds = score.tempo_map.seconds
     return ExpectedSound(
@@ -69,7 +69,7 @@ def expected_sound(score: Score) -> ExpectedSound:
 def sounds_to_compare(
     score: Score, samples: Samples, rate_hz: int, progress: Callable[[float], None]
 ) -> tuple[ExpectedSound, RecordedSound]:
-    """What a score asks for, and what a recording of it sounds like.
+    """Expected sound of a score, and features of a recording of it.
 
     Raises
     ------
@@ -97,7 +97,7 @@ def analysis_sound(samples: Samples, rate_hz: int) -> Sound:
 
 
 def recorded_sound(samples: Samples, rate_hz: int, progress: Callable[[float], None]) -> RecordedSound:
-    """What a recording sounds like, whatever it is tuned to.
+    """Features of a recording, whatever its tuning.
 
     Parameters
     ----------

@@ -30,7 +30,7 @@ class Learned(msgspec.Struct, frozen=True):
 
 
 def recognised_controller(events: Iterable[tuple[int, bytes]], trusted: Sequence[BreathSource] = ()) -> Learned | None:
-    """What moves most and without jumps; None where nothing was blown.
+    """Controller that moves most and without jumps; None if nothing was blown.
 
     Some instruments send one breath by two messages: of those that move about as much as the most moved, the most
     trusted is taken.
@@ -61,7 +61,7 @@ def recognised_controller(events: Iterable[tuple[int, bytes]], trusted: Sequence
 def learned_bite(
     bitten: Iterable[tuple[int, bytes]], blown: Iterable[tuple[int, bytes]], breath: Learned
 ) -> BiteSource | None:
-    """What moves most while the user bites; None where nothing does.
+    """Controller that moves most while the user bites; None if nothing does.
 
     Parameters
     ----------

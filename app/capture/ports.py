@@ -57,13 +57,13 @@ class MidiSystem:
         return self._watch is not None and self._watch.has_ended
 
     def inputs(self) -> tuple[Port, ...]:
-        """What can be listened to now."""
+        """Present inputs."""
         ports = named(self._lists.inputs(), self.name, self._known)
         self._known |= {port.identity: port.name for port in ports}
         return ports
 
     def outputs(self) -> tuple[Port, ...]:
-        """What could be sent to now."""
+        """Present outputs."""
         return named(self._lists.outputs(), self.name)
 
     def open_input(self, port: Port, callback: MidiCallback) -> OpenInput:

@@ -119,7 +119,7 @@ def _fastest(channel: str) -> float:
 
 
 def _about_its_mean(values: FloatArray, fps: float, fastest: float) -> FloatArray:
-    """Without what is faster than a player moves, and without what is slow."""
+    """Band-pass filter: removes what is faster than a player moves, and what is slow."""
     speeds = np.diff(values) * fps
     kept = np.concatenate(([0.0], np.cumsum(within(speeds, fastest, fastest)))) / fps
     smooth = gaussian_filter1d(kept, SMOOTH_S * fps, mode="nearest")

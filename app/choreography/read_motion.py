@@ -129,7 +129,7 @@ def read_motion(path: str | os.PathLike[str], fps: Fraction | None = None) -> Re
 
 
 def guesses(motion: ReadMotion) -> tuple[Message, ...]:
-    """What a user may want to correct of what was guessed about a motion's file."""
+    """Guesses about a motion's file that a user may want to correct."""
     found = []
     if motion.clip.fps != motion.file_fps:
         found.append(Message("motion.rate", {"rate": str(motion.clip.fps), "said": str(motion.file_fps)}))
@@ -244,7 +244,7 @@ def _foot_tips(bvh: BvhClip, figure: Figure, bones: Mapping[str, int]) -> dict[s
 
 
 def _world(bvh: BvhClip) -> _World:
-    """Where the file's joints are in each frame, in its own space."""
+    """Places of the file's joints in each frame, in its own space."""
     rotations = np.array(bvh.rotations_xyzw, np.float64)
     positions = np.empty((*rotations.shape[:2], 3))
     for joint, parent in enumerate(bvh.parents):

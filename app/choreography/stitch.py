@@ -208,7 +208,7 @@ class _Output:
         self._fades_until, self._carried = 0, 0
 
     def fading(self, frame: int) -> int:
-        """Of how many segments something of an earlier motion is left at a frame."""
+        """Number of earlier segments that still fade out at a frame."""
         return self._carried if frame < self._fades_until else 0
 
     def append(self, start: int, hips: FloatArray, rotations: FloatArray, carried: int) -> None:
@@ -247,7 +247,7 @@ class _Output:
         return complex(self.hips[frame - 1, 2], self.hips[frame - 1, 0])
 
     def lately(self, frame: int) -> tuple[complex, float] | None:
-        """Where the hips were and where they faced, in the mean of `LATELY_S`."""
+        """Mean place and facing of the hips over `LATELY_S`."""
         first = max(0, frame - round(LATELY_S * self._rate))
         if frame - first < 2:
             return None

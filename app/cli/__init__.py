@@ -109,7 +109,7 @@ _OTHERWISE_PLACED: Final = frozenset({"file", "folder", "host"})
 
 
 def _with_file(error: AppError, parsed: argparse.Namespace) -> str:
-    """What is wrong with the input, and with which file, also where the room that found out knows no files."""
+    """Error with its file, even where the code that raised it knows no files."""
     sentence = error_text(error)
     if "file" not in parsed or not _OTHERWISE_PLACED.isdisjoint(error.message.arguments):
         return sentence

@@ -109,7 +109,7 @@ def _same(one: Path, other: Path) -> bool:
 
 
 def _follow(project: Project, arguments: argparse.Namespace) -> Followed:
-    """What the recording says, in seconds of the whole recording, whatever part of it was asked for."""
+    """Result of following the recording, in seconds of the whole recording, whatever part of it was asked for."""
     from app.audio.decode import decode
     from app.audio.followed_recording import FollowOptions, listen
     from app.audio.track import RATE_HZ
@@ -149,7 +149,7 @@ def _stem(project: Project, given: str) -> tuple[str, str]:
 
 
 def _report(project: Project, following: Following, target: Path) -> None:
-    """What was written, bars that are doubtful, and what only one of the two has."""
+    """Print what was written, doubtful bars, and passages that only one of the two has."""
     from app.score.beat_following import bars_named
 
     changes = project.score.tempo_map.bpm

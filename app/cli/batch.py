@@ -255,7 +255,7 @@ class _Children:
 
 @contextmanager
 def _executor(scheduler: str | None, jobs: int | None) -> Iterator[Executor]:
-    """What runs `export_piece`: threads here, each waiting for a process, or the machines of a Dask scheduler."""
+    """Executor for `export_piece`: threads here, each waiting for a process, or the machines of a Dask scheduler."""
     if scheduler is None:
         threads = ThreadPoolExecutor(jobs or core_count())
         try:
@@ -271,7 +271,7 @@ def _executor(scheduler: str | None, jobs: int | None) -> Iterator[Executor]:
 
 
 def _outcome(future: Future[BatchOutcome]) -> BatchOutcome:
-    """What became of a piece, also where its machine was lost."""
+    """Result of a piece, also where its machine was lost."""
     try:
         return future.result()
     except Exception as error:  # noqa: BLE001 - a scheduler's errors have no common base; one piece stops no other

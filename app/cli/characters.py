@@ -147,7 +147,7 @@ def morphs_of(texts: list[str]) -> dict[str, dict[str, float]]:
 
 
 def checked(path: Path, joints: Mapping[str, str], morphs: Mapping[str, Mapping[str, float]]) -> dict[str, Any]:
-    """What of a file's figure is what, as JSON has it. Raises FileError where there is no figure in it."""
+    """Mapping of a file's figure, as JSON. Raises FileError where there is no figure in it."""
     from app.rig.characters.figure_to_character import figure_character
     from app.rig.characters.load_character import read_character
     from metadata.model import REQUIRED_JOINTS
@@ -178,7 +178,7 @@ def checked(path: Path, joints: Mapping[str, str], morphs: Mapping[str, Mapping[
 
 
 def _reported(character: Any) -> tuple[Message, ...]:
-    """What an animator should know of the character with an instrument."""
+    """Notes for the animator on the character with an instrument."""
     from app.rig.grip.fitting.fitted_instrument import fitted_to_body
     from app.rig.instrument import load_instrument
     from instrument_maps.library import find_map, model_path
@@ -190,7 +190,7 @@ def _reported(character: Any) -> tuple[Message, ...]:
 
 
 def as_text(found: Mapping[str, Any]) -> list[str]:
-    """What was found, for people."""
+    """Findings as text."""
     doubtful = set(found["doubtful_joints"])
     by_what = {"": "by shape", "vrm0": "by the file (VRM 0.x)", "vrm1": "by the file (VRM 1.0)"}
     lines = [

@@ -23,7 +23,7 @@ _DISPLAY = re.compile(r"^(?:(?P<host>[^:/]*)(?:/\w+)?|(?P<path>/.*)):(?P<number>
 
 
 def virtual(command: str) -> str:
-    """What to do without a display for what is only drawn, and looked at in a file."""
+    """Advice for drawing to a file without a display."""
     return f"A virtual one does: install xvfb, then 'xvfb-run -a suisou {command} ...'."
 
 
@@ -33,7 +33,8 @@ def why_no_display(
     what: str = "the editor",
     instead: str = INSTEAD,
 ) -> str | None:
-    """Why the editor cannot be shown, or a film not drawn, as a sentence for the command line; None where it can."""
+    """Reason why the editor cannot be shown, or a film not drawn, as a sentence for the command line; None if it
+    can."""
     if not platform.startswith("linux") or environment.get("QT_QPA_PLATFORM", "").partition(":")[0] in WITHOUT:
         return None
     display, wayland = environment.get("DISPLAY", ""), environment.get("WAYLAND_DISPLAY", "")
@@ -46,7 +47,7 @@ def why_no_display(
 
 
 def example_hint() -> str:
-    """What to type to see something on the disk, where the editor cannot show its example."""
+    """Command to type to see something on the disk, where the editor cannot show its example."""
     with as_file(files("resources") / "examples" / "quartet.mid") as path:
         command = f"suisou export {shlex.quote(str(path.absolute()))} --to out"
     return f"to try the bundled quartet: {command}"

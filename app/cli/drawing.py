@@ -48,7 +48,7 @@ def require_writable(path: Path, folder: Path) -> None:
 
 
 def nearest(path: Path) -> Path:
-    """What there is of a path."""
+    """Existing beginning of a path."""
     return next((place for place in (path, *path.parents) if os.path.exists(place)), path)
 
 

@@ -96,7 +96,7 @@ def add_arguments(command: argparse.ArgumentParser) -> None:
 
 
 def _add_skeleton_options(command: argparse.ArgumentParser) -> None:
-    """What the characters are written on."""
+    """Add the options for the skeletons."""
     command.add_argument(
         "--skeleton",
         choices=SKELETONS,
@@ -123,7 +123,7 @@ def _add_skeleton_options(command: argparse.ArgumentParser) -> None:
 
 
 def _add_content_options(command: argparse.ArgumentParser) -> None:
-    """What is written beside the players' own files, and how many keys."""
+    """Add the options for further files, and for reducing keys."""
     command.add_argument(
         "--sound",
         action="store_true",
@@ -146,7 +146,7 @@ def _add_content_options(command: argparse.ArgumentParser) -> None:
 
 
 def add_rig_options(command: argparse.ArgumentParser) -> None:
-    """How instruments hang, and what the skeletons have beside their bones."""
+    """Add the options for attaching instruments, and for additions to the skeletons."""
     command.add_argument(
         "--instrument",
         choices=ATTACHMENTS,
@@ -244,7 +244,7 @@ def _request(
     folder: Path,
     skeleton: SkeletonChoice,
 ) -> ExportRequest:
-    """What is to be exported, once it is known how the instruments are held."""
+    """Request of the export, once it is known how the instruments are held."""
     project = performance.project
     names = [*(player.name for player in project.players), *(dancer.name for dancer in project.dancers)]
     chosen = select_players(arguments.players, names)

@@ -211,7 +211,7 @@ def _draw(film: _Film, stop_requested: StopRequested) -> int:
 
 
 def _kind(arguments: argparse.Namespace) -> Kind:
-    """What is written. Raises UsageError (``picture.sheet_ending``, ``picture.film_ending``)."""
+    """Kind of output. Raises UsageError (``picture.sheet_ending``, ``picture.film_ending``)."""
     if arguments.sheet is not None:
         if arguments.sheet.suffix.lower() != ".png":
             raise UsageError("picture.sheet_ending", file=str(arguments.sheet))

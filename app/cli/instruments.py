@@ -88,7 +88,7 @@ def print_scale(arguments: argparse.Namespace) -> None:
 
 
 def transposition(semitones: int) -> str:
-    """How the written pitch differs from what sounds: ``"+2"``, ``"as it sounds"``."""
+    """Interval between written and sounding pitch: ``"+2"``, ``"as it sounds"``."""
     return f"{semitones:+d}" if semitones else "as it sounds"
 
 

@@ -139,7 +139,7 @@ def _judgement(report: Report) -> list[str]:
 
 
 def look_at(warnings: Sequence[str]) -> list[str]:
-    """What to look at, after an empty line; nothing where all is well."""
+    """Warnings to look at, after an empty line; nothing if there are none."""
     return ["", "to look at:", *(f"  {warning}" for warning in warnings)] if warnings else []
 
 

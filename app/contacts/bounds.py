@@ -50,7 +50,7 @@ class Spread(msgspec.Struct, frozen=True):
 
     @classmethod
     def of(cls, distances_m: FloatArray, bound_mm: float) -> Spread:
-        """Of distances (F,)."""
+        """Measure distances (F,)."""
         if not len(distances_m):
             return cls(0.0, 0.0, bound_mm, 0)
         distances_mm = distances_m * 1000.0
@@ -76,7 +76,7 @@ def allowed_mm(name: str, bound_mm: float, missed: Mapping[str, float]) -> float
 
 
 def contact_name(contact: Contact | ContactFit) -> str:
-    """What a measure of a contact is called."""
+    """Name of a contact's measure."""
     return f"{contact.part} on {'+'.join((contact.control or contact.node, *contact.together))}"
 
 

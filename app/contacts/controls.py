@@ -223,7 +223,8 @@ def _indices(starts: IndexArray, stops: IndexArray) -> IndexArray:
 
 
 def _stops_short(control: Control, values: FloatArray, targets: FloatArray, unreached: BoolArray) -> BoolArray:
-    """Where a control that carries a hand is out of its place on the near side, for a note that is out of reach."""
+    """Frames in which a control that carries a hand is out of its place on the near side, for a note that is out of
+    reach."""
     if not control.finger.endswith(".hand"):
         return np.zeros(len(values), dtype=np.bool_)
     near: BoolArray = np.abs(values - control.rest_value) < np.abs(targets - control.rest_value)

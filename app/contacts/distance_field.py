@@ -166,7 +166,7 @@ class DistanceField:
         return found, _off_middle(inside, cells, 1)
 
     def _flat(self, places: npt.NDArray[np.int32], nodes: IndexArray) -> npt.NDArray[np.int32]:
-        """Where bricks at places (3, N) of nodes (N,) are among those of all nodes."""
+        """Indices, among those of all nodes, of bricks at places (3, N) of nodes (N,)."""
         x, y, z = places
         flat: npt.NDArray[np.int32] = (x * self._shapes[:, 1].take(nodes) + y) * self._shapes[:, 2].take(nodes) + z
         flat += self._starts.take(nodes)

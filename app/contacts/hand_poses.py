@@ -168,7 +168,7 @@ class Moves:
     changes: Mapping[str, SingleArray]
 
     def most_m(self, blocks: IndexArray, vertices: IndexArray) -> SingleArray:
-        """What vertices (N,) move at most in blocks (N,)."""
+        """Largest movement of vertices (N,) in blocks (N,)."""
         hand = self.hand
         result, first = np.zeros(len(blocks), dtype=np.float32), blocks * len(hand.joints)
         chords, shifts_m = self.chords.reshape(-1), self.shifts_m.reshape(-1)
@@ -322,7 +322,7 @@ class NodePoints:
 
 
 def _chords(changes: SingleArray) -> SingleArray:
-    """What is 1 from the origin is moved by these changes (3, 3 or more, ...) of a rotation by no more."""
+    """Bound of the movement of a point 1 from the origin by these changes (3, 3 or more, ...) of a rotation."""
     # A turn by an angle moves it by the chord, 2 sin(angle / 2), at most.
     square = np.zeros(changes.shape[2:], dtype=np.float32)
     for row in changes:

@@ -26,7 +26,7 @@ def missed_mm(grip: GripPose) -> dict[str, float]:
 
 
 def missed_message(grip: GripPose) -> Message | None:
-    """What to report about the touches; None where all are met."""
+    """Warning about the touches that are not met; None if all are."""
     off = missed_contacts(grip)
     if not off:
         return None

@@ -163,8 +163,9 @@ class Generator(QObject):
                 self._session.set_performance(performance)
 
     def _make_now(self, performance: Performance) -> None:
-        """What the player in front does at the playhead is there before anything is drawn: one picture, and it is
-        right. But in a drag, of which more will come, and where players are others, whose figures have to be loaded."""
+        """Make the front player's pose at the playhead before anything is drawn, so that the first picture is right;
+        but not in a drag, of which more will come, and not where players are others, whose figures have to be
+        loaded."""
         before, done = self._session.performance, self._session.document.done
         same_figures = performance.project.players is before.project.players and performance.library is before.library
         if same_figures and not (done and done[-1].gesture is not None):

@@ -57,7 +57,7 @@ class LibraryWatch(QObject):
         self._session.tasks.run(said, work, self._took, key=self._library.name)
 
     def _saved(self) -> None:
-        """What was written may have been read already: then it is there at once."""
+        """Announce a written item immediately if it has been read already."""
         self._take(self._library.now())
         self.read()
 

@@ -52,7 +52,7 @@ class PoseSource(Protocol):
     """Source of poses by player and time."""
 
     def poses(self, player_ids: Sequence[str], time_s: float) -> Sequence[Pose | None]:
-        """How players stand at a time, in their order; None while that is not made yet. Returns at once."""
+        """Poses of players at a time, in their order; None while one is not made yet. Returns immediately."""
 
     def pose_now(self, player_id: str, time_s: float) -> Pose | None:
-        """How a player stands, made here and now where it is not there yet: for pictures that have to be right."""
+        """Pose of a player, made here and now if it is not there yet: for pictures that have to be right."""

@@ -365,7 +365,7 @@ class _Thread:
         return bool(outcomes) and all(outcome is SendOutcome.NO_RECEIVER for outcome in outcomes)
 
     def _sent_of(self, performer: Player | Dancer, faces: FaceNames, beside: Sequence[Player]) -> Sent:
-        """How a performer is sent; made again for another character, instrument or names."""
+        """Stream of a performer; made again for another character, instrument or names."""
         instrument = performer.instrument_id if isinstance(performer, Player) else None
         of = (character_named(performer.character_id), instrument, faces, tuple(one.instrument_id for one in beside))
         known = self._sent.get(performer.id)

@@ -69,7 +69,7 @@ class Answer(msgspec.Struct, frozen=True, kw_only=True, gc=False):
 
     @property
     def question(self) -> tuple[int, str, str, str, str]:
-        """What was answered: a viewer answers it once."""
+        """Identity of the question: a viewer answers it once."""
         return self.position, self.side, self.clip, self.aspect, self.scale
 
 

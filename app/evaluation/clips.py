@@ -53,7 +53,7 @@ class PerformanceRenderer(Protocol):
         cameras: dict[float, Any] | None = None,
         marked: bool = True,
     ) -> Draw:
-        """What draws a film: see `widgets.viewport.offscreen.Offscreen.film`."""
+        """Return a renderer of a film's pictures: see `widgets.viewport.offscreen.Offscreen.film`."""
         ...
 
 

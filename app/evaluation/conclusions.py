@@ -75,7 +75,7 @@ def _may_not(results: EvaluationResults) -> Iterator[Message]:
 
 
 def _shown(steps: float) -> float:
-    """As exact as it is reported, and never "-0"."""
+    """Round a value to the reported precision, and never to "-0"."""
     return round(steps, 2) + 0.0
 
 
@@ -144,7 +144,7 @@ def _viewers(results: EvaluationResults) -> Iterator[Message]:
 
 
 def _open(results: EvaluationResults) -> Iterator[Message]:
-    """What is not shown is not shown to be equal."""
+    """Remind that differences that are not shown are not shown to be zero."""
     tested = [contrast for contrast in results.contrasts if contrast.comparison.viewers > 1]
     unshown = [contrast for contrast in tested if not contrast.significant]
     if unshown:

@@ -85,6 +85,6 @@ def _notes_s(project: Project) -> tuple[FloatArray, FloatArray]:
 
 
 def practice_of(excerpts: Sequence[Excerpt], longest_s: float = 4.0) -> Excerpt:
-    """What is shown for practice: the beginning of the last excerpt."""
+    """Excerpt for practice: the beginning of the last one."""
     last = excerpts[-1]
     return Excerpt(last.from_s, min(last.from_s + longest_s, last.until_s))

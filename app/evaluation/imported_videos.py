@@ -133,7 +133,7 @@ def import_video(
 
 @contextlib.contextmanager
 def _about(path: Path) -> Iterator[None]:
-    """What is wrong with a sound is said of the video that it is of."""
+    """Attribute errors of a sound to the video that contains it."""
     try:
         yield
     except AppError as error:
@@ -190,7 +190,7 @@ def _followed(
 
 @contextlib.contextmanager
 def pictures_of(video: ImportedVideo, from_s: float, size: tuple[int, int]) -> Iterator[Callable[[float], Picture]]:
-    """What draws a video's pictures at ascending times of the performance, whole and in the middle of a frame."""
+    """Renderer of a video's pictures at ascending times of the performance, whole and in the middle of a frame."""
     facts = video.facts
     share = min(size[0] / facts.width, size[1] / facts.height)
     inner = (max(round(facts.width * share / 2) * 2, 2), max(round(facts.height * share / 2) * 2, 2))
@@ -211,7 +211,7 @@ class _Framed:
         self._place = slice(top, top + inner[1]), slice(left, left + inner[0])
 
     def __call__(self, time_s: float) -> Picture:
-        """What a player shows at a time."""
+        """Picture of the player at a time."""
         number, picture = _number(self._video, time_s), None
         while self._pictures.next <= number and (found := self._pictures.read()) is not None:
             picture = found

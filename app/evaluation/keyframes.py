@@ -220,7 +220,7 @@ def _in_folder(folder: Path, stems: Mapping[str, str]) -> dict[str, Path]:
 
 
 def _of_one(path: Path, stems: Mapping[str, str], requested: Sequence[str]) -> dict[str, Path]:
-    """Whose file it is: by its name, else the only one's whom the evaluation is about."""
+    """Performer of a file: by its name, else the only one whom the evaluation is about."""
     named = [player_id for player_id, stem in stems.items() if stem.casefold() == path.stem.casefold()]
     owners = named or (list(requested) if len(requested) == 1 else [])
     return {owners[0]: path} if owners else {}
@@ -283,7 +283,7 @@ def _on_skeleton(clip: BvhClip, path: Path, performer: Performer) -> tuple[Float
 
 
 def _rest(offsets_cm: FloatArray, joints: Sequence[int], parents: Sequence[int], character: Character) -> FloatArray:
-    """How the joints (J, 4) are turned where a file's are not: in the T-pose, or as the mesh is bound (FBX, GLB)."""
+    """Rotations of the joints (J, 4) where a file has none: in the T-pose, or as the mesh is bound (FBX, GLB)."""
     skeleton = character.skeleton
     bound = rest_transforms(character, normalised_target(skeleton))[:, :3, :3].astype(np.float64)
     poses = np.tile(quaternion.IDENTITY, (len(skeleton.names), 1)), quaternion.from_matrix(bound)
@@ -301,7 +301,7 @@ def _hangs_on_hips(skeleton: Skeleton, joint: int) -> bool:
 
 
 def _hips(clip: BvhClip, hips: int) -> tuple[FloatArray, FloatArray]:
-    """Where the hips are (F, 3), metres, and how they are turned (F, 4), with all that carries them."""
+    """Places (F, 3), metres, and rotations (F, 4) of the hips, with all that carries them."""
     frames = len(clip.rotations_xyzw)
     place_cm, turn = np.zeros((frames, 3)), np.tile(quaternion.IDENTITY, (frames, 1))
     joint = hips

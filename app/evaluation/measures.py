@@ -157,7 +157,7 @@ def measure_variants(
 
 
 def motions_of(performance: Performance) -> dict[str, Motion]:
-    """What is seen of everyone, at `FPS`, by player id."""
+    """Motions of all players, at `FPS`, by player id."""
     span = whole_span(performance.time_frame, FPS)
     performers = performers_of(performance, performance.project.players).made
     return {player_id: player_motion(performance, performer, span) for player_id, performer in performers.items()}

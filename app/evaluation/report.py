@@ -92,7 +92,7 @@ def _plain(words: str) -> str:
 
 
 def _scores(results: EvaluationResults) -> bytes:
-    """As spreadsheets open it: with a byte order mark, in numbers."""
+    """Scores as CSV for spreadsheets: with a byte order mark, in numbers."""
     stream = io.StringIO()
     writer = csv.writer(stream, lineterminator="\r\n")
     writer.writerow(_SCORES)

@@ -110,7 +110,7 @@ def variants_of(request: EvaluationRequest) -> tuple[Variant, ...]:
 
 
 def aspects_of(view: str, seen: int) -> tuple[Aspect, ...]:
-    """What a view lets viewers judge.
+    """Aspects that viewers can judge in a view.
 
     Parameters
     ----------

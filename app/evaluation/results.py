@@ -153,7 +153,7 @@ class _Rating(msgspec.Struct, frozen=True):
 
     @property
     def place(self) -> tuple[object, ...]:
-        """What two variants must share to be compared: the pair, or the excerpt as it is seen."""
+        """Key that two variants must share to be compared: the pair, or the excerpt with its view."""
         if self.answer.presentation == "pair":
             return (self.answer.position,)
         return self.clip.excerpt, self.clip.view, self.clip.player
@@ -322,7 +322,7 @@ def _control(presentation: Presentation, differences: Sequence[float]) -> Manipu
 
 
 def _orders(ratings: Sequence[_Rating]) -> Iterator[OrderEffect]:
-    """Of each viewer the mean in the second half of what was shown minus that in the first."""
+    """For each viewer, the mean in the second half of the session minus that in the first."""
     cells: dict[object, list[int]] = defaultdict(list)
     for rating in ratings:
         cells[_question(rating.answer), rating.clip.variant].append(rating.value)

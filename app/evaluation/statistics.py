@@ -70,7 +70,7 @@ class Comparison(msgspec.Struct, frozen=True):
 
 
 def summary(values: Sequence[float]) -> Summary | None:
-    """Of one value for each viewer; None of no one."""
+    """Summarise one value per viewer; None if there are no viewers."""
     if not values:
         return None
     given = np.asarray(values, np.float64)

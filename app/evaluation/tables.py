@@ -35,7 +35,7 @@ def tables(results: EvaluationResults, measures: Sequence[VariantMeasures], lang
 
 
 def variant_name(variant: Variant, language: str) -> str:
-    """What a variant is called."""
+    """Name of a variant."""
     return text(Message(f"results.variant_{variant}"), language)
 
 
@@ -124,7 +124,7 @@ def _agreements(results: EvaluationResults, language: str) -> ResultTable:
 
 
 def measures_table(measures: Sequence[VariantMeasures], language: str) -> ResultTable:
-    """What was measured, a row for every player of every variant."""
+    """Table of the measures, a row for every player of every variant."""
     rows = []
     for variant in measures:
         for player in variant.players:

@@ -26,7 +26,7 @@ _DOWN_RAD: Final[Mapping[RestPose, float]] = {"t": 0.0, "a": np.pi / 4.0}
 
 
 def bind_transforms(character: Character, target: TargetSkeleton) -> AnyFloatArray:
-    """Where the bones were when the body was modelled, ``world_from_bone`` (B, 4, 4), centimetres.
+    """Transforms of the bones when the body was modelled, ``world_from_bone`` (B, 4, 4), centimetres.
 
     They are with their joints, the others on their parents.
     """
@@ -81,7 +81,7 @@ def _of_bones(character: Character, target: TargetSkeleton, world_from_joint: An
 
 
 def _twisted(character: Character, target: TargetSkeleton, world_from_joint: AnyFloatArray, bone: int) -> FloatArray:
-    """How a twist bone's base is turned with its share of the twist that the joint has in this pose, (3, 3)."""
+    """Rotation of a twist bone's base with its share of the joint's twist in this pose, (3, 3)."""
     twist = target.twists[bone]
     parent = character.skeleton.parents[twist.joint]
     local = world_from_joint[parent, :3, :3].T @ world_from_joint[twist.joint, :3, :3]

@@ -111,7 +111,7 @@ def character_clip(
     morph_weights: Mapping[str, SingleArray],
     held: Sequence[Trajectory] = (),
 ) -> Clip:
-    """What the bones and the face do."""
+    """Clip of the bones and the face."""
     if target.normalised:  # there is nothing to work out
         bones = BoneMotion(motion.rotations, {target.hips: motion.hips_m.astype(np.float64)})
     else:

@@ -63,7 +63,7 @@ class SkeletonDifference(msgspec.Struct, frozen=True):
 
 
 def check_skeleton(target: TargetSkeleton, asset: Figure) -> tuple[SkeletonDifference, ...]:
-    """What differs between the skeleton of an export and an asset's, the most severe first.
+    """Differences between the skeleton of an export and an asset's, the most severe first.
 
     Parameters
     ----------

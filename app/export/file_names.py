@@ -17,7 +17,7 @@ Stems = dict[str, dict[FileContent, str]]
 
 
 def figure_stems(performance: Performance) -> Stems:
-    """What the character and the instrument of everyone are called; the same for any selection of players.
+    """Names of everyone's character and instrument; the same for any selection of players.
 
     Who doubles has an instrument alone, named after the musician.
     """

@@ -225,7 +225,7 @@ def rigid_links(
 
 
 def _joined(parts: Sequence[BoneMarks], morphs: int, count: int) -> BoneMarks:
-    """What one bone adds, where several that go with it add to the same marks."""
+    """Contribution of one bone, where several that move with it add to the same marks."""
     points_m, shares, shapes_m = np.zeros((count, 3)), np.zeros(count), np.zeros((morphs, count, 3))
     for part in parts:
         points_m[part.marks] += part.points_m

@@ -176,7 +176,7 @@ class PlayerJudge:
         )
 
     def _lips(self, traces: Traces, notes: NoteFrames) -> dict[str, Any]:
-        """How the lips keep to the mouthpiece in notes, and the upper lip in breaths."""
+        """Distances of the lips from the mouthpiece in notes, and of the upper lip in breaths."""
         instrument, breaths = self.performer.instrument, self.plan.breaths
         # A catch breath comes out of a note's tail: the note sounds on, but the lips have stopped.
         blowing = notes.sounding & ~notes.within((event.start_s, event.end_s) for event in breaths)
@@ -189,7 +189,7 @@ class PlayerJudge:
         }
 
     def _touches(self, traces: Traces, notes: NoteFrames, held: ScenePlayback) -> dict[str, Any]:
-        """What fingers touch, how far the others hover, and where controls are."""
+        """Measures of the touching fingers, of the hovering ones, and of the controls."""
         instrument = self.performer.instrument
         values = _control_values(instrument, held) | hole_values(instrument, traces)
         closing = notes.within(map(tuple, bell_closing(self.plan.mutes, instrument.stopped).spans_s.tolist()))

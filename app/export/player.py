@@ -173,8 +173,8 @@ def _measured(
     read: dict[FileContent, Scene],
     reported: Callable[[float], None],
 ) -> PlayerMeasurement | None:
-    """What the files hold of a player: the musician's character and the instrument, which may hang on a socket; None
-    where none was read. The scenes are taken out of ``read``."""
+    """Measure the files of a player: the musician's character and the instrument, which may hang on a socket; None if
+    none was read. The scenes are taken out of ``read``."""
     if not read:
         return None
     performance, place = request.performance, musician.target.place
@@ -205,7 +205,7 @@ def _reported(
     keys: KeyCount,
     measured: PlayerMeasurement | None,
 ) -> DoubleReport:
-    """What is reported of a musician as the player of one instrument."""
+    """Report on a musician as the player of one instrument."""
     player, span, performance = performer.player, request.span, request.performance
     plan = performance.plan(player)
     return DoubleReport(

@@ -201,7 +201,7 @@ class _Motion:
     def places_of_marks(
         self, turned: AnyFloatArray, places_m: Mapping[int, AnyFloatArray], weights: AnyFloatArray
     ) -> AnyFloatArray:
-        """Where the marks are (K, f, 3) at some frames, metres.
+        """Places of the marks (K, f, 3) at some frames, metres.
 
         Parameters
         ----------
@@ -240,12 +240,12 @@ class _Motion:
         return result
 
     def meant(self, frames: AnyIntArray) -> KeyedPoses:
-        """What the motion is at some frames."""
+        """Exact motion at some frames."""
         places_m = {row: values[frames] for row, values in self.places_m.items()}
         return KeyedPoses(self.rotations[:, frames].astype(np.float64), places_m, self.weights[:, frames])
 
     def shown(self, frames: AnyIntArray, spans: KeySpans, by_angles: bool) -> KeyedPoses:
-        """What a program shows at some frames between keys, if it interpolates angles or quaternions."""
+        """Motion at some frames between keys in a program that interpolates angles or quaternions."""
         angles = spans.straight(self.angles) if by_angles else None
         turned = spans.turned(self.rotations) if angles is None else quaternions(angles, EULER_ORDER)
         places_m = {row: spans.row(row).straight(values[None])[0] for row, values in self.places_m.items()}
@@ -371,7 +371,7 @@ def _worst(excess: AnyFloatArray, all_frames: bool) -> list[int]:
 
 
 def _lengths(vectors: AnyFloatArray) -> AnyFloatArray:
-    """Of vectors (..., D)."""
+    """Lengths of vectors (..., D)."""
     return np.asarray(np.sqrt(np.einsum("...i,...i->...", vectors, vectors)))
 
 

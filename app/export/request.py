@@ -147,7 +147,7 @@ class ExportCast:
 
     @property
     def ids(self) -> tuple[str, ...]:
-        """Of the players and dancers who are exported."""
+        """Ids of the players and dancers who are exported."""
         return (*(one.player.id for one in self.musicians), *(one.dancer.id for one in self.dancers))
 
 

@@ -160,7 +160,7 @@ def instrument_path(motion: Motion) -> Trajectory:
 
 
 def trajectory_at_origin(frames: int) -> Trajectory:
-    """What stays at the origin."""
+    """Trajectory of an object that stays at the origin."""
     return Trajectory(np.zeros((frames, 3)), np.tile(quaternion.IDENTITY, (frames, 1)))
 
 
@@ -191,7 +191,7 @@ class BoneMotion:
 def bone_motion(
     target: TargetSkeleton, skeleton: Skeleton, motion: Motion, held: Sequence[Trajectory] = ()
 ) -> BoneMotion:
-    """What the bones of a target do where the joints of a skeleton do what a motion says.
+    """Motion of a target's bones that follows the motion of a skeleton's joints.
 
     Parameters
     ----------

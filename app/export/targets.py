@@ -37,7 +37,7 @@ class CheckedTarget:
 
     @property
     def messages(self) -> tuple[Message, ...]:
-        """What there is to know, the most severe first."""
+        """Messages about the target, the most severe first."""
         return (*reported(self.differences), *self.target.messages)
 
 

@@ -106,7 +106,7 @@ def video_into(
 def _encoder(
     path: Path, command: Callable[[Path | None], list[str]], sound: SingleArray | None, sound_rate: int
 ) -> Iterator[IO[bytes]]:
-    """Where pictures are written to; the encoder has ended well when the block is done.
+    """Open an encoder for pictures; it has ended well when the block is done.
 
     Parameters
     ----------

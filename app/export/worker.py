@@ -70,7 +70,7 @@ Answer = Share | Exported
 
 
 def job_of(request: ExportRequest, folder: Path) -> ExportJob:
-    """What a process needs to know of a request, to write into a folder."""
+    """Job for a process that writes the request into a folder."""
     span = request.span
     return ExportJob(
         project=encode(request.performance.project, folder / "project"),

@@ -78,7 +78,7 @@ class KeySpans:
 
     @classmethod
     def of(cls, kept: BoolArray) -> KeySpans:
-        """Of the frames (L, F) that have keys, the first among them."""
+        """Spans between the frames (L, F) that have keys, the first among them."""
         frames = np.arange(kept.shape[1], dtype=np.int32)
         before = np.maximum.accumulate(np.where(kept, frames, 0), axis=1)
         last = before[:, -1:]
@@ -88,21 +88,21 @@ class KeySpans:
         return cls(before, after, np.where(after > before, share, np.float32(0.0)))
 
     def at(self, frames: AnyIntArray) -> KeySpans:
-        """Of some of the frames."""
+        """Spans of some of the frames."""
         return KeySpans(self.before[:, frames], self.after[:, frames], self.share[:, frames])
 
     def row(self, row: int) -> KeySpans:
-        """Of one of the curves."""
+        """Spans of one of the curves."""
         return KeySpans(self.before[row, None], self.after[row, None], self.share[row, None])
 
     def straight(self, values: AnyFloatArray) -> FloatArray:
-        """What numbers (L, F, D) are at these frames if only the keys are known."""
+        """Numbers (L, F, D) at these frames, interpolated from the keys."""
         rows = np.arange(len(values))[:, None]
         first, last = values[rows, self.before], values[rows, self.after]
         return np.asarray(first + (last - first) * self.share[..., None], np.float64)
 
     def turned(self, rotations: AnyFloatArray) -> FloatArray:
-        """What unit quaternions (L, F, 4) are at these frames if only the keys are known."""
+        """Unit quaternions (L, F, 4) at these frames, interpolated from the keys."""
         rows = np.arange(len(rotations))[:, None]
         return slerp(rotations[rows, self.before], rotations[rows, self.after], self.share[..., None])
 

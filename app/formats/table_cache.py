@@ -56,7 +56,7 @@ def kept(kind: str, name: str, folder: Path, decoder: msgspec.msgpack.Decoder[T]
 
 @cache
 def digest_of(folder: Path) -> str:
-    """Of the tables in a folder and the code in it, as they are when they are asked for first."""
+    """Digest of the tables in a folder and the code in it, as of its first call."""
     digest = hashlib.blake2b(program_version().encode(), digest_size=16)
     for path in sorted((*folder.rglob("*.toml"), *folder.glob("*.py"))):
         content = path.read_bytes()

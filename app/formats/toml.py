@@ -124,7 +124,7 @@ def toml(table: Mapping[str, Any], above: tuple[str, ...] = ()) -> str:
 
 
 def header(path: tuple[str, ...], *, many: bool = False) -> str:
-    """What stands between the outer brackets of a table's head; ``many``: of one in a list of tables."""
+    """Text between the outer brackets of a table's head; ``many``: of one in a list of tables."""
     name = ".".join(map(_key, path))
     return f"[{name}]" if many else name
 
@@ -146,7 +146,7 @@ def _deepest(text: str) -> int:
 
 
 def _not_allowed(table: dict[str, Any]) -> Iterator[tuple[str, str]]:
-    """What no table of ours may hold, by key path. Walked without recursion: a table may be of any depth."""
+    """Values that no table of ours may hold, by key path. Walked without recursion: a table may be of any depth."""
     pending: list[tuple[tuple[str | int, ...], Any]] = [((), table)]
     while pending:
         keys, value = pending.pop()

@@ -127,5 +127,5 @@ def text(message: Message, language: str = "en") -> str:
 
 
 def error_text(error: AppError) -> str:
-    """What went wrong, as an English sentence."""
+    """Text of an error, as an English sentence."""
     return text(error.message)

@@ -35,7 +35,8 @@ class JudgeOfChoreographies(Protocol):
     performance."""
 
     def unfit_choreography(self, player: Player, frame: TimeFrame) -> Message | None:
-        """Why a player cannot dance what was selected; None where nothing was, or nothing is wrong with it."""
+        """Reason why a player cannot dance the selected choreography; None if none is selected, or nothing is wrong
+        with it."""
 
 
 def unfit_choreography(player: Player, frame: TimeFrame) -> tuple[Message, ...]:

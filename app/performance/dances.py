@@ -55,7 +55,7 @@ class MakerOfDances(Protocol):
         """A dancer's dance. Raises AppError where the dancer lacks something."""
 
     def layer_of(self, performance: Performance, player: Player) -> BodyLayer | None:
-        """What a player dances while playing; None: nothing."""
+        """Dance of a player while playing; None: none."""
 
     def layer_is_made(self, performance: Performance, player: Player) -> bool:
         """Return whether asking for a player's layer takes no time."""
@@ -75,7 +75,7 @@ def dancing_of(performance: Performance, dancer: Dancer) -> Dancing:
 
 
 def layer_of(performance: Performance, player: Player) -> BodyLayer | None:
-    """What a player dances while playing; None: nothing. Making it may take seconds."""
+    """Dance of a player while playing; None: none. Making it may take seconds."""
     maker = maker_of_dances()
     return None if maker is None else maker.layer_of(performance, player)
 

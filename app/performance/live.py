@@ -102,7 +102,7 @@ class _Track:
         return sum(chunk.bytes for chunks in kinds for chunk in tuple(chunks.values()))
 
     def shown(self, index: int) -> Chunk | None:
-        """What is shown of a chunk's time: the best there is."""
+        """Best chunk to show for a chunk's time."""
         return self.chunks.get(index) or self.unproven.get(index) or self.outdated.get(index)
 
     def after(self, player: Player | Dancer, plan: PlayerPlan, known: tuple[Problem, ...], same_chunks: int) -> _Track:
@@ -277,7 +277,7 @@ class LiveMotion:
             return poses_of([made], 0, share)[0]
 
     def error(self, player_id: str) -> Message | None:
-        """Why a player cannot be seen; None if nothing is known against it."""
+        """Reason why a player cannot be seen; None if none is known."""
         track = self._shown.tracks.get(player_id)
         return None if track is None else track.error
 

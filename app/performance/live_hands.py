@@ -99,7 +99,7 @@ class LiveHands:
 
     @property
     def fingering(self) -> Fingering | None:
-        """What was taken last; None before any note and once it was let go."""
+        """Last fingering; None before any note and after it was released."""
         return None if self._grip is None else self._grip.fingering
 
     @property

@@ -101,7 +101,7 @@ class PlayAlong:
 
     @property
     def fingering(self) -> Fingering | None:
-        """What the fingers have taken last; None before any note and once they have let go."""
+        """Last fingering; None before any note and after it was released."""
         return self._hands.fingering
 
     def note_on(self, time_s: float, pitch: int, velocity: int = 80) -> None:

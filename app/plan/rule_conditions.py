@@ -128,7 +128,7 @@ def concerns(when: When, styles: Collection[str], habits: Sequence[str]) -> bool
 
 
 def unknown_in(rule: Rule, faces: Mapping[str, Expression], gestures: Mapping[str, Gesture]) -> Message | None:
-    """Why a rule cannot do what it says."""
+    """Reason why a rule cannot do what it says."""
     for kind, name, known in (("expression", rule.do.expression, faces), ("gesture", rule.do.gesture, gestures)):
         if name and name not in known:
             said: dict[str, Argument] = {"rule": rule.name, "name": name, "known": ", ".join(sorted(known))}

@@ -98,7 +98,7 @@ def most_shown(styles: Sequence[StyleEvent], usual: Acting) -> Acting:
 
 
 def share_at(styles: Sequence[StyleEvent], layer: str, times_s: FloatArray) -> FloatArray | float:
-    """What is shown of a layer at some times, as a share of `most_shown`: 1.0 where there are no regions."""
+    """Amount of a layer at some times, as a share of `most_shown`: 1.0 where there are no regions."""
     if not styles:
         return 1.0
     usual = styles[0].usual

@@ -214,7 +214,7 @@ def decode(content: bytes, path: Path, name: str | None = None) -> Project:
 
 
 def autosave_facts(content: bytes) -> Autosaved | None:
-    """What the bytes of an autosave say of it; None where they say nothing, as those of older versions."""
+    """Facts in the bytes of an autosave; None if there are none, as in older versions."""
     try:
         facts = _FACTS.decode(content).autosave
     except UNREADABLE:

@@ -66,7 +66,7 @@ class Limb:
 
     @cached_property
     def rest_frames(self) -> tuple[FloatArray, FloatArray]:
-        """Of each bone the rotation (4,) from the world to its direction and hinge at rest."""
+        """For each bone, the rotation (4,) from the world to its direction and hinge at rest."""
         upper = _rest_frame(self.upper_vector_m / self.upper_m, self.hinge_axis)
         return upper, _rest_frame(self.lower_vector_m / self.lower_m, self.hinge_axis)
 

@@ -72,7 +72,7 @@ def part_values(part: MovingPart, controls: Mapping[str, AnyFloatArray], frames:
 
 
 def part_transform(motion: ControlMotion, values: npt.ArrayLike) -> tuple[FloatArray, FloatArray]:
-    """How a part moves, in the root's frame.
+    """Transform of a part, in the root's frame.
 
     Parameters
     ----------

@@ -42,7 +42,7 @@ _PRODUCT = (
 
 
 def _is_one(a: npt.NDArray[Any], size: int) -> bool:
-    """Of one thing arithmetic without NumPy is several times as fast, and the same to the bit."""
+    """Return whether `a` is a single float64 vector: plain Python is faster for it, and bit-identical."""
     return a.size == size and a.dtype == np.float64
 
 

@@ -179,7 +179,7 @@ class ActionTable(QObject):
         self.refresh()
 
     def about(self, row: ActionRow[Any]) -> object | None:
-        """What the functions of a row are given; None: it is not there yet."""
+        """Argument of a row's functions; None: it does not exist yet."""
         return self._editor if row.about_editor else self.session
 
     def attach(self, context: str, widget: QWidget) -> None:
@@ -226,8 +226,8 @@ class ActionTable(QObject):
             self._give_shortcuts()
 
     def _give_shortcuts(self) -> None:
-        """Where a panel and the window know the same shortcut, the panel that has the keyboard has it alone, and
-        without the keyboard none of it: Qt would do neither. So it is with a part of a panel and the panel."""
+        """Give a shortcut that a panel and the window share to the panel while it has the keyboard, and to none without
+        it: Qt would do neither. The same holds for a part of a panel and the panel."""
         keys = {row.id: self.keys(row.id) for row in self.rows.values()}
         of_context: dict[str, set[str]] = {}
         for row in self.rows.values():

@@ -142,7 +142,7 @@ class Dock(QDockWidget):
     # Looks
 
     def set_tip(self, tip: str) -> None:
-        """What the title says of itself under the mouse."""
+        """Set the tool tip of the title."""
         self._title.setToolTip(tip)
 
     def _apply_theme(self) -> None:

@@ -35,7 +35,7 @@ class Garbage(QObject):
         self._timer.start()
 
     def collect(self) -> None:
-        """What Python's thresholds ask for."""
+        """Collect the generations that exceed Python's thresholds."""
         for generation in (2, 1, 0):
             if gc.get_count()[generation] > gc.get_threshold()[generation]:
                 gc.collect(generation)

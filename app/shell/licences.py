@@ -73,7 +73,7 @@ def _facts() -> _Facts:
 
 
 def data() -> tuple[ThirdPartyWork, ...]:
-    """What others made among the program's own files."""
+    """Works of others among the program's own files."""
     return _facts().data
 
 
@@ -89,7 +89,7 @@ def installed() -> tuple[Package, ...]:
 
 
 def distributions() -> dict[str, Distribution]:
-    """What is installed of all that the program needs, directly or not, by normalised name; without itself."""
+    """Installed distributions that the program needs, directly or not, by normalised name; without itself."""
     found: dict[str, Distribution] = {}
     waiting = [distribution(PROGRAM)]
     while waiting:
@@ -117,7 +117,7 @@ def described() -> tuple[Package, ...]:
 
 
 def package_of(found: Distribution) -> Package:
-    """What is known of an installed package, with the parts that it has on any system."""
+    """Facts about an installed package, with the parts that it has on any system."""
     metadata: Message = found.metadata  # type: ignore[assignment]
     fact = _facts().packages.get(canonicalize_name(metadata["Name"]), _Fact())
     return Package(
@@ -145,7 +145,7 @@ def _licence(metadata: Message) -> str:
 
 
 def _source(metadata: Message) -> str:
-    """Where a package's source is, or its home."""
+    """Address of a package's source, or its home page."""
     addresses = {}
     for entry in metadata.get_all("Project-URL", ()):
         label, _, address = str(entry).partition(",")

@@ -56,7 +56,7 @@ def _choice(editor: Editor, setting: Setting[Any]) -> Choice:
 
 
 def shortcut_rows(editor: Editor) -> tuple[ShortcutRow, ...]:
-    """What the list of shortcuts shows, in the language of the editor."""
+    """Rows of the list of shortcuts, in the language of the editor."""
     table = editor.table
     return tuple(
         ShortcutRow(

@@ -238,7 +238,7 @@ class StatusLine(Retranslated, QStatusBar):
         self._instruments.setToolTip(reported + "\n\n" + self.tr("status_line.show_instruments"))
 
     def _report_device(self) -> None:
-        """Which device is recorded from, and whether it is there; nothing where there is none."""
+        """Show the recording device and whether it is connected; nothing if there is none."""
         recording, tokens = self._session.recording, self._session.tokens
         reported = (recording.port, recording.connection, bool(recording.ports), tokens.name)
         if reported == self._reported_device:
@@ -259,7 +259,7 @@ class StatusLine(Retranslated, QStatusBar):
         self._device.setToolTip(self.tr("status_line.midi_devices_choose_watch_what"))
 
     def _report_stream(self) -> None:
-        """What is streamed, and how fast; nothing where nothing is."""
+        """Show what is streamed, and its rate; nothing if nothing is."""
         streaming, tokens = self._session.streaming, self._session.tokens
         self._stream.setVisible(streaming.state != "off")
         lines = streaming.lines
@@ -325,7 +325,7 @@ class StatusLine(Retranslated, QStatusBar):
             self._rate.clear()
 
     def set_ready(self, share: float) -> None:
-        """How much of the motion is made, 0..1."""
+        """Set the share of the motion that is made, 0..1."""
         self._ready = share
         self._report_motion()
 

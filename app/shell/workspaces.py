@@ -264,7 +264,7 @@ class Workspaces(QObject):
         self._setting = False
 
     def _size(self, workspace: Workspace) -> None:
-        """As large as panels are in a window of this size by default."""
+        """Give panels their default sizes in a window of this size."""
         window, low = self._window, self._window.height() < SHORT_PX
         whole = {"always": True, "never": False, "if_high": not low, "if_low": low}
         left = LEFT if whole[workspace.left_whole] else BOTTOM
@@ -283,7 +283,7 @@ class Workspaces(QObject):
 
 
 def _height_px(dock: Dock) -> int:
-    """What a panel needs, perhaps before it was ever shown: only what is polished knows its font."""
+    """Height that a panel needs, perhaps before it was ever shown: only a polished widget knows its font."""
     for widget in dock.findChildren(QWidget):
         widget.ensurePolished()
     for layout in dock.findChildren(QLayout):

@@ -50,7 +50,7 @@ class FaceLayout:
 
 
 def face_layout(naming: FaceNames, morphs: Sequence[str]) -> FaceLayout:
-    """How a face with these morphs, which have ARKit's names, is reported."""
+    """Layout for sending a face with these morphs, which have ARKit's names."""
     if naming == "arkit":
         return FaceLayout(tuple(morphs), tuple(morphs))
     if naming == "arkit_capital":

@@ -32,8 +32,8 @@ _LAYERS: IdentityCache[BodyLayer] = IdentityCache(64)
 
 
 def layer_of(performance: Performance, player: Player) -> BodyLayer | None:
-    """What a player dances; None where nothing was selected, nothing is to be seen of it, or it cannot be read. Made
-    once for all players of one body who dance alike; making it may take seconds."""
+    """Dance of a player; None if none is selected, nothing is to be seen of it, or it cannot be read. Made once for all
+    players of one body who dance alike; making it may take seconds."""
     inputs = _inputs(performance, player)
     return None if inputs is None else _LAYERS.step(_layer, *inputs)
 
@@ -57,7 +57,7 @@ def _layer(
 
 
 def _inputs(performance: Performance, player: Player) -> _Inputs | None:
-    """What a layer is made from, each the same object as long as it is the same."""
+    """Inputs of a layer, each the same object as long as it is equal."""
     parameters = player.parameters
     if not parameters.choreography or parameters.dance_amount == 0.0:
         return None

@@ -48,7 +48,8 @@ def too_long_to_dance(frame: TimeFrame) -> Message | None:
 
 
 def unfit_choreography(player: Player, frame: TimeFrame) -> Message | None:
-    """Why a player cannot dance what was selected; None where nothing was, or nothing is wrong with it."""
+    """Reason why a player cannot dance the selected choreography; None if none is selected, or nothing is wrong with
+    it."""
     choreography = player.parameters.choreography
     if not choreography:
         return None

@@ -92,7 +92,7 @@ class DanceSteps:
         return number if number >= 0 and time_s < self.end_s[number] else None
 
     def barred(self, number: int) -> tuple[ForbidState, ...]:
-        """What is forbidden at the place of a step."""
+        """States that are forbidden at the place of a step."""
         tick = self.ticks[number]
         return tuple(item for item in self.forbidden if item.start_tick <= tick < item.end_tick)
 
@@ -100,7 +100,7 @@ class DanceSteps:
 def dances_of(
     performance: Performance, stop_requested: Callable[[], bool], progress: Callable[[float], None]
 ) -> dict[str, DanceSteps]:
-    """What all dancers dance, by their ids. Raises Cancelled."""
+    """Dances of all dancers, by id. Raises Cancelled."""
     made = {}
     dancers = performance.project.dancers
     for number, dancer in enumerate(dancers):
@@ -111,7 +111,7 @@ def dances_of(
 
 
 def dance_of(performance: Performance, dancer: Dancer) -> DanceSteps:
-    """What a dancer dances; an error that the user can mend is part of it."""
+    """Dance of a dancer; an error that the user can mend is part of it."""
     try:
         dancing = dancing_of(performance, dancer)
     except AppError as error:
@@ -160,7 +160,7 @@ def _figures(choreographer: Choreographer) -> FloatArray:
 
 
 def examples(model: ChoreographyModel, drawn: FloatArray) -> tuple[int | None, ...]:
-    """Of each basic motion the segment whose figure is nearest to their mean; None where it has no segment."""
+    """For each basic motion, the segment whose figure is nearest to their mean; None where it has no segment."""
     found: list[int | None] = []
     for state in range(model.states):
         own = segments_of(model, state)

@@ -209,7 +209,7 @@ class _Made(NamedTuple):
 
 
 def manner_of(dancer: Dancer, sources: int) -> Manner:
-    """How a dancer dances; a source that the choreography does not have is none."""
+    """Style of a dancer; a source that the choreography does not have counts as none."""
     source = dancer.source if 0 <= dancer.source < sources else None
     return Manner(dancer.seed, source, dancer.size, dancer.weight, dancer.mirrored)
 

@@ -178,7 +178,7 @@ def learn(arguments: argparse.Namespace) -> None:
 
 
 def learned_table(model: ChoreographyModel, file: Path, starts_s: Sequence[float]) -> list[str]:
-    """What was learned, and of each pair how much it gave, and its offset.
+    """Table of what was learned, with the yield and offset of each pair.
 
     Offsets are printed as they are given: as times of the files, in which the clips of the model start later.
     """
@@ -308,7 +308,7 @@ def generate(arguments: argparse.Namespace) -> None:
 
 
 def generated_table(model: ChoreographyModel, files: Sequence[Path], dances: Sequence[Dance]) -> list[str]:
-    """What each dancer dances, and how much slower and faster than captured."""
+    """Table of what each dancer dances, and how much slower and faster than captured."""
     import numpy as np
 
     rows = [("file", "seconds", "motions", "states", "of its segments", "joins", "speed")]

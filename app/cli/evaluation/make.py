@@ -87,7 +87,7 @@ def add_arguments(command: argparse.ArgumentParser) -> None:
 
 
 def _add_variants_options(command: argparse.ArgumentParser) -> None:
-    """What is compared."""
+    """Add the options for the variants to compare."""
     command.add_argument("--film", type=Path, metavar="VIDEO", help="real players who play the piece")
     command.add_argument(
         "--film-offset",
@@ -123,7 +123,7 @@ def _add_variants_options(command: argparse.ArgumentParser) -> None:
 
 
 def _add_clip_options(command: argparse.ArgumentParser) -> None:
-    """Which clips are made, and how they look."""
+    """Add the options for the clips and their look."""
     command.add_argument(
         "--excerpts", type=_excerpts, metavar="N", help=f"how many excerpts are chosen (default: {EXCERPTS})"
     )

@@ -63,13 +63,13 @@ class Changes:
 
 
 def own_text(data: bytes) -> OwnFile:
-    """What a text holds."""
+    """Record of a text's content."""
     text = data.replace(b"\r\n", b"\n")
     return OwnFile(len(text), hashlib.sha256(text).hexdigest())
 
 
 def own_file(path: Path) -> OwnFile:
-    """What a file holds."""
+    """Record of a file's content."""
     if path.suffix.lower() in _TEXTS:
         return own_text(read_file(path, MOST_BYTES))
     with open_file(path) as stream:
@@ -89,7 +89,7 @@ def changes(
     by_length: bool = False,
     stays: Collection[PurePosixPath] = (),
 ) -> Changes:
-    """What becomes of a folder when some files are written into it.
+    """Effects on a folder of writing some files into it.
 
     Parameters
     ----------

@@ -25,7 +25,7 @@ CREATED_BY: Final = "Suisou"
 
 
 def plugin_files() -> dict[PurePosixPath, bytes]:
-    """What the plug-in consists of, by path in its folder."""
+    """Files of the plug-in, by path in its folder."""
     return dict(sorted(_below(Path(str(files("resources"))) / "unreal" / "Suisou", PurePosixPath())))
 
 

@@ -50,7 +50,7 @@ class UnrealProject:
 
     @property
     def name(self) -> str:
-        """What the project is called."""
+        """Name of the project."""
         return shown(self.file.stem)
 
 
@@ -107,7 +107,7 @@ def _project_file(path: Path) -> Path:
 
 
 def _content(file: Path) -> dict[str, object]:
-    """What a project's file says. Unreal writes UTF-8, or UTF-16 where there is more than ASCII in it."""
+    """Contents of a project's file. Unreal writes UTF-8, or UTF-16 where there is more than ASCII in it."""
     data = read_file(file, _MOST_BYTES)
     try:
         wide = data.startswith((b"\xff\xfe", b"\xfe\xff"))

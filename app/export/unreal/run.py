@@ -104,7 +104,7 @@ def plan_export(
     by_length: bool = False,
     left_out: tuple[str, ...] = (),
 ) -> Plan:
-    """What an export of some players and dancers would do in a project; nothing is written.
+    """Plan the export of some players and dancers into a project; nothing is written.
 
     Parameters
     ----------

@@ -92,7 +92,7 @@ class FbxLayerCurves:
             self._assembly.connect(curve, node, f"d|{channel}")
 
     def _times(self, frames: AnyIntArray | None) -> tuple[tuple[Element, ...], tuple[Element, ...]]:
-        """What is before and after the values of a curve with keys at some frames, or at all."""
+        """Elements before and after the values of a curve with keys at some frames, or at all."""
         known = b"" if frames is None else frames.tobytes()
         if known not in self._at:
             key_ticks = self._ticks if frames is None else self._ticks[frames]

@@ -186,7 +186,7 @@ def read_foreign_fbx(path: str | os.PathLike[str]) -> FbxContent:
 
 
 def _read(path: str | os.PathLike[str], kind: type[T], checked: Callable[[T], T], *arguments: str) -> T:
-    """What the child prints of a file: a description, in which arrays go by their names. Raises FileError."""
+    """Read the child's output about a file: a description, in which arrays go by their names. Raises FileError."""
     file = os.fspath(path)
     printed = _child(read_file(path, MOST_BYTES), file, *arguments)
     try:
@@ -199,7 +199,7 @@ def _read(path: str | os.PathLike[str], kind: type[T], checked: Callable[[T], T]
 
 
 def _child(data: bytes, file: str, *arguments: str) -> bytes:
-    """What the child printed of a file's bytes. Raises FileError."""
+    """Run the child on a file's bytes and return its output. Raises FileError."""
     of_motion = arguments == (MOTION,)
     limits = f"ufbx.{MOTION}" if of_motion else "ufbx.figure"
     too_large = "fbx.motion_too_large" if of_motion else "fbx.too_large"

@@ -58,7 +58,7 @@ _meshes: Final = ByteCache[bytes, PackedMesh](_MOST_KEPT_BYTES, _MOST_KEPT_BYTES
 
 
 def _digest(mesh: SkinnedMesh) -> bytes:
-    """Of all that `PackedMesh` is made from."""
+    """Digest of all that `PackedMesh` is made from."""
     arrays = [mesh.vertices_cm, mesh.faces, mesh.normals, mesh.uvs, mesh.face_materials]
     arrays += [mesh.joint_indices, mesh.weights]
     for morph in mesh.morphs:

@@ -85,7 +85,7 @@ def decode_scenes(data: bytes, file: str) -> tuple[Scene, ...]:
 
 
 def _figure(graph: ObjectGraph, node: FbxObject | None, take: FbxTake | None, creator: str) -> Scene:
-    """What hangs from a node; from the file's root where there is none."""
+    """Scene below a node; below the file's root if there is none."""
     bones, bone_of_model = _bones(graph, node)
     place, node_from_world, models = None, np.eye(4, dtype=np.float64), graph.of_kind("Model", "Mesh")
     if node is not None:
@@ -315,7 +315,7 @@ def _clip(
     bone_of_model: dict[int, int],
     name_of_channel: dict[int, str],
 ) -> Clip:
-    """What a take does with some bones and morphs."""
+    """Clip of a take with some bones and morphs."""
     frames = take.frames
     if frames * max(len(bones), len(name_of_channel)) > MOST_VALUES:
         raise FileError("fbx.unsupported", file=graph.file, what=f"{frames} frames of {len(bones)} bones")

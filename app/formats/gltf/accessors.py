@@ -125,7 +125,7 @@ class Accessors:
         return bytes(data)
 
     def data(self, uri: str) -> bytes:
-        """What a data URI holds."""
+        """Contents of a data URI."""
         try:
             return base64.b64decode(uri.partition(",")[2], validate=True)
         except (binascii.Error, ValueError) as error:

@@ -51,7 +51,7 @@ def primitives(mesh: SkinnedMesh) -> tuple[Primitive, ...]:
 
 
 def _primitive(mesh: SkinnedMesh, material: int, triangles: AnyIntArray) -> Primitive:
-    """Of triangles whose corners are numbered through the mesh."""
+    """Primitive of triangles whose corners are numbered through the mesh."""
     places = triangles.ravel()
     vertices = mesh.faces.ravel()[places]
     count = len(mesh.vertices_cm)

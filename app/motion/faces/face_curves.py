@@ -90,7 +90,7 @@ def _at_lips(spans: Column) -> Curve:
 
 
 def _tension(spans: Column, tensions: Column, traces: SampledCurves | None, embouchure_tension: float) -> Curve | Trace:
-    """As it was recorded where it was, else from note to note; so are effort and air."""
+    """Tension as recorded, or else from note to note; so are effort and air."""
     if traces is None:
         return _tracked(spans.values, np.minimum(embouchure_tension * tensions.values, 1.0), SHIFT_S, None)
     return Trace(traces.start_s, traces.step_s, np.minimum(embouchure_tension * traces.tension, 1.0))

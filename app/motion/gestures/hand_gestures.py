@@ -84,7 +84,7 @@ def _add(reached: ReachingHands, gesture: Gesture, phase: FloatArray, here: slic
 def limited_hand_gestures(
     reaches: Reaches, amplitude: float, amount: float
 ) -> tuple[dict[str, FloatArray], FloatArray | None]:
-    """What hands do of it at a player's amplitude and amount, and how far (F,) the instrument comes up (None: not).
+    """Hand gestures at a player's amplitude and amount, and how far (F,) the instrument comes up (None: not).
 
     A hand goes all the way, or does not leave the instrument. Keys are as of `ReachingHands`; offsets are there as
     ``"left.m"`` and ``"right.m"``, (F, 3).

@@ -39,8 +39,8 @@ NOTHING_BESIDE: Final = ConcertSamples()
 
 @dataclass(frozen=True)
 class Beside:
-    """What is added to the body, each (F,) float64: hips, trunk and neck forwards, hips back, shoulders up, elbows out,
-    and how much of the lowered instrument's way it comes up."""
+    """Offsets of the body, each (F,) float64: hips, trunk and neck forwards, hips back, shoulders up, elbows out, and
+    the share of the lowered instrument's way that it comes up."""
 
     hips_rad: FloatArray | float
     back_m: FloatArray | float

@@ -153,7 +153,7 @@ def _common_entries(sounding: list[tuple[int, NoteTimes]], lines: _Spans, piece:
 
 
 def _silence(sounding: list[tuple[int, NoteTimes]], end: int, tick: int, rest_s: float, piece: Piece) -> Reason | None:
-    """Why all need a cue after a silence of all from ``end`` to ``tick``; None if no one does."""
+    """Reason why all need a cue after a silence of all from ``end`` to ``tick``; None if no one does."""
     bars, beats = (tick - end) / piece.metre_map.bar_ticks_at(end), (tick - end) / beat_ticks(piece, tick)
     long = rest_s >= COMMON_REST_S - EXACT
     if long or (beats >= COMMON_REST_BEATS - EXACT and rest_s >= COMMON_REST_LEAST_S - EXACT):

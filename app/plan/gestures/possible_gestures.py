@@ -62,7 +62,7 @@ def comes_up(start_s: float, end_s: float, lowered: LoweredSpans) -> bool:
 
 
 def impossible(gesture: Gesture, instrument: InstrumentMap) -> Message | None:
-    """Why no hand can do it with this instrument."""
+    """Reason why no hand can do it with this instrument."""
     track, water = gesture.hand, instrument.water
     if track is None:
         return None

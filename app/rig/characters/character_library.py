@@ -195,7 +195,7 @@ def _loaded(id: str, path: Path, stamp: Stamp, entry: bytes) -> Character:
 
 
 def character_problems() -> Mapping[str, Message]:
-    """What is wrong with the user's own characters, by id; those whose file has not been opened yet are opened."""
+    """Problems of the user's own characters, by id; those whose file has not been opened yet are opened."""
     found = {path.stem: problems[0] for path, problems in character_library().problems.items()}
     for id, source in character_library().sources.items():
         if source.entry is not None and id not in found:

@@ -81,7 +81,7 @@ _kept: WeakKeyDictionary[Figure, dict[str, dict[str, dict[str, float]]]] = WeakK
 
 
 def _found(figure: Figure) -> dict[str, dict[str, dict[str, float]]]:
-    """What each table makes of a figure, once for each: it is asked for with every correction."""
+    """Mapping of a figure by each table, made once for each figure: every correction asks for it."""
     known = _kept.get(figure)
     if known is None:
         known = _kept[figure] = {name: _shapes(figure, table) for name, table in load_face_names().items()}
@@ -97,7 +97,7 @@ def _check(figure: Figure, shape: str, own: Mapping[str, float]) -> None:
 
 
 def _shapes(figure: Figure, table: FaceNames) -> dict[str, dict[str, float]]:
-    """What a table makes of a figure."""
+    """Mapping of a figure by a table."""
     ways = {shape: table.ways(shape) for shape in table.morphs}
     known = {name for own in ways.values() for way in own for name in way}
     if table.of == "expressions":

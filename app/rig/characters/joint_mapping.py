@@ -122,8 +122,8 @@ _kept: WeakKeyDictionary[Figure, tuple[Tree, _Found, set[str]]] = WeakKeyDiction
 
 
 def _without_help(figure: Figure) -> tuple[Tree, _Found, set[str]]:
-    """What is found by itself, once for each figure: it takes seconds where there are thousands of bones, and is asked
-    for with every correction."""
+    """Mapping without the user's help, made once for each figure: it takes seconds where there are thousands of bones,
+    and every correction asks for it."""
     known = _kept.get(figure)
     if known is None:
         tree = _tree(figure)
@@ -209,7 +209,7 @@ def _by_names(figure: Figure, tree: Tree) -> _Found:
 
 
 def _affixes(keys: list[str], known: set[str]) -> list[tuple[str, str]]:
-    """What stands before and after the known names in most of a figure's; none at all comes first."""
+    """Prefixes and suffixes of the known names in most of a figure's names; the empty pair comes first."""
     votes: Counter[tuple[str, str]] = Counter()
     names = [name for name in known if len(name) >= SHORTEST_AFFIXED]
     # Most keys of a figure with thousands of bones hold no known name.

@@ -344,7 +344,7 @@ def _unit(vector: FloatArray) -> FloatArray:
 
 
 def _swung(way: FloatArray, target: FloatArray, before: FloatArray) -> FloatArray:
-    """What takes a rest direction to its target by the shortest way from a rotation that is there already."""
+    """Shortest rotation that takes a rest direction to its target, from a rotation that is there already."""
     return quaternion.multiply(quaternion.between(quaternion.rotate(before, way), target), before)
 
 
@@ -355,7 +355,8 @@ def _hinged(
     bends: Sequence[tuple[FloatArray, FloatArray]],
     hinge: FloatArray,
 ) -> FloatArray:
-    """As `_swung`, then turned about the target so that the bends at rest are about where the hinge is to be."""
+    """Rotation of `_swung`, then turned about the target so that the bends at rest are about where the hinge is to
+    be."""
     swung = _swung(way, target, before)
     axis = np.sum([np.cross(a, b) for a, b in bends], axis=0) if bends else np.zeros(3)
     bent_deg = float(np.degrees(np.arcsin(min(float(np.linalg.norm(axis)), 1.0))))

@@ -254,7 +254,7 @@ def _sampled(table: FingerTable, controls: Controls, here: IndexArray) -> Contro
 
 @dataclass(frozen=True)
 class _Given:
-    """How a hand gives way in some frames: how far (F,) for each of its leans in all frames, and where its wrist is in
+    """Giving way of a hand in some frames: how far (F,) for each of its leans in all frames, and where its wrist is in
     these, (K, 3) and (K, 4), or in one that stands for all."""
 
     leans: Sequence[tuple[WristOffset, FloatArray]]
@@ -304,12 +304,12 @@ def with_wrist(
 
 
 def tip_m(table: FingerTable, station: StationTable, rotations: FloatArray) -> FloatArray:
-    """Where (K, 3) what touches at a station is in the wrist's frame."""
+    """Place (K, 3), in the wrist's frame, of the point that touches at a station."""
     return _tip(table, rotations, np.broadcast_to(station.tip_m, (len(rotations), 3)), station.tip_joint)
 
 
 def _tip(table: FingerTable, rotations: FloatArray, tip_m: FloatArray, joint: int) -> FloatArray:
-    """Where a point (K, 3) of a joint is in the wrist's frame."""
+    """Place (K, 3) of a joint's point in the wrist's frame."""
     assert table.chain is not None
     point = tip_m
     for index in range(joint, -1, -1):

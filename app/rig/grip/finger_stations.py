@@ -161,7 +161,7 @@ def asked_together(instrument: InstrumentMap) -> tuple[tuple[tuple[str, int], tu
 
 
 def only_at(instrument: InstrumentMap) -> tuple[tuple[str, int] | None, ...]:
-    """Of every contact the finger and the station at which alone it counts; None for one that is kept all the time.
+    """For every contact, the finger and the only station at which it counts; None for one that is kept all the time.
 
     What a finger works at one of several stations, or waits over, it touches only while it works it.
     """

@@ -46,7 +46,7 @@ class _Finger:
     tip_m: FloatArray
 
     def tips_m(self, rotations: FloatArray) -> FloatArray:
-        """Where (S, 3) what touches is in the wrist's frame."""
+        """Place (S, 3) of the touching point in the wrist's frame."""
         point = np.broadcast_to(self.tip_m, (len(rotations), 3))
         for joint in (2, 1, 0):
             point = self.offsets_m[joint] + quaternion.rotate(rotations[:, joint], point)

@@ -65,7 +65,7 @@ class LipPlaces:
 
 
 def needed_landmarks(instrument_map: InstrumentMap) -> frozenset[str]:
-    """What a character must have for the instrument's kind of embouchure."""
+    """Landmarks that the instrument's kind of embouchure requires."""
     return frozenset(("lips.contact", "lips.lower" if instrument_map.embouchure.kind == "air_jet" else "lips.upper"))
 
 

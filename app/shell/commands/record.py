@@ -42,7 +42,7 @@ def punch(session: Session, on: bool = True) -> None:
 
 
 def _span(session: Session) -> tuple[int, int] | None:
-    """What is selected, as ticks: a range, notes, else the loop."""
+    """Selected ticks: a range, notes, else the loop."""
     selected, tempo_map = selected_ticks(session), session.project.score.tempo_map
     if selected is not None:
         return selected

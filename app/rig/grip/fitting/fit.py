@@ -128,7 +128,7 @@ def _fit_hand(
 
 
 def _missed(hold: HandHold, size: float) -> float:
-    """What is worst about a hold, as a multiple of what a touch may be off, and skin may be inside."""
+    """Worst error of a grip, as a multiple of the bounds for touches and for skin inside the instrument."""
     touches = [one for one in hold.contacts if one.firm]
     off = [one.distance_m / (GRIP_M if one.control is None else TOUCH_M) for one in touches]
     return size * max(*off, hold.penetration_m / INSIDE_M, 0.0)

@@ -41,7 +41,8 @@ DIGITS = 6
 
 
 class _StoredHold(msgspec.Struct, frozen=True):
-    """What is slow to fit; the lips are not, and they follow the face's weights, which the hands do not.
+    """Parts of a grip that are slow to fit; the lips are not, and they follow the face's weights, which the hands do
+    not.
 
     Files of older versions hold more, which is passed over: to fit a hold again takes a minute.
     """

@@ -235,7 +235,7 @@ def seed_turn(seed: HandSeed) -> FloatArray:
 
 
 def home_controls(of_finger: Sequence[Sequence[Station]]) -> frozenset[str]:
-    """What the fingers of a hand work at their home stations."""
+    """Controls that the fingers of a hand work at their home stations."""
     return frozenset(name for places in of_finger if places for name in places[0].controls)
 
 

@@ -274,7 +274,7 @@ def _pole(problem: HandProblem, direction: FloatArray, swivel: FloatArray) -> Fl
 
 
 def pressure_cost(depth: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """What a depth counts, and its slope: flesh gives way a little, then resists."""
+    """Cost of a depth, and its slope: flesh gives way a little, then resists."""
     deep = depth > GIVE_M
     return depth + (STIFFENING - 1.0) * np.maximum(depth - GIVE_M, 0.0), np.where(deep, STIFFENING, depth > 0.0)
 

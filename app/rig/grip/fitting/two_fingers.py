@@ -43,7 +43,7 @@ class _Pair:
 
     @property
     def tables(self) -> list[FingerTable]:
-        """Of the fingers that touch something."""
+        """Tables of the fingers that touch something."""
         return [table for table in self.hand.fingers if table.stations and table.stations[0].tip_joint >= 0]
 
     def wrist(self, x: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -93,7 +93,7 @@ class _Pair:
 def leans_beside(
     hand: HandHold, whole_m: FloatArray, together: Sequence[tuple[Place, Place]]
 ) -> tuple[WristOffset, ...]:
-    """What a hand must give way more for two fingers at once than for each of them.
+    """Offsets by which a hand must give way more for two fingers at once than for each of them.
 
     Parameters
     ----------
