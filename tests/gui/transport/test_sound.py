@@ -59,10 +59,6 @@ def edit(session: Session, project: Project) -> None:
     session.apply(NAME, project)
 
 
-def test_its_session_plays_by_it(session: Session, sound: EditorSound) -> None:
-    assert session.playback is sound.playback
-
-
 def test_playing_moves_the_playhead(ready: EditorSound, session: Session, elapse: Elapse, qtbot: QtBot) -> None:
     session.playback.play(0.0)
     assert session.playing

@@ -68,11 +68,6 @@ def test_an_octave_below_what_is_written_and_the_register_begins_at_the_breaks()
     assert "Lt_c2" not in first(56)
 
 
-def test_the_bassoon_stands_in_no_more() -> None:
-    assert "contrabassoon" not in BASSOON.substitutes_for
-    assert CONTRA.plays == ("contrabassoon",)
-
-
 def test_it_is_played_seated_only() -> None:
     assert CONTRA.hold.postures == ("seated",)
 

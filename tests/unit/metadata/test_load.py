@@ -26,7 +26,7 @@ from metadata.load import (
     read_skeleton,
     recognised_controller,
 )
-from metadata.model import ARKIT_MORPHS, Body, Controller, Expression, at_amplitude
+from metadata.model import Body, Controller, Expression, at_amplitude
 from metadata.skeleton_profile import SkeletonProfile
 from metadata.tables import ROOT
 
@@ -105,10 +105,6 @@ def test_names_of_bones_are_compared_without_what_does_not_count(name: str, key:
 )
 def test_names_of_morphs_are_compared_without_what_does_not_count(name: str, key: str) -> None:
     assert morph_key(name) == key
-
-
-def test_there_are_52_morph_targets() -> None:
-    assert len(set(ARKIT_MORPHS)) == len(ARKIT_MORPHS) == 52
 
 
 def test_what_may_show_while_playing_leaves_the_lips_alone() -> None:

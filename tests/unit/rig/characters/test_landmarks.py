@@ -1,10 +1,15 @@
 """Landmarks found by geometry lie where our own characters' named ones are."""
 
+from types import SimpleNamespace
+from typing import cast
+
 import numpy as np
 import pytest
 
 from app.rig.characters.character_library import bundled_characters, character_named
 from app.rig.characters.landmarks import found_landmarks
+from app.rig.characters.t_pose import heaviest
+from app.rig.figure import Figure
 from app.rig.model import Character
 from app.rig.skeleton import JointTransforms, forward
 from app.rig.skinning import landmark_positions, mesh_named, patch, skin_matrices
@@ -37,3 +42,14 @@ def test_what_is_found_lies_on_what_is_named(id: str) -> None:
     pads = [name for name in names if name.endswith(".pad") and "thumb" not in name]
     alike = [float(normal(bare, name, still) @ normal(named, name, still)) for name in pads]
     assert np.degrees(np.arccos(np.clip(alike, -1.0, 1.0))).max() < 35.0
+
+
+def test_a_vertex_is_held_by_the_bone_with_most_of_its_weight() -> None:
+    mesh = SimpleNamespace(
+        positions_m=np.arange(9.0).reshape(3, 3),
+        weights=np.array([[0.2, 0.8], [0.7, 0.3], [0.5, 0.5]]),
+        joints=np.array([[4, 9], [4, 9], [7, 2]]),
+    )
+    points, bones = heaviest(cast(Figure, SimpleNamespace(meshes=(mesh, mesh))))
+    assert points.tolist() == 2 * mesh.positions_m.tolist()
+    assert bones.tolist() == 2 * [9, 4, 7]
