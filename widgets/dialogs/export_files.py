@@ -108,8 +108,7 @@ class ExportDialog(WorkingDialog):
         self._place = PlaceChooser(folder, unreal, destination)
         self._shown_folder = folder
         self._formats = FormatChooser()
-        self._bvh_names = _profiles()
-        self.texted(self._bvh_names, items="export_dialog.those_of_skeleton")
+        self._bvh_names = self.texted(_profiles(), items="export_dialog.those_of_skeleton")
         self._keys = self.texted(named(ComboBox(), "export_keys"), tip="export_dialog.reduced_keys_tip")
         key_texts = ("export_dialog.key_on_every_frame", "export_dialog.reduced_keys")
         self.texted(self._keys, options=dict(zip(KEY_CHOICES, key_texts, strict=True)))
