@@ -1,4 +1,4 @@
-"""Re-import MIDI and Update from Newer MIDI in the window: the project afterwards, and its history."""
+"""Re-import File and Update from Newer File in the window: the project afterwards, and its history."""
 
 from __future__ import annotations
 

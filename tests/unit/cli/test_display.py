@@ -63,4 +63,4 @@ def test_without_a_file_and_a_display_the_example_is_offered(
 
 def test_a_file_that_is_no_piece_is_refused_by_its_name(capsys: pytest.CaptureFixture[str]) -> None:
     assert run(["song.wav"]) == BAD_USE
-    assert "song.wav is neither a command nor a project or MIDI file" in capsys.readouterr().err
+    assert "song.wav is neither a command nor a project, MIDI file or score" in capsys.readouterr().err
