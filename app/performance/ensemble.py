@@ -15,39 +15,34 @@ from functools import cached_property
 from threading import RLock
 from typing import Final
 
-import msgspec
-
 from app.contacts.breaks import by_time
 from app.errors import AppError, Cancelled, MapError, Message, raise_if_stopped
 from app.performance.acting_problems import unfit_choreography, unknown_acting
 from app.performance.bodies import hold_now, is_held, suited_to
 from app.performance.body_problems import body_problems
-from app.performance.loudness import controller_input, note_loudness, note_marks, velocities_of
-from app.plan.acting import Acting, acting_of, with_style
-from app.plan.by_hand.corrections import Correction, PlayStyle, RemoveEvent, SetBreath, SetCue, Vary
-from app.plan.doubling import InstrumentChange, changes, first_played, held_plan
+from app.performance.ensemble_steps import HELD, LINE, PLAYED, WHOLE, all_expressions, with_parts, work_of
+from app.performance.loudness import note_marks, velocities_of
+from app.plan.acting import with_style
+from app.plan.doubling import InstrumentChange, changes, first_played
 from app.plan.faces.glances import StagePlace
 from app.plan.generate import EnsemblePlan, MonophonicPart, Piece, frame_around, plan_ensemble
 from app.plan.model import CONDUCTOR, PlayerPlan, Problem, TimeFrame, no_events
 from app.plan.music.dynamics_from_velocities import VelocityReading, read_velocities
-from app.plan.parameters import PlayerParameters, deciding_values
+from app.plan.parameters import PlayerParameters
 from app.project.model import Project
 from app.project.performers import Player
 from app.rig.characters.character_library import character_library
 from app.score.limits import too_long
-from app.steps import StepResults, StepTable, reading
+from app.steps import StepResults
 from instrument_maps.library import library
 from instrument_maps.map_table import Posture
 from instrument_maps.model import InstrumentMap
-from metadata.acting import Habit, Style
 from metadata.library import MetadataLibrary, metadata_library
 from metadata.model import Expression
 
 EYES_M: Final[Mapping[Posture, float]] = {"standing": 1.58, "seated": 1.22}
 CONDUCTOR_EYES_M: Final = 1.8
 """About how high eyes are, the conductor's on a podium."""
-LIGHT = 8
-"""Where neither breaths nor cues are looked for, planning costs this many times less."""
 
 _CHECKED: Final = {""}
 """Choreographies of players that were read once: it takes a second."""
@@ -286,7 +281,7 @@ class Performance:
             found=found,
             names={one.id: one.name for one in played},
         )
-        return self._held[player.id].of(_with_parts)
+        return self._held[player.id].of(with_parts)
 
     def _problems_of(self, player: Player, plan: PlayerPlan) -> tuple[Problem, ...]:
         """Problems of a player's plan, and what the player lacks for it."""
@@ -323,7 +318,7 @@ class Performance:
     def expressions(self) -> dict[str, Expression]:
         """Every expression by name; the project's own win over the user's, and those over the bundled ones."""
         with self._lock:
-            return self._whole.of(_all_expressions)
+            return self._whole.of(all_expressions)
 
     @property
     def unplanned_notes(self) -> int:
@@ -338,7 +333,7 @@ class Performance:
         if self.project.seed != before.project.seed or self.expressions is not before.expressions or not same_rules:
             return sum(len(line.notes) for line in self.lines)
         known = {line.player_id: line for line in before.lines}
-        return sum(_work(line, known.get(line.player_id)) for line in self.lines)
+        return sum(work_of(line, known.get(line.player_id)) for line in self.lines)
 
     @property
     def planned(self) -> bool:
@@ -426,110 +421,3 @@ def changes_of(performance: Performance, played: Sequence[Player]) -> tuple[str,
     """For a musician who plays several instruments: which is in the hands first, and when they change."""
     plans = {player.id: performance.plan(player) for player in played}
     return first_played(plans), changes(plans)
-
-
-def _work(part: MonophonicPart, before: MonophonicPart | None) -> int:
-    """Cost of planning a part after an edit, in notes."""
-    if part is before:
-        return 0
-    if before is None or part.notes is not before.notes or part.instrument_map is not before.instrument_map:
-        return len(part.notes)
-    same = deciding_values(part.parameters, "breaths", "cues") == deciding_values(before.parameters, "breaths", "cues")
-    kept, said = set(before.corrections), set(part.corrections)
-    if not same or any(isinstance(item, RemoveEvent | SetBreath | SetCue | Vary) for item in kept ^ said):
-        return len(part.notes)
-    return len(part.notes) // LIGHT
-
-
-def _all_expressions(installed: dict[str, Expression], own: tuple[Expression, ...]) -> dict[str, Expression]:
-    return installed | {expression.name: expression for expression in own}
-
-
-def _actings(
-    corrections: tuple[Correction, ...],
-    own_parameters: PlayerParameters,
-    musician_id: str,
-    section_intensity: float,
-    styles: Mapping[str, Style],
-    habits: Mapping[str, Habit],
-) -> tuple[tuple[str, Acting], ...]:
-    """Return what a player shows in other styles, by style; those that are not there are left out."""
-    named = sorted({item.style for item in corrections if isinstance(item, PlayStyle) and item.style in styles})
-    shown = (msgspec.structs.replace(own_parameters, style=style) for style in named)
-    acted = (with_style(other, musician_id, section_intensity, styles, habits) for other in shown)
-    return tuple(zip(named, map(acting_of, acted), strict=True))
-
-
-def _styled(corrections: tuple[Correction, ...]) -> bool:
-    return any(isinstance(item, PlayStyle) for item in corrections)
-
-
-def _named(name: str, styled: bool) -> str:
-    """Return the player's name where regions of styles are reported by it: else another name changes no line."""
-    return name if styled else ""
-
-
-def _styles_known(styles: Mapping[str, Style], styled: bool) -> str:
-    return ", ".join(sorted(styles)) if styled else ""
-
-
-def _kept(value: tuple[object, ...]) -> tuple[object, ...]:
-    return value
-
-
-def _with_parts(plan: PlayerPlan, parts: tuple[tuple[object, ...], ...]) -> PlayerPlan:
-    """Return the plan with other events where the instrument is put aside."""
-    return msgspec.structs.replace(plan, **dict(zip(ASIDE, parts, strict=True)))
-
-
-WHOLE: Final = StepTable(
-    piece=reading(Piece, accompaniment="accompaniment"),
-    velocity_reading=reading(read_velocities, parts="velocities"),
-    expressions=_all_expressions,
-)
-"""What all players share."""
-PLAYED: Final = StepTable(
-    velocities=velocities_of,
-    controller=controller_input,
-    parameters=reading(with_style, parameters="own_parameters", player_id="musician_id"),
-    actings=_actings,
-    styled=_styled,
-    shown_name=_named,
-    styles_known=_styles_known,
-)
-"""What each player plays, and how, whatever the instrument is."""
-LINE: Final = StepTable(
-    notes="part.notes",
-    loudness=reading(note_loudness, reading="velocity_reading"),
-    muted="part.muted",
-    stopped="part.stopped",
-    marks="part.marks",
-    source="part.source",
-    line=reading(
-        MonophonicPart,
-        instrument_map="instrument",
-        parameters="parameters",
-        corrections="corrections",
-        loudness="loudness",
-        controller="controller",
-        musician="musician",
-        actings="actings",
-        name="shown_name",
-        styles_known="styles_known",
-        muted="muted",
-        stopped="stopped",
-        marks="marks",
-        source="source",
-    ),
-)
-"""The line of a player who has an instrument."""
-ASIDE: Final = ("cues", "gestures", "expressions", "problems", "glances")
-"""Fields of a plan that are others while the instrument is put aside; what is as it was is the same object, field by
-field: motions are compared so."""
-HELD: Final = StepTable(
-    held=held_plan,
-    **{f"held_{name}": f"held.{name}" for name in ASIDE},
-    **{f"kept_{name}": reading(_kept, value=f"held_{name}") for name in ASIDE},
-    shown=reading(_with_parts, parts=tuple(f"kept_{name}" for name in ASIDE)),
-)
-"""What remains of a plan where its player has several instruments."""

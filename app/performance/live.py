@@ -11,21 +11,16 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass, field
 from threading import Lock
 
-from app.arrays import FloatArray
-from app.contacts.breaks import Break, contact_problems
-from app.contacts.judge import ContactJudge
-from app.errors import AppError, Message
+from app.errors import Message
 from app.motion.model import Motion
 from app.motion.perform import PerformanceCurves
-from app.performance.cast import Performer, performers_of
 from app.performance.chunks import Chunk, FrameGrid, Pose, poses_of
-from app.performance.dances import Dancing, dancing_of, layer_is_made
+from app.performance.dances import Dancing
 from app.performance.ensemble import Performance
-from app.performance.motion import playing_of
-from app.plan.model import PlayerPlan, Problem, no_events
+from app.performance.live_tracks import LiveTrack, ShownTracks, looks_same, motion_changed_s, played_before, soon_made
+from app.plan.model import Problem, no_events
 from app.project.performers import Dancer, Player
 
 StopRequested = Callable[[], bool]
@@ -41,93 +36,6 @@ BEHIND_COSTS = 3
 
 class PlayerFault(Exception):
     """A fault of the program in one player's motion, its cause: that player is made no more, the others are."""
-
-
-@dataclass(eq=False)
-class _Track:
-    """Prepared motion of one performer.
-
-    Attributes
-    ----------
-    plan : PlayerPlan
-        Of a dancer one without events.
-    known : tuple of Problem
-        What is wrong with the performance before its motion is made.
-    playing : PerformanceCurves, Dancing or None
-        None until it is first needed, and for who cannot play.
-    chunks : dict of int to Chunk
-        Made from ``playing``, or from ``prepared`` before the others are proven.
-    basis : PerformanceCurves, Dancing or None
-        What ``unproven`` was made from: chunks of the performance before, some of which are still right.
-    unproven, outdated : dict of int to Chunk
-        Shown as long as there is nothing better.
-    error : Message or None
-        Why the player cannot be seen.
-    prepared : PerformanceCurves, Dancing or None
-        What ``playing`` will be, once the chunks are proven.
-    performer : Performer or None
-        Whom ``prepared`` and ``playing`` are of.
-    judge : ContactJudge or None
-        Of ``playing``'s contacts; None until chunks are judged.
-    judged : set of int
-        Chunks whose contacts were judged as ``playing`` (before it is proven: ``basis``) makes them.
-    breaks : dict of int to tuple of Break
-        The contacts that chunks break; of those that are not judged (again) yet, as they were.
-    problems : tuple of Problem
-        The same, reported.
-    making : Lock
-        Held while something of this track is made that stays.
-    """
-
-    player: Player | Dancer
-    plan: PlayerPlan
-    known: tuple[Problem, ...] = ()
-    playing: PerformanceCurves | Dancing | None = None
-    chunks: dict[int, Chunk] = field(default_factory=dict)
-    basis: PerformanceCurves | Dancing | None = None
-    unproven: dict[int, Chunk] = field(default_factory=dict)
-    outdated: dict[int, Chunk] = field(default_factory=dict)
-    error: Message | None = None
-    prepared: PerformanceCurves | Dancing | None = None
-    performer: Performer | None = None
-    judge: ContactJudge | None = None
-    judged: set[int] = field(default_factory=set)
-    breaks: dict[int, tuple[Break, ...]] = field(default_factory=dict)
-    problems: tuple[Problem, ...] = ()
-    making: Lock = field(default_factory=Lock)
-
-    @property
-    def bytes(self) -> int:
-        kinds = (self.chunks, self.unproven, self.outdated)
-        return sum(chunk.bytes for chunks in kinds for chunk in tuple(chunks.values()))
-
-    def shown(self, index: int) -> Chunk | None:
-        """Best chunk to show for a chunk's time."""
-        return self.chunks.get(index) or self.unproven.get(index) or self.outdated.get(index)
-
-    def after(self, player: Player | Dancer, plan: PlayerPlan, known: tuple[Problem, ...], same_chunks: int) -> _Track:
-        """The track of the same performer after an edit; chunks from ``same_chunks`` on have other frames now."""
-        proven = self.playing is not None
-        # What is newest is shown: of a performance that is not compared yet, too.
-        left = {index: chunk for index, chunk in self.unproven.items() if index not in self.chunks}
-        return _Track(
-            player,
-            plan,
-            known,
-            basis=self.playing if proven else self.basis,
-            unproven=self.chunks if proven else left,
-            outdated=self.outdated if proven else self.outdated | self.chunks,
-            judged={index for index in tuple(self.judged) if index < same_chunks},
-            breaks=dict(self.breaks),
-            problems=self.problems,
-        )
-
-
-@dataclass(frozen=True, eq=False)
-class _Shown:
-    performance: Performance
-    grid: FrameGrid
-    tracks: dict[str, _Track]
 
 
 class LiveMotion:
@@ -147,14 +55,14 @@ class LiveMotion:
         self._lock = Lock()
         self._requested: tuple[float, float, tuple[str, ...]] = (0.0, SEEN_S, ())
         self._todo: Iterator[tuple[str, int]] | None = None
-        self._unjudged: Iterator[tuple[_Track, int]] | None = None
+        self._unjudged: Iterator[tuple[LiveTrack, int]] | None = None
         self._broken: dict[str, tuple[Problem, ...]] = {}
-        self._made: list[tuple[_Track, int, Motion]] = []
+        self._made: list[tuple[LiveTrack, int, Motion]] = []
         """What was made last, until its contacts are judged."""
         self._chunk_bytes = 0
         self._made_chunks = 0
         self._seen = 0
-        self._shown = _Shown(performance, FrameGrid.of(performance.time_frame, performance.project.fps), {})
+        self._shown = ShownTracks(performance, FrameGrid.of(performance.time_frame, performance.project.fps), {})
         self.show(performance)
 
     @property
@@ -188,7 +96,7 @@ class LiveMotion:
                     old is not None
                     and performance.plan(player) is old.plan
                     and performance.problems(player.id) is old.known
-                    and _looks_same(player, old.player)
+                    and looks_same(player, old.player)
                     and same_acting(player, old.player)
                     and same_body(player)
                     and not player.parameters.choreography
@@ -196,7 +104,7 @@ class LiveMotion:
 
             project = performance.project
             unchanged = {player.id for player in project.players if same_playing(player)}
-            tracks: dict[str, _Track] = {}
+            tracks: dict[str, LiveTrack] = {}
             for player in project.players:
                 plan, known = performance.plan(player), performance.problems(player.id)
                 old = before.tracks.get(player.id)
@@ -204,8 +112,8 @@ class LiveMotion:
                 whole = {one.id for one in project.played_by(player)}
                 waited = not whole.isdisjoint(before.performance.waiting)
                 if old is None or not same_frames or waited:
-                    tracks[player.id] = _Track(player, plan, known)
-                elif same_faces and whole <= unchanged and whole == _played_before(before, player):
+                    tracks[player.id] = LiveTrack(player, plan, known)
+                elif same_faces and whole <= unchanged and whole == played_before(before, player):
                     tracks[player.id] = old
                 else:
                     tracks[player.id] = old.after(player, plan, known, same_chunks)
@@ -214,8 +122,10 @@ class LiveMotion:
                 plan = no_events(dancer.id, performance.time_frame)
                 # Whether the dance is still the same is known once it is made ready.
                 kept = old is not None and same_frames and isinstance(old.player, Dancer)
-                tracks[dancer.id] = old.after(dancer, plan, (), same_chunks) if old and kept else _Track(dancer, plan)
-            self._shown = _Shown(performance, grid, tracks)
+                tracks[dancer.id] = (
+                    old.after(dancer, plan, (), same_chunks) if old and kept else LiveTrack(dancer, plan)
+                )
+            self._shown = ShownTracks(performance, grid, tracks)
             self._todo = self._unjudged = None
             self._report(self._shown)
 
@@ -267,7 +177,7 @@ class LiveMotion:
         chunk = track.chunks.get(index)
         if chunk is not None and inner < chunk.frames:
             return poses_of([chunk], inner, share)[0]
-        if not _soon_made(shown, track):
+        if not soon_made(shown, track):
             return self.pose(player_id, time_s)
         with self._own_fault(track):
             curves = self._playing(shown, track)
@@ -315,13 +225,13 @@ class LiveMotion:
         if track is None or not track.making.acquire(blocking=False):
             return
         try:
-            if (track.playing or track.basis) is not None and _soon_made(shown, track):
+            if (track.playing or track.basis) is not None and soon_made(shown, track):
                 index = shown.grid.place(time_s)[0] // shown.grid.length
                 self._make(shown, track, index, prove=isinstance(track.player, Dancer))
         finally:
             track.making.release()
 
-    def _make(self, shown: _Shown, track: _Track, index: int, *, prove: bool = True) -> bool | None:
+    def _make(self, shown: ShownTracks, track: LiveTrack, index: int, *, prove: bool = True) -> bool | None:
         """Make a chunk: None where that is not needed or not possible, False where there is no room for it."""
         with self._own_fault(track):
             if prove and (track.playing is None or track.basis is not None):
@@ -412,43 +322,30 @@ class LiveMotion:
         return self._broken
 
     @contextmanager
-    def _own_fault(self, track: _Track) -> Iterator[None]:
+    def _own_fault(self, track: LiveTrack) -> Iterator[None]:
         """Confine a failure to this player."""
         try:
             yield
         except Exception as fault:
             detail = f"{type(fault).__name__}: {fault}"
-            track.error = Message("player.fault", {"player": track.player.name, "detail": detail})
-            frame = track.plan.time_frame
-            track.problems = (Problem(track.error, None, frame.first_frame_s, frame.end_s),)
+            track.fail(Message("player.fault", {"player": track.player.name, "detail": detail}))
             with self._lock:
                 self._report(self._shown)
             raise PlayerFault(f"{track.player.name}: {detail}") from fault
 
-    def _judge(self, track: _Track, index: int, motion: Motion) -> None:
-        assert isinstance(track.playing, PerformanceCurves)
-        assert track.performer is not None
-        if track.judge is None:
-            track.judge = ContactJudge(track.playing, track.performer.character, track.performer.model)
-        breaks = track.judge.breaks(motion)
-        track.judged.add(index)
-        if breaks or index in track.breaks:
-            track.breaks[index] = breaks
+    def _judge(self, track: LiveTrack, index: int, motion: Motion) -> None:
+        if track.judge_contacts(index, motion):
             self._name_problems(track)
 
-    def _name_problems(self, track: _Track) -> None:
-        """Contacts that a player breaks, or corrections that a dance does not hold."""
-        if track.playing is None or isinstance(track.playing, PerformanceCurves):
-            breaks = [item for index in sorted(track.breaks) for item in track.breaks[index]]
-            problems = contact_problems(breaks, track.plan.grips, track.known)
-        else:
-            problems = track.playing.problems
+    def _name_problems(self, track: LiveTrack) -> None:
+        """Report the contacts that a player breaks, or corrections that a dance does not hold."""
+        problems = track.found_problems()
         if problems != track.problems:
             track.problems = problems
             with self._lock:
                 self._report(self._shown)
 
-    def _report(self, shown: _Shown) -> None:
+    def _report(self, shown: ShownTracks) -> None:
         broken = {player_id: track.problems for player_id, track in shown.tracks.items() if track.problems}
         if broken != self._broken:
             self._broken = broken
@@ -468,38 +365,15 @@ class LiveMotion:
         """Memory of all chunks."""
         return sum(track.bytes for track in tuple(self._shown.tracks.values()))
 
-    def _playing(self, shown: _Shown, track: _Track) -> PerformanceCurves | Dancing | None:
-        if track.playing is not None or track.error is not None or track.prepared is not None:
-            return track.playing or track.prepared
-        if isinstance(track.player, Dancer):
-            return self._dancing(shown, track, track.player)
-        played = shown.performance.project.played_by(track.player)
-        if any(one.id in shown.performance.waiting for one in played):
-            track.error = Message("character.hold_waiting", {})
-        else:
-            found = performers_of(shown.performance, (track.player,))
-            if found.left_out:
-                track.error = found.left_out[0].reason
-            else:
-                track.performer = found.made[track.player.id]
-                basis = track.basis if isinstance(track.basis, PerformanceCurves) else None
-                track.prepared = playing_of(shown.performance, track.performer, basis)
-        return track.prepared
-
-    def _dancing(self, shown: _Shown, track: _Track, dancer: Dancer) -> Dancing | None:
-        try:
-            made = dancing_of(shown.performance, dancer)
-        except AppError as error:
-            track.error = error.message
-            frame = track.plan.time_frame
-            track.problems = (Problem(error.message, None, frame.first_frame_s, frame.end_s),)
+    def _playing(self, shown: ShownTracks, track: LiveTrack) -> PerformanceCurves | Dancing | None:
+        known = track.error
+        playing = track.prepare(shown.performance)
+        if track.error is not known:
             with self._lock:
                 self._report(shown)
-            return None
-        track.prepared = made
-        return made
+        return playing
 
-    def _prove(self, shown: _Shown, track: _Track) -> None:
+    def _prove(self, shown: ShownTracks, track: LiveTrack) -> None:
         """Find out which chunks of the performance before are still right."""
         curves = self._playing(shown, track)
         if curves is None:
@@ -510,7 +384,7 @@ class LiveMotion:
             return
         kept: dict[int, Chunk] = {}
         if track.basis is not None:
-            touched = shown.grid.touched(_changed_s(curves, track.basis))
+            touched = shown.grid.touched(motion_changed_s(curves, track.basis))
             for index, chunk in track.unproven.items():
                 right = index < len(touched) and not touched[index] and chunk.frames == shown.grid.span(index)[1]
                 (kept if right else track.outdated)[index] = chunk
@@ -522,7 +396,7 @@ class LiveMotion:
         if track.breaks or track.problems:
             self._name_problems(track)
 
-    def _missing(self, shown: _Shown) -> Iterator[tuple[str, int]]:
+    def _missing(self, shown: ShownTracks) -> Iterator[tuple[str, int]]:
         """Players and chunks, the most requested first: what is looked at, then the rest by its distance in time."""
         grid, player_ids = shown.grid, self._requested[2]
         asked = [player_id for player_id in player_ids if player_id in shown.tracks]
@@ -538,12 +412,12 @@ class LiveMotion:
         time_s, span_s, _ = self._requested
         return range(grid.place(time_s)[0] // grid.length, grid.place(time_s + span_s)[0] // grid.length + 1)
 
-    def _make_room(self, shown: _Shown, track: _Track, index: int) -> bool:
+    def _make_room(self, shown: ShownTracks, track: LiveTrack, index: int) -> bool:
         """Let go of what is farther away than a chunk, as much as it needs; False if there is nothing farther."""
         player_ids, places = self._requested[2], self._in_sight(shown.grid)
         here = places[0]
 
-        def rank(of: _Track, place: int) -> tuple[int, int]:
+        def rank(of: LiveTrack, place: int) -> tuple[int, int]:
             in_front = not player_ids or of.player.id in player_ids
             return (0 if place == here and in_front else 1 if place in places else 2, _distance(place, here))
 
@@ -569,36 +443,5 @@ class LiveMotion:
         return False
 
 
-def _changed_s(curves: PerformanceCurves | Dancing, basis: PerformanceCurves | Dancing) -> FloatArray:
-    """Spans (K, 2) in which the motion of one is not that of the other."""
-    if isinstance(curves, PerformanceCurves) and isinstance(basis, PerformanceCurves):
-        return curves.changed_s(basis)
-    assert not isinstance(curves, PerformanceCurves)
-    return curves.changed_s(basis)
-
-
-def _soon_made(shown: _Shown, track: _Track) -> bool:
-    """Return whether a player's motion is made from what there is."""
-    if track.playing is not None or not isinstance(track.player, Player) or not track.player.parameters.choreography:
-        return True
-    return layer_is_made(shown.performance, track.player)
-
-
 def _distance(index: int, here: int) -> int:
     return index - here if index >= here else BEHIND_COSTS * (here - index)
-
-
-def _played_before(shown: _Shown, player: Player) -> set[str]:
-    """Ids of all that the musician played who played this before."""
-    project = shown.performance.project
-    return {one.id for one in project.played_by(project.player(player.id))}
-
-
-def _looks_same(player: Player, before: Player | Dancer) -> bool:
-    """Return whether nothing of a player changed that is seen in the motion, beside the plan."""
-    if player is before:
-        return True
-    if not isinstance(before, Player):
-        return False
-    same = player.instrument_id == before.instrument_id and player.character_id == before.character_id
-    return same and player.parameters == before.parameters and player.doubles == before.doubles

@@ -8,7 +8,8 @@ import msgspec
 import pytest
 
 from app.errors import Cancelled
-from app.performance.ensemble import LIGHT, Performance
+from app.performance.ensemble import Performance
+from app.performance.ensemble_steps import LIGHT
 from app.plan.by_hand.corrections import PoseCorrection, SetBreath
 from app.project.edit.corrections import with_corrections
 from tests.property.performance.edits import piece

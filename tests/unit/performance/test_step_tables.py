@@ -13,7 +13,7 @@ import pytest
 from app.motion.faces import face_curves, gaze
 from app.motion.fingering import fingers
 from app.motion.gestures import layers
-from app.performance import body_problems, ensemble
+from app.performance import body_problems, ensemble_steps
 from app.plan import generate, player
 from app.steps import StepTable
 
@@ -23,10 +23,10 @@ TABLES = {
     "line": generate.LINE,
     "shared line": generate.SHARED_LINE,
     "ensemble": generate.ENSEMBLE,
-    "whole": ensemble.WHOLE,
-    "played": ensemble.PLAYED,
-    "line of a player": ensemble.LINE,
-    "held": ensemble.HELD,
+    "whole": ensemble_steps.WHOLE,
+    "played": ensemble_steps.PLAYED,
+    "line of a player": ensemble_steps.LINE,
+    "held": ensemble_steps.HELD,
     "reach": body_problems.REACH,
     "face": face_curves.FACE,
     "layers": layers.LAYERS,

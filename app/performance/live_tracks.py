@@ -1,0 +1,187 @@
+"""Performers as they are seen live: the chunks of their motion, and the contacts that these break."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from threading import Lock
+
+from app.arrays import FloatArray
+from app.contacts.breaks import Break, contact_problems
+from app.contacts.judge import ContactJudge
+from app.errors import AppError, Message
+from app.motion.model import Motion
+from app.motion.perform import PerformanceCurves
+from app.performance.cast import Performer, performers_of
+from app.performance.chunks import Chunk, FrameGrid
+from app.performance.dances import Dancing, dancing_of, layer_is_made
+from app.performance.ensemble import Performance
+from app.performance.motion import playing_of
+from app.plan.model import PlayerPlan, Problem
+from app.project.performers import Dancer, Player
+
+
+@dataclass(eq=False)
+class LiveTrack:
+    """Prepared motion of one performer.
+
+    Attributes
+    ----------
+    plan : PlayerPlan
+        Of a dancer one without events.
+    known : tuple of Problem
+        What is wrong with the performance before its motion is made.
+    playing : PerformanceCurves, Dancing or None
+        None until it is first needed, and for who cannot play.
+    chunks : dict of int to Chunk
+        Made from ``playing``, or from ``prepared`` before the others are proven.
+    basis : PerformanceCurves, Dancing or None
+        What ``unproven`` was made from: chunks of the performance before, some of which are still right.
+    unproven, outdated : dict of int to Chunk
+        Shown as long as there is nothing better.
+    error : Message or None
+        Why the player cannot be seen.
+    prepared : PerformanceCurves, Dancing or None
+        What ``playing`` will be, once the chunks are proven.
+    performer : Performer or None
+        Whom ``prepared`` and ``playing`` are of.
+    judge : ContactJudge or None
+        Of ``playing``'s contacts; None until chunks are judged.
+    judged : set of int
+        Chunks whose contacts were judged as ``playing`` (before it is proven: ``basis``) makes them.
+    breaks : dict of int to tuple of Break
+        The contacts that chunks break; of those that are not judged (again) yet, as they were.
+    problems : tuple of Problem
+        The same, reported.
+    making : Lock
+        Held while something of this track is made that stays.
+    """
+
+    player: Player | Dancer
+    plan: PlayerPlan
+    known: tuple[Problem, ...] = ()
+    playing: PerformanceCurves | Dancing | None = None
+    chunks: dict[int, Chunk] = field(default_factory=dict)
+    basis: PerformanceCurves | Dancing | None = None
+    unproven: dict[int, Chunk] = field(default_factory=dict)
+    outdated: dict[int, Chunk] = field(default_factory=dict)
+    error: Message | None = None
+    prepared: PerformanceCurves | Dancing | None = None
+    performer: Performer | None = None
+    judge: ContactJudge | None = None
+    judged: set[int] = field(default_factory=set)
+    breaks: dict[int, tuple[Break, ...]] = field(default_factory=dict)
+    problems: tuple[Problem, ...] = ()
+    making: Lock = field(default_factory=Lock)
+
+    @property
+    def bytes(self) -> int:
+        kinds = (self.chunks, self.unproven, self.outdated)
+        return sum(chunk.bytes for chunks in kinds for chunk in tuple(chunks.values()))
+
+    def shown(self, index: int) -> Chunk | None:
+        """Best chunk to show for a chunk's time."""
+        return self.chunks.get(index) or self.unproven.get(index) or self.outdated.get(index)
+
+    def fail(self, error: Message) -> None:
+        """Note why the player cannot be seen, as a problem of the whole performance."""
+        self.error, frame = error, self.plan.time_frame
+        self.problems = (Problem(error, None, frame.first_frame_s, frame.end_s),)
+
+    def prepare(self, performance: Performance) -> PerformanceCurves | Dancing | None:
+        """Make a performance ready to be seen, once; None where that is not possible, which ``error`` says."""
+        if self.playing is not None or self.error is not None or self.prepared is not None:
+            return self.playing or self.prepared
+        if isinstance(self.player, Dancer):
+            try:
+                self.prepared = dancing_of(performance, self.player)
+            except AppError as error:
+                self.fail(error.message)
+            return self.prepared
+        if any(one.id in performance.waiting for one in performance.project.played_by(self.player)):
+            self.error = Message("character.hold_waiting", {})
+            return None
+        found = performers_of(performance, (self.player,))
+        if found.left_out:
+            self.error = found.left_out[0].reason
+        else:
+            self.performer = found.made[self.player.id]
+            basis = self.basis if isinstance(self.basis, PerformanceCurves) else None
+            self.prepared = playing_of(performance, self.performer, basis)
+        return self.prepared
+
+    def judge_contacts(self, index: int, motion: Motion) -> bool:
+        """Judge the contacts of a chunk; whether it breaks any, or broke some."""
+        assert isinstance(self.playing, PerformanceCurves)
+        assert self.performer is not None
+        if self.judge is None:
+            self.judge = ContactJudge(self.playing, self.performer.character, self.performer.model)
+        breaks = self.judge.breaks(motion)
+        self.judged.add(index)
+        if not breaks and index not in self.breaks:
+            return False
+        self.breaks[index] = breaks
+        return True
+
+    def found_problems(self) -> tuple[Problem, ...]:
+        """Return the contacts that a player breaks, or corrections that a dance does not hold."""
+        if self.playing is not None and not isinstance(self.playing, PerformanceCurves):
+            return self.playing.problems
+        breaks = [item for index in sorted(self.breaks) for item in self.breaks[index]]
+        return contact_problems(breaks, self.plan.grips, self.known)
+
+    def after(
+        self, player: Player | Dancer, plan: PlayerPlan, known: tuple[Problem, ...], same_chunks: int
+    ) -> LiveTrack:
+        """The track of the same performer after an edit; chunks from ``same_chunks`` on have other frames now."""
+        proven = self.playing is not None
+        # What is newest is shown: of a performance that is not compared yet, too.
+        left = {index: chunk for index, chunk in self.unproven.items() if index not in self.chunks}
+        return LiveTrack(
+            player,
+            plan,
+            known,
+            basis=self.playing if proven else self.basis,
+            unproven=self.chunks if proven else left,
+            outdated=self.outdated if proven else self.outdated | self.chunks,
+            judged={index for index in tuple(self.judged) if index < same_chunks},
+            breaks=dict(self.breaks),
+            problems=self.problems,
+        )
+
+
+@dataclass(frozen=True, eq=False)
+class ShownTracks:
+    performance: Performance
+    grid: FrameGrid
+    tracks: dict[str, LiveTrack]
+
+
+def motion_changed_s(playing: PerformanceCurves | Dancing, basis: PerformanceCurves | Dancing) -> FloatArray:
+    """Spans (K, 2) in which the motion of one is not that of the other."""
+    if isinstance(playing, PerformanceCurves) and isinstance(basis, PerformanceCurves):
+        return playing.changed_s(basis)
+    assert not isinstance(playing, PerformanceCurves)
+    return playing.changed_s(basis)
+
+
+def soon_made(shown: ShownTracks, track: LiveTrack) -> bool:
+    """Return whether a player's motion is made from what there is."""
+    if track.playing is not None or not isinstance(track.player, Player) or not track.player.parameters.choreography:
+        return True
+    return layer_is_made(shown.performance, track.player)
+
+
+def played_before(shown: ShownTracks, player: Player) -> set[str]:
+    """Ids of all that the musician played who played this before."""
+    project = shown.performance.project
+    return {one.id for one in project.played_by(project.player(player.id))}
+
+
+def looks_same(player: Player, before: Player | Dancer) -> bool:
+    """Return whether nothing of a player changed that is seen in the motion, beside the plan."""
+    if player is before:
+        return True
+    if not isinstance(before, Player):
+        return False
+    same = player.instrument_id == before.instrument_id and player.character_id == before.character_id
+    return same and player.parameters == before.parameters and player.doubles == before.doubles
