@@ -49,7 +49,8 @@ def rest_breaths(
         lambda index, rest: _preparation_reason(rest, parameters),
     )
     room = times.silence_tick.astype(np.float64)
-    return _in_silences(notes, serving, silence, room, times.onset_tick, times.onset_s, piece, parameters, reported)
+    silences = _Silences(serving, silence, room, times.onset_tick, times.onset_s)
+    return _in_silences(notes, silences, piece, parameters, reported)
 
 
 def blown_breaths(
@@ -91,7 +92,30 @@ def blown_breaths(
         return _preparation_reason(rest, parameters)
 
     reported = _Report(reason, preparation)
-    return _in_silences(notes, serving, silence, silence, end_tick, end_s, piece, parameters, reported)
+    silences = _Silences(serving, silence, silence, end_tick, end_s)
+    return _in_silences(notes, silences, piece, parameters, reported)
+
+
+class _Silences(NamedTuple):
+    """Silences in which breaths are taken.
+
+    Attributes
+    ----------
+    serving : (K,) int64
+        The notes before which a breath is taken.
+    silence : (N,) float64
+        Ticks of silence before each note as written, which decides the kind of breath ...
+    room : (N,) float64
+        ... as it sounds, which the breath has to fit into ...
+    end_tick, end_s : (N,)
+        ... and where it ends.
+    """
+
+    serving: IntArray
+    silence: FloatArray
+    room: FloatArray
+    end_tick: IntArray
+    end_s: FloatArray
 
 
 class _Report(NamedTuple):
@@ -108,29 +132,10 @@ def _before_first(times: LineTimes, piece: Piece, frame: TimeFrame) -> float:
 
 
 def _in_silences(
-    notes: tuple[Note, ...],
-    serving: IntArray,
-    silence: FloatArray,
-    room: FloatArray,
-    end_tick: IntArray,
-    end_s: FloatArray,
-    piece: Piece,
-    parameters: PlayerParameters,
-    reported: _Report,
+    notes: tuple[Note, ...], silences: _Silences, piece: Piece, parameters: PlayerParameters, reported: _Report
 ) -> tuple[BreathEvent, ...]:
-    """Breaths in silences, by the thresholds.
-
-    Parameters
-    ----------
-    serving : (K,) int64
-        The notes before which a breath is taken.
-    silence : (N,) float64
-        Ticks of silence before each note as written, which decides the kind of breath ...
-    room : (N,) float64
-        ... as it sounds, which the breath has to fit into ...
-    end_tick, end_s : (N,)
-        ... and where it ends.
-    """
+    """Breaths in silences, by the thresholds."""
+    serving, silence, room, end_tick, end_s = silences
     beats = piece.beat_ticks_at(end_tick)
     rests, beat = silence / beats, beats[serving]
     onsets = end_tick[serving].astype(np.float64)

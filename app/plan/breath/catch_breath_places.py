@@ -75,13 +75,7 @@ def catch_places(line: ComparedLine, lungs: AirSupply, may: BoolArray, missing: 
     may = may & (refill == 0.0)
     open_ = may & (room.length_s > 0.0)
     open_[0] = False
-    breaths = np.flatnonzero(refill > 0.0)
-    starts = np.unique(np.concatenate(([0], breaths)))
-    ends = np.append(starts[1:], len(refill))
-    taken_s = used[ends] - used[starts]
-    short = taken_s > level[starts] * lung_s + EPSILON
-    some = short | (taken_s >= ONE_MORE * free_s)
-    stretches = list(zip(starts[some].tolist(), ends[some].tolist(), short[some].tolist(), strict=True))
+    stretches = _stretches(lungs, level)
     if not stretches:
         return []
     dropping = may & ~open_ & (room.drop_s > 0.0)
@@ -105,8 +99,7 @@ def catch_places(line: ComparedLine, lungs: AirSupply, may: BoolArray, missing: 
         )
         return places[list(found)].tolist(), is_enough
 
-    # Where the air lasts only a phrase's end is worth a breath, and in no rest: `app.plan.breath.rests_for_breath` says
-    # in which.
+    # Where the air lasts only a phrase's end is worth a breath, and in no rest: `rests_for_breath` says in which.
     ends_phrase = open_ & (cost < 0.0) & (line.rests == 0)
     result: list[int] = []
     for start, end, is_short in stretches:
@@ -117,27 +110,35 @@ def catch_places(line: ComparedLine, lungs: AirSupply, may: BoolArray, missing: 
         found, is_enough = chain(start, end, open_)
         also = start + 1 + np.flatnonzero(dropping[start + 1 : end])
         if len(also) and not (is_enough and (cost[found] < DROPPED_COST).all()):
-            # As good as a breath before the notes that are left out, but for these.
-            dropped = room.dropped[also]
-            cost[also] = place_costs(line, also - dropped, dropped)
-            cost[also] += DROPPED_COST * dropped + slur_costs(line, also)
-            before = np.concatenate(([0], np.cumsum(missing)))
-            others = before[np.minimum(also + NEAR, len(missing))] - before[np.maximum(also - dropped - NEAR, 0)]
-            cost[also] += MISSING_COST * others
+            cost[also] = _dropping_costs(line, also, room.dropped[also], missing)
             found, _ = chain(start, end, open_ | dropping)
         result += found
     return result
 
 
+def _stretches(lungs: AirSupply, level: FloatArray) -> list[tuple[int, int, bool]]:
+    """The notes from one given breath to the next where a catch breath may be taken, and whether air is short there."""
+    used, lung_s, refill, free_s = lungs
+    starts = np.unique(np.concatenate(([0], np.flatnonzero(refill > 0.0))))
+    ends = np.append(starts[1:], len(refill))
+    taken_s = used[ends] - used[starts]
+    short = taken_s > level[starts] * lung_s + EPSILON
+    some = short | (taken_s >= ONE_MORE * free_s)
+    return list(zip(starts[some].tolist(), ends[some].tolist(), short[some].tolist(), strict=True))
+
+
+def _dropping_costs(line: ComparedLine, at: IntArray, dropped: IntArray, missing: IntArray) -> FloatArray:
+    """(K,): what breaths cost that notes before are left out for: as one before those would, and for these."""
+    cost = place_costs(line, at - dropped, dropped)
+    cost += DROPPED_COST * dropped + slur_costs(line, at)
+    before = np.concatenate(([0], np.cumsum(missing)))
+    others = before[np.minimum(at + NEAR, len(missing))] - before[np.maximum(at - dropped - NEAR, 0)]
+    return np.asarray(cost + MISSING_COST * others, dtype=np.float64)
+
+
 @lru_cache(maxsize=4096)
 def _cheapest_chain(
-    used_bytes: bytes,
-    played_bytes: bytes,
-    cost_bytes: bytes,
-    drawn_bytes: bytes,
-    level: float,
-    lung_s: float,
-    free_s: float,
+    used: bytes, played: bytes, cost: bytes, drawn: bytes, level: float, lung_s: float, free_s: float
 ) -> tuple[tuple[int, ...], bool]:
     """The places, and whether the air lasts with them.
 
@@ -147,29 +148,29 @@ def _cheapest_chain(
 
     Parameters
     ----------
-    used_bytes, played_bytes : bytes of (K + 2,) float64
+    used, played : bytes of (K + 2,) float64
         Air used, and seconds played, until the stretch begins, until each place, and until it ends.
-    cost_bytes, drawn_bytes : bytes of (K,) float64
+    cost, drawn : bytes of (K,) float64
         What each place costs, and the air that a catch breath brings there.
     free_s : float
         Air used without which no place costs less than `LEAST_COST`.
     """
-    used, played_s = np.frombuffer(used_bytes), np.frombuffer(played_bytes)
-    costs, drawn_s = np.frombuffer(cost_bytes).tolist(), np.frombuffer(drawn_bytes).tolist()
-    last = len(used) - 1
+    used_s, played_s = np.frombuffer(used), np.frombuffer(played)
+    costs, drawn_s = np.frombuffer(cost).tolist(), np.frombuffer(drawn).tolist()
+    last = len(used_s) - 1
     air_s = np.zeros(last + 1)
     air_s[0] = level * lung_s
     total = np.full(last + 1, np.inf)
     total[0] = 0.0
     origin = np.zeros(last + 1, dtype=np.int64)
     # No lungful reaches further back than this; where it does not even reach the place before, that one has to do.
-    reach = np.minimum(np.searchsorted(used, used - lung_s - EPSILON), np.arange(last + 1) - 1)
+    reach = np.minimum(np.searchsorted(used_s, used_s - lung_s - EPSILON), np.arange(last + 1) - 1)
     # From here on so little is used up since that the breath is hasty.
     hasty_s = HASTY_SHARE * lung_s
-    hasty = np.searchsorted(used, used - hasty_s, side="right").tolist()
+    hasty = np.searchsorted(used_s, used_s - hasty_s, side="right").tolist()
     gasps = np.searchsorted(played_s, played_s - LEAST_PLAYED_S + EPSILON, side="right").tolist()
     for node, back in enumerate(reach.tolist()[1:], 1):
-        needed = used[node] - used[back:node]
+        needed = used_s[node] - used_s[back:node]
         left_s = air_s[back:node] - needed
         ways = total[back:node].copy()
         late = max(hasty[node] - back, 0)

@@ -1,0 +1,172 @@
+"""Catch breaths: before which notes they are taken, how, and why.
+
+Messages: ``breath.catch``, ``breath.catch_dropped``, ``breath.catch_dropped_two``, ``breath.catch_slurred``,
+``breath.phrase_end``, ``breath.after_hold``, ``breath.written``, ``breath.breaks_slur``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+
+import numpy as np
+
+from app.arrays import BoolArray, FloatArray, IntArray
+from app.errors import Argument, Message
+from app.plan.breath.air_by_note import AirStock
+from app.plan.breath.breaths_in_rests import blown_catch
+from app.plan.breath.catch_breath_lengths import Room
+from app.plan.breath.catch_breath_places import AirSupply, catch_places
+from app.plan.breath.lungs import FULL_BREATH_S, levels, short_catches
+from app.plan.breath.phrase_ends import ComparedLine
+from app.plan.breath.score_for_breath import Breather, BreathScore
+from app.plan.breath.staggered_breaths import BreathConstraints
+from app.plan.model import BreathEvent, Problem
+from app.plan.music.piece import EPSILON, LineTimes, Seeds
+
+
+def catch_breath_notes(
+    line: Breather, score: BreathScore, stock: AirStock, may: BoolArray, shared: BreathConstraints, seeds: Seeds
+) -> list[int]:
+    """The notes before which catch breaths are taken: decided at the tempo of the score, corrected where a change of
+    tempo takes more air."""
+    taken = np.zeros(len(line.notes), dtype=bool)
+    taken[list(shared.caught)] = True
+    missing = np.bincount(np.array(shared.left_out, np.int64), minlength=len(line.notes))
+
+    def between(times: LineTimes, used: FloatArray, filled: FloatArray, free_s: float) -> list[int]:
+        compared = ComparedLine(times, line.piece, score.rests.sounding_tick, line.written, taken, seeds)
+        return catch_places(compared, AirSupply(used, score.lung_s, filled, free_s), may, missing, stock.room)
+
+    # All breathe where it is written and after what they held together, and no one just before that.
+    after_hold = sorted(shared.after_hold) if score.gaps is None else []
+    first = {*line.marked, *(index for index in after_hold if not line.written.joined[index - 1])}
+    first = {index for index in first if may[index] and stock.refill[index] == 0.0 and stock.room.length_s[index] > 0.0}
+    given = stock.refill.copy()
+    at = sorted(first)
+    given[at] = np.minimum(stock.room.lasts_s[at] / FULL_BREATH_S, 1.0)
+    may = may.copy()
+    may[[index - 1 for index in after_hold]] = False
+    # Who breathes in every rest, as the thesis has it, or only when empty, needs no breath for a phrase's end.
+    free_s = (line.parameters.breath_need or 1.0) * score.lung_s
+    catches = between(score.steady, stock.steady_used, given, free_s)
+    if score.steady is score.written:
+        return stock.room.apart(sorted({*first, *catches}))
+    filled = given.copy()
+    filled[catches] = np.minimum(stock.room.lasts_s[catches] / FULL_BREATH_S, 1.0)
+    again = short_catches(stock.used, score.lung_s, given, filled)
+    filled[again] = given[again]
+    more = between(score.written, stock.used, filled, np.inf)
+    return stock.room.apart(sorted({*first, *catches} - {*again.tolist()} | {*more}))
+
+
+def catch_breaths(
+    line: Breather, score: BreathScore, stock: AirStock, catches: list[int], after_hold: Collection[int]
+) -> list[BreathEvent]:
+    """The catch breaths before some notes, but for those in rests that would have given one."""
+    found: dict[int, BreathEvent] = {}
+    if score.gaps is not None:
+        blown = [index for index in catches if score.gaps.played[index] and not line.written.breath[index - 1]]
+        found = {index: blown_catch(line.notes[index], line.piece, score.gaps, index) for index in blown}
+    found |= _made(line, stock, score.lung_s, [index for index in catches if index not in found], after_hold)
+    return [found[index] for index in catches]
+
+
+def _made(
+    line: Breather, stock: AirStock, lung_s: float, catches: list[int], after_hold: Collection[int]
+) -> dict[int, BreathEvent]:
+    """Catch breaths out of the notes before, by the notes that they come before."""
+    if not catches:
+        return {}
+    notes, times, room = line.notes, line.times, stock.room
+    phrase_ends = _not_for_air(stock, lung_s, catches)
+    at = np.array(catches)
+    onset_s, start_s = times.onset_s[at], times.onset_s[at] - room.lasts_s[at]
+    breaths = np.flatnonzero(stock.refill > 0.0)
+    place = np.searchsorted(breaths, at)
+    first, last = np.insert(breaths, 0, 0)[place], np.append(breaths, len(notes))[place]
+    rows = zip(
+        catches,
+        np.where(room.length_s[at] > 0.0, 0, room.dropped[at]).tolist(),
+        np.round(line.piece.clock.ticks(start_s)).astype(np.int64).tolist(),
+        times.onset_tick[at].tolist(),
+        start_s.tolist(),
+        onset_s.tolist(),
+        np.maximum(times.played_end_s[at - 1] - start_s, 0.0).tolist(),
+        (times.played_end_s[last - 1] - times.onset_s[first]).tolist(),
+        *(seconds.tolist() for seconds in _needed_s(stock, lung_s, first, last)),
+        strict=True,
+    )
+    found = {}
+    for index, dropped, start_tick, end_tick, begins_s, ends_s, from_note_s, phrase_s, air_s, full_s in rows:
+        why: dict[str, Argument] = {
+            "phrase_s": round(phrase_s, 2),
+            "air_s": round(air_s, 2),
+            "lung_s": round(full_s, 2),
+        }
+        after = notes[index - 1].id
+        short: dict[str, Argument] = {"after_note": after, "from_note_ms": round(from_note_s * 1000.0)}
+        if line.written.breath[index - 1]:
+            reason = Message("breath.written", short)
+        elif index in after_hold and not dropped:
+            reason = Message("breath.after_hold", {"after_note": after})
+        elif dropped > 1:
+            first_note = notes[index - dropped].id
+            reason = Message("breath.catch_dropped_two", {"first_note": first_note, "after_note": after, **why})
+        elif dropped:
+            reason = Message("breath.catch_dropped", {"after_note": after, **why})
+        elif index in phrase_ends:
+            reason = Message("breath.phrase_end", short)
+        else:
+            is_slurred = line.written.joined[index - 1]
+            reason = Message("breath.catch_slurred" if is_slurred else "breath.catch", {**short, **why})
+        found[index] = BreathEvent(
+            id=f"breath:{notes[index].id}",
+            kind="breath",
+            start_tick=start_tick,
+            end_tick=end_tick,
+            start_s=begins_s,
+            end_s=ends_s,
+            depth=1.0,
+            reason=reason,
+        )
+    return found
+
+
+def _needed_s(stock: AirStock, lung_s: float, first: IntArray, last: IntArray) -> tuple[FloatArray, FloatArray]:
+    """Air that stretches of notes take, and that there is for them: as it is played, or at the tempo of the score
+    where they are short of air only there."""
+    played_s, steady_s = (used[last] - used[first] for used in (stock.used, stock.steady_used))
+    full_s = levels(stock.steady_used, lung_s, stock.refill)[first] * lung_s
+    is_short = played_s > stock.air_s[first]
+    return np.where(is_short, played_s, steady_s), np.where(is_short, stock.air_s[first], full_s)
+
+
+def _not_for_air(stock: AirStock, lung_s: float, catches: list[int]) -> set[int]:
+    """The notes among these before which the air would last until the next breath."""
+    share = stock.refill.copy()
+    share[catches] = np.minimum(stock.room.lasts_s[catches] / FULL_BREATH_S, 1.0)
+    breaths = np.flatnonzero(share > 0.0)
+    used_s = np.append(stock.steady_used[breaths], stock.steady_used[-1])
+    found: set[int] = set()
+    made, air_s, before_s = set(catches), (0.0 if share[0] else 0.5 * lung_s), 0.0
+    rows = zip(breaths.tolist(), share[breaths].tolist(), used_s[:-1].tolist(), used_s[1:].tolist(), strict=True)
+    for index, more, here_s, next_s in rows:
+        if index in made and air_s >= next_s - before_s - EPSILON:
+            found.add(index)
+        else:
+            air_s = min(max(air_s - (here_s - before_s), 0.0) + more * lung_s, lung_s)
+            before_s = here_s
+    return found
+
+
+def broken_slurs(line: Breather, caught: list[BreathEvent], room: Room) -> list[Problem]:
+    """Return what is to be said of catch breaths under slurs, unless they are written too."""
+    problems = []
+    for event in caught:
+        index = line.number_of(event)
+        first = index - 1 - (int(room.dropped[index]) if room.length_s[index] == 0.0 else 0)
+        if line.written.joined[[first, index - 1]].any() and not line.written.breath[index - 1]:
+            note_id = line.notes[index - 1].id
+            message = Message("breath.breaks_slur", {"note": note_id})
+            problems.append(Problem(message, note_id, event.start_s, event.end_s))
+    return problems

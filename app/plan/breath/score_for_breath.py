@@ -1,0 +1,115 @@
+"""The line that is breathed for, as a score would have it: its rests, its air, the breaths that were recorded."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from app.arrays import FloatArray
+from app.plan.breath.breaths_in_rests import within_note
+from app.plan.breath.lungs import air_used_s, lungful_s
+from app.plan.breath.rests_for_breath import ALWAYS_S
+from app.plan.event_id import EventId
+from app.plan.model import BreathEvent
+from app.plan.music.breath_controller import BreathEnvelope, BreathGaps, gaps_within, silences
+from app.plan.music.notation import at_score_tempo, heard_rests_s, notated, usual_release
+from app.plan.music.piece import EPSILON, LineTimes, Piece, gaps_s
+from app.plan.music.rests import Rests, are_audible, rest_ticks
+from app.plan.music.written_marks import WrittenMarks
+from app.plan.parameters import PlayerParameters
+from app.score.model import Note
+from instrument_maps.wind import Air
+
+
+class Breather(NamedTuple):
+    """A player with the notes of one breathing line; ``index_of`` is by their ids."""
+
+    notes: tuple[Note, ...]
+    times: LineTimes
+    piece: Piece
+    parameters: PlayerParameters
+    index_of: dict[str, int]
+    written: WrittenMarks
+
+    @property
+    def marked(self) -> list[int]:
+        """The notes before which the score has a breath mark."""
+        found: list[int] = (1 + np.flatnonzero(self.written.breath[:-1])).tolist()
+        return found
+
+    def number_of(self, event: BreathEvent) -> int:
+        """The note that a breath is before, or within."""
+        return self.index_of[EventId.parse(event.id).of]
+
+
+class BreathScore(NamedTuple):
+    """Breathing clues of a part.
+
+    Attributes
+    ----------
+    written, steady : LineTimes
+        As a score would have it, and that without short changes of tempo, by which is decided what is needed.
+    sounded_s : (N,) float64
+        How long each note sounds, at the tempo of the score.
+    gaps : BreathGaps or None
+        Where the breath that was blown shows breaths.
+    used, steady_used : (N + 1,) float
+        `app.plan.breath.lungs.air_used_s` of both.
+    lung_s : float
+        `app.plan.breath.lungs.lungful_s`.
+    within : tuple of BreathEvent
+        Breaths that were recorded within notes.
+    """
+
+    written: LineTimes
+    steady: LineTimes
+    rests: Rests
+    sounded_s: FloatArray
+    gaps: BreathGaps | None
+    used: FloatArray
+    steady_used: FloatArray
+    lung_s: float
+    within: tuple[BreathEvent, ...]
+
+
+def read_score(line: Breather, air: Air | None, envelope: BreathEnvelope | None) -> BreathScore:
+    times, piece = line.times, line.piece
+    gaps = None if envelope is None or not envelope.has_breath_gaps(times) else silences(envelope, times)
+    lung_s = lungful_s(line.parameters, air)
+    if gaps is not None:
+        assert envelope is not None
+        used = air_used_s(times, air, envelope)
+        within = tuple(within_note(line.notes[index], piece, *gap_s) for index, *gap_s in gaps_within(envelope, times))
+        rests = _rests(times, times, times, piece)
+        return BreathScore(times, times, rests, times.duration_s, gaps, used, used, lung_s, within)
+    written = notated(times, piece)
+    steady = at_score_tempo(written, piece)
+    used = air_used_s(written, air)
+    steady_used = used if steady is written else air_used_s(steady, air)
+    played = steady if written is times else at_score_tempo(times, piece)
+    sounded_s = np.maximum(steady.duration_s, played.duration_s)
+    return BreathScore(
+        written, steady, _rests(steady, played, times, piece), sounded_s, None, used, steady_used, lung_s, ()
+    )
+
+
+def _rests(steady: LineTimes, played: LineTimes, times: LineTimes, piece: Piece) -> Rests:
+    """The rests of the score, which decides what is one and how long it is.
+
+    What is a rest by its seconds lasts at least as long as it is heard, wherever a score would have it.
+    What is so long that it is always breathed in is so at any tempo.
+
+    Parameters
+    ----------
+    steady, played : LineTimes
+        As a score would have the line, and as it is played, both at the tempo of the score.
+    """
+    written = rest_ticks(steady, piece.beat_ticks_at(times.onset_tick))
+    audible = are_audible(played, usual_release(played)) & (times.silence_tick > 0)
+    written = np.where(audible, np.maximum(written, times.silence_tick), written)
+    is_rest = (written > 0) & (times.silence_tick > 0)
+    written_s, sounding_s = gaps_s(steady), gaps_s(times)
+    lasts_s = np.where(audible, np.maximum(written_s, heard_rests_s(played)), written_s)
+    lasts_s = np.where(sounding_s >= ALWAYS_S - EPSILON, np.maximum(lasts_s, sounding_s), lasts_s)
+    return Rests(*(np.where(is_rest, column, 0) for column in (times.silence_tick, written, lasts_s)))
