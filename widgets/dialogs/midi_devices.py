@@ -49,7 +49,7 @@ class MidiDevicesDialog(Retranslated, QDialog):
     controller_chosen(str)
         The device is of this kind.
     wiring_chosen(object)
-        It sends breath and bite so: an `app.score.take.Wiring`.
+        It sends breath and bite so: an `app.score.take.ControllerMapping`.
     latency_asked()
         Find out how late it comes.
     """
