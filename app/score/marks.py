@@ -74,8 +74,6 @@ if TYPE_CHECKING:
 else:
     # Readers of files refuse all others.
     MarkKind = Literal[tuple(MARK_KINDS)]
-MARK_TEXTS: Final = {f"mark.{kind.id}": kind.names for kind in MARKINGS}
-"""Names of marks by id, in English and Japanese."""
 
 
 class Mark(msgspec.Struct, frozen=True, gc=False, omit_defaults=True):

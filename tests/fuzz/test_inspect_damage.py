@@ -74,7 +74,7 @@ UNREADABLE = {
     "a text": (b"Dear sir or madam", "byte 0"),
     "a division of 0": (midi(ONE, division=0), "byte 12"),
     "no tracks": (midi(), "byte 14"),
-    "another archive": (b"PK\x03\x04" + bytes(100), "byte 0"),
+    "another archive": (b"PK\x03\x04" + bytes(100), "damaged compressed file"),
     "77 hours": (midi(note(60) + note(62, 480, 0x0FFFFFFF) + END), "hours"),
 }
 

@@ -62,7 +62,13 @@ def test_what_is_wrong_is_said_in_japanese(tmp_path: Path, kind: str, wrong: str
 ROOT = Path(__file__).parents[2]
 NAMES = frozenset({"detail", "wrong"})
 """Keywords and variables that hold details."""
-FOR_MAKERS = frozenset({"instrument_maps/validate.py", "instrument_maps/check_model.py"})
+FOR_MAKERS = frozenset(
+    {
+        "instrument_maps/check_model.py",
+        "instrument_maps/value_checks.py",
+        *(f"instrument_maps/validate{part}.py" for part in ("", "_fingerings", "_hold")),
+    }
+)
 """What is wrong with an instrument map of one's own is worded in English, for those who make one."""
 MADE_OF_OTHERS = frozenset({"7: 7", "7 (7)"})
 """An exception of ours by its name, and a detail with its place."""

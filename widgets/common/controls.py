@@ -10,7 +10,6 @@ from PySide6.QtCore import QEvent, QObject, Qt
 from PySide6.QtGui import QIcon
 from PySide6.QtWidgets import (
     QCheckBox,
-    QComboBox,
     QDialogButtonBox,
     QHeaderView,
     QListWidget,
@@ -27,7 +26,7 @@ from app.editor.translated import tr
 from widgets.common.clicks import on_click
 from widgets.common.combo import Combo, Option
 from widgets.common.icons import icon
-from widgets.common.plain import Label
+from widgets.common.plain import ComboBox, Label
 
 if TYPE_CHECKING:
     _Mixin = QWidget
@@ -102,11 +101,11 @@ def _explain(widget: QWidget, text: str) -> None:
     widget.setAccessibleName(text)
 
 
-def _item_setter(box: QComboBox | QListWidget) -> Callable[[int, str], object]:
-    return box.setItemText if isinstance(box, QComboBox) else lambda index, text: box.item(index).setText(text)
+def _item_setter(box: ComboBox | QListWidget) -> Callable[[int, str], object]:
+    return box.setItemText if isinstance(box, ComboBox) else lambda index, text: box.item(index).setText(text)
 
 
-def _set_options(box: QComboBox, /, **options: str) -> None:
+def _set_options(box: ComboBox, /, **options: str) -> None:
     """Set the options of a Combo, or the texts of a plain box, which holds their names as data."""
     if isinstance(box, Combo):
         box.set_options([Option(id, text) for id, text in options.items()])

@@ -5,11 +5,9 @@ from __future__ import annotations
 from typing import Final
 
 from app.plan.kinds import EVENT_TEXTS
-from app.score.marks import MARK_TEXTS
 
 TEXTS: Final[dict[str, tuple[str, str]]] = {
     **EVENT_TEXTS,
-    **MARK_TEXTS,
     "channel.ahead": ("Forward", "前"),
     "channel.bell": ("Bell", "ベル"),
     "channel.bend": ("Bend", "曲げ"),
