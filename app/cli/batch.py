@@ -14,7 +14,7 @@ import subprocess
 import sys
 import time
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import Executor, Future, ThreadPoolExecutor, as_completed
 from contextlib import contextmanager
 from pathlib import Path
@@ -133,23 +133,19 @@ def export_folder(arguments: argparse.Namespace) -> int:
         for piece, folder in pieces.items()
         if piece in notes and notes[piece].digest == digests[piece] and os.path.exists(target / folder / REPORT)
     }
-    outcomes = dict(known)
-    progress = Progress(sys.stderr)
-    stopped = False
+    results = _Results(target / NOTES, digests, notes, known)
+    outcomes = results.outcomes
+    progress, stopped = Progress(sys.stderr), False
+    futures: dict[Future[BatchOutcome], str] = {}
     with _executor(arguments.scheduler, arguments.jobs) as executor:
-        futures: dict[Future[BatchOutcome], str] = {}
         for piece, folder in pieces.items():
             if piece not in known:
                 paths = str(source / piece), str(target / folder)
                 futures[executor.submit(export_piece, arguments.given, *paths)] = piece
         try:
             for done, future in enumerate(as_completed(futures), 1):
-                piece = futures[future]
-                outcomes[piece] = _outcome(future)
-                if outcomes[piece].done:
-                    notes[piece] = _Note(digests[piece], outcomes[piece])
-                    _write_notes(target / NOTES, notes)
-                progress(done / len(futures), piece)
+                results.add(futures[future], future)
+                progress(done / len(futures), futures[future])
         except KeyboardInterrupt:
             stopped = True
             for future in futures:
@@ -157,12 +153,33 @@ def export_folder(arguments: argparse.Namespace) -> int:
             _Children.end()
         finally:
             progress.clear()
+    for future, piece in futures.items():
+        # One may have been done before it could be stopped.
+        if stopped and piece not in outcomes and future.done() and not future.cancelled():
+            results.add(piece, future)
     say(*_table(pieces, outcomes, known, stopped))
     if stopped:
         return STOPPED
     if not any(outcome.done for outcome in outcomes.values()):
         return BAD_INPUT
     return DONE if all(outcome.whole for outcome in outcomes.values()) else PARTIAL
+
+
+class _Results:
+    """Results of the pieces of a run, noted in a file as soon as a piece is exported."""
+
+    def __init__(
+        self, file: Path, digests: Mapping[str, str], notes: dict[str, _Note], known: Mapping[str, BatchOutcome]
+    ) -> None:
+        self._file, self._digests, self._notes = file, digests, notes
+        self.outcomes = dict(known)
+
+    def add(self, piece: str, future: Future[BatchOutcome]) -> None:
+        """Keep the result of a piece."""
+        outcome = self.outcomes[piece] = _outcome(future)
+        if outcome.done:
+            self._notes[piece] = _Note(self._digests[piece], outcome)
+            _write_notes(self._file, self._notes)
 
 
 def folders_of(source: Path) -> dict[str, str]:
@@ -185,8 +202,12 @@ def _is_music(path: Path) -> bool:
     """Return whether a file holds what its name says: much is called ``.xml`` that is no score."""
     if path.suffix.casefold() != ".xml":
         return True
-    with open_file(path) as stream:
-        return b"<score-" in stream.read(_START).replace(b"\0", b"")
+    try:
+        with open_file(path) as stream:
+            return b"<score-" in stream.read(_START).replace(b"\0", b"")
+    except (FileError, OSError):
+        # Its export says why it cannot be read.
+        return True
 
 
 def _hidden(path: Path) -> bool:

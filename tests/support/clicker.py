@@ -235,13 +235,23 @@ class Clicker:
         for path in paths:
             name = self._full_name(menu_name, path)
             try:
-                found = self._choose(open_menu, path)
-                if found == CHOSEN and (other := self._beside(open_menu, path)) is not None:
-                    self._choose(open_menu, other)
-                    found = self._choose(open_menu, path)
-            except (AssertionError, StopIteration) as error:
-                found = frozenset((f"fault: {error!r}",))
+                found = self._try(open_menu, path)
+            except (AssertionError, StopIteration):
+                # On a busy machine a menu closes now and then before its submenu comes.
+                self._again(None)
+                try:
+                    found = self._try(open_menu, path)
+                except (AssertionError, StopIteration) as error:
+                    found = frozenset((f"fault: {error!r}",))
             self._note(name, found, where or menu_name)
+
+    def _try(self, open_menu: Open, path: Path) -> frozenset[str]:
+        """Choose an entry; of what is chosen already another first."""
+        found = self._choose(open_menu, path)
+        if found == CHOSEN and (other := self._beside(open_menu, path)) is not None:
+            self._choose(open_menu, other)
+            found = self._choose(open_menu, path)
+        return found
 
     def _full_name(self, menu_name: str, path: Path) -> str:
         return path[-1] if path[-1] in actions(self._program.session) else f"{menu_name} > {' > '.join(path)}"

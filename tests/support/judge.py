@@ -213,8 +213,8 @@ def _cues(
             rest_s = slow_seconds(onset, changes, quarter) - slow_seconds(reach, changes, quarter)
             entry_s = slow_seconds(onset, changes, quarter)
             given = any(abs(end_s - entry_s) < 1e-5 for end_s in ends)
-            # No one nods twice at once: a cue takes a beat and a half.
-            lead_s = 1.5 * (slow_seconds(onset + felt_beat * quarter, changes, quarter) - entry_s)
+            # No one nods twice at once: a cue takes a beat and a half, and before a pickup up to a beat more.
+            lead_s = 2.5 * (slow_seconds(onset + felt_beat * quarter, changes, quarter) - entry_s)
             busy = any(entry_s - lead_s < end_s < entry_s for end_s in ends)
             if rest_s >= 1.5 + 1e-6 and not given and not busy:
                 wrong.append(f"no cue for the entry at {entry_s} after {rest_s} s of rest")

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import argparse
+import json
 import os
 import shutil
 import signal
 import subprocess
 import sys
 import time
+from collections.abc import Iterable
+from concurrent.futures import Future, wait
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -17,8 +20,8 @@ import cloudpickle
 import pytest
 from distributed import LocalCluster
 
-from app.cli import main
-from app.cli.batch import export_piece, folders_of
+from app.cli import batch, main
+from app.cli.batch import BatchOutcome, export_piece, folders_of
 from app.cli.batch_inputs import OWN_FOLDERS, own_digests, piece_digest
 from app.cli.cluster import check_worker, machine_facts, probe
 from app.cli.status import BAD_INPUT, BAD_USE, DONE, PARTIAL, STOPPED
@@ -179,6 +182,23 @@ def test_what_stopped_in_the_middle_goes_on(pieces: Path, tmp_path: Path) -> Non
     again = results(finished.stdout)
     assert {piece for piece, result in again.items() if result == "up to date"} == done
     assert len(again) == 4
+
+
+def test_what_was_done_when_a_run_was_stopped_is_noted(
+    pieces: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def interrupt(futures: Iterable[Future[BatchOutcome]]) -> None:
+        wait(futures)
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(batch, "as_completed", interrupt)
+    monkeypatch.setattr(batch, "export_piece", lambda given, piece, folder: BatchOutcome(DONE))
+    out = tmp_path / "out"
+    out.mkdir()
+    assert main(["export", str(pieces), "--to", str(out), *SHORT]) == STOPPED
+    assert json.loads((out / "exported.json").read_text(encoding="utf-8")).keys() == {
+        "bad.mid", "more/TWO.MIDI", "one.mid"
+    }  # fmt: skip
 
 
 def test_where_all_pieces_are_bad(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
