@@ -22,51 +22,45 @@ class Marking(NamedTuple):
     ----------
     id : str
         Also in users' files.
-    names : (str, str)
-        In English and Japanese.
     anchor : {"note", "notes", "place", "span"}
         One note (an ornament that was written out: its first and its last), the first and the last of several, a tick,
         or ticks from and to which it holds.
-    has_text : bool
-        Its text says more: the dynamic, the valves of a fingering, the number of a slide position.
     """
 
     id: str
-    names: tuple[str, str]
     anchor: Literal["note", "notes", "place", "span"] = "note"
-    has_text: bool = False
 
 
 MARKINGS: Final = (
-    Marking("slur", ("Slur", "スラー"), "notes"),
-    Marking("staccato", ("Staccato", "スタッカート")),
-    Marking("staccatissimo", ("Staccatissimo", "スタッカーティッシモ")),
-    Marking("tenuto", ("Tenuto", "テヌート")),
-    Marking("accent", ("Accent", "アクセント")),
-    Marking("marcato", ("Marcato", "マルカート")),
-    Marking("breath", ("Breath mark", "ブレス記号")),
-    Marking("caesura", ("Caesura", "カエスーラ")),
-    Marking("fermata", ("Fermata", "フェルマータ")),
-    Marking("dynamic", ("Dynamic", "強弱記号"), "place", has_text=True),
-    Marking("crescendo", ("Crescendo", "クレッシェンド"), "span"),
-    Marking("diminuendo", ("Diminuendo", "ディミヌエンド"), "span"),
-    Marking("double_tongue", ("Double tongue", "ダブルタンギング")),
-    Marking("triple_tongue", ("Triple tongue", "トリプルタンギング")),
-    Marking("flutter_tongue", ("Flutter tongue", "フラッタータンギング")),
-    Marking("grace", ("Grace note", "装飾音")),
-    Marking("trill", ("Trill", "トリル")),
-    Marking("mordent", ("Mordent", "モルデント")),
-    Marking("turn", ("Turn", "ターン")),
-    Marking("tremolo", ("Tremolo", "トレモロ")),
-    Marking("scoop", ("Scoop", "スクープ")),
-    Marking("plop", ("Plop", "プロップ")),
-    Marking("doit", ("Doit", "ドイト")),
-    Marking("fall", ("Fall", "フォール")),
-    Marking("glissando", ("Glissando", "グリッサンド")),
-    Marking("stopped", ("Stopped", "ゲシュトップ")),
-    Marking("open", ("Open", "オープン")),
-    Marking("fingering", ("Written fingering", "指定の運指"), has_text=True),
-    Marking("position", ("Written slide position", "指定のスライドポジション"), has_text=True),
+    Marking("slur", "notes"),
+    Marking("staccato"),
+    Marking("staccatissimo"),
+    Marking("tenuto"),
+    Marking("accent"),
+    Marking("marcato"),
+    Marking("breath"),
+    Marking("caesura"),
+    Marking("fermata"),
+    Marking("dynamic", "place"),
+    Marking("crescendo", "span"),
+    Marking("diminuendo", "span"),
+    Marking("double_tongue"),
+    Marking("triple_tongue"),
+    Marking("flutter_tongue"),
+    Marking("grace"),
+    Marking("trill"),
+    Marking("mordent"),
+    Marking("turn"),
+    Marking("tremolo"),
+    Marking("scoop"),
+    Marking("plop"),
+    Marking("doit"),
+    Marking("fall"),
+    Marking("glissando"),
+    Marking("stopped"),
+    Marking("open"),
+    Marking("fingering"),
+    Marking("position"),
 )
 MARK_KINDS: Final[Mapping[str, Marking]] = {kind.id: kind for kind in MARKINGS}
 if TYPE_CHECKING:

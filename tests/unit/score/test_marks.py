@@ -59,9 +59,14 @@ def marked(project: Project) -> Project:
     part = project.score.parts[0]
     notes = [note.id for note in part.notes]
     marks = tuple(
-        Mark(kind.id, tick=480, end_tick=960 if kind.anchor == "span" else 0, text="mf" if kind.has_text else "")
+        Mark(kind.id, tick=480, end_tick=960 if kind.anchor == "span" else 0, text="mf" if kind.id == "dynamic" else "")
         if kind.anchor in ("place", "span")
-        else Mark(kind.id, notes[0], notes[1] if kind.anchor == "notes" else "", text="1" if kind.has_text else "")
+        else Mark(
+            kind.id,
+            notes[0],
+            notes[1] if kind.anchor == "notes" else "",
+            text="1" if kind.id in ("fingering", "position") else "",
+        )
         for kind in MARK_KINDS.values()
     )
     parts = (msgspec.structs.replace(part, marks=marks, source="score"), *project.score.parts[1:])
