@@ -21,6 +21,7 @@ from app.messages import (
     edit,
     files,
     formats,
+    marks,
     midi_files,
     notation,
     notes,
@@ -45,8 +46,8 @@ from app.messages.pitches import pitch_name
 LANGUAGES: Final = {"en": "English", "ja": "日本語"}
 """By code: the name in the language itself; the wordings are in this order."""
 _MODULES: Final = (
-    *(acting, audio, body, capture, corrections, edit, files, formats, midi_files, notation, notes, parameters),
-    *(picture, plan, project, record, request, score, skeletons, stream, tables, takes, unreal, work),
+    *(acting, audio, body, capture, corrections, edit, files, formats, marks, midi_files, notation, notes),
+    *(parameters, picture, plan, project, record, request, score, skeletons, stream, tables, takes, unreal, work),
     *(module for _, module in modules("messages")),
 )
 WORDINGS: Final[dict[str, tuple[str, str]]] = {

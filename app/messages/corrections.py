@@ -21,5 +21,7 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         "additive": ("additive curve", "加算カーブ"),
         "vary": ("regenerated", "再生成"),
         "play_style": ("style", "演奏スタイル"),
+        "set_mark": ("mark", "記号"),
+        "remove_mark": ("removed mark", "記号の削除"),
     }.items()
 }

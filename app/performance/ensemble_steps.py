@@ -11,6 +11,7 @@ import msgspec
 from app.performance.loudness import controller_input, note_loudness, velocities_of
 from app.plan.acting import Acting, acting_of, with_style
 from app.plan.by_hand.corrections import Correction, PlayStyle, RemoveEvent, SetBreath, SetCue, Vary
+from app.plan.by_hand.mark_corrections import OfMark, corrected_marks, mark_corrections
 from app.plan.doubling import held_plan
 from app.plan.generate import MonophonicPart, Piece
 from app.plan.model import PlayerPlan
@@ -32,7 +33,7 @@ def work_of(part: MonophonicPart, before: MonophonicPart | None) -> int:
         return len(part.notes)
     same = deciding_values(part.parameters, "breaths", "cues") == deciding_values(before.parameters, "breaths", "cues")
     kept, said = set(before.corrections), set(part.corrections)
-    if not same or any(isinstance(item, RemoveEvent | SetBreath | SetCue | Vary) for item in kept ^ said):
+    if not same or any(isinstance(item, RemoveEvent | SetBreath | SetCue | Vary | OfMark) for item in kept ^ said):
         return len(part.notes)
     return len(part.notes) // LIGHT
 
@@ -99,7 +100,9 @@ LINE: Final = StepTable(
     loudness=reading(note_loudness, reading="velocity_reading"),
     muted="part.muted",
     stopped="part.stopped",
-    marks="part.marks",
+    mark_corrections=mark_corrections,
+    read_marks="part.marks",
+    marks=reading(corrected_marks, marks="read_marks", corrections="mark_corrections"),
     source="part.source",
     line=reading(
         MonophonicPart,

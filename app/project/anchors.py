@@ -1,8 +1,8 @@
 """Anchors of corrections, and moving corrections to others.
 
-Fields say it by their names: ``note_id`` and ``moved_from`` are notes (or ``"@tick"``, a place), ``event_id`` ends
-with the note or the place of its event, ``..._offset_tick`` and ``..._ticks`` are lengths, ``tick`` and
-other ``..._tick`` places.
+Fields say it by their names: ``note_id``, ``last_note_id`` and ``moved_from`` are notes (or ``"@tick"``, a place),
+``event_id`` ends with the note or the place of its event, ``..._offset_tick`` and ``..._ticks`` are lengths, ``tick``
+and other ``..._tick`` places.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from app.project.dance_corrections import DanceCorrection
 
 C = TypeVar("C", bound=Correction | DanceCorrection)
 
-NOTE_FIELDS = ("note_id", "moved_from")
+NOTE_FIELDS = ("note_id", "last_note_id", "moved_from")
 _NOTE = re.compile(r"(?:^|(?<=:))(?:\d+|[nft]):\d+$", re.ASCII)
 _PLACE = re.compile(r"(?:^|(?<=:))@(-?\d+)$", re.ASCII)
 
@@ -32,6 +32,12 @@ def note_of(correction: Correction) -> str | None:
         return None if _PLACE.search(note_id) else note_id
     found = _NOTE.search(getattr(correction, "event_id", ""))
     return found.group() if found else None
+
+
+def notes_of(correction: Correction) -> tuple[str, ...]:
+    """The notes a correction is about: both ends of a slur."""
+    last: str | None = getattr(correction, "last_note_id", None)
+    return tuple(note for note in (note_of(correction), last) if note is not None)
 
 
 def moved_correction(

@@ -12,9 +12,12 @@ import msgspec
 from app.errors import shortened
 from app.plan.by_hand.additive_curve import BODY_CHANNELS, CHANNELS, FACE, MOST_KEYS, AdditiveCurve, CurveKey
 from app.plan.by_hand.corrections import Correction
+from app.plan.by_hand.mark_corrections import OfMark, SetMark
+from app.plan.music.written_marks import DYNAMIC_TEXTS
 from app.project import limits
-from app.project.fault import Fault, about, faults_of_bounds, id_faults, text_faults
+from app.project.fault import Fault, about, faults_at_key, faults_of_bounds, id_faults, text_faults
 from app.project.model import Project
+from app.score.marks import MARK_KINDS
 
 _POSSIBLE: Final = f"{', '.join(BODY_CHANNELS)}, {FACE}MORPH (an ARKit morph target)"
 
@@ -47,6 +50,32 @@ def correction_faults(correction: Correction, place: str) -> Iterator[Fault]:
         return
     for field in correction.__struct_fields__:
         yield from _plain_faults(f"{place}.{field}", getattr(correction, field))
+    if isinstance(correction, OfMark):
+        yield from faults_at_key(place, _mark_faults(correction))
+
+
+def _mark_faults(correction: OfMark) -> Iterator[Fault]:
+    """Faults of a mark's anchors and text, by its kind."""
+    anchor = MARK_KINDS[correction.kind].anchor
+    at_tick = anchor in ("place", "span")
+    needed = {"note_id": not at_tick, "last_note_id": anchor == "notes", "start_tick": at_tick}
+    for field, is_needed in needed.items():
+        value = getattr(correction, field)
+        if is_needed and value in (None, ""):
+            yield field, f"is needed by {correction.kind!r}"
+        elif value is not None and not is_needed and not (field == "last_note_id" and anchor == "note"):
+            yield field, f"is not used by {correction.kind!r}"
+    if correction.start_tick is not None:
+        yield from faults_of_bounds("start_tick", correction.start_tick, (0, limits.LAST_TICK))
+    if not isinstance(correction, SetMark):
+        return
+    if anchor == "span" and correction.end_tick is None:
+        yield "end_tick", f"is needed by {correction.kind!r}"
+    elif correction.end_tick is not None and not at_tick:
+        yield "end_tick", f"is not used by {correction.kind!r}"
+    yield from text_faults("text", correction.text, limits.MOST_NAME)
+    if correction.kind == "dynamic" and correction.text not in DYNAMIC_TEXTS:
+        yield "text", f"must be one of {', '.join(DYNAMIC_TEXTS)}"
 
 
 def _place(project: Project, correction: Correction, place: str) -> str:
@@ -61,6 +90,8 @@ def _place(project: Project, correction: Correction, place: str) -> str:
 
 def _name(correction: Correction) -> str:
     """Name of a correction in the panels: the user's title, or its subject; empty for those tied to a note."""
+    if isinstance(correction, OfMark):
+        return correction.kind
     fields = ("title", "channel", "target", "style", "gesture", "expression")
     known = (getattr(correction, field, None) for field in fields)
     return next((name for name in known if isinstance(name, str) and name), "")

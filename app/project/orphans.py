@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 from app.errors import UsageError
 from app.plan.by_hand.corrections import Correction
-from app.project.anchors import moved_correction, note_of
+from app.project.anchors import moved_correction, notes_of
 from app.project.edit.corrections import take_back, with_corrections
 from app.project.model import Project
 
@@ -31,20 +31,21 @@ def orphaned(project: Project) -> tuple[Orphan, ...]:
             continue
         played = {note.id for note in project.part(player).notes}
         for correction in corrections:
-            note = note_of(correction)
-            if note is not None and note not in played:
+            if not played.issuperset(notes_of(correction)):
                 found.append(Orphan(player.id, correction))
     return tuple(found)
 
 
 def reattached(project: Project, player_id: str, correction: Correction, note_id: str) -> Project:
     """Let a correction be about another note of its player; lengths relative to the note stay. It takes the place of
-    one that is about the same there."""
-    former = note_of(correction)
-    if former is None:
+    one that is about the same there. Of a slur the end that is gone goes to the note, the first one if both are."""
+    anchors = notes_of(correction)
+    if not anchors:
         raise UsageError("reimport.no_note", kind=correction.tag)
-    if note_id not in {note.id for note in project.part(project.player(player_id)).notes}:
+    played = {note.id for note in project.part(project.player(player_id)).notes}
+    if note_id not in played:
         raise UsageError("reimport.not_played", note=note_id)
+    former = next((note for note in anchors if note not in played), anchors[0])
     if former == note_id:
         return project
     without = take_back(project, player_id, [correction])

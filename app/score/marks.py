@@ -33,6 +33,7 @@ class Marking(NamedTuple):
 
 MARKINGS: Final = (
     Marking("slur", "notes"),
+    Marking("non_legato", "notes"),
     Marking("staccato"),
     Marking("staccatissimo"),
     Marking("tenuto"),
@@ -78,10 +79,10 @@ class Mark(msgspec.Struct, frozen=True, gc=False, omit_defaults=True):
     note_id : str
         The note it stands at, or the first of several; empty for one anchored to ticks.
     last_note_id : str
-        The last of several notes: of a slur, or of those that a trill or a tremolo was written out in, which has none
-        where it is one note.
+        The last of several notes: of a slur, of notes tongued one by one, or of those that a trill or a tremolo was
+        written out in, which has none where it is one note.
     tick, end_tick : int
-        Of one anchored to ticks; the end is 0 where it stands at one place.
+        Of one anchored to ticks; the end is 0 where it stands at one place. A dynamic with an end holds up to it.
     text : str
         ``"mf"``, ``"sfz"`` of a dynamic; ``"1-2"``, ``"0"`` of a fingering; ``"4"`` of a position.
     """
@@ -92,6 +93,18 @@ class Mark(msgspec.Struct, frozen=True, gc=False, omit_defaults=True):
     tick: int = 0
     end_tick: int = 0
     text: str = ""
+
+    @property
+    def id(self) -> str:
+        """Name of the mark among those of its player, as of an event: its kind and where it stands."""
+        return mark_id(self.kind, self.note_id, self.last_note_id, self.tick)
+
+
+def mark_id(kind: str, note_id: str, last_note_id: str, tick: int) -> str:
+    """Return `Mark.id` of a mark at notes (``"slur:0:1-0:5"``), or else at a tick (``"dynamic:@480"``)."""
+    if not note_id:
+        return f"{kind}:@{tick}"
+    return f"{kind}:{note_id}-{last_note_id}" if last_note_id else f"{kind}:{note_id}"
 
 
 def renamed_marks(marks: Iterable[Mark], ids: Mapping[str, str]) -> tuple[Mark, ...]:

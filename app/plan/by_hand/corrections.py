@@ -16,6 +16,7 @@ from app.errors import Message
 from app.plan.by_hand.additive_curve import AdditiveCurve
 from app.plan.by_hand.correction import OfEvent, OfNote, Own
 from app.plan.by_hand.events import PoseTarget
+from app.plan.by_hand.mark_corrections import RemoveMark, SetMark
 from app.plan.event_id import EventId
 from app.plan.kinds import BREATH_KINDS, GESTURE_KINDS, BreathKind, GestureKind
 from app.plan.model import ExpressionEvent, GestureEvent
@@ -69,6 +70,11 @@ class SetBreath(OfNote, frozen=True, tag="set_breath"):
     added: bool = False
     moved_from: str | None = None
     number: int = 1
+
+    @property
+    def place(self) -> tuple[str, ...]:
+        """Place of the correction: a note has one of each kind."""
+        return self.tag, self.anchor, self.kind
 
     @property
     def about(self) -> str:
@@ -269,6 +275,8 @@ Correction: TypeAlias = (
     | AdditiveCurve
     | Vary
     | PlayStyle
+    | SetMark
+    | RemoveMark
 )
 
 

@@ -267,7 +267,7 @@ def note_times(
     loud = np.asarray(loudness, np.float64) if loudness else read_dynamics(Velocities(velocity))[0]
     slurred = slurs_next(onset, end)
     if written is not None:
-        loud = np.where(np.isnan(written.level), loud, written.level)
+        loud = np.where(np.isnan(written.level), _swelled(loud, written.swell), written.level)
         slurred = written.slurred if written.is_score else (slurred | written.slurred) & ~written.tongued_next
     return LineTimes(
         onset_tick=onset,
@@ -279,6 +279,15 @@ def note_times(
         pitch=pitch,
         loudness=np.clip(loud, 0.0, 1.0),
     )
+
+
+def _swelled(loudness: FloatArray, rows: FloatArray) -> FloatArray:
+    """Loudness so many dynamics louder."""
+    if not rows.any():
+        return loudness
+    places = np.arange(len(LEVELS), dtype=np.float64)
+    swelled = np.interp(np.interp(loudness, LEVELS, places) + rows, places, LEVELS)
+    return np.where(rows == 0.0, loudness, swelled)
 
 
 def without_sound(notes: tuple[Note, ...]) -> tuple[Note, ...]:

@@ -22,6 +22,8 @@ FORTE_THEN: Final = {"fp": "p", "sfp": "p", "ffp": "p", "mfp": "p", "sfzp": "p",
 """Marks of which the first part is one note's, with the dynamic that holds after it."""
 SFORZANDI: Final = frozenset({"sf", "sfz", "sffz", "fz", "rf", "rfz", "sfzz"})
 """Marks of one note, played louder than those around it."""
+DYNAMIC_TEXTS: Final = (*ROW_OF_DYNAMIC, *FORTE_THEN, *sorted(SFORZANDI))
+"""Marks that have a meaning."""
 FORTE: Final = ROW_OF_DYNAMIC["f"]
 LOUDER_ROWS: Final = 1.5
 """Rows of `DYNAMICS` by which a sforzando is louder than the dynamic in force."""
@@ -45,6 +47,8 @@ class WrittenMarks:
         Of a score a note without marks has none; of a sound they are unknown.
     slurred : bool
         Whether the next note is slurred to it.
+    tongued : bool
+        Whether the next note is tongued whatever the sound says: where a slur ends, or each note is tongued.
     joined : bool
         Whether one slur is over it and the next note, divided or not.
     divided : bool
@@ -56,26 +60,30 @@ class WrittenMarks:
     tonguing : str
         ``"double_tongue"``, ``"triple_tongue"`` or ``"flutter_tongue"``; empty: none.
     level : float64
-        Loudness 0..1 by dynamics and hairpins; NaN before the first of them.
+        Loudness 0..1 by dynamics and hairpins; NaN where none is in force.
+    swell : float64
+        Rows of `DYNAMICS` by which a hairpin changes what the sound says; 0 where there is a level.
     struck : bool
         Whether its dynamic is its own only, as of a sforzando.
     """
 
     source: Source
     slurred: BoolArray
+    tongued: BoolArray
     joined: BoolArray
     divided: BoolArray
     breath: BoolArray
     stroke: tuple[str, ...]
     tonguing: tuple[str, ...]
     level: FloatArray
+    swell: FloatArray
     struck: BoolArray
 
     @property
     def tongued_next(self) -> BoolArray:
-        """True if the next note has a mark that says that it is tongued."""
+        """True if the next note has a mark that says that it is tongued, or follows a slur's end."""
         marked = np.fromiter(map(bool, self.stroke), bool, len(self.stroke))
-        return np.append(marked[1:], False)[: len(marked)]
+        return np.append(marked[1:], False)[: len(marked)] | self.tongued
 
     @property
     def is_score(self) -> bool:
@@ -105,7 +113,7 @@ def written_marks(
     if not marks and source == "sound":
         return unwritten(count)
     place = {note.id: index for index, note in enumerate(notes)}
-    slurred, divided, breath = (np.zeros(count, dtype=bool) for _ in range(3))
+    slurred, apart, ends, breath = (np.zeros(count, dtype=bool) for _ in range(4))
     stroke, tonguing = [""] * count, [""] * count
     for mark in marks:
         first = place.get(mark.note_id)
@@ -114,42 +122,66 @@ def written_marks(
         last = place.get(mark.last_note_id, first)
         if mark.kind == "slur":
             slurred[first:last] = True
+            ends[last] = True
+        elif mark.kind == "non_legato":
+            apart[first:last] = True
         elif mark.kind in ("breath", "caesura"):
             breath[last] = True
         elif mark.kind in OF_STROKE:
             stroke[first] = max(stroke[first] or mark.kind, mark.kind, key=OF_STROKE.index)
         elif mark.kind.endswith("_tongue"):
             tonguing[first : last + 1] = [mark.kind] * (last + 1 - first)
+    slurred &= ~apart
+    tongued = apart | (ends & ~slurred)
     under = slurred | np.insert(slurred[:-1], 0, False)[:count]
     dividing = np.fromiter((mark in DIVIDING for mark in stroke), bool, count)
     divided = under & dividing
     # The stroke of the next note divides them.
     joined = slurred
     slurred = joined & ~np.append(divided[1:], False)[:count]
-    level, struck = _levels(notes, marks, ticks_per_quarter)
-    return WrittenMarks(source, slurred, joined, divided, breath, tuple(stroke), tuple(tonguing), level, struck)
+    level, swell, struck = _levels(notes, marks, source, ticks_per_quarter)
+    by_note = tuple(stroke), tuple(tonguing), level, swell, struck
+    return WrittenMarks(source, slurred, tongued, joined, divided, breath, *by_note)
 
 
 def unwritten(count: int) -> WrittenMarks:
     """Return the marks of so many notes without any, read from sound."""
     none = np.zeros(count, dtype=bool)
     names = ("",) * count
-    return WrittenMarks("sound", none, none, none, none, names, names, np.full(count, np.nan), none)
+    level, swell = np.full(count, np.nan), np.zeros(count)
+    return WrittenMarks("sound", none, none, none, none, none, names, names, level, swell, none)
 
 
-def _levels(notes: Sequence[Note], marks: Iterable[Mark], quarter: int) -> tuple[FloatArray, BoolArray]:
-    """Loudness of each note by dynamics and hairpins, and whether it is its own."""
+def _levels(
+    notes: Sequence[Note], marks: Iterable[Mark], source: Source, quarter: int
+) -> tuple[FloatArray, FloatArray, BoolArray]:
+    """Loudness of each note by dynamics and hairpins, by how much hairpins change what the sound says, and whether the
+    loudness is the note's own."""
     onsets = np.fromiter((note.onset_tick for note in notes), np.int64, len(notes))
+    level, swell = np.full(len(onsets), np.nan), np.zeros(len(onsets))
+    struck = np.zeros(len(onsets), dtype=bool)
     of_dynamics = [mark for mark in marks if mark.kind in ("dynamic", "crescendo", "diminuendo")]
     if not of_dynamics or not len(onsets):
-        return np.full(len(onsets), np.nan), np.zeros(len(onsets), dtype=bool)
-    holding = {mark.tick: row for mark in of_dynamics if (row := _holding_row(mark)) is not None}
-    ticks, rows = _knots(holding, [mark for mark in of_dynamics if mark.kind != "dynamic"], quarter)
-    level = np.full(len(onsets), np.nan)
-    struck = np.zeros(len(onsets), dtype=bool)
+        return level, swell, struck
+    spans = [mark for mark in of_dynamics if mark.kind == "dynamic" and mark.end_tick]
+    holding = {mark.tick: row for mark in of_dynamics if not mark.end_tick and (row := _holding_row(mark)) is not None}
+    hairpins = [mark for mark in of_dynamics if mark.kind != "dynamic"]
+    if source == "sound":
+        # Before the first dynamic they change what is heard.
+        first = min(holding, default=None)
+        heard = [mark for mark in hairpins if first is None or mark.tick < first]
+        hairpins = [mark for mark in hairpins if mark not in heard]
+        for mark in heard:
+            within = (onsets >= mark.tick) & (onsets < mark.end_tick)
+            way = (onsets[within] - mark.tick) / (mark.end_tick - mark.tick) if within.any() else 0.0
+            swell[within] = (HAIRPIN_ROWS if mark.kind == "crescendo" else -HAIRPIN_ROWS) * way
+    ticks, rows = _knots(holding, hairpins, quarter)
     if ticks:
         known = onsets >= ticks[0]
         level[known] = np.interp(onsets[known], ticks, rows)
+    for mark in spans:
+        if (row := _holding_row(mark)) is not None:
+            level[(onsets >= mark.tick) & (onsets < mark.end_tick)] = row
     for mark in of_dynamics:
         own = FORTE if mark.text in FORTE_THEN and mark.text != "pf" else None
         if mark.kind != "dynamic" or (own is None and mark.text not in SFORZANDI):
@@ -161,7 +193,7 @@ def _levels(notes: Sequence[Note], marks: Iterable[Mark], quarter: int) -> tuple
         level[at] = max(own if own is not None else FORTE, 0.0 if np.isnan(around) else around + LOUDER_ROWS)
         level[at] = min(level[at], float(len(LEVELS) - 1))
         struck[at] = True
-    return np.interp(level, np.arange(len(LEVELS)), LEVELS), struck
+    return np.interp(level, np.arange(len(LEVELS)), LEVELS), swell, struck
 
 
 def _holding_row(mark: Mark) -> float | None:

@@ -6,10 +6,7 @@ from collections.abc import Iterable
 from dataclasses import replace
 from typing import NamedTuple
 
-from app.plan.by_hand.corrections import (
-    Correction,
-    SetBreath,
-)
+from app.plan.by_hand.corrections import Correction
 from app.project.edit.found_events import OWN as OWN
 from app.project.edit.found_events import Placed as Placed
 from app.project.edit.found_events import corrections_of as corrections_of
@@ -19,26 +16,20 @@ from app.project.edit.found_events import placed_events as placed_events
 from app.project.model import Project
 
 
-def place(correction: Correction) -> tuple[str, ...]:
-    """Place of a correction: two of a player at the same place exclude one another."""
-    more = (correction.kind,) if isinstance(correction, SetBreath) else ()
-    return (correction.tag, correction.anchor, *more)
-
-
 def with_corrections(project: Project, player_id: str, corrections: Iterable[Correction]) -> Project:
     """Add corrections; each takes the place of one about the same place. KeyError where there is no such player."""
     before = project.corrections.get(project.player(player_id).id, ())
-    kept = {place(correction): correction for correction in before}
+    kept = {correction.place: correction for correction in before}
     for correction in corrections:
-        kept[place(correction)] = correction
+        kept[correction.place] = correction
     return _with(project, player_id, tuple(kept.values()))
 
 
 def take_back(project: Project, player_id: str, corrections: Iterable[Correction]) -> Project:
     """Remove corrections: the generator decides there again. Others are not touched."""
-    places = {place(correction) for correction in corrections}
+    places = {correction.place for correction in corrections}
     before = project.corrections.get(player_id, ())
-    return _with(project, player_id, tuple(item for item in before if place(item) not in places))
+    return _with(project, player_id, tuple(item for item in before if item.place not in places))
 
 
 def _with(project: Project, player_id: str, corrections: tuple[Correction, ...]) -> Project:

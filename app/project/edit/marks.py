@@ -1,0 +1,166 @@
+"""Marks that an animator writes over notes, takes away and moves: slurs, articulations, breaths, dynamics, hairpins.
+
+A mark of the score that is changed is taken away, and the changed one written. In a part read from sound a dynamic that
+is written over several notes holds for these; over one note, and always in a part of a score, up to the next dynamic.
+
+Messages (`UsageError`): ``mark.no_notes``, ``mark.one_note``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from typing import Final, Literal, NamedTuple, TypeAlias
+
+from app.errors import UsageError
+from app.plan.by_hand.mark_corrections import (
+    SetMark,
+    corrected_marks,
+    mark_corrections,
+    remove_mark,
+    set_mark,
+)
+from app.project.edit.corrections import take_back, with_corrections
+from app.project.model import Project
+from app.score.marks import MARK_KINDS, Mark
+from app.score.model import Note
+
+Origin: TypeAlias = Literal["score", "hand"]
+EXCLUDING: Final[tuple[frozenset[str], ...]] = (
+    frozenset({"staccato", "staccatissimo", "tenuto"}),
+    frozenset({"accent", "marcato"}),
+    frozenset({"breath", "caesura"}),
+    frozenset({"double_tongue", "triple_tongue", "flutter_tongue"}),
+    frozenset({"slur", "non_legato"}),
+    frozenset({"crescendo", "diminuendo"}),
+)
+"""Kinds of which a note has one at most: writing one takes the others away."""
+AFTER: Final = frozenset({"breath", "caesura"})
+"""Kinds that stand after what was chosen."""
+
+
+class Marked(NamedTuple):
+    """A project after marks were written or taken away."""
+
+    project: Project
+    added: bool
+    number: int
+
+
+def player_marks(project: Project, player_id: str) -> dict[Mark, Origin]:
+    """Return a player's marks after corrections, and where each is from. One whose notes are gone does nothing."""
+    marks = project.part(project.player(player_id)).marks
+    corrections = mark_corrections(project.corrections.get(player_id, ()))
+    by_hand = {item.mark for item in corrections if isinstance(item, SetMark)}
+    return {mark: "hand" if mark in by_hand else "score" for mark in corrected_marks(marks, corrections)}
+
+
+def set_marks(project: Project, player_id: str, marks: Iterable[Mark]) -> Project:
+    """Write marks; each takes the place of one of its kind that stands there. One that the score has there is back."""
+    chosen = tuple(marks)
+    read = frozenset(project.part(project.player(player_id)).marks)
+    project = give_back_marks(project, player_id, chosen)
+    return with_corrections(project, player_id, [set_mark(mark) for mark in chosen if mark not in read])
+
+
+def remove_marks(project: Project, player_id: str, marks: Iterable[Mark]) -> Project:
+    """Take marks away: those by hand are forgotten, those of the score are left out."""
+    chosen = tuple(marks)
+    project = take_back(project, player_id, [remove_mark(mark) for mark in chosen])
+    left = player_marks(project, player_id)
+    ids = {mark.id for mark in chosen}
+    return with_corrections(project, player_id, [remove_mark(mark) for mark in left if mark.id in ids])
+
+
+def replace_mark(project: Project, player_id: str, mark: Mark, changed: Mark) -> Project:
+    """Let a mark stand elsewhere, or have another text."""
+    return set_marks(remove_marks(project, player_id, [mark]), player_id, [changed])
+
+
+def give_back_marks(project: Project, player_id: str, marks: Iterable[Mark]) -> Project:
+    """Let what the score has stand at these places."""
+    return take_back(project, player_id, [remove_mark(mark) for mark in marks])
+
+
+def toggle_marks(project: Project, notes: Mapping[str, Sequence[Note]], kind: str, text: str = "") -> Marked:
+    """Write a mark over chosen notes, or take it away where all have it.
+
+    A mark of notes goes over a player's notes from the first chosen to the last. A breath mark or a caesura stands
+    after the last one, a dynamic at the first one, and a hairpin goes up to the end of the last one.
+
+    Parameters
+    ----------
+    notes : mapping of str to sequence of Note
+        The chosen notes by player, in order.
+
+    Raises
+    ------
+    UsageError
+        ``mark.no_notes``, ``mark.one_note``: no player has as many chosen notes as the kind needs.
+    """
+    anchor = MARK_KINDS[kind].anchor
+    least = 2 if anchor == "notes" else 1
+    chosen = {player_id: own for player_id, own in notes.items() if len(own) >= least}
+    if not chosen:
+        raise UsageError("mark.one_note" if any(notes.values()) else "mark.no_notes", kind=f"mark.{kind}")
+    requested = {player_id: _marks_over(project, player_id, own, kind, text) for player_id, own in chosen.items()}
+    there = {player_id: player_marks(project, player_id) for player_id in chosen}
+    adds = any(mark not in there[player_id] for player_id, marks in requested.items() for mark in marks)
+    count = 0
+    for player_id, marks in requested.items():
+        if not adds:
+            project, count = remove_marks(project, player_id, marks), count + len(marks)
+            continue
+        fresh = [mark for mark in marks if mark not in there[player_id]]
+        count += len(fresh)
+        excluded = _excluded(there[player_id], fresh)
+        project = set_marks(remove_marks(project, player_id, excluded), player_id, fresh)
+    return Marked(project, adds, count)
+
+
+def marks_at(marks: Collection[Mark], notes: Sequence[Note], order: Mapping[str, int]) -> list[Mark]:
+    """Return the marks at these notes, over some of them, or at their ticks.
+
+    Parameters
+    ----------
+    order : mapping of str to int
+        Places of all notes of the part by id.
+    """
+    places = sorted(order[note.id] for note in notes)
+    ids = {note.id for note in notes}
+    found = []
+    for mark in marks:
+        if mark.note_id:
+            first, last = order.get(mark.note_id), order.get(mark.last_note_id or mark.note_id)
+            is_over = first is not None and last is not None and any(first <= place <= last for place in places)
+            if mark.note_id in ids or (MARK_KINDS[mark.kind].anchor == "notes" and is_over):
+                found.append(mark)
+        elif any(note.onset_tick <= mark.tick < note.end_tick for note in notes) or any(
+            mark.tick <= note.onset_tick < mark.end_tick for note in notes
+        ):
+            found.append(mark)
+    return found
+
+
+def _marks_over(project: Project, player_id: str, notes: Sequence[Note], kind: str, text: str) -> list[Mark]:
+    """Return the marks of a kind over chosen notes of one player."""
+    anchor = MARK_KINDS[kind].anchor
+    first, last = notes[0], max(notes, key=lambda note: note.end_tick)
+    if anchor == "notes":
+        return [Mark(kind, first.id, notes[-1].id, text=text)]
+    if kind in AFTER:
+        return [Mark(kind, notes[-1].id)]
+    if anchor == "note":
+        return [Mark(kind, note.id, text=text) for note in notes]
+    holds = anchor == "span" or (len(notes) > 1 and project.part(project.player(player_id)).source == "sound")
+    return [Mark(kind, tick=first.onset_tick, end_tick=last.end_tick if holds else 0, text=text)]
+
+
+def _excluded(there: Collection[Mark], fresh: Sequence[Mark]) -> list[Mark]:
+    """Return the marks that cannot stand beside new ones."""
+    others: dict[str, frozenset[str]] = {kind: kinds - {kind} for kinds in EXCLUDING for kind in kinds}
+    places = {(other, *_place(mark)) for mark in fresh for other in others.get(mark.kind, ())}
+    return [mark for mark in there if (mark.kind, *_place(mark)) in places]
+
+
+def _place(mark: Mark) -> tuple[str, str, int]:
+    return mark.note_id, mark.last_note_id, mark.tick
