@@ -1,1 +1,1 @@
-"""What all panels share: the session, design tokens, small widgets."""
+"""The session, design tokens and small widgets that all panels share."""

@@ -1,4 +1,4 @@
-"""What the channels of additive curves are called in the user's language."""
+"""Names of the channels of additive curves, in the user's language."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ def part_name(part: str) -> str:
 
 
 def way_name(channel: str) -> str:
-    """What a channel does with its part: up, to the left ..."""
+    """The direction or motion of a channel, without its part: up, to the left ..."""
     if channel.startswith(FACE):
         return morph_name(channel.removeprefix(FACE))
     return tr(_WAYS[channel.partition(".")[2]])

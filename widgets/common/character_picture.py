@@ -25,7 +25,7 @@ _OVERSAMPLED: Final = 2
 _AMBIENT, _DIFFUSE = 0.30, 0.75
 _MARGIN: Final = 1.06
 _HEAD_BELOW: Final = 0.45
-"""Of the head's height from its joint to the crown, so much of the neck is seen too."""
+"""Share of the head's height (joint to crown) of the neck that is shown below it."""
 _LARGEST_PX: Final = 2048
 _DEPTHS: Final = float(2**20)
 """From the hindmost point to the foremost one."""
@@ -227,7 +227,7 @@ def _painted(
 
 
 def _shares(corners: FloatArray, pixels: IndexArray, width: int) -> FloatArray:
-    """How much of each corner (P, 3) of its triangle (P, 3, 2) is in the middle of a pixel."""
+    """Return the barycentric share of each corner (P, 3) of its triangle (P, 3, 2) in the middle of a pixel."""
     middle = np.stack([pixels % width, pixels // width], axis=1) + 0.5
     one, two, at = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0], middle - corners[:, 0]
     area = one[:, 0] * two[:, 1] - one[:, 1] * two[:, 0]

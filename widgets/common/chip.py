@@ -50,12 +50,12 @@ class Chip(QAbstractButton):
 
     @property
     def by_hand(self) -> bool:
-        """Whether it is marked as the user's choice."""
+        """True if it is marked as the user's choice."""
         return self._by_hand
 
     @property
     def outlined(self) -> bool:
-        """Whether it is marked as the generator's choice."""
+        """True if it is marked as the generator's choice."""
         return self._outlined
 
     def show_state(self, checked: bool, by_hand: bool, outlined: bool) -> None:

@@ -89,7 +89,7 @@ _SETTERS: Final[dict[str, Callable[[Any], Callable[..., object]]]] = {
     "options": lambda box: partial(_set_options, box),
     "tabs": lambda tabs: partial(_set_each, tabs.setTabText),
 }
-"""What takes the text or texts of a widget, by the word for them in `Retranslated.texted`."""
+"""Setter of a widget's text or texts, by its keyword in `Retranslated.texted`."""
 
 
 def _header(view: QTreeWidget | QTableWidget) -> Callable[[Sequence[str]], None]:
@@ -272,7 +272,7 @@ class IconButton(Retranslated, QToolButton):
 
 
 class OkCancel(Retranslated, QDialogButtonBox):
-    """What agrees to a dialog and what leaves it, with the texts of two ids.
+    """The buttons that accept and cancel a dialog, with the texts of two ids.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""What kinds of events and expressions are called in the user's language."""
+"""Names of kinds of events and of expressions, in the user's language."""
 
 from __future__ import annotations
 
@@ -29,13 +29,13 @@ def gesture_name(name: str) -> str:
 
 
 def style_name(name: str) -> str:
-    """What a style is called in the user's language; one that is not there, by its name."""
+    """A style's name in the user's language; a missing style goes by its id."""
     style = STYLES.now().items.get(name)
     return name if style is None else style.title.in_language(language())
 
 
 def habit_name(name: str) -> str:
-    """What a habit is called in the user's language; one that is not there, by its name."""
+    """A habit's name in the user's language; a missing habit goes by its id."""
     habit = HABITS.now().items.get(name)
     return name if habit is None else habit.title.in_language(language())
 

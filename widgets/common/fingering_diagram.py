@@ -1,4 +1,4 @@
-"""How a fingering is held, drawn from nothing but the controls of an instrument map."""
+"""Draws how a fingering is held, from nothing but the controls of an instrument map."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ def part_text(part: str) -> str:
 
 
 def finger_text(mover: str) -> str:
-    """Which part of which hand moves a control, in the language of the editor: ``"right.index"``."""
+    """Name the finger and hand that move a control, such as ``"right.index"``, in the editor's language."""
     hand, _, part = mover.partition(".")
     return tr("fingering_name.text").format(hand=hand_text(hand), part=part_text(part))
 
@@ -104,7 +104,7 @@ class FingeringDiagram(QWidget):
         session.theme_changed.connect(self.update)
 
     def set_editable(self, editable: bool) -> None:
-        """Whether keys can be clicked."""
+        """Let keys be clicked, or not."""
         self._editable = editable
 
     @property
@@ -147,7 +147,7 @@ class FingeringDiagram(QWidget):
         return [control for control in self._instrument.controls if control.kind == "slide" and control.role == "pitch"]
 
     def _correcting(self) -> list[Control]:
-        """What only corrects the intonation."""
+        """The controls that only correct the intonation."""
         assert self._instrument is not None
         return [control for control in self._instrument.controls if control.role == "intonation"]
 
@@ -163,11 +163,11 @@ class FingeringDiagram(QWidget):
 
     @property
     def _is_chart(self) -> bool:
-        """Whether it is drawn as a chart of keys and holes."""
+        """True if it is drawn as a chart of keys and holes."""
         return self._instrument is not None and says_words(self._instrument.controls)
 
     def chart(self) -> Chart:
-        """Where the keys and holes are."""
+        """The places of keys and holes, laid out once per width."""
         assert self._instrument is not None
         if self._chart is None:
             self._chart = chart(self._instrument, self.width(), QFontMetricsF(self._small()).horizontalAdvance)

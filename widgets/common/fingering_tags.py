@@ -1,4 +1,4 @@
-"""Why one would take an alternate fingering, in the user's language: maps say it in fixed English words."""
+"""Reasons to take an alternate fingering, in the user's language: maps say them in fixed English words."""
 
 from __future__ import annotations
 

@@ -21,8 +21,8 @@ JAPANESE_FAMILIES = (
     "TakaoPGothic",
     "VL Gothic",
 )
-"""Where the system's own font lacks Japanese, the first of these that is there: left to chance, a fallback may give
-signs their Chinese forms."""
+"""Families tried in this order where the system's own font lacks Japanese: a fallback left to chance may use the
+Chinese forms of signs."""
 
 
 def apply_font(application: QApplication) -> None:

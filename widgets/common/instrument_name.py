@@ -1,4 +1,4 @@
-"""What an instrument or a character is called in the user's language."""
+"""Names of instruments and characters in the user's language."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Where the keys and holes of an instrument stand in a drawn fingering: a row for each hand, the left above the right.
+"""Places of an instrument's keys and holes in a drawn fingering: a row for each hand, the left above the right.
 
 Nothing but the controls says what is drawn: the place where a finger is at home is a large circle in playing order, its
 other keys are small beside it; thumbs are at the left of their row, little fingers at the right.
@@ -49,7 +49,7 @@ class Chart:
     height: float
 
     def at(self, x: float, y: float) -> Control | None:
-        """What stands there."""
+        """The control drawn at a place, if any."""
         return next((cell.control for cell in self.cells if cell.box.adjusted(-2, -2, 2, 2).contains(x, y)), None)
 
 

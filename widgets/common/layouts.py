@@ -18,7 +18,7 @@ Item: TypeAlias = Part | int | tuple[Part, int] | tuple[QWidget, int, Qt.Alignme
 pixels; `STRETCH`."""
 Margins: TypeAlias = int | tuple[int, int, int, int]
 _FRAME: Final = QSize(40, 80)
-"""What a window's frame and the desktop's bars take of the screen."""
+"""Room left for a window's frame and the desktop's bars, pixels."""
 
 
 def in_row(

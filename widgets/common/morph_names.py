@@ -9,7 +9,7 @@ _WHOLE = frozenset({"jawLeft", "jawRight", "mouthLeft", "mouthRight"})
 
 
 def morph_name(morph: str) -> str:
-    """What a morph target does, in words; its own name where there are none."""
+    """Describe in words what a morph target does; one without words goes by its own name."""
     stem, side = morph, ""
     if morph not in _WHOLE:
         for ending, sign in (("Left", tr("morph.left_side")), ("Right", tr("morph.right_side"))):

@@ -60,12 +60,12 @@ class NumberDisplay(QWidget):
         self._mixed = False
         self._by_hand: bool | None = None
         self._painted: tuple[float, str, bool] | None = None
-        """What was drawn last."""
+        """Value, text and mark that were drawn last."""
         self._label, self._unit = "", ""
         self._words: Callable[[float], str] | None = None
         self._reads: Callable[[str], float | None] | None = None
         self._dragging = False
-        """Whether the user's hand holds the value."""
+        """True while the user drags the value."""
         self._after_drag: tuple[float, bool] | None = None
         self.setAttribute(Qt.WidgetAttribute.WA_Hover)
         session.theme_changed.connect(self.update)
@@ -79,17 +79,17 @@ class NumberDisplay(QWidget):
 
     @property
     def default(self) -> float:
-        """What a reset returns to."""
+        """Value that a reset returns to."""
         return self._default
 
     @property
     def mixed(self) -> bool:
-        """Whether it stands for several different values."""
+        """True if it stands for several different values."""
         return self._mixed
 
     @property
     def by_hand(self) -> bool:
-        """Whether the value is marked as the user's."""
+        """True if the value is marked as the user's."""
         if self._by_hand is not None:
             return self._by_hand
         return self._resets and (self._value != self._default or self._mixed)

@@ -24,7 +24,7 @@ from widgets.common.numbers import number_from
 DRAG_PX = 3
 """A press that moves less is a click."""
 FREE_DRAG_PX = 4
-"""Without a range to fill, a step is this far."""
+"""Pixels per step where there is no range to fill."""
 WHEEL_REST_MS = 600
 """Notches of the wheel closer than this are one turn of it, and one step of the history."""
 FINE = 0.1

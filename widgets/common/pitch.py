@@ -10,7 +10,7 @@ BLACK = frozenset({1, 3, 6, 8, 10})
 
 
 def syllables() -> tuple[str, ...]:
-    """What C to B are called in syllables, in the language of the editor."""
+    """Syllables for C to B, in the editor's language."""
     return tuple(tr("pitch.do_re_mi_fa_so").split())
 
 

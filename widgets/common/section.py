@@ -32,7 +32,7 @@ class SectionHeader(QWidget):
 
     @property
     def is_open(self) -> bool:
-        """Whether what is below shows."""
+        """True if the contents below are shown."""
         return self._open
 
     def set_open(self, is_open: bool) -> None:
@@ -158,7 +158,7 @@ class Section(QWidget):
 
     @property
     def is_open(self) -> bool:
-        """Whether the contents show."""
+        """True if the contents are shown."""
         return self.header.is_open
 
     def set_open(self, is_open: bool) -> None:

@@ -1,4 +1,4 @@
-"""When a take was recorded, as this place writes it."""
+"""Time at which a take was recorded, in local form."""
 
 from __future__ import annotations
 

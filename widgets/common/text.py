@@ -108,7 +108,7 @@ _NOTE_ID = re.compile(r"\d+:\d+")
 
 
 def _label(kind: str, name: str) -> str:
-    """What the user knows a correction of a kind by."""
+    """The name under which the user knows a correction of a kind."""
     if kind == "additive":
         return channel_name(name)
     if kind == "pose":

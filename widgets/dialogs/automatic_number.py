@@ -9,7 +9,7 @@ from widgets.common.clicks import on_switch
 from widgets.common.layouts import in_row
 
 TEXT_MARGIN_PX = 6
-"""As far from the edge as in other fields; the style sheet does not reach the text of a spin box."""
+"""Left margin of the text, as in other fields; the style sheet does not reach the text of a spin box."""
 
 
 class AutomaticNumber(QWidget):
@@ -49,7 +49,7 @@ class AutomaticNumber(QWidget):
 
     @property
     def value(self) -> float | None:
-        """What is typed; None where it is to be found."""
+        """The typed number; None while it is found automatically."""
         return None if self.check.isChecked() else self.number.value()
 
     def show_value(self, value: float | None, found: float | None) -> None:

@@ -64,7 +64,7 @@ _FINGERS: Final[Mapping[str, tuple[tuple[float, float], float, tuple[float, floa
 
 @cache
 def places() -> Mapping[str, tuple[float, float]]:
-    """Where each joint is drawn: from the middle, and from the top, in heights of the drawing."""
+    """Place of each joint: from the middle and from the top, in heights of the drawing."""
     found = dict(_BODY)
     for finger, (first, degrees, along) in _FINGERS.items():
         way = (-math.sin(math.radians(degrees)), -math.cos(math.radians(degrees)))
@@ -128,7 +128,7 @@ class BodyMap(QWidget):
             self.update()
 
     def place(self, joint: str) -> QPointF:
-        """Where a joint's dot is."""
+        """Centre of a joint's dot."""
         box = self._box()
         x, y = places()[joint]
         return QPointF(box.center().x() + x * box.height(), box.top() + y * box.height())

@@ -159,7 +159,7 @@ class CharacterDialog(Retranslated, QDialog):
 
     @property
     def draft(self) -> CharacterDraft:
-        """What was said so far."""
+        """The current step of the history."""
         return self._steps.now
 
     @property
@@ -179,7 +179,7 @@ class CharacterDialog(Retranslated, QDialog):
         self._show_choice()
 
     def _choose_first(self) -> None:
-        """Where there is something to be done, if there is."""
+        """Select the first joint that is missing or doubtful, else the hips."""
         wrong = [*self._made.lacking, *self._made.joints.doubtful]
         self.choose(wrong[0] if wrong else "hips")
 

@@ -52,7 +52,7 @@ class CharacterDraft:
 
 @dataclass(frozen=True, eq=False)
 class Mapped:
-    """What a draft makes of a figure."""
+    """Joints and faces that a draft finds in a figure."""
 
     draft: CharacterDraft
     joints: JointMapping
@@ -64,14 +64,14 @@ class Mapped:
         return tuple(joint for joint in REQUIRED_JOINTS if joint not in self.joints.bones)
 
     def state(self, joint: str) -> State:
-        """How sure a joint is."""
+        """Report how sure the mapping of a joint is."""
         if joint not in self.joints.bones:
             return "missing"
         return "doubtful" if joint in self.joints.doubtful else "mapped"
 
 
 def mapped(figure: Figure, draft: CharacterDraft, before: Mapped | None = None) -> Mapped:
-    """What a draft makes of a figure; what is the same as before is taken from there.
+    """Map a figure by a draft; results that are the same as before are taken from there.
 
     Raises FileError where it names what the figure has not.
     """
@@ -96,7 +96,7 @@ class DraftHistory:
         self._done, self._undone = [first], list[CharacterDraft]()
         self._gesture: object | None = None
         self._of_gesture = False
-        """Whether the last step is of that gesture."""
+        """True if the last step belongs to the running gesture."""
 
     @property
     def now(self) -> CharacterDraft:
@@ -105,12 +105,12 @@ class DraftHistory:
 
     @property
     def can_undo(self) -> bool:
-        """Whether there is something to take back."""
+        """True if there is a step to take back."""
         return len(self._done) > 1
 
     @property
     def can_redo(self) -> bool:
-        """Whether something was taken back."""
+        """True if a step was taken back."""
         return bool(self._undone)
 
     def apply(self, draft: CharacterDraft, gesture: object | None = None) -> bool:
@@ -138,7 +138,7 @@ class DraftHistory:
 
 
 def not_played(made: Mapped) -> tuple[str, ...]:
-    """What a character will not do, in words, the most severe first."""
+    """List in words what a character will not do, the most severe first."""
     _translate, reported = QCoreApplication.translate, list[str]()
     bones, faces = made.joints.bones, made.faces.morphs
     if made.lacking:

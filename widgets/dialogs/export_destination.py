@@ -1,4 +1,4 @@
-"""Where an export goes: a folder of files, or an Unreal project; what it will find there, and how it is written."""
+"""Destination of an export: a folder of files or an Unreal project; what it will find there, and how it is written."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ Destination = Literal["folder", "unreal"]
 
 @dataclass(frozen=True)
 class Foreseen:
-    """What an export will do.
+    """Files that an export will write, replace, remove or keep.
 
     Attributes
     ----------
@@ -58,7 +58,7 @@ class Done:
 
 
 def foresee_unreal(place: Path, performance: Performance, player_ids: tuple[str, ...], source: str) -> Foreseen:
-    """What an export into an Unreal project, by its file or folder, will do.
+    """Foresee an export into an Unreal project, by its file or folder.
 
     Raises
     ------
@@ -85,7 +85,7 @@ def foresee_folder(
     sound: bool,
     stage: bool,
 ) -> Foreseen:
-    """What an export into a folder will do.
+    """Foresee an export into a folder.
 
     Parameters
     ----------

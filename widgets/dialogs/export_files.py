@@ -46,7 +46,7 @@ SHOW_MS = 50
 OUTCOME_PX = 84
 """Room for some lines of what comes of an export; more are scrolled to."""
 _NAMES = 6
-"""Of the files that are replaced or removed, so many are named."""
+"""Most replaced or removed files that are named."""
 
 
 def _profiles() -> ComboBox:
@@ -136,7 +136,7 @@ class ExportDialog(WorkingDialog):
         self._outcome.setWidget(self._files)
         self._outcome.setMinimumHeight(OUTCOME_PX)
         self._share = [0.0]
-        """What is written of the whole, set by the thread."""
+        """Share of the whole that is written, set by the thread."""
         self._timer = QTimer(self, interval=SHOW_MS)
         self._timer.timeout.connect(lambda: self._show_share(self._share[0]))
         self._lay_out()
@@ -194,7 +194,7 @@ class ExportDialog(WorkingDialog):
 
     @property
     def keys(self) -> KeyChoice:
-        """Which frames have keys."""
+        """The chosen rule for frames with keys."""
         return KEY_CHOICES[self._keys.currentIndex()]
 
     def _request(self) -> ExportRequest:
@@ -318,7 +318,7 @@ class ExportDialog(WorkingDialog):
         self._files.setText(text)
 
     def _foreseen(self) -> str:
-        """What will be written, replaced and removed."""
+        """Say which files will be written, replaced and removed."""
         performance = Performance(self._project)
         place, formats = self._place.path, self._formats
         if self._place.destination == "unreal":

@@ -1,4 +1,4 @@
-"""Which kinds of file an export writes into a folder, and whether the stage and the sound are among them."""
+"""Kinds of file that an export writes into a folder, and its choice of stage and sound."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ _COLUMNS = 2
 
 
 def _missing() -> dict[Format, Message]:
-    """What keeps files of a kind from being written."""
+    """Reasons that keep files of a kind from being written."""
     missing: dict[Format, Message] = {}
     for name, kind in FILE_FORMATS.items():
         try:
@@ -63,12 +63,12 @@ class FormatChooser(Retranslated, QWidget):
 
     @property
     def sound(self) -> bool:
-        """Whether the sound is written too."""
+        """True if the sound is written too."""
         return self._sound.isChecked()
 
     @property
     def stage(self) -> bool:
-        """Whether everyone is also written into one file; no ticked kind of file may be able to hold it."""
+        """True if everyone is also written into one file; it is off where no ticked kind of file can hold it."""
         return self._stage.isChecked() and self._stage.isEnabledTo(self)
 
     def _change(self) -> None:

@@ -1,4 +1,4 @@
-"""Where an export goes: a folder of files, or an Unreal project; each keeps the place that is typed for it."""
+"""Choice between a folder of files and an Unreal project; each keeps the place typed for it."""
 
 from __future__ import annotations
 
@@ -62,7 +62,7 @@ class PlaceChooser(Retranslated, QWidget):
 
     @property
     def problem(self) -> str:
-        """What is missing; empty if nothing is."""
+        """Say what is missing; empty if nothing is."""
         if self._path.path is not None:
             return ""
         if self.destination == "unreal":

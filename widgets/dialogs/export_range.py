@@ -1,4 +1,4 @@
-"""Which bars are exported, or judged: all of them, some, or those of the selection."""
+"""Bars to export or judge: all of them, some, or those of the selection."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from widgets.common.plain import ComboBox, Label
 
 _WHOLE, _BARS, _SELECTION = "whole", "bars", "selection"
 TEXT_MARGIN_PX = 6
-"""As far from the edge as in other fields; the style sheet does not reach the text of a spin box."""
+"""Left margin of the text, as in other fields; the style sheet does not reach the text of a spin box."""
 
 
 class RangeChooser(Retranslated, QWidget):
@@ -78,7 +78,7 @@ class RangeChooser(Retranslated, QWidget):
 
     @property
     def problem(self) -> str:
-        """Why these bars cannot be exported; empty: they can."""
+        """Say why these bars cannot be exported; empty if they can."""
         first, last = self.bars or (0, 0)
         return self.tr("range_chooser.last_bar_comes_before_first") if first > last else ""
 

@@ -1,4 +1,4 @@
-"""What an export makes of skeletons beside their bones: how instruments hang, root bone, rest pose, twist bones."""
+"""Options of exported skeletons besides their bones: attachment of instruments, root bone, rest pose, twist bones."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ class RigChooser(Retranslated, QWidget):
 
     @property
     def options(self) -> RigOptions:
-        """What is chosen."""
+        """The chosen options."""
         return RigOptions(
             ATTACHMENTS[self._instrument.currentIndex()],
             ROOT_BONES[self._root_bone.currentIndex()],

@@ -1,4 +1,4 @@
-"""What an export is written on: which skeleton, which asset it is for, and in what the two differ."""
+"""Skeleton to export on, the asset it is for, and the differences between the two."""
 
 from __future__ import annotations
 
@@ -63,13 +63,13 @@ class SkeletonChooser(Retranslated, QWidget):
         super().__init__(parent)
         self._session, self._players = session, players
         self._requested: Requested | None = None
-        """What the last comparison was of: what it found for anything else is out of date."""
+        """Input of the last comparison: results for any other input are out of date."""
         self._checked: dict[str, CheckedTarget] = {}
         self._error: AppError | None = None
         self._comparing = False
         self._destination: Destination = "folder"
         self._chosen = False
-        """Whether the skeleton was chosen by hand: it stays, wherever files go."""
+        """True if the skeleton was chosen by hand: it then stays, wherever files go."""
         self._box = named(ComboBox(), "export_skeleton")
         for choice in CHOICES:
             self._box.addItem("", choice)
@@ -108,7 +108,7 @@ class SkeletonChooser(Retranslated, QWidget):
 
     @property
     def problem(self) -> str:
-        """Why nothing can be written yet; empty where nothing is in the way."""
+        """Say why nothing can be written yet; empty if nothing is in the way."""
         if self._comparing:
             return self.tr("skeleton_chooser.skeletons_are_being_compared")
         if self._error is not None:
@@ -193,7 +193,7 @@ class SkeletonChooser(Retranslated, QWidget):
 
 
 def _fits(checked: CheckedTarget) -> bool:
-    """Whether a player is exported for the asset; one whose animation it would lose or spoil is excluded."""
+    """True if a player is exported for the asset; one whose animation it would lose or spoil is excluded."""
     return not any(difference.severe for difference in checked.differences)
 
 

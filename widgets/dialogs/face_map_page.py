@@ -1,4 +1,4 @@
-"""How a character's own morphs make the faces that players wear: a list of ARKit's shapes, and what each is made of."""
+"""Maps a character's own morphs to the faces that players wear: a list of ARKit's shapes, and what each is made of."""
 
 from __future__ import annotations
 
@@ -159,5 +159,5 @@ class _Part(QWidget):
 
 
 def made_of(parts: Mapping[str, float]) -> str:
-    """What a face is made of, on one line."""
+    """Write a face as a sum of morphs, on one line."""
     return " + ".join(morph if factor == 1.0 else f"{morph} × {factor:g}" for morph, factor in parts.items())

@@ -38,12 +38,12 @@ class FingeringDraft:
 
     @property
     def is_saved(self) -> bool:
-        """Whether it is what the library has."""
+        """True if the library has this table."""
         return self.table == self.instrument.fingerings
 
     @property
     def problems(self) -> tuple[tuple[str, str], ...]:
-        """What the map would be refused for."""
+        """Reasons for which the map would be refused."""
         if self._judged is None or self._judged[0] is not self.table:
             self._judged = (self.table, edit.problems_of(self.instrument, self.table))
         return self._judged[1]

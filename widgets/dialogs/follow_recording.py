@@ -1,4 +1,5 @@
-"""What is taken from the recording: its beats, and on request its dynamics, from recordings of single players too."""
+"""Choice of what to take from the recording: its beats, and on request its dynamics, from recordings of single players
+too."""
 
 from __future__ import annotations
 
@@ -75,7 +76,7 @@ class FollowRecordingDialog(Retranslated, QDialog):
 
     @property
     def options(self) -> FollowOptions:
-        """What was chosen."""
+        """The chosen options."""
         dynamics = self._dynamics.isChecked()
         stems = dict(self._stems) if dynamics else {}
         return FollowOptions(notes=self._notes.isChecked(), dynamics=dynamics, stems=stems)

@@ -132,7 +132,7 @@ class ImportDialog(Retranslated, QDialog):
 
     @property
     def rows(self) -> tuple[ImportRow, ...]:
-        """What is requested so far; empty until it is known what the file says."""
+        """The rows as they stand; empty until the file has been read."""
         return self._table.rows
 
     @property
@@ -277,7 +277,7 @@ class ImportDialog(Retranslated, QDialog):
         self._warnings.setVisible(self._warnings.count() > 0)
 
     def _unplayed(self, part: UnplayedPart) -> str:
-        """Why a part is not played, and that it is for dancers where it is."""
+        """Say why a part is not played, and that it is for dancers where it is."""
         reason = message_text(part.reason)
         percussion = {
             stream_name(self._table.contents.streams[channel])

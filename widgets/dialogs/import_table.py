@@ -51,7 +51,7 @@ _TAKES: Final[Mapping[TakeReason, str]] = {
     "name": "import_dialog.take_name",
     "breath": "import_dialog.take_breath",
 }
-"""Why a track looks like a take, and what cleaning it does."""
+"""Text ids of the reasons for which a track looks like a take; each says what cleaning it does."""
 _INSTRUMENT_LETTERS = 31
 """Width of the column of instruments: the longest names would leave the notes no room."""
 _ROWS_AT_ONCE, _ROWS_LATER = 14, 4
@@ -85,7 +85,7 @@ class ImportTable(Retranslated, QTableWidget):
         self.rows: tuple[ImportRow, ...] = ()
         self.outcome: ImportPreview | None = None
         self._filled = 0
-        """So many rows have their widgets."""
+        """Number of rows that have their widgets."""
         self._filling = QTimer(self, interval=0)
         self._filling.timeout.connect(lambda: self._fill_more(_ROWS_LATER))
         self.read(contents)
@@ -130,7 +130,7 @@ class ImportTable(Retranslated, QTableWidget):
         return sorted({index.row() for index in self.selectionModel().selectedRows()})
 
     def asks(self, row: ImportRow) -> bool:
-        """Whether nothing says what plays a row."""
+        """True if nothing says what plays a row."""
         return self.outcome is not None and row.assignment.map_id is None and not self._played_on(row.assignment)
 
     def is_percussion(self, row: ImportRow) -> bool:
@@ -216,7 +216,7 @@ class ImportTable(Retranslated, QTableWidget):
         self._show_instruments(place)
 
     def _take_reason(self, row: ImportRow) -> TakeReason:
-        """Why a row's tracks are taken for takes; empty where one of them is none."""
+        """The reason for which a row's tracks look like takes; empty if one of them does not."""
         own = (self.contents.streams[stream] for stream in row.assignment.streams)
         reasons = [take_reason(stream, self.contents.tempo_map) for stream in own]
         return reasons[0] if all(reasons) else ""
@@ -233,7 +233,7 @@ class ImportTable(Retranslated, QTableWidget):
         return box
 
     def _played_on(self, assignment: PartAssignment) -> list[InstrumentMap]:
-        """What a row is played on, were it requested; nothing where that is not known yet."""
+        """Instruments that would play a row, if it were imported; empty while that is not known."""
         return [] if self.outcome is None else [self._maps[id_] for id_ in self.outcome.instruments_of(assignment)]
 
     def _can_choose(self, row: ImportRow) -> bool:
@@ -267,7 +267,7 @@ class ImportTable(Retranslated, QTableWidget):
         pitches.setEnabled(row.requested and transposes)
 
     def _tip(self, place: int) -> str:
-        """What there is to know of a row; empty for most."""
+        """The tip of a row; empty for most."""
         row = self.rows[place]
         if self.is_percussion(row):
             return self.tr("import_dialog.percussion_track_no_player_plays")

@@ -47,7 +47,7 @@ from widgets.dialogs.fingering_draft import FingeringDraft, base_of
 
 WRITTEN, SOUNDS, RANK, LABEL, CENTS, TAGS = range(6)
 MOST_WRONG = 6
-"""So much of what is wrong with files is reported at once."""
+"""Most problems of files that are reported together."""
 _PLACE = Qt.ItemDataRole.UserRole
 _SIZE = QSize(1180, 740)
 
@@ -172,7 +172,7 @@ class InstrumentsDialog(Retranslated, QDialog):
 
     @property
     def draft(self) -> FingeringDraft | None:
-        """What is shown."""
+        """The draft of the selected instrument."""
         item = self._list.currentItem()
         return None if item is None else self._draft_of(str(item.data(_PLACE)))
 
@@ -217,7 +217,7 @@ class InstrumentsDialog(Retranslated, QDialog):
         self._show_state()
 
     def _show_wrong(self) -> None:
-        """What keeps files of the user's own from being used; there may be no instrument of theirs to show it at."""
+        """Show why files of the user's own cannot be used; there may be no instrument to show it at."""
         reported = [problem for problems in library().problems.values() for problem in problems]
         lines = [self.tr("instruments_dialog.files_of_your_own_that")]
         lines += [message_text(problem, self._session) for problem in reported[:MOST_WRONG]]
@@ -321,7 +321,7 @@ class InstrumentsDialog(Retranslated, QDialog):
         self._show_state()
 
     def _show_state(self) -> None:
-        """Which buttons make sense, what is wrong, which instruments are not saved."""
+        """Update buttons, problems and the marks of unsaved instruments."""
         draft, one = self.draft, self._fingering()
         if draft is None:
             return
@@ -357,7 +357,7 @@ class InstrumentsDialog(Retranslated, QDialog):
         self._problem.setText(text)
 
     def _choices(self, column: int) -> list[str]:
-        """What a cell may be completed to."""
+        """Completions offered for a cell of a column."""
         draft = self.draft
         if draft is None:
             return []

@@ -25,7 +25,7 @@ LEAD: Final = 4
 COUNTED: Final = 12
 PERIOD_S: Final = 0.6
 _AFTER_S: Final = 0.5
-"""So long after the last click a hit is waited for."""
+"""Seconds to wait for a hit after the last click."""
 _LOOK_MS: Final = 15
 _FLASH_S: Final = 0.12
 _SHOWN_S: Final = (-0.1, 0.3)
@@ -111,7 +111,7 @@ class LatencyDialog(Retranslated, QDialog):
 
     @property
     def is_measuring(self) -> bool:
-        """Whether it clicks."""
+        """True while it clicks."""
         return self._running
 
     def sounding_s(self) -> float:
@@ -257,7 +257,7 @@ class LatencyDialog(Retranslated, QDialog):
 
 
 class HitChart(Retranslated, QWidget):
-    """How late every hit came, click by click, and a light."""
+    """Chart of the lateness of every hit, click by click, with a light."""
 
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -274,7 +274,7 @@ class HitChart(Retranslated, QWidget):
             self.update()
 
     def show_measured(self, found: LatencyMeasurement | None) -> None:
-        """What was found up to now."""
+        """Show the measurement so far."""
         if found != self.found:
             self.found = found
             self.update()

@@ -1,4 +1,4 @@
-"""Where a piece's metadata and those of a file are not the same."""
+"""Differences between a piece's metadata and those of a file."""
 
 from __future__ import annotations
 

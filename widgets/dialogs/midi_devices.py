@@ -300,7 +300,7 @@ class MidiDevicesDialog(Retranslated, QDialog):
         }[recording.connection]
 
     def _advice(self) -> str:
-        """What to do where nothing can be recorded yet."""
+        """Advise what to do where nothing can be recorded yet."""
         recording = self._session.recording
         if recording.refusal is not None:
             return sentence(recording.refusal, self._session)

@@ -1,4 +1,4 @@
-"""What comes in from a device now: note, breath, bite, channel, and the last messages."""
+"""Shows what a device sends now: note, breath, bite, channel, and the last messages."""
 
 from __future__ import annotations
 
@@ -124,7 +124,7 @@ class MidiMonitor(Retranslated, QWidget):
                 item.setText(text)
 
     def _pitch(self, pitch: int) -> str:
-        """As the recorded player's instrument is written, where pitches are shown so."""
+        """Name a pitch, as written for the recorded player's instrument where pitches are shown so."""
         recording, players = self._session.recording, self._session.project.players
         player = next((player for player in players if player.id == recording.armed), self._session.player)
         instrument = all_maps().get(player.instrument_id) if player is not None else None
@@ -154,7 +154,7 @@ class MidiMonitor(Retranslated, QWidget):
 
 
 def source_name(source: str) -> str:
-    """With what a device sends something, in words."""
+    """Name the kind of message by which a device sends something."""
     named = {
         "none": tr("midi_source.nothing"),
         "cc1": tr("midi_source.cc_1_modulation"),

@@ -1,4 +1,4 @@
-"""What holds for the piece as a whole: title, frame rate, pre-roll, felt beat, intensity, conductor and seed."""
+"""Settings of the piece as a whole: title, frame rate, pre-roll, felt beat, intensity, conductor and seed."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ class PieceSettingsDialog(Retranslated, QDialog):
         self._before = piece_settings(session.project)
         self._shown: dict[str, tuple[Any, Any]] = {}
         self._has_place = False
-        """Of each field what it shows of a value, and the value: a field may show less than there is."""
+        """Text and value that each field was given: a field may show fewer digits than the value has."""
         self._title = named(QLineEdit(), "piece_title")
         self._title.setMaxLength(limits.MOST_NAME)
         self._rate = named(ComboBox(), "piece_rate")
@@ -125,7 +125,7 @@ class PieceSettingsDialog(Retranslated, QDialog):
 
     @property
     def settings(self) -> PieceSettings | None:
-        """What the fields say; None where one of them says nothing possible."""
+        """Read the fields; None if one of them holds nothing valid."""
         rate, seed = self._typed_rate(), self._typed_seed()
         if rate is None or seed is None:
             return None
@@ -193,7 +193,7 @@ class PieceSettingsDialog(Retranslated, QDialog):
         }
 
     def _reset_all(self) -> None:
-        """As in a new piece; only the title is no one's default."""
+        """Reset all but the title to the values of a new piece."""
         title = self._kept("title", self._title.text())
         self._show(usual_settings(title, self._session.project))
 

@@ -64,7 +64,7 @@ class PlayblastDialog(WorkingDialog):
         self._performance = session.performance
         self._pictures: queue.Queue[Pictures] = queue.Queue(_AHEAD)
         self._trouble: AppError | None = None
-        """Why a picture could not be drawn."""
+        """Error that stopped the drawing of pictures."""
         self._span: FrameSpan | None = None
         self._drawn = 0
         self._draw_at: Draw | None = None

@@ -138,7 +138,7 @@ class PreferencesDialog(Retranslated, QDialog):
         return field
 
     def _instruments_page(self) -> QWidget:
-        """Where the user's own maps are, and what is wrong with them."""
+        """Make the page of the user's own maps: their folder, and what is wrong with them."""
         page = QWidget()
         self._own, self._found = Caption("preferences_dialog.your_own_instruments_map_toml"), Label()
         self._folder = named(QLineEdit(shown(own_folder())), "preferences_instruments")

@@ -142,7 +142,7 @@ class ReimportDialog(Retranslated, QDialog):
         return (players, *unplayed, *_shown(bool(outcome.gone_players), gone, self._gone))
 
     def _replaced(self) -> tuple[QWidget, ...]:
-        """What of the piece is the file's afterwards, whatever the project had."""
+        """List what the file replaces in the piece, whatever the project had."""
         ids = [f"reimport_dialog.{kind}" for kind in self._outcome.replaced]
         label = named(wrapped(Label()), "reimport_replaced")
         self.texted(label, text=lambda: tr("reimport_dialog.replaced_by_file").format(kinds=", ".join(map(tr, ids))))

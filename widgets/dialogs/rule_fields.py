@@ -118,11 +118,11 @@ class OptionalNumberField:
 
     @property
     def value(self) -> float | None:
-        """What is asked; None where nothing is."""
+        """The condition's number; None if it is not set."""
         return self.number.value() if self.check.isChecked() else None
 
     def kept(self, of: object) -> float | None:
-        """What is asked; where the user left it alone it is what ``of`` has, to the last digit."""
+        """The condition's number; an untouched field gives what ``of`` has, to the last digit."""
         value, before = self.value, getattr(of, self.field.name)
         return value if value is None or before is None else kept(value, before)
 
@@ -159,7 +159,7 @@ class Several(QPushButton):
 
     @property
     def chosen(self) -> tuple[str, ...]:
-        """What is chosen, in the order of the list."""
+        """The chosen names, in the order of the list."""
         return self._chosen
 
     def show_choice(self, names: Mapping[str, str], chosen: Sequence[str], none: str) -> None:

@@ -188,7 +188,7 @@ class RuleForm(Retranslated, QWidget):
         _choose(self._does, {**does, **({} if now in does else {now: now.split(":", 1)[1]})}, now)
 
     def _enable(self) -> None:
-        """What says nothing beside something else cannot be set."""
+        """Disable fields that have no effect beside the others."""
         rule = self._rule
         if rule is None:
             return

@@ -206,7 +206,7 @@ class RulesDialog(Retranslated, QDialog):
             self._timer.start()
 
     def faults(self) -> list[tuple[int, RuleFault]]:
-        """What is wrong, and with which rule."""
+        """Faults of the rules, each with the rule's index."""
         return [(index, fault) for index, one in enumerate(self._draft) for fault in rule_faults(one.rule)]
 
     def _judge(self) -> None:
@@ -251,7 +251,7 @@ class RulesDialog(Retranslated, QDialog):
         self.accept()
 
     def done(self, result: int) -> None:
-        """As it was before, unless it was saved."""
+        """Restore the rules as they were, unless they were saved."""
         self._timer.stop()
         if self._preview.isChecked() and self._draft != self._saved:
             RULES.put_back(self._shelf)
@@ -290,7 +290,7 @@ class _Rules(QListWidget):
 
 
 def rule_title(rule: Rule) -> str:
-    """What a rule is called in lists."""
+    """Title of a rule in lists."""
     number = rule.name.removeprefix("rule_")
     usual = tr("rules_dialog.rule_number").format(number=number) if number.isdecimal() else ""
     return rule.title.in_language(language()) or usual or rule.name.replace("_", " ").capitalize()

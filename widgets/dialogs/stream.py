@@ -126,7 +126,7 @@ class StreamDialog(Retranslated, QDialog):
         self._reported.setStyleSheet(f"color: {colour};")
 
     def _show_lines(self) -> None:
-        """Who is sent where, or would be."""
+        """List who is sent where, or would be."""
         state, project = self._state, self._session.project
         lines = state.lines or state.planned(project, self._session.in_front)
         names, unseen = {one.id: one.name for one in project.performers}, self._session.performance.unseen
@@ -156,7 +156,7 @@ class StreamDialog(Retranslated, QDialog):
         self._show()
 
     def _state_text(self) -> tuple[str, str]:
-        """How it goes, and the colour of that."""
+        """Describe the state of the stream, with its colour."""
         state, tokens = self._state, self._session.tokens
         if state.trouble is not None:
             return sentence(state.trouble, self._session), tokens.error

@@ -46,7 +46,7 @@ class ByHandLine(QWidget):
         self.show()
 
     def text(self) -> str:
-        """What the line says."""
+        """The text of the line."""
         return self._text.text()
 
     def _retranslate(self) -> None:

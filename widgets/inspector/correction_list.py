@@ -147,7 +147,7 @@ class CorrectionList(Retranslated, QWidget):
         return detail if getattr(item, "enabled", True) else self.tr("correction_list.curve_off").format(detail=detail)
 
     def _change(self, place: CorrectionRow) -> str:
-        """What is there now, and what was generated."""
+        """Describe the current event and the generated one."""
         score = self._session.project.score
         now, before = (event_text(score, event, place.correction) for event in (place.event, place.generated))
         if place.generated is None:

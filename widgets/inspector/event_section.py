@@ -247,7 +247,7 @@ class EventSection(Retranslated, QWidget):
         self._by_hand.show_values(before, event_text(score, first))
 
     def _generated_event(self, event: Placed) -> Placed | None:
-        """What the generator has in an event's place."""
+        """The generated event in an event's place."""
         if self._plan is None:
             return None
         player_id = self._plan.player_id

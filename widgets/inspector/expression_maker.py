@@ -163,7 +163,7 @@ class ExpressionMaker(Retranslated, QWidget):
 
     @property
     def is_open(self) -> bool:
-        """Whether its sliders show."""
+        """True if its sliders show."""
         return self._section.is_open
 
     @property
@@ -174,7 +174,7 @@ class ExpressionMaker(Retranslated, QWidget):
 
     @property
     def editable(self) -> bool:
-        """Whether it is the project's own."""
+        """True if the expression is the project's own."""
         return any(item.name == self._name for item in self._session.project.expressions)
 
     def _unfolded(self, is_open: bool) -> None:

@@ -39,7 +39,7 @@ class FacePicture(Label):
 
     @property
     def weights(self) -> Mapping[str, float] | None:
-        """Of the face that is drawn last of all."""
+        """Weights of the face that was drawn last."""
         return self._weights
 
     def show_face(self, weights: Mapping[str, float] | None) -> None:

@@ -1,4 +1,4 @@
-"""What the generator would do without a player's corrections, to be shown beside them."""
+"""Generated values without a player's corrections, to be shown beside them."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from app.plan.model import PlayerPlan
 from app.project.model import Project
 
 AT_ONCE_NOTES = 3000
-"""So many notes are planned while the user hardly notices ..."""
+"""Most notes that are planned immediately, since the user hardly notices ..."""
 AT_ONCE_S = 0.1
 """... unless they turn out to cost more of the processor than this."""
 

@@ -1,4 +1,4 @@
-"""What was done, step by step; a click goes there."""
+"""List of the undo steps; a click goes to one."""
 
 from __future__ import annotations
 

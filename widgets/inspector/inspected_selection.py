@@ -1,4 +1,4 @@
-"""What the inspector looks at: the selected notes and events, and whose they are."""
+"""The notes and events under inspection, and their players."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from app.project.performers import Player
 from app.score.model import Note, Part
 
 MOST_NOTES = 500
-"""Of a larger selection so many are looked at: whether values differ is known by then."""
+"""Most selected notes that are looked at: by then it is known whether values differ."""
 
 
 _OF_NOTES = ("fingering:", "embouchure:")
@@ -106,5 +106,5 @@ def selected_events(session: Session) -> tuple[PlayerPlan, tuple[Placed, ...]] |
 
 
 def fingering_of(plan: PlayerPlan, note_id: str) -> FingeringEvent | None:
-    """How a plan plays a note; None for one that cannot sound (the lower note of a chord)."""
+    """The fingering event of a note; None for one that cannot sound (the lower note of a chord)."""
     return next((event for event in plan.fingerings if event.note_id == note_id), None)

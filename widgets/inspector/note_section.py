@@ -265,7 +265,8 @@ class NoteSection(Retranslated, QWidget):
         return () if shown.player is None else self._session.project.corrections.get(shown.player.id, ())
 
     def _pin_label(self, shown: SelectedNotes) -> str | None:
-        """What the shown note is pinned to (the instrument may not have it), else another of the selected."""
+        """Label of the fingering pinned to the shown note (the instrument may not have it), else to another of the
+        selected."""
         ids = frozenset(shown.own_ids)
         pins = {
             item.note_id: item.label

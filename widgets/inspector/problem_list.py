@@ -1,4 +1,4 @@
-"""What the animator should look at: problems of all players' plans, and of dances."""
+"""Problems that the animator should look at, of all players' plans and of dances."""
 
 from __future__ import annotations
 

@@ -19,7 +19,7 @@ _PAD_PX = 8
 
 @dataclass(frozen=True)
 class ListRow:
-    """What a line shows.
+    """Contents of a line.
 
     Attributes
     ----------

@@ -35,7 +35,7 @@ BUTTONS: Final = ("takes.listen", "takes.listen_alone", "takes.whole", "takes.re
 
 @dataclass(frozen=True)
 class _Number:
-    """How a number of the cleaning is shown: so many of the unit in one of the value's; text and tip by their ids."""
+    """Display of one number of the cleaning: ``scale`` units per unit of the value; text and tip by their ids."""
 
     field: str
     scale: float
@@ -216,7 +216,7 @@ class TakeSection(Retranslated, QWidget):
         self._counts.setText(self._counts_text())
 
     def _counts_text(self) -> str:
-        """What is left out."""
+        """Count the notes that are left out, by fault."""
         assert self._player is not None
         assert self._take is not None
         clean = take_cleaned(self._session.project, self._player.id, self._take.id)

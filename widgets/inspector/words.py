@@ -18,13 +18,13 @@ from widgets.common.event_names import expression_name, kind_name, pose_name, st
 
 
 def amount_field(event: Placed) -> str | None:
-    """What of an event says how much of it there is."""
+    """Name of the field that holds an event's amount."""
     field, _ = AMOUNTS.get(type(event), (None, 0.0))
     return field
 
 
 def event_title(event: Event) -> str:
-    """What an event is."""
+    """Title of an event."""
     if isinstance(event, ExpressionEvent):
         return tr("inspector.expression").format(name=expression_name(event.expression))
     if isinstance(event, PoseEvent):
@@ -35,7 +35,7 @@ def event_title(event: Event) -> str:
 
 
 def event_text(score: Score, event: Event | None, correction: Correction | None = None) -> str:
-    """Where an event is and how much of it there is: ``"12.3–12.4, 0.80"``; of an embouchure what a correction sets."""
+    """Place and amount of an event, ``"12.3–12.4, 0.80"``; for an embouchure, what a correction sets."""
     match event:
         case None:
             return ""
@@ -87,7 +87,7 @@ _TITLES: Final = {
 
 
 def correction_title(item: Correction) -> str:
-    """What was done by hand."""
+    """Title of a correction made by hand."""
     kind, name = item.named
     shown = _NAMES[kind](name)
     if item.title:

@@ -1,4 +1,4 @@
-"""What the bodies of the selected players dance while they play."""
+"""Dance of the selected players' bodies while they play."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from widgets.players.parameter_rows import ParameterSlider, rows_of
 
 _GENERATED = ""
 _FROM_FILE = "\0file"
-"""Of the options: no name of a choreography."""
+"""Option that is no choreography's name."""
 _DANCED = PARAMETERS["choreography"]
 _VARIATION = "dance_variation"
 

@@ -1,4 +1,4 @@
-"""Whether a layer of the selected players is shown, before the slider of its amount."""
+"""Switch that shows a layer of the selected players, before the slider of its amount."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What commands and the panel do with players and dancers: the edit, and the selection afterwards."""
+"""Edits of players and dancers shared by commands and the panel, with the selection afterwards."""
 
 from __future__ import annotations
 

@@ -75,7 +75,7 @@ class OrderedList(QListView):
         return self.visualRect(self.model().index(number, 0))
 
     def _selected_numbers(self) -> list[int]:
-        """What a drag or Alt with an arrow moves."""
+        """Numbers of the rows that a drag or Alt with an arrow moves."""
         return sorted(index.row() for index in self.selectionModel().selectedIndexes())
 
     def _move(self, before: int) -> None:
@@ -180,7 +180,7 @@ class RowDelegate(QStyledItemDelegate):
     def paint_ground(
         self, painter: QPainter, option: QStyleOptionViewItem, colour: str, opacity: float, inset_px: int
     ) -> None:
-        """What lies below the texts.
+        """Paint what lies below the texts.
 
         Parameters
         ----------
@@ -228,7 +228,7 @@ class RowDelegate(QStyledItemDelegate):
             painter.drawRoundedRect(QRectF(box).adjusted(1, 1, -1, -1.5), 3, 3)
 
     def tip(self, index: AnyIndex, box: QRect, at: QPoint) -> str:
-        """What stands in a row, in this box at this place."""
+        """Tip of a place in a row, whose box is given."""
         raise NotImplementedError
 
     def helpEvent(

@@ -59,7 +59,7 @@ MENU = (
 """The context menu: actions by id, an empty one is a line."""
 LEAST_LIST_PX = 130
 LIST_SHARE = 0.5
-"""Of the panel: where there are many players the parameters still have room."""
+"""Largest share of the panel: where there are many players the parameters still have room."""
 
 
 class PlayersPanel(Retranslated, QWidget):
@@ -84,7 +84,7 @@ class PlayersPanel(Retranslated, QWidget):
         self.sections: dict[str, Any] = {
             feature.id: module.SECTION(session) for feature, module in modules("players_section")
         }
-        """What features add below, by their ids."""
+        """Sections that features add below, by their ids."""
         self._variety = Section(session, "players_variety")
         self._spread = self.texted(
             named(NumberSlider(session, 0.0, 1.0, default=session.variety, step=0.05), "spread"),
@@ -164,7 +164,7 @@ class PlayersPanel(Retranslated, QWidget):
         self._divide()
 
     def save_state(self) -> str:
-        """How high the user made the list, as text; empty: not at all."""
+        """Height that the user gave the list, as text; empty if none."""
         return str(self._splitter.sizes()[0]) if self._divided else ""
 
     def restore_state(self, state: str) -> None:
@@ -173,7 +173,7 @@ class PlayersPanel(Retranslated, QWidget):
             self.divide(int(state) if state else None)
 
     def _divide(self) -> None:
-        """As much room for the list as its rows need, but not much more than half, until the user says otherwise."""
+        """Give the list the room its rows need, up to about half, until the user divides the panel."""
         height = self._splitter.height()
         if self._divided or not height:
             return

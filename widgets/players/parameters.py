@@ -40,7 +40,7 @@ LABEL_PX = 88
 PORTRAIT_PX = 28
 PORTRAITS_AFTER_MS = 3000
 _SECTIONS = ("motion", "acting", "breath", "face", "player")
-"""What is changed most stands first."""
+"""Sections from the top; what is changed most stands first."""
 _FOLDED = frozenset({"acting"})
 _POSTURE = "posture"
 _TITLES: Final = (
@@ -59,7 +59,7 @@ _LABELS: Final = {
 
 
 class ParameterSections(Retranslated, QWidget):
-    """Who the selected players are, and how they move, breathe and play.
+    """Properties of the selected players: who they are, and how they move, breathe and play.
 
     Signals
     -------
@@ -306,6 +306,6 @@ class ParameterSections(Retranslated, QWidget):
 
 
 def _common(players: list[Player], value: Callable[[Player], str]) -> str | None:
-    """What all have in common; None where they differ."""
+    """The value that all have in common; None where they differ."""
     values = {value(player) for player in players}
     return values.pop() if len(values) == 1 else None

@@ -72,7 +72,7 @@ class PlayerModel(QAbstractListModel):
 
     @property
     def rows(self) -> tuple[PlayerRow, ...]:
-        """What is shown, from the top."""
+        """The rows, from the top."""
         return self._rows
 
     def show_rows(self, rows: tuple[PlayerRow, ...]) -> None:
@@ -124,7 +124,7 @@ class _RowDelegate(RowDelegate):
     """Draws a row: colour, name, instrument, leader's crown, problems, record arm, mute and solo."""
 
     def buttons(self, row: QRect) -> tuple[QRect, QRect]:
-        """Where mute and solo are."""
+        """Places of the buttons mute and solo."""
         top = row.center().y() - BUTTON_PX // 2 + 1
         solo = QRect(row.right() - BUTTON_PX - 3, top, BUTTON_PX, BUTTON_PX)
         return solo.translated(-BUTTON_PX - 2, 0), solo
@@ -260,7 +260,7 @@ class PlayerList(OrderedList):
         session.recording.changed.connect(self.viewport().update)
 
     def height_of_rows(self) -> int:
-        """How high the list is without scrolling, pixels."""
+        """Height of the list without scrolling, pixels."""
         return max(self.sizeHintForRow(0), 0) * self.rows.rowCount() + 2 * self.frameWidth()
 
     def show_rows(self, rows: tuple[PlayerRow, ...]) -> None:

@@ -26,7 +26,7 @@ from app.project.performers import Dancer, Player
 
 DISC_M = 0.28
 NOSE_M = 0.62
-"""How far from a player's middle the handle is that turns them."""
+"""Distance from a player's middle to the handle that turns them."""
 LEAST_DISC_PX = 7.0
 LEAST_NOSE_PX = 20.0
 REACH_PX = 12.0
@@ -70,7 +70,7 @@ class StageView(QWidget):
         self.snaps = False
         self._grabbed: str | None = None
         self._of_dancer = False
-        """Whether a dancer was taken hold of last, and not a player."""
+        """True if the last drag was of a dancer, False if of a player."""
         self._turning = False
         self._press = QPointF()
         self._start: dict[str, StagePosition] = {}
@@ -101,7 +101,7 @@ class StageView(QWidget):
         return QFontMetricsF(self.font()).height() + 8.0
 
     def point(self, x_m: float, z_m: float) -> QPointF:
-        """Where a place of the stage is drawn."""
+        """Convert a place of the stage to pixels."""
         scale, middle_x, middle_z = self._frame()
         height = self.height() - self._audience_px()
         return QPointF(self.width() / 2 + (x_m - middle_x) * scale, height / 2 + (z_m - middle_z) * scale)
@@ -130,7 +130,7 @@ class StageView(QWidget):
         return dancer is not None and one.id == dancer.id
 
     def _at(self, position: QPointF) -> tuple[Player | Dancer | None, bool]:
-        """Who is there, and whether by the nose. Only the selected show noses that can be taken."""
+        """The performer there, and True if by the nose. Only the selected show noses that can be taken."""
         players = self._session.project.seen
         for player in filter(self._is_selected, players):
             if _distance(self.nose_point(player), position) <= REACH_PX * 0.75:

@@ -108,7 +108,7 @@ class RecordingPanel(Retranslated, QWidget):
     # What is shown
 
     def _recorded(self) -> Player | None:
-        """Who would be recorded: the armed player, else the one in front."""
+        """The player who would be recorded: the armed one, else the one in front."""
         session, armed = self._session, self._session.recording.armed
         return next((player for player in session.project.players if player.id == armed), session.player)
 

@@ -14,7 +14,7 @@ PREROLL_S = 4.0
 
 
 def scroll_limits(session: Session) -> tuple[float, float]:
-    """What the timeline can show, seconds: the performance with its pre-roll, and room to write on."""
+    """Limits of the timeline, seconds: the performance with its pre-roll, and room to write on."""
     score = session.project.score
     end_s = score.tempo_map.seconds(float(score.end_tick))
     start_s = -PREROLL_S

@@ -1,4 +1,4 @@
-"""What every lane of the timeline is: a header, and a plot whose time axis is that of all lanes.
+"""Base of every lane of the timeline: a header, and a plot whose time axis is that of all lanes.
 
 A lane draws with `LaneItem`s, in pixels of the plot with times from ``axis.x_px``, and answers the mouse by overriding
 the hooks.
@@ -27,7 +27,7 @@ __all__ = ["FOLDED_PX", "GUTTER_PX", "Lane", "LaneItem", "LaneMouse"]
 FOLDED_PX = 26
 AUTOSCROLL_MS = 30
 AUTOSCROLL_SHARE = 0.02
-"""Of the visible span, for each tick of the timer while a drag is held past the edge."""
+"""Share of the visible span scrolled at each tick of the timer while a drag is held past the edge."""
 
 
 class Lane(Retranslated, QWidget):
@@ -168,8 +168,8 @@ class Lane(Retranslated, QWidget):
         return False
 
     def claims(self, event: QKeyEvent) -> bool:
-        """Whether a key that may be an action's shortcut is the lane's own while the plot has the focus; `key` follows
-        then."""
+        """Return whether a key that may be an action's shortcut is the lane's own while the plot has the focus; `key`
+        follows then."""
         return False
 
     # What a lane uses
@@ -191,7 +191,7 @@ class Lane(Retranslated, QWidget):
             self.update_items()
 
     def y_px(self, value: float) -> float:
-        """Where a value lies, pixels from the top."""
+        """Pixels from the top to a value."""
         bottom, top = self._y_range
         return (top - value) / (top - bottom) * self.plot_rect.height()
 
@@ -202,7 +202,7 @@ class Lane(Retranslated, QWidget):
 
     @property
     def is_empty(self) -> bool:
-        """Whether there is nothing in it, whoever is in front."""
+        """True if there is nothing in it, whoever is in front."""
         return False
 
     def lines(self) -> Lines:
@@ -215,7 +215,7 @@ class Lane(Retranslated, QWidget):
 
     @property
     def folded(self) -> bool:
-        """Whether only the title shows."""
+        """True if only the title shows."""
         return self._folded
 
     def set_folded(self, folded: bool) -> None:
@@ -242,7 +242,7 @@ class Lane(Retranslated, QWidget):
 
     @property
     def dragging(self) -> bool:
-        """Whether the left button is held in the plot."""
+        """True while the left button is held in the plot."""
         return self._button == Qt.MouseButton.LeftButton
 
     # How it works
@@ -256,7 +256,7 @@ class Lane(Retranslated, QWidget):
         modifiers: Qt.KeyboardModifier = Qt.KeyboardModifier.NoModifier,
         screen: QPoint | None = None,
     ) -> LaneMouse:
-        """What a place of the plot means."""
+        """Convert a place of the plot to time and value, with the keys held."""
         screen = screen or self.plot.mapToGlobal(place.toPoint())
         return mouse_at(self.session, self.axis, place, self.value_at(place.y()), modifiers, screen)
 

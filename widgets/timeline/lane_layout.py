@@ -1,4 +1,4 @@
-"""Which lanes are shown, in which order, how tall, and which of them are folded: what is remembered, and its menus."""
+"""Order, height, visibility and folding of the lanes: their stored state, and their menus."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from widgets.timeline.stack import LaneStack
 
 
 class LaneState(msgspec.Struct, frozen=True, kw_only=True):
-    """What is remembered of the lanes, by their ids.
+    """Stored state of the lanes, by their ids.
 
     Attributes
     ----------
@@ -44,7 +44,7 @@ class LaneState(msgspec.Struct, frozen=True, kw_only=True):
 
 
 class LaneLayout(QObject):
-    """How the lanes stand.
+    """Layout of the lanes.
 
     Parameters
     ----------
@@ -82,7 +82,7 @@ class LaneLayout(QObject):
 
     @property
     def state(self) -> LaneState:
-        """How the lanes stand now."""
+        """The layout as it can be stored."""
         order = tuple(lane.id for lane in self._stack.lanes)
         return LaneState(
             order=order,
@@ -106,11 +106,11 @@ class LaneLayout(QObject):
     # What the user does
 
     def is_shown(self, lane_id: str) -> bool:
-        """Whether a lane is there, folded or not."""
+        """True if a lane is there, folded or not."""
         return not self._lanes[lane_id].isHidden()
 
     def is_open(self, lane_id: str) -> bool:
-        """Whether a lane is there, and not folded."""
+        """True if a lane is there, and not folded."""
         return self.is_shown(lane_id) and not self._lanes[lane_id].folded
 
     def show_lane(self, lane_id: str, shown: bool) -> None:
@@ -177,7 +177,7 @@ class LaneLayout(QObject):
 
 
 def lane_state(text: str) -> LaneState | None:
-    """What `lane_text` made a text of; None: it is none."""
+    """Decode the text that `lane_text` made; None if it is none."""
     try:
         return decode_json(text.encode("utf-8", "replace"), LaneState, "")
     except FileError:

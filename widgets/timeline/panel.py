@@ -27,7 +27,7 @@ from widgets.timeline.tool_bar import ToolBar
 
 ZOOM_A_CLICK = 1.5
 FIRST_BARS, MOST_FIRST_BARS = 16, 24
-"""Of a piece that was opened its beginning is shown legibly, or all of it where it is hardly longer."""
+"""Bars that are shown of a newly opened piece, and the longest piece that is shown whole."""
 PAGE_AT = 0.94
 """While playing, the page turns when the playhead is so far across it ..."""
 PAGE_TO = 0.06
@@ -145,7 +145,7 @@ class TimelinePanel(Retranslated, QWidget):
 
     @property
     def tool(self) -> Tool:
-        """What the left button does to notes."""
+        """Tool of the left button on notes."""
         return self.roll.tool
 
     def set_tool(self, tool: Tool) -> None:
@@ -155,7 +155,7 @@ class TimelinePanel(Retranslated, QWidget):
 
     @property
     def ghosts(self) -> Ghosts:
-        """How the players behind are seen."""
+        """Display of the players behind."""
         return self.roll.ghosts_mode
 
     def set_ghosts(self, ghosts: Ghosts) -> None:
@@ -202,7 +202,7 @@ class TimelinePanel(Retranslated, QWidget):
         self.axis.reveal(time_s)
 
     def is_lane_open(self, lane_id: str) -> bool:
-        """Whether a lane is there, and not folded."""
+        """True if a lane is there, and not folded."""
         return self.lane_layout.is_open(lane_id)
 
     def open_lane(self, lane_id: str, is_open: bool) -> None:
@@ -239,7 +239,7 @@ class TimelinePanel(Retranslated, QWidget):
         return playhead_s if inside else (axis.start_s + axis.end_s) / 2
 
     def _show_beginning(self) -> None:
-        """As much as can be read at once: a short piece whole, of a longer one the first bars."""
+        """Show a short piece whole, else its first bars, so that notes are legible."""
         score = self.session.project.score
         self.axis.fit()
         if score.metre_map.bar_of_tick(max(score.sounding_end_tick - 1, 0)) > MOST_FIRST_BARS:

@@ -44,7 +44,7 @@ RECORD_MENU = (
     *("record.punch", "record.arm", ""),
     *("record.devices", "record.latency"),
 )
-"""What the record button's menu offers, with lines between groups."""
+"""Entries of the record button's menu, with lines between groups."""
 
 _SPACING_PX = 3
 
@@ -235,7 +235,7 @@ class TransportBar(Retranslated, QWidget):
             self.tempo.setText(text)
 
     def _show_take(self, playhead_s: float) -> None:
-        """How many beats are counted still, or which pass of a loop is recorded."""
+        """Show the beats that are still counted in, or the pass of a loop that is recorded."""
         recording, text = self._session.recording, ""
         if recording.running and playhead_s < recording.start_s - 1e-6:
             project = self._session.project
@@ -273,7 +273,7 @@ class TransportBar(Retranslated, QWidget):
         self._fit()
 
     def _spare(self) -> dict[QWidget, int]:
-        """What is also elsewhere, and the width that each needs, pixels; the last goes first."""
+        """Fields that are also elsewhere, and the width that each needs, pixels; the last goes first."""
         return {
             widget: max(widget.minimumWidth(), widget.minimumSizeHint().width()) + _SPACING_PX
             for widget in (self.clock, self.tempo, self.silent_text)
@@ -292,7 +292,7 @@ class TransportBar(Retranslated, QWidget):
         return margins.left() + margins.right() + widths + spaces
 
     def _fit(self) -> None:
-        """Where there is no room for all, leave out what is also elsewhere, so that every control keeps its name."""
+        """Leave out fields that are also elsewhere where room is short, so that every control keeps its name."""
         room = self.width() - self._least_px()
         for widget, width in self._spare().items():
             if widget is self.silent_text and not self._session.listening.silent:

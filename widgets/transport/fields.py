@@ -25,7 +25,7 @@ def clock_text(time_s: float) -> str:
 
 
 def clock_seconds(text: str) -> float | None:
-    """What such a text, or a plain number of seconds, means."""
+    """Read a clock text, or a plain number of seconds; None if it is neither."""
     plain = unicodedata.normalize("NFKC", text).replace("−", "-").replace(",", ".").strip().removesuffix("s")
     match = _CLOCK.match(plain)
     if match is None:

@@ -46,7 +46,7 @@ class Camera:
 
     @property
     def eye_m(self) -> FloatArray:
-        """Where the camera is (3,)."""
+        """Position of the camera (3,)."""
         return np.asarray(self.target_m) + self.distance_m * self.backward
 
     @property
@@ -107,7 +107,7 @@ class Camera:
         return self.projection(aspect) @ self.view()
 
     def pixels_per_metre(self, height_px: float, distance_m: float | None = None) -> float:
-        """How large a metre across the line of sight is in a picture of this height."""
+        """Pixels of a metre across the line of sight, in a picture of this height."""
         distance = self.distance_m if distance_m is None else max(distance_m, 1e-3)
         return 0.5 * height_px / (distance * math.tan(math.radians(self.fov_deg) / 2.0))
 

@@ -25,7 +25,7 @@ Picture = tuple[Camera, ViewportLook, Emphasis]
 
 
 def why_no_gl() -> str | None:
-    """What keeps GL from working here, in the driver's words; None where it works."""
+    """Reason for which GL does not work here, in the driver's words; None where it works."""
     platform = QGuiApplication.platformName()
     if platform in NO_GL_PLATFORMS:
         return f"Qt platform '{platform}'"
@@ -64,7 +64,7 @@ class Canvas(vispy_app.Canvas):  # type: ignore[misc]
         self._broken = False
         self._prepare: Callable[[Renderer], None] | None = None
         self.drawing_s = inf
-        """How long the last picture took."""
+        """Time that the last picture took."""
         vispy_app.use_app("pyside6")
         super().__init__(
             config={"samples": SAMPLES, "depth_size": 24, "double_buffer": True},

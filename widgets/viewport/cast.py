@@ -1,4 +1,4 @@
-"""Who is on the stage, prepared for drawing, and everyone's pose as arrays of bone matrices.
+"""The performers on the stage, prepared for drawing, and everyone's pose as arrays of bone matrices.
 
 All players whose skeletons have the same joints are posed at once: the arrays have one row for every player.
 """
@@ -30,7 +30,7 @@ from widgets.viewport.held_instruments import Instruments
 
 @dataclass(frozen=True, eq=False)
 class RenderAssets:
-    """What a player or a dancer is drawn from.
+    """Meshes and skeletons that a player or a dancer is drawn from.
 
     Attributes
     ----------
@@ -82,7 +82,7 @@ class Member:
 
     @property
     def has_body(self) -> bool:
-        """Whether the body is drawn."""
+        """True if the body is drawn."""
         return self.musician_id == self.player_id
 
 
@@ -132,7 +132,7 @@ def placed(stage: StagePosition) -> FloatArray:
 
 
 def seat(skeleton: Skeleton, posture: Posture) -> FloatArray | None:
-    """Where the middle of a seat's top is in a posture; None where one stands."""
+    """Middle of a seat's top in a posture; None if standing."""
     if posture.seat_height_shank <= 0.0:
         return None
     rest = rest_positions(skeleton)
@@ -292,7 +292,7 @@ class Stage:
         return [row for row in rows if row is not None]
 
     def joint_m(self, row: int, name: str) -> FloatArray:
-        """Where a joint is (3,)."""
+        """Position of a joint (3,)."""
         skeleton = self.members[row].assets.character.skeleton
         place: FloatArray = self.joints[row, skeleton.index(name), :, 3]
         return place

@@ -1,4 +1,4 @@
-"""Where a player's hands should touch the instrument, where they do, and how far apart that is."""
+"""Contacts of a player's hands with the instrument: where they should be, where they are, and the distance."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ class ContactReading:
 
     @property
     def distance_mm(self) -> float:
-        """How far the skin is from its place."""
+        """Distance of the skin from its place."""
         return 1000.0 * float(np.linalg.norm(self.requested_m - self.found_m))
 
 
@@ -84,7 +84,8 @@ def _nearest(touches: list[ContactReading]) -> ContactReading:
 
 
 def _holds(index: int, instrument: InstrumentMap, controls: Mapping[str, float]) -> bool:
-    """Whether a contact counts: of a finger with several places, at the one where it works most of what is worked."""
+    """Return whether a contact counts: a finger with several places counts at the one where it works most of what is
+    worked."""
     contact = instrument.contacts[index]
     place = only_at(instrument)[index]
     if place is not None:

@@ -17,7 +17,7 @@ LONGEST_STEP_S = 0.1
 
 
 class Eye:
-    """Where the picture is seen from. Times are any clock's, in seconds.
+    """Camera position of the picture, with its flights. Times are any clock's, in seconds.
 
     Attributes
     ----------
@@ -44,7 +44,7 @@ class Eye:
 
     @property
     def flying(self) -> bool:
-        """Whether it is on its way to another place."""
+        """True while it is on its way to another place."""
         return self._flight is not None
 
     def choose(self, view: View) -> None:

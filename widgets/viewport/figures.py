@@ -34,7 +34,7 @@ class DrawableFigures:
 
 
 def cast_key(project: Project) -> CastKey:
-    """What the stage depends on: while it is the same, nothing has to be loaded."""
+    """Key of what has to be loaded for the stage: while it is the same, nothing is loaded."""
     instruments = library()
     return tuple(
         (
@@ -61,13 +61,13 @@ def cast_key(project: Project) -> CastKey:
 
 
 def _has_stand(project: Project, player: Player) -> bool:
-    """Whether the player's instrument lies on a stand at times, and it is known where."""
+    """Return whether the player's instrument lies on a stand at times, at a known place."""
     instrument = library().maps.get(player.instrument_id)
     return len(project.played_by(player)) > 1 and instrument is not None and is_held(player, instrument)
 
 
 def same_figures(one: CastKey, other: CastKey) -> bool:
-    """Whether two stages differ in places alone, so that nothing has to be loaded."""
+    """Return whether two stages differ in places alone, so that nothing has to be loaded."""
     return [row[:8] for row in one] == [row[:8] for row in other]
 
 

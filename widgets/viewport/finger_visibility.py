@@ -21,11 +21,11 @@ _EYE_M = 0.7
 _SKIN_M, _STEP_M = 0.02, 0.02
 """A line of sight starts this far from a joint, so that what a finger touches does not hide it; and its steps."""
 _WIRE_M = 0.003
-"""What is thinner than twice this still hides."""
+"""Half of the least thickness that still hides."""
 _ENOUGH = 0.6
-"""Which share of the fingers must be seen from the usual direction to look from there."""
+"""Least share of the fingers that must be seen from the usual direction to look from there."""
 _UNUSUAL = 0.3
-"""How many of the fingers must be gained for a turn by 90 degrees from the usual direction."""
+"""Share of the fingers that must be gained for a turn by 90 degrees from the usual direction."""
 
 
 def directions(usual: Direction) -> list[Direction]:
@@ -51,8 +51,8 @@ def clearest(gained: FloatArray, usual: Direction) -> Direction:
 
 
 def visible_finger_shares(stage: Stage, row: int, towards_deg: Sequence[Direction], turn_rad: float) -> FloatArray:
-    """Which share (D,) of the player's fingers is seen from each direction past the instrument; ``turn_rad`` is which
-    way the player faces, from +Z towards +X."""
+    """Share (D,) of the player's fingers that is seen from each direction past the instrument; ``turn_rad`` is the
+    direction the player faces, from +Z towards +X."""
     kit = stage.members[row].assets
     held = stage.node_matrix(row)
     places_m = _fingers(stage, row)

@@ -26,7 +26,7 @@ INSTRUMENT_CELLS_M = (0.0, 0.0035, 0.011)
 PLAIN_FACTOR, PLAIN_LEAST_M = 1.4, 0.08
 """Cloth and hair may be so many times coarser than skin; what is thinner than this (eyes) may not."""
 THIN_SHARES = (0.0, 0.1, 0.34)
-"""What is thin (brows, eyes) is at most so coarse, by level, as a share of its smallest side."""
+"""Coarsest size of thin things (brows, eyes) by level, as a share of their smallest side."""
 LEVELS = len(BODY_CELLS_M)
 _MOST_SHORT = 2**16 - 1
 """Vertices whose numbers have 16 bits."""
@@ -105,7 +105,7 @@ def stool(bone: int, height_m: float) -> Geometry:
 
 
 def stand(bone: int) -> Geometry:
-    """What an instrument lies on: a rod on a foot, one high, its top in the origin; it moves with one bone."""
+    """Make the stand an instrument lies on: a rod on a foot, one high, its top in the origin; it moves with one bone."""
     metal = (0.16, 0.165, 0.175)
     profiles = (
         [(0.0, 0.0), (0.011, -0.004), (0.011, -0.05), (0.008, -0.055), (0.008, -0.985)],
@@ -324,7 +324,7 @@ class _Whole:
 
 
 def _is_plain(mesh: Mesh) -> bool:
-    """Whether a mesh is large and shows no expression."""
+    """Return whether a mesh is large and shows no expression."""
     return not mesh.morphs and _thickness_m(mesh) > PLAIN_LEAST_M
 
 

@@ -28,7 +28,7 @@ HEAD_ARM_M, ROLL_ARM_M = 0.25, 0.25
 """A drag as far as this is one radian where the handle itself hardly moves."""
 _SMALL, _DAMPING = 1e-4, 0.06
 FINER = 0.25
-"""What a drag is worth with Shift."""
+"""Factor of a drag with Shift."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -87,7 +87,7 @@ def handles(stage: Stage, row: int) -> tuple[Handle, ...]:
 
 
 def _turns(arm_m: FloatArray, **axes: FloatArray) -> tuple[tuple[Angle, FloatArray], ...]:
-    """How the end of an arm moves under turns about axes through its other end."""
+    """Motion of an arm's end under turns about axes through its other end."""
     return tuple((cast(Angle, angle), np.cross(axis, arm_m)) for angle, axis in axes.items())
 
 

@@ -38,7 +38,7 @@ SHADING, HELD = len(_BONES), len(_BONES) + 2
 
 @dataclass(frozen=True, eq=False)
 class _Anatomy:
-    """Which joints the capsules of one character hang on, and where in their frames. (L, 2), (L, 2, 3), (L,)."""
+    """Joints that the capsules of one character hang on, and places in their frames: (L, 2), (L, 2, 3), (L,)."""
 
     joints: IndexArray
     offsets_m: FloatArray

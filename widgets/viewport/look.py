@@ -35,12 +35,12 @@ class ViewportLook:
 
 @dataclass(frozen=True)
 class Emphasis:
-    """What stands out: rings by row, the row under the pointer, rows that are seen through, how figures are drawn, and
-    the podium."""
+    """Highlights: rings by row, the row under the pointer, rows that are seen through, how figures are drawn, and the
+    podium."""
 
     rings: Mapping[int, Color] = field(default_factory=dict)
     podium: tuple[float, float, Color] | None = None
-    """Where the conductor stands: x, z, and the colour of the rings that mark it."""
+    """The conductor's place: x, z, and the colour of the rings that mark it."""
     hovered: int | None = None
     in_the_way: frozenset[int] = frozenset()
     wireframe: bool = False
@@ -49,7 +49,7 @@ class Emphasis:
     video_opacity: float = 1.0
     """... so much of it."""
     in_motion: bool = False
-    """Whether the next picture follows at once: a processor that draws without a graphics card may be less exact."""
+    """True if the next picture follows immediately: drawing without a graphics card may then be less exact."""
 
 
 def direction(x: float, y: float, z: float) -> Color:
@@ -77,7 +77,7 @@ def mixed(one: Color, other: Color, share: float) -> Color:
 
 
 def is_dark(tokens: Tokens) -> bool:
-    """Whether a theme's surface is dark."""
+    """Return whether a theme's surface is dark."""
     return sum(rgb(tokens.surface)) < 1.5
 
 

@@ -56,8 +56,8 @@ class Offscreen:
         cameras: dict[float, Camera] | None = None,
         marked: bool = True,
     ) -> Draw:
-        """What draws a film: see `ViewportPanel.film`. Dancers among them are not selected in the window. Without
-        marks no names are drawn, and no rings around those that the view is about."""
+        """Make the drawer of a film: see `ViewportPanel.film`. Dancers among the players are not selected in the
+        window. Unless marked, no names are drawn, and no rings around those that the view is about."""
         selected = tuple(own for own in player_ids if own not in self._session.project.dancer_ids)
         self._session.set_players(selected if marked else ())
         self._session.viewport.show("names", marked)
@@ -65,7 +65,7 @@ class Offscreen:
 
     @property
     def left_out(self) -> list[LeftOut]:
-        """Who cannot be seen, as far as pictures were drawn."""
+        """Performers that cannot be seen, as far as pictures were drawn."""
         found = list[LeftOut]()
         loaded = self._panel.scene.loaded
         unseen = {} if loaded is None else {one.player.id: one.reason for one in loaded.left_out}
@@ -78,7 +78,7 @@ class Offscreen:
         return found
 
     def shows(self, player_ids: tuple[str, ...]) -> bool:
-        """Whether any of these players can be seen; of all where none is named."""
+        """Return whether any of these players can be seen; any of all if none is named."""
         stage = self._panel.scene.stage
         return stage is not None and bool(stage.rows(player_ids) if player_ids else stage.members)
 
@@ -120,8 +120,8 @@ def offscreen(
 
 
 def captions(texts: Sequence[tuple[str, str]], width: int, theme: str) -> list[Picture]:
-    """What stands under pictures of a width: two lines of text each, the second one fainter. Where a first line is
-    wider than its picture, all of them are broken at their middle dots.
+    """Make captions for pictures of a width: two lines of text each, the second one fainter. If a first line is wider
+    than its picture, all of them are broken at their middle dots.
 
     Returns
     -------

@@ -1,4 +1,4 @@
-"""What is painted over the picture with Qt: names, skeletons, contact points, the handles of the pose tool."""
+"""Overlay painted over the picture with Qt: names, skeletons, contact points, the handles of the pose tool."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ class NameTag:
 
     text: str
     color: str
-    """Of a player in front; of others it is not seen."""
+    """Colour of a player in front; others do not show it."""
     at_m: FloatArray
     in_front: bool
 
@@ -193,7 +193,7 @@ def _paint_names(
 
 
 def _pill_box(metrics: QFontMetricsF, text: str, at: QPointF, size: tuple[float, float]) -> QRectF:
-    """Where a short text goes, kept within the picture."""
+    """Box of a short text, kept within the picture."""
     width, height = metrics.horizontalAdvance(text) + 14.0, metrics.height() + 4.0
     left = min(max(at.x() - width / 2.0, 4.0), max(size[0] - width - 4.0, 4.0))
     top = min(max(at.y() - height / 2.0, 4.0), max(size[1] - height - 4.0, 4.0))

@@ -143,7 +143,7 @@ class ViewportPanel(Retranslated, QWidget):
 
     @property
     def has_gl(self) -> bool:
-        """Whether players can be drawn here."""
+        """True if players can be drawn here."""
         return self._canvas is not None
 
     @property
@@ -163,7 +163,7 @@ class ViewportPanel(Retranslated, QWidget):
         return native
 
     def handle_places(self) -> dict[str, QPointF]:
-        """Where the pose tool's handles are in the picture."""
+        """Places of the pose tool's handles in the picture."""
         widget, found = self.canvas_widget(), self.scene.handles()
         if widget is None or not found:
             return {}
@@ -171,7 +171,7 @@ class ViewportPanel(Retranslated, QWidget):
         return {item.target: QPointF(*place) for item, place in zip(found, places, strict=True)}
 
     def message(self) -> str:
-        """What is said instead of a picture, or in its middle; empty where there is nothing to say."""
+        """Text shown instead of a picture, or in its middle; empty if there is none."""
         return self._reason.text() if self._failure is not None else self.scene.message()
 
     def set_poses(self, poses: PoseSource) -> None:
@@ -217,7 +217,7 @@ class ViewportPanel(Retranslated, QWidget):
         player_ids: tuple[str, ...] | None = None,
         cameras: dict[float, Camera] | None = None,
     ) -> Draw:
-        """What draws a film's pictures, in their order, with the names and marks that are shown.
+        """Make the drawer of a film's pictures, in their order, with the names and marks that are shown.
 
         Parameters
         ----------
@@ -289,7 +289,7 @@ class ViewportPanel(Retranslated, QWidget):
         player_ids: tuple[str, ...],
         cameras: dict[float, Camera] | None,
     ) -> Shot:
-        """How a film is seen: by a view, or as the window's camera stands."""
+        """Camera of a film: by a view, or as the window's camera stands."""
         if view is None:
             return Shot(self._eye.view, self._eye.camera, player_ids, self._eye.centred(np.zeros(3)))
         _, stage = self._require_stage()
@@ -344,7 +344,7 @@ class ViewportPanel(Retranslated, QWidget):
         self.retranslate()
 
     def _picture(self, width: int, height: int) -> Picture:
-        """What to draw: asked by the canvas."""
+        """Describe the picture to draw, for the canvas."""
         stage, pointer, session = self.scene.stage, self._pointer, self._session
         here = self._elsewhere is None
         camera, view, rows = self._eye.camera, self._eye.view, self.scene.rows()
@@ -400,7 +400,7 @@ class ViewportPanel(Retranslated, QWidget):
     # The camera
 
     def _tracked(self) -> FloatArray | None:
-        """What the view keeps in the middle."""
+        """Point that the view keeps in the middle."""
         stage, rows = self.scene.stage, self.scene.rows()
         return tracked(self._eye.view, stage, rows[0]) if stage is not None and rows else None
 
@@ -412,7 +412,7 @@ class ViewportPanel(Retranslated, QWidget):
         return view_camera(self._eye.view, stage, self.scene.rows(), self._eye.camera, aspect)
 
     def _place_camera(self) -> None:
-        """Where the view puts it, unless the user has moved it."""
+        """Place the camera by the view, unless the user has moved it."""
         stage = self.scene.stage
         if not self._eye.touched and stage is not None and stage.shown.any():
             self._eye.jump(self._view_camera())

@@ -58,7 +58,7 @@ class Pointer(QObject):
         self._press: QPointF | None = None
         self._last = QPointF()
         self.dragging = False
-        """Whether a press has become a drag."""
+        """True once a press has become a drag."""
         self.hovered: int | None = None
         """Row of the player under the pointer."""
         canvas.setMouseTracking(True)
@@ -193,7 +193,7 @@ class Pointer(QObject):
             self.moved.emit()
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
-        """What happens on the canvas."""
+        """Handle the mouse, wheel and gestures on the canvas."""
         kind = event.type()
         if isinstance(event, QMouseEvent):
             if kind == QEvent.Type.MouseButtonPress:

@@ -65,12 +65,12 @@ class PoseTool:
 
     @property
     def grasped(self) -> PoseTarget | None:
-        """What is being dragged."""
+        """Target of the running drag."""
         return self._drag.handle.target if self._drag is not None else None
 
     @property
     def correction(self) -> PoseCorrection | None:
-        """What the drag has come to."""
+        """Correction made by the drag so far."""
         return self._drag.after if self._drag is not None else None
 
     def corrected(self, targets: Sequence[PoseTarget]) -> frozenset[PoseTarget]:

@@ -78,7 +78,7 @@ class Renderer:
         self._limbs: LimbCapsules | None = None
         self._middles_m = np.zeros((0, 3))
         self._sent: dict[object, object] = {}
-        """What the programs' uniforms were last made from: most pictures have the camera and look of the one before."""
+        """Sources of the programs' uniforms: most pictures have the camera and look of the one before."""
         self._software: bool | None = None
 
     def set_stage(self, stage: Stage, shapes: Shapes, everyone: Crowd | None) -> None:
@@ -200,7 +200,7 @@ class Renderer:
             self._draw_wires(stage, shapes, level, 0.0006 * camera.distance_m, (*look.wire, opacity))
 
     def _is_other(self, program: Any, *source: object) -> bool:
-        """Whether a program's uniforms were last made from something else than this."""
+        """Return whether a program's uniforms were last made from another source."""
         if self._sent.get(program) == source:
             return False
         self._sent[program] = source

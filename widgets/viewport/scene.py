@@ -1,4 +1,4 @@
-"""Who is on the stage and in which pose, and what is said and marked about them."""
+"""Performers on the stage with their poses, and the texts and marks about them."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ from widgets.viewport.worn_face import WornFaces
 
 CONDUCTORS_NAME = "stage.conductor"
 PODIUM_NAME_M = 0.5
-"""So high over the conductor's place it says what it is."""
+"""Height of the podium's name above the conductor's place."""
 
 
 class ViewportScene(QObject):
@@ -62,16 +62,16 @@ class ViewportScene(QObject):
         self._tool = tool
         self._loaded: DrawableFigures | None = None
         self.missing = False
-        """Whether a pose was missing when it was last requested."""
+        """True if a pose was missing when it was last requested."""
 
     @property
     def loaded(self) -> DrawableFigures | None:
-        """What is drawn; None before it is loaded."""
+        """The drawn figures; None before they are loaded."""
         return self._loaded
 
     @property
     def stage(self) -> Stage | None:
-        """Who is drawn."""
+        """The drawn stage."""
         return self._loaded.stage if self._loaded is not None else None
 
     def set_poses(self, poses: PoseSource) -> None:
@@ -150,7 +150,7 @@ class ViewportScene(QObject):
                 self.shown.emit()
 
     def is_outdated(self, time_s: float) -> bool:
-        """Whether any pose differs from the one shown."""
+        """Return whether any pose differs from the one shown."""
         shown = self.poses()
         found = self._poses.poses(tuple(shown), time_s)
         # A pose that is not there yet leaves the one before it.
@@ -175,7 +175,7 @@ class ViewportScene(QObject):
         return [row for row in rows if stage.shown[row]]
 
     def row_at(self, origin_m: FloatArray, direction: FloatArray) -> int | None:
-        """Who is first met by a ray."""
+        """Row of the performer that a ray meets first."""
         stage = self.stage
         if stage is None or not stage.shown.any():
             return None
@@ -192,7 +192,7 @@ class ViewportScene(QObject):
         return {row: rgb(self._session.colour(selected[own])) for own, row in rows.items() if row is not None}
 
     def podium(self) -> tuple[float, float, Color] | None:
-        """Where the conductor stands, and the colour that marks it."""
+        """The conductor's place, and the colour that marks it."""
         place = self._session.project.conducting
         return None if place is None else (place.x_m, place.z_m, rgb(self._session.tokens.text_dim))
 
@@ -211,7 +211,7 @@ class ViewportScene(QObject):
         return handles(stage, rows[0]) if self._session.viewport.posing and stage is not None and rows else ()
 
     def marks(self, camera: Camera) -> OverlayMarks:
-        """What is painted over the picture."""
+        """Marks to paint over the picture."""
         stage, state, session = self.stage, self._session.viewport, self._session
         if stage is None:
             return OverlayMarks()
@@ -243,7 +243,7 @@ class ViewportScene(QObject):
         )
 
     def message(self) -> str:
-        """What is said in the middle of the picture; empty where there is nothing to say."""
+        """Text in the middle of the picture; empty if there is none."""
         loaded = self._loaded
         if not self._session.project.players and not self._session.project.dancers:
             return self.tr("scene.no_players_yet_open_or")

@@ -27,7 +27,7 @@ from app.rig.mesh import Mesh
 from widgets.viewport.shape_model import SHAPE, SURFACE, Geometry, MorphTargets
 
 MOST_FILES: Final = 128
-"""Of characters and instruments, and of what they were before; the oldest go."""
+"""Most files of characters and instruments, earlier versions included; the oldest go."""
 _ALIGNED: Final = 64
 _BEGINNING: Final = struct.Struct("<II")
 """Length of the head, and the CRC-32 of all that follows."""
@@ -40,7 +40,7 @@ _NAMES: Final = {kind: name for name, kind in _KINDS.items()}
 
 
 class _Array(msgspec.Struct, frozen=True, array_like=True):
-    """Where an array is in the file, counted from the end of its head."""
+    """Place of an array in the file, counted from the end of its head."""
 
     start: int
     kind: str
@@ -74,7 +74,7 @@ _DECODER: Final = msgspec.msgpack.Decoder(_Head)
 def kept(
     meshes: Sequence[Mesh], made_with: tuple[object, ...], make: Callable[[], tuple[Geometry, ...]]
 ) -> tuple[Geometry, ...]:
-    """What ``make`` makes of meshes: from the user's cache where it is there.
+    """Make geometry of meshes by ``make``, or take it from the user's cache.
 
     Parameters
     ----------

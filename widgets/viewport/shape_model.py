@@ -1,4 +1,4 @@
-"""What one thing is drawn from: vertices, surfaces and triangles for the graphics card, and the face's morphs."""
+"""Drawable parts of one thing: vertices, surfaces and triangles for the graphics card, and the face's morphs."""
 
 from __future__ import annotations
 

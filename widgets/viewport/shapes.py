@@ -1,4 +1,4 @@
-"""What the renderer draws of the stage: shapes of players, of the crowd behind them, and solids."""
+"""Shapes that the renderer draws of the stage: players, the crowd behind them, and solids."""
 
 from __future__ import annotations
 

@@ -14,7 +14,7 @@ from widgets.viewport.cast import Stage
 from widgets.viewport.views import tracked
 
 _POSES: Final = 64
-"""So many poses of players are looked at before a film, in all."""
+"""Most poses of players that are looked at before a film, in all."""
 _LEAST_TIMES, _MOST_TIMES = 3, 17
 
 

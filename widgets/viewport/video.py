@@ -37,7 +37,7 @@ _BUTTONS: Final[dict[Placement, tuple[str, str]]] = {
 
 
 def fitted(ratio: float, width: float, height: float) -> QRectF:
-    """Where a picture of this ratio lies in a box: as large as it can be, in the middle."""
+    """Box of a picture of this ratio: as large as fits, in the middle."""
     shown_width = min(width, height * ratio)
     shown_height = shown_width / ratio
     return QRectF((width - shown_width) / 2.0, (height - shown_height) / 2.0, shown_width, shown_height)
@@ -128,7 +128,7 @@ class BesideVideo(QSplitter):
 
 
 class VideoStrip(Retranslated, QWidget):
-    """How the video is seen, where it begins, and its place found by its sound.
+    """Controls of the video: its display, its start, and the search for its place by its sound.
 
     Parameters
     ----------

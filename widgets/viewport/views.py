@@ -88,7 +88,7 @@ def steady_camera(view: View, posed: Iterable[Stage], rows: Sequence[int], camer
 
 
 def tracked(view: View, stage: Stage, row: int) -> FloatArray | None:
-    """What a close-up keeps in the middle (3,); None: the view does not follow anything."""
+    """Point that a close-up keeps in the middle (3,); None: the view does not follow anything."""
     if not stage.shown[row]:
         return None
     if view == "hands":
@@ -113,7 +113,7 @@ def tracked(view: View, stage: Stage, row: int) -> FloatArray | None:
 
 
 def in_the_way(view: View, stage: Stage, rows: Sequence[int], camera: Camera) -> frozenset[int]:
-    """Who stands between the camera and the selected players of a view that is about them."""
+    """Players between the camera and the selected players of a view that is about them."""
     chosen = [row for row in rows if stage.shown[row]]
     if view == "ensemble" or not chosen:
         return frozenset()
@@ -154,7 +154,7 @@ def bounds(stage: Stage, rows: Sequence[int]) -> tuple[FloatArray, FloatArray]:
 
 
 def turn_rad(stage: Stage, row: int) -> float:
-    """Which way a player faces: from +Z towards +X."""
+    """Direction a player faces, from +Z towards +X."""
     forward = front_direction(stage, row)
     return math.atan2(forward[0], forward[2])
 

@@ -70,5 +70,5 @@ class Weld:
         return total[self._whole]
 
     def turned(self, moves: SingleArray) -> SingleArray:
-        """How normals change under displacements (V, 3)."""
+        """Change of the normals under displacements (V, 3)."""
         return (self._normals(self._positions + moves) - self._rest).astype(np.float32)

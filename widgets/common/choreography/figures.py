@@ -9,9 +9,9 @@ from PySide6.QtGui import QColor, QIcon, QPainter, QPen, QPixmap
 from app.arrays import FloatArray
 
 HIGHEST = 1.3
-"""Of the body's height, with the arms up."""
+"""Height with the arms up, in heights of the body."""
 LEAST_HEAD = 0.13
-"""Of the body's height: skeletons of motion capture often end within the head."""
+"""Least size of the head, in heights of the body: skeletons of motion capture often end within the head."""
 ICON_PX = 40
 
 

@@ -1,4 +1,4 @@
-"""Where the motion of a pair is cut: seen over its acceleration, and set by hand."""
+"""Sets the cuts of a pair's motion, by hand, over a plot of its acceleration."""
 
 from __future__ import annotations
 

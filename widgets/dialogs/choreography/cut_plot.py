@@ -38,7 +38,7 @@ LEAST_SPAN_S: Final = 0.2
 _ROOM: Final = 1.12
 """Height of the plot over the highest acceleration."""
 _HITS_PART: Final = 0.1
-"""Of the height: the marks of the music at the bottom."""
+"""Share of the height at the bottom for the marks of the music."""
 _STEP: Final = 120
 _AXIS_PX: Final = 40
 
@@ -57,7 +57,7 @@ class CutLine:
 
 @dataclass(frozen=True, eq=False)
 class _Drag:
-    """What the mouse moves: a line of these cuts, or the view where it is None."""
+    """Drag of a line of these cuts, or of the view where the line is None."""
 
     line: CutLine | None
     cuts: Cuts
@@ -88,7 +88,7 @@ class CutPlot(QWidget):
         super().__init__(parent)
         self._session = session
         self.snaps = True
-        """Whether a line that is dragged stops at the minima, an accent at the maxima, that are near."""
+        """True if dragged lines stop at nearby minima, and accents at maxima."""
         self._curve: FloatArray = np.zeros(0)
         self._fps, self._start_s = Fraction(60), 0.0
         self._hits_s: FloatArray = np.zeros(0)
@@ -225,7 +225,7 @@ class CutPlot(QWidget):
         return self._start_s + np.asarray(frames, np.float64) / float(self._fps)
 
     def x_px(self, frame: float) -> float:
-        """Where a frame is in the plot's viewport."""
+        """A frame's x in the plot's viewport."""
         point = self.view.mapViewToScene(QPointF(float(self.time_s(frame)), 0.0))
         return float(self.plot.viewportTransform().map(point).x())
 
@@ -362,7 +362,7 @@ class CutPlot(QWidget):
             self._look(left + by_s, right + by_s)
 
     def _key(self, event: QKeyEvent) -> bool:
-        """Whether the key is one of the plot's."""
+        """Handle a key of the plot; return False for any other."""
         key, ctrl = event.key(), bool(event.modifiers() & Qt.KeyboardModifier.ControlModifier)
         step = 10 if event.modifiers() & Qt.KeyboardModifier.ShiftModifier else 1
         middle_s = sum(self._span_s()) / 2.0

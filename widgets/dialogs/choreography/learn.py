@@ -80,7 +80,7 @@ class LearnDialog(WorkingDialog):
         self._rows: list[PairRow] = []
         self._readings = 0
         self._share: list[float] = [0.0]
-        """How far the learning is; its thread writes it."""
+        """Share of the learning that is done; written by its thread."""
         self._result: _Learned | None = None
         self._failure: Message | None = None
         self._unknown: tuple[Path, ...] = ()
@@ -150,7 +150,7 @@ class LearnDialog(WorkingDialog):
 
     @property
     def drafts(self) -> tuple[PairDraft, ...]:
-        """What is filled in of the pairs."""
+        """The filled-in fields of all pairs."""
         return tuple(row.draft for row in self._rows)
 
     @property
@@ -304,7 +304,7 @@ class LearnDialog(WorkingDialog):
         return _with_suffix(path) if path is not None and path.name else None
 
     def _missing(self) -> str:
-        """What is to be done before anything can be learned; empty: nothing."""
+        """Say what must be done before anything can be learned; empty if nothing."""
         nowhere = "" if self._target is not None else self.tr("learn_dialog.choose_where_to_save_choreography")
         return missing_text(self._rows) or nowhere
 
@@ -318,7 +318,7 @@ class LearnDialog(WorkingDialog):
     # Showing
 
     def _edited(self, unknown: tuple[Path, ...] = ()) -> None:
-        """What was learned is not of this any more; these files were added and are of no kind that is."""
+        """Drop the learned result, which is out of date; `unknown` are added files of unsupported kinds."""
         self._result, self._failure, self._unknown = None, None, unknown
         for row in self._rows:
             row.states = None

@@ -19,7 +19,7 @@ MOTION_SUFFIXES: Final = (".bvh", ".fbx", ".glb", ".gltf")
 
 
 class PairDraft(msgspec.Struct, frozen=True):
-    """What is filled in of a pair.
+    """Filled-in fields of a pair.
 
     Attributes
     ----------
@@ -42,7 +42,7 @@ class PairDraft(msgspec.Struct, frozen=True):
 
     @property
     def files(self) -> tuple[Path | None, Path | None, Path | None, Fraction | None]:
-        """What has to be read again when it changes."""
+        """The fields that make the files be read again when they change."""
         return self.motion, self.music, self.credits, self.fps
 
 

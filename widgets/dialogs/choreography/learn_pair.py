@@ -1,4 +1,4 @@
-"""What is filled in of one pair of motion and music, and what was found in its files."""
+"""Fields of one pair of motion and music, and what was found in its files."""
 
 from __future__ import annotations
 

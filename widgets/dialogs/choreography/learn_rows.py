@@ -58,14 +58,14 @@ class PairRow:
 
 @dataclass(frozen=True, eq=False)
 class PairRead:
-    """What came of reading a pair's files."""
+    """Result of reading a pair's files."""
 
     number: int
     found: PairContents
 
 
 def training_pair(row: PairRow) -> Pair | None:
-    """What is learned from, as it is filled in; None before the files are read."""
+    """Make the pair to learn from, as it is filled in; None before the files are read."""
     read = row.found.read
     if read is None:
         return None

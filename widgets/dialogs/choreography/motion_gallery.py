@@ -68,7 +68,7 @@ class MotionModel(QAbstractListModel):
         return self.tr("motion_model.sources_of").format(count=len(self.motions[state].sources), all=self.sources)
 
     def used_text(self, state: int) -> str:
-        """How often it is danced in the piece."""
+        """Say how often a basic motion is danced in the piece."""
         count = self.used.get(state, 0)
         return self.tr("motion_model.danced").format(count=count) if count else self.tr("motion_model.not_danced")
 

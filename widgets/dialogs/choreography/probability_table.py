@@ -35,7 +35,7 @@ _LEAST_SHADE, _MOST_SHADE = 0.06, 0.95
 
 @dataclass(frozen=True, eq=False)
 class Side:
-    """What stands at the rows or the columns of a table.
+    """Titles of the rows or the columns of a table.
 
     Attributes
     ----------
@@ -240,7 +240,7 @@ class _Header(QHeaderView):
         return table.columns if self.orientation() == Qt.Orientation.Horizontal else table.rows
 
     def _fonts(self) -> tuple[QFont, QFont]:
-        """Of names and of notes."""
+        """The fonts of names and of notes."""
         bold, small = QFont(self._view.font()), QFont(self._view.font())
         bold.setBold(True)
         small.setPointSizeF(max(small.pointSizeF() - 0.5, LEAST_TEXT_PT))

@@ -37,7 +37,7 @@ _SIZE: Final = QSize(1000, 820)
 _MOTION_ROW_PX: Final = 40
 _SOUND_ROW_PX: Final = 26
 _MOST_NAMED: Final = 3
-"""So many followers and sounds of a basic motion are named below the gallery."""
+"""Most followers and sounds of a basic motion that are named below the gallery."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,7 +69,7 @@ class ChoreographyView:
 
 
 class ChoreographyDialog(Retranslated, QDialog):
-    """What the selected dancer's choreography has learned. Nothing is changed here. Not modal: it goes with the
+    """Shows what the selected dancer's choreography has learned. Nothing is changed here. Not modal: it follows the
     selection."""
 
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:

@@ -1,4 +1,4 @@
-"""What follows what as a graph: basic motions on a circle, and an arrow for each transition that was learned."""
+"""Draws learned transitions as a graph: basic motions on a circle, and an arrow for each transition."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ LEARNED: Final = 1.5
 NODE_PX, LEAST_FIGURE_PX = 44.0, 30.0
 WIDEST_PX = 7.0
 BEND = 0.14
-"""Of an arrow's length: there and back are two arrows."""
+"""Bend as a share of an arrow's length, which keeps there and back apart."""
 DIM = 60
 
 

@@ -73,7 +73,7 @@ _PRESENTATIONS: Final = {
     "single": "evaluation_dialog.presentation_single",
     "pair": "evaluation_dialog.presentation_pair",
 }
-"""What is chosen: by value the id of its text."""
+"""Text ids of the choices, by value."""
 
 
 class EvaluationDialog(WorkingDialog):
@@ -91,7 +91,7 @@ class EvaluationDialog(WorkingDialog):
         super().__init__("evaluation", "evaluation", parent)
         self._session, self._make, self._title = session, make, title
         self._now: list[tuple[float, Message]] = []
-        """How much is done and what is being done: the thread says it, the window shows it."""
+        """Share done and current activity: written by the thread, shown by the window."""
         self._timer = QTimer(self, interval=100)
         self._timer.timeout.connect(self._show_progress)
         self._film = named(PathEdit(), "evaluation_film")
@@ -203,7 +203,7 @@ class EvaluationDialog(WorkingDialog):
         )
 
     def request(self) -> EvaluationRequest:
-        """What is chosen."""
+        """Make the request from the chosen fields."""
         film, keyframes, folder = self._film.path, self._keyframes.path, self._folder.path
         assert folder is not None, "the button is disabled without one"
         place, view = self._place.currentData(), self._view.currentData()
@@ -234,7 +234,7 @@ class EvaluationDialog(WorkingDialog):
         return tuple(variant for variant, check in self._variants.items() if check.isChecked() and self._there(variant))
 
     def _there(self, variant: Variant) -> bool:
-        """Whether there is what a variant is made of."""
+        """True if the files that a variant is made of were chosen."""
         field = {"film": self._film, "keyframes": self._keyframes}.get(variant)
         return field is None or field.path is not None
 
@@ -293,7 +293,7 @@ class EvaluationDialog(WorkingDialog):
             show_folder(self._folder.path)
 
     def _show_state(self) -> None:
-        """What can be chosen, and what is still lacking."""
+        """Enable what can be chosen, and say what is missing."""
         if self._running:
             return
         film, folder = self._film.path is not None, self._folder.path

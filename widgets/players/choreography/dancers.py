@@ -43,7 +43,7 @@ MENU = ("dancers.add", "dancers.rename", "dancers.duplicate", "dancers.remove", 
 """The context menu of the list: actions by id, an empty one is a line."""
 _FROM_FILE = "\0file"
 _LEARN = "\0learn"
-"""Of the options of choreographies: no names of one."""
+"""Option that is no choreography's name."""
 _MOST_ROWS = 5
 _SOURCE = DANCER_PARAMETERS["source"]
 
@@ -334,4 +334,4 @@ class DancersSection(Retranslated, QWidget):
 
 
 SECTION: Final = DancersSection
-"""What the table of features adds to the panel."""
+"""Section that the table of features adds to the panel."""

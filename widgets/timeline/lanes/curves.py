@@ -151,7 +151,7 @@ class CurvesLane(Lane):
         self._fill_choice()
 
     def curve_name(self, curve: str) -> str:
-        """What a curve is called."""
+        """Name of a curve."""
         names = {
             "tension": self.tr("curves_lane.lip_tension"),
             "effort": self.tr("curves_lane.effort"),
@@ -204,7 +204,7 @@ class CurvesLane(Lane):
         self.update_items()
 
     def key_of(self, event: EmbouchureEvent) -> EventKey:
-        """As the selection names it."""
+        """Key of an event in the selection."""
         return EventKey(self._plan.player_id if self._plan is not None else "", event.id)
 
     def value_of(self, event: EmbouchureEvent) -> float:

@@ -58,7 +58,7 @@ def problems_in(problems: tuple[Problem, ...], rooms: tuple[str, ...] = ()) -> t
 
 
 def spans_of(problems: tuple[Problem, ...]) -> TimeSpans:
-    """Where problems are."""
+    """Spans of the problems."""
     return TimeSpans(
         np.array([problem.start_s for problem in problems], np.float64),
         np.array([problem.end_s for problem in problems], np.float64),

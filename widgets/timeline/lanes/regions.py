@@ -38,7 +38,7 @@ from widgets.timeline.plot.drawing import MARK_PX, draw_mark, rect, shade, small
 from widgets.timeline.plot.time_axis import TimeAxis
 
 STEP, FINE_STEP = 0.05, 0.01
-"""What Up and Down add to an amount."""
+"""Change of an amount by Up and Down, and with Shift."""
 
 
 class _Regions(LaneItem["RegionLane"]):
@@ -103,7 +103,7 @@ class RegionLane(Lane):
         raise NotImplementedError
 
     def shown_beside(self, plan: PlayerPlan | None) -> tuple[object, ...]:
-        """What else than the plan the regions are made from, compared by identity."""
+        """Inputs besides the plan that the regions are made from, compared by identity."""
         return ()
 
     def paint_region(self, painter: QPainter, region: Region, box: QRectF, selected: bool) -> None:
@@ -114,7 +114,7 @@ class RegionLane(Lane):
         """Draw what lies behind the regions."""
 
     def is_calm(self, region: Region) -> bool:
-        """Whether `paint_rows` has drawn it already."""
+        """True if `paint_rows` has drawn it already."""
         return False
 
     def add_at(self, mouse: LaneMouse) -> None:
@@ -124,19 +124,19 @@ class RegionLane(Lane):
         """Entries of the lane's own for the context menu."""
 
     def snapped_move(self, region: Region, ticks: float, mouse: LaneMouse) -> int:
-        """How far a region dragged by some ticks goes: its start falls on the grid."""
+        """Ticks that a region dragged by some ticks moves: its start falls on the grid."""
         return self.snap(region.start_tick + ticks, mouse) - region.start_tick
 
     # The regions
 
     @property
     def regions(self) -> list[Region]:
-        """What is shown, by start."""
+        """The shown regions, by start."""
         return self._table.regions
 
     @property
     def rows(self) -> int:
-        """How many rows there are."""
+        """Number of rows."""
         return self._row_count
 
     @property
@@ -172,11 +172,11 @@ class RegionLane(Lane):
         """The rows are in other places."""
 
     def place(self, region: Region) -> PixelRect:
-        """Where a region lies."""
+        """Box of a region, pixels."""
         return region_box(region, self.axis, self.row_box(region.row))
 
     def box(self, region: Region) -> QRectF:
-        """Where a region lies, pixels."""
+        """Box of a region, pixels."""
         return rect(self.place(region))
 
     def visible(self, left_px: float, right_px: float) -> Iterable[Region]:
@@ -189,7 +189,7 @@ class RegionLane(Lane):
         return self._table.at(mouse, self.axis, self.place, self.session.selection.events)
 
     def fade_handles(self, region: Region, box: QRectF) -> tuple[tuple[str, QPointF], ...]:
-        """Where the fades are taken hold of."""
+        """Places where the fades are taken hold of, by zone."""
         return tuple(
             (zone, QPointF(*at))
             for zone, at in fade_handles(region, PixelRect(box.left(), box.top(), box.right(), box.bottom()), self.axis)
@@ -254,7 +254,7 @@ class RegionLane(Lane):
             self.update_items()
 
     def is_preview(self, region: Region) -> bool:
-        """Whether it is a region in mid-drag, drawn before the plan shows it."""
+        """True for a region in mid-drag, drawn before the plan shows it."""
         return self._preview.get(region.key) is region
 
     def _end_preview(self) -> None:
@@ -358,7 +358,7 @@ class RegionLane(Lane):
             self.plot.setToolTip(self.tip(region) if region is not None else "")
 
     def tip(self, region: Region) -> str:
-        """What is reported of a region under the mouse."""
+        """Describe a region under the mouse."""
         lines = [region.label or self.kind_name(region.kind)]
         if region.removed:
             lines = [self.kind_name(region.kind), self.tr("region_lane.deleted_by_hand")]
@@ -367,7 +367,7 @@ class RegionLane(Lane):
         return "\n".join(lines)
 
     def kind_name(self, kind: str) -> str:
-        """What a kind of event is called."""
+        """Name of a kind of event."""
         return kind
 
     def context_menu(self, mouse: LaneMouse) -> QMenu | None:

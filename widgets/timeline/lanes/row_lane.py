@@ -29,7 +29,7 @@ class RowLane(Lane):
         self._scrolled_px = 0.0
 
     def count_rows(self) -> int:
-        """How many rows there are."""
+        """Number of rows."""
         raise NotImplementedError
 
     def rows_scrolled(self) -> None:
@@ -42,7 +42,7 @@ class RowLane(Lane):
 
     @property
     def row_px(self) -> float:
-        """How high a row is."""
+        """Height of a row."""
         least, most = self.row_limits_px
         return min(max(self.rows_rect.height() / max(self.count_rows(), 1), least), most)
 
@@ -65,7 +65,7 @@ class RowLane(Lane):
             self.update_items()
 
     def wheel(self, mouse: LaneMouse, steps: float) -> bool:
-        """Where there are more rows than room."""
+        """Scroll the rows; False if all of them are in view."""
         if self.count_rows() * self.row_px <= self.rows_rect.height() + 0.5:
             return False
         self._scroll_to(self._scrolled_px - steps * self.row_px)

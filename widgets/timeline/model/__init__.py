@@ -1,1 +1,1 @@
-"""What the timeline shows and what gestures on it mean, as values and functions: nothing here knows Qt."""
+"""Contents of the timeline and the meaning of gestures on it, as values and functions: nothing here knows Qt."""

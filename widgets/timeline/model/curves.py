@@ -20,7 +20,7 @@ from widgets.timeline.model.hand import LaneMouse
 
 LIPS = ("tension", "effort", "air")
 FINE = 0.2
-"""With Shift a value follows the mouse this slowly."""
+"""Factor with Shift from the mouse's way to that of a value."""
 
 
 @dataclass(frozen=True)
@@ -44,7 +44,7 @@ def lips(plan: PlayerPlan) -> EmbouchureCurves:
 
 
 def _traces(plan: PlayerPlan, start_s: FloatArray, end_s: FloatArray) -> dict[str, StepCurve]:
-    """What was recorded, while notes sound; nothing in between."""
+    """Recorded curves while notes sound; nothing in between."""
     traces = plan.traces
     if traces is None:
         return {}

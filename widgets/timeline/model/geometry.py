@@ -1,4 +1,4 @@
-"""Where things of a lane lie: rows for spans that overlap, what is visible, curves by column. Nothing here draws."""
+"""Layout of lanes: rows for spans that overlap, what is visible, curves by column. Nothing here draws."""
 
 from __future__ import annotations
 

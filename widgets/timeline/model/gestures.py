@@ -1,5 +1,5 @@
-"""What every press on ruler, roll and lanes has in common: a gesture begins once the mouse has gone far enough, follows
-it, and ends in one step of undo, or leaves nothing behind."""
+"""Common part of every press on ruler, roll and lanes: a gesture begins once the mouse has gone far enough, follows it,
+and ends in one step of undo, or leaves nothing behind."""
 
 from __future__ import annotations
 
@@ -21,11 +21,11 @@ DRAG_PX = 3.0
 
 Edit = Callable[[Project], Project]
 Far = Callable[[LaneMouse, LaneMouse], bool]
-"""Whether the mouse is far enough from the press to mean a drag."""
+"""Test of the distance from the press at which it becomes a drag."""
 
 
 class Editing(Protocol):
-    """What gestures need of the session."""
+    """Part of the session that gestures use."""
 
     document: Document
 
@@ -47,7 +47,7 @@ class Editing(Protocol):
 
 
 class Plane(Protocol):
-    """Where times and values lie."""
+    """Scales of times and values."""
 
     @property
     def axis(self) -> Scale: ...
@@ -118,18 +118,18 @@ class LiveEdit:
         return True
 
     def attempt(self, name: Message, edit: Edit) -> bool:
-        """As `edit`, but the user is shown why it could not be done."""
+        """Edit as `edit` does, and show the user why if it could not be done."""
         if not self._session.attempt(name, lambda _: edit(self.base), self._token, self._origin):
             return False
         self._name, self._ours = name, self._session.project
         return True
 
     def end(self) -> None:
-        """What follows is another step."""
+        """End the gesture: further edits are another step."""
         self._session.document.end_gesture()
 
     def take_back(self) -> None:
-        """As if it had never begun."""
+        """Undo the gesture's edits and end it."""
         if self._name is not None and self._session.project is self._ours and self._ours is not self.base:
             self._session.apply(self._name, self.base, self._token, self._origin)
         self.end()
@@ -179,7 +179,7 @@ class MouseGesture:
         """It was no drag."""
 
     def cancel(self) -> None:
-        """As if it had never begun."""
+        """Undo the gesture's edits and end it."""
 
 
 class Band(MouseGesture):

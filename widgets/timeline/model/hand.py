@@ -23,11 +23,11 @@ class PixelRect(NamedTuple):
         return self.bottom - self.top
 
     def contains(self, x_px: float, y_px: float, slack_px: float = 0.0) -> bool:
-        """Whether a place is inside or on the edge; ``slack_px`` to the left and right count as inside."""
+        """Return whether a place is inside or on the edge; ``slack_px`` to the left and right count as inside."""
         return self.left - slack_px <= x_px <= self.right + slack_px and self.top <= y_px <= self.bottom
 
     def meets(self, other: PixelRect) -> bool:
-        """Whether both have room in common; what has no width or no height meets nothing."""
+        """Return whether both have room in common; a box without width or height meets nothing."""
         return (
             max(self.left, other.left) < min(self.right, other.right)
             and max(self.top, other.top) < min(self.bottom, other.bottom)

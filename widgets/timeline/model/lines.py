@@ -1,4 +1,4 @@
-"""Where the lines of bars, beats and the grid lie in the visible range, no denser than the eye can use."""
+"""Lines of bars, beats and the grid in the visible range, no denser than the eye can use."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ class LineCache:
         self._lines: Lines | None = None
 
     def get(self, score: Score, grid: Grid, start_s: float, end_s: float, px_per_s: float) -> Lines:
-        """As `visible_lines`."""
+        """Return `visible_lines`, kept while the inputs are the same."""
         rest = (grid, start_s, end_s, px_per_s)
         if self._lines is None or self._score is not score or self._rest != rest:
             self._score, self._rest = score, rest

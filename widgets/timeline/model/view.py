@@ -1,4 +1,4 @@
-"""Which seconds of the performance are visible, as a value, and where they lie in pixels."""
+"""Visible range of the performance in seconds, as a value, and its scale in pixels."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ from app.arrays import FloatArray
 LEAST_SPAN_S = 0.05
 """The closest zoom shows this much: a few frames."""
 PADDING = 0.02
-"""What revealing leaves free at either side, of the visible width."""
+"""Share of the visible width left free at either side when something is revealed."""
 
 
 class Scale(Protocol):
-    """Where times lie in pixels."""
+    """Scale from seconds to pixels."""
 
     @property
     def px_per_s(self) -> float: ...
@@ -60,7 +60,7 @@ class TimeView(NamedTuple):
 
     @property
     def span_s(self) -> float:
-        """How much is visible."""
+        """Length of the visible range."""
         return self.end_s - self.start_s
 
     @property
@@ -73,7 +73,7 @@ class TimeView(NamedTuple):
     @overload
     def x_px(self, seconds: FloatArray) -> FloatArray: ...
     def x_px(self, seconds: float | FloatArray) -> float | FloatArray:
-        """Where times lie; numbers or arrays of any shape."""
+        """Convert times to pixels; numbers or arrays of any shape."""
         return (seconds - self.start_s) * self.px_per_s
 
     def seconds(self, x_px: float) -> float:
@@ -81,25 +81,25 @@ class TimeView(NamedTuple):
         return self.start_s + x_px / self.px_per_s
 
     def within(self, start_s: float, end_s: float) -> TimeView:
-        """With other limits; the visible range moves only where it must."""
+        """Return the view with other limits; the visible range moves only where it must."""
         return self._replace(limits_s=(start_s, max(end_s, start_s + LEAST_SPAN_S))).showing(self.start_s, self.end_s)
 
     def widened(self, width_px: int) -> TimeView:
-        """As wide; the zoom stays, so that more is visible in a wider window."""
+        """Return the view at another width; the zoom stays, so that more is visible in a wider window."""
         width_px = max(width_px, 1)
         if width_px == self.width_px:
             return self
         return self._replace(width_px=width_px).showing(self.start_s, self.start_s + width_px / self.px_per_s)
 
     def showing(self, start_s: float, end_s: float) -> TimeView:
-        """With this range visible."""
+        """Return the view that shows this range."""
         low, high = self.limits_s
         span = min(max(end_s - start_s, LEAST_SPAN_S), high - low)
         start_s = min(max(start_s, low), high - span)
         return self._replace(start_s=start_s, end_s=start_s + span)
 
     def zoomed(self, factor: float, at_s: float) -> TimeView:
-        """With ``factor`` times less visible; the time ``at_s`` stays where it is."""
+        """Return the view with ``factor`` times less visible; the time ``at_s`` stays at its pixel."""
         low, high = self.limits_s
         span = min(max(self.span_s / factor, LEAST_SPAN_S), high - low)
         start_s = at_s - (at_s - self.start_s) / self.span_s * span

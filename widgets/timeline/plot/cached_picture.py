@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QWidget
 
 
 class Pictured(QWidget):
-    """What is drawn is kept as a picture, so that the playhead passing by draws nothing anew.
+    """Widget kept as a picture, so that the playhead passing by draws nothing again.
 
     Override `draw`, and call `redraw` when something that it draws is another.
     """
@@ -23,7 +23,7 @@ class Pictured(QWidget):
         self.setAttribute(Qt.WidgetAttribute.WA_OpaquePaintEvent)
 
     def ground(self) -> QColor:
-        """What it is drawn upon."""
+        """Colour it is drawn upon."""
         raise NotImplementedError
 
     def draw(self, painter: QPainter, room: QRectF) -> None:

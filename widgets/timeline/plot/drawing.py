@@ -80,7 +80,7 @@ def draw_rects(
 def fill_rects(
     painter: QPainter, left: FloatArray, top: FloatArray, width: FloatArray, height: FloatArray, colour: QColor
 ) -> None:
-    """As `draw_rects`, outlined with the painter's pen."""
+    """Draw as `draw_rects` does, outlined with the painter's pen."""
     if len(left):
         table = _side_by_side(left, top, width, height)
         painter.setBrush(colour)

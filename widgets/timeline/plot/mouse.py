@@ -13,7 +13,7 @@ from widgets.timeline.plot.time_axis import TimeAxis
 def mouse_at(
     session: Session, axis: TimeAxis, place: QPointF, value: float, modifiers: Qt.KeyboardModifier, screen: QPoint
 ) -> LaneMouse:
-    """What a place of a plot means; ``value`` is on the plot's own vertical scale."""
+    """Convert a place of a plot to time and value; ``value`` is on the plot's own vertical scale."""
     score = session.project.score
     time_s = axis.seconds(place.x())
     tick = score.tempo_map.ticks(time_s)

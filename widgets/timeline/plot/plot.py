@@ -28,7 +28,7 @@ from widgets.timeline.plot.time_axis import TimeAxis
 
 
 class LaneView(Protocol):
-    """What items draw of a lane."""
+    """Part of a lane that its items draw."""
 
     id: str
     session: Session
@@ -45,7 +45,7 @@ class LaneView(Protocol):
 
 
 class PlotOwner(Protocol):
-    """What a plot passes its events to."""
+    """Receiver of a plot's events."""
 
     session: Session
 

@@ -14,7 +14,7 @@ from widgets.timeline.model.view import TimeView
 
 ZOOM_A_NOTCH = 1.2
 PAN_A_NOTCH = 0.12
-"""Of the visible span."""
+"""Share of the visible span per notch of the wheel."""
 
 
 class TimeAxis(QObject):
@@ -47,12 +47,12 @@ class TimeAxis(QObject):
 
     @property
     def span_s(self) -> float:
-        """How much is visible."""
+        """Length of the visible range."""
         return self._view.span_s
 
     @property
     def limits_s(self) -> tuple[float, float]:
-        """What can be scrolled to."""
+        """Range that can be scrolled to."""
         return self._view.limits_s
 
     @property
@@ -70,7 +70,7 @@ class TimeAxis(QObject):
     @overload
     def x_px(self, seconds: FloatArray) -> FloatArray: ...
     def x_px(self, seconds: float | FloatArray) -> float | FloatArray:
-        """Where times lie; numbers or arrays of any shape."""
+        """Convert times to pixels; numbers or arrays of any shape."""
         return self._view.x_px(seconds)
 
     def seconds(self, x_px: float) -> float:

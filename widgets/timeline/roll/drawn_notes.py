@@ -1,4 +1,4 @@
-"""How the piano roll is drawn: rows, notes by the hundred thousand, what stands on them, and the lasso."""
+"""Drawing of the piano roll: rows, notes by the hundred thousand, what stands on them, and the lasso."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ INSIDE_PX = 15.0
 
 
 class RollView(LaneView, Protocol):
-    """What the items of the roll draw."""
+    """Part of the roll that its items draw."""
 
     model: RollModel
 
@@ -216,7 +216,7 @@ def _draw_points(
 
 
 def _premultiplied(shade: QColor) -> int:
-    """As Qt draws it without a conversion."""
+    """Premultiply a colour as Qt stores it, so that it draws without a conversion."""
     alpha = shade.alpha()
     red, green, blue = (round(part * alpha / 255) for part in (shade.red(), shade.green(), shade.blue()))
     return (alpha << 24) | (red << 16) | (green << 8) | blue
@@ -375,7 +375,7 @@ class Lasso(LaneItem[RollView]):
 
 
 class Hint(LaneItem[RollView]):
-    """What to do where nothing is yet."""
+    """Advice in an empty roll."""
 
     def paint_px(self, painter: QPainter, exposed: QRectF) -> None:
         lane = self.lane

@@ -15,7 +15,7 @@ from widgets.timeline.roll.drawn_notes import RollView
 HEAD_PX = 7.0
 DOT_PX = 2.5
 BEND = 0.5
-"""How far the arrow goes level before it turns to the other's note."""
+"""Share of the way that the arrow goes level before it turns to the other's note."""
 HELD = 1.6
 """An end under the mouse is larger by this factor."""
 
@@ -31,7 +31,7 @@ class EntryArrows(LaneItem[RollView]):
 
     @property
     def arrows(self) -> tuple[EntryArrow, ...]:
-        """What is drawn; found again only where plans or players are others."""
+        """The drawn arrows; found again only when plans or players change."""
         session = self.lane.session
         player, plans = session.player, session.plans
         if player is None:
@@ -65,7 +65,7 @@ class EntryArrows(LaneItem[RollView]):
         return self._drag.shown if self._drag is not None and self._drag.began else None
 
     def drag_text(self, drag: EntryDrag) -> str:
-        """Who would give the entry to whom, and where."""
+        """Say who would give the entry to whom, and where."""
         project = self.lane.session.project
         if not drag.meant:
             return tr("piano_roll.entry_unchanged")

@@ -15,7 +15,7 @@ KEYBOARD_PX = 50
 
 
 class Keyed(Protocol):
-    """What has rows of pitches beside the keyboard."""
+    """Owner of the rows of pitches beside the keyboard."""
 
     session: Session
 

@@ -67,7 +67,7 @@ class PianoRoll(Lane):
     """The piano roll."""
 
     reported = Signal(str)
-    """What is under the mouse, for the tool bar."""
+    """Description of what is under the mouse, for the tool bar."""
 
     id = "roll"
     preferred_height_px = 240
@@ -97,7 +97,7 @@ class PianoRoll(Lane):
 
     @property
     def tool(self) -> Tool:
-        """What the left button does."""
+        """Tool of the left button."""
         return self._tool
 
     def set_tool(self, tool: Tool) -> None:
@@ -109,12 +109,12 @@ class PianoRoll(Lane):
 
     @property
     def ghosted(self) -> bool:
-        """Whether the players behind are only seen, faintly."""
+        """True if the players behind are only seen, faintly."""
         return self.model.ghosts_mode is not Ghosts.ALL
 
     @property
     def ghosts_mode(self) -> Ghosts:
-        """How the players behind are seen."""
+        """Display of the players behind."""
         return self.model.ghosts_mode
 
     def set_ghosts(self, ghosts: Ghosts) -> None:
@@ -127,7 +127,7 @@ class PianoRoll(Lane):
         return self.model.ghosts()
 
     def hint(self) -> str:
-        """What to do where nothing is yet; empty where there are notes."""
+        """Advice for an empty roll; empty where there are notes."""
         front = self.model.front()
         if front is None:
             return self.tr("piano_roll.no_players_yet_open_midi")
@@ -142,7 +142,7 @@ class PianoRoll(Lane):
         return (instrument.range.low, instrument.range.high) if instrument is not None else None
 
     def _instrument(self) -> InstrumentMap | None:
-        """What the player in front plays; None where no one does, or where its map is gone."""
+        """The instrument of the player in front; None if there is no player, or its map is gone."""
         player = self.session.player
         if player is None:
             return None
@@ -153,7 +153,7 @@ class PianoRoll(Lane):
 
     @property
     def plans(self) -> Mapping[str, PlayerPlan]:
-        """What the players do, by player id."""
+        """Plans by player id."""
         return self.session.plans
 
     @property
@@ -203,7 +203,7 @@ class PianoRoll(Lane):
         )
 
     def pitch_tip(self, pitch: int) -> str:
-        """What the keyboard says about a key."""
+        """Tip of a key of the keyboard."""
         return self.tr("piano_roll.click_to_select_all_its").format(pitch=self.pitch_text(pitch))
 
     def select_pitch(self, pitch: int, add: bool) -> None:
@@ -446,5 +446,6 @@ class PianoRoll(Lane):
 
 
 def _copies(mouse: LaneMouse) -> bool:
-    """Whether a drag leaves the notes and takes copies along: Ctrl, on macOS Option, as in the file manager there."""
+    """Return whether a drag leaves the notes and takes copies along: Ctrl, on macOS Option, as in the file manager
+    there."""
     return mouse.alt and not mouse.ctrl if sys.platform == "darwin" else mouse.ctrl and not mouse.alt

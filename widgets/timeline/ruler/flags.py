@@ -18,7 +18,7 @@ from widgets.timeline.ruler.strip import Strip
 
 FLAGS_PX = 20
 LEAST_FLAG_PX = 32.0
-"""Where there is less room, a flag has no text."""
+"""Least width of a flag with a text."""
 MOST_FLAG_PX = 220.0
 BARE_FLAG_PX = 5.0
 AIR_PX = 5.0
@@ -36,7 +36,7 @@ class Flag:
 
 
 def lay_flags(score: Score, axis: TimeAxis, metrics: QFontMetricsF, left_px: float, right_px: float) -> list[Flag]:
-    """Where the flags stand, none over another. What holds at the left edge stays in view.
+    """Lay out the flags, none over another. The flag in force at the left edge stays in view.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""What the rows above the lanes have in common: the ruler and the flags."""
+"""Common part of the rows above the lanes: the ruler and the flags."""
 
 from __future__ import annotations
 
@@ -36,11 +36,11 @@ class Strip(Pictured):
             self.setFont(font)
 
     def x_px(self, tick: int) -> float:
-        """Where a tick is."""
+        """Convert a tick to pixels."""
         return GUTTER_PX + self.axis.x_px(self.seconds_of(tick))
 
     def seconds_of(self, tick: int) -> float:
-        """When a tick is."""
+        """Convert a tick to seconds."""
         return self.session.project.score.tempo_map.seconds(float(tick))
 
     # Qt overrides

@@ -56,7 +56,7 @@ LOOP_PX, PUNCH_PX = 4.0, 4.0
 HEAD_PX = 6.0
 HEAD_HEIGHT_PX = 9.0
 GRIP_PX = 5.0
-"""So near to an edge of the loop, or to the playhead, a press takes hold of it."""
+"""Distance within which a press takes hold of an edge of the loop, or of the playhead."""
 
 
 class Ruler(Retranslated, Strip):
@@ -179,7 +179,7 @@ class Ruler(Retranslated, Strip):
         return self.seconds_of(recording.punch_ticks[0]), self.seconds_of(recording.punch_ticks[1])
 
     def _paint_take(self, painter: QPainter) -> None:
-        """What is recorded already of the running take, or of its pass."""
+        """Paint the part of the running take, or of its pass, that is recorded already."""
         recording, loop_s, head_s = self.session.recording, self.session.loop_s, self.session.playhead_s
         start_s = loop_s[0] if recording.passes > 1 and loop_s is not None else recording.start_s
         if recording.running and head_s > start_s:
@@ -282,7 +282,7 @@ class Ruler(Retranslated, Strip):
     # The mouse
 
     def _held_at(self, place: QPointF) -> str:
-        """What a press takes hold of."""
+        """Name the part that a press takes hold of."""
         if place.x() < GUTTER_PX:
             return ""
         if self._mark_at(place) is not None:

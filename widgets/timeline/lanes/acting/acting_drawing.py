@@ -1,4 +1,4 @@
-"""How cues, expressions, poses and gestures are drawn."""
+"""Drawing of cues, expressions, poses and gestures."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ LEAST_SHAPE_PX = 6.0
 
 
 class ActingView(LaneView, Protocol):
-    """What is drawn of the lane of acting."""
+    """Part of the lane of acting that is drawn."""
 
     def fade_handles(self, region: Region, box: QRectF) -> tuple[tuple[str, QPointF], ...]: ...
 

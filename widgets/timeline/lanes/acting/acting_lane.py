@@ -65,7 +65,7 @@ NAMES = Names(expression_name, kind_name, pose_name, gesture_name, style_name)
 
 
 class ActingLane(RegionLane):
-    """What body and face do beside playing."""
+    """Lane of what body and face do besides playing."""
 
     id = "acting"
     preferred_height_px = 154
@@ -79,7 +79,7 @@ class ActingLane(RegionLane):
         self._known: dict[int, tuple[GestureEvent, Region]] = {}
         """Regions of gestures, by the identity of the event."""
         self._groups_known: dict[tuple[str, ...], tuple[TempoMap, list[Region], tuple[list[int], int]]] = {}
-        """What stood in a group's rows, and in which."""
+        """Regions of each group's rows with their rows, and the inputs they were found for."""
         self._painter = ActingPainter(self)
         super().__init__(session, axis, parent)
         self._names = RowNames(self, self.row_names)
@@ -94,7 +94,7 @@ class ActingLane(RegionLane):
         return kind_name(kind)
 
     def group_name(self, kind: str) -> str:
-        """What a group of rows is called, after its first kind."""
+        """Name a group of rows, after its first kind."""
         if kind == VARIED:
             return self.tr("acting_lane.anew")
         names = {"pose": "acting_lane.pose", "feet": "acting_lane.feet", "beside": "acting_lane.beside"}
@@ -280,7 +280,7 @@ class ActingLane(RegionLane):
             draw_mark(painter, tokens, box.left() + 1.0, box.top() + 1.0)
 
     def _name_room_px(self, cue: Region) -> float:
-        """How much room there is for a cue's name: up to the next cue of its row, that names do not overlap."""
+        """Room for a cue's name, pixels: up to the next cue of its row, so that names do not overlap."""
         later = [one.start_s for one in self.regions if one.kind == "cue" and one.row == cue.row]
         at = bisect_right(later, cue.start_s)
         return MOST_NAME_PX if at == len(later) else self.axis.x_px(later[at]) - self.axis.x_px(cue.end_s) - NAME_GAP_PX
@@ -365,7 +365,7 @@ class ActingLane(RegionLane):
         self.session.attempt(Message("edit.set_expression"), edit)
 
     def _spans(self, mouse: LaneMouse) -> list[tuple[PlayerPlan, int, int]]:
-        """Where a new event of the player in front is."""
+        """Span of a new event of the player in front."""
         start = self.snap(mouse.tick, mouse)
         end = start + NEW_BEATS * self.session.project.metre_map.felt_ticks_at(start)
         plan = self.session.plan

@@ -1,4 +1,4 @@
-"""How additive curves look."""
+"""Drawing of additive curves."""
 
 from __future__ import annotations
 
@@ -70,7 +70,7 @@ class CurvesItem(LaneItem[AdditiveLaneView]):
             painter.drawRect(QRectF(lane.band.left, lane.band.top, lane.band.width, lane.band.height))
 
     def _paint_limits(self, painter: QPainter, exposed: QRectF) -> None:
-        """What lies beyond where the body goes."""
+        """Shade what lies beyond the body's range."""
         low, high = self.lane.limits
         ground = shade(self.lane.session.tokens.line, 90)
         top, bottom = self.lane.y_px(high), self.lane.y_px(low)
@@ -118,7 +118,7 @@ class CurvesItem(LaneItem[AdditiveLaneView]):
             draw_text(painter, QRectF(begins, 1.0, right - begins, 14.0), curve.title)
 
     def _paint_beyond(self, painter: QPainter, shown: ShownCurve, x: FloatArray) -> None:
-        """Where it asks for more than the body does: in the colour of problems, with a mark at its beginning."""
+        """Mark where a curve asks for more than the body does: in the colour of problems, with a sign at the beginning."""
         lane, axis, warning = self.lane, self.lane.axis, QColor(self.lane.session.tokens.warning)
         for start_s, end_s in shown.beyond_s(lane.limits):
             left, right = axis.x_px(start_s), axis.x_px(end_s)
@@ -135,7 +135,7 @@ class CurvesItem(LaneItem[AdditiveLaneView]):
             painter.drawPolygon([QPointF(left + dx, at + dy) for dx, dy in corners])
 
     def _paint_line(self, painter: QPainter, x: FloatArray, values: FloatArray, pen: QPen) -> None:
-        """As one line, so that dots and dashes go on along it."""
+        """Draw one line, so that dots and dashes go on along it."""
         painter.setPen(pen)
         painter.setBrush(Qt.BrushStyle.NoBrush)
         painter.drawPolyline(polygon(np.stack((x, self._y(values)), axis=1)))

@@ -1,4 +1,4 @@
-"""What is done to additive curves: the keys that are selected, and edits of them."""
+"""Edits of additive curves, and the keys that are selected."""
 
 from __future__ import annotations
 
@@ -26,9 +26,9 @@ from widgets.timeline.plot.time_axis import TimeAxis
 MIME = "application/x-suisou-curve-keys"
 FIRST_CHANNEL = "head.up"
 STEPS = {"deg": (1.0, 0.1), "m": (0.005, 0.001), "weight": (0.05, 0.01)}
-"""What Up and Down change a value by, and with Shift."""
+"""Change of a value by Up and Down, and with Shift, by unit."""
 PREFIX = "additive:"
-"""How ids of curves begin among events."""
+"""Prefix of curves' ids among events."""
 
 
 class CurveEditing(Lane):
@@ -55,7 +55,7 @@ class CurveEditing(Lane):
 
     @property
     def player_id(self) -> str | None:
-        """Of the player in front."""
+        """Id of the player in front."""
         return None if self.session.player is None else self.session.player.id
 
     @property
@@ -284,4 +284,4 @@ _OF_KEYS = frozenset(
         Qt.Key.Key_Up, Qt.Key.Key_Down, Qt.Key.Key_Left, Qt.Key.Key_Right,
     }
 )  # fmt: skip
-"""What the selected keys answer to."""
+"""Keys that act on the selected keys of the curves."""

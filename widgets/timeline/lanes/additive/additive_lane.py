@@ -36,7 +36,7 @@ from widgets.timeline.model.hand import PixelRect
 from widgets.timeline.plot.time_axis import TimeAxis
 
 REACH_PX = 6.0
-"""So near to a stretch beyond the body's range the mouse shows what is wrong."""
+"""Distance to a stretch beyond the body's range within which the mouse shows what is wrong."""
 
 
 class AdditiveLane(CurveEditing):
@@ -76,7 +76,7 @@ class AdditiveLane(CurveEditing):
         self.update_items()
 
     def empty_text(self) -> str:
-        """How to begin, or why one cannot."""
+        """Say how to begin, or why one cannot."""
         if self.limits == (0.0, 0.0):
             return self.tr("additive_lane.not_here")
         return self.tr("additive_lane.double_click_to_add").format(channel=channel_name(self.channel))
@@ -160,7 +160,7 @@ class AdditiveLane(CurveEditing):
     # The mouse
 
     def hit(self, mouse: LaneMouse) -> Hit | None:
-        """What is at a place."""
+        """Find what lies at a place."""
         return model.hit(self.curves, self.selected, self, mouse.x_px, mouse.y_px)
 
     def press(self, mouse: LaneMouse) -> None:
@@ -236,7 +236,7 @@ class AdditiveLane(CurveEditing):
         self.plot.setToolTip("\n".join((self.tip(found), *self.problems_at(found.name, mouse))))
 
     def problems_at(self, name: str, mouse: LaneMouse | None) -> list[str]:
-        """What is wrong with a curve at a place, in words."""
+        """Problems of a curve at a place, in words."""
         plan = self.session.plan
         if mouse is None or plan is None:
             return []
@@ -253,7 +253,7 @@ class AdditiveLane(CurveEditing):
         ]
 
     def tip(self, found: Hit) -> str:
-        """What is at a place, in words."""
+        """Describe what lies at a place."""
         curve = self.shown(found.name).curve
         lines = [curve.title or channel_name(self.channel)]
         if found.what == "key":

@@ -1,4 +1,4 @@
-"""How dances are drawn: each basic motion as a block with its number and a little figure of its accent."""
+"""Drawing of dances: each basic motion as a block with its number and a little figure of its accent."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ _BAR_PX = 3.0
 
 
 class DancesView(LaneView, Protocol):
-    """What is drawn of a lane of dances."""
+    """Part of a lane of dances that is drawn."""
 
     dances: dict[str, DanceSteps]
     moving: MoveStep | None

@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 
 ROW_PX, LEAST_ROW_PX, MOST_ROW_PX = 46, 26, 90
 SHOWN_ROWS, LEAST_SHOWN_ROWS = 4, 2
-"""As many rows as the lane prefers to show, and as it shows at least; the wheel scrolls to the others."""
+"""Rows that the lane prefers to show, and the least; the wheel scrolls to the others."""
 EMPTY_PX = 46
 
 
@@ -52,7 +52,7 @@ class DanceLane(RowLane):
     def __init__(self, session: Session, axis: TimeAxis, parent: QWidget | None = None) -> None:
         super().__init__(session, axis, parent)
         self.dances: dict[str, DanceSteps] = {}
-        """What is known, by dancer; the newest once the task is done."""
+        """Known steps by dancer; current once the task is done."""
         self._selected_at: tuple[str, int] | None = None
         self.moving: MoveStep | None = None
         self._shown_of: Performance | None = None
@@ -73,11 +73,11 @@ class DanceLane(RowLane):
         return not self.session.project.dancers
 
     def empty_text(self) -> str:
-        """How to add a dance; empty where there is a dancer."""
+        """Say how to add a dance; empty where there is a dancer."""
         return "" if self.dancers else self.tr("dance_lane.no_dancers_yet_add_one")
 
     def reason(self, dance: DanceSteps) -> str:
-        """Why a dancer does not dance; empty for one who does."""
+        """Say why a dancer does not dance; empty for one who does."""
         if dance.error is not None:
             return sentence(dance.error, self.session, dance.dancer.id)
         return "" if dance.steps else self.tr("dance_lane.no_beat_of_music_is")
@@ -188,7 +188,7 @@ class DanceLane(RowLane):
         self.plot.setToolTip(text)
 
     def tip(self, dancer_id: str, number: int) -> str:
-        """What a step is, and whose it is."""
+        """Describe a step and its dancer."""
         dance = self.dances[dancer_id]
         step = dance.steps[number]
         segment = dance.model.segments[step.segment]
@@ -313,4 +313,4 @@ def _finder(performance: Performance) -> Callable[[Progress, StopRequested], dic
 
 
 LANES: Final = (DanceLane,)
-"""What the table of features adds to the timeline."""
+"""Lanes that the table of features adds to the timeline."""

@@ -22,11 +22,11 @@ if TYPE_CHECKING:
     from app.choreography.performed.dance_steps import DanceSteps
 
 MOST_SEGMENTS = 60
-"""So many segments of a basic motion are offered: those with the figures nearest to the one that is danced."""
+"""Most segments of a basic motion that are offered: those with figures nearest to the danced one."""
 
 
 class Dances(Protocol):
-    """What the menu asks for, and what it can do."""
+    """Part of the lane that the menu asks and changes."""
 
     session: Session
     dances: dict[str, DanceSteps]
@@ -39,7 +39,7 @@ class Dances(Protocol):
 
 
 class DanceMenu(QMenu):
-    """What can be danced instead of a step.
+    """Menu of the segments that can be danced instead of a step.
 
     Parameters
     ----------

@@ -46,12 +46,12 @@ class Alternates(QFrame):
         return () if note is None else instrument.offered_for(note.pitch, event.label)
 
     def note_text(self, fingering: Fingering) -> str:
-        """What is reported of a fingering beside its label: how far out of tune, and why one would take it."""
+        """Notes beside a fingering's label: how far out of tune it is, and reasons to take it."""
         parts = [f"{fingering.cents:+.0f} ¢".replace("-", "−")] if round(fingering.cents) else []
         return " · ".join([*parts, *words_of_tags(fingering.tags)])
 
     def is_pinned(self, player_id: str, event: FingeringEvent) -> bool:
-        """Whether the user chose the fingering."""
+        """True if the user chose the fingering."""
         return bool(corrections_of(self._session.project, player_id, (event.id,)))
 
     def show_for(self, player_id: str, event: FingeringEvent, place: QPoint) -> None:

@@ -67,7 +67,7 @@ def fingerings(plan: PlayerPlan, pressable: tuple[Control, ...], slides: tuple[C
 
 
 def slide_places(instrument: InstrumentMap, slide: Control) -> tuple[tuple[float, str], ...]:
-    """Where the named places of a slide are: mean value of the fingerings that the slide alone makes, by label."""
+    """Mean position of each named place of a slide, over the fingerings that the slide alone makes."""
     found: dict[str, list[float]] = {}
     for fingering in instrument.fingerings:
         if set(fingering.controls) <= {slide.name}:
@@ -226,7 +226,7 @@ class FingeringLane(Lane):
         self.update_items()
 
     def _instrument(self, player: Player) -> InstrumentMap | None:
-        """What a player plays; None where it is not installed."""
+        """The player's instrument; None if it is not installed."""
         try:
             return self.session.performance.instrument(player)
         except AppError:
@@ -365,7 +365,7 @@ class FingeringLane(Lane):
             self.plot.setToolTip("" if event is None else self._tip(event))
 
     def _tip(self, event: FingeringEvent) -> str:
-        """What is under the mouse: the fingering and the tongue's stroke, each with its reason."""
+        """Describe the fingering under the mouse and the tongue's stroke, each with its reason."""
         lines = [event.label, message_text(event.reason, self.session)]
         strokes = () if self._plan is None else self._plan.tongues
         stroke = next((one for one in strokes if one.note_id == event.note_id), None)

@@ -127,7 +127,7 @@ class Anchors:
             painter.drawLine(QPointF(x, bottom - HANDLE_PX), QPointF(there, 0.0))
 
     def tip(self, mouse: LaneMouse) -> str:
-        """What is reported of a place: how to use a handle, and how sure following was of the bar."""
+        """Describe a place: how to use a handle, and how sure following was of the bar."""
         lane = self._lane
         project, lines = lane.session.project, list[str]()
         anchor = self.at(mouse)
@@ -155,7 +155,7 @@ class Anchors:
         return True
 
     def drag(self, mouse: LaneMouse) -> bool:
-        """Whether a handle is being dragged."""
+        """Drag a handle; return False if none is held."""
         if self._drag is None:
             return False
         self._drag.drag(mouse)
@@ -205,7 +205,7 @@ class Anchors:
     # Keys
 
     def claims(self, event: QKeyEvent) -> bool:
-        """Whether the chosen beat answers to a key, or another one is chosen by it."""
+        """Return whether the chosen beat answers to a key, or the key chooses another beat."""
         alt = bool(event.modifiers() & Qt.KeyboardModifier.AltModifier)
         if self._lane.session.project.audio is None:
             return False

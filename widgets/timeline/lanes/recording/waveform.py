@@ -27,7 +27,7 @@ from widgets.timeline.plot.time_axis import TimeAxis
 
 DRAG_PX = 3.0
 FINE = 0.1
-"""With Shift the offset follows the mouse this slowly."""
+"""Factor with Shift from the mouse's way to the offset's."""
 EMPTY_PX, LEAST_PX, PREFERRED_PX = 28, 32, 48
 DECIMALS = 3
 
@@ -106,7 +106,7 @@ class WaveformLane(Lane):
         self.update_items()
 
     def empty_text(self) -> str:
-        """What can be done where there is no recording."""
+        """Say what can be done where there is no recording."""
         return self.tr("waveform_lane.drop_recording_here_until_then")
 
     def offset_text(self) -> str:
@@ -122,13 +122,13 @@ class WaveformLane(Lane):
         return self.tr("waveform_lane.offset_s_estimated").format(offset=number, confidence=audio.confidence)
 
     def text_box(self) -> QRectF:
-        """Where the offset is written."""
+        """Box of the written offset."""
         metrics = QFontMetricsF(small_font(self.font()))
         return QRectF(8.0, 2.0, metrics.horizontalAdvance(self.offset_text()) + 2.0, metrics.height())
 
     @property
     def dragging_offset(self) -> bool:
-        """Whether the recording is being moved."""
+        """True while the recording is being moved."""
         return self._drag is not None and self._drag.moved
 
     def project_changed(self, change: Change) -> None:

@@ -1,4 +1,4 @@
-"""How the lane of takes is drawn: the comp in a strip above, then a row for each take."""
+"""Drawing of the lane of takes: the comp in a strip above, then a row for each take."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ PALE: Final = 95
 
 
 class TakesView(LaneView, Protocol):
-    """What is drawn of a lane of takes."""
+    """Part of a lane of takes that is drawn."""
 
     model: TakesModel
 
@@ -60,7 +60,7 @@ class TakesItem(LaneItem[TakesView]):
         painter.drawText(box, Qt.AlignmentFlag.AlignVCenter | Qt.TextFlag.TextWordWrap, lane.empty_text())
 
     def _boxes(self, spans: tuple[CompSpan, ...], top: float, height: float) -> list[tuple[CompSpan, QRectF]]:
-        """Where spans lie, those that are in sight."""
+        """Boxes of the spans that are in view."""
         axis, clock = self.lane.axis, self.lane.session.project.score.tempo_map
         found = []
         for span in spans:

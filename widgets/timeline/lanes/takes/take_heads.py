@@ -35,7 +35,7 @@ DRAG_PX: Final = 6.0
 
 
 class Headed(TakesView, Protocol):
-    """What the heads of takes stand beside, and what they do with it."""
+    """Lane whose takes have heads, and what heads do with it."""
 
     @property
     def header(self) -> QWidget: ...
@@ -77,11 +77,11 @@ class TakeHeads(Retranslated, QWidget):
         self.update()
 
     def name_of(self, row: TakeRow) -> str:
-        """What a row is called."""
+        """Name of a row."""
         return self.tr("take_heads.before") if row.take is None else row.take.name
 
     def tip(self, row: TakeRow) -> str:
-        """When and with what a take was played, and what can be done with it."""
+        """Say when and with what a take was played, and what can be done with it."""
         if row.take is None:
             return self.tr("take_heads.what_was_there_before_first")
         take = row.take

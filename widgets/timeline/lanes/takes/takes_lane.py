@@ -62,7 +62,7 @@ class TakesLane(RowLane):
         self.title.setText(self.tr("takes_lane.takes").format(count=count) if count else self.tr("takes_lane.takes_2"))
 
     def empty_text(self) -> str:
-        """How there comes to be a take."""
+        """Say how a take is made."""
         player = self.session.player
         if player is None:
             return self.tr("takes_lane.no_player_is_in_front")
@@ -124,12 +124,12 @@ class TakesLane(RowLane):
 
     @property
     def rows(self) -> tuple[TakeRow, ...]:
-        """What was there before, then the takes."""
+        """Row of what was there before, then the takes."""
         return self.model.rows
 
     @property
     def comp(self) -> tuple[CompSpan, ...]:
-        """Which take the part has where."""
+        """Spans of the comp, each with its take."""
         return self.model.comp
 
     def shown_comp(self) -> tuple[CompSpan, ...]:
@@ -137,11 +137,11 @@ class TakesLane(RowLane):
         return self.model.shown_comp()
 
     def shown_spans(self, take_id: str) -> tuple[CompSpan, ...]:
-        """What the part has of a take; of what was there before, the gaps of the comp."""
+        """Spans that the part has of a take; of what was there before, the gaps of the comp."""
         return self.model.shown_spans(take_id)
 
     def number_of(self, take_id: str) -> int | None:
-        """Which row a take has."""
+        """Row number of a take."""
         return self.model.number_of(take_id)
 
     # Where rows lie
@@ -278,7 +278,7 @@ class TakesLane(RowLane):
         return 0 if instrument is None else instrument.transposition_semitones
 
     def why(self, fault: Fault) -> str:
-        """Why cleaning leaves a note out."""
+        """Say why cleaning leaves a note out."""
         return {
             "": "",
             "ghost": self.tr("takes_lane.short_and_soft_ghost_note"),
@@ -300,7 +300,7 @@ class TakesLane(RowLane):
         return self.menu()
 
     def menu(self) -> QMenu:
-        """What can be done with the selected take."""
+        """Menu of the selected take."""
         menu = named(QMenu(self), "takes_menu")
         for group in (
             ("takes.listen", "takes.listen_alone"),

@@ -28,10 +28,10 @@ LINE_REACH_PX: Final = 5.0
 JOINS_BARS: Final = 1
 """A key that is added no more than so many bars beside a curve becomes one of its keys."""
 LEAST_RANGE: Final = {"deg": 12.0, "m": 0.03, "weight": 1.0}
-"""So far from 0 a lane always shows."""
+"""Least distance from 0 that a lane shows, by unit."""
 AIR: Final = 1.25
 DECIMALS: Final = {"deg": 1, "m": 3, "weight": 2}
-"""Of what a mouse says."""
+"""Decimals of values at the mouse, by unit."""
 
 
 class KeyRef(NamedTuple):
@@ -42,7 +42,7 @@ class KeyRef(NamedTuple):
 
 
 class Hit(NamedTuple):
-    """What is at a place.
+    """Part of a curve that lies at a place.
 
     Attributes
     ----------
@@ -94,12 +94,12 @@ class ShownCurve:
 
     @property
     def start_s(self) -> float:
-        """When it begins to come in."""
+        """Time at which it begins to come in."""
         return self.shape[0].start_s
 
     @property
     def end_s(self) -> float:
-        """When it is gone."""
+        """Time at which it is gone."""
         return self.shape[-1].end_s
 
     def values(self, times_s: FloatArray) -> FloatArray:
@@ -107,7 +107,7 @@ class ShownCurve:
         return sampled_rows(self.table, times_s)
 
     def beyond_s(self, limits: tuple[float, float]) -> list[tuple[float, float]]:
-        """Where what is added goes further than the body, by more than rounding: spans of seconds, in order."""
+        """Stretches (seconds, in order) where what is added goes further than the body, by more than rounding."""
         if not self.curve.enabled or not self.shape:
             return []
         times_s = np.arange(self.start_s, self.end_s + BEYOND_STEP_S, BEYOND_STEP_S)
@@ -138,7 +138,7 @@ def shown_curves(project: Project, player_id: str, channel: str) -> tuple[ShownC
 
 
 def vertical_range(channel: str, curves: Sequence[ShownCurve], generated: FloatArray | None) -> float:
-    """How far from 0 a lane shows: all keys and handles, and what is generated."""
+    """Distance from 0 that a lane shows: all keys and handles, and what is generated."""
     unit = CHANNELS[channel].unit
     most = LEAST_RANGE[unit]
     for shown in curves:
@@ -158,8 +158,8 @@ def rounded(channel: str, value: float) -> float:
 def hit(
     curves: Sequence[ShownCurve], selected: Collection[KeyRef], plane: Plane, x_px: float, y_px: float
 ) -> Hit | None:
-    """What is at a place: handles of selected keys before keys, keys before blends and curves; of several the
-    nearest."""
+    """Find what lies at a place: handles of selected keys before keys, keys before blends and curves; the nearest of
+    several."""
     found: list[tuple[int, float, Hit]] = []
 
     def near(rank: int, time_s: float, value: float, what: Hit) -> None:

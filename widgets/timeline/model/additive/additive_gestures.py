@@ -1,4 +1,4 @@
-"""What a drag does to additive curves: keys move, handles turn, blends become longer."""
+"""Drags of additive curves: keys move, handles turn, blends become longer."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from widgets.timeline.model.gestures import DRAG_PX, Editing, LiveEdit, MouseGes
 from widgets.timeline.model.hand import LaneMouse
 
 FINE: Final = 0.2
-"""With Shift keys follow the mouse this slowly, free of the grid."""
+"""Factor with Shift from the mouse's way to that of keys, which are then free of the grid."""
 ALIGNED: Final = 1e-3
 """Handles whose slopes differ by no more than this share turn together."""
 
@@ -141,7 +141,7 @@ def _tangents(shown: ShownCurve, at_key: int, clock: TempoMap) -> dict[Side, Tan
 
 
 def in_line(tangents: dict[Side, Tangent]) -> bool:
-    """Whether both handles lie in one line through their key."""
+    """True if both handles lie in one line through their key."""
     if len(tangents) < 2:
         return False
     one, other = (handle.value / handle.ticks for handle in (tangents["leave"], tangents["arrive"]))

@@ -40,7 +40,7 @@ BASE = "expression:neutral"
 
 
 class Names(NamedTuple):
-    """What things are called in the language of the user."""
+    """Names of expressions and kinds in the user's language."""
 
     expression: Callable[[str], str]
     kind: Callable[[str], str]

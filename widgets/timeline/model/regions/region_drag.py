@@ -21,13 +21,13 @@ from widgets.timeline.model.regions.shown_event import Region
 
 MOST_FADE_S = 30.0
 FINE = 0.2
-"""With Shift an amount follows the mouse this slowly."""
+"""Factor with Shift from the mouse's way to that of an amount."""
 
 Edit = Callable[[Project, PlayerPlan, Sequence[str]], Edited]
 
 
 class RegionPlane(Plane, Protocol):
-    """Where regions lie, and where they may go."""
+    """Scales of the regions, and the limits of their moves."""
 
     @property
     def session(self) -> Editing: ...
@@ -91,7 +91,7 @@ class RegionDrag(MouseGesture):
 
     @property
     def edits(self) -> bool:
-        """Whether it has changed the project."""
+        """True if it has changed the project."""
         return self.mode not in ("", "lasso", "none")
 
     def follow(self, mouse: LaneMouse) -> None:

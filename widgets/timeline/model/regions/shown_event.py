@@ -62,22 +62,22 @@ class Region(msgspec.Struct):
 
     @property
     def first_s(self) -> float:
-        """Where its picture begins."""
+        """Start of its picture, fades outside included."""
         return self.start_s - self.fade_in_s if self.fades_outside else self.start_s
 
     @property
     def last_s(self) -> float:
-        """Where its picture ends."""
+        """End of its picture, fades outside included."""
         return self.end_s + self.fade_out_s if self.fades_outside else self.end_s
 
     @property
     def key(self) -> EventKey:
-        """As the selection names it."""
+        """Key in the selection."""
         return EventKey(self.player_id, self.event_id)
 
 
 def spans_of(regions: Sequence[Region]) -> TimeSpans:
-    """Where regions are, to be found by time."""
+    """Index regions by the spans of their pictures."""
     return TimeSpans(
         np.array([region.first_s for region in regions], np.float64),
         np.array([region.last_s for region in regions], np.float64),

@@ -38,12 +38,12 @@ def row_box(row: int, count: int, room_px: float, least_px: float, scrolled_px: 
 
 
 def most_scrolled(count: int, height_px: float, room_px: float) -> float:
-    """How far rows can be scrolled."""
+    """Largest scroll offset of the rows, pixels."""
     return max(max(count, 1) * height_px - room_px, 0.0)
 
 
 def region_box(region: Region, scale: Scale, row: tuple[float, float]) -> PixelRect:
-    """Where a region lies in its row (top and height)."""
+    """Box of a region in its row (top and height)."""
     top, height = row
     left = scale.x_px(region.start_s)
     width = GLYPH_PX if region.removed else max(scale.x_px(region.end_s) - left, LEAST_REGION_PX)
@@ -52,7 +52,7 @@ def region_box(region: Region, scale: Scale, row: tuple[float, float]) -> PixelR
 
 
 def fade_handles(region: Region, box: PixelRect, scale: Scale) -> tuple[Handle, Handle]:
-    """Where the fades are taken hold of."""
+    """Handles of the fades."""
     fade_in, fade_out = region.fade_in_s * scale.px_per_s, region.fade_out_s * scale.px_per_s
     if region.fades_outside:
         y = box.bottom - HANDLE_PX
@@ -126,7 +126,7 @@ class RegionTable:
         yield from preview.values()
 
     def _distinct(self, found: IntArray, scale: Scale) -> AnyIntArray:
-        """Of the regions to draw those that can be seen: of the narrow ones in a column the strongest.
+        """Choose the regions that can be seen: of the narrow ones in a column the strongest.
 
         From far away thousands share a column, and each takes as long to draw as a wide one.
         """

@@ -1,4 +1,4 @@
-"""Who gives an entry to whom, as arrows from note to note, and the hand that drags an end of one."""
+"""Arrows from note to note for entries that one player gives another, and the drag of an arrow's end."""
 
 from __future__ import annotations
 
@@ -22,11 +22,11 @@ End: TypeAlias = Literal["tail", "head"]
 HEAD_PX: Final = 9.0
 """Before its note: so long is the head that is taken hold of."""
 REACH_PX: Final = 6.0
-"""So near to the tail, or to the middle of the head."""
+"""Reach of the tail, and of the middle of the head."""
 NOTE_REACH_PX: Final = 36.0
-"""So near to a note's beginning an end that is dragged goes to it."""
+"""Distance within which a dragged end snaps to a note's beginning."""
 ROW_REACH_PX: Final = 28.0
-"""So near to a giver's row the tail goes to it."""
+"""Distance within which the tail snaps to a giver's row."""
 FAR_PX: Final = 4.0
 
 
@@ -190,7 +190,7 @@ class EntryDrag(MouseGesture):
         )
 
     def _entry_tick(self) -> int:
-        """Where the cue's entry is; the taker's own note may come later."""
+        """Tick of the cue's entry; the taker's own note may come later."""
         plan = self._plane.plans.get(self.arrow.giver_id)
         cues = plan.cues if plan is not None else ()
         return next((cue.end_tick for cue in cues if cue.id == self.arrow.cue_id), self.arrow.to_tick)

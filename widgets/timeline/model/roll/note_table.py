@@ -58,7 +58,7 @@ class NoteTable(TimedNotes):
         return {note_id: place for place, note_id in enumerate(map(attrgetter("id"), self.part.notes))}
 
     def flags(self, note_ids: Collection[str]) -> BoolArray:
-        """Which notes are among these."""
+        """Mark the notes that are among these ids."""
         result = np.zeros(len(self), np.bool_)
         if self.index.keys().isdisjoint(note_ids):
             # So it is for most players.
@@ -125,5 +125,5 @@ class Behind:
         self.notes: Together = before.notes if before is not None and same else Together(self.tables)
 
     def looks_like(self, other: Behind) -> bool:
-        """Whether it shows the same notes in the same colours."""
+        """Return whether it shows the same notes in the same colours."""
         return self.notes is other.notes and self.colours == other.colours

@@ -1,4 +1,4 @@
-"""What a press on the piano roll becomes: each gesture is one step, made from the project that it began with."""
+"""Gestures on the piano roll: each is one step, made from the project that it began with."""
 
 from __future__ import annotations
 
@@ -75,7 +75,7 @@ class Move(RollGesture):
         self._place(*notes.reach_of_move(self.step.base, self._ids, *self._distance(mouse)))
 
     def _distance(self, mouse: LaneMouse) -> tuple[int, int]:
-        """How far the mouse carries the notes: ticks and semitones."""
+        """Ticks and semitones by which the mouse moves the notes."""
         by_tick = self._snapped(mouse)
         by_pitch = int(mouse.value // 1) - int(self.at.value // 1)
         if mouse.shift:
@@ -91,7 +91,7 @@ class Move(RollGesture):
         self.moved = self._note.id
 
     def _free(self, mouse: LaneMouse) -> bool:
-        """Whether the grid is suspended."""
+        """Return whether the grid is suspended."""
         return mouse.alt
 
     def _snapped(self, mouse: LaneMouse) -> int:

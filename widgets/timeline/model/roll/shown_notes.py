@@ -1,4 +1,4 @@
-"""What the piano roll shows and what lies under the mouse: notes of the player in front and of those behind."""
+"""Notes of the piano roll, of the player in front and of those behind, and the search for what lies under the mouse."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from widgets.timeline.model.roll.note_table import Behind, NoteTable, TimedNotes
 from widgets.timeline.model.view import Scale
 
 EDGE_PX = 6.0
-"""So near to a note's end a press takes hold of the end."""
+"""Distance from a note's end within which a press takes hold of the end."""
 SLACK_PX = 3.0
 LEAST_ROWS, MOST_ROWS = 10.0, 128.0
 USUAL_ROWS = 30.0
@@ -87,7 +87,7 @@ def boxes(
 
 
 def edge_of(left_px: float, right_px: float, x_px: float) -> bool | None:
-    """Whether a place is at the beginning (True) or end (False) of a note; None: in its middle."""
+    """Return True at the beginning of a note, False at its end, None in its middle."""
     reach = min(EDGE_PX, max((right_px - left_px) / 4, 1.5))
     if right_px - x_px <= reach:
         return False
@@ -113,7 +113,7 @@ class RollModel:
     def __init__(self, session: RollSession, axis: Scale) -> None:
         self._session, self._axis = session, axis
         self.ghosts_mode = Ghosts.GHOSTS
-        """How the players behind are seen."""
+        """Display of the players behind."""
         self._tables: dict[str, NoteTable] = {}
         self._flags: dict[str, tuple[NoteTable, Selection, BoolArray]] = {}
         self._ghosts_of: tuple[tuple[object, ...], Behind] = ((None, None, None, None), NO_GHOSTS)
@@ -178,7 +178,7 @@ class RollModel:
         return None
 
     def edge_at(self, note: Note, mouse: LaneMouse) -> bool | None:
-        """Whether the mouse is at the note's beginning (True) or end (False)."""
+        """Return True if the mouse is at the note's beginning, False at its end, None in its middle."""
         tempo = self._session.project.score.tempo_map
         left_px, right_px = (self._axis.x_px(tempo.seconds(float(tick))) for tick in (note.onset_tick, note.end_tick))
         return edge_of(left_px, right_px, mouse.x_px)
@@ -196,7 +196,7 @@ class RollModel:
         return frozenset(notes[place].id for place in np.flatnonzero(front[0].pitch == pitch).tolist())
 
     def selected(self, table: NoteTable) -> BoolArray | None:
-        """Which notes of a table are selected; None: none."""
+        """Mark the selected notes of a table; None if there are none."""
         selection = self._session.selection
         if not selection.notes:
             return None
@@ -208,7 +208,7 @@ class RollModel:
 
     @property
     def selects_behind(self) -> bool:
-        """Whether notes are selected that the player in front does not play."""
+        """Return whether notes are selected that the player in front does not play."""
         notes, front = self._session.selection.notes, self.front()
         return bool(notes) and (front is None or not front[0].index.keys() >= notes)
 

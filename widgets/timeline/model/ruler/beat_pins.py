@@ -23,7 +23,7 @@ _SLACK_PX: Final = 6.0
 _LEAST_BEAT_PX: Final = 24.0
 """Beats can be taken hold of where they lie so far apart."""
 _FINE: Final = 0.1
-"""With Shift a beat follows the mouse this slowly."""
+"""Factor with Shift from the mouse's way to that of a beat."""
 _DECIMALS: Final = 4
 
 
@@ -44,7 +44,7 @@ class Anchor:
 
 
 def anchors(project: Project, axis: Scale, lines: Lines) -> list[Anchor]:
-    """What can be taken hold of in the visible range, from left to right; nothing without a recording."""
+    """Anchors in the visible range, from left to right; nothing without a recording."""
     audio, clock = project.audio, project.score.tempo_map
     if audio is None:
         return []

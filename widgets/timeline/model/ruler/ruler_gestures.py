@@ -1,5 +1,4 @@
-"""What a press on the ruler becomes: a span is selected, an edge of the loop or of the punch, the playhead or a mark is
-dragged."""
+"""Gestures on the ruler: a span is selected, an edge of the loop or of the punch, the playhead or a mark is dragged."""
 
 from __future__ import annotations
 

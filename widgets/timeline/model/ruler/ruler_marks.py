@@ -1,4 +1,4 @@
-"""What is written on the ruler: times in seconds and frames, numbers of bars, marks of tempo and metre."""
+"""Labels of the ruler: times in seconds and frames, numbers of bars, marks of tempo and metre."""
 
 from __future__ import annotations
 
@@ -63,7 +63,7 @@ def clock(seconds: float, decimals: int) -> str:
 
 
 class Metrics(Protocol):
-    """How wide texts are, as Qt's metrics of a font say it."""
+    """Widths of texts, as Qt's metrics of a font give them."""
 
     def horizontalAdvance(self, text: str, /) -> float: ...
 
@@ -81,7 +81,7 @@ class RulerMark:
 def lay_marks(
     score: Score, axis: Scale, metrics: Metrics, left_px: float, right_px: float, height_px: float
 ) -> list[RulerMark]:
-    """Where the marks stand: metres before tempi, none over another. What holds at the left edge stays in view.
+    """Lay out the marks: metres before tempi, none over another. The mark in force at the left edge stays in view.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""What the lane of takes shows: a row for each take, which of them the part has, and what a swipe would take."""
+"""Contents of the lane of takes: a row for each take, the part's share of each, and what a swipe would take."""
 
 from __future__ import annotations
 
@@ -20,11 +20,11 @@ from widgets.timeline.model.takes.take_rows import TakeRow, comp_of, edges, pitc
 from widgets.timeline.model.view import Limited
 
 EDGE_PX = 4.0
-"""So near to where two takes meet the mouse has hold of it."""
+"""Distance within which the mouse holds the border of two takes."""
 
 
 class Recorded(Editing, Protocol):
-    """What takes need of the session."""
+    """Part of the session that takes use."""
 
     @property
     def player(self) -> Player | None: ...
@@ -42,7 +42,7 @@ class Swipe(MouseGesture):
         self.start_tick = self.end_tick = tick
 
     def span(self) -> CompSpan | None:
-        """What it would take if it ended here."""
+        """Span that it would take if it ended here."""
         start, end = sorted((self.start_tick, self.end_tick))
         if not self.began or start == end:
             return None
@@ -97,11 +97,11 @@ class TakesModel:
         return next((row.take for row in self.rows if row.take is not None and row.take.id == take_id), None)
 
     def number_of(self, take_id: str) -> int | None:
-        """Which row a take has."""
+        """Row number of a take."""
         return next((number for number, row in enumerate(self.rows) if row.take_id == take_id), None)
 
     def swiped(self) -> CompSpan | None:
-        """What the swipe would take if it ended here."""
+        """Span that the swipe would take if it ended here."""
         return self.swipe.span() if self.swipe is not None else None
 
     def shown_comp(self) -> tuple[CompSpan, ...]:
@@ -112,7 +112,7 @@ class TakesModel:
         return comp_with(self.comp, swiped.start_tick, swiped.end_tick, swiped.take_id)
 
     def outlined(self) -> CompSpan | None:
-        """What is swiped over, else the selected span, with the take that the part has it from."""
+        """Span that is swiped over, else the selected one, with the take that the part has it from."""
         selection = self._session.selection
         if self.swipe is not None and self.swipe.began:
             return self.swiped()
@@ -121,7 +121,7 @@ class TakesModel:
         return CompSpan(*selection.span, selection.take)
 
     def shown_spans(self, take_id: str) -> tuple[CompSpan, ...]:
-        """What the part has of a take; of what was there before, the gaps of the comp."""
+        """Spans that the part has of a take; of what was there before, the gaps of the comp."""
         spans = self.shown_comp()
         if take_id != BEFORE:
             return tuple(span for span in spans if span.take_id == take_id)
@@ -131,11 +131,11 @@ class TakesModel:
         )
 
     def end_tick(self) -> int:
-        """Where what can be seen ends."""
+        """End of what can be seen."""
         return max(round(self._session.project.score.tempo_map.ticks(self._axis.limits_s[1])), 1)
 
     def span_at(self, tick: float) -> CompSpan:
-        """What the part has at a tick."""
+        """Span of the part at a tick."""
         return span_at(self.comp, max(tick, 0.0), self.end_tick())
 
     def edge_at(self, mouse: LaneMouse, row: TakeRow | None) -> tuple[CompSpan, CompSpan] | None:

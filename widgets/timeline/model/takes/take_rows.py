@@ -1,4 +1,4 @@
-"""What a row of the lane of takes shows, as arrays of seconds of the piece. Nothing draws here."""
+"""Row of the lane of takes as arrays, in seconds of the piece. Nothing draws here."""
 
 from __future__ import annotations
 
@@ -55,12 +55,12 @@ class TakeRow:
 
     @property
     def take_id(self) -> str:
-        """As edits know it."""
+        """Id that edits use."""
         return BEFORE if self.take is None else self.take.id
 
 
 def rows_of(project: Project, player_id: str) -> tuple[TakeRow, ...]:
-    """What was there before, then the takes in the order of their lanes; none where nothing was recorded."""
+    """Row of what was there before, then the takes in the order of their lanes; none where nothing was recorded."""
     recorded = project.takes.get(player_id)
     if recorded is None or not recorded.takes:
         return ()
@@ -91,7 +91,7 @@ def span_at(comp: Sequence[CompSpan], tick: float, end_tick: int) -> CompSpan:
 
 
 def edges(comp: Sequence[CompSpan], end_tick: int) -> tuple[tuple[CompSpan, CompSpan], ...]:
-    """What meets where: the spans of a comp, and the gaps beside them as far as ``end_tick``, two by two."""
+    """Pairs of neighbours: the spans of a comp, and the gaps beside them as far as ``end_tick``."""
     met: list[CompSpan] = []
     at = 0
     for span in comp:
@@ -160,5 +160,5 @@ def _moved(seconds: FloatArray, own: TempoMap, clock: TempoMap) -> FloatArray:
 
 
 def comp_of(project: Project, player_id: str) -> tuple[CompSpan, ...]:
-    """Which take a player's part has where."""
+    """Spans of a player's part, each with its take."""
     return recorded_of(project, player_id).comp
