@@ -105,7 +105,7 @@ def stool(bone: int, height_m: float) -> Geometry:
 
 
 def stand(bone: int) -> Geometry:
-    """Make the stand an instrument lies on: a rod on a foot, one high, its top in the origin; it moves with one bone."""
+    """Make the stand an instrument lies on: a rod on a foot, one high, its top at the origin; moves with one bone."""
     metal = (0.16, 0.165, 0.175)
     profiles = (
         [(0.0, 0.0), (0.011, -0.004), (0.011, -0.05), (0.008, -0.055), (0.008, -0.985)],

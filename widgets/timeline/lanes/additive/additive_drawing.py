@@ -118,7 +118,7 @@ class CurvesItem(LaneItem[AdditiveLaneView]):
             draw_text(painter, QRectF(begins, 1.0, right - begins, 14.0), curve.title)
 
     def _paint_beyond(self, painter: QPainter, shown: ShownCurve, x: FloatArray) -> None:
-        """Mark where a curve asks for more than the body does: in the colour of problems, with a sign at the beginning."""
+        """Mark where a curve asks for more than the body does: in the colour of problems, with a sign at its start."""
         lane, axis, warning = self.lane, self.lane.axis, QColor(self.lane.session.tokens.warning)
         for start_s, end_s in shown.beyond_s(lane.limits):
             left, right = axis.x_px(start_s), axis.x_px(end_s)
