@@ -6,9 +6,11 @@ holes their signs sorted, one space between (``"L1 L2 R1"``, ``"(open)"`` for no
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+import re
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Final
 
-from instrument_maps.model import Control
+from instrument_maps.model import Control, Fingering
 
 OPEN = "(open)"
 NONE = "0"
@@ -16,6 +18,15 @@ HALF = "h"
 """After the sign of a hole that is half closed."""
 WORDS = frozenset({"key", "hole"})
 """Kinds of controls whose signs are words."""
+
+_BETWEEN: Final = re.compile(r"[\s\-\u2013\u2014+,./|&()]+")
+"""What is written between the signs of a fingering."""
+_ACCIDENTALS: Final = str.maketrans("", "", "#b\u266d\u266e\u266f")
+"""Written at a slide position that is a little higher or lower than usual."""
+_ROMAN: Final = {"i": "1", "ii": "2", "iii": "3", "iv": "4", "v": "5", "vi": "6", "vii": "7"}
+_OPEN_SIGNS: Final = str.maketrans("o\u25cb\u25ef", "000")
+_FIRST_LEVER: Final = "vf"
+"""Letters of the first valve of a slide, beside its own sign: "V1" in German parts, "F1"."""
 
 
 def says_words(controls: Iterable[Control]) -> bool:
@@ -53,3 +64,50 @@ def words_of(values: Mapping[str, float], controls: Iterable[Control]) -> str:
             half = control.half_value is not None and value < 1.0
             signs.append(f"{control.label}{HALF}" if half else control.label)
     return " ".join(sorted(signs)) or OPEN
+
+
+def written_choice(text: str, choices: Sequence[Fingering], controls: Iterable[Control]) -> int | None:
+    """Return the place among a note's fingerings of the one that a composer wrote; None where none of them is meant.
+
+    Valves may be divided by signs (``"1-2"``, ``"1+2"``); a lever that is left out is meant where no other fingering of
+    the note has these valves. A slide's position may be a Roman number and have an accidental (``"b4"``).
+    """
+    pitch = [control for control in controls if control.role == "pitch"]
+    parts = [part for part in _BETWEEN.split(text.casefold()) if part]
+    if not parts:
+        return None
+    if says_words(pitch):
+        words = sorted(parts)
+        return _only(place for place, one in enumerate(choices) if sorted(_words(one.label)) == words)
+    signs = "".join(parts)
+    if any(control.kind == "slide" for control in pitch):
+        signs = _ROMAN.get(signs, signs.translate(_ACCIDENTALS))
+        lever = next((control.label.casefold() for control in pitch if control.kind == "lever" and control.label), "")
+        if lever and signs[:1] in _FIRST_LEVER and signs[1:]:
+            signs = lever + signs[1:]
+    wanted = _signs(signs.translate(_OPEN_SIGNS))
+    found = _only(place for place, one in enumerate(choices) if _signs(one.label.casefold()) == wanted)
+    if found is not None or not all(sign.isdigit() for sign in wanted):
+        return found
+    alike = (
+        place
+        for place, one in enumerate(choices)
+        if not one.is_obsolete and [sign for sign in _signs(one.label) if sign.isdigit()] == wanted
+    )
+    return _only(alike)
+
+
+def _only(places: Iterable[int]) -> int | None:
+    """The place, if it is just one."""
+    found = list(places)
+    return found[0] if len(found) == 1 else None
+
+
+def _words(label: str) -> list[str]:
+    """The signs of a label of keys and holes, as `_BETWEEN` divides what is written."""
+    return [part for part in _BETWEEN.split(label.casefold()) if part]
+
+
+def _signs(label: str) -> list[str]:
+    """The signs of valves and levers in order; "0" is none."""
+    return sorted(label.replace(NONE, ""))

@@ -37,6 +37,11 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         "{first} の代わりに {label}: 1 音が {time_ms} ms のところで動きが少なくなります",
     ),
     "fingering.by_hand": ("{label}: set manually", "{label}: 手動で指定"),
+    "fingering.written": ("{label}: in the score", "{label}: 楽譜の指定"),
+    "fingering.not_in_map": (
+        "the fingering {label!r} in the score is not in the instrument map for note {note}, which is fingered as usual",
+        "楽譜の運指 {label!r} は、音符 {note} に対してインストゥルメントマップにないため、通常の運指で演奏します",
+    ),
     "fingering.out_of_range": (
         ("note {note} is outside this instrument's range ({low} to {high}); the fingering of {played_pitch} is shown"),
         "音符 {note} はこの楽器の音域（{low}～{high}）の外です。{played_pitch} の運指を表示します",

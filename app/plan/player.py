@@ -187,7 +187,8 @@ PLAYER: Final = StepTable(
     seeds=_seeds,
     # What is fingered.
     pins=_pins,
-    planned_fingerings=reading(plan_fingerings, stopped="stopped"),
+    written_fingerings="written.fingering",
+    planned_fingerings=reading(plan_fingerings, stopped="stopped", written="written_fingerings"),
     fingerings="planned_fingerings.events",
     fingering_problems="planned_fingerings.problems",
     mutes=plan_mutes,

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -19,6 +20,7 @@ from app.plan.fingering.fingering_table import (
 from app.plan.fingering.trills_and_runs import TRILL_S, attacked_notes, chromatic_notes, glissando_steps, trill_steps
 from app.plan.music.piece import LineTimes
 from app.score.model import Note
+from instrument_maps.fingering_label import written_choice
 from instrument_maps.model import Control, Fingering, InstrumentMap
 
 OUT_OF_PLACE_COST = 6.0
@@ -118,13 +120,20 @@ class Motions:
 
 @dataclass(frozen=True)
 class FingeringProblem:
-    """The search as arrays: what each note may be played with, and what that costs."""
+    """The search as arrays: what each note may be played with, and what that costs.
+
+    Attributes
+    ----------
+    in_score : dict of int to int
+        Columns of the fingerings that the score has, by note.
+    """
 
     times: LineTimes
     table: FingeringTable
     pitch_index: IntArray
     controls: tuple[Control, ...]
     allowed: BoolArray
+    in_score: dict[int, int] = field(default_factory=dict)
 
     @property
     def has_slide(self) -> bool:
@@ -326,9 +335,11 @@ def fingering_problem(
     instrument: InstrumentMap,
     pins: dict[str, str],
     by_hand: BoolArray | None = None,
+    written: Sequence[str] = (),
 ) -> FingeringProblem:
     """Set up the search. ``pins`` maps note ids to labels that a correction demands; a label that is no fingering of
-    its note is passed over (see `plan_fingerings`). ``by_hand`` (N,) are notes that the hand stops."""
+    its note is passed over (see `plan_fingerings`), and so is one of ``written``, the fingerings in the score by note.
+    ``by_hand`` (N,) are notes that the hand stops."""
     stopped = instrument.stopped if by_hand is not None and by_hand.any() else None
     if stopped is not None and by_hand is not None:
         times = replace(times, pitch=times.pitch + stopped.fingered_semitones * by_hand)
@@ -339,13 +350,29 @@ def fingering_problem(
         without = [place for place, item in enumerate(pitch_controls(instrument)) if item.name in stopped.without]
         plain = allowed & (table.values[pitch_index][:, :, without] == 0.0).all(axis=2)
         allowed = np.where((by_hand & plain.any(axis=1))[:, None], plain, allowed)
-    if pins:
+    in_score = _in_score(written, table.choices, pitch_index, instrument)
+    if pins or in_score:
         for index, note in enumerate(notes):
             pinned = _pinned(table.choices[pitch_index[index]], pins.get(note.id))
+            if pinned is None:
+                pinned = in_score.get(index)
             if pinned is not None:
                 allowed[index] = False
                 allowed[index, pinned] = True
-    return FingeringProblem(times, table, pitch_index.astype(np.int64), pitch_controls(instrument), allowed)
+    controls = pitch_controls(instrument)
+    return FingeringProblem(times, table, pitch_index.astype(np.int64), controls, allowed, in_score)
+
+
+def _in_score(
+    written: Sequence[str], choices: Sequence[tuple[Fingering, ...]], pitch_index: IntArray, instrument: InstrumentMap
+) -> dict[int, int]:
+    """Columns of the fingerings in the score that the map has, by note."""
+    found = {}
+    for index, text in enumerate(written):
+        column = written_choice(text, choices[pitch_index[index]], instrument.controls) if text else None
+        if column is not None:
+            found[index] = column
+    return found
 
 
 def _either_side(steps: BoolArray, count: int) -> BoolArray:

@@ -5,7 +5,8 @@ alternate worth its intonation and its unfamiliarity. Afterwards every run of al
 with the first choices: one that travels further or needs a faster motion is played with first choices after all.
 
 Messages: ``fingering.first_choice``, ``fingering.trill``, ``fingering.speed``, ``fingering.by_hand``,
-``fingering.stopped``, ``fingering.out_of_range``, ``fingering.starts_early``.
+``fingering.written``, ``fingering.not_in_map``, ``fingering.stopped``, ``fingering.out_of_range``,
+``fingering.starts_early``.
 """
 
 from __future__ import annotations
@@ -36,6 +37,7 @@ def plan_fingerings(
     instrument: InstrumentMap,
     pins: dict[str, str],
     stopped: tuple[tuple[int, int], ...] = (),
+    written: tuple[str, ...] = (),
 ) -> Planned[FingeringEvent]:
     """Choose a fingering for every note.
 
@@ -45,10 +47,13 @@ def plan_fingerings(
         Labels demanded by corrections, by note id.
     stopped : tuple of (start tick, end tick), optional
         Where the hand stops the bell: notes are fingered as the map says of it.
+    written : tuple of str, optional
+        The fingering in the score of each note; empty: none. A correction wins over it, and it over the search.
     """
     if not notes:
         return Planned((), ())
-    problem = fingering_problem(notes, times, instrument, pins, by_hand := stopped_notes(notes, stopped, instrument))
+    by_hand = stopped_notes(notes, stopped, instrument)
+    problem = fingering_problem(notes, times, instrument, pins, by_hand, written)
     path = never_worse(problem, even_trills(problem, best_path(problem)))
     events = []
     problems: list[Problem] = []
@@ -65,7 +70,10 @@ def plan_fingerings(
         if note.id in pins and not pinned:
             message = Message("correction.no_such_fingering", {"note": note.id, "label": pins[note.id]})
             problems.append(Problem(message, note.id, onset_s[index], end_s[index]))
-        if pinned or by_hand[index]:
+        in_score = problem.in_score.get(index) == chosen[index][1]
+        if not pinned and in_score:
+            reason = _reason("fingering.written", fingering.label)
+        elif pinned or by_hand[index]:
             reason = _reason("fingering.by_hand" if pinned else "fingering.stopped", fingering.label)
         elif fingering.rank <= 1:
             reason = _reason("fingering.first_choice", fingering.label)
@@ -88,6 +96,10 @@ def plan_fingerings(
             fingers=fingering.fingers,
         )
         events.append(_vented(event, ranked, attacks) if "attack" in fingering.tags and not pinned else event)
+    for index, note in enumerate(notes if written else ()):
+        if written[index] and index not in problem.in_score:
+            message = Message("fingering.not_in_map", {"note": note.id, "label": written[index]})
+            problems.append(Problem(message, note.id, onset_s[index], end_s[index]))
     problems += [*_out_of_range(notes, times, instrument), *_early_starts(notes, problem, path)]
     return Planned(tuple(events), tuple(problems))
 

@@ -1,4 +1,4 @@
-"""Written marks of a line by note: slurs, breath marks, articulations, tonguing, dynamics."""
+"""Written marks of a line by note: slurs, breath marks, articulations, tonguing, fingerings, dynamics."""
 
 from __future__ import annotations
 
@@ -59,6 +59,8 @@ class WrittenMarks:
         The mark of `OF_STROKE` that it has; empty: none.
     tonguing : str
         ``"double_tongue"``, ``"triple_tongue"`` or ``"flutter_tongue"``; empty: none.
+    fingering : str
+        The fingering or slide position, as it is written; empty: none.
     level : float64
         Loudness 0..1 by dynamics and hairpins; NaN where none is in force.
     swell : float64
@@ -75,6 +77,7 @@ class WrittenMarks:
     breath: BoolArray
     stroke: tuple[str, ...]
     tonguing: tuple[str, ...]
+    fingering: tuple[str, ...]
     level: FloatArray
     swell: FloatArray
     struck: BoolArray
@@ -114,7 +117,7 @@ def written_marks(
         return unwritten(count)
     place = {note.id: index for index, note in enumerate(notes)}
     slurred, apart, ends, breath = (np.zeros(count, dtype=bool) for _ in range(4))
-    stroke, tonguing = [""] * count, [""] * count
+    stroke, tonguing, fingering = [""] * count, [""] * count, [""] * count
     for mark in marks:
         first = place.get(mark.note_id)
         if first is None:
@@ -131,6 +134,11 @@ def written_marks(
             stroke[first] = max(stroke[first] or mark.kind, mark.kind, key=OF_STROKE.index)
         elif mark.kind.endswith("_tongue"):
             tonguing[first : last + 1] = [mark.kind] * (last + 1 - first)
+        elif mark.kind in ("fingering", "position"):
+            for index in range(first, last + 1):
+                # Of an ornament the neighbours have their own.
+                if notes[index].pitch == notes[first].pitch:
+                    fingering[index] = mark.text
     slurred &= ~apart
     tongued = apart | (ends & ~slurred)
     under = slurred | np.insert(slurred[:-1], 0, False)[:count]
@@ -140,7 +148,7 @@ def written_marks(
     joined = slurred
     slurred = joined & ~np.append(divided[1:], False)[:count]
     level, swell, struck = _levels(notes, marks, source, ticks_per_quarter)
-    by_note = tuple(stroke), tuple(tonguing), level, swell, struck
+    by_note = tuple(stroke), tuple(tonguing), tuple(fingering), level, swell, struck
     return WrittenMarks(source, slurred, tongued, joined, divided, breath, *by_note)
 
 
@@ -149,7 +157,7 @@ def unwritten(count: int) -> WrittenMarks:
     none = np.zeros(count, dtype=bool)
     names = ("",) * count
     level, swell = np.full(count, np.nan), np.zeros(count)
-    return WrittenMarks("sound", none, none, none, none, none, names, names, level, swell, none)
+    return WrittenMarks("sound", none, none, none, none, none, names, names, names, level, swell, none)
 
 
 def _levels(

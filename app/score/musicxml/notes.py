@@ -312,7 +312,7 @@ def _notations(written: Element, chord: Chord, tone: Tone | None, measure: Measu
         elif tag == "articulations":
             chord.marks += [(kind, "") for mark in one for kind in _ARTICULATIONS.get(mark.tag, ())]
         elif tag == "technical":
-            _technical(one, chord)
+            _technical(one, chord, tone)
         elif tag == "ornaments":
             _ornaments(one, chord, tone)
         elif tag == "fermata":
@@ -324,13 +324,14 @@ def _notations(written: Element, chord: Chord, tone: Tone | None, measure: Measu
             measure.directions += read_dynamics(one, chord.start)
 
 
-def _technical(written: Element, chord: Chord) -> None:
+def _technical(written: Element, chord: Chord, tone: Tone | None) -> None:
+    own = chord.marks if tone is None else tone.marks
     fingering = []
     for one in written:
         text = " ".join((one.text or "").split())[:MOST_NAME]
         if one.tag in _TECHNIQUES:
             chord.marks.append((_TECHNIQUES[one.tag], ""))
-        elif one.tag == "fingering" and text:
+        elif one.tag == "fingering" and text and "yes" not in (one.get("alternate"), one.get("substitution")):
             fingering.append(text)
         elif one.tag == "harmon-mute":
             chord.mute = "mute"
@@ -338,9 +339,9 @@ def _technical(written: Element, chord: Chord) -> None:
             if _FLUTTER.search(text) or _FLUTTER.search(one.get("smufl", "")):
                 chord.marks.append(("flutter_tongue", ""))
             elif (found := _POSITION.fullmatch(text)) is not None:
-                chord.marks.append(("position", found[1] or found[2]))
+                own.append(("position", found[1] or found[2]))
     if fingering:
-        chord.marks.append(("fingering", "-".join(fingering)[:MOST_NAME]))
+        own.append(("fingering", "-".join(fingering)[:MOST_NAME]))
 
 
 def _ornaments(written: Element, chord: Chord, tone: Tone | None) -> None:

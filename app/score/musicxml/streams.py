@@ -210,7 +210,7 @@ def _marks(played: PlayedPart, prefix: str, spans: Sequence[Mark]) -> list[Mark]
                 at_end = kind in ("breath", "caesura", "fermata", "fall", "doit", "glissando")
                 found.append(Mark(kind, last(note) if at_end else first(note), text=text))
     for note in played.notes:
-        for kind, text in note.marks:
+        for kind, text in [*note.marks, *note.tone.marks]:
             end = last(note) if len(note.numbers) > 1 else ""
             found.append(Mark(kind, first(note), end, text=text))
     for begin, stop in played.slurs:

@@ -69,6 +69,8 @@ class Tone:
         Semitones to the neighbours in the key, for ornaments.
     loudness : float or None
         What the file says of its sound, 1 is forte.
+    marks : list of (kind, text)
+        Marks of this note alone: its fingering.
     """
 
     pitch: int
@@ -79,6 +81,7 @@ class Tone:
     upper: int = 2
     lower: int = -2
     loudness: float | None = None
+    marks: list[tuple[str, str]] = field(default_factory=list)
 
 
 @dataclass(slots=True)

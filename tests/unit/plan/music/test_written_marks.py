@@ -61,6 +61,13 @@ def test_of_two_marks_the_stronger_says_how_a_note_is_struck() -> None:
     assert read(1, Mark("accent", "1:1"), Mark("staccato", "1:1")).stroke == ("accent",)
 
 
+def test_the_fingering_of_an_ornament_is_that_of_its_main_notes() -> None:
+    # Written out in six notes; the neighbour is another pitch.
+    notes = tuple(Note(f"1:{at + 1}", at * 60, 60, 60 + at % 2, 80) for at in range(6))
+    marks = (Mark("trill", "1:1", "1:5"), Mark("fingering", "1:1", "1:5", text="1-3"))
+    assert written_marks(notes, marks, "score", QUARTER).fingering == ("1-3", "", "1-3", "", "1-3", "")
+
+
 def test_breath_marks_stand_after_their_notes() -> None:
     written = read(4, Mark("breath", "1:2"), Mark("caesura", "1:4"))
     assert written.breath.tolist() == [False, True, False, True]

@@ -185,6 +185,21 @@ def test_the_neighbour_of_a_trill_is_in_the_key(tmp_path: Path) -> None:
     assert {pitch for _, _, pitch in rows(contents)} == {67, 69}
 
 
+def fingered(*signs: str) -> str:
+    return f"<technical>{''.join(f'<fingering{sign}</fingering>' for sign in signs)}</technical>"
+
+
+def test_each_note_of_a_chord_has_its_fingering_and_alternates_are_left_out(tmp_path: Path) -> None:
+    chord = (
+        note("E4", 4, notations=fingered(">1", ">2", ' alternate="yes">3'))
+        + note("G4", 4, before="<chord/>", notations=fingered(">0"))
+        + note("A4", 8, notations=f"{fingered('>12')}<ornaments><tremolo>1</tremolo></ornaments>")
+    )
+    stream = read(tmp_path, document(chord)).streams[0]
+    found = [mark for mark in marks(stream) if mark[0] == "fingering"]
+    assert found == [("fingering", 1, "1-2"), ("fingering", 2, "0"), ("fingering", 3, 6, "12")]
+
+
 def test_tremolos(tmp_path: Path) -> None:
     single = "<ornaments><tremolo type='single'>{}</tremolo></ornaments>"
     first = note("C4", 4, notations=single.format(2)) + note("D4", 4, notations=single.format(3)) + note("r", 8)
