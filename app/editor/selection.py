@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import Final
 
 import msgspec
 
@@ -11,6 +12,10 @@ from app.plan.model import PlayerPlan
 from app.project.edit.events import events_of, is_there
 from app.project.edit.placed_takes import BEFORE
 from app.project.model import Project
+from app.score.marks import MARK
+
+UNPLANNED: Final = ("vary", "additive", MARK)
+"""Kinds of what may be selected as events and is not in plans."""
 
 
 class EventKey(msgspec.Struct, frozen=True, order=True):
@@ -64,6 +69,7 @@ class Selection(msgspec.Struct, frozen=True):
         events = frozenset(
             key
             for key in self.events
-            if key.event_id in known.get(key.player_id, ()) or EventId.parse(key.event_id).kind in ("vary", "additive")
+            if key.event_id in known.get(key.player_id, ())
+            or EventId.parse(key.event_id).kind in ("vary", "additive", MARK)
         )
         return self if events == self.events else msgspec.structs.replace(self, events=events)

@@ -63,6 +63,8 @@ MARKINGS: Final = (
     Marking("fingering"),
     Marking("position"),
 )
+MARK: Final = "mark"
+"""Begins the ids of marks."""
 MARK_KINDS: Final[Mapping[str, Marking]] = {kind.id: kind for kind in MARKINGS}
 if TYPE_CHECKING:
     MarkKind: TypeAlias = str
@@ -96,15 +98,15 @@ class Mark(msgspec.Struct, frozen=True, gc=False, omit_defaults=True):
 
     @property
     def id(self) -> str:
-        """Name of the mark among those of its player, as of an event: its kind and where it stands."""
+        """Name of the mark among the events of its player: its kind and where it stands."""
         return mark_id(self.kind, self.note_id, self.last_note_id, self.tick)
 
 
 def mark_id(kind: str, note_id: str, last_note_id: str, tick: int) -> str:
-    """Return `Mark.id` of a mark at notes (``"slur:0:1-0:5"``), or else at a tick (``"dynamic:@480"``)."""
+    """Return `Mark.id` of a mark at notes (``"mark:slur:0:1-0:5"``), or else at a tick (``"mark:dynamic:@480"``)."""
     if not note_id:
-        return f"{kind}:@{tick}"
-    return f"{kind}:{note_id}-{last_note_id}" if last_note_id else f"{kind}:{note_id}"
+        return f"{MARK}:{kind}:@{tick}"
+    return f"{MARK}:{kind}:{note_id}-{last_note_id}" if last_note_id else f"{MARK}:{kind}:{note_id}"
 
 
 def renamed_marks(marks: Iterable[Mark], ids: Mapping[str, str]) -> tuple[Mark, ...]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from app.editor.translated import tr
+from app.score.marks import MARK
 from metadata.library import GESTURES, HABITS, STYLES
 from widgets.common.instrument_name import language
 
@@ -15,6 +16,11 @@ def kind_name(kind: str) -> str:
 def expression_name(name: str) -> str:
     """The name of a bundled expression; custom are called what they are called."""
     return _named("expression_name", name)
+
+
+def mark_name(kind: str) -> str:
+    """The name of a kind of mark (`app.score.marks`)."""
+    return _named(MARK, kind)
 
 
 def pose_name(target: str) -> str:

@@ -49,6 +49,7 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
     "event.embouchure": ("Embouchure", "アンブシュア"),
     "event.expression": ("Expression", "表情"),
     "event.style": ("Style", "演奏スタイル"),
+    "event.mark": ("Mark", "記号"),
     "event.vary": ("Regenerated", "再生成"),
     "event.additive": ("Additive curve", "加算カーブ"),
     "event.pose": ("Pose", "ポーズ"),

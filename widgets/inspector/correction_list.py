@@ -12,6 +12,7 @@ from app.editor.selection import EventKey, Selection
 from app.editor.session import Session
 from app.errors import Message
 from app.plan.by_hand.corrections import Correction
+from app.plan.by_hand.mark_corrections import OfMark, SetMark
 from app.plan.model import Event, PlayerPlan
 from app.project.edit import events as edit
 from app.project.edit.corrections import take_back
@@ -23,7 +24,7 @@ from widgets.common.layouts import in_column, in_row
 from widgets.common.text import message_text
 from widgets.inspector.generated_values import Generated
 from widgets.inspector.rows import LineList, ListRow
-from widgets.inspector.words import correction_title, event_text
+from widgets.inspector.words import correction_title, event_text, mark_text
 
 LATE_TICK = 2**62
 _STRETCHES: Final = {
@@ -122,6 +123,10 @@ class CorrectionList(Retranslated, QWidget):
 
     def _tick(self, place: CorrectionRow) -> int:
         event = place.event or place.generated
+        if isinstance(place.correction, OfMark) and place.correction.note_id is not None:
+            part = self._session.project.part(self._session.project.player(place.player_id))
+            onsets = (note.onset_tick for note in part.notes if note.id == place.correction.note_id)
+            return next(onsets, LATE_TICK)
         start: int | None = getattr(event if place.correction.has_event else place.correction, "start_tick", None)
         if start is not None:
             return start
@@ -137,8 +142,26 @@ class CorrectionList(Retranslated, QWidget):
             return ListRow(place, title, "", detail, self._session.colour(player), "warning")
         tick = self._tick(place)
         where = score.metre_map.label(tick) if tick != LATE_TICK else ""
-        detail = self._change(place) if place.correction.has_event else self._stretch(place.correction)
+        if isinstance(place.correction, OfMark):
+            detail = self._mark(place.correction, player)
+        else:
+            detail = self._change(place) if place.correction.has_event else self._stretch(place.correction)
         return ListRow(place, title, where, detail, self._session.colour(player), "by_hand")
+
+    def _mark(self, item: OfMark, player: Player) -> str:
+        """What a mark by hand says, and what of the score stood there; nothing of one taken away."""
+        if not isinstance(item, SetMark):
+            return self.tr("correction_list.mark_of_score_removed")
+        project = self._session.project
+        part = project.part(player)
+        text = mark_text(project.score, part, item.mark)
+        read = next((mark for mark in part.marks if mark.id == item.anchor), None)
+        if read is not None:
+            before = mark_text(project.score, part, read)
+            return self.tr("correction_list.mark_instead").format(yours=text, before=before)
+        return self.tr("correction_list.added_by_hand" if text else "correction_list.added_by_hand_2").format(
+            yours=text
+        )
 
     def _stretch(self, item: Correction) -> str:
         """Up to where it goes, and what of it there is."""

@@ -12,9 +12,10 @@ from app.plan.event_id import EventId
 from app.plan.model import BreathEvent, CueEvent, EmbouchureEvent, Event, ExpressionEvent, GestureEvent
 from app.plan.model import FingeringEvent as Fingered
 from app.project.edit.events import AMOUNTS, Placed
-from app.score.model import Score
+from app.score.marks import Mark
+from app.score.model import Part, Score
 from widgets.common.channel_names import channel_name
-from widgets.common.event_names import expression_name, kind_name, pose_name, style_name
+from widgets.common.event_names import expression_name, kind_name, mark_name, pose_name, style_name
 
 
 def amount_field(event: Placed) -> str | None:
@@ -75,15 +76,25 @@ _NAMES: Final[Mapping[str, Callable[[str], str]]] = {
     "pose": pose_name,
     "style": style_name,
     "channel": channel_name,
+    "mark": mark_name,
     "fingering": str,
 }
 _TITLES: Final = {
     "pin_fingering": "inspector.fingering",
     "remove": "inspector.removed",
+    "remove_mark": "inspector.removed",
     "play_style": "inspector.style",
     "additive": "inspector.additive_curve",
     "pose": "inspector.pose",
 }
+
+
+def mark_text(score: Score, part: Part, mark: Mark) -> str:
+    """What a mark says, and up to where it goes: ``"mf"``, ``"to 13.1"``."""
+    ends = [note.onset_tick for note in part.notes if note.id == mark.last_note_id] if mark.last_note_id else []
+    end_tick = ends[0] if ends else mark.end_tick
+    until = tr("inspector.mark_until").format(end=score.metre_map.label(end_tick)) if end_tick else ""
+    return " ".join(filter(None, (mark.text, until)))
 
 
 def correction_title(item: Correction) -> str:

@@ -45,7 +45,7 @@ def sound_corrections(
                 "correction.unknown_expression", {"name": str(item.expression), "known": ", ".join(expressions)}
             )
         elif item.is_empty:
-            message = Message("correction.empty_span", {"kind": item.tag, "anchor": item.anchor})
+            message = Message("correction.empty_span", {"kind": item.tag, "anchor": item.subject})
         else:
             sound.append(item)
             continue
@@ -155,7 +155,7 @@ def orphans(
         Where such a problem is shown: it has no place any more, so the performance's start.
     """
     return tuple(
-        Problem(Message("correction.orphaned", {"kind": item.tag, "anchor": item.anchor}), None, at_s, at_s)
+        Problem(Message("correction.orphaned", {"kind": item.tag, "anchor": item.subject}), None, at_s, at_s)
         for item in corrections
         if item.is_lost(note_ids, event_ids)
     )

@@ -35,6 +35,11 @@ class Correcting(msgspec.Struct, frozen=True, forbid_unknown_fields=True, tag_fi
         return str(getattr(self, self.__struct_fields__[0]))
 
     @property
+    def subject(self) -> str:
+        """The note, event or name for a message."""
+        return self.anchor
+
+    @property
     def place(self) -> tuple[str, ...]:
         """Place of the correction: two of a player at the same place exclude one another."""
         return self.tag, self.anchor

@@ -32,6 +32,11 @@ class OfMark(Correcting, frozen=True):
         return mark_id(self.kind, self.note_id or "", self.last_note_id or "", self.start_tick or 0)
 
     @property
+    def subject(self) -> str:
+        """The note, or the place."""
+        return self.note_id or f"@{self.start_tick}"
+
+    @property
     def about(self) -> str:
         """The mark's id."""
         return self.anchor

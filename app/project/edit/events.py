@@ -37,6 +37,8 @@ from app.project.edit.found_events import corrections_of as corrections_of
 from app.project.edit.found_events import events_of as events_of
 from app.project.edit.found_events import is_there as is_there
 from app.project.edit.found_events import placed_events as placed_events
+from app.project.edit.found_events import player_marks as player_marks
+from app.project.edit.marks import corrections_at, remove_marks
 from app.project.model import Project
 
 AMOUNTS: Final[Mapping[type[Event], tuple[str, float]]] = {
@@ -196,13 +198,16 @@ def add_style(project: Project, player_id: str, style: str, start_tick: int, end
 
 
 def remove(project: Project, plan: PlayerPlan, event_ids: Iterable[str]) -> Project:
-    """Leave events out: what the user added is forgotten, what the generator made is marked as removed."""
+    """Leave events and marks out: what the user added is forgotten, what the generator made or the score has is marked
+    as removed."""
     player_id = plan.player_id
     note_ids = frozenset(note.id for note in notes_of(project, player_id))
     event_ids = tuple(event_ids)
     # Bars performed again and curves are no events of the plan.
     added = [item for item in corrections_of(project, player_id, event_ids) if not item.has_event]
     project = take_back(project, player_id, added) if added else project
+    marks = [mark for mark in player_marks(project, player_id) if mark.id in event_ids]
+    project = remove_marks(project, player_id, marks) if marks else project
     for event in _current(project, plan, event_ids):
         said = corrections_of(project, player_id, (event.id,))
         project = take_back(project, player_id, said)
@@ -216,9 +221,10 @@ def remove(project: Project, plan: PlayerPlan, event_ids: Iterable[str]) -> Proj
 
 
 def give_back(project: Project, player_id: str, event_ids: Iterable[str] = (), note_ids: Iterable[str] = ()) -> Project:
-    """Let the generator decide again about events, and about the fingering and embouchure of notes. What the user
+    """Let the generator decide again about events, and about fingering, embouchure and marks of notes. What the user
     added has nothing to go back to, and goes."""
     notes = tuple(note_ids)
+    project = take_back(project, player_id, corrections_at(project, player_id, notes))
     ids = (*event_ids, *(f"fingering:{note}" for note in notes), *(f"embouchure:{note}" for note in notes))
     return take_back(project, player_id, corrections_of(project, player_id, ids))
 

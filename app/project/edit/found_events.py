@@ -2,19 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
-from typing import Final, TypeAlias
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Final, Literal, NamedTuple, TypeAlias
 
+from app.identity_cache import IdentityCache
 from app.plan.by_hand.corrections import Correction
 from app.plan.by_hand.events import PoseEvent, StyleEvent
+from app.plan.by_hand.mark_corrections import SetMark, corrected_marks, mark_corrections
 from app.plan.event_id import EventId
 from app.plan.kinds import BREATH_KINDS
 from app.plan.model import BreathEvent, CueEvent, Event, ExpressionEvent, GestureEvent, PlayerPlan
 from app.project.model import Project
+from app.score.marks import MARK, Mark
 
 Placed: TypeAlias = BreathEvent | CueEvent | GestureEvent | ExpressionEvent | PoseEvent | StyleEvent
 """What has a place that the user may change."""
 
+Origin: TypeAlias = Literal["score", "hand"]
+"""Who wrote a mark."""
 OWN: Final = "own-"
 """How the names of added events begin."""
 _OF_NOTES: Final = ("fingering", "embouchure", "tongue", *BREATH_KINDS, "cue")
@@ -36,6 +41,31 @@ def events_of(plan: PlayerPlan) -> dict[str, Event]:
     return {event.id: event for group in groups for event in group}
 
 
+def player_marks(project: Project, player_id: str) -> Mapping[Mark, Origin]:
+    """Return a player's marks after corrections, and where each is from. One whose notes are gone does nothing."""
+    return _marks_of(project, player_id).origins
+
+
+class _Marks(NamedTuple):
+    origins: Mapping[Mark, Origin]
+    ids: frozenset[str]
+
+
+_MARKS: Final[IdentityCache[_Marks]] = IdentityCache(size=256)
+
+
+def _marks_of(project: Project, player_id: str) -> _Marks:
+    marks = project.part(project.player(player_id)).marks
+    return _MARKS.step(_corrected, marks, project.corrections.get(player_id, ()))
+
+
+def _corrected(marks: tuple[Mark, ...], corrections: tuple[Correction, ...]) -> _Marks:
+    by_hand = {item.mark for item in mark_corrections(corrections) if isinstance(item, SetMark)}
+    now = corrected_marks(marks, corrections)
+    origins: dict[Mark, Origin] = {mark: "hand" if mark in by_hand else "score" for mark in now}
+    return _Marks(origins, frozenset(mark.id for mark in now))
+
+
 def is_there(project: Project, player_id: str, event_id: str) -> bool:
     """Return whether the project has what an event is about: its player, its note, and the correction that added it.
     Whether the generator makes such an event only a plan knows, and plans lag behind the project."""
@@ -44,6 +74,8 @@ def is_there(project: Project, player_id: str, event_id: str) -> bool:
     except KeyError:
         return False
     kind, of, _ = EventId.parse(event_id)
+    if kind == MARK:
+        return event_id in _marks_of(project, player_id).ids
     if kind in ("pose", "additive", "vary", "style") or of.startswith(OWN):
         return bool(corrections_of(project, player_id, (event_id,)))
     return kind not in _OF_NOTES or of.startswith("@") or of in project.part(player).note_ids

@@ -9,22 +9,23 @@ Messages (`UsageError`): ``mark.no_notes``, ``mark.one_note``.
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Mapping, Sequence
-from typing import Final, Literal, NamedTuple, TypeAlias
+from typing import Final, NamedTuple
 
 from app.errors import UsageError
 from app.plan.by_hand.mark_corrections import (
+    RemoveMark,
     SetMark,
-    corrected_marks,
     mark_corrections,
     remove_mark,
     set_mark,
 )
 from app.project.edit.corrections import take_back, with_corrections
+from app.project.edit.found_events import Origin as Origin
+from app.project.edit.found_events import player_marks as player_marks
 from app.project.model import Project
 from app.score.marks import MARK_KINDS, Mark
 from app.score.model import Note
 
-Origin: TypeAlias = Literal["score", "hand"]
 EXCLUDING: Final[tuple[frozenset[str], ...]] = (
     frozenset({"staccato", "staccatissimo", "tenuto"}),
     frozenset({"accent", "marcato"}),
@@ -44,14 +45,6 @@ class Marked(NamedTuple):
     project: Project
     added: bool
     number: int
-
-
-def player_marks(project: Project, player_id: str) -> dict[Mark, Origin]:
-    """Return a player's marks after corrections, and where each is from. One whose notes are gone does nothing."""
-    marks = project.part(project.player(player_id)).marks
-    corrections = mark_corrections(project.corrections.get(player_id, ()))
-    by_hand = {item.mark for item in corrections if isinstance(item, SetMark)}
-    return {mark: "hand" if mark in by_hand else "score" for mark in corrected_marks(marks, corrections)}
 
 
 def set_marks(project: Project, player_id: str, marks: Iterable[Mark]) -> Project:
@@ -79,6 +72,16 @@ def replace_mark(project: Project, player_id: str, mark: Mark, changed: Mark) ->
 def give_back_marks(project: Project, player_id: str, marks: Iterable[Mark]) -> Project:
     """Let what the score has stand at these places."""
     return take_back(project, player_id, [remove_mark(mark) for mark in marks])
+
+
+def corrections_at(project: Project, player_id: str, note_ids: Collection[str]) -> tuple[SetMark | RemoveMark, ...]:
+    """Return what was said by hand of marks that stand at these notes, or begin there."""
+    said = mark_corrections(project.corrections.get(player_id, ()))
+    if not said:
+        return ()
+    part = project.part(project.player(player_id))
+    ticks = {note.onset_tick for note in part.notes if note.id in note_ids}
+    return tuple(item for item in said if item.note_id in note_ids or item.start_tick in ticks)
 
 
 def toggle_marks(project: Project, notes: Mapping[str, Sequence[Note]], kind: str, text: str = "") -> Marked:

@@ -21,6 +21,7 @@ from app.errors import AppError, FileError
 from app.formats.json_data import decode_json
 from app.plan.by_hand.corrections import Correction
 from app.plan.event_id import EventId
+from app.project.anchors import notes_of
 from app.project.edit.length import with_score
 from app.project.grid import Grid
 from app.project.ids import new_note_ids
@@ -312,7 +313,7 @@ def _checked(note: Note) -> Note:
 
 def _notes_of(item: Correction) -> set[str]:
     """Ids of the notes that a correction is about, including the note of an event, ``"breath:<note>"``."""
-    return {item.anchor, EventId.parse(item.anchor).of, getattr(item, "note_id", None) or item.anchor}
+    return {item.anchor, EventId.parse(item.anchor).of, *notes_of(item)}
 
 
 def _each(project: Project, note_ids: Iterable[str], edit: Callable[[Note], Note]) -> Project:

@@ -31,6 +31,7 @@ from app.project.edit.events import (
     remove,
     toggle_preparation,
 )
+from app.project.edit.marks import corrections_at
 from app.project.edit.notes import erase
 from app.project.model import Project
 from app.shell.action import Action
@@ -156,8 +157,8 @@ def delete(session: Session) -> None:
 
 
 def return_to_generated(session: Session) -> None:
-    """Let the generator decide again about the selected events, and about fingering and embouchure of the selected
-    notes."""
+    """Let the generator decide again about the selected events, and about fingering, embouchure and marks of the
+    selected notes."""
     events = events_by_player(session)
     notes = {player.id: [note.id for note in found] for player, found in notes_by_player(session).items()}
 
@@ -178,6 +179,9 @@ def _can_return(session: Session) -> bool:
         item.about in requested or EventKey(player_id, item.about) in events
         for player_id, corrections in session.project.corrections.items()
         for item in corrections
+    ) or any(
+        corrections_at(session.project, player.id, {note.id for note in found})
+        for player, found in notes_by_player(session).items()
     )
 
 

@@ -13,7 +13,10 @@ from app.plan.by_hand.mark_corrections import RemoveMark, SetMark
 from app.plan.music.velocity_ladders import LEVELS
 from app.project.check import require_sound
 from app.project.edit.corrections import with_corrections
+from app.project.edit.events import give_back, is_there, remove
 from app.project.edit.marks import player_marks, remove_marks, replace_mark, set_marks, toggle_marks
+from app.project.edit.notes import erase
+from app.project.edit.players import duplicate_players
 from app.project.model import Project, project_from_score
 from app.project.orphans import orphaned, reattached
 from app.score.marks import Mark, Source
@@ -168,3 +171,30 @@ def test_a_mark_that_no_score_can_have_is_refused(correction: SetMark | RemoveMa
     with pytest.raises(AppError) as caught:
         require_sound(hostile)
     assert correction.kind in str(caught.value.message.arguments)
+
+
+def test_a_selected_mark_is_deleted_and_given_back_as_an_event() -> None:
+    slur = Mark("slur", "0:1", "0:4")
+    project = _piece((slur,), "score")
+    player = _player(project)
+    project = set_marks(project, player, [Mark("staccato", "0:7"), Mark("dynamic", tick=0, text="f")])
+    for mark in player_marks(project, player):
+        assert is_there(project, player, mark.id)
+        deleted = remove(project, Performance(project).plan(project.players[0]), [mark.id])
+        assert not is_there(deleted, player, mark.id)
+        assert set(player_marks(project, player)) - set(player_marks(deleted, player)) == {mark}
+    without = remove_marks(project, player, [slur])
+    assert give_back(without, player, [slur.id]) == project
+    assert give_back(without, player, note_ids=["0:1"]) == project
+    assert set(player_marks(give_back(without, player, note_ids=["0:0", "0:7"]), player)) == set()
+
+
+def test_marks_of_erased_notes_go_and_copies_of_a_player_have_their_own() -> None:
+    project = _piece()
+    player = _player(project)
+    marked = set_marks(project, player, [Mark("slur", "0:2", "0:9"), Mark("staccato", "0:5")])
+    assert not erase(marked, ["0:5", "0:9"]).corrections
+    copied, [copy] = duplicate_players(marked, [player])
+    notes = {note.id for note in copied.part(copied.player(copy)).notes}
+    assert {mark.kind for mark in player_marks(copied, copy)} == {"slur", "staccato"}
+    assert all({mark.note_id, mark.last_note_id or mark.note_id} <= notes for mark in player_marks(copied, copy))
