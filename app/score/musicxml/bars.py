@@ -17,22 +17,34 @@ def measure_lengths(bars: Sequence[Bar], parts: Sequence[Sequence[Measure]], qua
     """Give the measures their lengths, and return the metre that holds in each.
 
     A measure is as long as what is longest in it, whatever the time signature says; one without notes has the length of
-    the signature.
+    the signature. Where parts disagree, rests alone make none longer.
     """
     metres = []
     metre = _FOUR
     for place, bar in enumerate(bars):
         own = [part[place] for part in parts if place < len(part)]
-        length = max((measure.length for measure in own), default=0)
         free = bar.metre is not None and bar.metre[1] == 0
         if bar.metre is not None and not free:
             metre = bar.metre
         nominal = nominal_ticks(metre, quarter)
+        length = _longest(own, nominal, bar.implicit)
         bar.length = length or nominal
         if not any(measure.chords for measure in own) and length < nominal:
             bar.length = nominal
         metres.append(metre)
     return metres
+
+
+def _longest(parts: Sequence[Measure], nominal: Time, is_implicit: bool) -> Time:
+    """The length of a measure: of its longest part, of those that sound where the others rest for longer."""
+    longest = max((measure.length for measure in parts), default=0)
+    if len({measure.length for measure in parts if measure.chords}) < 2:
+        return longest
+    sounding = [measure for measure in parts if any(chord.tones for chord in measure.chords)]
+    if is_implicit:
+        return max((measure.length for measure in sounding), default=longest)
+    ends = [chord.start + chord.length for measure in sounding for chord in measure.chords if chord.tones]
+    return min(longest, max(nominal, *ends)) if ends else longest
 
 
 def nominal_ticks(metre: tuple[int, int], quarter: int) -> Time:

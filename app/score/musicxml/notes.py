@@ -119,6 +119,12 @@ def read_measures(part: WrittenPart, bars: list[Bar], ticks: int, place: Place) 
         Semitones by which the part first sounds higher than it is written; None: it does not say.
     """
     state = _State(ticks, ticks)
+    # A program writes the divisions of the first measure behind its notes.
+    heads = (one for _, content in part.measures[:1] for one in content.iterfind("attributes"))
+    first = next((one for one in heads if one.find("divisions") is not None), None)
+    if first is not None:
+        place.part, place.measure = part.name or part.id, part.measures[0][0].get("number", "1")
+        _divisions(first, state, place)
     measures = []
     for index, (head, content) in enumerate(part.measures):
         if index == len(bars):
@@ -154,13 +160,17 @@ def _measure(part: WrittenPart, content: Element, bar: Bar, state: _State, place
     return measure
 
 
-def _attributes(one: Element, bar: Bar, state: _State, place: Place) -> None:
+def _divisions(one: Element, state: _State, place: Place) -> None:
     divisions = place.number(one, "divisions")
     if divisions is not None:
         if divisions <= 0:
             raise place.bad("divisions", one.findtext("divisions"))
         exact = Fraction(state.ticks) / divisions
         state.division = exact.numerator if exact.denominator == 1 else exact
+
+
+def _attributes(one: Element, bar: Bar, state: _State, place: Place) -> None:
+    _divisions(one, state, place)
     fifths = place.number(one, "key/fifths")
     if fifths is not None:
         state.fifths = max(-7, min(7, int(fifths)))

@@ -89,7 +89,9 @@ class _Player:
         place = 0
         while place < len(self.bars):
             bar = self.bars[place]
-            if bar.forward and place != self.start:
+            group = self.groups[place - 1] if place else None
+            has_ended = self.turn > 1 and group is not None and group is not self.groups[place]
+            if (has_ended or bar.forward) and place != self.start:
                 self.start, self.turn = place, 1
             if self._is_passed_over(place):
                 place += 1

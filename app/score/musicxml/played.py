@@ -80,6 +80,7 @@ def played_part(measures: Sequence[Measure], visits: Sequence[Sequence[Time]]) -
         Where each measure begins, as often as it is played.
     """
     chords: list[PlayedChord] = []
+    document: list[list[PlayedChord]] = []
     directions: list[tuple[int, Direction]] = []
     held: list[tuple[int, int, float]] = []
     last: dict[str, PlayedChord] = {}
@@ -96,6 +97,7 @@ def played_part(measures: Sequence[Measure], visits: Sequence[Sequence[Time]]) -
             PlayedChord(round(start + chord.start), round(start + chord.start + chord.length), chord)
             for chord in measure.chords
         ]
+        document.append(own)
         for one in sorted(own, key=attrgetter("onset")):
             chord = one.chord
             if chord.fermata != 1.0 and one.end > one.onset:
@@ -111,7 +113,7 @@ def played_part(measures: Sequence[Measure], visits: Sequence[Sequence[Time]]) -
     chords.sort(key=attrgetter("onset"))
     directions.sort(key=lambda row: row[0])
     _join_ties(chords)
-    return PlayedPart(chords, _slurs(chords), directions, held)
+    return PlayedPart(chords, _slurs(document), directions, held)
 
 
 def _breathing(before: Chord, rest: Chord) -> Chord:
@@ -159,25 +161,47 @@ def _tied(waiting: list[PlayedNote], chord: PlayedChord) -> PlayedNote | None:
     return max(near, key=lambda note: note.chord.voice == chord.chord.voice, default=None)
 
 
-def _slurs(chords: Sequence[PlayedChord]) -> list[tuple[PlayedChord, PlayedChord]]:
-    """Slurs from their first to their last chords. A number is that of one slur at a time, in any voice; one that
-    begins with the number of another before that ends lies within it."""
-    found = []
+def _slurs(measures: Sequence[Sequence[PlayedChord]]) -> list[tuple[PlayedChord, PlayedChord]]:
+    """Slurs from their first to their last chords.
+
+    A number is that of one slur at a time in the order of the file. That goes through a measure voice by voice, so that
+    the end of a slur may stand before its beginning. One that begins with the number of another that has not ended lies
+    within it.
+    """
+    found: list[tuple[PlayedChord, PlayedChord]] = []
     open_: dict[str, list[PlayedChord]] = {}
-    events = [
-        (chord.onset, kind != "stop", place, number, chord)
-        for place, chord in enumerate(chords)
-        for kind, number in chord.chord.slurs
-    ]
-    for _, starts, _, number, chord in sorted(events, key=lambda row: row[:3]):
-        waiting = open_.setdefault(number, [])
-        if starts:
-            waiting.append(chord)
-            del waiting[:-_MOST_OPEN]
-            continue
-        same = [one for one in waiting if one.chord.voice == chord.chord.voice and one is not chord]
-        first = next(iter(reversed(same or [one for one in waiting if one is not chord])), None)
-        if first is not None:
-            waiting.remove(first)
-            found.append((first, chord))
+    for measure in measures:
+        early: dict[str, list[PlayedChord]] = {}
+        for chord in measure:
+            written = chord.chord.slurs[:_MOST_OPEN]
+            numbers = {kind: [number for one, number in written if one == kind] for kind in ("start", "stop")}
+            for number in numbers["stop"]:
+                first = _nearest(open_.get(number, ()), chord, after=False)
+                if first is not None:
+                    open_[number].remove(first)
+                    found.append((first, chord))
+                elif number in numbers["start"]:
+                    # A slur from a note to itself is drawn to nowhere.
+                    numbers["start"].remove(number)
+                else:
+                    early.setdefault(number, []).append(chord)
+                    del early[number][:-_MOST_OPEN]
+            for number in numbers["start"]:
+                last = _nearest(early.get(number, ()), chord, after=True)
+                if last is not None:
+                    early[number].remove(last)
+                    found.append((chord, last))
+                    continue
+                waiting = open_.setdefault(number, [])
+                waiting.append(chord)
+                del waiting[:-_MOST_OPEN]
     return sorted(found, key=lambda row: (row[0].onset, row[1].onset))
+
+
+def _nearest(others: Sequence[PlayedChord], chord: PlayedChord, *, after: bool) -> PlayedChord | None:
+    """The last of other chords with which a slur can join one: of the same voice if there is one."""
+    fitting = [
+        one for one in others if one is not chord and (one.onset > chord.onset if after else one.onset <= chord.onset)
+    ]
+    same = [one for one in fitting if one.chord.voice == chord.chord.voice]
+    return next(reversed(same or fitting), None)

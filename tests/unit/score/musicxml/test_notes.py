@@ -11,6 +11,7 @@ from app.errors import FileError
 from app.score.contents import PieceContents
 from app.score.track_channel import TrackChannel
 from tests.unit.score.musicxml.documents import (
+    ATTRIBUTES,
     articulation,
     direction,
     document,
@@ -121,6 +122,25 @@ def test_nested_slurs_of_one_number_and_slurs_across_voices(tmp_path: Path) -> N
     (stream,) = read(tmp_path, document(first, second)).streams
     # Notes are numbered by onset, then pitch: A4 comes before F5.
     assert [mark for mark in marks(stream) if mark[0] == "slur"] == [("slur", 1, 5), ("slur", 2, 3), ("slur", 5, 6)]
+
+
+def test_numbers_of_slurs_go_by_the_order_of_the_file(tmp_path: Path) -> None:
+    """The second slur of number 1 begins before the first one ends, but behind it in the file. A slur from a note to
+    itself, which is drawn to nowhere, is none."""
+    first = note("C4", 16, notations=slur("start"), voice=2)
+    upper = note("C5", 8, notations=slur("start", 3) + slur("stop", 3)) + note("D5", 8, notations=slur("stop"))
+    lower = note("D4", 4, voice=2) + note("E4", 12, notations=slur("start"), voice=2)
+    last = note("F4", 16, notations=slur("stop"), voice=2)
+    text = document(first, upper + "<backup><duration>16</duration></backup>" + lower, last)
+    (stream,) = read(tmp_path, text).streams
+    slurred = [[stream.pitches[number - 1] for number in mark[1:]] for mark in marks(stream) if mark[0] == "slur"]
+    assert slurred == [[60, 74], [64, 65]]
+
+
+def test_divisions_behind_the_notes_that_they_are_of(tmp_path: Path) -> None:
+    """Noteflight writes them so in the first measure."""
+    text = document(note("C4", 8) + note("D4", 8) + ATTRIBUTES, attributes="")
+    assert [row[:2] for row in rows(read(tmp_path, text))] == [(0, 2), (2, 4)]
 
 
 def test_a_slur_that_ends_on_a_tied_note_ends_with_it(tmp_path: Path) -> None:

@@ -58,6 +58,10 @@ def bars(text: str) -> list[Bar]:
         # Words that stand before the last repeat of a trio; a bracket whose beginning a program lost.
         ("a FINE|: b|c DC|d :|", "12342341"),
         ("a|b :]|2[ c ]|d", "12134"),
+        # After endings a repetition without a beginning is of what follows them.
+        ("a|1[ b :]|2[ c ]|d :|e", "1213445"),
+        ("a|1[ b :]|2[ c ]|d|1[ e :]|2[ f ]|g", "121345467"),
+        (": a|1[ b :]|c|d :|e", "12134345"),
         # A section in a section: the outer sign leads to where the inner one ended.
         (": a|: b :|c :|d", "122334"),
     ],

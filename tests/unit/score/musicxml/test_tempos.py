@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from app.score.contents import score_of
-from tests.unit.score.musicxml.documents import ATTRIBUTES, direction, document, note, read, words
+from tests.unit.score.musicxml.documents import ATTRIBUTES, direction, document, listed, note, part, read, score, words
 
 
 def metronome(unit: str, number: str, dots: int = 0) -> str:
@@ -58,6 +58,20 @@ def test_a_pickup_and_a_bar_parted_by_a_repeat(tmp_path: Path) -> None:
         *(0, 1, 2, 2, 3, 4, 4, 5)
     ]
     assert [metre.tick // quarter for metre in contents.metres] == [0, 1]
+
+
+def test_rests_that_are_too_long_move_no_one(tmp_path: Path) -> None:
+    """Scores of real programs have them: a whole rest beside a pickup, and after the notes of one part."""
+    solo = part("P1", note("C4", 4) + note("r", 4), BAR, note("D4", 16) + note("r", 8), note("E4", 24), BAR)
+    other = part("P2", note("r", 16), BAR, BAR, note("r", 16), note("F4", 16))
+    text = score(listed("P1", "Flute"), listed("P2", "Oboe"), solo, other)
+    contents = read(tmp_path, text.replace('number="1"', 'number="0" implicit="yes"'))
+    quarter = contents.tempo_map.ticks_per_quarter
+    first, second = (sorted({tick / quarter for tick in stream.onset_ticks}) for stream in contents.streams)
+    # The pickup, a bar, a bar with a rest too many, a cadenza of six quarters, a bar.
+    assert contents.pickup_ticks == 2 * quarter
+    assert first[-2:] == [10, 16]
+    assert second[-1] == 16
 
 
 def test_changes_of_metre_and_a_long_measure(tmp_path: Path) -> None:
