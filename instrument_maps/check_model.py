@@ -1,4 +1,4 @@
-"""Whether a map and its model agree: nodes that exist and rest as they should, touch points on their surface."""
+"""Checks that a map and its model agree: nodes that exist and rest as they should, touch points on their surface."""
 
 from __future__ import annotations
 

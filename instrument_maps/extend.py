@@ -31,7 +31,7 @@ def extended(base: Mapping[str, Any], own: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def not_there(base: Mapping[str, Any], own: Mapping[str, Any]) -> str | None:
-    """What is wrong with what a map says it is without; None where nothing is."""
+    """Say what is wrong with the controls that a map leaves out; None if nothing is."""
     names = own.get(WITHOUT, [])
     if not isinstance(names, list):
         return "is not a list of names of controls"

@@ -37,7 +37,7 @@ _ROW_KEYS = ("written_pitch", "rank", "label", "controls", "cents", "correction"
 
 
 def read_label(instrument: InstrumentMap, text: str) -> tuple[str, dict[str, float]]:
-    """What the user typed, as the label of a fingering and the values it says.
+    """Read a typed fingering: its label and the values it says.
 
     Signs may come in any order and case where that is not ambiguous; a place of the slide is where the other
     fingerings of that label have it.
@@ -111,7 +111,7 @@ def pressed_label(instrument: InstrumentMap, one: Fingering, name: str) -> str:
 
 
 def read_cents(text: str) -> float:
-    """What the user typed, as cents; nothing is 0. Raises UsageError ``fingering.no_number`` (text)."""
+    """Read typed cents; nothing is 0. Raises UsageError ``fingering.no_number`` (text)."""
     try:
         return float(text.replace("−", "-").replace(",", ".").removesuffix("¢") or 0.0)
     except ValueError:
@@ -179,7 +179,7 @@ def of_pitch(table: Table, written: int) -> Table:
 
 
 def problems_of(instrument: InstrumentMap, table: Table) -> tuple[Problem, ...]:
-    """What a map with this table would be refused for."""
+    """Reasons for which a map with this table would be refused."""
     return tuple(problems(msgspec.structs.replace(instrument, fingerings=table)))
 
 
@@ -332,7 +332,7 @@ def _with_block(text: str, block: str) -> str:
 
 
 def _closing(text: str, at: int) -> int:
-    """Where the list ends whose opening bracket lies before ``at``: strings and comments do not count."""
+    """End of the list whose opening bracket lies before ``at``: strings and comments do not count."""
     depth, quote = 1, ""
     while at < len(text) and depth:
         sign = text[at]

@@ -47,7 +47,7 @@ class Contact(MapTable, frozen=True):
 
 
 class HandSeed(MapTable, frozen=True):
-    """Where a solver starts a hand from: a plausible pose of a medium hand, not a contact.
+    """Pose from which a solver starts a hand: plausible for a medium hand, not a contact.
 
     ``palm_position_m`` is the middle of the palm's skin, ``palm_normal`` points out of the palm,
     ``finger_direction`` from the wrist to the knuckles; in the frame of ``node``. ``curl`` is the bend of the
@@ -117,7 +117,7 @@ Proxy: TypeAlias = Capsule | Cylinder | Cone | Ring | Box
 
 
 class Carriage(MapTable, frozen=True):
-    """How the instrument is carried while playing, as (lowest, usual, highest) angles in degrees.
+    """Carriage of the instrument while playing, as (lowest, usual, highest) angles in degrees.
 
     From the horizontal, straight ahead of the player: ``pitch_down_deg`` bell below the mouthpiece,
     ``yaw_left_deg`` bell to the player's left, ``roll_left_deg`` the instrument's up leaning to the left.
@@ -149,7 +149,7 @@ class LoweredPlace(MapTable, frozen=True):
 
 
 class Hold(MapTable, frozen=True):
-    """How a trained player carries the instrument.
+    """Hold of the instrument by a trained player.
 
     ``support_hand`` bears its weight. ``standing`` and ``seated`` are for playing; the two ``lowered``
     tables are for long rests. An instrument that is only played seated has no tables for standing, and the other way

@@ -72,7 +72,7 @@ class Instrument(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 class Ensemble(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """Who plays together.
+    """Instruments that play together.
 
     Attributes
     ----------
@@ -102,7 +102,7 @@ class Compass(NamedTuple):
 
 
 class VocabularyTable(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
-    """What the file holds.
+    """Contents of the file.
 
     Attributes
     ----------

@@ -23,15 +23,15 @@ from instrument_maps.model import InstrumentMap
 from instrument_maps.validate import problems
 
 FOLDER = Path(__file__).parent
-"""Where the bundled maps are."""
+"""Folder of the bundled maps."""
 
 MODELS = FOLDER.parent / "resources" / "instruments"
-"""Where the bundled models are."""
+"""Folder of the bundled models."""
 
 NOT_MAPS = frozenset({"vocabulary.toml"})
 
 MOST_BASES = 16
-"""How many maps may extend one another in a row."""
+"""Most maps that may extend one another in a row."""
 
 
 def parse_map(text: str, file: str) -> InstrumentMap:

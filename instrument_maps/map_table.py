@@ -1,4 +1,4 @@
-"""What the records of an instrument map are made of."""
+"""Bases of the records of an instrument map."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What an instrument map says: frozen records, one per table of the TOML file.
+"""Contents of an instrument map: frozen records, one per table of the TOML file.
 
 A map is everything the program knows about an instrument. It speaks of *nodes* (the named moving parts of
 the model), *controls* (what a player moves), *contacts* (which part of which hand touches what) and
@@ -39,7 +39,7 @@ PARTS = frozenset(
 one before it), ``left.index.side_proximal`` (of the first; a thumb has but two outside the palm), ``left.palm``."""
 
 MOVERS = frozenset(f"{hand}.{mover}" for hand in ("left", "right") for mover in (*FINGERS, "hand"))
-"""What may move a control: a finger, or a whole hand (a playing slide)."""
+"""Movers of a control: a finger, or a whole hand (a playing slide)."""
 
 
 class InstrumentName(MapTable, frozen=True):
@@ -147,7 +147,7 @@ class Control(MapTable, frozen=True):
 
     @property
     def travel_m(self) -> float:
-        """How far its node is pushed or pulled; 0 for what turns and for what does not move."""
+        """Distance that its node is pushed or pulled; 0 if it turns or does not move."""
         return 0.0 if self.motion is None or self.motion.travel_m is None else self.motion.travel_m
 
 
@@ -323,7 +323,7 @@ class InstrumentMap(MapTable, frozen=True):
 
     @property
     def moving_parts(self) -> tuple[MovingPart, ...]:
-        """What moves in the model: the parts of the controls, then the linked ones, then the endpin."""
+        """Moving parts of the model: those of the controls, then the linked ones, then the endpin."""
         own = [
             MovingPart(control.name, control.node, control.motion, (control.name,))
             for control in self.controls

@@ -20,7 +20,7 @@ _WORD = re.compile(
 _CAMEL = re.compile(r"(?<=[a-z])(?=[A-Z])|(?<=\b[A-Z])(?=[A-Z][ac-z])")
 """Between joined words, also after a single letter ("ACl"), but not in "BBb"."""
 _ORDINAL = re.compile(r"(?<=\d)(?:st|nd|rd|th|ers?|eres?|res?|emes?|es?|v[ab]|m[ab]|[mdrt]?[ao])(?![^\W\d_])")
-"""What is written after a number: 1st, 2es, 3ª, 1mo, 8va; no key ("Es", "A")."""
+"""Endings of numbers: 1st, 2es, 3ª, 1mo, 8va; no key ("Es", "A")."""
 _LEAST_SPELLED = 4
 """Letters of a word from which on its spelling is made uniform; shorter ones are abbreviations and keys."""
 _SPELLING = re.compile(r"ph|oe|ue|y|(?<=[^\W\d_])([b-df-hj-np-tv-z])\1(?=[aeiouy])")

@@ -9,7 +9,8 @@ import msgspec
 from instrument_maps.model import InstrumentMap
 
 _LENGTHS = ("_m", "_m_s")
-"""How names of what grows with an instrument end: lengths, places, and the speed of a slide, whose way is longer."""
+"""Endings of names of values that grow with an instrument: lengths, places, and the speed of a slide, whose way is
+longer."""
 _Table = TypeVar("_Table", bound=msgspec.Struct)
 
 

@@ -1,4 +1,4 @@
-"""What a map must fulfil beyond its types: names that exist, numbers in range, fingerings that are complete."""
+"""Conditions on a map beyond its types: names that exist, numbers in range, fingerings that are complete."""
 
 from __future__ import annotations
 

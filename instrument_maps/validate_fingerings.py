@@ -1,4 +1,4 @@
-"""What the fingerings of a map must fulfil: they are complete, and their notes are harmonics of the tube."""
+"""Conditions on the fingerings of a map: they are complete, and their notes are harmonics of the tube."""
 
 from __future__ import annotations
 
@@ -13,7 +13,8 @@ from instrument_maps.value_checks import Problem, within
 _CENTS = 200.0
 _HARMONICS = 20
 _FLAT_CENTS, _SHARP_CENTS = 40, 60
-"""How far a harmonic may be below and above its note: valves together are too short, the eleventh is in between."""
+"""Largest distances of a harmonic below and above its note: valves together are too short, the eleventh is in between.
+"""
 
 
 def fingerings_problems(instrument: InstrumentMap) -> Iterator[Problem]:
@@ -111,7 +112,8 @@ def _label(path: str, fingering: Fingering, instrument: InstrumentMap) -> Iterat
 
 
 def _harmonic(path: str, fingering: Fingering, instrument: InstrumentMap) -> Iterator[Problem]:
-    """What sounds is near a harmonic of the tube with these controls; slides have places between, so are not asked."""
+    """Check that the note is near a harmonic of the tube with these controls; slides have places between, so are not
+    checked."""
     acoustics = instrument.acoustics
     if acoustics is None or acoustics.slide_control is not None:
         return

@@ -1,4 +1,4 @@
-"""What a map must fulfil where hands and bodies touch the instrument: contacts, hands, solids, the way it is held."""
+"""Conditions on the places where hands and bodies touch the instrument: contacts, hands, solids, the way it is held."""
 
 from __future__ import annotations
 

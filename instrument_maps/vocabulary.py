@@ -34,7 +34,7 @@ _MOST_SHORT_KANA = 3
 _MOST_KANA = 8
 """Kana beside such a name that are looked at."""
 _MOST_WORDS = 64
-"""Of a text that names a part; more is no name."""
+"""Most words of a text that names a part; more is no name."""
 _MOST_MEANINGS = 2048
 """Names that are kept with what they mean: a track's is looked up a dozen times."""
 _MOST_PARTS = 8
@@ -46,7 +46,7 @@ _DOUBLING = re.compile(r"[/&+,;、]|\s[-–]\s|\b(?:and|und|et|ed|y|e(?!\W?(?:�
 _JOINED_KEYS = ("bb", "eb", "es", "b", "c", "d", "f")
 """Keys that are joined to a name ("Ebcl", "Fhorn"); not "Ahorn", "Repiano"."""
 _TOGETHER = re.compile(r"(?<!\w)[aàá] ?\d(?!\w)")
-"""How many players play from a part ("a2"), which is no key."""
+"""Number of players of a part ("a2"), which is no key."""
 _PLAYER = re.compile(r"\d+|i{1,3}|iv|vi{0,3}")
 """The number of a player, between a name and its key ("Bass 1 C")."""
 _LEAST_PLURAL = 4
@@ -241,7 +241,7 @@ class Vocabulary(InstrumentRelations):
         return words in self._by_tokens or words in self._marks or words in self._prefixes
 
     def _with_key(self, own: tuple[str, ...], marks: Mapping[str, int]) -> Instrument | None:
-        """What words name only with one of the keys beside them."""
+        """Instrument that the words name only together with one of the keys beside them."""
         keyed = self._keyed.get(own)
         if keyed is None or marks.keys().isdisjoint({keyed.key, *self._form_keys(keyed)}):
             return None

@@ -13,7 +13,7 @@ EmbouchureKind: TypeAlias = Literal["cup", "single_reed", "double_reed", "air_je
 
 
 class Embouchure(MapTable, frozen=True):
-    """How the lips meet the instrument.
+    """Contact of the lips with the instrument.
 
     Attributes
     ----------
@@ -82,7 +82,7 @@ class Acoustics(MapTable, frozen=True):
 
 
 class Water(MapTable, frozen=True):
-    """How water is let out of the instrument in a long rest.
+    """Way in which water is let out of the instrument in a long rest.
 
     Attributes
     ----------
@@ -99,7 +99,7 @@ class Water(MapTable, frozen=True):
 
 
 class Stopped(MapTable, frozen=True):
-    """How notes are played with the bell closed by the hand, which makes the tube shorter.
+    """Notes played with the bell closed by the hand, which makes the tube shorter.
 
     Attributes
     ----------
@@ -121,7 +121,7 @@ class Stopped(MapTable, frozen=True):
 
 
 class Air(MapTable, frozen=True):
-    """How long one full breath of an adult lasts on the instrument, seconds of playing by dynamic."""
+    """Length of one full breath of an adult on the instrument, seconds of playing by dynamic."""
 
     piano_s: float
     mezzoforte_s: float

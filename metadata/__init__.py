@@ -1,1 +1,1 @@
-"""What an animator may edit as data: expressions, bodies, skeleton profiles, wind controllers."""
+"""Data that an animator may edit: expressions, bodies, skeleton profiles, wind controllers."""

@@ -1,4 +1,4 @@
-"""What an animator may edit of how players act: styles and habits, factors of the amounts of a player's layers."""
+"""Acting of players as data: styles and habits, factors of the amounts of a player's layers."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What an animator may edit of playing faces: embouchures, and what brows, lids, cheeks and nostrils do."""
+"""Playing faces as data: embouchures, and the motion of brows, lids, cheeks and nostrils."""
 
 from __future__ import annotations
 
@@ -77,7 +77,7 @@ EmbouchureKind: TypeAlias = Literal["cup", "single_reed", "double_reed", "air_je
 
 
 class Load(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """What a note costs: so much of its tension (register), its air (loudness) and its effort, less what is easy."""
+    """Cost of a note: weights of its tension (register), its air (loudness) and its effort, less what is easy."""
 
     tension: NotNegative
     air: NotNegative
@@ -86,7 +86,7 @@ class Load(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 class FaceMotion(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """What the face above the mouth does while playing: weights of each thing it follows, added up.
+    """Motion of the face above the mouth while playing: weights of each thing it follows, added up.
 
     Attributes
     ----------
@@ -152,4 +152,4 @@ FACE_WEIGHTS = (
 )
 """The tables of weights of a `FaceMotion`."""
 UPPER_FACE = ("brow", "eye", "cheekSquint", "noseSneer")
-"""What the names of morphs above the mouth begin with."""
+"""Prefixes of the morphs above the mouth."""

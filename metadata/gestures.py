@@ -66,7 +66,7 @@ class AngleTrack(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 class HandKey(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """Where a hand is at a time.
+    """Place of a hand at a time.
 
     Attributes
     ----------
@@ -101,14 +101,14 @@ class HandTrack(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 class ShareKey(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """How far something is at a time: both 0..1."""
+    """Share of something at a time: both 0..1."""
 
     at: Fraction01
     share: Fraction01
 
 
 class GazeTrack(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """Where the eyes go meanwhile: shares of the gesture's length, and degrees from straight ahead."""
+    """Direction of the eyes meanwhile: shares of the gesture's length, and degrees from straight ahead."""
 
     start: Fraction01
     end: Fraction01

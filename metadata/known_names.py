@@ -22,7 +22,7 @@ from metadata.units import at_amplitude as at_amplitude
 
 
 def bone_key(name: str) -> str:
-    """What of a bone's or a morph's name counts when names are compared: without a namespace, case and separators.
+    """Reduce a bone's or a morph's name for comparison: no namespace, case or separators.
 
     Full-width digits and letters are plain ones; ``Armature|mixamorig:Left_Arm`` and ``leftarm`` are the same.
     """
@@ -31,8 +31,8 @@ def bone_key(name: str) -> str:
 
 
 class BoneNames(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """How the bones of a kind of character are named. Names are compared by `bone_key`; a prefix that all bones of a
-    figure share needs no mention.
+    """Names of the bones of a kind of character. Names are compared by `bone_key`; a prefix that all bones of a figure
+    share needs no mention.
 
     Attributes
     ----------
@@ -72,7 +72,8 @@ class BoneNames(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 def morph_key(name: str) -> str:
-    """As `bone_key`, and without the name of a mesh or blend shape node before a dot, or ExPlus's number (``A14_``)."""
+    """Reduce as `bone_key` does, and drop the name of a mesh or blend shape node before a dot, or ExPlus's number
+    (``A14_``)."""
     return bone_key(re.sub(r"^A\d\d[_ ]", "", unicodedata.normalize("NFKC", name).rsplit(".", 1)[-1]))
 
 
@@ -81,7 +82,7 @@ Parts: TypeAlias = dict[str, Fraction01]
 
 
 class FaceNames(msgspec.Struct, frozen=True, forbid_unknown_fields=True, omit_defaults=True):
-    """How the morphs of a kind of face are named, and what of them makes an ARKit shape.
+    """Names of the morphs of a kind of face, and the sums of them that make ARKit's shapes.
 
     Attributes
     ----------

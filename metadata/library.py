@@ -74,7 +74,7 @@ class MetadataLibrary(NamedTuple):
 
     @property
     def problems(self) -> Mapping[Path, tuple[Message, ...]]:
-        """What is wrong with the user's files, by file."""
+        """Problems of the user's files, by file."""
         return {path: said for shelf in self for path, said in shelf.problems.items()}
 
 

@@ -1,4 +1,4 @@
-"""What an animator may edit as data: facial expressions, bodies, skeleton profiles, wind controllers.
+"""Data that an animator may edit: facial expressions, bodies, skeleton profiles, wind controllers.
 
 Angles in the tables are degrees, because people edit them; every name says so. Rotations are about the axes of the
 normalised T-pose: joint frames parallel to the world, the character faces +Z, its left is +X, arms
@@ -84,7 +84,7 @@ class JointLimits(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 class Posture(msgspec.Struct, frozen=True, forbid_unknown_fields=True, omit_defaults=True):
-    """How a trained player stands or sits, before any motion.
+    """Posture of a trained player standing or seated, before any motion.
 
     Attributes
     ----------
@@ -133,7 +133,7 @@ class Sway(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 class PhraseMotion(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """What trunk, head and pelvis do by phrase and accent.
+    """Motion of trunk, head and pelvis by phrase and accent.
 
     Attributes
     ----------
@@ -160,7 +160,7 @@ class PhraseMotion(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 class Overlap(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """How much later than the hips the chest moves, than the chest the head and the elbows."""
+    """Delays of the chest behind the hips, and of head and elbows behind the chest."""
 
     chest_s: Delay
     head_s: Delay
@@ -211,7 +211,8 @@ class BellMotion(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 class CueMotion(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """Who gives an entry: head and instrument rise on the preparatory beat and drop onto the entry, the knees give."""
+    """Motion of the giver of an entry: head and instrument rise on the preparatory beat and drop onto the entry, the
+    knees give."""
 
     knee_deg: AmplitudeScale
     bell_dip_deg: AmplitudeScale
@@ -221,7 +222,7 @@ class CueMotion(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 class ConcertMotion(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """What is done beside playing: gestures of the plan scale it.
+    """Motion besides playing: gestures of the plan scale it.
 
     Attributes
     ----------
@@ -282,8 +283,8 @@ TURNED_SHARE = 0.85
 
 
 class Body(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """How a kind of body holds itself and moves, on the joints of ``skeleton``; ``checked_with`` is the id of the
-    instrument with which a character of this body is checked."""
+    """Posture and motion of a kind of body, on the joints of ``skeleton``; ``checked_with`` is the id of the instrument
+    with which a character of this body is checked."""
 
     name: str
     description: str
@@ -346,11 +347,11 @@ class Body(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 BreathSource: TypeAlias = Literal["cc2", "cc7", "cc11", "channel_pressure"]
-"""What may carry a player's breath: MIDI's breath controller, volume, expression, channel pressure (aftertouch)."""
+"""Carriers of a player's breath: MIDI's breath controller, volume, expression, channel pressure (aftertouch)."""
 BiteSource: TypeAlias = Annotated[
     str, msgspec.Meta(pattern=r"^(none|pitch_bend|channel_pressure|cc([0-9]|[1-9][0-9]|1[01][0-9]))$")
 ]
-"""What may carry the bite on a mouthpiece: nothing, pitch bend, channel pressure or a controller by its number."""
+"""Carriers of the bite on a mouthpiece: nothing, pitch bend, channel pressure or a controller by its number."""
 
 
 class ControllerName(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
@@ -361,7 +362,7 @@ class ControllerName(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 class Controller(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """What an electronic wind instrument sends as it comes from its maker.
+    """Messages that an electronic wind instrument sends as it comes from its maker.
 
     Attributes
     ----------

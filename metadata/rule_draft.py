@@ -73,7 +73,7 @@ def duplicated(draft: Draft, index: int) -> Draft:
 
 
 def removed(draft: Draft, index: int) -> Draft:
-    """Without a rule of the user's; ours that it took the place of is there again. Ours itself is switched off."""
+    """Remove a rule of the user's; ours that it took the place of is there again. Ours itself is switched off."""
     one = draft[index]
     if one.file == "":
         return changed(draft, index, msgspec.structs.replace(one.rule, enabled=False))

@@ -21,7 +21,7 @@ MOST_RULES = 200
 
 
 class When(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """What must hold of a note, all of it; what is not said may be anything.
+    """Conditions on a note, all of which must hold; an absent one is not checked.
 
     Attributes
     ----------
@@ -78,7 +78,7 @@ class When(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 class Do(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """What is done then.
+    """Effect of a rule.
 
     Attributes
     ----------
@@ -153,7 +153,7 @@ class Rule(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
     @property
     def prefix(self) -> str:
-        """What the ids of its events have after their kind."""
+        """Second part of the ids of its events, after their kind."""
         return self.events or f"rule:{self.name}"
 
 
@@ -183,7 +183,7 @@ def read_rules(path: Path) -> RuleSet:
 
 
 class RuleFault(NamedTuple):
-    """What is wrong with a rule: the key, a short name of the kind of fault, what it must be, of which growth it is."""
+    """Fault of a rule: the key, a short name of the kind of fault, the requirement, and the growth it is in."""
 
     key: str
     code: str
@@ -192,7 +192,7 @@ class RuleFault(NamedTuple):
 
 
 def rule_faults(rule: Rule) -> Iterator[RuleFault]:
-    """What is wrong with a rule."""
+    """Find the faults of a rule."""
     if not rule.name.isidentifier():
         yield RuleFault("name", "name", f"{rule.name!r} must be letters, digits and underscores")
     if rule.events and not rule.events.isidentifier():

@@ -1,4 +1,4 @@
-"""How a table of `metadata` is read and checked, whatever its kind: exact messages with file and key."""
+"""Reads and checks any kind of table of `metadata`: exact messages with file and key."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ ROOT = Path(__file__).parent
 
 
 class Title(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """What something is called in the editor's languages; without a Japanese name the English one serves."""
+    """Title in the editor's languages; without a Japanese name the English one serves."""
 
     en: str
     ja: str = ""
@@ -45,7 +45,7 @@ def bundled(folder: str, read: Callable[[Path], T], kind: type[T]) -> Callable[[
 
 
 def label(path: Path) -> str:
-    """What a file is called in messages: folders of several kinds hold files of the same name."""
+    """Name of a file in messages: folders of several kinds hold files of the same name."""
     return f"{path.parent.name}/{path.name}"
 
 

@@ -19,7 +19,7 @@ AmplitudeScale: TypeAlias = tuple[NotNegative, NotNegative, NotNegative]
 """The value at amplitude 0 (the residual of a player asked to keep still), 0.5 (natural) and 1 (exaggerated);
 linear between. Use `at_amplitude`."""
 Weights: TypeAlias = dict[str, Fraction01]
-"""Of ARKit's morph targets, by name."""
+"""Weights of ARKit's morph targets, by name."""
 
 
 def at_amplitude(scale: AmplitudeScale, amplitude: float) -> float:

@@ -28,9 +28,9 @@ NEAR_S: Final = 3.0 / 60.0
 FPS: Final = 60.0
 """Arrivals are looked for at this rate."""
 LEAST_SPEED: Final = 0.3
-"""Where a draft goes slower than this, its motion is not seen well enough."""
+"""Least speed of a draft at which its motion is seen well enough."""
 TRIES: Final = 3
-"""So many time maps are tried after the first one."""
+"""Most time maps that are tried after the first one."""
 
 
 def joint_speed_m_s(clip: MotionClip) -> FloatArray:

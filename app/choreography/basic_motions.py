@@ -11,13 +11,13 @@ from sklearn.cluster import KMeans
 from app.arrays import FloatArray, IntArray
 
 SPREAD: Final = 0.09
-"""Without a given number the fewest basic motions are taken whose motions are this near to their mean: root mean square
-over motions, poses and points of the body, in parts of the body's height (15 cm at 1.7 m). The silhouette does not
-serve: dance is a continuum, and of the CMU clips it prefers two classes, whatever they dance."""
+"""Spread for which, unless a number is given, the fewest basic motions suffice: root mean square distance of motions
+from their mean over poses and points of the body, in parts of the body's height (15 cm at 1.7 m). The silhouette does
+not serve: dance is a continuum, and of the CMU clips it prefers two classes, whatever they dance."""
 LEAST_MOTIONS: Final = 3
 """But not more than one basic motion for so many motions, or there is nothing to count."""
 STARTS: Final = 8
-"""Of k-means; the best result counts."""
+"""Runs of k-means; the best result counts."""
 
 
 def classify(

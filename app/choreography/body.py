@@ -30,7 +30,7 @@ PARENT_OF: Final = {
     "rightLowerLeg": "rightUpperLeg",
     "rightFoot": "rightLowerLeg",
 }
-"""Of each segment, by its VRM 1.0 name, the segment that carries it."""
+"""Parent of each segment, both by their VRM 1.0 names."""
 SEGMENTS: Final = tuple(PARENT_OF)
 ENDS: Final = ("head", "leftHand", "rightHand", "leftFoot", "rightFoot")
 """Segments that carry none: each has an end (crown, fingertips, toes)."""

@@ -24,7 +24,7 @@ from app.rig.skeleton import forward
 from app.rig.sole import SIDES
 
 FPS: Final = Fraction(30)
-"""What a layer is sampled at: what is left of the motion is below 4 Hz."""
+"""Sampling rate of a layer: its motion is below 4 Hz."""
 MOST: Final = {
     "side_m": 0.09,
     "ahead_m": 0.06,
@@ -39,18 +39,18 @@ MOST: Final = {
     "head_turn_rad": float(np.deg2rad(14.0)),
     "head_left_rad": float(np.deg2rad(8.0)),
 }
-"""How far a player at full amount goes to either side: on feet that stay, and with a bell that rises and sinks by no
+"""Most that a player at full amount moves to either side: on feet that stay, and with a bell that rises and sinks by no
 more than the trunk nods."""
 FASTEST_M_S: Final = 0.8
 FASTEST_TURN_RAD_S: Final = 2.5
 FASTEST_LEAN_RAD_S: Final = 1.3
-"""Of the dancer: what is faster, such as a spin, counts as this fast."""
+"""Limits of the dancer's speed: faster motion, such as a spin, counts as this fast."""
 SLOW_S: Final = 1.5
 """Width (the standard deviation) of the window whose mean is taken for the place, the facing and the bearing."""
 SMOOTH_S: Final = 0.04
 """The same, of the window that takes the tremor out of the capture: a bell half a metre from the lips would show it."""
 USUAL: Final = 0.95
-"""So much of the motion is within ..."""
+"""Share of the motion that is within ..."""
 USUAL_SHARE: Final = 0.85
 """... this share of `MOST`."""
 

@@ -25,17 +25,18 @@ CUT_OFF_HZ: Final = 4.0
 (D. Winter, "Biomechanics and Motor Control of Human Movement", 4th ed. 2009, chapter 3); at 4 Hz white noise of
 0.5 degrees at 60 frames per second leaves an acceleration of about 1 rad/s^2."""
 ORDER: Final = 2
-"""Of the Butterworth filter, which runs forwards and backwards: no delay, twice the order."""
+"""Order of the Butterworth filter, which runs forwards and backwards: no delay, twice the order."""
 SPREAD_S: Final = 0.065
 """Standard deviation of the Gaussian over which the squares of the accelerations are averaged: speeding up and slowing
 down of one quick move are one motion."""
 FLOOR_RAD_S2: Final = 3.0
-"""What is below this is rest: noise of the capture, breathing. Dancers are at 12 to 23 rad/s^2 half of the time."""
+"""Acceleration below which the body rests: noise of the capture, breathing. Dancers are at 12 to 23 rad/s^2 half of the
+time."""
 PROMINENCE: Final = 1.15
 """A maximum counts that is this many times the higher of the minima beside it (measured: fewer are lost to noise with a
 ratio than with a difference)."""
 LEAST_SPAN_S: Final = 0.2
-"""Of maxima nearer to each other than this the higher counts."""
+"""Least distance of maxima; the higher of two nearer ones counts."""
 LONGEST_REST_S: Final = 0.5
 """A motion takes no more than this of a rest before or after it; what is left between two motions belongs to none."""
 WEIGHTS: Final = {
@@ -50,8 +51,8 @@ WEIGHTS: Final = {
     **{f"{side}LowerLeg": 1.0 for side in SIDES},
     **{f"{side}Foot": 0.25 for side in SIDES},
 }
-"""Of each segment's acceleration in the mean: roughly what the body beyond the joint weighs; hands and feet, which the
-capture knows worst, count little."""
+"""Weights of the segments' accelerations in the mean: roughly the mass of the body beyond the joint; hands and feet,
+which the capture knows worst, count little."""
 
 
 @dataclass(frozen=True, order=True)

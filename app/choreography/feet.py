@@ -21,7 +21,7 @@ from app.rig.sole import SIDES
 
 LEG: Final = ("UpperLeg", "LowerLeg", "Foot")
 AHEAD: Final = (0.0, 0.0, 1.0)
-"""Where a knee points, of a thigh."""
+"""Direction of a knee, in the frame of the thigh."""
 BRIDGED_S: Final = 0.06
 """A foot that leaves the floor for less has not left it."""
 LEAST_S: Final = 0.1
@@ -37,10 +37,11 @@ SAME_M: Final = 0.04
 SETTLE_S: Final = 0.20
 """Within this time after it leaves the floor, and before it comes to stand, a foot goes over to its own path."""
 REACH_SHARE: Final = 0.985
-"""Of a leg's length, how far a foot that stands may be; the hips come down where it would be farther."""
+"""Largest reach of a standing foot, as a share of the leg's length; the hips come down for a farther one."""
 DEEPER: Final = 0.07
 HIGHER: Final = 0.02
-"""Of a leg's length: how much lower the hips of the heaviest, and how much higher those of the lightest dancer are."""
+"""Difference in the height of the hips, as a share of the leg's length: lower for the heaviest and higher for the
+lightest dancer."""
 SINK_S: Final = 0.12
 """Standard deviation in time of that."""
 

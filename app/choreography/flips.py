@@ -32,7 +32,7 @@ LEAST_STEP_RAD_S: Final = 6.0
 LEAST_APART_S: Final = 0.2
 """Frames are not missing again so soon after a step: what turns by steps more often than this moves so."""
 STEP_FADE_S: Final = 0.4
-"""What a step leaves of lean and height goes over into what was captured within this time."""
+"""Time within which the rest of lean and height after a step fades into what was captured."""
 LEAD_IN_S: Final = 0.15
 """A rest pose put before the motion, and what the jump to the motion leaves of swings, is over within this time."""
 AFTER_S: Final = 0.5

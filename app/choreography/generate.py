@@ -48,10 +48,10 @@ PREFERRED: Final = 2.0
 WANDERS_S: Final = 1.2
 """Standard deviation in time of what of a path is a way, and not sway and steps."""
 LEAST_ROOM: Final = 0.4
-"""Of the stage, left for ways however much a dancer sways."""
+"""Least share of the stage that stays free for ways, however much a dancer sways."""
 ARM: Final = ("UpperArm", "LowerArm", "Hand")
 UPPER_BODY: Final = ("spine", "chest", "head", *(f"left{part}" for part in ARM), *(f"right{part}" for part in ARM))
-"""What `Manner.size` makes larger or smaller: steps stay steps."""
+"""Joints whose motion `Manner.size` scales: steps stay steps."""
 
 
 @dataclass(frozen=True, eq=False)

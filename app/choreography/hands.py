@@ -41,7 +41,7 @@ LEAST_M: Final = 0.002
 NEAR_M: Final = 0.001
 """Rounding, when hands are left out that are farther from a part of the body than they are long."""
 ELBOW: Final = (0.0, 0.0, -1.0)
-"""Where an elbow points, of an upper arm."""
+"""Direction of an elbow, in the frame of the upper arm."""
 
 
 def out_of_body(clip: MotionClip) -> MotionClip:

@@ -22,7 +22,7 @@ from app.choreography.features import height_m, points_m
 AROUND_S: Final = (-0.1, 0.0, 0.1)
 """Times about a join at which bodies are compared."""
 _HEAVY: Final = {"leftFoot": 2.0, "rightFoot": 2.0, "leftHand": 0.7, "rightHand": 0.7, "head": 0.7}
-"""Of feet, which stand, a difference shows most; hands may be anywhere."""
+"""Weights of parts in a difference: it shows most at feet, which stand; hands may be anywhere."""
 FADE_S: Final = 0.45
 """Within this time what is left between two motions has faded."""
 

@@ -32,7 +32,7 @@ from app.errors import Message, UsageError
 from app.formats.motion_limits import KEPT_FPS
 
 FPS: Final = KEPT_FPS
-"""Of the motion in a model."""
+"""Frame rate of the motion in a model."""
 SMOOTHING: Final = 1.0
 """Observations added to every distribution, see `app.choreography.hidden_markov.count`."""
 

@@ -15,7 +15,8 @@ from app.rig.skeleton import JointTransforms
 
 STRAIGHT: Final = 0.03
 BENT: Final = 0.09
-"""Of a knee that is off its straight leg by less than the one part of the leg's length, and more than the other."""
+"""Bend of a knee that is off its straight leg by less than the one part of the leg's length, and more than the other.
+"""
 
 
 def bend(

@@ -24,7 +24,7 @@ SMOOTHING_S: Final = 0.04
 PROMINENCE: Final = 0.05
 """A minimum counts that stands out by this part of the median speed."""
 GRID_S: Final = 0.005
-"""Of the offsets that are tried."""
+"""Step of the offsets that are tried."""
 TOLERANCE_S: Final = 0.05
 """A beat of the motion still meets the music at about this distance (3 frames at 60 frames per second, as in beat
 alignment)."""
@@ -36,7 +36,7 @@ CONFIDENT: Final = 0.3
 """From this confidence on an offset can be relied on. Measured: of CMU clips with drums of the Groove MIDI set, which
 do not belong together, the highest was 0.26; with drums made of the clips' own beats no higher one was wrong."""
 BEAT_STRENGTH: Final = 0.25
-"""Of a beat beside a hit, which has its velocity from 0 to 1; a downbeat has twice as much."""
+"""Strength of a beat; a hit has its velocity from 0 to 1, a downbeat twice this."""
 
 
 @dataclass(frozen=True)

@@ -43,7 +43,7 @@ FARTHEST_CM: Final = 1e9
 HEIGHTS_M: Final = (1.35, 2.15)
 """A unit that makes the figure as high as this is taken; the first of `UNITS_M` that does."""
 HEIGHT_M: Final = 1.7
-"""Of a figure that no unit fits."""
+"""Height of a figure that no unit fits."""
 FAR_M: Final = 0.05
 """Joints farther from their place in the file are reported."""
 FLOOR_PERCENTILE: Final = 2.0

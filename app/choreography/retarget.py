@@ -26,13 +26,13 @@ from app.rig.sole import SIDES, TIP_PART, foot_tip_m, sole_way_m
 
 TRUNK: Final[tuple[str, ...]] = ("spine", "chest", "upperChest")
 COLLAR_SHARE: Final = 0.25
-"""Of an arm's rise above the horizontal, the part that the collar bone takes before the shoulder joint (of the rise of
-an arm about a third is the shoulder girdle's: V. Inman and others, J. Bone Joint Surg. 26, 1944; the collar bone's
-joint is farther in, so less of it shows)."""
+"""Share of an arm's rise above the horizontal that the collar bone takes before the shoulder joint (about a third of an
+arm's rise is the shoulder girdle's: V. Inman and others, J. Bone Joint Surg. 26, 1944; the collar bone's joint is
+farther in, so less of it shows)."""
 COLLAR_SOFT_RAD: Final = 0.15
 """Angle about the horizontal over which that begins."""
 FINGER_BEND_RAD: Final = {"Proximal": 0.30, "Intermediate": 0.40, "Distal": 0.20}
-"""Of loosely bent fingers; the little finger by `FINGER_GROWS` more than the index."""
+"""Bend of each bone of loosely bent fingers; the little finger's is larger than the index's by `FINGER_GROWS`."""
 FINGER_GROWS: Final = {"Index": 0.8, "Middle": 1.0, "Ring": 1.15, "Little": 1.3}
 THUMB_BEND_RAD: Final = {"ThumbMetacarpal": 0.10, "ThumbProximal": 0.15, "ThumbDistal": 0.20}
 HEEL_PART: Final = 0.3
@@ -40,7 +40,7 @@ HEEL_PART: Final = 0.3
 FLOOR_SOFT_M: Final = 0.002
 """Over this height a foot that comes down is stopped by the floor."""
 REACH_SHARE: Final = 0.992
-"""Of a leg's length, how far a foot on the floor may be."""
+"""Largest reach of a foot on the floor, as a share of the leg's length."""
 LOW_M: Final = 0.08
 """An ankle no higher than this over where it is when the foot stands belongs to a foot on the floor."""
 STANDING_M_S: Final = 0.2

@@ -63,7 +63,7 @@ class Weights:
 
 LATELY_S: Final = 12.0
 PHRASE_BEATS: Final = 16
-"""So many beats are searched at a time; what was danced in them then counts as danced lately."""
+"""Beats that are searched at a time; the motions danced in them then count as danced lately."""
 NEVER: Final = -1e9
 
 

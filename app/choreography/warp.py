@@ -25,7 +25,7 @@ REST_S: Final = 0.4
 MOST_S: Final = 0.6
 """No arrival is moved farther than this."""
 LOOK_BACK: Final = 6
-"""So many arrivals in a row may be left where they are."""
+"""Most arrivals in a row that may be left unchanged."""
 ARRIVES: Final = 1.0
 ARRIVES_BETWEEN: Final = 0.1
 ANCHOR: Final = 0.05
@@ -35,7 +35,7 @@ SPEED: Final = 0.2
 MOVED: Final = 0.2
 """Cost of an arrival that is moved by `MOST_S`; by the square for less: what is danced to a sound stays near it."""
 _TOLERANCE: Final = 0.06
-"""Of the limits of speed: what was chosen by rounded times stays possible."""
+"""Tolerance of the limits of speed, as a share: a choice made by rounded times stays possible."""
 _STEP_S: Final = 0.002
 
 

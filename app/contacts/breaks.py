@@ -22,7 +22,7 @@ from app.plan.model import FingeringEvent, Problem
 from app.plan.music.spans import Spans
 
 JUDGED_PER_S = 15
-"""So many frames of a second are looked at: no body leaves a contact and is back sooner."""
+"""Frames per second that are judged: no body leaves a contact and is back sooner."""
 APART_S = 0.5
 """Two breaks of one contact that are nearer than this are one."""
 

@@ -36,7 +36,7 @@ BLOCKS = (128, 16, 4, 1)
 GROUP = 8
 """Vertices per group, about."""
 STRETCH = 1.3
-"""How much further from its middle than in the bind pose a vertex of a group may come when the hand bends."""
+"""Factor by which the distance of a vertex of a group from its middle in the bind pose may grow when the hand bends."""
 STILL_M = 0.006
 """A group that moves less within a block is judged vertex by vertex."""
 _ARM_M = 0.02

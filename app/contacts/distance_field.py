@@ -22,13 +22,13 @@ CELL_M = 0.003
 BRICK_CELLS = 4
 """Along each side of a brick."""
 NEAR_M = 0.003
-"""How far outside distances are exact."""
+"""Distance outside up to which distances are exact."""
 FAR_M = 0.04
 """More is not distinguished on the grid."""
 
 _BRICK_M = BRICK_CELLS * CELL_M
 _EDGE = 1e-3
-"""Of a cell, at the end of a grid."""
+"""Margin at the end of a grid, in cells."""
 _HALF_DIAGONAL = math.sqrt(3.0) / 2.0
 _CELL_MIDDLES_M = (
     np.stack(np.unravel_index(np.arange(BRICK_CELLS**3), (BRICK_CELLS,) * 3), axis=-1) + np.float64(0.5)

@@ -31,7 +31,7 @@ OUT_OF_REACH: Final = "contact.out_of_reach"
 _NOTE_S, _APART_S = 2.0, 4.0
 
 Place = tuple[tuple[str, float], ...]
-"""Where the controls are that whole hands move."""
+"""Values of the controls that whole hands move."""
 
 
 class Holding(NamedTuple):

@@ -27,8 +27,8 @@ REPORT_S = 0.04
 REPORT_READY_S = 0.25
 """... and of how much is made this often."""
 GIVE_WAY = 3.0
-"""Where the window or another thread worked too while something was made that no one waits for, the worker rests so
-many times as long as that took: two threads of Python hold each other up far more than they compute."""
+"""Rest of the worker after work that no one waits for, in multiples of that work's time, if the window or another
+thread worked too: two threads of Python hold each other up far more than they compute."""
 OTHERS_S = 0.0005
 """Less than this is no work: timers."""
 MOST_REST_S = 0.1

@@ -26,7 +26,7 @@ MOST_BYTES: Final = 4_000_000
 MOST_S: Final = 1e7
 _SEPARATORS: Final = ",;\t"
 _LONGEST: Final = 60
-"""Of what was found in the place of a value, so much is quoted."""
+"""Most characters quoted of an invalid value."""
 
 
 class Answer(msgspec.Struct, frozen=True, kw_only=True, gc=False):

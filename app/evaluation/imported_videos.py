@@ -32,7 +32,7 @@ RECOGNISED: Final = 0.5
 MOST_DRIFT_S: Final = 0.1
 """A video whose sound comes to lie farther off than this by the end of the piece keeps another tempo."""
 MOST_S: Final = 2 * 3600.0
-"""What sounds later is not looked at."""
+"""Longest part of the sound that is looked at."""
 _EARLY_S: Final = 0.05
 """A video may begin so much later than what is shown of it."""
 

@@ -41,7 +41,7 @@ from app.project.model import Project
 Report: TypeAlias = Callable[[float, Message], None]
 StopRequested: TypeAlias = Callable[[], bool]
 Imported: TypeAlias = ImportedVideo | Keyframes
-"""What is compared with ours, at its place in the piece."""
+"""Animation from elsewhere that is compared with ours, at its place in the piece."""
 CLIPS: Final = "clips"
 _PRACTICE: Final = "practice"
 

@@ -22,7 +22,7 @@ FPS: Final = 30
 """Usual numbers."""
 MOST_EXCERPTS: Final = 20
 LEAST_S, MOST_S = 1.0, 60.0
-"""Of an excerpt."""
+"""Limits of an excerpt's length."""
 
 _OF_VIEW: Final[dict[str, tuple[Aspect, ...]]] = {
     "ensemble": ASPECTS,

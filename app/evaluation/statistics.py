@@ -18,7 +18,7 @@ from app.arrays import FloatArray
 LEVEL: Final = 0.95
 SIGNIFICANT: Final = 0.05
 _EXACT: Final = 200
-"""Of more differences the normal approximation is as good."""
+"""Most differences that are counted exactly; for more the normal approximation is as good."""
 
 
 class Summary(msgspec.Struct, frozen=True):

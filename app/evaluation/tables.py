@@ -14,7 +14,7 @@ from app.evaluation.results import EvaluationResults, Question
 from app.messages import WORDINGS, text
 
 NONE = "-"
-"""Where there is nothing to tell."""
+"""Sign in an empty cell."""
 
 
 class ResultTable(msgspec.Struct, frozen=True):
@@ -25,7 +25,7 @@ class ResultTable(msgspec.Struct, frozen=True):
     head: tuple[str, ...]
     rows: tuple[tuple[str, ...], ...]
     names: int
-    """So many columns from the left are names, the others numbers."""
+    """Number of columns from the left that hold names; the others hold numbers."""
 
 
 def tables(results: EvaluationResults, measures: Sequence[VariantMeasures], language: str) -> list[ResultTable]:

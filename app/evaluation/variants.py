@@ -14,7 +14,8 @@ from app.plan.model import FingeringEvent, PlayerPlan
 from app.project.model import Project
 
 LATE_S: Final = 0.2
-"""Of the fingers of the control: beyond what anyone takes for synchronous (ITU-R BT.1359: 45 ms early, 125 ms late)."""
+"""Delay of the fingers in the control: beyond what anyone takes for synchronous (ITU-R BT.1359: 45 ms early, 125 ms
+late)."""
 OURS: Final[tuple[Variant, ...]] = ("generated", "still", "shifted")
 """Those that are drawn from a project."""
 

@@ -18,7 +18,7 @@ from app.plan.model import TimeFrame
 CHUNK_S = 4.0
 """Length of a chunk: long enough that numpy's overhead is small, short enough that a correction is seen at once."""
 OVERHEAD_BYTES = 1024
-"""Of a chunk, beside its numbers."""
+"""Memory of a chunk besides its numbers."""
 
 
 @dataclass(frozen=True)

@@ -22,7 +22,7 @@ from metadata.acting import Habit, Style
 from metadata.model import Expression
 
 LIGHT = 8
-"""Where neither breaths nor cues are looked for, planning costs this many times less."""
+"""Factor by which planning is cheaper if neither breaths nor cues are looked for."""
 
 
 def work_of(part: MonophonicPart, before: MonophonicPart | None) -> int:
@@ -84,7 +84,7 @@ WHOLE: Final = StepTable(
     velocity_reading=reading(read_velocities, parts="velocities"),
     expressions=all_expressions,
 )
-"""What all players share."""
+"""Steps that all players share."""
 PLAYED: Final = StepTable(
     velocities=velocities_of,
     controller=controller_input,
@@ -94,7 +94,7 @@ PLAYED: Final = StepTable(
     shown_name=_named,
     styles_known=_styles_known,
 )
-"""What each player plays, and how, whatever the instrument is."""
+"""Steps of each player's notes, whatever the instrument is."""
 LINE: Final = StepTable(
     notes="part.notes",
     loudness=reading(note_loudness, reading="velocity_reading"),
@@ -131,4 +131,4 @@ HELD: Final = StepTable(
     **{f"kept_{name}": reading(_kept, value=f"held_{name}") for name in ASIDE},
     shown=reading(with_parts, parts=tuple(f"kept_{name}" for name in ASIDE)),
 )
-"""What remains of a plan where its player has several instruments."""
+"""Steps that leave events out of a plan whose player has several instruments."""

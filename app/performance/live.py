@@ -31,7 +31,7 @@ played."""
 SEEN_S = 4.0
 """Looked at by default."""
 BEHIND_COSTS = 3
-"""What lies before the playhead is requested as much as what lies this many times as far after it."""
+"""Cost of a moment before the playhead, as a multiple of one at the same distance after it."""
 
 
 class PlayerFault(Exception):
@@ -58,7 +58,7 @@ class LiveMotion:
         self._unjudged: Iterator[tuple[LiveTrack, int]] | None = None
         self._broken: dict[str, tuple[Problem, ...]] = {}
         self._made: list[tuple[LiveTrack, int, Motion]] = []
-        """What was made last, until its contacts are judged."""
+        """Last results, until their contacts are judged."""
         self._chunk_bytes = 0
         self._made_chunks = 0
         self._seen = 0

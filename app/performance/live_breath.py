@@ -46,16 +46,16 @@ SHUTS_S = 0.06
 OPENS_S = 0.16
 """The mouth opens for a breath."""
 EMPTY_PAUSE_S, FULL_PAUSE_S = 0.12, 0.45
-"""With empty lungs the player breathes in as soon as the breath pauses; with full ones only where it pauses longer."""
+"""Least pause of the breath in which the player inhales, with empty and with full lungs."""
 LEAST_SPENT = 0.08
 """Players breathe in only when they have breathed out enough."""
 RELAXES_S = 2.0
 """Full lungs are held for so long; then the body lets go."""
 TENSION_S, PRESSED_S, AIR_S, EFFORT_S, RAISES_S = 0.09, 0.05, 0.10, 0.50, 1.6
-"""How quickly the lips follow the notes, and bite and bend, cheeks the air, the face the strain, and the bell the
-loudness; they settle in this time."""
+"""Settling times of the lips after notes, and after bite and bend, of the cheeks after the air, of the face after the
+strain, and of the bell after the loudness."""
 WORKS_S, STRAINS_S = 0.35, 3.0
-"""How quickly brows and cheeks go with what a note costs, and with a strain that lasts."""
+"""Settling times of brows and cheeks after a note's cost, and after a strain that lasts."""
 USUAL_BITE_S = 8.0
 """The bite counts by how far it is from what it usually is: that settles in this time."""
 OTHER_LID = 0.95
@@ -98,9 +98,9 @@ class LiveBreath:
         self._paused_s = -math.inf
         """Since when nothing is blown; inf while something is."""
         self._spent = 0.0
-        """How much of the lungs' air is used up."""
+        """Share of the lungs' air that is used up."""
         self._inhaled_s = math.inf
-        """When the breath that is being drawn in is complete; inf where none is."""
+        """Time at which the breath that is being drawn in is complete; inf if there is none."""
         self._rested = True
         self._at_lips, self._mouth, self._full = (Reach.at_rest(0.0) for _ in range(3))
         self._tongue = LiveTongue(curves)

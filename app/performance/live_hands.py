@@ -27,7 +27,7 @@ from instrument_maps.model import Control, Fingering
 LET_GO_S = 0.5
 """Controls stay where they are in a silence this long: as in a rest of less than a beat."""
 RAISES_S = 0.4
-"""How high fingers wait changes no faster."""
+"""Least time in which the height of waiting fingers changes."""
 
 
 FRAMES = 8
@@ -45,7 +45,7 @@ class Hands:
     placed: dict[str, StationBlend]
     raised: FloatArray
     arrived_s: float
-    """When they are there."""
+    """Time of arrival."""
 
 
 @dataclass(frozen=True)

@@ -18,8 +18,8 @@ from app.motion.curves.live_values import Reach
 PEAK = 10.0 / math.sqrt(3.0)
 """Peak acceleration of a minimum-jerk move over 1 in 1 s."""
 TURNS_RAD_S2, SHOULDER_RAD_S2, DRAWS_M_S2 = 180.0, 200.0, 12.0
-"""How quickly the turn of all the trunk, a shoulder, and what is still short after them may change: what then is left
-for each joint is within what it does."""
+"""Largest accelerations of the turn of the whole trunk, of a shoulder, and of the rest after them: the remainder for
+each joint is then within its range."""
 STOPS = 4.0
 """Help that is on its way already takes so much longer: its speed over the acceleration, times this."""
 LEAST_S = 0.08

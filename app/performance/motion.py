@@ -36,7 +36,7 @@ from metadata.model import Body, Expression
 RATE_HZ: Final = 25.0
 MOST_SAMPLES: Final = 200_000
 _ASKED: Final = ("breaths", "tongues", "embouchures", "cues", "gestures", "expressions", "poses", "traces")
-"""What of a plan a channel depends on beside its own curves."""
+"""Fields of a plan that a channel depends on besides its own curves."""
 
 Progress = Callable[[float], None]
 """Called with the share 0..1 that is done."""

@@ -68,7 +68,7 @@ LAYERS: Final[Mapping[str, str]] = {
 }
 """By parameter the field of `Acting` that it decides, where that is called otherwise."""
 MOST: Final = 2.0
-"""Of an amount, whatever style, habits and parameters multiply to: as far as a slider goes, and hands keep hold."""
+"""Largest amount, whatever style, habits and parameters multiply to: as far as a slider goes, and hands keep hold."""
 _NOT_BY_SECTION: Final = frozenset({"stillness", "blinks"})
 """Less of the one is more acting, and the other is no acting."""
 

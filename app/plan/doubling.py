@@ -22,7 +22,7 @@ from app.plan.model import GestureEvent, PlayerPlan, Problem
 NEEDED_S: Final = 2.0
 """A shorter rest is reported; assumed."""
 USUAL_S: Final = 3.4
-"""How long a change takes where there is time; assumed."""
+"""Usual length of a change if there is time; assumed."""
 LEAST_S: Final = 0.8
 """The shortest change, however short the rest: it then overlaps the notes around it."""
 AFTER_S, BEFORE_S = 0.12, 0.3

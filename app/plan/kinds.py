@@ -25,7 +25,7 @@ Part: TypeAlias = Literal[
     "bow",
     "tracks",
 ]
-"""What answers a gesture: a layer of the body (`app.motion.gestures.layers`), eyes (`app.plan.faces.glances`), or
+"""Parts that answer a gesture: a layer of the body (`app.motion.gestures.layers`), eyes (`app.plan.faces.glances`), or
 both."""
 
 
@@ -129,7 +129,7 @@ GESTURES: Final = (
     # Of tables (`metadata.gestures`): each has a name of its own.
     GestureRow("named", ("Gesture", "ジェスチャー"), "", "tracks", row="beside"),
 )
-"""What a body does beside playing, in the order of menus."""
+"""Motions of a body besides playing, in the order of menus."""
 BREATHS: Final = (
     BreathRow("breath", ("Breath", "ブレス")),
     BreathRow("preparation", ("Breath preparation", "ブレスの準備動作"), draws_air=False),

@@ -234,7 +234,7 @@ class ExpressionEvent(msgspec.Struct, frozen=True, gc=False):
 AUDIENCE: Final = "audience"
 ABOUT: Final = "about"
 CONDUCTOR: Final = "conductor"
-"""Who gives the entries where one stands there: in places, cues and glances as the players' ids are."""
+"""Id of the conductor as a giver of entries: used in places, cues and glances as the players' ids are."""
 
 
 class GlanceEvent(msgspec.Struct, frozen=True, gc=False):

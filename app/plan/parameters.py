@@ -19,7 +19,7 @@ Bounds: TypeAlias = tuple[float, float]
 """Lowest and highest, both allowed."""
 Value: TypeAlias = str | int | float | bool | None
 Decided: TypeAlias = Literal["breaths", "cues", "lips", "poses", "gestures", "rules", "motion"]
-"""What a parameter decides: a step of the plan, or how a plan looks."""
+"""Step of the plan that a parameter decides, or the look of a plan."""
 
 SEED: Final = (0, 2**63 - 1)
 AUTOMATIC: Final = "auto"
@@ -163,7 +163,7 @@ def declared(struct: type[msgspec.Struct]) -> dict[str, Parameter]:
 
 _SHARE: Final = (0.0, 1.0)
 _NATURAL: Final = (0.0, 2.0)
-"""Of what is times the natural amount."""
+"""Limits of multiples of the natural amount."""
 _BEATS: Final = (0.0, 64.0)
 _BREATHS: Final[frozenset[Decided]] = frozenset({"breaths"})
 
@@ -241,7 +241,7 @@ class PlayerParameters(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
         "parameter.choreography", "parameter.choreography_tip",
         section="motion", row=1, since=8,
     )] = ""
-    """What hips, trunk and head dance while playing: the name of a bundled choreography or the absolute path of a
+    """Dance of hips, trunk and head while playing: the name of a bundled choreography or the absolute path of a
     ``.choreography`` file; empty: they move as is generated."""
     dance_amount: Annotated[float, Parameter(
         "parameter.dance_amount",

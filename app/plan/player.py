@@ -164,7 +164,7 @@ AMONG_OTHERS: Final = StepTable(
     met=reading(compared_with_others, line="shared_line"),
     shared=reading(shared_with, line="shared_line"),
 )
-"""What one player's plan depends on of the others'."""
+"""Steps of one player's plan that depend on the others' plans."""
 BY_MUSIC: Final[dict[str, Callable[..., object] | StepInputs]] = {
     "sways": sways,
     "weight_shifts": reading(weight_shifts, times="rhythm"),

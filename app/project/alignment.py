@@ -21,13 +21,14 @@ from app.score.model import Note
 SAME_QUARTERS = 1 / 16
 """Onsets this close are one: another resolution rounds, and people nudge."""
 SWITCH_COST = 3.0
-"""Of another distance in time, in notes not found ..."""
+"""Cost of another distance in time, in notes not found ..."""
 SKIP_COST, MOST_SKIP_COST = 0.05, 6.0
 """... and of every note that it passes over, up to a most: many bars may be put in at once; ..."""
 AGAIN_COST, MOST_AGAIN_COST = 0.5, 12.0
 """... of every note that it finds twice, where nothing was cut before."""
 GAP_COST = 0.7
-"""Of a note that has no partner; two are a little dearer than a changed pitch or a moved onset, cheaper than both."""
+"""Cost of a note that has no partner; two are a little dearer than a changed pitch or a moved onset, cheaper than both.
+"""
 PITCH_COST = 1.0
 TIME_COST = 0.8
 FAR_QUARTERS = 0.5

@@ -15,7 +15,7 @@ from instrument_maps.map_table import Posture
 SPACING_M = 1.3
 """Between neighbours: room for a long instrument's bell and an elbow."""
 ARC_RAD = math.radians(150.0)
-"""How much of a circle the players stand on at most; the open side is the audience's."""
+"""Largest part of a circle the players stand on; the open side is the audience's."""
 LEAST_RADIUS_M = 1.1
 MOST_IN_ARC = 12
 """More sit in rows, as a band does."""

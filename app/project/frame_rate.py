@@ -22,13 +22,14 @@ USUAL_RATES: Final = (
     Fraction(60),
     Fraction(120),
 )
-"""Of film, television and games, in ascending order (SMPTE ST 12-1 and ST 12-3; 120 is what capture and games have)."""
+"""Rates of film, television and games, in ascending order (SMPTE ST 12-1 and ST 12-3; 120 is what capture and games
+have)."""
 
 USUAL_RATE: Final = Fraction(60)
-"""Of a new piece's animation, of its export and of the live pose."""
+"""Rate of a new piece's animation, of its export and of the live pose."""
 
 USUAL_FILM_RATE: Final = Fraction(30)
-"""Of a film of the viewport, unless the piece has fewer frames per second."""
+"""Rate of a film of the viewport, unless the piece has fewer frames per second."""
 
 
 _STORED: Final = re.compile(r"[1-9][0-9]{0,8}(?:/[1-9][0-9]{0,8})?", re.ASCII)

@@ -27,7 +27,7 @@ MADE_PART: Final = "part:"
 READ_PART: Final = "file:"
 
 MOST_TAKE_NOTES: Final = 1_000_000
-"""Of one take; more are left out."""
+"""Most notes of one take; more are left out."""
 
 _NUMBERED = re.compile(r"(?:^|:)([nft]:)(\d+)$", re.ASCII)
 

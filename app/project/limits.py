@@ -40,7 +40,7 @@ MOST_NAME: Final = of_score.MOST_NAME
 MOST_PLAYERS: Final = 1000
 MOST_DANCERS: Final = 200
 CHOREOGRAPHY_INDEX: Final = (0, 2**31 - 1)
-"""Of a basic motion, a segment or a source of a choreography."""
+"""Limits of the index of a basic motion, a segment or a source of a choreography."""
 MOST_TAKES: Final = 2000
 MOST_TAKE_EVENTS: Final = 5_000_000
 TAKE_US: Final = (-(10**13), 10**13)
@@ -54,6 +54,6 @@ CLEANING: Final[Mapping[str, Bounds]] = {
     "grid_quarters": (1 / 32, 16.0),
     "align": (0.0, 1.0),
 }
-"""Of `app.score.take.Cleaning`, by field."""
+"""Bounds of `app.score.take.Cleaning`, by field."""
 MOST_NUMBER: Final = 1e12
-"""Of any number without a bound of its own."""
+"""Largest number that has no bound of its own."""

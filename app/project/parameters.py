@@ -25,7 +25,7 @@ from metadata.library import HABITS, STYLES
 _CASTING: Final = ("instrument", "character")
 _DANCED: Final = "choreography"
 _GENERATED: Final = "none"
-"""As a choreography: the body moves as is generated. As habits: there are none."""
+"""Value of a choreography for a body that moves as is generated, and of habits for none."""
 _STYLE, _HABITS = "style", "habits"
 
 

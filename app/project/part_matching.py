@@ -12,7 +12,7 @@ from app.project.likeness import ALIKE, shares, turns
 from app.score.model import Part, Score
 
 _NAMED = 0.4
-"""So much speaks for a part that was rewritten from end to end."""
+"""Likelihood of a part that was rewritten from end to end."""
 
 
 def matched_parts(old: Score, new: Score, hints: Sequence[Place | None]) -> list[tuple[int, int]]:

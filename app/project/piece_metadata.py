@@ -35,7 +35,7 @@ from metadata.model import Expression
 VERSION: Final = 2
 SUFFIX: Final = ".toml"
 PARAMETER_NAMES: Final = ("amplitude", "style", "habits", "layers_off", *AMOUNTS)
-"""What of a player's parameters is acting."""
+"""Parameters of a player that are acting."""
 _NOT_ACTING: Final = frozenset({*BREATH_KINDS, "cue", "fingering", "embouchure"})
 """Events of these kinds belong to the playing."""
 

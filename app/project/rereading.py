@@ -33,7 +33,7 @@ from instrument_maps.model import InstrumentMap
 from instrument_maps.vocabulary import vocabulary
 
 _NAMED: Final = 0.32
-"""So much speaks for a track that was rewritten from end to end, where all else is the same."""
+"""Likelihood of a track that was rewritten from end to end, where all else is the same."""
 
 
 @dataclass(frozen=True)

@@ -15,7 +15,7 @@ from app.errors import Message
 from app.rig.mesh import Mesh
 
 Origin: TypeAlias = Literal["vrm0", "vrm1", "gltf", "fbx", "bvh"]
-"""What kind of file a figure came from."""
+"""Kind of file that a figure came from."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -349,7 +349,7 @@ def continuous(rotations: ArrayLike) -> FloatArray:
 
 
 MANY = 64
-"""Of so many frames it is worth to look for those in which nothing moves."""
+"""Least number of frames for which it is worth looking for those in which nothing moves."""
 
 
 def interpolated(values: FloatArray, rotations: FloatArray, value: FloatArray) -> FloatArray:

@@ -13,7 +13,7 @@ from app.score.track_channel import TrackChannel
 from instrument_maps.vocabulary import vocabulary
 
 PERCUSSION: Final = "percussion"
-"""What is assigned to a part in place of an instrument where dancers are to hear its notes as percussion."""
+"""Assignment of a part, in place of an instrument, whose notes dancers hear as percussion."""
 Split: TypeAlias = Literal["sustained", "every", "never"]
 
 

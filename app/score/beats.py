@@ -15,11 +15,11 @@ from app.errors import AppError
 from app.score.tempo import TempoChange, TempoMap
 
 _RATE_HZ: Final = 200
-"""Of the envelope: 5 ms, finer than a beat is played."""
+"""Rate of the envelope: 5 ms, finer than a beat is played."""
 _SPREAD_S: Final = 0.02
 _LEAST_NOTES: Final = 8
 TIGHTNESS: Final = 60.0
-"""How much a beat that is longer or shorter than the others costs; the usual 100 is for bands that keep time."""
+"""Cost of a beat that is longer or shorter than the others; the usual 100 is for bands that keep time."""
 _SMOOTHED: Final = 32
 """The envelope is smoothed by a Gaussian that is so much narrower than a beat (Ellis)."""
 _SLOWEST_US, _FASTEST_US = 2_000_000.0, 200_000.0

@@ -10,7 +10,7 @@ from typing import Final
 import msgspec
 
 _MOST_TOGETHER: Final = 0.05
-"""Of a melody, the share of its notes that covers others: legato and short wrong notes of a wind controller."""
+"""Largest share of a melody's notes that covers others: legato and short wrong notes of a wind controller."""
 
 
 class ChannelNotes(msgspec.Struct):

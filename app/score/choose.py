@@ -77,7 +77,7 @@ class MapChoice(msgspec.Struct, frozen=True):
 
 
 class How(Enum):
-    """What chose the maps a track may go to."""
+    """Evidence that chose the maps a track may go to."""
 
     SAID = "said"
     """Its names or its program."""
@@ -186,7 +186,7 @@ def candidates(channels: Sequence[TrackChannel], maps: Sequence[MapChoice]) -> M
 
 
 def refusal(channel: TrackChannel, maps: Sequence[MapChoice]) -> Message | None:
-    """Why a track has no player; None if it has one."""
+    """Explain why a track has no player; None if it has one."""
     if use_of(channel) == "effect":
         return Message("score.sound_effect")
     instrument = said_of(channel)

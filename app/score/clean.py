@@ -19,8 +19,8 @@ from app.arrays import BoolArray, FloatArray, IntArray
 from app.score.take import Cleaning, Controlled, Played, Take
 
 Fault: TypeAlias = Literal["", "ghost", "silent", "slip", "double"]
-"""Why a note is excluded: short and soft; no audible breath; a finger or an octave key that was late; struck twice.
-Empty: it is kept."""
+"""Reason for which a note is excluded: short and soft; no audible breath; a finger or an octave key that was late;
+struck twice. Empty: it is kept."""
 
 SILENT_SHARE: Final = 0.4
 """Hysteresis: a note whose breath stays below this share of `Cleaning.ghost_loudness` is inaudible, however long it
@@ -51,15 +51,17 @@ _STROKE_VELOCITY, _LIKE_BREATH = 10, 0.15
 """A note sent so much louder or softer than the one before was struck again, unless the breath differs too, by more
 than this share: many controllers send the breath as the velocity."""
 _STROKES, _STEADY = 3, 0.15
-"""So many strokes of one pitch in equal steps, within this share, were struck."""
+"""Least number of strokes of one pitch in equal steps, and the share within which they are equal, to be struck on
+purpose."""
 _DETACHED: Final = 0.5
-"""Where so many of the changes of pitch within a breath have a gap, the player detaches notes without it, ..."""
+"""Share of the changes of pitch within a breath that have a gap, from which the player detaches notes without it, ...
+"""
 _LEAST_CHANGES: Final = 4
 """... if there are so many of them."""
 _AROUND_S: Final = (0.15, 0.02)
 """From so long before a moment until so long before it is just before; after it in the same way."""
 _TRILL_S, _TRILL_SEMITONES, _TRILL_NOTES = 0.16, 4, 5
-"""So many notes of two pitches in turn, no longer and no further apart than this, are a trill."""
+"""Longest notes, widest interval and least number of notes of two pitches in turn that are a trill."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -23,13 +23,13 @@ from instrument_maps.name_words import words_of
 from instrument_maps.vocabulary import vocabulary
 
 _LEAST_SHARE: Final = 0.98
-"""Of a part's notes that its instrument's range holds."""
+"""Least share of a part's notes that its instrument's range holds."""
 _MOST_AWAY: Final = 8.0
 """Semitones between a part's median and the usual one, on average, beyond which the lines are something else..."""
 _MOST_AWAY_NAMED: Final = 14.0
 """... and where the title names the ensemble."""
 _FEW_SHARE: Final = 0.02
-"""So many of the lowest and the highest notes say nothing about a compass."""
+"""Share of the lowest and the highest notes that say nothing about a compass."""
 _AROUND: Final = 11
 """A part moves so many semitones up and down about its usual median, within what is easy for the instrument."""
 _END: Final = 0.5
@@ -86,8 +86,8 @@ def _agrees(ensemble: Ensemble, said: Sequence[Instrument | None], sections: Seq
 
 
 class _Away(NamedTuple):
-    """How far, in semitones, the silent parts are on average from where an ensemble has them: by their medians, and all
-    in all."""
+    """Mean distance, in semitones, of the silent parts from where an ensemble has them: by their medians, and all in
+    all."""
 
     median: float
     unlike: float

@@ -36,7 +36,7 @@ def most_parts(hours: float) -> int:
 
 
 def too_long(score: Score, end_tick: int | None = None) -> dict[str, Argument] | None:
-    """What to say of a piece that is too long, in seconds or in music; None: it is not.
+    """Return the arguments of the message about a piece that is too long, in seconds or in music; None if it is not.
 
     Parameters
     ----------

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Final, Literal, NamedTuple, TypeAlias
 import msgspec
 
 Source: TypeAlias = Literal["sound", "score"]
-"""What a part was read from. Of a score the absence of marks means something: what is not slurred is tongued."""
+"""Origin of a part. In a score the absence of marks means something: a note that is not slurred is tongued."""
 
 
 class Marking(NamedTuple):

@@ -79,7 +79,7 @@ class MetreMap(msgspec.Struct, frozen=True, dict=True):
 
     @cached_property
     def _table(self) -> tuple[IntArray, IntArray, IntArray, IntArray]:
-        """Of each metre: its tick, its first bar, and numerator and denominator of the ticks of its bar."""
+        """Table of the metres: tick, first bar, and numerator and denominator of the ticks of a bar."""
         wholes = [4 * self.ticks_per_quarter * metre.numerator for metre in self.metres]
         denominators = [metre.denominator for metre in self.metres]
         return tuple(np.array(row, np.int64) for row in (self._ticks, self._first_bars, wholes, denominators))  # type: ignore[return-value]
@@ -133,7 +133,7 @@ class MetreMap(msgspec.Struct, frozen=True, dict=True):
         return self.tick_of_bar(np.arange(first, stop, dtype=np.int64))
 
     def _kept(self, name: str, span: tuple[int, int], make: Callable[[int, int], IntArray]) -> IntArray:
-        """What was made for a span: of a piece of many players all ask for the same."""
+        """Return the array made for a span, kept for further calls: all players of a piece ask for the same."""
         found = self._known.get((name, *span))
         if found is None:
             found = make(*span)
@@ -281,7 +281,7 @@ class MetreMap(msgspec.Struct, frozen=True, dict=True):
 
 
 def _beats(starts: IntArray, counts: IntArray, wholes: IntArray, denominators: IntArray) -> tuple[IntArray, IntArray]:
-    """So many beats of ``wholes / denominators`` ticks from each start on, and their numbers from 0."""
+    """Lay ``counts`` beats of ``wholes / denominators`` ticks from each start on, and number them from 0."""
     before = np.cumsum(counts) - counts
     numbers = np.arange(counts.sum()) - np.repeat(before, counts)
     ticks: IntArray = np.repeat(starts, counts) + numbers * np.repeat(wholes, counts) // np.repeat(denominators, counts)

@@ -89,7 +89,7 @@ class Marker(msgspec.Struct, frozen=True):
 
 
 SAME_SOUND: Final = {22: 42, 26: 46}
-"""Of notes outside the 47 sounds of a General MIDI drum kit, the sound that they are the edge of."""
+"""Sounds for notes outside the 47 sounds of a General MIDI drum kit that are an edge of one of them."""
 
 
 class PercussionHit(msgspec.Struct, frozen=True, gc=False):

@@ -82,7 +82,7 @@ def about_notes(id_: str, part: str, notes: Sequence[Note], piece: Score, **more
 
 
 def cleaned_take(part: str, faults: Mapping[Fault, list[Note]], piece: Score) -> Message:
-    """What was left out of a take: how many notes, why, and where the first ones are."""
+    """Report the notes left out of a take: how many, why, and where the first ones are."""
     notes = sorted((note for own in faults.values() for note in own), key=lambda note: note.onset_tick)
     places = list(dict.fromkeys(piece.metre_map.label(note.onset_tick) for note in notes))
     said = ", ".join(places[:_MOST_PLACES]) + (", ..." if len(places) > _MOST_PLACES else "")
@@ -102,7 +102,7 @@ def silent_notes(id_: str, part: str, notes: Sequence[Note], piece: Score) -> li
 def instrument_warnings(
     parts: Sequence[Part], found: MapCandidates, assignment: PartAssignment, maps: Sequence[MapChoice], piece: Score
 ) -> list[Message]:
-    """What was guessed about the instrument."""
+    """Report guesses about the instrument."""
     warnings = []
     if found.how is not How.RANGE:
         warnings += _written_warnings(parts, maps, piece)
@@ -146,7 +146,7 @@ def _substitutions(parts: Sequence[Part], instrument: Instrument, maps: Sequence
 
 
 def _written_warnings(parts: Sequence[Part], maps: Sequence[MapChoice], piece: Score) -> list[Message]:
-    """Of parts that the instrument has no notes for unless they are read as they are written, and those that are."""
+    """Report parts that the instrument can play only if read as they are written, and those that are."""
     choices = {choice.map_id: choice for choice in maps}
     found = []
     for part in parts:

@@ -190,7 +190,7 @@ class _Sorting:
         return *channels, *self._silent
 
     def _reason(self, index: int) -> Message:
-        """Why no one plays a stream."""
+        """Explain why no one plays a stream."""
         channel = self._streams[index]
         if index in self._percussion and use_of(channel) != "rhythm":
             return Message("score.percussion", {"instrument": stream_name(channel)})
@@ -266,7 +266,7 @@ def _found(chosen: Sequence[TrackChannel], map_id: str | None, maps: Sequence[Ma
 
 
 def stream_name(channel: TrackChannel) -> str:
-    """What the user calls a stream."""
+    """Name of a stream as the user knows it."""
     instrument = recognised(channel)
     return (
         channel.name or channel.instrument_name or (instrument.names[0] if instrument else f"Track {channel.track + 1}")

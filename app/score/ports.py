@@ -8,7 +8,7 @@ from typing import Any, Final
 import mido
 
 _MOST_PORTS: Final = 16
-"""Of one track; what more name is taken for the first one's."""
+"""Most ports of one track; further names are taken for the first one's."""
 
 
 def split_by_port(messages: Sequence[Any]) -> list[Sequence[Any]]:

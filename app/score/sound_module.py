@@ -50,8 +50,8 @@ Port: TypeAlias = tuple[int, bytes]
 
 FIRST_PORT: Final[Port] = (0, b"")
 LATE_QUARTERS: Final = 4
-"""What says for the first time what a channel is may come so much later than its first note: programs write it into the
-first bar, some ticks apart."""
+"""Most quarters after a channel's first note at which its first description may come: programs write it into the first
+bar, some ticks apart."""
 _MOST_CHANGES: Final = 256
 """Changes of one channel by tracks other than its own that are looked at, of each kind; a piece has a few."""
 

@@ -22,13 +22,13 @@ CHORD_S: Final = 0.045
 """Notes struck together by two players or two fingers begin so near to one another: in trios the differences between
 onsets have standard deviations of 30 to 50 ms (Rasch 1979, Acustica 43, 121-131)."""
 SEVERAL: Final = 4
-"""So many notes in a row must sound together with others before another player is there..."""
+"""Notes in a row that must sound together with others before another player is there..."""
 SUSTAINED_S: Final = 0.4
 """... and for so long altogether: two quarters of a fast march, where an accident of the fingers lasts a tenth."""
 _SEVERAL_DOUBLED: Final = 8
-"""Of octaves and unisons twice as many: editions give a bass an octave to choose from for a cadence."""
+"""The same for octaves and unisons: editions give a bass an octave to choose from for a cadence."""
 _MUCH: Final = 0.25
-"""Where such a share of the track's notes sounds together, another player is there however short the track is."""
+"""Share of the track's notes that sound together from which another player is there, however short the track is."""
 
 
 class VoiceSpans(NamedTuple):

@@ -92,7 +92,7 @@ def _smpte_rate(division: int) -> int:
 
 
 def _ticks_per_second(division: int) -> float:
-    """Of a file that counts in SMPTE frames."""
+    """Ticks per second of a file that counts in SMPTE frames."""
     rate = _smpte_rate(division)
     return float(_SMPTE_RATES.get(rate, Fraction(rate)) * max(division & 0xFF, 1))
 

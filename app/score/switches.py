@@ -23,11 +23,11 @@ _APART: Final = 7
 _MOST_PITCHES: Final = 24
 """Two octaves of articulations."""
 _MOST_SHARE: Final = 0.4
-"""Of the notes: several follow one."""
+"""Largest share of the notes: several follow one switch."""
 _SHORT_S: Final = 0.25
 """A note that lasts no longer may be a key switch; a longer one is, if it is held while the music sounds."""
 _BEFORE_S: Final = 2.0
-"""So long before the next note of the music, at most."""
+"""Most seconds before the next note of the music."""
 _MOST_ODD: Final = 0.2
 """Share of them that may be neither short nor held."""
 

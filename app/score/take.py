@@ -114,7 +114,7 @@ class Take(msgspec.Struct, frozen=True, dict=True, forbid_unknown_fields=True):
 
     @cached_property
     def played(self) -> Played:
-        """What the events mean; a take that is called or cleaned otherwise was played the same."""
+        """Notes and curves of the events; a take with another name or cleaning was played the same."""
         return _PLAYED.step(_played, self.times_us, self.messages, self.wiring, self.end_us)
 
     @property
@@ -262,11 +262,11 @@ _USUAL: Final[Mapping[str, CurveKind]] = {
     "channel_pressure": "aftertouch",
     "pitch_bend": "pitch_bend",
 }
-"""What carries what where no one says otherwise."""
+"""Kinds of curve that controllers carry unless a mapping says otherwise."""
 
 
 def _source(message: mido.Message) -> tuple[str, float]:
-    """What a message is sent with, as a `BreathSource` or `BiteSource`, and its value 0..1, a bend's -1..1."""
+    """Name a message's source, as a `BreathSource` or `BiteSource`, with its value 0..1, a bend's -1..1."""
     if message.type == "control_change":
         return f"cc{message.control}", message.value / 127.0
     if message.type == "aftertouch":

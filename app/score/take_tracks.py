@@ -24,27 +24,27 @@ RECORDED: Final = "Suisou: recorded take"
 """Text of a track that ``suisou record`` wrote."""
 
 TakeReason: TypeAlias = Literal["", "recorded", "name", "breath"]
-"""Why a track is taken for a take: its file says so, its name, the breath and the timing; empty: it is none."""
+"""Evidence that a track is a take: its file says so, its name, the breath and the timing; empty: it is none."""
 
 _FAMILY: Final = "wind_controllers"
 _BREATHS: Final[tuple[CurveKind, ...]] = ("breath", "expression", "aftertouch", "volume")
-"""What may carry the breath, the likeliest first."""
+"""Kinds of curve that may carry the breath, the likeliest first."""
 _SENT_PER_S: Final = 5.0
 """A breath that is blown changes so often while notes sound."""
 _AUDIBLE, _SILENT = 0.15, 0.06
 _TOGETHER_S, _TOGETHER_SHARE = 0.15, 0.03
-"""Of one line only so many notes last so far into the next."""
+"""Longest overlap, and share of notes that exceed it, of a single line."""
 _GRID: Final = 12
 """Steps of a quarter that notes are written on: sixteenths and triplets."""
 _ON_GRID: Final = 0.5
-"""Of what is played not so many notes begin on a step."""
+"""Share of notes on a step of the grid below which they were played."""
 _REST_S, _FALLS = 0.15, 0.8
 """In so many of the rests of this length the breath falls below what can be heard."""
 _LEAST_NOTES: Final = 4
 
 
 def take_reason(channel: TrackChannel, tempo_map: TempoMap) -> TakeReason:
-    """Why a track is taken for a take that was recorded from a wind controller."""
+    """Say why a track looks like a take recorded from a wind controller; empty if it does not."""
     if channel.recorded:
         return "recorded"
     if channel.use != "melodic" or len(channel.pitches) < _LEAST_NOTES:

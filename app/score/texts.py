@@ -27,11 +27,11 @@ _MOST_TEXTS: Final = 200
 _MOST_BYTES: Final = 120
 _MOST_NAMES: Final = 64
 _KNOWN: Final = 8.0
-"""What a name of the vocabulary is worth, in nats as all costs..."""
+"""Worth of a name of the vocabulary, in nats as all costs..."""
 _KNOWN_BY_ONE: Final = 2.0
 """... and one of a single character, which may be chance."""
 _OWN_ENCODING: Final = 9.0
-"""How much likelier a text must be in an encoding that is not the file's."""
+"""Cost of an encoding that is not the file's."""
 _UNREADABLE: Final = 25.0
 _BESIDE_LATIN: Final = 6.0
 """For a character of another script that touches a small Latin letter: "Flöte" in CP932."""
@@ -321,7 +321,7 @@ def _greek_cost(text: str) -> float:
 
 
 _FRENCH: Final = re.compile("č[cdfgprs]")
-"""What is no Czech, but "Pièce" and "Prière" in a Western encoding."""
+"""Pairs that no Czech text has, but "Pièce" and "Prière" in a Western encoding."""
 
 
 def _central_cost(text: str) -> float:

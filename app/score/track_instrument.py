@@ -22,7 +22,7 @@ _SAYS_NOTHING = re.compile(
     r"дорожка|трек|канал|パート|トラック|チャンネル|트랙|채널|音轨|音軌|轨道|軌道|通道|[\W\d_])*",
     re.IGNORECASE,
 )
-"""What programs call a track that no one has named."""
+"""Names that programs give a track that no one has named."""
 _ORDINAL = r"(?:1[0-6]|[1-9]|VIII|VII|VI|IV|V|III|II|I)(?:st|nd|rd|th|er|[.aoºª°])?"
 _NUMERALS = ("I", "II", "III", "IV", "V", "VI", "VII", "VIII")
 _PLAYERS = re.compile(
@@ -125,14 +125,14 @@ def _member(channel: TrackChannel) -> Instrument | None:
 
 
 def said_of(channel: TrackChannel) -> Instrument | None:
-    """What a track says of itself, in the ensemble that it is in."""
+    """Instrument that a track names, in the ensemble that it is in."""
     if channel.reported and channel.reported_by == "ensemble":
         return None
     return (None if channel.played_on else _member(channel)) or said_plainly(channel)
 
 
 def said_plainly(channel: TrackChannel) -> Instrument | None:
-    """What the names or the program of a track are called."""
+    """Instrument that the names or the program of a track name."""
     words = vocabulary()
     if channel.played_on:
         return words.instruments[channel.played_on]

@@ -39,7 +39,7 @@ _LONGEST_EXCLUSIVE: Final = 256
 _SOUND_MODULES: Final = frozenset((0x41, 0x43, 0x7E))
 """Roland, Yamaha, and what all makers share."""
 _TRACKS_NAMED: Final = 8
-"""Of a file without notes so many tracks are named."""
+"""Most tracks that are named of a file without notes."""
 
 
 class TrackEvents(msgspec.Struct):
@@ -276,7 +276,7 @@ def _close(events: TrackEvents) -> None:
 
 
 def no_notes(tracks: Sequence[TrackEvents], counts: Sequence[int], texts: TextDecoder) -> list[Message]:
-    """What the tracks of a file without notes have instead, ``counts`` events each; nothing of other files."""
+    """Report the tracks of a file without notes, ``counts`` events each; nothing for other files."""
     if any(events.channels for events in tracks):
         return []
     warnings = [Message("midi.no_notes", {"tracks": len(tracks)})]

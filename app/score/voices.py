@@ -33,11 +33,11 @@ from app.score.tempo import TempoMap
 from app.score.voice_search import REST_QUARTERS, LastPlayed, assigned_voices
 
 LEGATO_OVERLAP_S: Final = 0.030
-"""As long as a note still sounds into the next of its player, at most."""
+"""Longest overlap of a note into the next of its player."""
 
 
 _LEGATO_OF_A_QUARTER: Final = 8
-"""What sounds beside another voice for less than such a part of a quarter is legato."""
+"""Part of a quarter; voices that overlap by less are legato."""
 _HOMOPHONIC: Final = 0.5
 """Players move together where such a share of the notes that sound together begins together."""
 

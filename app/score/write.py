@@ -170,8 +170,8 @@ def _channels(parts: Sequence[Part], names: Sequence[str]) -> list[int]:
 
 
 def _instrument(part: Part, performer: PartPlayer | None) -> Instrument | None:
-    """What a reader is to take a part for: what the part says where its player's map is for that, else what the map
-    is for."""
+    """Choose the instrument for readers of the file: the part's own where its player's map is for that, else the one
+    the map is for."""
     known = vocabulary().instruments
     own = known.get(part.instrument or "")
     if performer is None or (own is not None and _may_play(performer.choice, own)):

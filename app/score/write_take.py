@@ -91,7 +91,7 @@ def ended(times_us: Sequence[int], messages: Sequence[bytes], last_us: int) -> l
 
 
 def from_zero(played: Sequence[tuple[int, mido.Message]]) -> list[tuple[int, mido.Message]]:
-    """What is played from time 0 on: see `write_take`."""
+    """Shift a take's messages to start from time 0: see `write_take`."""
     state: dict[tuple[object, ...], mido.Message] = {}
     begun: dict[tuple[int, int], tuple[int, mido.Message]] = {}
     early: list[mido.Message] = []
@@ -117,5 +117,5 @@ def _begins(message: mido.Message) -> bool:
 
 
 def _kind(message: mido.Message) -> tuple[object, ...]:
-    """What two messages share of which the later replaces the earlier."""
+    """Key of a message; of two with the same key the later replaces the earlier."""
     return message.type, message.channel, getattr(message, "control", None), getattr(message, "note", None)

@@ -24,8 +24,8 @@ from app.errors import AppError, Message
 MOST_BYTES: Final = 1_000_000
 """A longer log begins again."""
 QUIET_S: Final = 1.0
-"""What went wrong in a place less than this ago is not reported when it goes wrong there again: a panel that cannot be
-drawn fails as often as the screen is refreshed."""
+"""Least time between two reports of errors in the same place: a panel that cannot be drawn fails as often as the screen
+is refreshed."""
 
 
 def log_path() -> Path:
@@ -55,7 +55,7 @@ class CrashHandler:
         self._clock = clock
         self._telling = False
         self._last_s = dict[object, float]()
-        """When something went wrong last, by its place."""
+        """Time of the last error, by its place."""
         self._ask = window_calls().ask
 
     def install(self) -> None:

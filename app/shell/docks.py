@@ -26,7 +26,7 @@ FRAME: Final = (
 FRAME_PX: Final = QMargins(6, 34, 6, 6)
 """Room for a frame that the system has not drawn yet."""
 FLOAT_SHARE: Final = 0.8
-"""Of the window's width and height at most: what floats does not look docked."""
+"""Largest share of the window's width and height, so that a floating panel does not look docked."""
 _PRESSES: Final = (QEvent.Type.MouseButtonPress, QEvent.Type.MouseButtonDblClick)
 
 

@@ -19,7 +19,7 @@ class KeyboardButtons(QObject):
         super().__init__(parent)
         self._watched: QWidget | None = None
         self._reason: Qt.FocusReason | None = None
-        """Why the keyboard leaves what is watched."""
+        """Reason for which the watched widget loses the keyboard."""
         self._reached = False
         application.focusChanged.connect(self._focus_moved)
 

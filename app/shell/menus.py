@@ -13,7 +13,7 @@ from app.shell.actions import ActionTable, written
 from widgets.common.controls import Retranslated
 
 BAR: Final = ("file", "edit", "view", "play", "record", "generate", "export", "help")
-"""How the menus stand in the bar; within them everything stands as in the table."""
+"""Menus in the order of the bar; their entries stand as in the table."""
 BEFORE_LINE: Final = frozenset(
     (
         *("file.save", "file.import_midi", "file.piece_settings", "file.close", "file.quit"),

@@ -21,7 +21,7 @@ from widgets.common.plain import Label
 from widgets.common.text import sentence
 
 SHOWN = 12
-"""So many of the newest notices are listed."""
+"""Number of the newest notices that are listed."""
 WIDTH_PX = 520
 
 

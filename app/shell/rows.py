@@ -52,7 +52,7 @@ FILE_ORDER: Final = (
     "file.close",
     "file.quit",
 )
-"""How the rows of the first menu stand, whichever module they are from."""
+"""Order of the rows of the first menu, whichever module they are from."""
 
 
 def rows() -> tuple[ActionRow[Any], ...]:

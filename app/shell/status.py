@@ -28,13 +28,13 @@ from widgets.common.plain import Label, verbatim
 from widgets.common.text import message_text, sentence
 
 POLL_MS, AGE_MS = 100, 5000
-"""How often it is seen how far work is, and how long ago the piece was saved."""
+"""Intervals at which the progress of work, and the age of the last save, are updated."""
 QUIET_S = 0.25
 """Shorter work is not shown: it would only flash."""
 MOST_TASKS = 3
-"""So many kinds of work are shown, the oldest: more would cut their names and push out what stands at the right."""
+"""Most kinds of work that are shown, the oldest: more would cut their names and push out what stands at the right."""
 INFORMATION_S = 6.0
-"""How long an information stays; warnings and errors stay until they are closed or another comes."""
+"""Time that an information stays; warnings and errors stay until they are closed or another comes."""
 MOST_NOTICES = 100
 
 

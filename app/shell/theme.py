@@ -19,7 +19,7 @@ from app.formats.scratch import scratch_folder
 from widgets.common.icons import source
 
 FAINT = 0.6
-"""How much of dim text is left in what cannot be used now."""
+"""Opacity of the dim text of what cannot be used now."""
 
 
 def apply_theme(application: QApplication, tokens: Tokens) -> None:

@@ -21,7 +21,7 @@ LONGEST_S = 14.0
 SPENT_S = 4.0
 """After so long most of it is gone: what a shorter phrase leaves is in proportion."""
 KEPT = 0.15
-"""What is left of it when the next breath is drawn."""
+"""Share of the air that is left when the next breath is drawn."""
 FLAT = 0.12
 """Level before the first breath."""
 BELLY_LEADS = 0.85

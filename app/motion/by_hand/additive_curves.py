@@ -24,7 +24,7 @@ from metadata.model import Body
 
 _NUMBERS: Final = {name: float(number) for number, name in enumerate(CHANNELS)}
 OF_LIPS: Final = ("mouth", "jaw", "tongue", "cheekPuff")
-"""How the names of morph targets begin that belong to the embouchure while the instrument is at the lips."""
+"""Prefixes of the morph targets that belong to the embouchure while the instrument is at the lips."""
 
 
 @dataclass(frozen=True)

@@ -27,11 +27,11 @@ PAGE_M: Final = np.array([0.0, -0.02, 0.54])
 ELBOW_M: Final = np.array([0.01, -0.22, 0.07])
 """About where an elbow is that reaches ahead, from its shoulder; outwards, up and ahead."""
 PAGE_PALM: Final = np.array([-0.6, -0.75, 0.25])
-"""Where the palm looks at the music; outwards, up and ahead."""
+"""Direction of the palm that turns a page: outwards, up and ahead."""
 ELBOW_LOW: Final = np.array([0.5, -1.0, -0.25])
-"""Where the elbow of such an arm points; likewise."""
+"""Direction of the elbow of such an arm; likewise."""
 KEY_ELBOW: Final = 0.4
-"""How far that holds for a hand at the water key."""
+"""Share of that direction for a hand at the water key."""
 
 
 def hands_off_instrument(

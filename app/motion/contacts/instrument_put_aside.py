@@ -21,7 +21,7 @@ from app.rig.ik import arm
 from app.rig.model import Skeleton
 
 SWING_RAD = float(np.deg2rad(52.0))
-"""How far aside of where it is lowered the first instrument lies ..."""
+"""Angle from the lowered place to that of the first instrument put aside ..."""
 NEXT_RAD = float(np.deg2rad(44.0))
 """... and by how much more each further one."""
 FARTHEST = 2
@@ -31,7 +31,7 @@ DOWN_RAD = float(np.deg2rad(10.0))
 OUT_M, LONGEST = 0.04, 0.93
 """It goes out by so much, clear of the body, as far as the arm comes with this share of its length."""
 HANGS_RAD = 1.25
-"""How far an arm that holds nothing is down from the T-pose."""
+"""Angle from the T-pose down to an arm that holds nothing."""
 LOOKS_RAD = {"neck": 0.16, "head": 0.2}
 LOOKS_DOWN_RAD = {"neck": 0.06, "head": 0.16}
 TURNS = {"spine": 0.09, "chest": 0.16, "upperChest": 0.12}

@@ -17,7 +17,7 @@ HELP_EASE_S = 0.10
 SHOULDER_EASE_S = 0.05
 """The shoulder, which is lighter, this long."""
 ROOM_EASE_S = 0.06
-"""How quickly that help gives way to a hand that comes near."""
+"""Time in which that help gives way to a hand that comes near."""
 HELP_EASE_RAD = 0.06
 """Help that would push a shoulder into a near hand is held back within about this angle."""
 HIPS_TURN = 0.16

@@ -25,11 +25,12 @@ LEGS_BLEND_M = 0.003
 STRAIGHTEST = 0.9995
 """Share of its length a leg or an arm is stretched at most."""
 BALL = (-0.9, 1.5)
-"""Without a joint of the toes: how far down and ahead of the ankle the ball of the foot is, by the ankle's height."""
+"""Ball of the foot if there is no joint of the toes: its distance below and ahead of the ankle, by the ankle's height.
+"""
 HEEL = (-1.0, -0.45)
 """The same of the heel."""
 SIT_BONES_M = 0.09
-"""Who sits leans the pelvis about what is so far below the hips."""
+"""Distance from the hips down to the axis about which a seated player leans the pelvis."""
 X_AXIS = np.array([1.0, 0.0, 0.0])
 FOOT_PARTS = ("heel", "toes", "ahead", "up", "push")
 

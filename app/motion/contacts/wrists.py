@@ -25,7 +25,7 @@ MOST_RAD = float(np.deg2rad(25.0))
 LOST_RAD = float(np.deg2rad(18.0))
 """A wrist that is more than this beyond its range, and wholly one that is twice as far, is no matter of the elbow."""
 PROBE_RAD = 0.02
-"""How far it is turned to see what that does to the wrist ..."""
+"""Turn that probes the effect on the wrist ..."""
 STIFF = 0.18
 """... and where that is about so little, it is not turned in vain."""
 ROUNDS = 2

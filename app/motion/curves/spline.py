@@ -15,7 +15,7 @@ from app.arrays import FloatArray
 from app.motion.curves.curve import EVERYWHERE
 
 REACH = 2
-"""So many points to either side have a part in a sample."""
+"""Points to either side that have a part in a sample."""
 
 
 @dataclass(frozen=True, eq=False)

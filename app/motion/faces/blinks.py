@@ -23,15 +23,15 @@ ENTRY_GUARD_S = 0.20
 SLOT_S: Final = 1.3
 """A blink at most in each such part of time, beside those at the ends of phrases."""
 AT_BREATH, IN_REST, IN_PHRASE = 0.8, 0.40, 0.14
-"""How likely each is."""
+"""Chances of a blink at a breath, in a rest and in a phrase."""
 BREATH_LEAD_S, BREATH_SPREAD_S = 0.06, 0.14
 """A phrase's blink begins so long before the breath, or later."""
 APART_S: Final = 1.1
 """Others keep away from it by so much."""
 LAG_S = (0.004, 0.014)
-"""How much later the one eye closes; which one is the player's."""
+"""Range of the delay of one eye; which one is the player's."""
 LEAST_SHUT = (0.90, 0.98)
-"""How far that eye closes."""
+"""Range of the largest closure of that eye."""
 HALF = (0.15, 0.55)
 """A few blinks close the eyes but half: how many, and how far."""
 

@@ -27,7 +27,7 @@ Whole: TypeAlias = npt.NDArray[np.int32]
 STEP_S: Final = 0.05
 BITS: Final = 12
 ONE: Final = 1 << BITS
-"""What 1 is in whole numbers."""
+"""The number 1 in fixed point."""
 WORKING_S: Final = 0.10
 """A face works as hard as the notes so far before and after, ..."""
 CONTOUR_S, AROUND_S = 0.25, 1.6
@@ -39,7 +39,7 @@ LIGHT: Final = 0.35
 PHRASE_REST_S: Final = 0.6
 """A phrase ends at a breath, and at a rest this long."""
 PEAK: Final = 0.62
-"""Where in a phrase its tension is highest."""
+"""Place in a phrase, as a share, of its highest tension."""
 WHOLE_PHRASE_S: Final = 4.0
 """A shorter phrase has less of it."""
 TIRES_S: Final = 16.0

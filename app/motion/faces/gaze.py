@@ -31,7 +31,7 @@ SACCADE_BASE_S, SACCADE_S_RAD = 0.035, 0.12
 """A saccade takes the one and so much by its size."""
 HEAD_TURN_S = 0.45
 HEAD_LAG_S: Final = 0.18
-"""What the head follows is so old: with the curve's own rounding it begins some 80 ms after the eyes."""
+"""Delay of the head behind its target: with the curve's own rounding it begins some 80 ms after the eyes."""
 HEAD_STEP_S: Final = 0.05
 MOST_YAW_RAD, MOST_UP_RAD, MOST_DOWN_RAD = 0.5, 0.15, 0.4
 MUSIC_PITCH_RAD = 0.20
@@ -44,17 +44,17 @@ FIXATION_S: Final = 0.65
 LOOK_S: Final = 1.9
 """A look away from the music lasts at most so long."""
 UP_IN_PHRASE, ABOUT_IN_REST = 0.10, 0.5
-"""How likely looks are: up while playing, and about in a rest."""
+"""Chances of a look: up while playing, and about in a rest."""
 BACK_S: Final = 0.8
-"""So long before an entry the eyes are on the music again."""
+"""Time before an entry at which the eyes are on the music again."""
 CUE_LEAD_S, CUE_BACK_BEATS = 0.3, 0.6
 ASIDE_RAD: Final = 0.22
 AUDIENCE_S: Final = 0.9
-"""So long after the last note the eyes go up to the audience."""
+"""Time after the last note at which the eyes go up to the audience."""
 CLOSE_S: Final = 0.14
 """Fixations are at least so long."""
 PLAYING_SHARE, RESTING_SHARE, READING_SHARE = 0.35, 0.6, 0.25
-"""How much of it the head follows."""
+"""Shares of the gaze's turn that the head follows."""
 HEAD_TURNS = 0.5
 """The head makes so much of the turn that a look lets it follow (`app.motion.gestures.body_layers`)."""
 EYES_RAD: Final = 0.52

@@ -24,7 +24,7 @@ PAIRS: Final = tuple(
 STRONGER_SIDE: Final = 0.75
 """Share of the pairs in which the same side is the stronger one."""
 VARIES: Final = 0.012
-"""How much the difference of left and right goes up and down, as a share of the size."""
+"""Slow variation of the difference of left and right, as a share of the size."""
 RATE_VARIES_RAD: Final = 0.8
 """By so much a vibrato comes early or late now and then: some 0.3 Hz."""
 MOST: Final = 2.5

@@ -19,7 +19,7 @@ SETTLES_S: Final = 0.22
 PREPARES_SHARE: Final = 0.35
 """In quick notes it begins after this share of the note before."""
 SLURRED: Final = 0.35
-"""Of the size of an attack."""
+"""Size of a slurred note's motion, as a share of an attack's."""
 WHOLE_S: Final = 0.45
 """Shorter notes are attacked with less."""
 RESTED_S, RESTED = 0.5, 1.4

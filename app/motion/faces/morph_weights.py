@@ -28,7 +28,7 @@ AROUND_FROM, AROUND_BY = 0.32, 0.06
 EASES: float = 0.5
 """Between notes the tension lets go by this share."""
 RECORDED_LIPS: float = 0.08
-"""What lips do of themselves where they were recorded, as a share of what they do elsewhere."""
+"""Share of the generated motion of lips that stays where they were recorded."""
 TIRED_WANDERS: float = 0.8
 """Tired lips wander so much more."""
 

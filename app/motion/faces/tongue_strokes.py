@@ -24,7 +24,7 @@ SOFTLY: Final = 1.6
 NEAR_SHARE: Final = 0.42
 """In quick strokes each takes at most this share of the step to the next one, before its contact and after it."""
 PUSHED: Final[dict[Articulation, float]] = {"staccato": 0.3, "accent": 0.7, "marcato": 1.0}
-"""How hard the breath pushes an attack."""
+"""Strength of the breath's push in an attack."""
 PUSH_FROM_S: Final = 0.07
 """A push begins so long before its attack ..."""
 PUSH_UNTIL_S: Final = 0.20

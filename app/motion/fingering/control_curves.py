@@ -24,11 +24,11 @@ SLOWEST_FRAME_S = 1.0 / 24.0
 STILL_IN_PLACE_M = 0.004
 """A slide this near its place is in its place."""
 STILL_SHARE = 0.25
-"""Of a way so short that it is hardly seen at all, at most this share."""
+"""Largest such share of a way so short that it is hardly seen at all ..."""
 STILL_PRESSED = 0.07
-"""Of the others, this share of the way."""
+"""... and the share of other ways."""
 MOST_BACK_SHARE = 0.9
-"""Of a short rest, at most this share goes to the way back, however short the way out."""
+"""Largest share of a short rest that goes to the way back, however short the way out."""
 _PHASES = np.linspace(0.0, 0.5, 201)
 LEAST_HELD_SHARE = 0.3
 RELEASE_S = 0.12

@@ -28,8 +28,7 @@ AHEAD_S = 0.10
 HOME_S = 0.9
 """A finger that is not needed for so long goes home."""
 LEAST_TRAVEL_S = 0.05
-"""Where there is less time between two keys, the finger is on its way while the one comes up and the other goes down
-..."""
+"""Least time between two keys; in less, the finger is on its way while the one comes up and the other goes down ..."""
 STAYS_SHARE = 0.12
 """... but for this share of each of these moves, in which the keys hardly move."""
 SHORTEST_S = 0.002

@@ -30,10 +30,10 @@ CHANNELS: Final = (
     "up_m",
     *(f"{part}_{angle}_rad" for part in ("hips", "trunk", "head") for angle in ("forward", "turn", "left")),
 )
-"""Of a layer: where the hips go (to the left, ahead, up), and how far hips, chest and head lean forward, turn to the
-left and lean to the left, all three seen from the floor."""
+"""Channels of a layer: place of the hips (to the left, ahead, up), and the angles by which hips, chest and head lean
+forward, turn to the left and lean to the left, all three seen from the floor."""
 SINKS_M: Final = 0.014
-"""Who dances stands with bent knees: the hips are so much lower, and go up and down from there by less."""
+"""Distance by which the bent knees of a dancer lower the hips, which go up and down from there by less."""
 BREATH_ROOM: Final = 0.9
 """The trunk nods so much less while the player breathes in: the breath has to be seen ..."""
 BREATH_EASE_S: Final = 0.35

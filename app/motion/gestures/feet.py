@@ -16,11 +16,11 @@ from metadata.model import Body, at_amplitude
 UNLOADS_S = 0.45
 """Before a foot leaves the ground and after it is back the weight goes over to the other one and back."""
 PUSH_OFF_RAD = float(np.deg2rad(9.0))
-"""How far the heel is ahead of the toes when a stepping foot leaves the ground."""
+"""Angle of the heel above the toes when a stepping foot leaves the ground."""
 HEEL_S = 0.5
 """Heels come up and go down in this time, or in half of their gesture."""
 STRIKE_SHARE = 0.35
-"""Of a tap the toes come down in the last part of this size."""
+"""Last part of a tap, in which the toes come down."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -122,7 +122,7 @@ class Layers:
 
 
 OVERLAPPED: Final = ("sway", "lean", "accent", "weight")
-"""What the parts of the body have one after another ..."""
+"""Motions that the parts of the body have one after another ..."""
 ALIKE: Final = tuple(
     member.name for member in fields(LayerSamples) if member.name in Layers.__dataclass_fields__.keys() - {*OVERLAPPED}
 )

@@ -139,8 +139,8 @@ class Gestured(KeyedGestures):
 def with_gestures(
     held: dict[PoseTarget, PoseAngles], gestured: Sums | None, amplitude: float, amount: FloatArray | float
 ) -> dict[PoseTarget, PoseAngles]:
-    """What the animator holds differently, with the gestures: as large as each is at the player's amplitude, times the
-    player's amount, at most as it is at full amplitude, and no further than hands follow."""
+    """Add gestures to the angles held by hand: each as large as at the player's amplitude, times the player's amount,
+    at most as at full amplitude, and no further than hands follow."""
     if not gestured or not np.any(amount):
         return held
     sums: dict[PoseTarget, FloatArray] = {}

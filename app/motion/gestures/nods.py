@@ -25,8 +25,8 @@ LIFT_BEATS = 0.85
 NOD_BEATS = 1.5
 """A nod begins so many beats before the one it marks."""
 LIFT_LAG = 0.6547
-"""Where the side lobe of a bump's acceleration peaks, in half widths: a lift whose centre lies so far before the beat
-adds to the dip's peak without moving it."""
+"""Place of the peak of a bump's side lobe of acceleration, in half widths: a lift whose centre lies so far before the
+beat adds to the dip's peak without moving it."""
 
 
 @dataclass(frozen=True, eq=False)

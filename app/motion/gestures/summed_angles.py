@@ -37,7 +37,7 @@ BREATHES_WITH_TRUNK = (0.3, 1.0)
 SHOULDERS_INSTEAD = 0.6
 """... and who has less of it by one lifts the shoulders more by this share."""
 SEATED_ROLL = 0.5
-"""Who sits leans the pelvis aside by this share of what who stands does, and does not turn it."""
+"""Share of a standing player's sideways lean of the pelvis that a seated player has; a seated one does not turn it."""
 
 
 @dataclass(frozen=True)

@@ -22,7 +22,7 @@ CATCH_NOTE_SHARE = 0.5
 LEAST_SOUNDING_S = 1.0 / 24.0
 """... unless that would be no breath: then as much as one needs, but for the shortest staccato."""
 LEAST_PLAYED_S = 0.01
-"""Of a note that was played shorter than it is written so little may be left."""
+"""Least part of a note that may be left if it was played shorter than it is written."""
 MOST_DROPPED = 2
 """Notes that may be left out for one breath."""
 

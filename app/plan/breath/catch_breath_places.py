@@ -30,7 +30,7 @@ DROPPED_COST = 30.0
 MISSING_COST = 10.0
 """Leaving it out, for each note near it that another player of the same rhythm leaves out: a hole."""
 NEAR = MOST_DROPPED
-"""So many notes apart they are near."""
+"""Most notes between two near places."""
 
 
 class AirSupply(NamedTuple):

@@ -73,16 +73,16 @@ SLURRED: Final = -40.0
 WRITTEN_SLUR: Final = -300.0
 """Within a slur of the score: rather notes are left out, or two breaths come close together, elsewhere."""
 ALL_SLURRED: Final = (0.75, 0.9)
-"""Where more than this part of the notes run into the next one, this is how they are played and no phrasing: the slurs
-count less, and from the second value on not at all."""
+"""Shares of notes that run into the next one: above the first, that is how they are played and no phrasing, so that
+slurs count less, and from the second on not at all."""
 BEFORE_REST: Final = -8.0
-"""When a rest comes within a felt beat."""
+"""Cost of a breath if a rest comes within a felt beat."""
 CLIPPED: Final = -2.0
 """Out of a note that loses all of it; in proportion where it loses more than the usual part."""
 JITTER: Final = 0.2
 """Players differ where places are equally good."""
 TAKEN_COST: Final = 6.0
-"""Where another player of the same line breathes: players stagger."""
+"""Cost of a breath at the place where another player of the same line breathes: players stagger."""
 
 
 class ComparedLine(NamedTuple):

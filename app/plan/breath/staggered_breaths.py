@@ -31,11 +31,11 @@ from app.plan.music.piece import EPSILON, LineTimes, Piece
 from app.score.model import Note
 
 UNISON_NOTES = 4
-"""So many notes in a row that others have too are a unison; fewer may meet by chance."""
+"""Notes in a row, played by others too, that make a unison; fewer may meet by chance."""
 HELD_S = 5.0
 """Shorter notes are not breathed in."""
 ABOUT = 0.8
-"""Who holds a note for this part of its length holds it on while another breathes."""
+"""Share of a note after which its player holds it on while another breathes."""
 HELD_SHARE = 0.75
 """Part of the lungs that a player spends on one note."""
 APART_S = 2.0
@@ -49,10 +49,10 @@ LEAST_STEP_S = 2 * FULL_BREATH_S
 TRIED = 17
 """Times that are compared for the breaths in a note."""
 COMPARED = 8
-"""So many players' catch breaths are one step of the plan: it is done again after an edit of one of them only."""
+"""Players whose catch breaths are one step of the plan, which is repeated after an edit of one of them only."""
 
 Place: TypeAlias = int
-"""Where a note stands (`PLACES` a quarter) and its pitch class, as one number."""
+"""Place of a note (`PLACES` a quarter) and its pitch class, as one number."""
 
 
 class SharedLine(NamedTuple):

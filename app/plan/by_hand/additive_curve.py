@@ -19,7 +19,7 @@ INTERPOLATIONS: Final[tuple[Interpolation, ...]] = ("bezier", "linear", "constan
 Unit: TypeAlias = Literal["deg", "m", "weight"]
 
 MOST_KEYS: Final = 5000
-"""Of one curve."""
+"""Most keys of one curve."""
 
 
 class AdditiveChannel(NamedTuple):
@@ -63,7 +63,7 @@ BODY_CHANNELS: Final[dict[str, AdditiveChannel]] = {
 """Channels of the body: a part of it, and what the part does. Angles of bell, head, torso and elbows as of
 `app.plan.by_hand.corrections.PoseCorrection`."""
 FACE: Final = "face."
-"""How channels of the face begin; the name of a morph target follows."""
+"""Prefix of the channels of the face; the name of a morph target follows."""
 CHANNELS: Final[dict[str, AdditiveChannel]] = BODY_CHANNELS | {
     f"{FACE}{name}": AdditiveChannel("weight", 1.0) for name in ARKIT_MORPHS
 }

@@ -43,7 +43,7 @@ HIPS_M: Final[dict[str, Limits]] = {
     "hips.ahead": (-0.06, 0.06),
     "hips.up": (-0.1, 0.015),
 }
-"""How far the hips leave the place above feet that stay. Upwards there is only what the player has sunk."""
+"""Limits of the hips above feet that stay. Upwards there is only what the player has sunk."""
 PELVIS_DEG: Final[dict[str, Limits]] = {"hips.tilt": (-6.0, 8.0), "hips.roll": (-6.0, 6.0)}
 """Tilted forward and leaning to the left, also on a seat; the trunk goes along."""
 SHOULDERS_DEG: Final = (-5.0, 12.0)
@@ -59,7 +59,7 @@ jump."""
 STEP_S: Final = 1.0 / 60.0
 """Accelerations are seen from frame to frame."""
 MOST_LOOKS: Final = 240
-"""So many frames of what is between two keys are looked at: four seconds of it, or as many places in hours."""
+"""Most frames between two keys that are looked at: four seconds, or as many places in hours."""
 LEAST_MORPH_S: Final = 0.08
 REPORTED: Final[dict[str, float]] = {"deg": 1.0, "m": 0.005, "weight": 0.02}
 """A value this much beyond what a body does is reported."""

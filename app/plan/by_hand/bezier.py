@@ -17,7 +17,7 @@ HALVINGS: Final = 40
 """After so many the place on a segment is known to the last bits that matter."""
 THIRD, EVEN = 1.0 / 3.0, 1e-9
 COLUMNS: Final = 9
-"""Of a row: what `CurveSegment` has, in its order."""
+"""Columns of a row: the fields of `CurveSegment`, in its order."""
 
 
 def rows(segments: Sequence[CurveSegment]) -> FloatArray:

@@ -36,10 +36,10 @@ HANDS_FOLLOW_DEG: dict[PoseTarget, dict[str, tuple[float, float]]] = {
     "head": {"up_deg": (-25.0, 12.0), "left_deg": (-22.0, 16.0), "roll_deg": (-20.0, 15.0)},
     "torso": {"up_deg": (-45.0, 20.0), "left_deg": (-25.0, 20.0), "roll_deg": (-10.0, 20.0)},
 }
-"""Where head and trunk go the instrument goes: so far both hands were measured to keep hold of it, also in the farthest
-place of a slide, which is what makes the two sides differ."""
+"""Turns of head and trunk that both hands were measured to follow, with the instrument; also in the farthest place of a
+slide, which makes the two sides differ."""
 ELBOW_DEG = (-25.0, 45.0)
-"""How far an elbow goes towards the ribs and away from them, about the line from shoulder to wrist."""
+"""Range of an elbow towards the ribs and away from them, about the line from shoulder to wrist."""
 GENTLE_RAD_S2 = 40.0
 """However short a fade was asked for, nothing is turned with more than this acceleration."""
 LEAST_FADE_S = 0.15

@@ -22,7 +22,7 @@ SMALLEST: Final = 0.3
 LARGEST: Final = 0.55
 """Size of their nods beside the leader's."""
 UNDER_CONDUCTOR: Final = 0.6
-"""Who follows a baton nods less."""
+"""Size of the nods of players who follow a baton."""
 
 
 def answering_nods(

@@ -35,7 +35,7 @@ LEAD_BEATS = 1.5
 MELODY_BARS = 2
 """Bars over which the players of the melody are determined."""
 DOUBLED_SHARE = 0.8
-"""Who plays so much of the melody, in any octave, has it too."""
+"""Share of the melody, in any octave, that makes a player one of its doubles."""
 SMALLEST, LARGEST = 0.4, 1.2
 """A cue to play softly is small, but seen; one to play loudly is no leap."""
 

@@ -20,11 +20,11 @@ PAUSE_BARS, PAUSE_MOST_S = (1.0, 2.0), 4.0
 EXACT = 1e-6
 """Seconds and beats that differ by less are equal."""
 HELD_S, HELD_BEATS = 3.0, 3.0
-"""What all hold so long, in seconds and in beats, and leave together, was held by a fermata."""
+"""Least length, in seconds and in beats, of a note that all hold and leave together to be a fermata."""
 HELD_SILENCE_BEATS = 0.5
 """From this silence on it was left; one of `COMMON_REST_BEATS` is a rest that is counted."""
 LONG_HELD_S, LONG_HELD_BEATS = 6.0, 6.0
-"""What all hold so long no one counts: they need a cue even where they go on without any silence."""
+"""Length of a common note beyond which no one counts: players need a cue even where they go on without any silence."""
 STEADY_TEMPO, STEADY_BEATS = 1.1, 4
 """A new tempo holds for so many beats, within this factor; one that goes on changing is followed, not given."""
 SLOWED_TEMPO = 1.5
@@ -35,7 +35,7 @@ LONG_REST_S, LONG_REST_BARS = 8.0, 4
 LONG_REST_LEAST_S, LONG_REST_LEAST_BARS = 4.0, 2
 """... which is at least so long in both."""
 ON_BEAT = 0.12
-"""What is nearer to a beat, in beats, is on it: no one plays more exactly."""
+"""Distance from a beat, in beats, within which a note is on it: no one plays more exactly."""
 
 Reason: TypeAlias = Literal[
     "cue.start", "cue.after_rest", "cue.after_pause", "cue.after_fermata", "cue.tempo", "cue.joins"

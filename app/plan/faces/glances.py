@@ -20,7 +20,7 @@ from metadata.gestures import GazeTrack
 
 EYES_RAD: Final = math.radians(35.0)
 PLAYING_HEAD: Final = 0.3
-"""How much of the way the head turns that has an instrument at the lips ..."""
+"""Share of a look that the head turns while the instrument is at the lips ..."""
 FREE_HEAD: Final = 0.65
 """... and one that has not."""
 MOST_RAD: Final = 1.1
@@ -29,11 +29,11 @@ MOST_UP_RAD: Final = 0.35
 LEVEL_RAD: Final = 0.02
 """Others' faces, below the player's own eyes."""
 TO_GIVER_S: Final = (0.25, 0.6)
-"""So long before the cue begins they look at who gives it ..."""
+"""Range of the time before the cue begins at which players look at its giver ..."""
 STAYS_S: Final = (0.05, 0.35)
 """... and so long after the entry."""
 TO_TAKERS_S: Final = (1.0, 1.6)
-"""Who gives the cue looks at the others so long before it ..."""
+"""Range of the time before the cue at which its giver looks at the others ..."""
 LOOK_S: Final = (0.6, 0.95)
 """... for this time."""
 LEAST_S: Final = 0.5

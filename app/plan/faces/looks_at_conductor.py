@@ -21,9 +21,9 @@ from app.plan.music.spans import Spans
 CHANGING: Final = 0.03
 """A beat longer or shorter by this share than the one before belongs to a change of tempo."""
 CHANGE_S: Final = (0.45, 0.55)
-"""So long before such a beat, and after it."""
+"""Ranges of the time before such a beat, and after it."""
 LAST_S: Final = (0.9, 0.25)
-"""So long before the last note, and after its end."""
+"""Ranges of the time before the last note, and after its end."""
 PHRASE_CHANCE: Final = 0.5
 PHRASE_S: Final = (0.55, 0.2)
 PHRASE_REST_S: Final = 0.3

@@ -52,7 +52,7 @@ LIFTED_S = 0.12
 KEY_TO_KEY_MOVES = 4
 """Such a way counts as so many moves more when passages are compared."""
 EASY_STEP_S, HURRIED_STEP_S = 0.5, 0.12
-"""What is awkward costs nothing in steps this long, all in steps this short, in proportion between."""
+"""Steps in which an awkward change costs nothing, and all; in proportion between."""
 ROLL_COST = 0.8
 """A finger rolls onto a further key, or off it."""
 TOGETHER_COST = 0.9
@@ -70,7 +70,7 @@ SLIDE_LATE = 1.8
 SLIDE_LATE_RATE = 3.0
 """... and for each time more that it would need."""
 SLIDE_MAX_SPEED_M_S = 2.5
-"""Where the map does not say: speed of a trombonist's arm in fast passages."""
+"""Speed of a trombonist's arm in fast passages, for maps that do not say."""
 SLIDE_METRE_COST = 1.0
 """Each metre of a slide's way in a hurried step: of ways that all arrive in time the nearer one is taken."""
 SAME_PLACE = 0.1

@@ -24,7 +24,7 @@ _SIDE = re.compile(r"\.(index|middle|ring|little)\.(side|pad_proximal)")
 LEVER_COST = 0.5
 """A thumb that has a lever of its own moves beside the fingers."""
 FINGER_WEIGHT = {"thumb": 1.25, "little": 1.25, "ring": 1.1}
-"""What the slower fingers' moves count in a hurry; those of the others count 1."""
+"""Weights of the slower fingers' moves in a hurry; the others' are 1."""
 CONTRARY_COST = 0.5
 """One finger going up while another goes down is harder than both going one way."""
 KEY_TO_KEY_COST = {"little": 4.0, "ring": 3.0}

@@ -27,17 +27,17 @@ from app.score.tempo import TempoMap
 
 FOOT_KINDS: Final = answered_by("feet")
 STEP_CHANCE, STEP_LEAST_S = 0.3, 12.0
-"""So many ends of phrases have a step, if the last one is so long ago."""
+"""Chance of a step at the end of a phrase, and the least time since the last one."""
 STAYS_S = 2.5
 """A foot that is put somewhere stays at least so long."""
 TAP_CHANCE, TAP_OFTEN = 0.22, 1.7
-"""So many phrases are tapped to by who taps as usual, and by this power of the amount more by others ..."""
+"""Chance that a player who taps as usual taps to a phrase, and the power of the amount with which others do ..."""
 TAP_PHRASE_S = 3.0
 """... if they are so long."""
 TAP_S, TAP_SHARE, TAP_APART_S = 0.4, 0.6, 0.38
 """Toes come up so long before the beat, or this share of it before; what is quicker is tapped to every other beat."""
 HEEL_CHANCE, HEEL_WEIGHT = 0.55, 0.4
-"""So many shifts of so much weight lift the other heel."""
+"""Chance that a shift of this weight lifts the other heel."""
 HEEL_AFTER_S, HEEL_LEAST_S, HEEL_MOST_S = 0.5, 1.4, 5.0
 CLEAR_S = 0.6
 """A heel keeps down so long before and after a foot steps."""

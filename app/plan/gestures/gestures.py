@@ -44,11 +44,11 @@ CONTOUR_SEMITONES = 10.0
 CONTOUR_STEP = 0.12
 """Smaller differences of the bell's height are one gesture."""
 VIGOUR_STEP = 1.4
-"""So is what is not louder or softer by this factor of the vigour."""
+"""Factor of the vigour within which loudness counts as unchanged."""
 ARCH, RELEASE, ARCH_BEATS = 0.15, 0.6, 4
 """The bell rises so much to the climax of a phrase, and sinks at its end by that share of it; of so many beats."""
 ARCH_LOUDNESS, ARCH_DOWNBEAT = 1.0, 0.1
-"""What makes a climax beside the height of the bell: loudness above the phrase's mean, and the first beat of a bar."""
+"""Weights of a climax besides the height of the bell: loudness above the phrase's mean, and the first beat of a bar."""
 ACCENT_LIFT, MOST_ACCENT_LIFT = 1.5, 0.4
 """The bell rises with an accent by so much for its loudness, and no more."""
 
@@ -205,7 +205,7 @@ def _arches(
     first_of_bar: BoolArray,
     apart: BoolArray,
 ) -> tuple[FloatArray, BoolArray]:
-    """What the phrases add to the bell's height, beat by beat: up to the climax (the highest, loudest beat, sooner the
+    """Share of the phrases in the bell's height, beat by beat: up to the climax (the highest, loudest beat, sooner the
     first of a bar) and down at the end; and which beats these are. Rests of a beat (``apart``) divide phrases."""
     arches, turns = np.zeros(len(at_s)), np.zeros(len(at_s), dtype=bool)
     edges = np.flatnonzero(apart | (np.arange(len(at_s)) == 0))

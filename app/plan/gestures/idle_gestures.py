@@ -49,7 +49,7 @@ BOW_LASTS_S: Final = 2.5
 APART_S: Final = 0.25
 """No two bow at exactly the same time: they differ by up to this."""
 AFTER_S: Final = 0.2
-"""How long after the bow the performance goes on at least."""
+"""Least time that the performance goes on after the bow."""
 
 
 def in_long_rests(

@@ -27,18 +27,18 @@ LEAN_BACK, ACCENT, LOUD = Message("gesture.lean_back"), Message("gesture.accent"
 REST_S = 0.9
 """A silence so long divides phrases, breath or none."""
 LONGEST_S = 12.0
-"""What lasts longer is leant into in parts."""
+"""Longest lean; longer phrases are leant into in parts."""
 WHOLE_S = 4.0
 """A phrase so long is leant into as far as any; a shorter one less in proportion."""
 SHORTEST_S = 1.2
 CLIMAX_FROM, CLIMAX_TO = 0.3, 0.8
-"""Where in a phrase the lean may be greatest."""
+"""Range of the place of the greatest lean, in shares of a phrase."""
 HEIGHT_SEMITONES = 12.0
 """A note so much higher counts for the climax as one that is as loud as can be beside a silent one."""
 LONG_SHARE = 0.15
 """A long note counts so much."""
 BACK_CHANCE = 0.2
-"""So many phrases open up: the trunk goes back to the climax instead of forward."""
+"""Chance that a phrase opens up: the trunk goes back to the climax instead of forward."""
 
 ACCENT_S = 1.1
 """An accent lasts so long at a slow tempo, at a quick one 1.6 beats."""
@@ -48,9 +48,9 @@ ON_BEAT_S = 0.03
 APART_BEATS = 1.5
 """Accents are at least so far apart; those of notes played louder than their neighbours, a third of it."""
 LOUDER, DOWNBEAT, LONG, LEAP = 6.0, 0.22, 0.35, 0.22
-"""What makes a note a strong one: loudness above its neighbours, the first beat of a bar, length, a leap up to it."""
+"""Weights of a note's strength: loudness above its neighbours, the first beat of a bar, length, a leap up to it."""
 STRONG = 0.66
-"""With chance (0..1, of this weight) added, a note from here on is accented."""
+"""Strength from which a note is accented, after chance (0..1, of this weight) is added."""
 CHANCE = 0.62
 LEAST_ACCENT = 0.2
 AFTER_BREATH = 0.6

@@ -28,7 +28,7 @@ LOWERED_LEAST_S = 1.0
 AFTER_NOTE_S = 0.5
 BEFORE_BREATH_S = 0.2
 LOW_AT_START_S = 0.3
-"""Who comes up from rest is seen at rest for so long."""
+"""Least time at rest before a player comes up for the first time."""
 APART_S = 0.45
 """No two do it at exactly the same time: each lowers up to so much later, and is up up to so much sooner."""
 HELD_S = 0.9

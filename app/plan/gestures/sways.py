@@ -21,7 +21,7 @@ from app.plan.styles import amount_at
 SWING_S = 1.1
 """The shortest half swing takes about this long, whatever the tempo: 1, 2, 4 ... beats of it."""
 STIR_S = 10.0
-"""So long before and after a note's beginning and its end the body moves with the beat."""
+"""Time before a note's beginning and after its end in which the body moves with the beat."""
 RESTING = 0.35
 """Size of the sway while not playing."""
 BLOCK = 4
@@ -29,7 +29,7 @@ BLOCK = 4
 LEAST_SIZE = 0.75
 """Each of the shortest is smaller than chosen by up to this factor, so that no two are alike."""
 FORMS: tuple[tuple[int, ...], ...] = ((4,), (2, 2), (2, 1, 1), (1, 1, 2), (1, 2, 1), (1, 1, 1, 1))
-"""How a block is divided ..."""
+"""Divisions of a block ..."""
 CALM, LIVELY = (0.34, 0.36, 0.1, 0.1, 0.08, 0.02), (0.06, 0.34, 0.18, 0.16, 0.14, 0.12)
 """... and how often, where it is played softly and loudly."""
 SOFT, LOUD = 0.5, 1.4

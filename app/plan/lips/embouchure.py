@@ -20,7 +20,7 @@ from instrument_maps.model import InstrumentMap
 EASY_TENSION = (0.3, 0.6)
 """Tension at the two ends of the easy range; 0 and 1 at the ends of the range."""
 LOUD_TENSION = 0.15
-"""What going from mezzoforte to the loudest adds to tension."""
+"""Rise of the tension from mezzoforte to the loudest."""
 LONG_S = 6.0
 """A note held this long costs as much effort as it can."""
 

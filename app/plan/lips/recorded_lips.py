@@ -21,9 +21,9 @@ from instrument_maps.model import InstrumentMap
 STEP_S = 0.01
 """A vibrato of 7 Hz has fourteen of these."""
 AROUND_S = 1.0
-"""How far the traces reach beyond the line."""
+"""Time by which the traces reach beyond the line."""
 AIR_S, EFFORT_S, SHIFT_S, LIPS_S = 0.08, 0.4, 0.12, 0.04
-"""What a value is averaged over: cheeks follow the air, a strain builds up, lips go from note to note, a vibrato."""
+"""Averaging times of a value: cheeks follow the air, a strain builds up, lips go from note to note, a vibrato."""
 BITE_TENSION = 0.5
 """Tension from relaxed teeth to a full bite."""
 BEND_TENSION, MOST_BEND_TENSION = 1.4, 0.3

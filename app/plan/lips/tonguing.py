@@ -59,7 +59,7 @@ OF_MARK: Final[dict[str, Articulation]] = {
 WRITTEN: Final = "written:"
 """Begins why a stroke is as it is where a mark says so."""
 BACK_IN: Final = {"double_tongue": 2, "triple_tongue": 3}
-"""Of so many strokes the last is the back's."""
+"""Number of strokes of which the last is the back's."""
 MARCATO_GATE: Final = 0.8
 """An accented note that ends before this share of the time to the next one is marcato."""
 

@@ -16,13 +16,13 @@ from app.plan.music.piece import ControllerSteps, LineTimes
 from app.score.tempo import TempoMap
 
 BLOWS_FROM, STOPS_AT = 6.0 / 127.0, 2.0 / 127.0
-"""Who does not blow begins at the one, who blows stops at the other: a sensor's noise about zero is no breath."""
+"""Pressure at which blowing begins, and the lower one at which it stops: a sensor's noise about zero is no breath."""
 GASP_S = 0.12
 """A shorter gap brings no air: the tongue, or a finger between two keys."""
 BREATH_S = 0.3
 """A gap this long is a breath. A shorter one may be a detached note's end: breathed in only where air is needed."""
 LATE_S = 0.15
-"""Who plays a note may blow this much after its onset in the score."""
+"""Most that a player may blow after a note's onset in the score."""
 SILENT_SHARE = 0.5
 """A curve shows breaths if it is at zero in at least this part of the rests."""
 LEAST_PLAYED_S = 0.03

@@ -14,7 +14,7 @@ from app.plan.music.piece import MEZZOFORTE, LineTimes
 LOUDNESSES = (0.0, 0.26, 0.39, MEZZOFORTE, 0.76, 0.88, 1.0)
 """Silence, pianissimo, piano, mezzoforte, forte, fortissimo, and as loud as can be: MIDI velocities 33, 49, 80 ..."""
 VIGOURS = (0.1, 0.25, 0.5, 1.0, 1.4, 1.8, 2.0)
-"""How much of its usual size a motion has at each."""
+"""Size of motions at each dynamic, in multiples of the usual one."""
 AROUND_S = 1.0
 """A body follows the mean so far before and after."""
 HELD_S = 0.5
@@ -22,7 +22,7 @@ HELD_S = 0.5
 ACCENT = 0.1
 """A note so much louder (0..1) than those around it is accented: 13 of 127 velocities."""
 ACCENT_NOTES = 3
-"""So many notes before and after it are around a note."""
+"""Notes before and after a note that are around it."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -31,7 +31,7 @@ MEANT_SPREAD: Final = 32.0
 MOST_OFTEN: Final = 0.3
 """A default that so many of the notes have is the level without dynamics."""
 MOST_SHIFT: Final = 7.0
-"""So many velocities the middle of what is played goes towards mezzoforte: not half a mark."""
+"""Most velocities by which the middle of what is played moves towards mezzoforte: less than half a mark."""
 USUAL_RANGE: Final = (49.0, 96.0)
 """*Piano* to *forte*: the middle of a piece lies there, however hard its keys were struck."""
 

@@ -8,7 +8,7 @@ import numpy as np
 from app.plan.music.piece import LineTimes, Piece
 
 BARS = 8
-"""What counts is played in so many bars."""
+"""Number of bars whose notes count."""
 BRIGHT_BPM = 96.0
 BRIGHT_LOUDNESS = 0.6
 """Loudness 0..1: a little below mezzoforte."""

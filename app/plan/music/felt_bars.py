@@ -20,9 +20,9 @@ from app.plan.music.piece import LineTimes, NoteTimes, Piece
 LEAST_NOTES = 24
 """Fewer notes show no metre."""
 BASS_WEIGHT = 2.0
-"""What the lowest line counts, the others counting 1."""
+"""Weight of the lowest line; the others have 1."""
 LAST_WEIGHT = 0.1
-"""What the last note of a line counts beside all the others: pieces end on a strong beat."""
+"""Weight of the last note of a line beside all the others: pieces end on a strong beat."""
 GIVEN_MOST = 0.9
 """Bar lines are doubted where their weight is less than this; all beats of a bar have 1 on average."""
 BEST_LEAST = 1.5
@@ -33,7 +33,7 @@ LONG_UNITS = 0.75
 LONG_NOTES = 8
 """Fewer of them show no beat."""
 OFF_BEAT_SHARE = 0.8
-"""So much of the weight of long notes lies at one place between the given beats only if the beats are there."""
+"""Least share of the weight of long notes at one place between the given beats for the beats to be there."""
 
 
 def lowest(lines: Sequence[LineTimes]) -> tuple[bool, ...]:

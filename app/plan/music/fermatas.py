@@ -23,7 +23,7 @@ LIVE_HELD_TEMPO: Final = 2.0
 LIVE_SPREAD: Final = 1.1
 """A tempo whose beats differ by this factor was played, or is changing."""
 MORE_S: Final = 0.2
-"""So much longer than written, at least: less is a lingering."""
+"""Least time by which it is longer than written: less is a lingering."""
 ONE_TEMPO: Final = 1.05
 """One voice may move in it: beats within this factor are held by one tempo."""
 STANDS_OUT: Final = 1.25
@@ -31,7 +31,7 @@ STANDS_OUT: Final = 1.25
 MOST_IN_A_ROW: Final = 4
 """More long notes in a slow tempo are a slow passage."""
 LONG_BEATS: Final = 2
-"""Of several in a row each is at least so long, in felt beats, or before a rest."""
+"""Least length of each of several in a row, in felt beats, or before a rest."""
 BEFORE_BEATS: Final = 8
 AFTER_BEATS: Final = 4
 """The tempo before, and after, is the median of so many beats."""

@@ -145,7 +145,7 @@ _CHANGE_COST, _FURTHER_COST = 0.8, 0.15
 _NEAR_COST, _OFF_COST, _STEP_COST, _MOST_COST = 0.6, 1.2, 0.6, 3.0
 """Cost of a note whose velocity is beside the step, or off it (more for every mark away, at most so much)."""
 _ARTICULATION_COST, _ADDED_COST = 0.25, 0.03
-"""What a note costs that an articulation makes louder, and each velocity that this adds."""
+"""Cost of a note that an articulation makes louder, and of each velocity that this adds."""
 _MARK_COST = _CHANGE_COST
 """Cost of a note with the velocity of a mark that is read as an articulation of one without a mark, at least."""
 

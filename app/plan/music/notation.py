@@ -11,7 +11,7 @@ from app.plan.music.piece import EPSILON, TOUCHING_GATE, LineTimes, Piece, gaps_
 from app.plan.music.rests import AUDIBLE_S, SILENT_S, are_audible
 
 WRITTEN_SHARE = 0.9
-"""Where so many notes lie on fractions of a quarter, they were not played into the file ..."""
+"""Share of notes on fractions of a quarter from which they were not played into the file ..."""
 PLAYED_LEAST = 4
 """... nor where fewer than this lie elsewhere."""
 DIVISIONS = ((1,), (2,), (3, 4), (6, 8), (12,))
@@ -23,9 +23,9 @@ FARTHER = 4.0
 NEAREST = 1.0 / 24.0
 """Quarters within which there is always a place of the finest division."""
 EARLY_OR_LATE_S = 0.045
-"""How far from its place a note begins."""
+"""Distance of a note's beginning from its place."""
 EARLY_RELEASE_S = 0.08
-"""How much sooner than written a note ends ..."""
+"""Time by which a note ends sooner than written ..."""
 RELEASE_SHARES = (0.1, 0.22)
 """... or which part of the time to the next onset, if that is more: the first at least, and up to the last where the
 line's notes are usually released so early, ..."""

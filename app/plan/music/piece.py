@@ -204,9 +204,9 @@ LEAP_SEMITONES = 5
 TOUCHING_GATE = 0.97
 """From this share of the time to the next onset on a note touches the next one; sequencers write 98 to 100 %."""
 DETACHED_GATES = (0.80, 0.955)
-"""What notation programs give a note that is neither slurred nor short: 80 to 95 %, by program and player."""
+"""Lengths that notation programs give a note that is neither slurred nor short: 80 to 95 %, by program and player."""
 DETACHED_SHARE = 0.1
-"""Where so many notes are detached so, those that touch are meant to be slurred."""
+"""Share of notes detached so from which those that touch are meant to be slurred."""
 
 
 def slurs_next(onset_tick: IntArray, end_tick: IntArray) -> BoolArray:

@@ -46,7 +46,7 @@ AMOUNTS: Final[Mapping[type[Event], tuple[str, float]]] = {
     GestureEvent: ("amount", -1.0),
     ExpressionEvent: ("strength", 0.0),
 }
-"""What of an event says how much of it there is, and the least it may be."""
+"""Field that holds an event's amount, and the least it may be."""
 _SPOKEN_OF: Final[Mapping[type[Event], tuple[type[Correction], ...]]] = {
     GestureEvent: (AddGesture, ChangeGesture),
     ExpressionEvent: (AddExpression, ChangeExpression),

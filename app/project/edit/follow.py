@@ -20,7 +20,7 @@ from app.project.recording import BeatPin, Doubt
 from app.score.beat_following import SURE, Following, UnmatchedSpan
 
 _LEAST_TIME: Final = 0.7
-"""Of the usual time of bars: with less, the recording leaves some out."""
+"""Least share of the usual time of bars: with less, the recording leaves some out."""
 
 
 def follow_recording(project: Project, following: Following, path: str | os.PathLike[str]) -> Project:

@@ -16,12 +16,12 @@ from app.project.model import Project
 from app.score.marks import MARK, Mark
 
 Placed: TypeAlias = BreathEvent | CueEvent | GestureEvent | ExpressionEvent | PoseEvent | StyleEvent
-"""What has a place that the user may change."""
+"""Events with a place that the user may change."""
 
 Origin: TypeAlias = Literal["score", "hand"]
 """Who wrote a mark."""
 OWN: Final = "own-"
-"""How the names of added events begin."""
+"""Prefix of the names of added events."""
 _OF_NOTES: Final = ("fingering", "embouchure", "tongue", *BREATH_KINDS, "cue")
 """Kinds of events whose id ends with that of a note."""
 

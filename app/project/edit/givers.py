@@ -20,7 +20,7 @@ from app.project.edit.events import corrections_of, is_there, move, remove
 from app.project.model import Project
 
 LEAST_BEATS, MOST_BEATS = 0.05, 8.0
-"""Of the preparatory beat, in felt beats."""
+"""Limits of the preparatory beat, in felt beats."""
 
 
 def set_giver(project: Project, plan: PlayerPlan, cue_id: str, giver_id: str, peak_tick: float | None = None) -> Edited:

@@ -21,9 +21,9 @@ from app.project.recording import AudioTrack, BeatPin
 from app.score.tempo import TempoChange
 
 _REACH_BEATS: Final = 8
-"""Where no pin is nearer, beats this far away stay where they are."""
+"""Distance, in beats, from which on beats stay unless a pin is nearer."""
 _STEEPEST: Final = 0.7
-"""Of the time between beats, how much at most goes away next to one that is moved."""
+"""Largest share of the time between beats that is taken next to a moved one."""
 _LEAST_S: Final = 0.02
 """Pins lie so far apart at least, in the recording."""
 

@@ -44,7 +44,7 @@ from metadata.library import HABITS
 P = TypeVar("P", bound=Player | Dancer)
 
 HABIT_CHANCES: Final = (0.7, 0.3)
-"""Of a first and a second habit, where players are randomised as far apart as is sensible."""
+"""Chances of a first and a second habit, where players are randomised as far apart as is sensible."""
 
 
 def cast_parameters(project: Project, player_id: str, instrument: InstrumentMap | None = None) -> PlayerParameters:

@@ -22,7 +22,7 @@ from metadata.model import ARKIT_MORPHS
 
 SHAPES: Final = frozenset(ARKIT_MORPHS)
 LEAST_ALIKE: Final = 2
-"""So many known names must stand between the same affixes before these are taken for the maker's."""
+"""Least known names between the same affixes before these are taken for the maker's."""
 SHORTEST_AFFIXED: Final = 4
 """Names shorter than this count only as they are."""
 

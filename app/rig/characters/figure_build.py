@@ -30,7 +30,7 @@ GROWN_M: Final = (1.4, 2.1)
 """Heights that a corrected unit must lead to: powers of ten, and inches, which must explain it better."""
 INCH_M: Final = 0.0254
 AGREEMENT: Final = 1e-3
-"""How far transforms may lie apart, in parts of their size, and still be one."""
+"""Largest difference of transforms that count as one, in parts of their size."""
 SINGULAR: Final = 1e-18
 """The determinant of a transform that makes everything flat."""
 

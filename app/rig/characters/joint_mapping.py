@@ -32,7 +32,7 @@ CLEARLY: Final = 0.5
 """Sides are swapped where this part of the way from right to left leads to -X: not where a figure faces sideways."""
 NUMBERED: Final = re.compile(r"[_.]\d+$")
 MOST_NUMBERED: Final = 0.8
-"""Where so many names end in a number, the numbers are some program's, not the names'."""
+"""Share of names that end in a number from which the numbers are some program's, not the names'."""
 ENOUGH: Final = 8
 """A table that knows fewer of the required joints than this is not the figure's."""
 THUMB_BASE: Final = 0.5
@@ -72,7 +72,7 @@ class _Found:
     astray: frozenset[str]
     """Joints whose bone is not below the bone of the joint above."""
     skinned: int
-    """How many of the bones move skin: controls and mechanics of a rig have the same names."""
+    """Number of bones that move skin: controls and mechanics of a rig have the same names."""
 
     @property
     def required(self) -> int:

@@ -16,7 +16,7 @@ import numpy as np
 from app.arrays import FloatArray
 
 MIRROR_TOLERANCE: Final = 0.03
-"""How far a bone may be from its partner's mirror image, of the figure's height."""
+"""Largest distance of a bone from its partner's mirror image, in parts of the figure's height."""
 OFF_CENTRE: Final = 0.02
 """A bone farther from the middle than this belongs to a side."""
 IN_MIDDLE: Final = 0.004

@@ -30,9 +30,9 @@ around a finger lies deep in its flesh."""
 FACING = (0.7, 0.5)
 """A place's skin looks its way by this (the cosine), or by that where none does."""
 LEAST_WEIGHTS = (0.5, 0.25)
-"""Where no skin clearly belongs to a joint, skin that does by this much is taken."""
+"""Least weights, tried in turn, of skin that belongs to a joint, where none clearly does."""
 EYES_M, HEAD_M = 0.06, 0.217
-"""Of the heads whose lips the lengths here were chosen for: between the eyes, and the height of their skin."""
+"""Sizes of the heads whose lips the lengths here were chosen for: between the eyes, and the height of their skin."""
 STEPS = 40
 MOUTH_SHARE, MOUTH_SPREAD = 0.63, 0.09
 """From the eyes down to the chin, in so many steps, the lips meet after this share, give or take the other one."""

@@ -15,7 +15,7 @@ from app.rig.figure import Figure
 from app.rig.gltf_source import invalid
 
 SUFFIXES: Final = (".vrm", ".glb", ".gltf", ".fbx")
-"""Of the files that can be opened."""
+"""Suffixes of the files that can be opened."""
 
 
 def read_figure(path: Path) -> Figure:

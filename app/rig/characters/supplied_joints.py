@@ -50,7 +50,7 @@ TOES_M: Final = np.array([0.0, -0.048, 0.153])
 ANKLE_M: Final = 0.1
 """From its ankle: the toes' joint; the ankle's height."""
 HEAD_HEIGHT_M: Final = 1.671
-"""Of its head's joint."""
+"""Height of its head's joint."""
 UP: Final = np.array([0.0, 1.0, 0.0])
 
 

@@ -23,13 +23,13 @@ FINGERS: Final = ("Index", "Middle", "Ring", "Little")
 PHALANGES: Final = ("Proximal", "Intermediate", "Distal")
 THUMB: Final = ("ThumbMetacarpal", "ThumbProximal", "ThumbDistal")
 THUMB_DIRECTION: Final = np.array([1.0, 0.0, 1.0]) / np.sqrt(2.0)
-"""Of the left thumb; the right one is its mirror image."""
+"""Direction of the left thumb; the right one is its mirror image."""
 BENT_DEG: Final = (3.0, 8.0)
 """A joint bent less than the first says nothing about its hinge, one bent more than the second says it for sure."""
 MOST_HINGE_DEG: Final = 75.0
 """A hinge farther than this from where the shortest way leads is no elbow's or finger's."""
 WRIST_TWIST_DEG: Final = 30.0
-"""What of a hand's turn about the arm is more than this is the forearm's."""
+"""Largest turn of a hand about the arm that is the wrist's; the rest is the forearm's."""
 ALIKE: Final = float(np.cos(np.radians(8.0)))
 """Bones whose own axes point along them do so at least this well."""
 BACKWARDS: Final = 0.3

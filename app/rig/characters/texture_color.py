@@ -17,12 +17,12 @@ SAMPLED_PX: Final = 256
 """Textures are made so small first: a mean needs no more."""
 FREE_PX: Final = 2**24
 PX_PER_BYTE: Final = 64
-"""So many pixels in all, and so many more for each byte of the images, are looked at: a few bytes can be any number."""
+"""Most pixels that are looked at, and most for each byte of the images: a few bytes can be any number."""
 MOST_SCANS: Final = 64
 """A JPEG is read once for each of its scans, of which real ones have about ten."""
 _SCAN: Final = b"\xff\xda"
 OPAQUE: Final = 0.5
-"""What lets more light through than it keeps is cut out and has no colour."""
+"""Least opacity that has a colour; what lets more light through is cut out."""
 
 
 class Textures:

@@ -38,9 +38,10 @@ NEIGHBOURS = {
     "ring": {"middle": 0.5, "little": 0.5},
     "little": {"ring": 1.0},
 }
-"""Which fingers come along with which others: ring with little and middle most (Zatsiorsky, Li & Latash 2000)."""
+"""Fingers that come along with others, with their shares: ring with little and middle most (Zatsiorsky, Li & Latash
+2000)."""
 GIVES = 0.10
-"""How far a waiting finger comes along at most, as a share of its control's way: some 2 mm."""
+"""Most that a waiting finger comes along, as a share of its control's way: some 2 mm."""
 
 
 def finger_rotations(

@@ -19,7 +19,7 @@ from app.rig.model import Skeleton
 from metadata.skeleton_profile import SkeletonProfile
 
 CURVED_RAD = (float(np.deg2rad(26.0)), float(np.deg2rad(62.0)))
-"""So far the middle joint of a waiting finger is bent, at least and at most ..."""
+"""Range of the bend of a waiting finger's middle joint ..."""
 OUTER_SHARE = 0.55
 """... and the outer joint by this share of it."""
 BEYOND_RAD = (float(np.deg2rad(28.0)), float(np.deg2rad(22.0)))
@@ -28,12 +28,13 @@ MOST_RAD = (float(np.deg2rad(20.0)), float(np.deg2rad(25.0)))
 """Neither bends further from how it presses."""
 KNUCKLE_RAD = (float(np.deg2rad(-30.0)), float(np.deg2rad(90.0)))
 AMOUNTS = (1.0, 0.5)
-"""How much of that is tried."""
+"""Shares of that which are tried."""
 ROUNDS, LEAST_SLOPE_M, MOST_STEP_RAD = 8, 0.001, 0.3
 SPREAD_RAD = float(np.deg2rad(0.1))
 """The knuckle is turned sideways no further than it was solved."""
 EXACT_M, ASIDE_M = 0.0003, 0.012
-"""What does not come as high so nearly, or goes further from the way up, waits as it was solved."""
+"""Limits of a lifted finger: one that misses its height by more, or goes further from the way up, waits as it was
+solved."""
 
 
 @dataclass(frozen=True)

@@ -37,11 +37,11 @@ UPPER_SHARE, LOWER_SHARE = 0.3, 0.7
 SAME_M = 1e-4
 """A vertex that is off the middle by less belongs to both halves."""
 MOUTH_M = (0.0, -0.031, 0.104)
-"""Where the lips of a grown-up's face meet, in the head's frame: for one that has none."""
+"""Place of the lips of a grown-up's face in the head's frame, for a head that has none."""
 WIDER = (1.0, 2.0, 4.0)
-"""Of few vertices, those so much further off the middle are looked at."""
+"""Factors of the distance off the middle, tried in turn where there are few vertices."""
 ROUNDS = 3
-"""How often the edges are found again with the jaw that they ask for; they have settled after two."""
+"""Rounds in which the edges are found again with the jaw that they ask for; they have settled after two."""
 
 
 @dataclass(frozen=True, eq=False)

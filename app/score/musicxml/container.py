@@ -34,9 +34,9 @@ from app.formats.files import open_file, read_file
 from app.score.suffixes import NOTATION
 
 MOST_BYTES: Final = 2**26
-"""Of a file, and of what it unpacks to; a symphony has some tens of megabytes."""
+"""Largest size of a file, and of what it unpacks to; a symphony has some tens of megabytes."""
 MOST_RATIO: Final = 200
-"""So many times larger a score may unpack to, beyond `_SMALL`: notes compress to a fortieth."""
+"""Largest ratio by which a score may unpack, beyond `_SMALL`: notes compress to a fortieth."""
 _SMALL: Final = 2**20
 MOST_DEPTH: Final = 64
 """Elements within elements; the format has a dozen."""

@@ -1,4 +1,4 @@
-"""How loud a part is played: dynamics, hairpins and accents to velocities, and to marks.
+"""Loudness of a part: dynamics, hairpins and accents to velocities, and to marks.
 
 Velocities are those that MuseScore gives to the marks, so that a score sounds as it does there.
 """
@@ -17,9 +17,9 @@ _SOFT: Final = (49, 33, 16, 10, 5, 1)
 _LOUD: Final = (96, 112, 126, 127)
 _USUAL: Final = 80.0
 _FORTE: Final = 90.0
-"""What a loudness of 1 is, as the format has it."""
+"""Velocity of the format's loudness 1."""
 _STEP: Final = 16.0
-"""Of a hairpin that leads to no mark."""
+"""Change over a hairpin that leads to no mark."""
 _MOST: Final = 127.0
 _SHARES: Final = {"accent": 1.2, "marcato": 1.3}
 _FORCED: Final = 112.0

@@ -69,7 +69,7 @@ _ORNAMENTS: Final = {
 }
 _SIGNS: Final = {"flat": -1, "natural": 0, "sharp": 1, "double-sharp": 2, "sharp-sharp": 2, "flat-flat": -2}
 _FERMATAS: Final = {"angled": 1.5, "double-angled": 1.25, "square": 3.0, "double-square": 4.0, "half-curve": 1.5}
-"""How many times as long a fermata lasts, by its shape, as MuseScore has it."""
+"""Factor of a fermata's length, by its shape, as MuseScore has it."""
 _FERMATA: Final = 2.0
 _MUTES: Final = {"off": "open", "stop-hand": "hand"}
 _MOST_STROKES: Final = 8
@@ -92,7 +92,7 @@ def ticks_per_quarter(root: Element, place: Place) -> int:
 
 @dataclass(slots=True)
 class _State:
-    """What holds from a place of a part on."""
+    """Values in force from a place of a part on."""
 
     ticks: int
     division: Time
@@ -267,7 +267,7 @@ def _said(element: Element | None, usual: str) -> str:
 
 
 def _tone(part: WrittenPart, found: dict[str, Element], chord: Chord, state: _State, place: Place) -> Tone | None:
-    """What sounds of a note; None of a rest."""
+    """Return the sound of a note; None for a rest."""
     named = found.get("instrument")
     id = "" if named is None else named.get("id", "")
     instrument = part.instruments.get(id) or next(iter(part.instruments.values()), None)

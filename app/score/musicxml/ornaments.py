@@ -16,7 +16,7 @@ _TRILL_S: Final = 0.085
 _SHORT_S: Final = 0.075
 """The first notes of a mordent and of a turn."""
 _SHARE: Final = 0.5
-"""Of the note before, that grace notes may take."""
+"""Largest share of the note before that grace notes take."""
 _MOST_ROWS: Final = 400
 """Notes of one ornament."""
 _UNMEASURED: Final = 3
@@ -93,7 +93,7 @@ def write_out(chords: Sequence[PlayedChord], tempo: TempoMap, quarter: int) -> N
 
 
 def _rows(note: PlayedNote, tempo: TempoMap, quarter: int) -> list[tuple[int, int, int]]:
-    """What one note is written out in; nothing where it is just itself."""
+    """Write out the ornaments of one note; empty if it has none."""
     kinds = note.chord.ornaments
     pitch, onset, length = note.tone.pitch, note.onset, note.end - note.onset
     if length < 2 or (not kinds and not note.chord.tremolo[1]):

@@ -14,9 +14,9 @@ from instrument_maps.instruments import Instrument
 from instrument_maps.vocabulary import vocabulary
 
 _NO_NAME = re.compile(r"(?:MusicXML Part|Part[_ ]?\d*|P\d+)", re.IGNORECASE)
-"""What converters call a part or an instrument that no one has named."""
+"""Names that converters give a part or an instrument that no one has named."""
 MOST_MEASURES: Final = 400_000
-"""Of all parts together: two thousand in two hundred parts."""
+"""Most measures of all parts together: two thousand in two hundred parts."""
 _KIT_CHANNEL = 10
 _KEYS = {10: "B♭", 9: "A", 3: "E♭", 5: "F", 2: "D", 7: "G"}
 """Keys of instruments by what a written C sounds like, in semitones above C."""

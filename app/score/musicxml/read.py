@@ -133,7 +133,7 @@ def _require_length(empty: Score, end: int, file: str) -> None:
 
 
 def _tempo(played: Sequence[PlayedPart]) -> tuple[list[TempoEvent], list[Held]]:
-    """What all parts say about the tempo."""
+    """Collect the tempo marks of all parts."""
     events: list[TempoEvent] = []
     marks: list[TempoEvent] = []
     for part in played:

@@ -169,7 +169,7 @@ def _rows(played: PlayedPart, level: Callable[[int], float], kinds: dict[int, st
 
 
 def _mutes(rows: Sequence[_Row], played: PlayedPart, words: Sequence[tuple[int, str]]) -> list[tuple[int, int, How]]:
-    """How each note of a stream is muted: by its own sign, else as was said before it."""
+    """Mutes of a stream's notes: each by its own sign, else by the last words before it."""
     said: list[tuple[int, How]] = [(tick, how) for tick, text in words if (how := said_of_mute(text)) is not None]
     for tick, one in played.directions:
         if one.kind == "mute":
@@ -193,7 +193,7 @@ def _how(text: str) -> How:
 
 
 def _marks(played: PlayedPart, prefix: str, spans: Sequence[Mark]) -> list[Mark]:
-    """What is written in a part: at its notes, each player's of a chord, and over its staff."""
+    """Marks of a part: at its notes, each player's of a chord, and over its staff."""
     found: list[Mark] = []
 
     def first(note: PlayedNote) -> str:

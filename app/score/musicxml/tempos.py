@@ -43,17 +43,17 @@ _FIRST: Final = re.compile(r"\btempo\s*(?:primo|1\s?[°oº.]?|I\b\.?)|\bcome\s+p
 _MORE: Final = re.compile(r"\b(?:molto|assai|sempre più)\b", re.I)
 _LESS: Final = re.compile(r"\b(?:poco|un po)\b", re.I)
 _SHARES: Final = {-1: (0.85, 0.72, 0.6), 1: (1.12, 1.28, 1.45)}
-"""Of the tempo at the end of a gradual change: a little, usual, much."""
+"""Shares of the tempo at the end of a gradual change: a little, usual, much."""
 _RAMP_QUARTERS: Final = 8
 """The longest that a gradual change lasts which nothing ends."""
 _FAR_QUARTERS: Final = 16
 """A tempo that begins later than this after a gradual change is not what ends it."""
 _STEPS: Final = 2
-"""Of a gradual change, in a quarter."""
+"""Steps per quarter of a gradual change."""
 
 
 class TempoEvent(NamedTuple):
-    """What says something about the tempo.
+    """Mark that affects the tempo.
 
     Attributes
     ----------
@@ -76,7 +76,7 @@ class Held(NamedTuple):
 
 
 def said_of_tempo(tick: int, words: str) -> TempoEvent | None:
-    """What words over a staff say about the tempo; None: they speak of something else."""
+    """Read words over a staff as a mark of tempo; None if they speak of something else."""
     text = words[:MOST_NAME].strip().strip("()")
     if _FIRST.search(text):
         return TempoEvent(tick, "first")

@@ -16,7 +16,7 @@ Time: TypeAlias = int | Fraction
 
 @dataclass(slots=True)
 class Place:
-    """Where in the file something stands, for messages."""
+    """Place in the file, for messages."""
 
     file: str
     part: str = ""
@@ -120,7 +120,7 @@ class Chord:
 
 @dataclass(slots=True)
 class Direction:
-    """What stands over or under a staff.
+    """Sign or words over or under a staff.
 
     Attributes
     ----------
@@ -153,7 +153,7 @@ class Measure:
 
 @dataclass(slots=True)
 class Bar:
-    """What all parts have in a measure.
+    """Contents of a measure that all parts share.
 
     Attributes
     ----------

@@ -38,7 +38,7 @@ def _counted(display: TimeDisplay) -> Action:
 
 
 LANES: Final = (BELOW[0].id, "roll", *(kind.id for kind in BELOW[1:]))
-"""As they stand in a new window."""
+"""Lanes in their order in a new window."""
 
 
 def _lane(id: str, keys: str) -> Action:

@@ -35,7 +35,7 @@ from instrument_maps.model import Control, InstrumentMap
 from metadata.model import BREATH_MORPHS, Body
 
 MOST_BYTES = 2**22
-"""Of a file; those that come with the program have a twentieth of it."""
+"""Largest size of a file; those that come with the program have a twentieth of it."""
 DIGITS = 6
 """A millionth of a radian or of a metre is far below what is visible, and keeps the files small."""
 

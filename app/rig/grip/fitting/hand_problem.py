@@ -43,11 +43,11 @@ SWIVEL_ABOUT_RAD = 0.35
 HOVER_MORE = 1.3
 """Fingers wait at this multiple of the map's height in the fastest passages."""
 HOVER_SPREAD = 0.5
-"""How far a waiting finger is from its height, as a share of it: it may be lower or higher as the hand lies."""
+"""Spread of a waiting finger about its height, as a share of it: it may be lower or higher as the hand lies."""
 HOVER_TURNS = 2.0
-"""How much more freely than at its touch its pad faces elsewhere."""
+"""Factor by which its pad may turn elsewhere more freely than at its touch."""
 ANCHOR = (0.25, 0.7, 0.5)
-"""How far the wrist's place (in 0.1 m), its turn and the fingers (rad) wander from one knot of a slide to the next."""
+"""Spread of the wrist's place (in 0.1 m), its turn and the fingers (rad) from one knot of a slide to the next."""
 METRES = 0.1
 """The wrist's place is solved in units of this many metres, to weigh like radians."""
 HELP_RAD = 0.44

@@ -37,7 +37,7 @@ LEAN_FROM_M = 0.0015
 LEAN_WORTH_M = 0.0005
 """... and it does where the finger comes nearer by this much."""
 LEAN_SPREAD = (0.07, 0.12, 0.5)
-"""How far wrist (in 0.1 m), its turn and fingers (rad) go from home: dearer than between a slide's knots."""
+"""Spread of wrist (in 0.1 m), its turn and fingers (rad) from home: dearer than between a slide's knots."""
 OWN_EASED, OTHERS_EASED = (1.5, 0.5), 1.5
 """Fingers at work keep their places so much less exactly while the wrist is looked for: it does not go far for the last
 millimetre, and most of the others are up anyway. What holds the instrument goes on holding it. The finger that asks
@@ -46,7 +46,7 @@ LEFT_M = 0.0018
 """... where it would otherwise still miss it by more than this."""
 ROUNDS = 14
 VALUES = np.array([0.0, 1.0])
-"""Of the controls of the other fingers, at which they are solved."""
+"""Values of the controls of the other fingers, at which they are solved."""
 
 
 @dataclass(frozen=True, eq=False)

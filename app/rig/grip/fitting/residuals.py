@@ -42,7 +42,8 @@ FLEXION_RAD, DEVIATION_RAD, PRONATION_RAD, SWIVEL_RAD = 0.3, 0.16, 0.8, 0.25
 SEED_M, SEED_RAD = 0.03, 0.4
 PRONATION_MOST_RAD = 1.3
 REACH_M = 0.03
-"""Of an arm that is too short: the shoulder's help is dear, but a finger tip's grip does not bridge half a metre."""
+"""Reach of an arm that is too short: the shoulder's help is dear, but a finger tip's grip does not bridge half a metre.
+"""
 STEP = 1e-6
 ELSEWHERE_M, ELSEWHERE_NORMAL, ELSEWHERE_RELAXED = 0.006, 0.7, 1.5
 """The wrist lies near where the fingers also reach their other stations: it gives way for those that they miss

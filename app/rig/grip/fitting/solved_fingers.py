@@ -34,7 +34,7 @@ from app.rig.grip.fitting.residuals import PENETRATION_M, STEP, WORKED_RAD, insi
 from app.rig.grip.grip_pose import Chain, FingerTable, StationTable
 
 EXACTER = 0.3
-"""With the wrist held, touches are met this much more exactly than in the search."""
+"""Factor by which touches are met more exactly than in the search once the wrist is held."""
 LESS_EXACT = 1.5
 """Fingers that stay while the hand gives way for another one keep their places less exactly, rather than break."""
 ROUNDS = 12
@@ -42,10 +42,10 @@ ROUNDS = 12
 CARRIED_SHARE = 0.1
 """Skin with at least this weight on a finger's joints moves with it: webs too."""
 FOLLOW_RAD = 0.15
-"""How far angles wander from one sample to the next."""
+"""Spread of angles from one sample to the next."""
 SMOOTH_DEGREE = 3
 SMOOTH_RAD = 0.04
-"""How far a sample's angles wander from the smooth path over the control."""
+"""Spread of a sample's angles about the smooth path over the control."""
 OPEN_M, OPEN_SPREAD_M = (0.007, 0.0045), (0.0005, 0.0001)
 """A finger at another place keeps so far from a hole that it is to leave open; the second where it otherwise ..."""
 LEAST_OPEN_M = 0.0032

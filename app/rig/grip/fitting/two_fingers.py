@@ -21,13 +21,13 @@ from app.rig.grip.grip_pose import FingerTable, HandHold, WristOffset, wrist_giv
 Place: TypeAlias = tuple[str, int]
 
 MISSED_M = 0.0015
-"""Where one of the two fingers, or one at home, misses its place by more than this, the wrist is solved again ..."""
+"""Miss of one of the two fingers, or of one at home, beyond which the wrist is solved again ..."""
 WORTH_M = 0.0005
 """... and kept where they come nearer by this much."""
 PLACE_M, HOME_M, WHOLE_M = 0.0004, 0.0006, 0.001
-"""How exactly the two fingers, the others at home, and palm and web keep their places."""
+"""Exactness with which the two fingers, the others at home, and palm and web keep their places."""
 MOVED_M, TURNED_RAD = 0.006, 0.10
-"""How far wrist and its turn go from where the single leans have them."""
+"""Spread of the wrist and its turn about where the single leans have them."""
 STEP = 1e-4
 ROUNDS = 25
 

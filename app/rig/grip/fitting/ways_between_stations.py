@@ -26,9 +26,8 @@ WAY_CLEAR_M, WORTH_M = 0.0025, 0.0005
 by the first of these heights that brings it over what lies between; or by the best, higher only where that is worth
 it."""
 BACK, FROM_NEXT = 0.5, 0.1
-"""Where a way straight out of its keys is not clear, or leads too far off them, a finger goes off its home, this share
-of that back from the palm and this share away from the other key: around what stands up between the two, not over
-it."""
+"""Shares of a finger's detour if a way straight out of its keys is not clear, or leads too far off them: back from the
+palm and away from the other key, around what stands up between the two, not over it."""
 
 
 @dataclass(frozen=True)
