@@ -293,7 +293,7 @@ class PerformanceCurves:
 
     @property
     def _face_sizes(self) -> FaceSizes:
-        mouth, recorded = self.instrument_map.embouchure, self.plan.traces is not None
+        mouth, recorded = self.instrument_map.embouchure, self.plan.has_recorded_lips
         return face_sizes(self.player_id, self.parameters, self.acting, self.body, mouth.kind, mouth.vibrato, recorded)
 
     @property
@@ -312,7 +312,7 @@ class PerformanceCurves:
             still.lowered,
             endpin,
             put,
-            self.plan.traces is None,
+            self.plan.has_recorded_lips,
         )
         return (values, still.skeleton, still.grip, self.body, self.dance)
 

@@ -297,7 +297,7 @@ class TimeFrame(msgspec.Struct, frozen=True):
 
 class PlayerPlan(msgspec.Struct, frozen=True):
     """Everything one player does. Each tuple is ordered by start, and ``glances`` do not overlap; ``traces`` are there
-    where controllers tell."""
+    where controllers tell, or where the score has dynamics within notes."""
 
     player_id: str
     time_frame: TimeFrame
@@ -315,6 +315,11 @@ class PlayerPlan(msgspec.Struct, frozen=True):
     glances: tuple[GlanceEvent, ...] = ()
     styles: tuple[StyleEvent, ...] = ()
     mutes: tuple[MuteEvent, ...] = ()
+
+    @property
+    def has_recorded_lips(self) -> bool:
+        """True if the lips within the notes were recorded, with a vibrato of their own."""
+        return self.traces is not None and self.traces.recorded
 
     @property
     def grips(self) -> tuple[FingeringEvent, ...]:

@@ -60,12 +60,14 @@ from app.plan.model import (
 )
 from app.plan.music.breath_controller import BreathEnvelope, blown
 from app.plan.music.dynamics import dynamics_of
+from app.plan.music.dynamics_within_notes import dynamics_within
 from app.plan.music.ending import Ending
-from app.plan.music.piece import ControllerInput, Piece, Seeds, without_sound
+from app.plan.music.piece import ControllerInput, LineTimes, Piece, Seeds, without_sound
 from app.plan.parameters import parameters_deciding
 from app.plan.rule_conditions import facts_of
 from app.plan.rules import lowered_spans_s, plan_by_rules, with_ruled, without_overruled
 from app.plan.styles import plan_styles
+from app.score.marks import Mark, Source
 from app.score.model import Note
 from app.score.tempo import TempoMap
 from app.steps import StepInputs, StepTable, reading
@@ -82,13 +84,17 @@ def _pins(corrections: tuple[Correction, ...]) -> dict[str, str]:
     return {item.note_id: item.label for item in corrections if isinstance(item, PinFingering)}
 
 
-def _envelope(controller: ControllerInput | None, clock: TempoMap) -> BreathEnvelope | None:
-    """Return the breath that was blown, if it was recorded."""
-    return None if controller is None or controller.breath is None else blown(controller.breath, clock)
+def _envelope(
+    controller: ControllerInput | None, clock: TempoMap, times: LineTimes, marks: tuple[Mark, ...], source: Source
+) -> BreathEnvelope | None:
+    """Return the breath that was blown, if it was recorded, else as the score says, if it changes within notes."""
+    if controller is not None and controller.breath is not None:
+        return blown(controller.breath, clock)
+    return dynamics_within(times, marks, source, clock) if marks else None
 
 
-def _from_breath(envelope: BreathEnvelope | None) -> bool:
-    return envelope is not None
+def _from_breath(controller: ControllerInput | None) -> bool:
+    return controller is not None and controller.breath is not None
 
 
 def _cues_of(cue_events: tuple[CueEvent, ...], player_id: str) -> tuple[CueEvent, ...]:

@@ -13,7 +13,7 @@ from app.errors import shortened
 from app.plan.by_hand.additive_curve import BODY_CHANNELS, CHANNELS, FACE, MOST_KEYS, AdditiveCurve, CurveKey
 from app.plan.by_hand.corrections import Correction
 from app.plan.by_hand.mark_corrections import OfMark, SetMark
-from app.plan.music.written_marks import DYNAMIC_TEXTS
+from app.plan.music.written_dynamics import DYNAMIC_TEXTS
 from app.project import limits
 from app.project.fault import Fault, about, faults_at_key, faults_of_bounds, id_faults, text_faults
 from app.project.model import Project

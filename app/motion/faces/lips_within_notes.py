@@ -92,7 +92,7 @@ def tension_release(plan: PlayerPlan) -> Curve:
 
 def vibrato_size(plan: PlayerPlan) -> Curve:
     """Return how much vibrato there is, 0..1: none where lips were recorded, whose own it then is."""
-    if not plan.embouchures or plan.traces is not None:
+    if not plan.embouchures or plan.has_recorded_lips:
         return moves(())
     starts_s, ends_s, air = _notes(plan)
     length_s = ends_s - starts_s

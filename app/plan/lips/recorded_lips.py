@@ -1,5 +1,6 @@
 """Lips and cheeks within the notes, from controllers: the air follows the breath, the strain with it, and the lips give
-and press with bite and pitch bend, so that a vibrato shows at its own rate.
+and press with bite and pitch bend, so that a vibrato shows at its own rate. Hairpins and sforzandi in the score are
+followed alike.
 
 A note whose embouchure was set by hand keeps what was set, from its beginning to its end.
 """
@@ -41,14 +42,14 @@ def plan_traces(
     envelope: BreathEnvelope | None,
     corrections: tuple[Correction, ...],
 ) -> SampledCurves | None:
-    """The traces of a line; None where there are no notes or no controller input.
+    """The traces of a line; None where there are no notes, or nothing says what happens within them.
 
     Parameters
     ----------
     envelope : BreathEnvelope or None
-        ``controller.breath`` in time.
+        ``controller.breath`` in time, or the dynamics in the score.
     """
-    if not notes or controller is None:
+    if not notes or (controller is None and envelope is None):
         return None
     first = int(np.floor((times.onset_s[0] - AROUND_S) / STEP_S))
     count = int(np.ceil((times.played_end_s[-1] + AROUND_S) / STEP_S)) - first
@@ -74,12 +75,14 @@ def plan_traces(
     coming = np.maximum(np.searchsorted(times.onset_s, at_s + SHIFT_S / 2.0, side="right") - 1, 0)
     tension, _ = strain_of(register[coming], loudness, times.duration_s[coming])
     tension = _clipped(tension * embouchure_tension)
-    lips = np.where(sounds, _pressed(controller, clock, at_s, sounds), 0.0)
+    lips = np.zeros(len(at_s))
+    if controller is not None:
+        lips = np.where(sounds, _pressed(controller, clock, at_s, sounds), 0.0)
     for item, span in set_spans:
         if item.tension is not None:
             tension[span], lips[span] = item.tension, 0.0
     tension = _clipped(_smooth(tension, SHIFT_S) + _smooth(lips, LIPS_S))
-    return SampledCurves(first * STEP_S, STEP_S, tension, air, effort)
+    return SampledCurves(first * STEP_S, STEP_S, tension, air, effort, recorded=controller is not None)
 
 
 def _spans(

@@ -22,6 +22,8 @@ class SampledCurves:
     tension : (K,) float64
     air, effort : (K,) float64 or None
         None where no breath was recorded.
+    recorded : bool
+        Whether a player recorded them, with a vibrato of their own; else they are from the dynamics in the score.
     """
 
     start_s: float
@@ -29,13 +31,14 @@ class SampledCurves:
     tension: FloatArray
     air: FloatArray | None = None
     effort: FloatArray | None = None
+    recorded: bool = True
 
     def __eq__(self, other: object) -> bool:
         """Return whether they are the same to the last bit, as plans are compared."""
         if not isinstance(other, SampledCurves):
             return NotImplemented
         return (
-            (self.start_s, self.step_s) == (other.start_s, other.step_s)
+            (self.start_s, self.step_s, self.recorded) == (other.start_s, other.step_s, other.recorded)
             and np.array_equal(self.tension, other.tension)
             and _same(self.air, other.air)
             and _same(self.effort, other.effort)

@@ -15,6 +15,7 @@ from app.plan.by_hand.corrections import Correction
 from app.plan.music.dynamics_from_velocities import Velocities, read_dynamics
 from app.plan.music.velocity_ladders import LEVELS
 from app.plan.music.velocity_ladders import MEZZOFORTE as MEZZOFORTE
+from app.plan.music.written_dynamics import loudness_of_rows, rows_of_loudness
 from app.plan.music.written_marks import WrittenMarks, written_marks
 from app.plan.parameters import PlayerParameters
 from app.score.marks import Mark, Source
@@ -285,9 +286,7 @@ def _swelled(loudness: FloatArray, rows: FloatArray) -> FloatArray:
     """Loudness so many dynamics louder."""
     if not rows.any():
         return loudness
-    places = np.arange(len(LEVELS), dtype=np.float64)
-    swelled = np.interp(np.interp(loudness, LEVELS, places) + rows, places, LEVELS)
-    return np.where(rows == 0.0, loudness, swelled)
+    return np.where(rows == 0.0, loudness, loudness_of_rows(rows_of_loudness(loudness) + rows))
 
 
 def without_sound(notes: tuple[Note, ...]) -> tuple[Note, ...]:
