@@ -6,6 +6,7 @@ from collections import OrderedDict
 from collections.abc import Callable
 from threading import Lock
 from typing import Concatenate, Generic, ParamSpec, TypeVar
+from weakref import WeakMethod
 
 V = TypeVar("V")
 Help = TypeVar("Help")
@@ -82,3 +83,40 @@ def _identity(inputs: tuple[object, ...], named: dict[str, object]) -> tuple[int
     if not named:
         return tuple(map(id, inputs))
     return (*map(id, inputs), *(part for name in sorted(named) for part in (name, id(named[name]))))
+
+
+class LargeResults:
+    """Large results that can be made again, kept as far as all together stay below a bound of memory.
+
+    Their holders are not held here.
+
+    Parameters
+    ----------
+    most_bytes : int
+        Of all results together. The one used last is kept however large it is.
+    """
+
+    def __init__(self, most_bytes: int) -> None:
+        self.most_bytes = most_bytes
+        self._sizes: OrderedDict[WeakMethod[Callable[[], None]], int] = OrderedDict()
+        self._lock = Lock()
+
+    def use(self, forget: Callable[[], None], size_bytes: int) -> None:
+        """Note that a result of a size is used; those unused for longest are forgotten where all are too much.
+
+        Parameters
+        ----------
+        forget : bound method
+            Gives back the memory of the result; known by its object, which is held weakly.
+        size_bytes : int
+        """
+        with self._lock:
+            for gone in [one for one in self._sizes if one() is None]:
+                del self._sizes[gone]
+            used = WeakMethod(forget)
+            self._sizes[used] = size_bytes
+            self._sizes.move_to_end(used)
+            while len(self._sizes) > 1 and sum(self._sizes.values()) > self.most_bytes:
+                oldest = self._sizes.popitem(last=False)[0]()
+                if oldest is not None:
+                    oldest()

@@ -1,14 +1,16 @@
-"""A motion of the 16 segments, as it was captured or generated."""
+"""A motion of the 16 segments, as it was captured or generated; written as a BVH file."""
 
 from __future__ import annotations
 
+import os
 from dataclasses import dataclass
 from fractions import Fraction
 
 import numpy as np
 
 from app.arrays import FloatArray
-from app.choreography.body import body_skeleton
+from app.choreography.body import ENDS, PARENT_OF, SEGMENTS, body_skeleton
+from app.formats.bvh import BvhClip, write_bvh
 from app.rig.model import Skeleton
 from app.rig.skeleton import JointTransforms, forward
 
@@ -73,3 +75,12 @@ class MotionClip:
         still = np.zeros((len(self), 1, 4))
         still[..., 3] = 1.0
         return forward(self.shape.skeleton, np.concatenate([still, self.rotations], axis=1), self.hips_m)
+
+
+def write_motion(path: str | os.PathLike[str], clip: MotionClip) -> None:
+    """Write a BVH file of the body's joints, named as the segments, whole or not at all. Raises FileError."""
+    names = list(SEGMENTS)
+    parents = [names.index(parent) if parent in names else -1 for parent in PARENT_OF.values()]
+    ends_cm = {names.index(name): 100.0 * end_m for name, end_m in zip(ENDS, clip.shape.ends_m, strict=True)}
+    offsets_cm, hips_cm = 100.0 * clip.shape.offsets_m, 100.0 * clip.hips_m
+    write_bvh(path, BvhClip(tuple(names), tuple(parents), offsets_cm, ends_cm, clip.fps, hips_cm, clip.rotations))

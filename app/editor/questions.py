@@ -17,7 +17,7 @@ ReadAgain: TypeAlias = Callable[[str | None], PieceContents]
 
 
 class Questions(Protocol):
-    """Interface for asking the user."""
+    """Interface for asking the user; it keeps dialogs out of the editor's services."""
 
     def open_file(self, title: str, folder: str, filters: str) -> Path | None:
         """An existing file; None: the user thought better of it."""

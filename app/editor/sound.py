@@ -18,7 +18,7 @@ from app.audio.peaks import Peaks
 from app.audio.playback import Playback
 from app.audio.track import RATE_HZ, Mix, MixTrack
 from app.editor.listening import RecordedTake
-from app.editor.recording_follower import follow_in_background
+from app.editor.recording_alignment import follow_in_background, take_estimate
 from app.editor.session import Session, Severity
 from app.editor.stems import Stems
 from app.editor.tasks import Progress, StopRequested
@@ -27,21 +27,14 @@ from app.formats.other_computers import may_touch
 from app.plan.generate import frame_around
 from app.plan.model import TimeFrame
 from app.project.document import Change
-from app.project.edit.piece import set_offset
 from app.project.edit.players import change as change_players
 from app.project.edit.takes import comp_whole
-from app.project.edit.tempo import scale_tempo
 from app.project.model import Project
-from app.score.beat_following import message_of_place
 
 _FRAME_MS = 16
 _TAKE_WAIT_MS = 1000
 """The longest wait for the audition of a take: what sounds first is rendered first."""
 _TAKE_LOOK_MS = 50
-SURE = 0.5
-"""An offset that was estimated with less confidence is not taken by itself."""
-SAME_TEMPO = 0.002
-"""Tempi that differ by less are the same: it is 6 ms in 3 s."""
 
 
 _CLICKS_ON_S = 1800.0
@@ -344,7 +337,7 @@ class EditorSound(QObject):
             audio = self._session.project.audio
             if audio is None or audio.path != recording.path:
                 return
-            self._take_estimate(estimate, unasked, with_tempo)
+            take_estimate(self._session, estimate, unasked, with_tempo)
 
         self._session.tasks.run(Message("work.estimate_offset"), work, done, key="estimate")
 
@@ -352,28 +345,6 @@ class EditorSound(QObject):
         """Put every beat where the recording has it, as an edit; what is doubtful is reported."""
         if self._recording is not None and self._session.project.audio is not None:
             follow_in_background(self._session, self._recording, options or FollowOptions())
-
-    def _take_estimate(self, estimate: Estimate, unasked: bool, with_tempo: bool) -> None:
-        session = self._session
-        percent = round(100 * estimate.confidence)
-        if estimate.confidence < SURE and (unasked or with_tempo):
-            session.notice(Message("audio.not_recognised", {"percent": percent}), Severity.WARNING)
-            return
-        other_tempo = abs(estimate.tempo_ratio - 1.0) > SAME_TEMPO
-        fitted = other_tempo and with_tempo
-
-        def placed(project: Project) -> Project:
-            project = set_offset(project, estimate.offset_s, estimate.confidence)
-            return scale_tempo(project, estimate.tempo_ratio) if fitted else project
-
-        session.attempt(Message("edit.fit_tempo" if fitted else "edit.estimate_offset"), placed)
-        tempo_percent = 100 * (estimate.tempo_ratio - 1.0)
-        arguments = {"offset_s": estimate.offset_s, "percent": percent, "tempo_percent": tempo_percent}
-        id = "audio.offset_found"
-        if other_tempo:
-            id = "audio.tempo_fitted" if with_tempo else "audio.other_tempo"
-        severity = Severity.INFORMATION if estimate.confidence >= SURE else Severity.WARNING
-        session.notice(message_of_place(id, dict(arguments), estimate.runner_up), severity)
 
 
 def span_of(project: Project) -> TimeFrame:

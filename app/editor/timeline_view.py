@@ -24,7 +24,7 @@ class Ghosts(Enum):
 
 
 class TimelineView(Protocol):
-    """A timeline that is there: `Session.timeline_view`, None while there is none."""
+    """Interface of the timeline, which keeps widgets out of session and commands: see `Session.timeline_view`."""
 
     @property
     def tool(self) -> Tool: ...

@@ -14,8 +14,8 @@ from app.audio.offset import Estimate, estimate_offset
 from app.audio.track import RATE_HZ
 from app.editor.calls import Reporter
 from app.editor.picture_reader import PictureReader
+from app.editor.recording_alignment import SURE
 from app.editor.session import Session, Severity
-from app.editor.sound import SURE
 from app.editor.tasks import Progress, StopRequested
 from app.errors import AppError, Message
 from app.formats.other_computers import may_touch

@@ -33,7 +33,7 @@ CRF: Final = 22
 
 
 class PerformanceRenderer(Protocol):
-    """Renderer of a performance's pictures."""
+    """Renderer of a performance's pictures; the interface keeps the viewport out of evaluations."""
 
     @property
     def left_out(self) -> Sequence[LeftOut]:

@@ -1,4 +1,4 @@
-"""Work in the background: what is being done."""
+"""Work in the background: what is being done. Registered by name as every module of messages is."""
 
 from __future__ import annotations
 

@@ -31,7 +31,7 @@ def unknown_acting(player: Player, library: MetadataLibrary) -> tuple[Message, .
 
 
 class JudgeOfChoreographies(Protocol):
-    """Interface for checks by the package that makes dances (`app.performance.dances`) before there is a
+    """Interface for checks by the package that makes dances, which the core may not import, before there is a
     performance."""
 
     def unfit_choreography(self, player: Player, frame: TimeFrame) -> Message | None:

@@ -22,7 +22,7 @@ from app.rig.model import Character
 
 
 class Dancing(Protocol):
-    """One dancer's dance, made ready; it is generated when frames of it are asked for."""
+    """One dancer's dance, generated when frames of it are requested; the interface keeps its maker out of the core."""
 
     dancer: Dancer
     character: Character
@@ -49,7 +49,7 @@ class Dancing(Protocol):
 
 
 class MakerOfDances(Protocol):
-    """Functions of the module that the table of features names."""
+    """Functions of the module that the table of features names; the core may not import it."""
 
     def dancing_of(self, performance: Performance, dancer: Dancer) -> Dancing:
         """A dancer's dance. Raises AppError where the dancer lacks something."""

@@ -1,4 +1,4 @@
-"""Python's own import, back in its place.
+"""Python's own import, back in its place: imported by the package, for its effect.
 
 For `from __feature__ import ...`, which no module here has, PySide puts another there: it reads and keeps the source of
 each of the nine hundred modules that are imported after it.

@@ -8,7 +8,6 @@ from app.features import extended
 from app.shell.action import ActionRow
 from app.shell.commands import (
     application,
-    beat,
     characters,
     edit,
     events,
@@ -22,7 +21,6 @@ from app.shell.commands import (
     players,
     problems,
     record,
-    stream,
     takes,
     timeline,
     video,
@@ -59,8 +57,8 @@ def rows() -> tuple[ActionRow[Any], ...]:
     """Every row of the table."""
     place = {action_id: number for number, action_id in enumerate(FILE_ORDER)}
     own: tuple[ActionRow[Any], ...] = (
-        *(*file.ACTIONS, *exchange.ACTIONS, *stream.ACTIONS, *edit.ACTIONS, *notes.ACTIONS, *fingerings.ACTIONS),
-        *(*events.ACTIONS, *beat.ACTIONS, *players.ACTIONS, *timeline.ACTIONS, *viewport.ACTIONS),
+        *(*file.ACTIONS, *exchange.ACTIONS, *edit.ACTIONS, *notes.ACTIONS, *fingerings.ACTIONS),
+        *(*events.ACTIONS, *edit.FELT_BEATS, *players.ACTIONS, *timeline.ACTIONS, *viewport.ACTIONS),
         *(*video.ACTIONS, *playback.ACTIONS, *record.ACTIONS, *takes.ACTIONS, *generate.ACTIONS, *problems.ACTIONS),
         *(*characters.ACTIONS, *piece_metadata.ACTIONS, *application.ACTIONS),
     )

@@ -31,8 +31,7 @@ from app.shell.menus import Menus
 from app.shell.palette import Palette
 from app.shell.start_page import StartPage
 from app.shell.status import StatusLine
-from app.shell.workspace_switch import WorkspaceSwitch
-from app.shell.workspaces import LAYOUT_VERSION, Workspaces
+from app.shell.workspaces import LAYOUT_VERSION, Workspaces, WorkspaceSwitch
 from widgets.common.clicks import on_click
 from widgets.common.controls import Retranslated, named
 from widgets.common.icons import icon

@@ -1,17 +1,24 @@
-"""Workspaces: how panels and lanes stand for a kind of work. Each is remembered as the user left it."""
+"""Workspaces: how panels and lanes stand for a kind of work. Each is remembered as the user left it.
+
+`WorkspaceSwitch` is the choice among them in the bar of menus.
+"""
 
 from __future__ import annotations
 
 import base64
 import binascii
 from dataclasses import dataclass, field
-from typing import Final, Literal, Protocol
+from typing import Final, Literal
 
 from PySide6.QtCore import QByteArray, QObject, Qt, Signal
-from PySide6.QtWidgets import QLayout, QMainWindow, QWidget
+from PySide6.QtWidgets import QLayout, QMainWindow, QToolButton, QWidget
 
 from app.editor.settings import Settings
+from app.editor.tokens import LEAST_TARGET_PX
+from app.shell.actions import ActionTable
 from app.shell.docks import Dock
+from widgets.common.controls import Retranslated, named
+from widgets.common.layouts import in_row
 from widgets.inspector.panel import InspectorPanel
 from widgets.players.panel import PlayersPanel
 from widgets.timeline.lane_layout import LaneState
@@ -133,13 +140,6 @@ takes in a tall timeline, and the device. To check: problems beside a large view
 _BY_ID: Final = {workspace.id: workspace for workspace in WORKSPACES}
 
 
-class Remembering(Protocol):
-    """A panel that says how it stands, and takes it again; what is not its own leaves it as it is."""
-
-    def save_state(self) -> str: ...
-    def restore_state(self, state: str) -> None: ...
-
-
 class Workspaces(QObject):
     """Puts the panels of the window where the workspace has them.
 
@@ -174,7 +174,11 @@ class Workspaces(QObject):
         super().__init__(window)
         self._window, self._docks, self._settings = window, docks, settings
         self._timeline, self._inspector, self._players = timeline, inspector, players
-        self._panels: dict[str, Remembering] = {"timeline": timeline, "inspector": inspector, "players": players}
+        self._panels: dict[str, TimelinePanel | InspectorPanel | PlayersPanel] = {
+            "timeline": timeline,
+            "inspector": inspector,
+            "players": players,
+        }
         self._shown = False
         self._setting = False
         timeline.arranged.connect(self._lanes_arranged)
@@ -289,3 +293,28 @@ def _height_px(dock: Dock) -> int:
     for layout in dock.findChildren(QLayout):
         layout.invalidate()
     return dock.sizeHint().height()
+
+
+class WorkspaceSwitch(Retranslated, QWidget):
+    """A button for each workspace; the one that is shown is down.
+
+    Parameters
+    ----------
+    table : ActionTable
+        Its rows are what the buttons do.
+    """
+
+    def __init__(self, table: ActionTable) -> None:
+        super().__init__()
+        self.setObjectName("workspace_switch")
+        buttons = []
+        for workspace in WORKSPACES:
+            button = named(QToolButton(), f"workspace_{workspace.id}")
+            button.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextOnly)
+            # A command's own name says what kind of thing it is.
+            action = self.texted(table.actions[f"workspace.{workspace.id}"], short=workspace.text_id)
+            button.setDefaultAction(action)
+            button.setMinimumHeight(LEAST_TARGET_PX)
+            button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
+            buttons.append(button)
+        in_row(*buttons, of=self, margins=0, spacing=1)

@@ -25,7 +25,7 @@ from scipy.spatial import cKDTree
 
 from app.arrays import BoolArray, FloatArray
 from app.choreography.body import ENDS, SEGMENTS
-from app.choreography.clip import MotionClip
+from app.choreography.clip import MotionClip, write_motion
 from app.choreography.contacts import foot_contacts, tips_m
 from app.choreography.dance import Dance, Manner
 from app.choreography.derived_rhythm import audible_rhythm
@@ -39,7 +39,6 @@ from app.choreography.read_pair import read_pair
 from app.choreography.resample import resampled
 from app.choreography.rhythm import Rhythm
 from app.choreography.sequence import Weights
-from app.choreography.write_motion import write_motion
 from app.rig import quaternion
 from app.score.contents import uncast_score
 from app.score.read import read_contents

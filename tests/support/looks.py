@@ -50,7 +50,7 @@ from app.project.presence import Presence
 from app.project.recovery import Recoverable
 from app.score.read import read_contents
 from app.shell.app import Program, make_application
-from app.shell.recording_dialogs import show_latency
+from app.shell.commands.record import latency as show_latency
 from app.shell.workspaces import WORKSPACES
 from instrument_maps.load import bundled_maps
 from tests.gui.shell.conftest import Answers

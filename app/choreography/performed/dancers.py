@@ -30,12 +30,11 @@ from app.choreography.derived_rhythm import audible_rhythm
 from app.choreography.generate import Choreographer
 from app.choreography.judge import jerking_seams, sliding_stands
 from app.choreography.performed.choreographers import choreographer_of, too_long_to_dance
-from app.choreography.performed.forgetting import Remembered
 from app.choreography.retarget import retarget
 from app.choreography.rhythm import Rhythm, delayed
 from app.choreography.sequence import AccentGrid, Constraints, grid_of
 from app.errors import AppError, Message
-from app.identity_cache import IdentityCache
+from app.identity_cache import IdentityCache, LargeResults
 from app.motion.curves.curve import Envelopes
 from app.motion.model import Motion, frame_count
 from app.performance.ensemble import Performance
@@ -54,7 +53,7 @@ BLINK_S: Final = (0.08, 0.05, 0.16)
 BLINKS_EVERY_S: Final = (1.8, 6.0)
 
 _DANCING: IdentityCache[GeneratedDance] = IdentityCache(64)
-_REMEMBERED: Final = Remembered(2**30)
+_REMEMBERED: Final = LargeResults(2**30)
 """Generated dances: a dozen of a quarter of an hour, or two hundred of a minute, take so many bytes."""
 _RHYTHMS: IdentityCache[Rhythm] = IdentityCache(8)
 _recent_rhythms: deque[Rhythm] = deque(maxlen=4)
@@ -166,7 +165,7 @@ class GeneratedDance:
             made = self._made
             if made is None or made.fps != fps:
                 made = self._made = self._generated(fps)
-        _REMEMBERED.use(self, made.size_bytes)
+        _REMEMBERED.use(self.forget, made.size_bytes)
         return made
 
     def _generated(self, fps: Fraction) -> _Made:

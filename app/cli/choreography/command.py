@@ -277,12 +277,12 @@ def _formation(name: str) -> str:
 
 def generate(arguments: argparse.Namespace) -> None:
     """Generate the dances, write the files and print what is danced."""
+    from app.choreography.clip import write_motion
     from app.choreography.dance import Manner
     from app.choreography.derived_rhythm import audible_rhythm
     from app.choreography.formation import dance_together, roles
     from app.choreography.generate import Choreographer
     from app.choreography.model_file import read_model
-    from app.choreography.write_motion import write_motion
     from app.project.choreography_files import bundled_choreographies, choreography_path
     from app.score.contents import uncast_score
     from app.score.read import read_contents

@@ -17,7 +17,7 @@ METRES = 0.01
 
 
 class GltfDocument(Protocol):
-    """A glTF document that samplers are added to."""
+    """A glTF document that samplers are added to; its class is in the module that imports this one."""
 
     gltf: gltf.GLTF2
 

@@ -1,5 +1,5 @@
-"""Commands that exchange files with other programs: a changed MIDI file in; a MIDI file, players and films
-out."""
+"""Commands that exchange files with other programs: a changed MIDI file in; a MIDI file, players, films and a
+stream of poses out."""
 
 from __future__ import annotations
 
@@ -19,6 +19,7 @@ from app.project.model import Project
 from app.project.performers import Player
 from app.project.reimport import Reimport, reimported
 from app.score import suffixes
+from app.shell.action import Action
 from app.shell.editor import Editor, EditorAction, is_open
 from app.version import program_version
 from instrument_maps.library import all_maps
@@ -175,7 +176,19 @@ def _can_export(editor: Editor) -> bool:
     return bool(editor.session.project.players) and editor.files.is_open
 
 
-ACTIONS: tuple[EditorAction, ...] = (
+def toggle_stream(session: Session, on: bool = True) -> None:
+    """Stream, or no more."""
+    session.streaming.set(on=not session.streaming.on)
+
+
+def stream_settings(editor: Editor) -> None:
+    """Choose what is streamed, and where; once."""
+    from widgets.dialogs.stream import StreamDialog
+
+    editor.show_once(StreamDialog, lambda: StreamDialog(editor.session, editor.window))
+
+
+ACTIONS: tuple[Action | EditorAction, ...] = (
     EditorAction("file.reimport", read_again, "file", "Ctrl+Shift+I", enabled=is_open),
     EditorAction("file.reimport_other", read_another, "file", enabled=is_open),
     EditorAction("file.export_midi", export_midi, "file", enabled=_can_export),
@@ -188,4 +201,14 @@ ACTIONS: tuple[EditorAction, ...] = (
         enabled=can_draw,
         icon="film",
     ),
+    Action(
+        "stream.toggle",
+        toggle_stream,
+        "export",
+        "Ctrl+Alt+L",
+        enabled=lambda session: bool(session.project.performers),
+        checked=lambda session: session.streaming.on,
+        icon="stream",
+    ),
+    EditorAction("stream.settings", stream_settings, "export", icon="settings"),
 )

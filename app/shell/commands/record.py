@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from math import ceil, floor
 
 from app.editor.session import Session
@@ -11,17 +12,36 @@ from app.shell.editor import Editor, EditorAction
 
 
 def devices(editor: Editor) -> None:
-    """Choose what is recorded from, and see what comes in; once."""
-    from app.shell.recording_dialogs import show_devices
+    """Show the MIDI devices; what is chosen there holds at once."""
+    from widgets.dialogs.midi_devices import MidiDevicesDialog
 
-    show_devices(editor)
+    recorder = editor.recorder
+
+    def make() -> MidiDevicesDialog:
+        dialog = MidiDevicesDialog(editor.session, recorder.make_playback(), editor.window)
+        dialog.chosen.connect(recorder.choose)
+        dialog.controller_chosen.connect(recorder.set_controller)
+        dialog.wiring_chosen.connect(recorder.set_wiring)
+        dialog.latency_asked.connect(partial(latency, editor))
+        recorder.begin()
+        return dialog
+
+    editor.show_once(MidiDevicesDialog, make)
 
 
 def latency(editor: Editor) -> None:
-    """Find out how late the device comes; once."""
-    from app.shell.recording_dialogs import show_latency
+    """Find out how late the MIDI device comes."""
+    from widgets.dialogs.latency import LatencyDialog
 
-    show_latency(editor)
+    recorder = editor.recorder
+
+    def make() -> LatencyDialog:
+        dialog = LatencyDialog(editor.session, recorder.make_playback(), recorder.now_ns, editor.window)
+        dialog.latency_chosen.connect(recorder.set_latency)
+        recorder.begin()
+        return dialog
+
+    editor.show_once(LatencyDialog, make)
 
 
 def arm(session: Session, on: bool = True) -> None:

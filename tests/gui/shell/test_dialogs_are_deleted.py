@@ -19,9 +19,9 @@ from app.score.read import read_contents
 from app.shell import characters, questions
 from app.shell.app import Program
 from app.shell.commands.exchange import reimport_from
+from app.shell.commands.record import latency as show_latency
 from app.shell.licences_dialog import LicencesDialog
 from app.shell.questions import DialogQuestions
-from app.shell.recording_dialogs import show_latency
 from tests.gui.conftest import QUARTET, delete_now
 from tests.gui.shell.conftest import trigger
 from tests.support.studio import Studio

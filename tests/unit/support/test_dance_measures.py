@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from app.choreography.body import SEGMENTS
-from app.choreography.write_motion import write_motion
+from app.choreography.clip import write_motion
 from app.rig import quaternion
 from tests.support.dance_measures import (
     alignment,

@@ -1,13 +1,46 @@
-"""Follows the recording as a task, takes over what was found as one edit, and reports what is doubtful."""
+"""Aligns the score with the recording: an offset, a tempo or every beat is taken over as one edit; what is doubtful is
+reported."""
 
 from __future__ import annotations
 
 from app.audio.decode import AudioRecording
 from app.audio.followed_recording import Followed, FollowOptions, listen, take_over
+from app.audio.offset import Estimate
 from app.editor.session import Session, Severity
 from app.editor.tasks import Progress, StopRequested
 from app.errors import Message
+from app.project.edit.piece import set_offset
+from app.project.edit.tempo import scale_tempo
+from app.project.model import Project
 from app.score.beat_following import bars_named, message_of_place
+
+SURE = 0.5
+"""An offset that was estimated with less confidence is not taken by itself."""
+SAME_TEMPO = 0.002
+"""Tempi that differ by less are the same: it is 6 ms in 3 s."""
+
+
+def take_estimate(session: Session, estimate: Estimate, unasked: bool, with_tempo: bool) -> None:
+    """Set the offset that was estimated, and the tempo if requested, as one edit; report how certain they are."""
+    percent = round(100 * estimate.confidence)
+    if estimate.confidence < SURE and (unasked or with_tempo):
+        session.notice(Message("audio.not_recognised", {"percent": percent}), Severity.WARNING)
+        return
+    other_tempo = abs(estimate.tempo_ratio - 1.0) > SAME_TEMPO
+    fitted = other_tempo and with_tempo
+
+    def placed(project: Project) -> Project:
+        project = set_offset(project, estimate.offset_s, estimate.confidence)
+        return scale_tempo(project, estimate.tempo_ratio) if fitted else project
+
+    session.attempt(Message("edit.fit_tempo" if fitted else "edit.estimate_offset"), placed)
+    tempo_percent = 100 * (estimate.tempo_ratio - 1.0)
+    arguments = {"offset_s": estimate.offset_s, "percent": percent, "tempo_percent": tempo_percent}
+    id = "audio.offset_found"
+    if other_tempo:
+        id = "audio.tempo_fitted" if with_tempo else "audio.other_tempo"
+    severity = Severity.INFORMATION if estimate.confidence >= SURE else Severity.WARNING
+    session.notice(message_of_place(id, dict(arguments), estimate.runner_up), severity)
 
 
 def follow_in_background(session: Session, recording: AudioRecording, options: FollowOptions) -> None:
