@@ -15,7 +15,7 @@ from app.plan.model import BreathEvent
 from app.plan.music.breath_controller import BreathEnvelope, BreathGaps, gaps_within, silences
 from app.plan.music.notation import at_score_tempo, heard_rests_s, notated, usual_release
 from app.plan.music.piece import EPSILON, LineTimes, Piece, gaps_s
-from app.plan.music.rests import Rests, are_audible, rest_ticks
+from app.plan.music.rests import Rests, are_certain, rest_ticks
 from app.plan.music.written_marks import WrittenMarks
 from app.plan.parameters import PlayerParameters
 from app.score.model import Note
@@ -97,7 +97,7 @@ def read_score(line: Breather, air: Air | None, envelope: BreathEnvelope | None)
 def _rests(steady: LineTimes, played: LineTimes, times: LineTimes, piece: Piece) -> Rests:
     """The rests of the score, which decides what is one and how long it is.
 
-    What is a rest by its seconds lasts at least as long as it is heard, wherever a score would have it.
+    What is a rest by itself lasts at least as long as it is heard, wherever a score would have it.
     What is so long that it is always breathed in is so at any tempo.
 
     Parameters
@@ -105,11 +105,12 @@ def _rests(steady: LineTimes, played: LineTimes, times: LineTimes, piece: Piece)
     steady, played : LineTimes
         As a score would have the line, and as it is played, both at the tempo of the score.
     """
-    written = rest_ticks(steady, piece.beat_ticks_at(times.onset_tick))
-    audible = are_audible(played, usual_release(played)) & (times.silence_tick > 0)
-    written = np.where(audible, np.maximum(written, times.silence_tick), written)
+    beats = piece.beat_ticks_at(times.onset_tick)
+    written = rest_ticks(steady, beats)
+    certain = are_certain(played, beats, usual_release(played)) & (times.silence_tick > 0)
+    written = np.where(certain, np.maximum(written, times.silence_tick), written)
     is_rest = (written > 0) & (times.silence_tick > 0)
     written_s, sounding_s = gaps_s(steady), gaps_s(times)
-    lasts_s = np.where(audible, np.maximum(written_s, heard_rests_s(played)), written_s)
+    lasts_s = np.where(certain, np.maximum(written_s, heard_rests_s(played)), written_s)
     lasts_s = np.where(sounding_s >= ALWAYS_S - EPSILON, np.maximum(lasts_s, sounding_s), lasts_s)
     return Rests(*(np.where(is_rest, column, 0) for column in (times.silence_tick, written, lasts_s)))

@@ -8,7 +8,7 @@ import numpy as np
 
 from app.arrays import AnyFloatArray, BoolArray, FloatArray, IntArray
 from app.plan.music.piece import EPSILON, TOUCHING_GATE, LineTimes, Piece, gaps_s
-from app.plan.music.rests import AUDIBLE_S, SILENT_S, are_audible
+from app.plan.music.rests import AUDIBLE_S, SILENT_S, are_audible, are_certain
 
 WRITTEN_SHARE = 0.9
 """Share of notes on fractions of a quarter from which they were not played into the file ..."""
@@ -126,9 +126,10 @@ def notated(times: LineTimes, piece: Piece) -> LineTimes:
         latest = end + np.minimum(
             np.maximum(early, max(usual_release(times), RELEASE_SHARES[0]) * np.diff(onset) + moved), sounding
         )
-        # An audible silence after a long note is a rest.
-        audible = np.ceil(clock.ticks(times.played_end_s[:-1] + AUDIBLE_S)) - 1.0
-        latest = np.where(are_audible(times, usual_release(times))[1:], np.minimum(latest, audible), latest)
+        # No release is an audible silence after a long note, nor one of a beat.
+        audible = np.minimum(np.ceil(clock.ticks(times.played_end_s[:-1] + AUDIBLE_S)), following) - 1.0
+        certain = are_certain(times, piece.beat_ticks_at(times.onset_tick), usual_release(times))[1:]
+        latest = np.where(certain, np.minimum(latest, audible), latest)
         begins = bar_starts(end, bars)
         since = end - begins
         rest_from = begins + simplest_places(since - LATE_RELEASE * quarter, latest - begins, since, quarter)

@@ -73,9 +73,15 @@ def rest_ticks(times: LineTimes, beat_ticks: IntArray) -> IntArray:
     if len(rests) > 1:
         gap = rests[1:]
         silence_s = times.onset_s[1:] - times.played_end_s[:-1]
-        is_rest = are_audible(times)[1:] | (gap >= beat_ticks[1:])
-        gap[(_detached(times, silence_s) & ~is_rest) | (gap < LEAST_BEATS * beat_ticks[1:])] = 0
+        is_detached = _detached(times, silence_s) & ~are_certain(times, beat_ticks)[1:]
+        gap[is_detached | (gap < LEAST_BEATS * beat_ticks[1:])] = 0
     return rests
+
+
+def are_certain(times: LineTimes, beat_ticks: IntArray, released: float = 0.0) -> BoolArray:
+    """(N,): whether the silence before each note is a rest by itself, however the line is articulated or released:
+    it is audible (see `are_audible`), or lasts a felt beat."""
+    return are_audible(times, released) | np.insert(times.silence_tick[1:] >= beat_ticks[1:], 0, False)
 
 
 def are_audible(times: LineTimes, released: float = 0.0) -> BoolArray:

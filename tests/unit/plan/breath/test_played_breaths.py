@@ -161,3 +161,23 @@ def test_half_a_second_after_a_long_note_is_a_rest_in_a_played_line_too() -> Non
     times = line_times(MonophonicPart("p", line_of(*notes), valves()), PlainClock(((0, 60.0),)))
     score = notated(times, piece_of(PlainClock(((0, 60.0),))))
     assert (rest_ticks(score, np.full(6, Q))[1:] > 0).all()
+
+
+@pytest.mark.parametrize("felt_beat", [Q // 2, Q])
+@pytest.mark.parametrize("length", [Q // 8, Q, 3 * Q, 4 * Q])
+def test_a_beat_of_silence_is_a_rest_however_early_the_notes_of_the_line_are_released(
+    length: int, felt_beat: int
+) -> None:
+    """Every note ends a fifth of its step early; after the longest that is a beat, and nobody says which is meant."""
+    chance = random.Random(length)
+    rows, rests, at = [], set(), 7
+    for index, step in enumerate((2, 1, 1, 0.5, 0.5, 1, 0, 2, 1, 0, 1, 1) * 4):
+        sound, silence = (round(0.8 * step * Q), round(0.2 * step * Q)) if step else (length, felt_beat)
+        rows.append((at, sound, PITCHES[index % len(PITCHES)]))
+        at += sound + silence + chance.choice([0, 1])
+        if not step or silence >= felt_beat:
+            rests.add(f"breath:1:{index + 2}")
+    line = MonophonicPart("p", line_of(*rows), valves(), PlayerParameters(breath_need=0.0))
+    clock = PlainClock(((0, 120.0),))
+    made = make_plans(piece_of(clock, felt_ticks=felt_beat), (line,), time_frame((line,), clock))["p"]
+    assert breaths(made) >= rests & {f"breath:{note.id}" for note in line.notes}
