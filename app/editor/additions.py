@@ -2,19 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import partial
 from typing import TypeAlias
 
 from app.editor.selection import EventKey, Selection
-from app.editor.session import Session
-from app.errors import Message
+from app.editor.session import Session, Severity
+from app.errors import AppError, Message
 from app.plan.kinds import GESTURE_KINDS, GestureKind
 from app.plan.model import PlayerPlan
 from app.project.edit import breaths_and_cues
 from app.project.edit import events as edit
 from app.project.edit.corrections import Edited
+from app.project.edit.marks import toggle_marks
 from app.project.model import Project
+from app.score.marks import MARK
+from app.score.model import Note
 
 Addition: TypeAlias = tuple[PlayerPlan, Callable[[Project], Edited]]
 """A player's plan, and the edit."""
@@ -35,6 +38,17 @@ def add_breaths(session: Session, places: Places) -> None:
         "edit.add_breath",
         [(plan, partial(breaths_and_cues.add_breath, plan=plan, tick=tick)) for plan, tick in places],
     )
+
+
+def toggle_mark(session: Session, notes: Mapping[str, Sequence[Note]], kind: str, text: str = "") -> None:
+    """Write a mark over notes, by player, or take it away where all have it; why not is in the status line."""
+    try:
+        marked = toggle_marks(session.project, notes, kind, text)
+    except AppError as error:
+        session.notice(error.message, Severity.WARNING)
+        return
+    id = "edit.add_mark" if marked.added else "edit.remove_mark"
+    session.apply(Message(id, {"mark": text or f"{MARK}.{kind}"}), marked.project)
 
 
 def add_cues(session: Session, places: Places) -> None:

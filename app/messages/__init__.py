@@ -85,7 +85,7 @@ PITCHES: Final[dict[str, tuple[str, ...]]] = {
 DETAILS: Final = frozenset({"detail", "reason"})
 """Arguments that `app.messages.details` words."""
 
-TEXTS: Final = frozenset({"parameter", "variant", "beside", "presentation", "aspect", "scale"})
+TEXTS: Final = frozenset({"mark", "parameter", "variant", "beside", "presentation", "aspect", "scale"})
 """Arguments that may be ids of texts themselves."""
 
 

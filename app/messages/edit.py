@@ -31,6 +31,8 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
     "edit.set_embouchure": ("Change Embouchure of {count} {count:Note|Notes}", "アンブシュアを変更（音符 {count} 個）"),
     "edit.change_level": ("Change Controller Curve", "コントローラーのカーブを変更"),
     "edit.pin_fingerings": ("Pin Fingering of {count} {count:Note|Notes}", "運指を固定（音符 {count} 個）"),
+    "edit.add_mark": ("Add {mark}", "{mark}を追加"),
+    "edit.remove_mark": ("Remove {mark}", "{mark}を削除"),
     "edit.add_breath": ("Add Breath", "ブレスを追加"),
     "edit.set_giver": ("Let {player} Give the Entry", "{player}が入りの合図を出す"),
     "edit.set_taker": ("Bring In {player}", "合図で{player}を入らせる"),

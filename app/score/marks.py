@@ -66,6 +66,12 @@ MARKINGS: Final = (
 MARK: Final = "mark"
 """Begins the ids of marks."""
 MARK_KINDS: Final[Mapping[str, Marking]] = {kind.id: kind for kind in MARKINGS}
+WRITABLE: Final = (
+    *("slur", "non_legato", "staccato", "staccatissimo", "tenuto", "accent", "marcato"),
+    *("double_tongue", "triple_tongue", "flutter_tongue", "breath", "caesura", "crescendo", "diminuendo"),
+)
+"""Kinds that are offered to be written by hand, beside dynamics."""
+WRITABLE_DYNAMICS: Final = ("ppp", "pp", "p", "mp", "mf", "f", "ff", "fff", "sfz", "fp")
 if TYPE_CHECKING:
     MarkKind: TypeAlias = str
 else:

@@ -17,6 +17,7 @@ BAR: Final = ("file", "edit", "view", "play", "record", "generate", "export", "h
 BEFORE_LINE: Final = frozenset(
     (
         *("file.save", "file.import_midi", "file.piece_settings", "file.close", "file.quit"),
+        *("marks.double_tongue", "marks.breath", "marks.crescendo", "marks.dynamic_sfz"),
         *("application.preferences", "application.about", "workspace.reset", "lanes.unfold_all"),
     )
 )

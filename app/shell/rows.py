@@ -15,6 +15,7 @@ from app.shell.commands import (
     file,
     fingerings,
     generate,
+    marks,
     notes,
     piece_metadata,
     playback,
@@ -57,7 +58,7 @@ def rows() -> tuple[ActionRow[Any], ...]:
     """Every row of the table."""
     place = {action_id: number for number, action_id in enumerate(FILE_ORDER)}
     own: tuple[ActionRow[Any], ...] = (
-        *(*file.ACTIONS, *exchange.ACTIONS, *edit.ACTIONS, *notes.ACTIONS, *fingerings.ACTIONS),
+        *(*file.ACTIONS, *exchange.ACTIONS, *edit.ACTIONS, *notes.ACTIONS, *marks.ACTIONS, *fingerings.ACTIONS),
         *(*events.ACTIONS, *edit.FELT_BEATS, *players.ACTIONS, *timeline.ACTIONS, *viewport.ACTIONS),
         *(*video.ACTIONS, *playback.ACTIONS, *record.ACTIONS, *takes.ACTIONS, *generate.ACTIONS, *problems.ACTIONS),
         *(*characters.ACTIONS, *piece_metadata.ACTIONS, *application.ACTIONS),

@@ -58,6 +58,9 @@ notes.quantise = popup quantise
 notes.* = project + selection
 fingering.type_* ? project
 fingering.* = project
+marks.dynamic = popup
+marks.slur, marks.non_legato ? project + notice
+marks.* = project
 events.gesture, events.expression, events.style = popup
 events.preparation, events.give_back, events.give_back_player = project + selection
 events.* = project + selection

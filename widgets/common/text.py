@@ -62,7 +62,7 @@ def _reported(message: Message, name: str, session: Session | None, player_id: s
             return _pitch(session, float(value), player)
         if name in NOTES and isinstance(value, str):
             return _anchor(session, value, player, is_anchor=name == "anchor")
-    if name == "parameter":
+    if name in ("parameter", "mark"):
         return parameter_text(str(value))
     if name in DETAILS:
         return detail_text(str(value), language(), _label)

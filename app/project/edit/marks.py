@@ -104,7 +104,7 @@ def toggle_marks(project: Project, notes: Mapping[str, Sequence[Note]], kind: st
     least = 2 if anchor == "notes" else 1
     chosen = {player_id: own for player_id, own in notes.items() if len(own) >= least}
     if not chosen:
-        raise UsageError("mark.one_note" if any(notes.values()) else "mark.no_notes", kind=f"mark.{kind}")
+        raise UsageError("mark.one_note" if any(notes.values()) else "mark.no_notes")
     requested = {player_id: _marks_over(project, player_id, own, kind, text) for player_id, own in chosen.items()}
     there = {player_id: player_marks(project, player_id) for player_id in chosen}
     adds = any(mark not in there[player_id] for player_id, marks in requested.items() for mark in marks)

@@ -5,9 +5,7 @@ from __future__ import annotations
 from collections import defaultdict
 from typing import Final
 
-from PySide6.QtCore import Qt
 from PySide6.QtGui import QCursor
-from PySide6.QtWidgets import QApplication, QMainWindow, QMenu
 
 from app.editor.additions import (
     add_breaths,
@@ -35,10 +33,10 @@ from app.project.edit.marks import corrections_at
 from app.project.edit.notes import erase
 from app.project.model import Project
 from app.shell.action import Action
+from app.shell.commands.choice_menu import choice_menu
 from app.shell.commands.command_targets import events_by_player, has_player, has_something, notes_by_player
 from widgets.common.actions import actions
 from widgets.common.clicks import on_click
-from widgets.common.controls import named
 from widgets.common.event_names import expression_name, gesture_name, style_name
 from widgets.common.plain import verbatim
 
@@ -82,7 +80,7 @@ def _spans(session: Session) -> list[tuple[PlayerPlan, int, int]]:
 
 def choose_gesture(session: Session) -> None:
     """Show the kinds of gestures where the mouse is, and below them those that are written in tables."""
-    menu = _menu()
+    menu = choice_menu()
     for action in ADDED:
         menu.addAction(actions(session)[action.id])
     menu.addSeparator()
@@ -95,7 +93,7 @@ def choose_gesture(session: Session) -> None:
 
 def choose_expression(session: Session) -> None:
     """Show the expressions where the mouse is: the program's, then custom."""
-    menu = _menu()
+    menu = choice_menu()
     own = {item.name for item in session.project.expressions}
     for name in sorted(session.performance.expressions, key=lambda name: (name in own, name)):
         entry = menu.addAction(verbatim(expression_name(name)))
@@ -107,7 +105,7 @@ def choose_expression(session: Session) -> None:
 def choose_style(session: Session) -> None:
     """Show the styles where the mouse is: of the selected players in the selected range, or from the playhead's bar on;
     with selected regions, another one for them."""
-    menu = _menu()
+    menu = choice_menu()
     regions = any(EventId.parse(key.event_id).kind == STYLE for key in session.selection.events)
     for name in sorted(session.performance.metadata.styles.items, key=style_name):
         entry = menu.addAction(verbatim(style_name(name)))
@@ -123,15 +121,6 @@ def _choose_style(session: Session, name: str, regions: bool) -> None:
     span = session.selection.span
     tick = float(span[0]) if span is not None else float(_playhead_tick(session))
     add_styles(session, name, bars_of(session, session.players, tick))
-
-
-def _menu() -> QMenu:
-    """A menu of the editor's window; it goes when it closes."""
-    windows = (window for window in QApplication.topLevelWidgets() if isinstance(window, QMainWindow))
-    # Not of the palette, which may be what asks: it is about to close.
-    menu = named(QMenu(next(windows, QApplication.activeWindow())), "choice")
-    menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-    return menu
 
 
 # Taking away

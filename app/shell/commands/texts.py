@@ -4,10 +4,22 @@ from __future__ import annotations
 
 from typing import Final
 
+from app.messages import marks
 from app.plan.kinds import COMMAND_TEXTS
+from app.score.marks import WRITABLE, WRITABLE_DYNAMICS
+
+
+def _titled(english: str, japanese: str) -> tuple[str, str]:
+    """Return a name as that of a command."""
+    return english.title(), japanese
+
 
 TEXTS: Final[dict[str, tuple[str, str]]] = {
     **COMMAND_TEXTS,
+    **{f"action.marks.{kind}": _titled(*marks.WORDINGS[f"mark.{kind}"]) for kind in WRITABLE},
+    **{f"action.marks.dynamic_{text}": (f"Dynamic: {text}", f"強弱記号: {text}") for text in WRITABLE_DYNAMICS},
+    "action.marks.accent": ("Accent Mark", "アクセント記号"),
+    "action.marks.dynamic": ("Dynamic...", "強弱記号..."),
     "action.application.about": ("About Suisou", "Suisou について"),
     "action.application.characters": ("Characters...", "キャラクター..."),
     "action.application.full_screen": ("Full-Screen Viewport", "ビューポートを全画面表示"),
@@ -238,6 +250,8 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
     "menu.help": ("&Help", "ヘルプ(&H)"),
     "menu.lanes": ("Lanes", "レーン"),
     "menu.language": ("Language", "言語"),
+    "menu.marks": ("Marks", "記号"),
+    "menu.dynamics": ("Dynamics", "強弱記号"),
     "menu.notes": ("Notes", "音符"),
     "menu.open_recent": ("Open Recent", "最近使ったファイル"),
     "menu.panels": ("Panels", "パネル"),

@@ -50,10 +50,11 @@ KEPT = (
         "OpenGL",
         "Esc",
     ),
+    *("ppp", "fff", "sfz"),
     *("Ctrl", "Shift", "Alt", "Home", "End", "Space", "Enter", "Return", "Backspace", "Del", "Delete", "Tab", "Ins"),
     *("Left", "Right", "Up", "Down", "PgUp", "PgDown", "fps", "CPU", "GL", "ms"),
 )
-"""Words that are the same in Japanese: names, file formats, keys, units."""
+"""Words that are the same in Japanese: names, file formats, dynamics, keys, units."""
 WORD = re.compile(r"[A-Za-z]{3,}")
 
 

@@ -18,12 +18,14 @@ from app.editor.listening import RecordedTake
 from app.editor.selection import Selection
 from app.errors import Message
 from app.plan.by_hand.corrections import AddGesture, PinFingering, RemoveEvent, SetBreath, SetCue, Vary
+from app.plan.by_hand.mark_corrections import SetMark
 from app.project.casting import StagePosition
 from app.project.edit.notes import move
 from app.project.edit.players import join, place, set_parameters
 from app.project.edit.takes import set_cleaning
 from app.project.model import Project, map_choices
 from app.project.piece_metadata import load_metadata, metadata_of, save_metadata
+from app.score.marks import MARK_KINDS, WRITABLE, WRITABLE_DYNAMICS
 from app.score.model import Note
 from app.score.read import read_midi
 from app.score.take import Cleaning
@@ -154,6 +156,20 @@ def type_case(sign: str) -> Case:
 
 def gesture_case(kind: str) -> Case:
     return Case(lambda d: [item.kind for item in d.made(AddGesture)] == [kind], edits=True)  # type: ignore[attr-defined]
+
+
+def mark_case(kind: str, text: str = "") -> Case:
+    """The mark stands over the selected notes."""
+
+    def right(desk: Desk) -> bool:
+        made = [item.mark for item in desk.made(SetMark)]  # type: ignore[attr-defined]
+        notes = [note for note, _ in desk.chosen()]
+        at_ticks = MARK_KINDS[kind].anchor in ("place", "span")
+        stands = {mark.tick if at_ticks else mark.note_id for mark in made}
+        expected = {notes[0].onset_tick} if at_ticks else {note.id for note in notes}
+        return bool(stands) and stands <= expected and {(mark.kind, mark.text) for mark in made} == {(kind, text)}
+
+    return Case(right, edits=True)
 
 
 def pinned(desk: Desk) -> None:
@@ -508,6 +524,9 @@ CASES: dict[str, Case] = {
         lambda d: bool(d.made(PinFingering)), lambda d: d.session.select(Selection(with_alternates(d))), edits=True
     ),
     **{f"fingering.type_{sign.lower()}": type_case(sign) for sign in "01234567T"},
+    **{f"marks.{kind}": mark_case(kind) for kind in WRITABLE},
+    **{f"marks.dynamic_{text}": mark_case("dynamic", text) for text in WRITABLE_DYNAMICS},
+    "marks.dynamic": Case(lambda d: d.menu("marks.dynamic_mf")),
     # Events
     "edit.delete": Case(event_gone, chosen_event, edits=True),
     "events.give_back": Case(

@@ -1,0 +1,17 @@
+"""A menu of what there is to choose from, where the mouse is."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QApplication, QMainWindow, QMenu
+
+from widgets.common.controls import named
+
+
+def choice_menu() -> QMenu:
+    """A menu of the editor's window; it goes when it closes."""
+    windows = (window for window in QApplication.topLevelWidgets() if isinstance(window, QMainWindow))
+    # Not of the palette, which may be what asks: it is about to close.
+    menu = named(QMenu(next(windows, QApplication.activeWindow())), "choice")
+    menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+    return menu
