@@ -25,7 +25,7 @@ Far = Callable[[LaneMouse, LaneMouse], bool]
 
 
 class Editing(Protocol):
-    """Part of the session that gestures use."""
+    """Part of the session that gestures use; a protocol, since the session is a QObject and the model knows no Qt."""
 
     document: Document
 
@@ -47,7 +47,7 @@ class Editing(Protocol):
 
 
 class Plane(Protocol):
-    """Scales of times and values."""
+    """Scales of times and values; a protocol, since lanes are widgets and the model knows no Qt."""
 
     @property
     def axis(self) -> Scale: ...

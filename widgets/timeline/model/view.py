@@ -13,7 +13,7 @@ PADDING = 0.02
 
 
 class Scale(Protocol):
-    """Scale from seconds to pixels."""
+    """Scale from seconds to pixels: of the value `TimeView`, and of the axis that is a QObject."""
 
     @property
     def px_per_s(self) -> float: ...

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Any, Generic, Protocol, TypeVar
+from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 import numpy as np
 from PySide6.QtCore import QEvent, QRectF, Qt
 from PySide6.QtGui import (
     QColor,
     QContextMenuEvent,
-    QFont,
     QKeyEvent,
     QMouseEvent,
     QPainter,
@@ -19,48 +18,14 @@ from PySide6.QtGui import (
 )
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
-from app.editor.session import Session
-from widgets.timeline.model.hand import LaneMouse
-from widgets.timeline.model.lines import Lines
 from widgets.timeline.plot.cached_picture import Pictured
 from widgets.timeline.plot.drawing import draw_lines
-from widgets.timeline.plot.time_axis import TimeAxis
+
+if TYPE_CHECKING:
+    from widgets.timeline.lane import Lane
 
 
-class LaneView(Protocol):
-    """Part of a lane that its items draw."""
-
-    id: str
-    session: Session
-    axis: TimeAxis
-    plot: Plot
-
-    @property
-    def plot_rect(self) -> QRectF: ...
-    @property
-    def y_range(self) -> tuple[float, float]: ...
-    def y_px(self, value: float) -> float: ...
-    def lines(self) -> Lines: ...
-    def font(self) -> QFont: ...
-
-
-class PlotOwner(Protocol):
-    """Receiver of a plot's events."""
-
-    session: Session
-
-    def plot_resized(self) -> None: ...
-    def pressed(self, event: QMouseEvent) -> None: ...
-    def moved(self, event: QMouseEvent) -> None: ...
-    def released(self, event: QMouseEvent) -> None: ...
-    def double_clicked(self, event: QMouseEvent) -> None: ...
-    def wheeled(self, event: QWheelEvent) -> None: ...
-    def key_pressed(self, event: QKeyEvent) -> None: ...
-    def claims(self, event: QKeyEvent) -> bool: ...
-    def hover(self, mouse: LaneMouse | None) -> None: ...
-
-
-AnyLane = TypeVar("AnyLane", bound=LaneView)
+AnyLane = TypeVar("AnyLane", bound="Lane")
 
 
 class LaneItem(Generic[AnyLane]):
@@ -68,7 +33,7 @@ class LaneItem(Generic[AnyLane]):
 
     Parameters
     ----------
-    lane : LaneView
+    lane : Lane
         Or what more the item draws of its lane, where it says so.
     z : float
         What has more lies above.
@@ -88,10 +53,10 @@ class LaneItem(Generic[AnyLane]):
         raise NotImplementedError
 
 
-class Background(LaneItem[LaneView]):
+class Background(LaneItem["Lane"]):
     """Lines of bars, beats and the grid; the loop and the selected span as shades."""
 
-    def __init__(self, lane: LaneView) -> None:
+    def __init__(self, lane: Lane) -> None:
         super().__init__(lane, -100.0)
 
     def paint_px(self, painter: QPainter, exposed: QRectF) -> None:
@@ -132,7 +97,7 @@ class Plot(Pictured):
     lanes again.
     """
 
-    def __init__(self, lane: PlotOwner, parent: QWidget) -> None:
+    def __init__(self, lane: Lane, parent: QWidget) -> None:
         super().__init__(parent)
         self._lane = lane
         self._items: list[LaneItem[Any]] = []

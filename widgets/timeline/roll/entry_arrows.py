@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QPainter, QPainterPath, QPen, QPolygonF
 
@@ -10,7 +12,9 @@ from widgets.timeline.model.hand import LaneMouse
 from widgets.timeline.model.roll.entries import End, EntryArrow, EntryDrag, end_at, entry_arrows
 from widgets.timeline.plot.drawing import shade
 from widgets.timeline.plot.plot import LaneItem
-from widgets.timeline.roll.drawn_notes import RollView
+
+if TYPE_CHECKING:
+    from widgets.timeline.roll.piano_roll import PianoRoll
 
 HEAD_PX = 7.0
 DOT_PX = 2.5
@@ -20,10 +24,10 @@ HELD = 1.6
 """An end under the mouse is larger by this factor."""
 
 
-class EntryArrows(LaneItem[RollView]):
+class EntryArrows(LaneItem["PianoRoll"]):
     """The entries that the player in front gives or takes, in the giver's colour."""
 
-    def __init__(self, lane: RollView) -> None:
+    def __init__(self, lane: PianoRoll) -> None:
         super().__init__(lane, 12.0)
         self._known: tuple[tuple[object, ...], tuple[EntryArrow, ...]] = ((), ())
         self._drag: EntryDrag | None = None

@@ -2,43 +2,27 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING
 
 import numpy as np
 from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QPainter, QPen
 
 from app.arrays import IntArray
-from app.project.performers import Dancer
 from widgets.common.choreography.figures import draw_figures, placed
-from widgets.timeline.lanes.choreography.dragged_step import MoveStep
 from widgets.timeline.plot.drawing import draw_lines, draw_mark, draw_rects, draw_text, shade, small_font
-from widgets.timeline.plot.plot import LaneItem, LaneView
+from widgets.timeline.plot.plot import LaneItem
 
 if TYPE_CHECKING:
     from app.choreography.performed.dance_steps import DanceSteps
+    from widgets.timeline.lanes.choreography.dance_lane import DanceLane  # noqa: F401 - ruff does not see the quoted name
 
 LEAST_NUMBER_PX, LEAST_FIGURE_PX = 12.0, 20.0
 """A narrower block has no number, and no figure."""
 _BAR_PX = 3.0
 
 
-class DancesView(LaneView, Protocol):
-    """Part of a lane of dances that is drawn."""
-
-    dances: dict[str, DanceSteps]
-    moving: MoveStep | None
-
-    @property
-    def dancers(self) -> tuple[Dancer, ...]: ...
-    @property
-    def selected_step(self) -> tuple[str, int] | None: ...
-    def row_rect(self, number: int) -> QRectF: ...
-    def empty_text(self) -> str: ...
-    def reason(self, dance: DanceSteps) -> str: ...
-
-
-class DancesItem(LaneItem[DancesView]):
+class DancesItem(LaneItem["DanceLane"]):
     """The rows of a lane of dances."""
 
     def paint_px(self, painter: QPainter, exposed: QRectF) -> None:

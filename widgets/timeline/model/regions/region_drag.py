@@ -27,7 +27,7 @@ Edit = Callable[[Project, PlayerPlan, Sequence[str]], Edited]
 
 
 class RegionPlane(Plane, Protocol):
-    """Scales of the regions, and the limits of their moves."""
+    """Scales of the regions, and the limits of their moves; a protocol for the reason of `Plane`."""
 
     @property
     def session(self) -> Editing: ...

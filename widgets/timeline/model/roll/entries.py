@@ -76,7 +76,7 @@ def _note_at(project: Project, player_id: str, tick: int) -> tuple[int, int] | N
 
 
 class EntryPlane(Plane, Protocol):
-    """The roll under the mouse."""
+    """The roll under the mouse; a protocol for the reason of `Plane`."""
 
     @property
     def session(self) -> RollSession: ...

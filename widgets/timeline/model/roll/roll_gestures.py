@@ -17,7 +17,7 @@ VELOCITY_A_PX = 0.5
 
 
 class RollPlane(Plane, Protocol):
-    """The roll under the mouse; ``drag_px``: the mouse moves this far before a press becomes a drag."""
+    """The roll under the mouse, a protocol as `Plane` is; a press becomes a drag after ``drag_px``."""
 
     @property
     def session(self) -> RollSession: ...

@@ -33,7 +33,7 @@ NO_GHOSTS = Behind((), ())
 
 
 class RollSession(Editing, Protocol):
-    """Interface of the session for the piano roll."""
+    """Part of the session that the roll uses; a protocol for the reason of `Editing`."""
 
     @property
     def player(self) -> Player | None: ...

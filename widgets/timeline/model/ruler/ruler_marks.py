@@ -63,7 +63,7 @@ def clock(seconds: float, decimals: int) -> str:
 
 
 class Metrics(Protocol):
-    """Widths of texts, as Qt's metrics of a font give them."""
+    """Widths of texts in a font; a protocol, since the metrics are Qt's and the model knows no Qt."""
 
     def horizontalAdvance(self, text: str, /) -> float: ...
 

@@ -24,7 +24,7 @@ EDGE_PX = 4.0
 
 
 class Recorded(Editing, Protocol):
-    """Part of the session that takes use."""
+    """Part of the session that takes use; a protocol for the reason of `Editing`."""
 
     @property
     def player(self) -> Player | None: ...
