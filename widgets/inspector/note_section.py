@@ -26,14 +26,13 @@ from widgets.common.fingering_text import short_label
 from widgets.common.flow import FlowLayout
 from widgets.common.layouts import in_column, panel
 from widgets.common.number_slider import NumberSlider
-from widgets.common.pitch import pitch_text
+from widgets.common.pitch import pitch_from, pitch_text
 from widgets.common.plain import Label
 from widgets.common.section import Section
 from widgets.common.text import message_text, sentence
 from widgets.inspector.by_hand import ByHandLine
 from widgets.inspector.generated_values import Generated
 from widgets.inspector.inspected_selection import NoteFinder, SelectedNotes, fingering_of, selected_notes
-from widgets.inspector.pitch_reading import pitch_from
 
 LATEST_TICK = float(2**31 - 1)
 EMBOUCHURE = ("tension", "effort", "air")

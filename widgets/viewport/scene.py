@@ -9,7 +9,7 @@ import numpy as np
 from PySide6.QtCore import QObject, Signal
 
 from app.arrays import FloatArray
-from app.editor.live_poses import LivePoses
+from app.editor.live_poses import LivePoses, WornFaces
 from app.editor.poses import PoseSource, same
 from app.editor.session import Session, Severity
 from app.editor.translated import tr
@@ -29,7 +29,6 @@ from widgets.viewport.look import Color, rgb
 from widgets.viewport.overlay import NameTag, OverlayMarks, over_heads_m
 from widgets.viewport.pose_tool import PoseTool
 from widgets.viewport.shapes import Shapes
-from widgets.viewport.worn_face import WornFaces
 
 CONDUCTORS_NAME = "stage.conductor"
 PODIUM_NAME_M = 0.5

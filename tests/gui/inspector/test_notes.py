@@ -18,9 +18,9 @@ from instrument_maps.library import find_map
 from tests.gui.inspector.hands import child, click, drag, number, type_into
 from widgets.common.chip import Chip
 from widgets.common.fingering_diagram import FingeringDiagram, slide_slots
+from widgets.common.pitch import pitch_from
 from widgets.inspector.by_hand import ByHandLine
 from widgets.inspector.panel import InspectorPanel
-from widgets.inspector.pitch_reading import pitch_from
 
 
 def with_alternates(session: Session, player: Player) -> Note:

@@ -6,10 +6,10 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from app.editor.live_poses import WornFaces
 from app.editor.poses import same
 from app.editor.session import Session
 from app.performance.chunks import Pose
-from widgets.viewport.worn_face import WornFaces
 
 
 class Standing:
