@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import gc
 import math
+from collections import Counter
 from collections.abc import Sequence
 from typing import Any, TypeAlias
 
@@ -21,6 +22,7 @@ from app.messages import filled, text
 from app.messages.pitches import pitch_name
 from app.performance.cast import attempt
 from app.performance.ensemble import Performance
+from app.performance.fact_sources import FACTS, breath_source, note_sources, tempo_source
 from app.performance.loudness import controller_input
 from app.performance.performance_problems import all_problems
 from app.plan.by_hand.events import AdditiveEvent, PoseEvent, StyleEvent
@@ -119,6 +121,7 @@ def inspection(performance: Performance, *, contacts: bool = True, without_limit
         "duration_s": score.tempo_map.seconds(float(score.sounding_end_tick)),
         "ticks_per_beat": score.ticks_per_quarter,
         "tempo": [{"tick": tick, "bpm": bpm} for tick, bpm in score.tempo_map.bpm],
+        "tempo_source": tempo_source(score),
         "markers": [
             {"tick": marker.tick, "s": score.tempo_map.seconds(float(marker.tick)), "text": marker.text}
             for marker in score.markers
@@ -192,6 +195,8 @@ def _player(performance: Performance, player: Player, instrument: InstrumentMap)
     loudness = {event.note_id: event.air for event in plan.embouchures}
     marks, blown = performance.marks(player), controller_input(part)
     tongues = {event.note_id: event for event in plan.tongues}
+    corrections = performance.project.corrections.get(player.id, ())
+    sources = note_sources(part, played, plan, corrections, clock.ticks_per_quarter)
     table = {
         "name": player.name,
         "instrument": player.instrument_id,
@@ -207,10 +212,16 @@ def _player(performance: Performance, player: Player, instrument: InstrumentMap)
                 "loudness": loudness[note.id],
                 "dynamic": marks[note.id],
                 "muted": is_muted(part.muted, note.onset_tick),
+                "sources": said,
             }
-            for note, bent in zip(played, bends(played, None if blown is None else blown.bend), strict=True)
+            for note, bent, said in zip(
+                played, bends(played, None if blown is None else blown.bend), sources, strict=True
+            )
         ],
-        "breaths": _events(plan.breaths, clock, reason, "kind"),
+        "breaths": [
+            breath | {"source": breath_source(event)}
+            for event, breath in zip(plan.breaths, _events(plan.breaths, clock, reason, "kind"), strict=True)
+        ],
         "cues": _events(plan.cues, clock, reason, "", "peak_s", "beat_s", "downbeat_s", "takers"),
         "gestures": _events(plan.gestures, clock, reason, "kind", "amount"),
         "expressions": _events(plan.expressions, clock, reason, "expression", "strength", "fade_in_s", "fade_out_s"),
@@ -222,7 +233,7 @@ def _player(performance: Performance, player: Player, instrument: InstrumentMap)
         angles = ("up_deg", "left_deg", "roll_deg")
         table["poses"] = _events(plan.poses, clock, reason, "target", *angles, "fade_in_s", "fade_out_s")
     if plan.mutes:
-        table["mutes"] = _events(plan.mutes, clock, reason, "kind")
+        table["mutes"] = [event | {"source": part.source} for event in _events(plan.mutes, clock, reason, "kind")]
     if plan.styles:
         table["styles"] = _events(plan.styles, clock, reason, "style", "fade_in_s", "fade_out_s")
     if plan.additive:
@@ -314,6 +325,7 @@ def tables(file: str, found: Table) -> list[str]:
     if found["players"]:
         head = ("player", "instrument", "notes", "range", "breaths", "cues", "first fingerings")
         lines += ["", *columns([head, *(_row(player) for player in found["players"])])]
+        lines += ["", *columns([("from", *FACTS, "breath"), *map(_sources_row, found["players"])], of_numbers=False)]
     if found["dancers"]:
         titles = ("dancer", "choreography", "character", "x m", "z m")
         rows = (
@@ -355,6 +367,14 @@ def _row(player: Table) -> tuple[str, ...]:
         str(len(player["cues"])),
         _fingerings([note["fingering"] for note in player["notes"][:FIRST]]),
     )
+
+
+def _sources_row(player: Table) -> tuple[str, ...]:
+    """The number of facts by what they are from, the most common first."""
+    facts = ([note["sources"][fact] for note in player["notes"]] for fact in FACTS)
+    breaths = [breath["source"] for breath in player["breaths"] if BREATH_KINDS[breath["kind"]].draws_air]
+    counts = (Counter(sources).most_common() for sources in (*facts, breaths))
+    return player["name"], *(", ".join(f"{source} {count}" for source, count in found) or "-" for found in counts)
 
 
 def _fingerings(labels: list[str]) -> str:

@@ -23,11 +23,13 @@ from app.performance.body_problems import body_problems
 from app.performance.ensemble_steps import HELD, LINE, PLAYED, WHOLE, all_expressions, with_parts, work_of
 from app.performance.loudness import note_marks, velocities_of
 from app.plan.acting import with_style
+from app.plan.by_hand.mark_corrections import corrected_marks
 from app.plan.doubling import InstrumentChange, changes, first_played
 from app.plan.faces.glances import StagePlace
 from app.plan.generate import EnsemblePlan, MonophonicPart, Piece, frame_around, plan_ensemble
 from app.plan.model import CONDUCTOR, PlayerPlan, Problem, TimeFrame, no_events
 from app.plan.music.dynamics_from_velocities import VelocityReading, read_velocities
+from app.plan.music.written_dynamics import written_dynamics
 from app.plan.parameters import PlayerParameters
 from app.project.model import Project
 from app.project.performers import Player
@@ -146,7 +148,10 @@ class Performance:
     def marks(self, player: Player) -> dict[str, str]:
         """The dynamic mark in force at each of a player's notes, by note id."""
         part = self.project.part(player)
-        return {note.id: mark for note, mark in zip(part.notes, note_marks(part, self.velocity_reading), strict=True)}
+        marks = corrected_marks(part.marks, self.project.corrections.get(player.id, ()))
+        written = written_dynamics(marks, part.source, self.piece.clock.ticks_per_quarter)
+        found = note_marks(part, self.velocity_reading, written)
+        return {note.id: mark for note, mark in zip(part.notes, found, strict=True)}
 
     def _line(self, player: Player, instrument: InstrumentMap) -> MonophonicPart:
         played = self._players[player.id]

@@ -19,6 +19,7 @@ from app.plan.music.dynamics_from_velocities import (
 )
 from app.plan.music.piece import MEZZOFORTE, ControllerInput, ControllerSteps
 from app.plan.music.velocity_ladders import DYNAMICS
+from app.plan.music.written_dynamics import NONE_WRITTEN, WrittenDynamics
 from app.score.model import ControllerCurve, Part
 
 _SPEAKING = ("breath", "expression", "aftertouch", "volume")
@@ -55,14 +56,30 @@ def note_loudness(part: Part, reading: VelocityReading | None = None) -> tuple[f
     return tuple(found.tolist())
 
 
-def note_marks(part: Part, reading: VelocityReading | None = None) -> tuple[str, ...]:
-    """The dynamic mark in force at every note: an accent is none."""
+def note_marks(
+    part: Part, reading: VelocityReading | None = None, written: WrittenDynamics = NONE_WRITTEN
+) -> tuple[str, ...]:
+    """The dynamic mark in force at every note: an accent is none.
+
+    Parameters
+    ----------
+    written : WrittenDynamics, optional
+        Dynamics in the score, which win.
+    """
+    found = _heard_marks(part, reading)
+    rows = written.rows_at(np.array([note.onset_tick for note in part.notes], np.float64))
+    for index in np.flatnonzero(~np.isnan(rows)).tolist():
+        found[index] = DYNAMICS[int(rows[index] + 0.5)][0]
+    return tuple(found)
+
+
+def _heard_marks(part: Part, reading: VelocityReading | None) -> list[str]:
     curve = speaking_curve(part)
     if curve is None:
         marks = read_dynamics(velocities_of(part), reading)[1]
     else:
         marks = nearest_marks(phrase_levels(_loudness(part, curve, reading)))
-    return tuple(DYNAMICS[mark][0] for mark in marks.tolist())
+    return [DYNAMICS[mark][0] for mark in marks.tolist()]
 
 
 def controller_input(part: Part) -> ControllerInput | None:

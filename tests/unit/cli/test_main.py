@@ -156,9 +156,9 @@ def test_inspect_has_exactly_these_keys(run: Run) -> None:
     assert status == 0
     found = json.loads(out)
     assert set(found) == {
-        "duration_s", "ticks_per_beat", "tempo", "markers", "percussion_hits", "first_frame_s", "warnings", "unplayed",
-        "left_out", "players", "dancers", "title", "fps", "fps_exact", "preroll_beats", "felt_beat_quarters", "seed",
-        "section_intensity", "conductor",
+        "duration_s", "ticks_per_beat", "tempo", "tempo_source", "markers", "percussion_hits", "first_frame_s",
+        "warnings", "unplayed", "left_out", "players", "dancers", "title", "fps", "fps_exact", "preroll_beats",
+        "felt_beat_quarters", "seed", "section_intensity", "conductor",
     }  # fmt: skip
     assert set(found["tempo"][0]) == {"tick", "bpm"}
     for player in found["players"]:
@@ -179,6 +179,7 @@ def test_inspect_has_exactly_these_keys(run: Run) -> None:
             assert set(note) == {
                 "id", "onset_tick", "duration_tick", "onset_s", "duration_s", "pitch", "velocity", "fingering",
                 "controls", "articulation", "tongue", "tongue_reason", "bend", "loudness", "dynamic", "muted",
+                "sources",
             }  # fmt: skip
             assert all(0.0 <= value <= 1.0 for value in (*note["controls"].values(), note["loudness"]))
             assert note["articulation"] in ("tongued", "slurred", "staccato", "accent", "marcato", "tenuto")

@@ -1,0 +1,134 @@
+"""Origins of what a plan says: the score, the sound of a file, a person's hand, or a guess."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Final, Literal, TypeAlias
+
+from app.plan.by_hand.correction import Correcting
+from app.plan.by_hand.mark_corrections import corrected_marks
+from app.plan.model import BreathEvent, FingeringEvent, PlayerPlan, TongueEvent
+from app.plan.music.piece import TOUCHING_GATE
+from app.plan.music.written_marks import WrittenMarks, written_marks
+from app.score.model import Note, Part, Score
+from app.score.musicxml.tempos import USUAL
+from app.score.mutes import is_muted
+
+FactSource: TypeAlias = Literal["score", "sound", "guess", "hand"]
+
+FACTS: Final = ("dynamic", "slur", "articulation", "tonguing", "fingering", "mute")
+"""What is said of each note."""
+_BLOWN: Final = "breath.blown"
+_WRITTEN: Final = ("breath.written", "breath.why_written")
+_TONGUING: Final = "_tongue"
+"""Ends the reasons of strokes that the score has."""
+
+
+def breath_source(event: BreathEvent) -> FactSource:
+    """Return what a breath is from: a breath mark, the breath that a controller recorded, a hand, or rests and air."""
+    if event.corrected:
+        return "hand"
+    if event.reason.id in _WRITTEN or event.reason.arguments.get("why") in _WRITTEN:
+        return "score"
+    return "sound" if event.reason.id.startswith(_BLOWN) else "guess"
+
+
+def tempo_source(score: Score) -> FactSource:
+    """Return what the tempo is from; of a score one of 120 from end to end may be none at all."""
+    if all(part.source != "score" for part in score.parts):
+        return "sound"
+    return "guess" if [bpm for _, bpm in score.tempo_map.bpm] == [USUAL] else "score"
+
+
+def note_sources(
+    part: Part, notes: Sequence[Note], plan: PlayerPlan, corrections: tuple[Correcting, ...], quarter: int
+) -> list[dict[str, FactSource]]:
+    """Return what each of `FACTS` is from.
+
+    Parameters
+    ----------
+    notes : sequence of Note
+        Those of the part that are played.
+    quarter : int
+        Ticks per quarter.
+    """
+    played = tuple(notes)
+    marks = corrected_marks(part.marks, corrections)
+    written = written_marks(played, marks, part.source, quarter)
+    read = written if marks == part.marks else written_marks(played, part.marks, part.source, quarter)
+    fingerings = {event.note_id: event for event in plan.fingerings}
+    tongues = {event.note_id: event for event in plan.tongues}
+    found = []
+    for index, note in enumerate(played):
+        slur = _slur(index, played, written, read)
+        found.append(
+            {
+                "dynamic": _dynamic(index, written, read),
+                "slur": slur,
+                "articulation": _articulation(index, written, read),
+                "tonguing": _tonguing(tongues.get(note.id), index, written, read, slur),
+                "fingering": _fingering(fingerings[note.id], index, written, read),
+                "mute": _mute(part, note),
+            }
+        )
+    return found
+
+
+def _marked(same: bool) -> FactSource:
+    """The source of a mark: the score has the same, or a hand wrote it."""
+    return "score" if same else "hand"
+
+
+def _dynamic(index: int, written: WrittenMarks, read: WrittenMarks) -> FactSource:
+    level = written.level[index]
+    if level == level:
+        return _marked(level == read.level[index])
+    if written.swell[index]:
+        return "hand"
+    # Of a score without a mark before it the velocity is made up.
+    return "guess" if written.is_score else "sound"
+
+
+def _slur(index: int, notes: Sequence[Note], written: WrittenMarks, read: WrittenMarks) -> FactSource:
+    """The source of whether a note is slurred to."""
+    if not index:
+        return "score" if written.is_score else "sound"
+    before = index - 1
+    same = written.slurred[before] == read.slurred[before] and written.tongued_next[before] == read.tongued_next[before]
+    if written.is_score or not same:
+        return _marked(bool(same))
+    first, second = notes[before], notes[index]
+    touching = first.duration_tick >= TOUCHING_GATE * (second.onset_tick - first.onset_tick)
+    overlaps = first.onset_tick + first.duration_tick > second.onset_tick
+    return "guess" if touching and not overlaps else "sound"
+
+
+def _articulation(index: int, written: WrittenMarks, read: WrittenMarks) -> FactSource:
+    same = (written.stroke[index], written.struck[index]) == (read.stroke[index], read.struck[index])
+    if written.is_score or not same:
+        return _marked(bool(same))
+    return "sound"
+
+
+def _tonguing(
+    event: TongueEvent | None, index: int, written: WrittenMarks, read: WrittenMarks, slur: FactSource
+) -> FactSource:
+    if event is None:
+        return slur
+    if event.reason.id.endswith(_TONGUING):
+        return _marked(written.tonguing[index] == read.tonguing[index])
+    return "guess"
+
+
+def _fingering(event: FingeringEvent, index: int, written: WrittenMarks, read: WrittenMarks) -> FactSource:
+    if event.corrected:
+        return "hand"
+    if event.reason.id == "fingering.written":
+        return _marked(written.fingering[index] == read.fingering[index])
+    return "guess"
+
+
+def _mute(part: Part, note: Note) -> FactSource:
+    if part.source == "score":
+        return "score"
+    return "sound" if is_muted(part.muted, note.onset_tick) else "guess"
