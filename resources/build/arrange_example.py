@@ -15,19 +15,28 @@ What the arrangement does (quarters are counted from the start of the source, me
 - It sounds a semitone higher, in F minor.
 - A note of three quarters or more that another follows at once ends early, so that the player can breathe.
 - Dynamics by section (echoes in the closing part), metre and contour; a broadening at the middle part and at the end.
+- The score says with marks what the MIDI file says with lengths and velocities: dynamics where a section begins, points
+  on the quarters that sound half as long, breath marks where a note ends early at the end of a phrase; and slurs, which
+  MIDI cannot say, over pairs of eighths by step and over the dotted notes of the middle part.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable
+from itertools import pairwise
 from pathlib import Path
 from typing import NamedTuple
 
 import mido
 
+from resources.build.example_scores import Heading, Line, Note, dynamic, score
+
 SOURCE = Path(__file__).parents[2] / "tests/data/midi/ensemble/brass_quintet_pezel_sonata21.mid"
 TARGET = Path(__file__).parents[1] / "examples/quartet.mid"
+SCORE_TARGET = TARGET.with_suffix(".musicxml")
 
+TITLE = "Sonata 21"
+ABOUT = "Johann Pezel, Hora decima (1670), arranged for two trumpets and two trombones"
 FIRST_QUARTER, LAST_QUARTER = 42.0, 306.0
 TICKS_PER_QUARTER = 480
 LOWEST_TROMBONE_PITCH = 40
@@ -68,6 +77,12 @@ TEMPI = (
     (298.0, 132.0),
     (300.0, 112.0),
 )
+
+
+BREATHS = (174.0, 186.0)
+"""Ends of phrases within the middle part, where all players breathe."""
+MIDDLE = (162.0, 206.0)
+BAR = 6.0
 
 
 class Sound(NamedTuple):
@@ -209,30 +224,87 @@ def player(
     return _track(events)
 
 
-def arrange(source: mido.MidiFile) -> mido.MidiFile:
-    """The quartet, from the source's three tracks of players."""
+def lines(source: mido.MidiFile) -> list[tuple[str, int, list[Sound]]]:
+    """Name, program and notes of each player, out of the source's three tracks of players."""
     sopranos, alto, low = (sounds(track, source.ticks_per_beat) for track in source.tracks[1:])
     upper, lower = trumpets(sopranos)
-    lines = (
-        ("Trumpet 1", 0, 56, upper),
-        ("Trumpet 2", 1, 56, lower),
-        ("Trombone 1", 2, 57, first_trombone(alto, low)),
-        ("Trombone 2", 3, 57, bass_line(low)),
-    )
+    return [
+        ("Trumpet 1", 56, upper),
+        ("Trumpet 2", 56, lower),
+        ("Trombone 1", 57, first_trombone(alto, low)),
+        ("Trombone 2", 57, bass_line(low)),
+    ]
+
+
+def arrange(source: mido.MidiFile) -> mido.MidiFile:
+    """The quartet."""
     tempi = [(tick(quarter, FIRST_QUARTER), bpm) for quarter, bpm in TEMPI]
-    about = "Johann Pezel, Hora decima (1670), arranged for two trumpets and two trombones"
-    tracks = [conductor("Sonata 21", about, "Public domain", (3, 2), "Fm", tempi)]
-    for name, channel, program, line in lines:
+    tracks = [conductor(TITLE, ABOUT, "Public domain", (3, 2), "Fm", tempi)]
+    for channel, (name, program, line) in enumerate(lines(source)):
         shaped = breathing(line)
         notes = [(s.onset, s.length, s.pitch + TRANSPOSITION_SEMITONES, velocity(s, shaped)) for s in shaped]
         tracks.append(player(name, channel, program, notes, FIRST_QUARTER))
     return mido.MidiFile(type=1, ticks_per_beat=TICKS_PER_QUARTER, tracks=tracks)
 
 
+def written(line: list[Sound]) -> tuple[Note, ...]:
+    """The notes of a player as they are written, with points and breath marks."""
+    notes = []
+    for sound, following in zip(line, [*line[1:], None], strict=True):
+        gap = BAR if following is None else following.onset - sound.onset
+        level = next(level for quarter, level in reversed(SECTIONS) if quarter <= sound.onset)
+        marks: tuple[str, ...] = ()
+        length = min(sound.length, gap)
+        if (length, gap) == (0.5, 1.0):
+            length, marks = 1.0, ("staccato",)
+        elif following is not None and length == gap and (length == BAR or following.onset in BREATHS):
+            marks = ("breath-mark",)
+        notes.append(Note(sound.onset - FIRST_QUARTER, length, sound.pitch + TRANSPOSITION_SEMITONES, level, marks))
+    return tuple(notes)
+
+
+def slurred(notes: tuple[Note, ...]) -> tuple[tuple[int, int], ...]:
+    """Slurs over pairs of eighths by step, and over dotted notes and what follows them in the middle part."""
+    first, last = (quarter - FIRST_QUARTER for quarter in MIDDLE)
+    return tuple(
+        (place, place + 1)
+        for place, (one, following) in enumerate(pairwise(notes))
+        if one.end == following.onset
+        and 1 <= abs(following.pitch - one.pitch) <= 2
+        and (
+            (one.length == following.length == 0.5 and one.onset % 1.0 == 0.0)
+            or ((one.length, following.length) == (3.0, 1.0) and first <= one.onset < last)
+        )
+    )
+
+
+def levels(notes: tuple[Note, ...]) -> tuple[tuple[float, int], ...]:
+    """Dynamics of a player: at the first note on a beat of each section, where it is another one."""
+    found: list[tuple[float, int]] = []
+    for note in notes:
+        if note.onset % 2.0 == 0.0 and (not found or dynamic(found[-1][1]) != dynamic(note.velocity)):
+            found.append((note.onset, note.velocity))
+    return tuple(found)
+
+
+def arrange_score(source: mido.MidiFile) -> bytes:
+    """The quartet as a score in MusicXML."""
+    tempi = tuple((quarter - FIRST_QUARTER, bpm) for quarter, bpm in TEMPI)
+    bars = round((LAST_QUARTER - FIRST_QUARTER) / BAR)
+    heading = Heading(TITLE, "Johann Pezel", "Public domain", (3, 2), -4, tempi, bars)
+    parts = []
+    for name, program, line in lines(source):
+        notes, high = written(line), program == 56
+        sound, shift, clef = ("brass.trumpet", -2, "G2") if high else ("brass.trombone", 0, "F4")
+        parts.append(Line(name, sound, program, notes, shift, clef, slurred(notes), levels(notes)))
+    return score(heading, parts)
+
+
 def main() -> None:
     """Write the example and say how long it is."""
     quartet = arrange(mido.MidiFile(SOURCE))
     quartet.save(TARGET)
+    SCORE_TARGET.write_bytes(arrange_score(mido.MidiFile(SOURCE)))
     print(f"{TARGET.name}: {quartet.length:.1f} s")
 
 

@@ -70,7 +70,7 @@ STEPS = (
     Step("holds", ("resources/holds/*.json",), _modules("resources.build.build_holds")),
     Step(
         "examples",
-        ("resources/examples/*.mid",),
+        ("resources/examples/*.mid", "resources/examples/*.musicxml"),
         _modules("resources.build.arrange_example", "resources.build.compose_dance_example"),
     ),
     Step(

@@ -11,27 +11,47 @@ bass that comes before the bar (tumbao), a figure between the beats (guajeo). No
 
 The drums use the sounds of a drum kit, which the bundled choreography was trained on; the clave is struck on the rim.
 Onsets and lengths are in quarters, bars are counted from 0, pitches are MIDI's.
+
+The score in MusicXML has the same notes and, as marks, what MIDI cannot say: slurs over what goes by step in the tune
+and in the answer, points on the chords behind the answer, accents on the strokes of the clave in the riff, and wedges
+on the last chords.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import pairwise
 from pathlib import Path
 from typing import Final, NamedTuple
 
 import mido
 
 from resources.build.arrange_example import TICKS_PER_QUARTER, conductor, player
+from resources.build.example_scores import Heading, Line, Note, dynamic, score, stepwise
 
 TARGET: Final = Path(__file__).parents[1] / "examples/montuno.mid"
+SCORE_TARGET: Final = TARGET.with_suffix(".musicxml")
 
 QUARTERS_PER_MINUTE: Final = 184.0
 BAR: Final = 4.0
 BARS: Final = 24
 INTRODUCTION, TUNE, ANSWER, TOGETHER, ENDING = 0, 2, 10, 14, 22
 """Bars with which the parts of the piece begin."""
+BEHIND: Final = 70
+"""The velocity of chords behind a tune."""
 
 KICK, RIM, SNARE, CLOSED_HAT, PEDAL_HAT, HIGH_TOM, LOW_TOM, CRASH, BELL = 36, 37, 38, 42, 44, 50, 45, 49, 53
+DRUM_NAMES: Final = {
+    KICK: "Bass Drum",
+    RIM: "Side Stick",
+    SNARE: "Snare Drum",
+    CLOSED_HAT: "Closed Hi-Hat",
+    PEDAL_HAT: "Pedal Hi-Hat",
+    HIGH_TOM: "High Tom",
+    LOW_TOM: "Low Tom",
+    CRASH: "Crash Cymbal",
+    BELL: "Ride Bell",
+}
 DRUMS: Final = 9
 """The channel of percussion, counted from 0."""
 
@@ -70,29 +90,29 @@ class Sound(NamedTuple):
 
 
 # (onset in the phrase, length, pitch)
-Line = Sequence[tuple[float, float, int]]
+Phrase = Sequence[tuple[float, float, int]]
 
-FIRST_PHRASE: Line = (
+FIRST_PHRASE: Phrase = (
     *((1.0, 0.5, 67), (1.5, 0.5, 72), (2.0, 1.0, 75), (3.0, 0.5, 74), (3.5, 1.0, 72)),
     *((5.0, 0.5, 68), (5.5, 0.5, 72), (6.0, 1.5, 77)),
     *((8.0, 0.5, 74), (8.5, 0.5, 75), (9.0, 0.5, 74), (9.5, 1.0, 71), (10.5, 0.5, 67), (11.0, 0.5, 71)),
     *((11.5, 0.5, 74), (12.0, 1.5, 72)),
 )
-SECOND_PHRASE: Line = (
+SECOND_PHRASE: Phrase = (
     *((0.0, 0.5, 72), (0.5, 0.5, 75), (1.0, 1.0, 79), (2.0, 0.5, 77), (2.5, 0.5, 75), (3.0, 0.5, 77)),
     *((3.5, 1.0, 79), (4.5, 1.0, 80), (5.5, 0.5, 79), (6.0, 0.5, 75), (6.5, 1.0, 72)),
     *((8.0, 0.5, 74), (8.5, 0.5, 77), (9.0, 0.5, 75), (9.5, 0.5, 74), (10.0, 0.5, 71), (10.5, 0.5, 74)),
     *((11.0, 0.5, 71), (11.5, 0.5, 67), (12.0, 1.0, 72)),
 )
-REPLY: Line = ((13.5, 0.5, 63), (14.0, 0.5, 67), (14.5, 1.0, 70))
+REPLY: Phrase = ((13.5, 0.5, 63), (14.0, 0.5, 67), (14.5, 1.0, 70))
 """The second trumpet at the end of the first phrase."""
-TROMBONE_ANSWER: Line = (
+TROMBONE_ANSWER: Phrase = (
     *((0.0, 1.5, 60), (1.5, 0.5, 62), (2.0, 1.5, 63)),
     *((4.0, 1.5, 62), (5.5, 0.5, 58), (6.0, 1.5, 53)),
     *((8.0, 1.5, 60), (9.5, 0.5, 58), (10.0, 1.0, 56), (11.0, 0.5, 63)),
     *((12.0, 1.0, 62), (13.0, 1.5, 59), (14.5, 1.0, 55)),
 )
-RIFF: Line = (
+RIFF: Phrase = (
     *((0.5, 0.5, 72), (1.0, 0.5, 75), (1.5, 0.5, 77), (2.5, 1.0, 79)),
     *((4.5, 0.5, 77), (5.5, 0.5, 75), (6.0, 0.5, 72), (7.0, 0.5, 68)),
     *((8.5, 0.5, 71), (9.0, 0.5, 74), (9.5, 0.5, 77), (10.5, 1.0, 80)),
@@ -102,7 +122,7 @@ LAST_CHORDS: Final = ((0.0, 0.5), (1.5, 0.5), (3.0, 0.5), (5.0, 0.5), (6.0, 1.0)
 """Onset and length, from the ending's first bar."""
 
 
-def placed(line: Line, bar: int, velocity: int, lower: int = 0) -> list[Sound]:
+def placed(line: Phrase, bar: int, velocity: int, lower: int = 0) -> list[Sound]:
     """A line from a bar on, so many semitones lower; what is on the clave is a little louder."""
     return [
         Sound(bar * BAR + onset, length, pitch - lower, velocity + (6 if on_clave(bar * BAR + onset) else 0))
@@ -114,7 +134,7 @@ def on_clave(quarter: float) -> bool:
     return quarter % BAR in CLAVE[int(quarter // BAR) % 2]
 
 
-def second_below(line: Line) -> Line:
+def second_below(line: Phrase) -> Phrase:
     """The second voice below a line."""
     return tuple((onset, length, pitch - BELOW[pitch % 12]) for onset, length, pitch in line)
 
@@ -122,7 +142,7 @@ def second_below(line: Line) -> Line:
 def first_trumpet() -> list[Sound]:
     """The tune, short chords behind the trombone, the riff twice, the ending."""
     sounds = placed(FIRST_PHRASE, TUNE, 88) + placed(SECOND_PHRASE, TUNE + 4, 94)
-    sounds += chords_behind(72, 70)
+    sounds += chords_behind(72, BEHIND)
     sounds += placed(RIFF, TOGETHER, 98) + placed(RIFF, TOGETHER + 4, 106)
     return sounds + ending((72, 74, 75, 79, 72))
 
@@ -130,7 +150,7 @@ def first_trumpet() -> list[Sound]:
 def second_trumpet() -> list[Sound]:
     """Silent in the first phrase but for a reply; thirds below the first trumpet from then on."""
     sounds = placed(REPLY, TUNE, 82) + placed(second_below(SECOND_PHRASE), TUNE + 4, 86)
-    sounds += chords_behind(67, 66)
+    sounds += chords_behind(67, BEHIND - 4)
     sounds += placed(second_below(RIFF), TOGETHER, 92) + placed(second_below(RIFF), TOGETHER + 4, 100)
     return sounds + ending((67, 71, 72, 75, 67))
 
@@ -216,10 +236,54 @@ def compose() -> mido.MidiFile:
     return mido.MidiFile(type=1, ticks_per_beat=TICKS_PER_QUARTER, tracks=tracks)
 
 
+def noted(sounds: Sequence[Sound]) -> tuple[Note, ...]:
+    """The notes of a player as they are written, with points, accents and wedges."""
+    return tuple(
+        Note(sound.onset, sound.length, sound.pitch, sound.velocity, _marks(sound)) for sound in sorted(sounds)
+    )
+
+
+def _marks(sound: Sound) -> tuple[str, ...]:
+    bar = int(sound.onset // BAR)
+    if bar >= ENDING:
+        return ("strong-accent",)
+    if bar >= TOGETHER and on_clave(sound.onset):
+        return ("accent",)
+    return ("staccato",) if ANSWER <= bar < TOGETHER and sound.length == 0.5 and sound.velocity <= BEHIND else ()
+
+
+def part(name: str, id: str, program: int, sounds: Sequence[Sound], shift: int = 0, clef: str = "G2") -> Line:
+    """The part of a wind player, with its dynamics: the velocity of most notes of each section."""
+    notes = noted(sounds)
+    levels: list[tuple[float, int]] = []
+    for first, last in pairwise((INTRODUCTION, TUNE, TUNE + 4, ANSWER, TOGETHER, TOGETHER + 4, ENDING, BARS)):
+        own = [note for note in notes if first * BAR <= note.onset < last * BAR]
+        usual = min((note.velocity for note in own), default=0)
+        if own and (not levels or dynamic(levels[-1][1]) != dynamic(usual)):
+            levels.append((own[0].onset, usual))
+    slurs = stepwise(notes, TUNE * BAR, TOGETHER * BAR)
+    return Line(name, id, program, notes, shift, clef, slurs, tuple(levels))
+
+
+def compose_score() -> bytes:
+    """The piece as a score in MusicXML."""
+    heading = Heading("Montuno", "Suisou", "CC0 1.0", (2, 2), -3, ((0.0, QUARTERS_PER_MINUTE),), BARS)
+    struck = tuple(Note(*sound[:4]) for sound in sorted(drums()))
+    lines = [
+        part("Trumpet 1", "brass.trumpet", 56, first_trumpet(), -2),
+        part("Trumpet 2", "brass.trumpet", 56, second_trumpet(), -2),
+        part("Trombone", "brass.trombone", 57, trombone(), clef="F4"),
+        part("Tuba", "brass.tuba", 58, tuba(), clef="F4"),
+        Line("Drums", "", 0, struck, levels=((0.0, 90),), drums=DRUM_NAMES),
+    ]
+    return score(heading, lines)
+
+
 def main() -> None:
     """Write the example and say how long it is."""
     piece = compose()
     piece.save(TARGET)
+    SCORE_TARGET.write_bytes(compose_score())
     print(f"{TARGET.name}: {piece.length:.1f} s")
 
 

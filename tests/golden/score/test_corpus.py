@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 from collections import Counter
+from collections.abc import Callable
 from pathlib import Path
 
 import mido
@@ -154,6 +155,41 @@ def test_speer_names_voices_only_so_the_title_and_ranges_decide() -> None:
 def test_the_bundled_quartet_is_what_its_script_makes(tmp_path: Path) -> None:
     arrange_example.arrange(mido.MidiFile(arrange_example.SOURCE)).save(tmp_path / "quartet.mid")
     assert (tmp_path / "quartet.mid").read_bytes() == QUARTET.read_bytes()
+
+
+@pytest.mark.parametrize(
+    ("midi", "made"),
+    [
+        (QUARTET, lambda: arrange_example.arrange_score(mido.MidiFile(arrange_example.SOURCE))),
+        (MONTUNO, compose_dance_example.compose_score),
+    ],
+)
+def test_the_bundled_scores_are_what_their_scripts_make_and_have_the_notes_of_the_midi_files(
+    midi: Path, made: Callable[[], bytes]
+) -> None:
+    path = midi.with_suffix(".musicxml")
+    assert path.read_bytes() == made()
+    score, sound = read_contents(path), read_contents(midi)
+    assert (score.title, score.metres, score.warnings) == (sound.title, sound.metres, ())
+    # A MIDI file has whole microseconds.
+    assert [change.tick for change in score.tempo_map.changes] == [change.tick for change in sound.tempo_map.changes]
+    for one, other in zip(score.tempo_map.changes, sound.tempo_map.changes, strict=True):
+        assert one.microseconds_per_quarter == pytest.approx(other.microseconds_per_quarter, abs=0.5)
+    for written, heard in zip(score.streams, sound.streams, strict=True):
+        assert written.name == heard.name
+        notes = list(zip(written.onset_ticks, written.pitches, written.end_ticks, strict=True))
+        played = list(zip(heard.onset_ticks, heard.pitches, heard.end_ticks, strict=True))
+        assert sorted(note[:2] for note in notes) == sorted(note[:2] for note in played)
+        if written.use == "rhythm":
+            continue
+        # The MIDI file ends long notes early, for breaths; points and wedges shorten what it plays in full.
+        quarter = score.tempo_map.ticks_per_quarter
+        short = {mark.note_id for mark in written.marks if mark.kind in ("staccato", "marcato") and mark.note_id}
+        for number, (onset, _, end), (_, _, heard_end) in zip(written.numbers, notes, played, strict=True):
+            if f"{written.track + 1}:{number}" in short:
+                assert end <= heard_end
+            else:
+                assert end - heard_end in (0, quarter // 2, quarter), onset
 
 
 def test_the_bundled_piece_with_a_dancer(tmp_path: Path) -> None:
