@@ -44,6 +44,10 @@ MOST_ELEMENTS: Final = 3_000_000
 _MOST_MEMBERS: Final = 10_000
 _INDEX: Final = "META-INF/container.xml"
 _ZIP: Final = b"PK\x03\x04"
+_METHODS: Final = (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED)
+"""Those that the format has, which unpack bit by bit: the others may give gigabytes at once."""
+_NO_LETTERS: Final = frozenset(("idna", "punycode", "raw-unicode-escape", "undefined", "unicode-escape", "utf-7"))
+"""What Python calls an encoding and no document is written in."""
 _START: Final = 1024
 _DECLARED: Final = re.compile(rb"""^\s*<\?xml[^>]*?encoding\s*=\s*["']([A-Za-z][\w.:-]*)["']""")
 _NO_XML: Final = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\ufffe\uffff\ud800-\udfff]")
@@ -140,6 +144,8 @@ def _named(archive: zipfile.ZipFile, names: list[str], file: str) -> str | None:
 
 def _member(archive: zipfile.ZipFile, name: str, file: str, most: int) -> bytes:
     most = min(most, MOST_BYTES)
+    if archive.getinfo(name).compress_type not in _METHODS:
+        raise FileError("musicxml.damaged_archive", file=file)
     with archive.open(name) as stream:
         content = stream.read(most + 1)
     if len(content) > most:
@@ -158,11 +164,11 @@ def _decoded(content: bytes) -> str:
         except LookupError:
             encoding = "utf-8"
         # What begins with readable letters is in no encoding of several bytes, whatever it declares.
-        if encoding.startswith(("utf-16", "utf-32")):
+        if encoding.startswith(("utf-16", "utf-32")) or encoding.replace("_", "-") in _NO_LETTERS:
             encoding = "utf-8"
     try:
         text = content.decode(encoding)
-    except (UnicodeDecodeError, LookupError):
+    except (UnicodeError, LookupError):
         text = content.decode("utf-8" if encoding != "utf-8" else "cp1252", errors="replace")
     return _NO_XML.sub("", text).lstrip("\ufeff \t\r\n")
 

@@ -31,6 +31,7 @@ _JUMPS: Final = (
     ("dal_segno", re.compile(r"\bd\.?\s*s\b\.?|\bdal\s+segno\b", re.IGNORECASE)),
     ("to_coda", re.compile(r"^\W*to\s+coda\b", re.IGNORECASE)),
     ("fine", re.compile(r"^\W*fine\W*$", re.IGNORECASE)),
+    ("trio", re.compile(r"^\W*(?:trio|alternativo)\b", re.IGNORECASE)),
 )
 _MOST_NUMBERS: Final = 64
 _DYNAMIC: Final = re.compile(r"(?:p{1,6}|f{1,6}|m[pf]|s?f{1,2}p{0,2}|s?f{1,3}z{1,2}p?|r(?:f|fz)|pf|fp{1,2}|n)")

@@ -9,7 +9,7 @@ from fractions import Fraction
 from typing import Final
 from xml.etree.ElementTree import Element
 
-from app.score.limits import MOST_NAME
+from app.score.limits import MOST_NAME, MOST_QUARTERS
 from app.score.musicxml.directions import read_barline, read_direction, read_dynamics, read_sound
 from app.score.musicxml.parts import WrittenPart, is_kit, stroke_of
 from app.score.musicxml.written import Bar, Chord, Measure, Place, Time, Tone
@@ -76,14 +76,19 @@ _MOST_STROKES: Final = 8
 _MOST_DIVISIONS: Final = 32767
 """Ticks per quarter that a score can have."""
 _ROUGH_TICKS: Final = 10_080
+_PARTS_OF_TICK: Final = 720_720
+"""Into which times fit that are no whole ticks: of finer ones sums would take ever longer."""
+_MOST_DIGITS: Final = 10
 _LEAST_TICKS: Final = 480
 
 
-def ticks_per_quarter(root: Element, place: Place) -> int:
+def ticks_per_quarter(root: Element) -> int:
     """The ticks per quarter in which all times of a score are whole numbers, if there are so many."""
     common = 1
-    for text in {one.text or "" for one in root.iter("divisions")}:
-        common = math.lcm(common, place.number_of(text, "divisions").numerator or 1)
+    for text in {(one.text or "").strip() for one in root.iter("divisions")}:
+        # Others are refused, or made whole, where they stand.
+        if text.isascii() and text.isdigit() and len(text) < _MOST_DIGITS:
+            common = math.lcm(common, int(text) or 1)
         if common > _MOST_DIVISIONS:
             return _ROUGH_TICKS
     fine = math.lcm(common, _LEAST_TICKS)
@@ -157,6 +162,8 @@ def _measure(part: WrittenPart, content: Element, bar: Bar, state: _State, place
             _fermata_at_end(one, measure)
         if state.cursor > measure.length:
             measure.length = state.cursor
+            if measure.length > MOST_QUARTERS * state.ticks:
+                raise place.bad("duration", one.findtext("duration"))
     return measure
 
 
@@ -208,8 +215,7 @@ def _duration(one: Element, state: _State, place: Place) -> Time:
         length = place.number_of(text, "duration")
         if length < 0:
             raise place.bad("duration", text)
-        exact = length * state.division
-        return exact.numerator if exact.denominator == 1 else exact
+        return _ticks(length * state.division)
     quarters = _TYPES.get((one.findtext("type") or "").strip(), Fraction(0))
     dots = sum(1 for _ in one.iterfind("dot"))
     quarters *= 2 - Fraction(1, 2 ** min(dots, 8))
@@ -217,7 +223,13 @@ def _duration(one: Element, state: _State, place: Place) -> Time:
     normal = place.number(one, "time-modification/normal-notes")
     if actual and normal:
         quarters *= Fraction(normal) / actual
-    exact = quarters * state.ticks
+    return _ticks(quarters * state.ticks)
+
+
+def _ticks(exact: Time) -> Time:
+    """A time as whole ticks, or in parts of a tick."""
+    if _PARTS_OF_TICK % exact.denominator:
+        exact = Fraction(round(exact * _PARTS_OF_TICK), _PARTS_OF_TICK)
     return exact.numerator if exact.denominator == 1 else exact
 
 

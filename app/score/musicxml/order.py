@@ -53,6 +53,11 @@ def _explain(bars: Sequence[Bar]) -> None:
             bar.fine = True
         if "segno" in said and not any(one.segno for one in bars):
             bar.segno = _ANY
+    if any(bar.da_capo for bar in bars) and not any(bar.fine or bar.to_coda for bar in bars):
+        # A minuet is played again without its trio.
+        trio = next((place for place, bar in enumerate(bars) if "trio" in bar.said), 0)
+        if trio:
+            bars[trio - 1].fine = True
     is_open = False
     for bar, following in pairwise(bars):
         if following.backward and not bar.backward and not (following.da_capo or following.dal_segno):

@@ -8,7 +8,7 @@ from typing import Final
 from xml.etree.ElementTree import Element
 
 from app.errors import FileError
-from app.score.limits import MOST_NAME
+from app.score.limits import MOST_NAME, MOST_STREAMS
 from app.score.musicxml.written import Place
 from instrument_maps.instruments import Instrument
 from instrument_maps.vocabulary import vocabulary
@@ -17,6 +17,8 @@ _NO_NAME = re.compile(r"(?:MusicXML Part|Part[_ ]?\d*|P\d+)", re.IGNORECASE)
 """Names that converters give a part or an instrument that no one has named."""
 MOST_MEASURES: Final = 400_000
 """Most measures of all parts together: two thousand in two hundred parts."""
+_MOST_LISTED: Final = 4 * MOST_STREAMS
+"""Most parts of a score, with and without notes."""
 _KIT_CHANNEL = 10
 _KEYS = {10: "B♭", 9: "A", 3: "E♭", 5: "F", 2: "D", 7: "G"}
 """Keys of instruments by what a written C sounds like, in semitones above C."""
@@ -66,11 +68,15 @@ class WrittenPart:
 def written_parts(root: Element, place: Place) -> list[WrittenPart]:
     """The parts of a score in the order of their list, those that the list does not have behind them.
 
-    Raises FileError ``musicxml.too_many_measures``.
+    Raises FileError ``musicxml.too_many_parts`` and ``musicxml.too_many_measures``.
     """
+    listed = [one for parts in root.iterfind("part-list") for one in parts.iter("score-part")]
+    with_measures = root.iterfind("part" if root.tag == "score-partwise" else "measure/part")
+    ids = {one.get("id", "") for one in (*listed, *with_measures)}
+    if len(ids) > _MOST_LISTED:
+        raise FileError("musicxml.too_many_parts", file=place.file, parts=len(ids), most=MOST_STREAMS)
     found: dict[str, WrittenPart] = {}
-    listed = root.find("part-list")
-    for one in () if listed is None else listed.iter("score-part"):
+    for one in listed:
         id = one.get("id", "")
         if id not in found:
             found[id] = _listed(one, id, place)

@@ -32,7 +32,7 @@ from app.encoding import shown
 from app.errors import FileError, Message
 from app.score.contents import PieceContents
 from app.score.ensembles import named_by_ensemble
-from app.score.limits import LAST_TICK, MOST_NAME, MOST_STREAMS, too_long
+from app.score.limits import MOST_NAME, MOST_STREAMS, too_long
 from app.score.model import Marker, Score
 from app.score.musicxml.bars import measure_lengths, metres_of
 from app.score.musicxml.container import read_document
@@ -51,8 +51,6 @@ MOST_ITEMS: Final = 1_000_000
 LEAST_ITEMS: Final = 20_000
 MOST_ITEMS_PER_BYTE: Final = 2
 """... of a small file fewer: compressed music has half a note for each byte, and is played a few times."""
-_MOST_LISTED: Final = 4 * MOST_STREAMS
-"""Parts of a score with and without notes."""
 
 
 def read_musicxml(path: Path) -> PieceContents:
@@ -67,9 +65,7 @@ def read_musicxml(path: Path) -> PieceContents:
     root, size = read_document(path)
     place = Place(file)
     parts = written_parts(root, place)
-    if len(parts) > _MOST_LISTED:
-        raise FileError("musicxml.too_many_parts", file=file, parts=len(parts), most=MOST_STREAMS)
-    quarter = ticks_per_quarter(root, place)
+    quarter = ticks_per_quarter(root)
     bars: list[Bar] = []
     read = [read_measures(part, bars, quarter, place) for part in parts]
     measures = [own for own, _ in read]
@@ -81,8 +77,7 @@ def read_musicxml(path: Path) -> PieceContents:
     for one, start in zip(order.measures, starts, strict=True):
         visits[one].append(start)
     _require_few(measures, visits, min(MOST_ITEMS, LEAST_ITEMS + MOST_ITEMS_PER_BYTE * size), file)
-    if end > LAST_TICK:
-        raise FileError("musicxml.too_many_repeats", file=file, most=LAST_TICK // quarter)
+    _require_length(Score("", quarter, tempo_map((), (), 0, quarter)), round(end), file)
     played = [played_part(own, visits) for own in measures]
     metred = metres_of(order.measures, starts, bars, written, quarter)
     tempo = tempo_map(*_tempo(played), round(end), quarter)

@@ -138,7 +138,26 @@ def tempi(size: int) -> bytes:
     return _bars(bar, size).encode()
 
 
+def jumps(size: int) -> bytes:
+    """Return measures that all jump to the beginning."""
+    return _bars('<sound dacapo="yes"/>' + note("C5", 1), size).encode()
+
+
+def nested(size: int) -> bytes:
+    """Return repetitions within repetitions."""
+    bar = note("C5", 1)
+    count = max(size // (2 * len(bar) + 200), 1)
+    forward = '<barline location="left"><repeat direction="forward"/></barline>'
+    return document(*[forward + bar] * count, *[bar + _REPEAT.format(' times="64" after-jump="yes"')] * count).encode()
+
+
+def divisions(size: int) -> bytes:
+    """Return a measure of notes, each in divisions of its own."""
+    one = "<attributes><divisions>{}</divisions></attributes>" + note("C5", 1)
+    return document("".join(one.format(2 * place + 1) for place in range(max(size // (len(one) + 3), 1)))).encode()
+
+
 COSTLY_SCORES: Final[tuple[Callable[[int], bytes], ...]] = (
     *(repeats, squeezed, spaces, elements, measures, parts, late_parts),
-    *(trills, chords, slurs, tempi),
+    *(trills, chords, slurs, tempi, jumps, nested, divisions),
 )

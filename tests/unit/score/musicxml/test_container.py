@@ -12,7 +12,7 @@ import pytest
 from app.errors import FileError
 from app.messages import LANGUAGES, text
 from app.score.musicxml import container
-from tests.unit.score.musicxml.documents import HEAD, document, dynamic, listed, note, part, read, score, slur
+from tests.unit.score.musicxml.documents import HEAD, document, dynamic, listed, note, part, read, score, slur, words
 from tests.unit.score.musicxml.test_notes import rows
 
 PIECE = document(note("C4", 16), name="Trompete in B – ソロ")
@@ -116,11 +116,43 @@ def test_bombs_are_refused(tmp_path: Path) -> None:
     assert refused(tmp_path, spaces, "a.mxl") == "musicxml.archive_too_large"
     assert refused(tmp_path, "<a>" * 100_000) == "musicxml.too_deep"
     assert refused(tmp_path, score(*(listed(f"P{n}", "x") for n in range(50_000)))) == "musicxml.too_many_parts"
-    late = "".join(f'<part id="P{number}"/>' for number in range(3000))
+    late = "".join(f'<part id="P{number}"/>' for number in range(1000))
     timewise = f"{HEAD}<score-timewise><part-list/>{'<measure/>' * 3000}<measure>{late}</measure></score-timewise>"
     assert refused(tmp_path, timewise) == "musicxml.too_many_measures"
     long = document(note("C4", 16).replace("<duration>16<", "<duration>999999999<"))
-    assert refused(tmp_path, long) in ("musicxml.too_long", "musicxml.too_many_repeats")
+    assert refused(tmp_path, long) == "musicxml.bad_value"
+    assert refused(tmp_path, document(*[note("C4", 99_999)] * 50)) == "musicxml.too_long"
+    jumps = [words("D.C.", '<sound dacapo="yes"/>') + note("C4", 1)] * 1000
+    assert refused(tmp_path, document(*jumps)) == "musicxml.too_many_repeats"
+
+
+@pytest.mark.parametrize("method", [zipfile.ZIP_BZIP2, zipfile.ZIP_LZMA])
+def test_archives_are_packed_as_the_format_says(tmp_path: Path, method: int) -> None:
+    """Other ways to pack give gigabytes for a kilobyte before they can be stopped."""
+    stream = io.BytesIO()
+    with zipfile.ZipFile(stream, "w", method) as archive:
+        archive.writestr("a.xml", PIECE)
+    assert refused(tmp_path, stream.getvalue(), "a.mxl") == "musicxml.damaged_archive"
+
+
+@pytest.mark.parametrize("encoding", ["punycode", "idna", "utf-7", "zlib_codec", "unicode_escape", "undefined", "x"])
+def test_what_is_no_encoding_of_documents_is_read_as_utf8(tmp_path: Path, encoding: str) -> None:
+    assert rows(read(tmp_path, PIECE.replace('encoding="UTF-8"', f'encoding="{encoding}"'))) == rows(
+        read(tmp_path, PIECE)
+    )
+
+
+def test_many_divisions_without_a_common_multiple_take_no_longer(tmp_path: Path) -> None:
+    """Sums of fractions would grow with each of them."""
+    odd = [f"<attributes><divisions>{2 * number + 1}</divisions></attributes>" for number in range(1500)]
+    text = document(*(one + note("C4", 2 * number + 1) for number, one in enumerate(odd)))
+    (stream,) = read(tmp_path, text).streams
+    assert stream.onset_ticks == [number * 10_080 for number in range(1500)]
+    # The same within a measure, where rests and notes sum up.
+    within = document("".join(one + note("C4", 1) for one in odd))
+    started = time.process_time()
+    assert len(rows(read(tmp_path, within))) == 1500
+    assert time.process_time() - started < 1.0
 
 
 def test_too_many_elements_are_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

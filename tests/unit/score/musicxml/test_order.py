@@ -29,6 +29,8 @@ def bars(text: str) -> list[Bar]:
                 bar.ending_start = frozenset(map(int, token[:-1].split(",")))
             elif token == "]":
                 bar.ending_stop = True
+            elif token == "TRIO":
+                bar.said.add("trio")
             elif token in ("DC", "DS", "FINE", "TOCODA", "CODA", "SEGNO"):
                 values = {"DC": ("da_capo", True), "DS": ("dal_segno", "s"), "FINE": ("fine", True)}
                 values |= {"TOCODA": ("to_coda", "c"), "CODA": ("coda", "c"), "SEGNO": ("segno", "s")}
@@ -55,6 +57,10 @@ def bars(text: str) -> list[Bar]:
         # Repeats are not taken again after a jump, and the last ending is.
         (": a :|b FINE|c DC", "112312"),
         (": a|1[ b :]|2[ c ]|d FINE|e DC", "121345134"),
+        # A minuet is played again without its trio, unless more is written.
+        (": a :|TRIO b|c DC", "11231"),
+        ("a FINE|b|TRIO c DC", "1231"),
+        ("a|TRIO b|c", "123"),
         # Words that stand before the last repeat of a trio; a bracket whose beginning a program lost.
         ("a FINE|: b|c DC|d :|", "12342341"),
         ("a|b :]|2[ c ]|d", "12134"),
