@@ -199,7 +199,8 @@ class CorrectionList(Retranslated, QWidget):
             self._session.select(Selection(notes=frozenset((item.anchor,))))
         elif not item.has_event:
             self._session.select(Selection(events=frozenset((EventKey(key.player_id, item.about),))))
-            self._session.reveal(self._session.project.score.tempo_map.seconds(float(self._tick(key))))
+            if (tick := self._tick(key)) != LATE_TICK:
+                self._session.reveal(self._session.project.score.tempo_map.seconds(float(tick)))
         elif key.event is not None:
             self._session.select(Selection(events=frozenset((EventKey(key.player_id, key.event.id),))))
         if event is not None:

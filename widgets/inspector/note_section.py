@@ -33,6 +33,7 @@ from widgets.common.text import message_text, sentence
 from widgets.inspector.by_hand import ByHandLine
 from widgets.inspector.generated_values import Generated
 from widgets.inspector.inspected_selection import NoteFinder, SelectedNotes, fingering_of, selected_notes
+from widgets.inspector.note_marks import NoteMarks
 
 LATEST_TICK = float(2**31 - 1)
 EMBOUCHURE = ("tension", "effort", "air")
@@ -80,6 +81,7 @@ class NoteSection(Retranslated, QWidget):
         self._why, self._problems = Label(), Label()
         self._fingering_by_hand = named(ByHandLine(session), "fingering_by_hand")
         self._lips_by_hand = named(ByHandLine(session), "embouchure_by_hand")
+        self._marks = named(NoteMarks(session), "note_marks")
         self._build()
         self._connect()
         self.retranslate()
@@ -95,6 +97,7 @@ class NoteSection(Retranslated, QWidget):
         fingering = (self._fingering_title, self._chips_box, self._diagram, self._fingering_by_hand, self._why)
         self._fingering = panel(in_column(*fingering, margins=(0, 4, 0, 0), spacing=4))
         body.addWidget(self._fingering)
+        body.addWidget(self._marks)
         lips = (self._lips_title, *self._lips.values(), self._lips_by_hand)
         self._lips_box = panel(in_column(*lips, margins=(0, 4, 0, 0), spacing=4))
         body.addWidget(self._lips_box)
@@ -160,11 +163,13 @@ class NoteSection(Retranslated, QWidget):
         there = plan is not None and player is not None and instrument is not None
         self._fingering.setVisible(there)
         self._lips_box.setVisible(there)
+        self._marks.setVisible(there)
         if plan is None or player is None or instrument is None:
             self._problems.setVisible(False)
             return
         bare = self._generated.plan(player.id)
         self._show_fingering(shown, plan, bare, instrument)
+        self._marks.show_marks(player, shown.notes, plan)
         self._show_lips(shown, plan, bare)
         own_ids = frozenset(shown.own_ids)
         reported = [problem for problem in self._session.problems(player.id) if problem.note_id in own_ids]

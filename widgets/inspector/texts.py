@@ -149,6 +149,13 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
             "で最初の演奏に戻します。"
         ),
     ),
+    "note_marks.add_mark": ("Add Mark", "記号を追加"),
+    "note_marks.from_hand": ("Written by hand; click to change", "手動で記入。クリックで変更"),
+    "note_marks.from_score": ("In the score; click to change", "楽譜にある記号。クリックで変更"),
+    "note_marks.marks": ("Marks", "記号"),
+    "note_marks.none": ("none", "なし"),
+    "note_marks.slurred_to": ("slurred to the note before", "前の音からスラーで続く"),
+    "note_marks.tongue": ("Tongue: {reason}", "タンギング: {reason}"),
     "note_section.air": ("Air", "息の量"),
     "note_section.bar": ("Bar", "小節"),
     "note_section.bar_beat_ticks_several_notes": (

@@ -9,7 +9,7 @@ import numpy as np
 
 from app.arrays import BoolArray, FloatArray
 from app.plan.music.written_dynamics import note_dynamics, written_dynamics
-from app.score.marks import Mark, Source
+from app.score.marks import MARK_KINDS, Mark, Source
 from app.score.model import Note
 
 DIVIDING: Final = frozenset({"staccato", "staccatissimo", "tenuto", "marcato"})
@@ -29,7 +29,7 @@ class WrittenMarks:
     slurred : bool
         Whether the next note is slurred to it.
     tongued : bool
-        Whether the next note is tongued whatever the sound says: where a slur ends, or each note is tongued.
+        Whether the next note is tongued whatever the sound says: where a slur begins or ends, or each is tongued.
     joined : bool
         Whether one slur is over it and the next note, divided or not.
     divided : bool
@@ -101,11 +101,12 @@ def written_marks(
     stroke, tonguing, fingering = [""] * count, [""] * count, [""] * count
     for mark in marks:
         first = place.get(mark.note_id)
-        if first is None:
+        if first is None or (MARK_KINDS[mark.kind].anchor == "notes" and mark.last_note_id not in place):
             continue
         last = place.get(mark.last_note_id, first)
         if mark.kind == "slur":
             slurred[first:last] = True
+            ends[max(first - 1, 0) : first] = True
             ends[last] = True
         elif mark.kind == "non_legato":
             apart[first:last] = True

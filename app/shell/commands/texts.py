@@ -19,7 +19,7 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
     **{f"action.marks.{kind}": _titled(*marks.WORDINGS[f"mark.{kind}"]) for kind in WRITABLE},
     **{f"action.marks.dynamic_{text}": (f"Dynamic: {text}", f"強弱記号: {text}") for text in WRITABLE_DYNAMICS},
     "action.marks.accent": ("Accent Mark", "アクセント記号"),
-    "action.marks.dynamic": ("Dynamic...", "強弱記号..."),
+    "action.marks.dynamic": ("Choose Dynamic...", "強弱記号を選択..."),
     "action.application.about": ("About Suisou", "Suisou について"),
     "action.application.characters": ("Characters...", "キャラクター..."),
     "action.application.full_screen": ("Full-Screen Viewport", "ビューポートを全画面表示"),

@@ -65,11 +65,11 @@ def test_a_slur_over_midi_notes_is_played_in_one_stroke_and_undone_by_a_second_p
     assert (again.added, again.project) == (False, project)
 
 
-def test_the_note_after_a_slur_is_tongued_where_the_sound_goes_on_legato() -> None:
+def test_the_notes_where_a_slur_begins_and_after_it_are_tongued_in_a_legato_sound() -> None:
     project = _piece(gate=1.05)
     assert not any(_tongued(project)[1:])
     slurred = toggle_marks(project, _notes(project, 2, 6), "slur").project
-    assert [index for index, stroke in enumerate(_tongued(slurred)) if stroke] == [0, 7]
+    assert [index for index, stroke in enumerate(_tongued(slurred)) if stroke] == [0, 2, 7]
     apart = toggle_marks(project, _notes(project, 2, 6), "non_legato").project
     assert [index for index, stroke in enumerate(_tongued(apart)) if stroke] == [0, 3, 4, 5, 6]
 
