@@ -134,7 +134,9 @@ def notated(times: LineTimes, piece: Piece) -> LineTimes:
         since = end - begins
         rest_from = begins + simplest_places(since - LATE_RELEASE * quarter, latest - begins, since, quarter)
         shortest_rest = round(SHORTEST_REST * quarter)
-        is_rest = (latest < following) & (following - end >= shortest_rest)
+        # A rest stays one where the note after it came late.
+        lasts = np.maximum(following - end, times.silence_tick[1:])
+        is_rest = (latest < following) & (lasts >= shortest_rest)
         written = np.where(is_rest, np.minimum(rest_from, following - shortest_rest), following)
     written = np.maximum(written, onset[:-1])
     last = int(end_tick[-1] - times.onset_tick[-1])

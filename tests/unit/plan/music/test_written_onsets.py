@@ -101,3 +101,13 @@ def test_what_a_line_divides_a_quarter_by_is_what_its_early_notes_are(
     played = np.rint((written + [chance.uniform(-0.05, 0.05) for _ in written]) * 480).astype(np.int64)
     found = written_onsets(played, 480, np.arange(0, 48 * 480, bar), np.full(len(played), 45))
     assert np.abs(found - written * 480).max() <= 1
+
+
+def test_a_rest_before_a_note_that_came_late_is_one() -> None:
+    """A quarter of a beat of silence; the note after it stands a twelfth sooner in the score."""
+    clock = PlainClock(ticks_per_quarter=1024)
+    rows = ((0, 1536), (1536, 513), (2048, 512), (2900, 342), (5120, 341), (5717, 44), (6801, 86), (7402, 512))
+    line = MonophonicPart("p", line_of(*((onset, ticks, 61) for onset, ticks in rows)), valves())
+    score = notated(line_times(line, clock), piece_of(clock))
+    assert score.onset_tick[5] == 5632
+    assert score.silence_tick[5] == round(0.2 * 1024)
