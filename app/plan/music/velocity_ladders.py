@@ -122,5 +122,6 @@ def articulated(ladder: Ladder, velocity: int) -> list[tuple[int, float]]:
     """Return what articulations add to a velocity of a ladder, and how often."""
     more = [*ladder.added]
     if ladder.accent_share != 1.0:
-        more.append(int(velocity * (ladder.accent_share - 1.0)))
+        # Rounded down as MuseScore does it: the product, not what is added.
+        more.append(int(velocity * ladder.accent_share) - velocity)
     return [(0, 0.85), *((one, 0.15 / len(more)) for one in more)]
