@@ -230,6 +230,16 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         "the air does not last for the slur over note {note}: this breath breaks it; move the breath or add one before",
         "音符 {note} のスラーの終わりまで息が続かず、途中でブレスします。ブレスを移動するか、前に追加してください",
     ),
+    "breath.mark_too_short": (
+        (
+            "note {note} is so short that the breath mark after it leaves {lasts_ms:g} ms, but a breath takes at least "
+            "{least_ms:g} ms: move the mark, or start the breath earlier by hand"
+        ),
+        (
+            "音符 {note} が短く、後のブレス記号に {lasts_ms:g} ms しかありません"
+            "（ブレスには {least_ms:g} ms 以上必要）。記号を移動するか、ブレスの開始を手動で早めてください"
+        ),
+    ),
     "breath.inside_note": (
         "this manually placed breath is inside the sounding note {note}; move or remove it",
         "手動で置いたこのブレスは、鳴っている音符 {note} の途中にあります。移動するか削除してください",

@@ -25,7 +25,7 @@ from app.plan.breath.air_by_note import GivenBreaths, air_stock, air_taken
 from app.plan.breath.breath_depths import too_long, with_depths
 from app.plan.breath.breaths_in_rests import AIR_SHORT, WRITTEN, because, blown_breaths, rest_breaths
 from app.plan.breath.catch_breath_lengths import CATCH_MIN_S
-from app.plan.breath.catch_breaths import broken_slurs, catch_breath_notes, catch_breaths
+from app.plan.breath.catch_breaths import broken_slurs, catch_breath_notes, catch_breaths, hasty_at_marks
 from app.plan.breath.lungs import drawn_share
 from app.plan.breath.rests_for_breath import ALWAYS_S, Decided, RestNeeds, breathed_in, rest_needs, why
 from app.plan.breath.score_for_breath import Breather, BreathScore, read_score
@@ -114,10 +114,10 @@ def plan_breaths(
             refill[line.number_of(event)] = drawn_share(event.end_s - event.start_s)
     events = tuple(sorted([*in_rests, *given.by_hand, *caught], key=lambda event: (event.start_s, event.end_s)))
     early_end_s, cut = _cut_notes(line, events)
-    slurs = broken_slurs(line, caught, stock.room)
+    said = (*broken_slurs(line, caught, stock.room), *hasty_at_marks(line, caught))
     return BreathPlan(
         events=with_depths(events, stock.used, score.lung_s, refill, line.index_of),
-        problems=(*cut, *slurs, *too_long(notes, times, stock.used, score.lung_s, refill)),
+        problems=(*cut, *said, *too_long(notes, times, stock.used, score.lung_s, refill)),
         generated_ids=frozenset(event.id for event in (*given.generated, *caught)),
         early_end_s=early_end_s,
         catches=tuple(catches),

@@ -1,7 +1,7 @@
 """Catch breaths: before which notes they are taken, how, and why.
 
 Messages: ``breath.catch``, ``breath.catch_dropped``, ``breath.catch_dropped_two``, ``breath.catch_slurred``,
-``breath.phrase_end``, ``breath.after_hold``, ``breath.written``, ``breath.breaks_slur``.
+``breath.phrase_end``, ``breath.after_hold``, ``breath.written``, ``breath.breaks_slur``, ``breath.mark_too_short``.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from app.arrays import BoolArray, FloatArray, IntArray
 from app.errors import Argument, Message
 from app.plan.breath.air_by_note import AirStock
 from app.plan.breath.breaths_in_rests import blown_catch
-from app.plan.breath.catch_breath_lengths import Room
+from app.plan.breath.catch_breath_lengths import CATCH_MIN_S, Room
 from app.plan.breath.catch_breath_places import AirSupply, catch_places
 from app.plan.breath.lungs import FULL_BREATH_S, levels, short_catches
 from app.plan.breath.phrase_ends import ComparedLine
@@ -168,5 +168,21 @@ def broken_slurs(line: Breather, caught: list[BreathEvent], room: Room) -> list[
         if line.written.joined[[first, index - 1]].any() and not line.written.breath[index - 1]:
             note_id = line.notes[index - 1].id
             message = Message("breath.breaks_slur", {"note": note_id})
+            problems.append(Problem(message, note_id, event.start_s, event.end_s))
+    return problems
+
+
+def hasty_at_marks(line: Breather, caught: list[BreathEvent]) -> list[Problem]:
+    """Return what is to be said of breaths at marks after notes too short to give one its time."""
+    problems = []
+    for event in caught:
+        before, lasts_s = line.number_of(event) - 1, event.end_s - event.start_s
+        if line.written.breath[before] and lasts_s < CATCH_MIN_S - EPSILON:
+            note_id = line.notes[before].id
+            lengths: dict[str, Argument] = {
+                "lasts_ms": round(1000.0 * lasts_s),
+                "least_ms": round(1000.0 * CATCH_MIN_S),
+            }
+            message = Message("breath.mark_too_short", {"note": note_id, **lengths})
             problems.append(Problem(message, note_id, event.start_s, event.end_s))
     return problems

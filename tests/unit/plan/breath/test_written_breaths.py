@@ -95,3 +95,16 @@ def test_a_slur_longer_than_the_air_is_broken_and_reported() -> None:
     assert event.reason.id == "breath.catch_slurred"
     [problem] = [problem for problem in plan.problems if problem.message.id == "breath.breaks_slur"]
     assert problem.note_id == f"1:{int(place)}"
+
+
+@pytest.mark.parametrize(("length", "lasts_ms"), [(30, 21), (60, 52), (120, 115), (200, 198), (205, None), (480, None)])
+def test_a_mark_after_a_note_too_short_for_a_breath_is_reported(length: int, lasts_ms: int | None) -> None:
+    """A breath takes 200 ms; of the note before it 10 ms at least are left."""
+    notes = line_of((0, Q, 65), (Q, length, 67), (Q + length, Q, 65), (2 * Q + length, Q, 67))
+    [plan] = plans(notes, Mark("breath", "1:2"))
+    [breath] = [event for event in plan.breaths if event.id == "breath:1:3"]
+    said = [problem for problem in plan.problems if problem.message.id == "breath.mark_too_short"]
+    lasting_ms = 1000.0 * (breath.end_s - breath.start_s)
+    assert [problem.note_id for problem in said] == (["1:2"] if lasting_ms < 199.0 else [])
+    assert bool(said) == (lasts_ms is not None)
+    assert all(problem.message.arguments["lasts_ms"] == lasts_ms for problem in said)
