@@ -25,7 +25,7 @@ from app.messages import error_text, text
 from app.version import program_version
 
 _DESCRIPTION = """\
-Turns wind-ensemble MIDI into character animation.
+Turns the MIDI or score of a wind ensemble into character animation.
 """
 _EPILOG = """\
 examples:

@@ -161,16 +161,16 @@ def add_file_options(command: argparse.ArgumentParser) -> None:
         action="append",
         default=[],
         metavar='"PART=INSTRUMENT"',
-        help="the instrument of a MIDI file's part, also where the file says none or another; PART may be a pattern "
-        "such as '*'; repeatable; `suisou instruments` lists the instruments; percussion: no one plays it, and dancers "
-        "hear its notes as a drum kit's",
+        help="the instrument of a part of a MIDI file or score, also where the file says none or another; PART may be "
+        "a pattern such as '*'; repeatable; `suisou instruments` lists the instruments; percussion: no one plays it, "
+        "and dancers hear its notes as a drum kit's",
     )
     command.add_argument(
         "--written",
         action="append",
         default=[],
         metavar="PLAYER",
-        help="a MIDI file has this player's pitches as they are written for a transposing instrument, not as they "
+        help="the file has this player's pitches as they are written for a transposing instrument, not as they "
         "sound (default: where a tenth of them and more are outside the instrument's range and all fit as written); "
         "PLAYER may be a pattern such as '*sax*'; repeatable",
     )
@@ -179,7 +179,7 @@ def add_file_options(command: argparse.ArgumentParser) -> None:
         action="append",
         default=[],
         metavar="PLAYER",
-        help="a MIDI file has this player's pitches as they sound, whatever their range; repeatable",
+        help="the file has this player's pitches as they sound, whatever their range; repeatable",
     )
     takes = command.add_mutually_exclusive_group()
     takes.add_argument(
@@ -218,8 +218,8 @@ def add_source_options(command: argparse.ArgumentParser) -> None:
         "--preroll",
         type=beats,
         metavar="BEATS",
-        help=f"beats before the first note, at least {PREROLL_LEAST_S:g} s (default: the project's; of a MIDI file "
-        f"{PREROLL_BEATS:g}, or as many as take {COME_UP_S:g} s)",
+        help=f"beats before the first note, at least {PREROLL_LEAST_S:g} s (default: the project's; of a MIDI file or "
+        f"score {PREROLL_BEATS:g}, or as many as take {COME_UP_S:g} s)",
     )
     command.add_argument(
         "--felt-beat",
@@ -239,7 +239,8 @@ def add_source_options(command: argparse.ArgumentParser) -> None:
         type=conductor,
         metavar="PLACE",
         help="where a conductor stands, who gives the entries: X,Z in metres (--conductor=-0.5,2 where X is negative), "
-        "usual for before the players, or none: the players give them (default: the project's; of a MIDI file none)",
+        "usual for before the players, or none: the players give them (default: the project's; of a MIDI file or "
+        "score none)",
     )
 
 

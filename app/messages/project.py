@@ -67,21 +67,21 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
     ),
     "project.written": (
         (
-            "--written and --sounding set how the pitches of a MIDI file are read, but {file} is a project; transpose "
-            "its notes in the editor"
+            "--written and --sounding set how the pitches of a MIDI file or score are read, but {file} is a project; "
+            "transpose its notes in the editor"
         ),
         (
-            "--written と --sounding は MIDI ファイルの音高の読み方の指定ですが、{file} はプロジェクトです。"
+            "--written と --sounding は MIDI ファイルや楽譜の音高の読み方の指定ですが、{file} はプロジェクトです。"
             "音符の移調はエディターで行ってください"
         ),
     ),
     "project.assign": (
         (
-            "--assign sets the instruments of the parts of a MIDI file, but {file} is a project; use --set "
+            "--assign sets the instruments of the parts of a MIDI file or score, but {file} is a project; use --set "
             "'PLAYER.instrument=ID'"
         ),
         (
-            "--assign は MIDI ファイルのパートに楽器を割り当てますが、{file} はプロジェクトです。--set "
+            "--assign は MIDI ファイルや楽譜のパートに楽器を割り当てますが、{file} はプロジェクトです。--set "
             "'PLAYER.instrument=ID' を使ってください"
         ),
     ),

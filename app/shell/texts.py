@@ -9,8 +9,8 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
     "about_dialog.faults_are_noted_in": ("Log file: {path}", "ログファイル: {path}"),
     "about_dialog.licences": ("Licences...", "ライセンス..."),
     "about_dialog.performance_of_wind_ensemble_from": (
-        "Turns wind-ensemble MIDI into character animation.",
-        "管楽アンサンブルの MIDI からキャラクターアニメーションを作るツールです。",
+        "Turns the MIDI or score of a wind ensemble into character animation.",
+        "管楽アンサンブルの MIDI や楽譜からキャラクターアニメーションを作るツールです。",
     ),
     "about_dialog.settings": ("Settings: {path}", "設定: {path}"),
     "about_dialog.version_under_apache_license_2": (
@@ -136,8 +136,8 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
     "start_page.not_found": ("not found", "見つかりません"),
     "start_page.open_midi_file_or_project": ("Open Music or Project", "楽曲・プロジェクトを開く"),
     "start_page.performance_of_wind_ensemble_from": (
-        "Turns wind-ensemble MIDI into character animation.",
-        "管楽アンサンブルの MIDI からキャラクターアニメーションを作るツールです。",
+        "Turns the MIDI or score of a wind ensemble into character animation.",
+        "管楽アンサンブルの MIDI や楽譜からキャラクターアニメーションを作るツールです。",
     ),
     "start_page.piece_that_was_never_saved": ("unsaved project", "未保存のプロジェクト"),
     "start_page.projects_file_has_changed_since": (

@@ -95,7 +95,7 @@ def _add_learn(actions: Actions) -> None:
         default=(),
         required=True,
         metavar=("MOTION", "PIECE"),
-        help="a .bvh, .fbx or .glb file and a MIDI file; repeatable",
+        help="a .bvh, .fbx or .glb file and a MIDI file or score; repeatable",
     )
     of_pair = command.add_argument_group("options of the pair before them")
 
