@@ -70,6 +70,6 @@ class Selection(msgspec.Struct, frozen=True):
             key
             for key in self.events
             if key.event_id in known.get(key.player_id, ())
-            or EventId.parse(key.event_id).kind in ("vary", "additive", MARK)
+            or EventId.parse(key.event_id).kind in UNPLANNED
         )
         return self if events == self.events else msgspec.structs.replace(self, events=events)

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 
+import msgspec
 import numpy as np
 import pytest
 
+from app.export.file_names import figure_stems
 from app.export.report import Report, failures
 from app.export.request import ExportRequest
 from app.export.run import export
@@ -45,6 +48,16 @@ def exported(project: Project, folder: Path, asked: int, formats: frozenset[str]
 def written(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Report]:
     folder = tmp_path_factory.mktemp("changes") / "out"
     return folder, exported(flutist(beside=False), folder, 1)
+
+
+def test_two_instruments_of_one_kind_have_files_named_after_their_players() -> None:
+    project = flutist(beside=False)
+    flute, piccolo = project.players
+    both = replace(project, players=(flute, msgspec.structs.replace(piccolo, instrument_id="flute")))
+    assert [names["instrument"] for names in figure_stems(Performance(both)).values()] == [
+        "Flute_flute",
+        "Flute_flute_Piccolo",
+    ]
 
 
 def test_for_either_player_one_character_and_both_instruments_are_written(written: tuple[Path, Report]) -> None:

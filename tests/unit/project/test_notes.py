@@ -306,3 +306,11 @@ def test_a_name_that_a_correction_still_waits_for_is_not_given_again() -> None:
 
 def test_the_oracles_grid_is_the_documents() -> None:
     assert Grid(Fraction(1, 3)).snap(project_of().score.metre_map, 170) == 160
+
+
+def test_the_grid_never_steps_across_a_bar_line() -> None:
+    grid, bars = Grid(Fraction(3)), project_of().score.metre_map
+    assert [grid.snap(bars, tick) for tick in (0, 3 * TPQ, 3.4 * TPQ, 3.9 * TPQ, 4 * TPQ)] == [
+        *(0, 3 * TPQ, 3 * TPQ),
+        *(4 * TPQ, 4 * TPQ),
+    ]

@@ -122,6 +122,10 @@ def test_what_cannot_be_is_refused(project: Project) -> None:
     for edit in (lambda: pin_beat(silent, 0), lambda: remove_pins(silent)):
         with pytest.raises(UsageError, match=r"piece\.no_recording"):
             edit()
+    beside = bar(project, 3) + 2
+    assert recording_second(project, beside) - recording_second(project, bar(project, 3)) < 0.02
+    with pytest.raises(UsageError, match=r"pins\.no_room"):
+        pin_beat(pin_beat(project, bar(project, 3)), beside)
     stale = pin_beat(pin_beat(project, bar(project, 3)), bar(project, 5))
     stale = set_tempo(stale, 0, 40.0)
     with pytest.raises(UsageError, match=r"pins\.no_room"):

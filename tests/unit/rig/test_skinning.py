@@ -79,3 +79,12 @@ def test_the_joints_a_landmark_needs_are_enough(posed: tuple[Any, ...]) -> None:
         skinning.landmark_positions(character, names, transforms),
         atol=1e-12,
     )
+
+
+def test_morphs_of_one_vertex_add_up() -> None:
+    identity = np.eye(4)[None, :3]
+    morphs = {"left": np.array([[1.0, 0.0, 0.0]]), "up": np.array([[0.0, 2.0, 0.0]])}
+    skin = skinning.Skin(np.zeros((1, 3)), np.array([0]), np.ones((1, 1)), identity, morphs)
+    world = np.broadcast_to(np.eye(4), (2, 1, 4, 4))
+    weights = {"left": np.array([1.0, 0.5]), "up": np.array([0.0, 0.5])}
+    assert skin.deformed(world, weights)[:, 0].tolist() == [[1.0, 0.0, 0.0], [0.5, 1.0, 0.0]]
