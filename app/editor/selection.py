@@ -69,7 +69,6 @@ class Selection(msgspec.Struct, frozen=True):
         events = frozenset(
             key
             for key in self.events
-            if key.event_id in known.get(key.player_id, ())
-            or EventId.parse(key.event_id).kind in UNPLANNED
+            if key.event_id in known.get(key.player_id, ()) or EventId.parse(key.event_id).kind in UNPLANNED
         )
         return self if events == self.events else msgspec.structs.replace(self, events=events)

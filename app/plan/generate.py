@@ -10,7 +10,7 @@ from typing import Final, NamedTuple
 import msgspec
 
 from app.errors import raise_if_stopped
-from app.plan.breath.staggered_breaths import breathed_of, shared_line
+from app.plan.breath.staggered_breaths import Breathed, breathed_of, shared_line
 from app.plan.by_hand.corrected_events import sound_corrections
 from app.plan.by_hand.corrections import Correction, RemoveEvent, SetBreath, SetCue, of_kinds
 from app.plan.cues.cues import plan_cues
@@ -177,9 +177,13 @@ def plan_ensemble(
         for player_id, results in playable.items()
     }
     made = EnsemblePlan({}, shared, playable, apart, {}, {})
+    together = [results.of(shared_line) for results in apart.values()]
+    breathed: list[Breathed] = []
     for done, line in enumerate(lines):
         raise_if_stopped(stop_requested)
-        _plan_player(made, line, everyone, known)
+        others = (*together[:done], *together[done + 1 :])
+        neighbours = {"shared_line": together[done], "others": others, "breathed": tuple(breathed)}
+        breathed.append(_plan_player(made, line, everyone | neighbours, known))
         progress((done + 1) / len(lines))
     made.close()
     return made
@@ -204,29 +208,23 @@ def _shared_by_all(
     )
 
 
-def _plan_player(made: EnsemblePlan, part: MonophonicPart, everyone: Mapping[str, object], known: EnsemblePlan) -> None:
-    """Plan a player after those whose plans are made."""
-    player_id, musicians = part.player_id, made.shared["musicians"]
-    results, together = made.lines[player_id], {id: one.of(shared_line) for id, one in made.shared_lines.items()}
-    own: dict[str, object] = {**everyone, "times": results.of(note_times), "shared_line": together.pop(player_id)}
-    among = AMONG_OTHERS.begin(
-        known.among.get(player_id),
-        **own,
-        player_id=player_id,
-        others=tuple(together.values()),
-        breathed=tuple(one.of(breathed_of) for one in made.players.values()),
-    )
-    made.among[player_id] = among
-    made.players[player_id] = PLAYER.begin(
+def _plan_player(
+    made: EnsemblePlan, part: MonophonicPart, given: Mapping[str, object], known: EnsemblePlan
+) -> Breathed:
+    """Plan a player after those whose plans are made; return when the player breathes."""
+    player_id, results, musicians = part.player_id, made.lines[part.player_id], made.shared["musicians"]
+    own = {**given, "times": results.of(note_times), "player_id": player_id}
+    among = made.among[player_id] = AMONG_OTHERS.begin(known.among.get(player_id), **own)
+    planned = made.players[player_id] = PLAYER.begin(
         known.players.get(player_id),
-        **own,
-        **_fields(part) | {"notes": results["played_notes"], "corrections": results["sound_corrections"]},
+        **own | _fields(part) | {"notes": results["played_notes"], "corrections": results["sound_corrections"]},
         **{name: among[name] for name in AMONG_OTHERS.functions},
         reported=results["reported"],
         written=results.of(written_marks),
         alone=musicians.count(part.musician or player_id) == 1,
     )
-    made.plans[player_id] = made.players[player_id].of(PlayerPlan)
+    made.plans[player_id] = planned.of(PlayerPlan)
+    return planned.of(breathed_of)
 
 
 def _fields(part: MonophonicPart) -> dict[str, object]:
