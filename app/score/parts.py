@@ -225,11 +225,15 @@ def _shared(
         every_chord=assignment.split == "every",
         unison=said is not None and not said.vague,
     )
-    if len(shared.voices) < 2 or not (assignment.solos and alone and chosen[0].solos):
+    count = len(shared.voices)
+    if count < 2 or not alone:
         return shared
-    solos = solo_notes(notes, chosen[0].solos)
+    solos = solo_notes(notes, chosen[0].solos) if assignment.solos and chosen[0].solos else {}
+    seated = chosen[0].seats(count) | solos
+    if not seated:
+        return shared
     original = {note.id: file_id(note.id) for voice in shared.voices for note in voice}
-    return shared._replace(voices=with_solos(shared.voices, solos, original), solos=sorted(solos))
+    return shared._replace(voices=with_solos(shared.voices, seated, original), solos=sorted(solos))
 
 
 def rhythm_parts(channels: Sequence[TrackChannel], assignments: Sequence[PartAssignment] = ()) -> list[TrackChannel]:

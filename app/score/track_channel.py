@@ -40,6 +40,8 @@ class TrackChannel(msgspec.Struct, frozen=True):
         The file says that it is a take of ``suisou record``.
     solos : tuple of (tick, player)
         Who of several players has the notes alone from there on, from 1; 0: all play (`app.score.solos`).
+    desks : tuple of (number, player, players)
+        Notes, by their numbers, that are for one of so many players by the voices of their staff, from 1.
     use : {"melodic", "rhythm", "effect"}
         What its channel is on a sound module while it plays (`app.score.sound_module`).
     certain : bool
@@ -70,6 +72,7 @@ class TrackChannel(msgspec.Struct, frozen=True):
     muted: tuple[tuple[int, int], ...] = ()
     stopped: tuple[tuple[int, int], ...] = ()
     solos: tuple[tuple[int, int], ...] = ()
+    desks: tuple[tuple[int, int, int], ...] = ()
     recorded: bool = False
     use: Use = "melodic"
     certain: bool = False
@@ -88,3 +91,7 @@ class TrackChannel(msgspec.Struct, frozen=True):
         ids = [f"{self.track + 1}:{number}" for number in self.numbers]
         durations = map(sub, self.end_ticks, self.onset_ticks)
         return list(map(Note, ids, self.onset_ticks, durations, self.pitches, self.velocities))
+
+    def seats(self, players: int) -> dict[str, int]:
+        """The player of each note whose voice is for one of so many players, by the note's id."""
+        return {f"{self.track + 1}:{number}": player for number, player, of in self.desks if of == players}

@@ -250,6 +250,7 @@ def _note(part: WrittenPart, one: Element, measure: Measure, state: _State, plac
     else:
         length = 0 if grace else _duration(one, state, place)
         chord = Chord(state.cursor, length, _said(found.get("voice"), "1"), _said(found.get("staff"), "1"), grace)
+        chord.stem, chord.hidden = _said(found.get("stem"), ""), one.get("print-object") == "no"
         state.cursor += length
         if "cue" in found:
             state.chord = chord

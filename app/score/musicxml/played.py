@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from operator import attrgetter
 from typing import Final
 
+from app.score.musicxml.desks import EVERYONE, Desk, seat
 from app.score.musicxml.written import Chord, Direction, Measure, Time, Tone
 
 _MOST_OPEN: Final = 32
@@ -44,6 +45,12 @@ class PlayedChord:
     chord: Chord
     notes: list[PlayedNote] = field(default_factory=list)
     begun: list[PlayedNote] = field(default_factory=list)
+    desk: Desk = EVERYONE
+
+    def desk_of(self, note: PlayedNote) -> Desk:
+        """The player of one of its notes."""
+        above = sum(tone.pitch > note.tone.pitch for tone in self.chord.tones)
+        return Desk(self.desk.first + above, self.desk.players) if self.desk.first else self.desk
 
 
 @dataclass(slots=True)
@@ -97,6 +104,7 @@ def played_part(measures: Sequence[Measure], visits: Sequence[Sequence[Time]]) -
             PlayedChord(round(start + chord.start), round(start + chord.start + chord.length), chord)
             for chord in measure.chords
         ]
+        seat(own)
         document.append(own)
         for one in sorted(own, key=attrgetter("onset")):
             chord = one.chord
@@ -119,20 +127,7 @@ def played_part(measures: Sequence[Measure], visits: Sequence[Sequence[Time]]) -
 def _breathing(before: Chord, rest: Chord) -> Chord:
     """The chord with the breath marks of a rest behind it; a copy, for it may be played again without."""
     more = [mark for mark in rest.marks if mark[0] in ("breath", "caesura") and mark not in before.marks]
-    return Chord(
-        before.start,
-        before.length,
-        before.voice,
-        before.staff,
-        before.grace,
-        before.tones,
-        [*before.marks, *more],
-        before.slurs,
-        before.ornaments,
-        before.fermata,
-        before.tremolo,
-        before.mute,
-    )
+    return replace(before, marks=[*before.marks, *more])
 
 
 def _join_ties(chords: Sequence[PlayedChord]) -> None:

@@ -10,6 +10,7 @@ from app.score.channel_sound import DRUM_CHANNEL
 from app.score.doublings import requested_instrument
 from app.score.limits import MOST_NAME
 from app.score.marks import Mark
+from app.score.musicxml.desks import Desk
 from app.score.musicxml.loudness import hairpins, loudness_of, velocity_of
 from app.score.musicxml.parts import PartInstrument, WrittenPart, said_instrument
 from app.score.musicxml.played import PlayedChord, PlayedNote, PlayedPart
@@ -35,6 +36,7 @@ class _Row:
     velocity: int
     kind: str
     note: PlayedNote
+    desk: Desk
     number: int = 0
 
 
@@ -85,6 +87,7 @@ def part_streams(
                 change=change,
                 muted=() if struck else joined_spans(muted, ("mute", "hand")),
                 stopped=() if struck else joined_spans(muted, ("hand",)),
+                desks=() if struck else tuple((row.number, *row.desk) for row in own if row.desk.first),
                 solos=() if struck else words_of_players(words),
                 use="rhythm" if struck else "melodic",
                 certain=struck,
@@ -154,13 +157,14 @@ def id_of(note: PlayedNote) -> int:
 def _rows(played: PlayedPart, level: Callable[[int], float], kinds: dict[int, str]) -> list[_Row]:
     """All notes of a part as they are written out, numbered."""
     rows: list[_Row] = []
-    for note in played.notes:
+    seated = ((note, chord.desk_of(note)) for chord in played.chords for note in chord.begun)
+    for note, desk in seated:
         said = {kind for kind, _ in note.chord.marks}
         velocity = velocity_of(level(note.onset), said, note.tone.loudness)
         share = min((_SHORT[kind] for kind in said if kind in _SHORT), default=1.0)
         for onset, end, pitch in note.rows:
             sounding = end if len(note.rows) > 1 or "tenuto" in said else onset + max(round((end - onset) * share), 1)
-            rows.append(_Row(onset, sounding, pitch, velocity, kinds[id_of(note)], note))
+            rows.append(_Row(onset, sounding, pitch, velocity, kinds[id_of(note)], note, desk))
     rows.sort(key=lambda row: (row.onset, row.pitch))
     for number, row in enumerate(rows, 1):
         row.number = number

@@ -102,6 +102,10 @@ class Chord:
         How many times as long it lasts.
     tremolo : (type, strokes)
         ``single``, ``start`` or ``stop``; strokes 0: none.
+    stem : str
+        ``up`` or ``down``.
+    hidden : bool
+        Whether it is not shown.
     """
 
     start: Time
@@ -116,6 +120,8 @@ class Chord:
     fermata: float = 1.0
     tremolo: tuple[str, int] = ("", 0)
     mute: str = ""
+    stem: str = ""
+    hidden: bool = False
 
 
 @dataclass(slots=True)

@@ -1,0 +1,74 @@
+"""Players of a staff by its voices: where several are written, each has the notes of its own, stems up first.
+
+What sounds while the other voices have neither a note nor a rest that is shown is everyone's: then nothing is said.
+"""
+
+from __future__ import annotations
+
+from bisect import bisect_left
+from collections.abc import Sequence
+from typing import Final, NamedTuple, Protocol
+
+from app.score.musicxml.written import Chord
+
+_MOST_VOICES: Final = 8
+"""Voices of a measure; in more no one plays a line."""
+
+
+class Desk(NamedTuple):
+    """Players of a chord, of all who are written in its measure.
+
+    Attributes
+    ----------
+    first : int
+        The player of its highest note, from 1; the next have those below. 0: nothing says who.
+    players : int
+        All players of the measure.
+    """
+
+    first: int = 0
+    players: int = 0
+
+
+EVERYONE: Final = Desk()
+
+
+class Placed(Protocol):
+    """A chord or a rest where it is played, ticks."""
+
+    onset: int
+    end: int
+    chord: Chord
+    desk: Desk
+
+
+def seat(measure: Sequence[Placed]) -> None:
+    """Set the desks of the chords of a measure."""
+    lines: dict[tuple[str, str], list[Placed]] = {}
+    for one in measure:
+        if one.chord.tones or not one.chord.hidden:
+            lines.setdefault((one.chord.staff, one.chord.voice), []).append(one)
+    if not 2 <= len(lines) <= _MOST_VOICES:
+        return
+    rows = sorted(lines.items(), key=lambda row: (row[0][0], _goes_down(row[1]), len(row[0][1]), row[0][1]))
+    spans = [sorted((one.onset, max(one.end, one.onset + 1)) for one in line) for _, line in rows]
+    widths = [max(len(one.chord.tones) for one in line) or 1 for _, line in rows]
+    first = 1
+    for place, (_, line) in enumerate(rows):
+        others = [own for other, own in enumerate(spans) if other != place]
+        for one in line:
+            if any(_sounds(own, one.onset, max(one.end, one.onset + 1)) for own in others):
+                one.desk = Desk(first, sum(widths))
+        first += widths[place]
+
+
+def _goes_down(line: Sequence[Placed]) -> bool:
+    """Return whether the stems of a voice go down."""
+    stems = [one.chord.stem for one in line]
+    return stems.count("down") > stems.count("up")
+
+
+def _sounds(spans: Sequence[tuple[int, int]], start: int, end: int) -> bool:
+    """Return whether something of a voice, in order, lies between two ticks."""
+    before = bisect_left(spans, (end, 0)) - 1
+    return before >= 0 and spans[before][1] > start
