@@ -29,6 +29,7 @@ from app.project.edit.players import set_parameters
 from app.project.fault import Fault, faults_of_bounds, text_faults, unique
 from app.project.model import Project
 from app.project.parameters import is_possible, range_text
+from app.score.marks import MARK
 from metadata.acting import AMOUNTS
 from metadata.model import Expression
 
@@ -36,7 +37,7 @@ VERSION: Final = 2
 SUFFIX: Final = ".toml"
 PARAMETER_NAMES: Final = ("amplitude", "style", "habits", "layers_off", *AMOUNTS)
 """Parameters of a player that are acting."""
-_NOT_ACTING: Final = frozenset({*BREATH_KINDS, "cue", "fingering", "embouchure"})
+_NOT_ACTING: Final = frozenset({*BREATH_KINDS, "cue", "fingering", "embouchure", MARK})
 """Events of these kinds belong to the playing."""
 
 

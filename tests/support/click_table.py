@@ -58,7 +58,8 @@ notes.quantise = popup quantise
 notes.* = project + selection
 fingering.type_* ? project
 fingering.* = project
-marks.dynamic = popup
+marks.dynamic, add_mark = popup
+mark_* = project
 marks.slur, marks.non_legato ? project + notice
 marks.* = project
 events.gesture, events.expression, events.style = popup

@@ -23,6 +23,7 @@ from app.plan.by_hand.corrections import Correction
 from app.plan.event_id import EventId
 from app.project.anchors import notes_of
 from app.project.edit.length import with_score
+from app.project.edit.mark_ends import carried_on, drawn_in
 from app.project.grid import Grid
 from app.project.ids import new_note_ids
 from app.project.limits import LAST_TICK, TICKS_PER_QUARTER
@@ -87,11 +88,12 @@ def resize(project: Project, note_ids: Collection[str], by_tick: int, *, at_star
 
 
 def erase(project: Project, note_ids: Collection[str]) -> Project:
-    """Remove notes, and what was corrected by hand about them."""
+    """Remove notes, and what was corrected by hand about them. A slur that ended at one ends at the nearest left."""
     gone = {note.id for _, mine in chosen_notes(project, note_ids) for note in mine}
     if not gone:
         return project
     parts = {part.id for part, _ in chosen_notes(project, gone)}
+    project = drawn_in(project, gone)
     project = _edited(project, parts, lambda notes: [note for note in notes if note.id not in gone])
     kept = {
         player_id: tuple(item for item in items if not (_notes_of(item) & gone))
@@ -117,24 +119,25 @@ def split(project: Project, note_ids: Collection[str], tick: int) -> tuple[Proje
     project = _each(
         project, seconds.keys(), lambda note: msgspec.structs.replace(note, duration_tick=tick - note.onset_tick)
     )
+    project = carried_on(project, {first: second.id for first, second in seconds.items()})
     return _with_more(project, seconds), tuple(note.id for note in seconds.values())
 
 
 def join(project: Project, note_ids: Collection[str]) -> Project:
     """Make one note of chosen notes of one pitch that follow one another in their part. The first of them stays."""
     longer: dict[str, int] = {}
-    absorbed: set[str] = set()
+    absorbed: dict[str, str] = {}
     requested = frozenset(note_ids)
     for part, _ in chosen_notes(project, requested):
         for joined, group in groupby(_runs(part, requested), key=lambda pair: pair[0]):
             run = [note for _, note in group]
             if joined and len(run) > 1:
                 longer[run[0].id] = max(note.end_tick for note in run)
-                absorbed.update(note.id for note in run[1:])
+                absorbed |= dict.fromkeys((note.id for note in run[1:]), run[0].id)
     if not absorbed:
         raise AppError("note.nothing_to_join")
     return _each(
-        erase(project, absorbed),
+        erase(carried_on(project, absorbed), absorbed),
         longer.keys(),
         lambda note: msgspec.structs.replace(note, duration_tick=longer[note.id] - note.onset_tick),
     )

@@ -26,6 +26,7 @@ from app.plan.by_hand.corrections import (
     SetEmbouchure,
     Vary,
 )
+from app.plan.by_hand.mark_corrections import SetMark
 from app.plan.parameters import PARAMETERS
 from app.project.casting import StagePosition
 from app.project.edit.corrections import with_corrections
@@ -117,6 +118,10 @@ def _corrections(draw: st.DrawFn, project: Project, player: Player) -> Correctio
         PoseCorrection("mine", "bell", tick, end, up_deg=10.0 * amount, fade_in_ticks=240),
         PoseCorrection("other", "left_elbow", tick, end, up_deg=40.0 * amount),
         Vary("mine", tick, end, 5),
+        SetMark(draw(st.sampled_from(["staccato", "breath", "double_tongue"])), note),
+        SetMark("slur", note, notes[-1].id if notes else "1:9"),
+        SetMark("dynamic", start_tick=tick, end_tick=draw(st.sampled_from([None, end + 1])), text="ff"),
+        SetMark("crescendo", start_tick=tick, end_tick=end + 1),
         PlayStyle("mine", draw(st.sampled_from(["soloist", "reserved", "gone"])), tick, end, 240, 240),
     ]
     return draw(st.sampled_from(choices))

@@ -34,6 +34,7 @@ from app.plan.by_hand.corrections import (
     SetEmbouchure,
     Vary,
 )
+from app.plan.by_hand.mark_corrections import OfMark, RemoveMark, SetMark
 from app.plan.model import PlayerPlan
 from app.project.casting import StagePosition
 from app.project.check import faults
@@ -44,6 +45,7 @@ from app.project.edit import (
     dancers,
     events,
     generation,
+    marks,
     notes,
     piece,
     players,
@@ -57,6 +59,7 @@ from app.project.model import Project
 from app.project.orphans import orphaned, reattached
 from app.project.reimport import reimport
 from app.project.storage import load, save
+from app.score.marks import WRITABLE
 from app.score.take import Cleaning
 from instrument_maps.load import bundled_maps
 from tests.support.projects import expressions as any_expression
@@ -107,6 +110,9 @@ def a_correction(data: st.DataObject, project: Project) -> tuple[str, Correction
         ChangeGesture(data.draw(st.sampled_from(gestures)), amount=share),
         ChangeExpression(data.draw(st.sampled_from(faces)), strength=share),
         RemoveEvent(data.draw(st.sampled_from(removable))),
+        SetMark(data.draw(st.sampled_from(["staccato", "breath", "trill"])), note),
+        SetMark("dynamic", start_tick=first, end_tick=data.draw(st.sampled_from([None, first + length])), text="pp"),
+        RemoveMark("slur", note, played[-1].id),
     ]
     return player.id, data.draw(st.sampled_from(made))
 
@@ -170,6 +176,31 @@ def edit_notes(data: st.DataObject, project: Project) -> Project:
             return notes.paste(project, a_player(data, project).part_id, notes.copied(project, chosen), tick)[0]
         case _:
             return notes.change_velocity(project, chosen, 5)
+
+
+def edit_marks(data: st.DataObject, project: Project) -> Project:
+    """Write and take away marks over notes, change one, delete or revert one."""
+    player = a_player(data, project)
+    kind = data.draw(st.sampled_from([*WRITABLE, "dynamic"]))
+    chosen = set(some_notes(data, project))
+    mine = {player.id: [note for note in project.part(player).notes if note.id in chosen]}
+    project = marks.toggle_marks(project, mine, kind, "mf" if kind == "dynamic" else "").project
+    known = list(marks.player_marks(project, player.id))
+    if not known:
+        return project
+    mark = data.draw(st.sampled_from(known))
+    match data.draw(st.integers(0, 3)):
+        case 0:
+            return events.remove(project, Performance(project).plan(player), [mark.id])
+        case 1:
+            return events.give_back(project, player.id, [mark.id])
+        case 2 if not mark.note_id:
+            moved = msgspec.structs.replace(mark, tick=data.draw(places), end_tick=0)
+            if mark.end_tick:
+                moved = msgspec.structs.replace(moved, end_tick=moved.tick + 240)
+            return marks.replace_mark(project, player.id, mark, moved)
+        case _:
+            return project
 
 
 def edit_players(data: st.DataObject, project: Project) -> Project:
@@ -402,7 +433,15 @@ def edit_takes(data: st.DataObject, project: Project) -> Project:
 
 KEEPING: list[Edit] = [edit_players, edit_dancers, edit_piece, another_performance, read_again, edit_takes, edit_takes]
 """Whatever these do, every correction is still there after it (it may have moved with the music)."""
-OTHERS: list[Edit] = [correct_dances, add_correction, forget_correction, edit_event, edit_notes, hang_on_another]
+OTHERS: list[Edit] = [
+    correct_dances,
+    add_correction,
+    forget_correction,
+    edit_event,
+    edit_notes,
+    edit_marks,
+    hang_on_another,
+]
 
 
 class Day(RuleBasedStateMachine):
@@ -581,6 +620,9 @@ def is_done(correction: Correction, plan: PlayerPlan, others: tuple[Correction, 
     event = events_of(plan).get(correction.about)
     if isinstance(correction, Vary):
         return True
+    if isinstance(correction, OfMark):
+        played = {event.note_id for event in plan.fingerings}
+        return not correction.is_lost(played, ()) or str(correction.note_id) in said
     if isinstance(correction, RemoveEvent):
         # What is put there by hand again is there.
         by_hand = any(item.about == correction.event_id for item in others if item is not correction)

@@ -22,6 +22,7 @@ from app.plan.by_hand.corrections import (
     SetEmbouchure,
     Vary,
 )
+from app.plan.by_hand.mark_corrections import RemoveMark, SetMark
 from app.plan.parameters import PlayerParameters
 from app.project.casting import ConductorPlace, StagePosition, stage_arc
 from app.project.dance_corrections import ForbidState, PinState, UseSegment
@@ -135,6 +136,8 @@ def full_project(folder: str = "/music") -> Project:
             AdditiveCurve("own-2", "face.browInnerUp", (CurveKey(0, 0.5),)),
             Vary("varied-1", 0, 480, 2**62 + 1),
             PlayStyle("own-3", "soloist", 0, 960, 240, 120),
+            SetMark("dynamic", start_tick=480, end_tick=960, text="mf"),
+            RemoveMark("slur", "1:1", "1:3"),
         ),
         trombone.id: (PinFingering("2:1", "1"),),
     }

@@ -15,7 +15,7 @@ from app.project.check import require_sound
 from app.project.edit.corrections import with_corrections
 from app.project.edit.events import give_back, is_there, remove
 from app.project.edit.marks import player_marks, remove_marks, replace_mark, set_marks, toggle_marks
-from app.project.edit.notes import erase
+from app.project.edit.notes import erase, join, split
 from app.project.edit.players import duplicate_players
 from app.project.model import Project, project_from_score
 from app.project.orphans import orphaned, reattached
@@ -193,8 +193,24 @@ def test_marks_of_erased_notes_go_and_copies_of_a_player_have_their_own() -> Non
     project = _piece()
     player = _player(project)
     marked = set_marks(project, player, [Mark("slur", "0:2", "0:9"), Mark("staccato", "0:5")])
-    assert not erase(marked, ["0:5", "0:9"]).corrections
+    assert player_marks(erase(marked, ["0:5", "0:9"]), player) == {Mark("slur", "0:2", "0:8"): "hand"}
+    assert not erase(marked, [f"0:{index}" for index in range(3, 10)]).corrections
     copied, [copy] = duplicate_players(marked, [player])
     notes = {note.id for note in copied.part(copied.player(copy)).notes}
     assert {mark.kind for mark in player_marks(copied, copy)} == {"slur", "staccato"}
     assert all({mark.note_id, mark.last_note_id or mark.note_id} <= notes for mark in player_marks(copied, copy))
+
+
+@pytest.mark.parametrize("by_hand", [True, False])
+def test_slurs_and_breath_marks_keep_their_notes_when_these_are_cut_and_joined(by_hand: bool) -> None:
+    slur, breath = Mark("slur", "0:2", "0:5"), Mark("breath", "0:5")
+    project = _piece(() if by_hand else (slur, breath), "score")
+    player = _player(project)
+    project = set_marks(project, player, [slur, breath])
+    notes = project.score.parts[0].notes
+    cut, [second] = split(project, ["0:5"], notes[5].onset_tick + 240)
+    assert set(player_marks(cut, player)) == {Mark("slur", "0:2", second), Mark("breath", second)}
+    assert set(player_marks(join(cut, ["0:5", second]), player)) == {slur, breath}
+    assert Mark("slur", "0:3", "0:5") in player_marks(erase(project, ["0:2"]), player)
+    without = erase(remove_marks(project, player, [slur]), ["0:5"])
+    assert not {mark for mark in player_marks(without, player) if mark.kind == "slur"}

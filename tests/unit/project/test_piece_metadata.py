@@ -11,6 +11,7 @@ import pytest
 from app.errors import FileError, MapError
 from app.plan.by_hand.additive_curve import AdditiveCurve
 from app.plan.by_hand.corrections import AddGesture, PinFingering, RemoveEvent, SetBreath
+from app.plan.by_hand.mark_corrections import SetMark
 from app.project.edit.corrections import with_corrections
 from app.project.edit.piece import set_section_intensity
 from app.project.edit.players import rename, set_parameters
@@ -51,7 +52,8 @@ def test_what_is_saved_is_what_is_loaded_and_nothing_else_of_the_piece_changes(t
 
 
 def test_breaths_cues_and_fingerings_are_no_acting() -> None:
-    assert not any(map(is_acting, (PinFingering("1", "1"), SetBreath("1", -10), RemoveEvent("breath:1", "1"))))
+    playing = PinFingering("1", "1"), SetBreath("1", -10), RemoveEvent("breath:1", "1"), SetMark("breath", "1")
+    assert not any(map(is_acting, playing))
     assert all(map(is_acting, (RemoveEvent("sway:@960"), RemoveEvent("expression:smile"), RemoveEvent("named:x"))))
 
 

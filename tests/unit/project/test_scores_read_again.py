@@ -7,8 +7,11 @@ from pathlib import Path
 
 import pytest
 
+from app.performance.ensemble import Performance
 from app.plan.by_hand.corrections import PinFingering
+from app.project.edit.marks import player_marks, set_marks
 from app.project.importing import import_project, usual_rows
+from app.project.midi_out import export_midi
 from app.project.model import Project
 from app.project.reimport import reimported
 from app.project.storage import load, save
@@ -62,3 +65,32 @@ def test_a_bar_and_marks_come_in_and_what_was_done_by_hand_stays(path: Path) -> 
     assert (len(again.added), again.removed) == (1, ())
     following = next(note.id for note in part.notes if note.onset_tick == known[pinned.id].end_tick)
     assert set(part.marks) == {Mark("slur", pinned.id, following), Mark("breath", following)}
+
+
+def test_marks_by_hand_stay_when_the_score_of_a_midi_piece_comes(path: Path, tmp_path: Path) -> None:
+    """A slur, a breath mark and a dynamic written over the MIDI; the score has other marks, and one more bar before."""
+    played = imported(path)
+    midi = tmp_path / "piece.mid"
+    export_midi(played, midi, MAPS)
+    project = imported(midi)
+    (player,) = project.players
+    (part,) = project.score.parts
+    assert part.source == "sound"
+    ids = [note.id for note in part.notes]
+    breath, piano = Mark("breath", ids[5]), Mark("dynamic", tick=part.notes[4].onset_tick, text="p")
+    slur_by_hand = Mark("slur", ids[4], ids[7])
+    project = set_marks(project, player.id, [slur_by_hand, breath, piano])
+    marked = note("C5", 4, notations=articulation("staccato")) + FIRST[len(note("C5", 4)) :]
+    path.write_text(document(note("A4", 16), marked, SECOND), encoding="utf-8")
+    again = reimported(project, path, MAPS)
+    assert not again.orphans
+    (part,) = again.project.score.parts
+    onsets = {note.id: note.onset_tick for note in part.notes}
+    assert part.source == "score"
+    moved = Mark("dynamic", tick=onsets[ids[4]], text="p")
+    assert player_marks(again.project, player.id) == {
+        Mark("staccato", ids[0]): "score", slur_by_hand: "hand", breath: "hand", moved: "hand"
+    }  # fmt: skip
+    assert onsets[ids[4]] == 8 * again.project.score.ticks_per_quarter
+    breaths = Performance(again.project).plan(again.project.players[0]).breaths
+    assert f"breath:{ids[6]}" in {event.id for event in breaths}

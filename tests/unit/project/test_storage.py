@@ -18,6 +18,7 @@ from app.errors import FileError, Message
 from app.messages import error_text, text
 from app.plan.by_hand.additive_curve import AdditiveCurve
 from app.plan.by_hand.corrections import AddGesture, PlayStyle, SetCue
+from app.plan.by_hand.mark_corrections import OfMark
 from app.plan.parameters import PARAMETERS, PlayerParameters
 from app.project.edit.dancers import set_body_dance
 from app.project.edit.piece import set_audio
@@ -106,6 +107,11 @@ def test_every_version_that_ever_was_can_be_read(version: int) -> None:
     if version < 15:
         plain = (msgspec.structs.replace(part, marks=(), source="sound") for part in expected.score.parts)
         expected = replace(expected, score=msgspec.structs.replace(expected.score, parts=tuple(plain)))
+        corrections = {
+            player: tuple(item for item in items if not isinstance(item, OfMark))
+            for player, items in expected.corrections.items()
+        }
+        expected = replace(expected, corrections=corrections)
     if version < 3:
         parts = tuple(msgspec.structs.replace(part, transposed_semitones=0) for part in expected.score.parts)
         expected = replace(expected, score=msgspec.structs.replace(expected.score, parts=parts))

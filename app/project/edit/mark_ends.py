@@ -1,0 +1,87 @@
+"""Ends of slurs where notes are erased, cut in two and joined: of the marks of the score and of those by hand."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Mapping
+from dataclasses import replace
+from typing import TypeAlias
+
+import msgspec
+
+from app.plan.by_hand.corrections import Correction
+from app.plan.by_hand.mark_corrections import OfMark
+from app.project.edit.marks import AFTER
+from app.project.model import Project
+from app.score.marks import MARK_KINDS, Mark
+from app.score.model import Part
+
+Ends: TypeAlias = Callable[[str, str, str], tuple[str, str]]
+"""Makes new ends (note ids) of a mark's kind and ends."""
+
+
+def drawn_in(project: Project, gone: Collection[str]) -> Project:
+    """Let slurs end at the nearest notes within them that stay when notes are erased; those of one note are left."""
+
+    lost = frozenset(gone)
+
+    def ends_of(part: Part) -> Ends:
+        place = {note.id: index for index, note in enumerate(part.notes)}
+        kept = [index for index, note in enumerate(part.notes) if note.id not in lost]
+
+        def ends(kind: str, first: str, last: str) -> tuple[str, str]:
+            if not _spans(kind) or first not in place or last not in place or lost.isdisjoint((first, last)):
+                return first, last
+            within = [index for index in kept if place[first] <= index <= place[last]]
+            return (part.notes[within[0]].id, part.notes[within[-1]].id) if len(within) > 1 else (first, last)
+
+        return ends
+
+    return _anchored(project, lost, ends_of)
+
+
+def carried_on(project: Project, seconds: Mapping[str, str]) -> Project:
+    """Let slurs end, and breath marks stand, at other notes: those by the ids of the notes that had them."""
+
+    def ends(kind: str, first: str, last: str) -> tuple[str, str]:
+        if kind in AFTER:
+            return seconds.get(first, first), last
+        end = seconds.get(last, last)
+        # One of a single note goes with the other.
+        return (first, end) if _spans(kind) and end != first else (first, last)
+
+    return _anchored(project, seconds.keys(), lambda part: ends)
+
+
+def _spans(kind: str) -> bool:
+    return MARK_KINDS[kind].anchor == "notes"
+
+
+def _anchored(project: Project, note_ids: Collection[str], ends_of: Callable[[Part], Ends]) -> Project:
+    """Return the project with other ends of the marks at some notes."""
+    parts, corrections = [], dict(project.corrections)
+    for part in project.score.parts:
+        players = [player.id for player in project.players if player.part_id == part.id]
+        said = any(isinstance(item, OfMark) for id in players for item in corrections.get(id, ()))
+        if (said or part.marks) and not part.note_ids.isdisjoint(note_ids):
+            ends = ends_of(part)
+            marks = tuple(_of_score(mark, ends) for mark in part.marks)
+            part = part if marks == part.marks else msgspec.structs.replace(part, marks=marks)
+            for id in players:
+                if id in corrections:
+                    corrections[id] = tuple(_by_hand(item, ends) for item in corrections[id])
+        parts.append(part)
+    if corrections == project.corrections and tuple(parts) == project.score.parts:
+        return project
+    return replace(project, score=msgspec.structs.replace(project.score, parts=tuple(parts)), corrections=corrections)
+
+
+def _of_score(mark: Mark, ends: Ends) -> Mark:
+    first, last = ends(mark.kind, mark.note_id, mark.last_note_id)
+    return msgspec.structs.replace(mark, note_id=first, last_note_id=last)
+
+
+def _by_hand(item: Correction, ends: Ends) -> Correction:
+    if not isinstance(item, OfMark) or item.note_id is None:
+        return item
+    first, last = ends(item.kind, item.note_id, item.last_note_id or "")
+    return msgspec.structs.replace(item, note_id=first, last_note_id=last or None)
