@@ -179,6 +179,7 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         "tenuto: held for its full length, tongued softly",
         "テヌート: 音価いっぱいに保ち、柔らかく舌を突く音",
     ),
+    "tongue.by_hand": ("{mark} by hand", "手動で記入した{mark}"),
     "tongue.written_staccato": ("staccato in the score", "楽譜のスタッカート"),
     "tongue.written_staccatissimo": ("staccatissimo in the score", "楽譜のスタッカーティッシモ"),
     "tongue.written_tenuto": ("tenuto in the score", "楽譜のテヌート"),

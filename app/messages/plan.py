@@ -144,6 +144,7 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         "次のよい場所まで息が続かない",
     ),
     "breath.why_written": ("there is a breath mark in the score", "楽譜にブレス記号がある"),
+    "breath.why_by_hand": ("there is a breath mark by hand", "手動で記入したブレス記号がある"),
     "breath.why_not_recorded": (
         "no breath was recorded for this note",
         "この音のブレスは録音されていない",
@@ -164,18 +165,22 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
     ),
     "breath.catch_slurred": (
         (
-            "catch breath after note {after_note}, which breaks a slur in the score: {phrase_s:g} s without a breath "
+            "catch breath after note {after_note}, which breaks a written slur: {phrase_s:g} s without a breath "
             "in a rest need {air_s:g} s of air, but {lung_s:g} s are available; the note is shortened by "
             "{from_note_ms:g} ms"
         ),
         (
-            "音符 {after_note} の後の息継ぎ（楽譜のスラーの途中）: 休符でブレスできない {phrase_s:g} 秒に {air_s:g} "
+            "音符 {after_note} の後の息継ぎ（スラーの途中）: 休符でブレスできない {phrase_s:g} 秒に {air_s:g} "
             "秒分の息が必要ですが、{lung_s:g} 秒分しかありません。その音を {from_note_ms:g} ms 短くします"
         ),
     ),
     "breath.written": (
         "breath mark in the score after note {after_note}, which is shortened by {from_note_ms:g} ms",
         "楽譜のブレス記号。前の音符 {after_note} を {from_note_ms:g} ms 短くします",
+    ),
+    "breath.by_hand": (
+        "breath mark by hand after note {after_note}, which is shortened by {from_note_ms:g} ms",
+        "手動で記入したブレス記号。前の音符 {after_note} を {from_note_ms:g} ms 短くします",
     ),
     "breath.phrase_end": (
         "short breath at the end of a phrase, after note {after_note}, which is shortened by {from_note_ms:g} ms",

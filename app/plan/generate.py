@@ -13,6 +13,7 @@ from app.errors import raise_if_stopped
 from app.plan.breath.staggered_breaths import Breathed, breathed_of, shared_line
 from app.plan.by_hand.corrected_events import sound_corrections
 from app.plan.by_hand.corrections import Correction, RemoveEvent, SetBreath, SetCue, of_kinds
+from app.plan.by_hand.mark_corrections import mark_corrections
 from app.plan.cues.cues import plan_cues
 from app.plan.cues.entries import entries
 from app.plan.faces.glances import StagePlace
@@ -284,7 +285,8 @@ LINE: Final = StepTable(
     played_loudness="single.line.loudness",
     apart="single.problems",
     quarter="clock.ticks_per_quarter",
-    written=reading(written_marks, notes="played_notes", ticks_per_quarter="quarter"),
+    mark_corrections=mark_corrections,
+    written=reading(written_marks, notes="played_notes", ticks_per_quarter="quarter", corrections="mark_corrections"),
     times=reading(note_times, notes="played_notes", loudness="played_loudness", written="written"),
     reported=_reported,
     leading=_leading,

@@ -23,7 +23,7 @@ import numpy as np
 from app.errors import Message
 from app.plan.breath.air_by_note import GivenBreaths, air_stock, air_taken
 from app.plan.breath.breath_depths import too_long, with_depths
-from app.plan.breath.breaths_in_rests import AIR_SHORT, WRITTEN, because, blown_breaths, rest_breaths
+from app.plan.breath.breaths_in_rests import AIR_SHORT, WRITTEN, WRITTEN_BY_HAND, because, blown_breaths, rest_breaths
 from app.plan.breath.catch_breath_lengths import CATCH_MIN_S
 from app.plan.breath.catch_breaths import broken_slurs, catch_breath_notes, catch_breaths, hasty_at_marks
 from app.plan.breath.lungs import drawn_share
@@ -212,7 +212,7 @@ def _in_rests(
             result.append(event)
         elif index not in unused:
             if line.written.breath[index - 1]:
-                reason = WRITTEN
+                reason = WRITTEN_BY_HAND if line.written.breath_by_hand[index - 1] else WRITTEN
             elif index in rests.spare:
                 reason = AIR_SHORT
             else:

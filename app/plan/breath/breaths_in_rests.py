@@ -1,7 +1,7 @@
 """The breaths in rests, or in the silences of a recorded breath.
 
 Their messages are those of `app.plan.breath.breaths`; and ``breath.why_short``, ``breath.why_written``,
-``breath.why_not_recorded``.
+``breath.why_by_hand``, ``breath.why_not_recorded``.
 """
 
 from __future__ import annotations
@@ -27,6 +27,7 @@ from app.score.model import Note
 AIR_SHORT: Final[Mapping[str, Argument]] = {"why": "breath.why_short"}
 """Reason for a breath in a rest that is not needed as such, for `because`: nothing better comes in time."""
 WRITTEN: Final[Mapping[str, Argument]] = {"why": "breath.why_written"}
+WRITTEN_BY_HAND: Final[Mapping[str, Argument]] = {"why": "breath.why_by_hand"}
 NOT_RECORDED: Final[Mapping[str, Argument]] = {"why": "breath.why_not_recorded"}
 
 

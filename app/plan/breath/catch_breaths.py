@@ -1,7 +1,8 @@
 """Catch breaths: before which notes they are taken, how, and why.
 
 Messages: ``breath.catch``, ``breath.catch_dropped``, ``breath.catch_dropped_two``, ``breath.catch_slurred``,
-``breath.phrase_end``, ``breath.after_hold``, ``breath.written``, ``breath.breaks_slur``, ``breath.mark_too_short``.
+``breath.phrase_end``, ``breath.after_hold``, ``breath.written``, ``breath.by_hand``, ``breath.breaks_slur``,
+``breath.mark_too_short``.
 """
 
 from __future__ import annotations
@@ -106,7 +107,7 @@ def _made(
         after = notes[index - 1].id
         short: dict[str, Argument] = {"after_note": after, "from_note_ms": round(from_note_s * 1000.0)}
         if line.written.breath[index - 1]:
-            reason = Message("breath.written", short)
+            reason = Message("breath.by_hand" if line.written.breath_by_hand[index - 1] else "breath.written", short)
         elif index in after_hold and not dropped:
             reason = Message("breath.after_hold", {"after_note": after})
         elif dropped > 1:

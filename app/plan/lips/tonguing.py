@@ -5,7 +5,8 @@ Up to a speed the tip of the tongue makes every stroke (*ta*). Beyond it the bac
 minute are where players change over; who plays a reed goes on longer with the tip, since the reed is in the way.
 
 Messages: ``tongue.attack``, ``tongue.staccato``, ``tongue.accent``, ``tongue.marcato``, ``tongue.tenuto``,
-``tongue.slide``, ``tongue.double``, ``tongue.triple``, and ``tongue.written_`` with a kind of mark.
+``tongue.slide``, ``tongue.double``, ``tongue.triple``, ``tongue.by_hand``, and ``tongue.written_`` with a
+kind of mark.
 """
 
 from __future__ import annotations
@@ -23,6 +24,7 @@ from app.plan.music.dynamics import ACCENT, louder_by
 from app.plan.music.piece import DETACHED_GATES, EPSILON, TOUCHING_GATE, LineTimes, Piece, Seeds, staccato
 from app.plan.music.rests import rest_ticks
 from app.plan.music.written_marks import WrittenMarks, unwritten
+from app.score.marks import MARK
 from app.score.metre_map import Metre
 from app.score.model import Note
 from instrument_maps.model import InstrumentMap
@@ -91,6 +93,7 @@ def plan_tongues(
     _write_strokes(written.tonguing, attacked, strokes, why)
     smears = smeared.tolist()
     onset_s = times.onset_s[attacked].tolist()
+    by_hand = written.stroke_by_hand.tolist()
     events = []
     for at, start_s, stroke, (group, rate) in zip(attacked.tolist(), onset_s, strokes, why, strict=True):
         kind: Articulation = kinds[at]
@@ -105,7 +108,7 @@ def plan_tongues(
         elif kind == "tenuto" or written.divided[at]:
             stroke = "da"
         mark = WRITTEN + written.stroke[at] if written.stroke[at] else kind
-        reason = _reason("slide" if smears[at] else group or mark, rate, round(1.0 / limit_s, 1))
+        reason = _reason("slide" if smears[at] else group or mark, rate, round(1.0 / limit_s, 1), by_hand[at])
         events.append(TongueEvent(notes[at].id, start_s - TONGUE_S, start_s, stroke, kind, round(strength, 3), reason))
     return tuple(events)
 
@@ -142,10 +145,12 @@ def single_limit_s(instrument: InstrumentMap, seeds: Seeds) -> float:
 
 
 @lru_cache(maxsize=1024)
-def _reason(kind: str, rate: float, limit: float) -> Message:
+def _reason(kind: str, rate: float, limit: float, by_hand: bool) -> Message:
     """Equal ones are kept once."""
     if kind in ("double", "triple"):
         return Message(f"tongue.{kind}", {"rate": rate, "limit": limit})
+    if kind.startswith(WRITTEN) and by_hand:
+        return Message("tongue.by_hand", {"mark": f"{MARK}.{kind.removeprefix(WRITTEN)}"})
     if kind.startswith(WRITTEN):
         return Message(f"tongue.written_{kind.removeprefix(WRITTEN)}")
     return Message("tongue.attack" if kind == "tongued" else f"tongue.{kind}")

@@ -241,7 +241,7 @@ def staccato(onset_tick: IntArray, end_tick: IntArray, quarter_ticks: int) -> Bo
 
 def line_times(part: MonophonicPart, clock: TempoMap) -> LineTimes:
     """The times of a line's notes. A line without notes gives empty arrays."""
-    written = written_marks(part.notes, part.marks, part.source, clock.ticks_per_quarter)
+    written = written_marks(part.notes, part.marks, part.source, clock.ticks_per_quarter, part.corrections)
     return note_times(part.notes, part.loudness, clock, written)
 
 

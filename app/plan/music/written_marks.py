@@ -8,6 +8,8 @@ from typing import Final
 import numpy as np
 
 from app.arrays import BoolArray, FloatArray
+from app.plan.by_hand.correction import Correcting
+from app.plan.by_hand.mark_corrections import SetMark
 from app.plan.music.written_dynamics import note_dynamics, written_dynamics
 from app.score.marks import MARK_KINDS, Mark, Source
 from app.score.model import Note
@@ -36,6 +38,8 @@ class WrittenMarks:
         Whether it is tongued softly under a slur (portato).
     breath : bool
         Whether a breath mark or a caesura follows it.
+    breath_by_hand, stroke_by_hand : bool
+        Whether the breath mark, and the mark of the stroke or the tonguing, was written by hand.
     stroke : str
         The mark of `OF_STROKE` that it has; empty: none.
     tonguing : str
@@ -56,6 +60,8 @@ class WrittenMarks:
     joined: BoolArray
     divided: BoolArray
     breath: BoolArray
+    breath_by_hand: BoolArray
+    stroke_by_hand: BoolArray
     stroke: tuple[str, ...]
     tonguing: tuple[str, ...]
     fingering: tuple[str, ...]
@@ -90,14 +96,25 @@ class WrittenMarks:
 
 
 def written_marks(
-    notes: tuple[Note, ...], marks: tuple[Mark, ...], source: Source, ticks_per_quarter: int
+    notes: tuple[Note, ...],
+    marks: tuple[Mark, ...],
+    source: Source,
+    ticks_per_quarter: int,
+    corrections: tuple[Correcting, ...] = (),
 ) -> WrittenMarks:
-    """Return the marks of a line by note; those of notes that it does not have do nothing."""
+    """Return the marks of a line by note; those of notes that it does not have do nothing.
+
+    Parameters
+    ----------
+    corrections : tuple of Correcting
+        Of the line: they say which of the marks were written by hand.
+    """
     count = len(notes)
     if not marks and source == "sound":
         return unwritten(count)
     place = {note.id: index for index, note in enumerate(notes)}
-    slurred, apart, ends, breath = (np.zeros(count, dtype=bool) for _ in range(4))
+    by_hand = {item.mark for item in corrections if isinstance(item, SetMark)}
+    slurred, apart, ends, breath, breath_by_hand, stroke_by_hand = (np.zeros(count, dtype=bool) for _ in range(6))
     stroke, tonguing, fingering = [""] * count, [""] * count, [""] * count
     for mark in marks:
         first = place.get(mark.note_id)
@@ -112,10 +129,13 @@ def written_marks(
             apart[first:last] = True
         elif mark.kind in ("breath", "caesura"):
             breath[last] = True
+            breath_by_hand[last] = mark in by_hand
         elif mark.kind in OF_STROKE:
             stroke[first] = max(stroke[first] or mark.kind, mark.kind, key=OF_STROKE.index)
+            stroke_by_hand[first] |= mark in by_hand
         elif mark.kind.endswith("_tongue"):
             tonguing[first : last + 1] = [mark.kind] * (last + 1 - first)
+            stroke_by_hand[first : last + 1] |= mark in by_hand
         elif mark.kind in ("fingering", "position"):
             for index in range(first, last + 1):
                 # Of an ornament the neighbours have their own.
@@ -131,8 +151,9 @@ def written_marks(
     slurred = joined & ~np.append(divided[1:], False)[:count]
     onsets = np.fromiter((note.onset_tick for note in notes), np.int64, count)
     level, swell, struck = note_dynamics(onsets, written_dynamics(marks, source, ticks_per_quarter), ticks_per_quarter)
+    flags = slurred, tongued, joined, divided, breath, breath_by_hand, stroke_by_hand
     by_note = tuple(stroke), tuple(tonguing), tuple(fingering), level, swell, struck
-    return WrittenMarks(source, slurred, tongued, joined, divided, breath, *by_note)
+    return WrittenMarks(source, *flags, *by_note)
 
 
 def unwritten(count: int) -> WrittenMarks:
@@ -140,4 +161,5 @@ def unwritten(count: int) -> WrittenMarks:
     none = np.zeros(count, dtype=bool)
     names = ("",) * count
     level, swell = np.full(count, np.nan), np.zeros(count)
-    return WrittenMarks("sound", none, none, none, none, none, names, names, names, level, swell, none)
+    flags = (none,) * 7
+    return WrittenMarks("sound", *flags, names, names, names, level, swell, none)

@@ -8,6 +8,7 @@ import msgspec
 import pytest
 
 from app.errors import AppError, UsageError
+from app.messages import text
 from app.performance.ensemble import Performance
 from app.plan.by_hand.mark_corrections import RemoveMark, SetMark
 from app.plan.music.velocity_ladders import LEVELS
@@ -77,7 +78,7 @@ def test_the_notes_where_a_slur_begins_and_after_it_are_tongued_in_a_legato_soun
 def test_a_breath_mark_breathes_after_the_last_chosen_note() -> None:
     project = _piece()
     plan = Performance(toggle_marks(project, _notes(project, 1, 4), "breath").project).plan(project.players[0])
-    assert any(event.id == "breath:0:5" and event.reason.id == "breath.written" for event in plan.breaths)
+    assert any(event.id == "breath:0:5" and event.reason.id == "breath.by_hand" for event in plan.breaths)
 
 
 @pytest.mark.parametrize("source", ["sound", "score"])
@@ -96,6 +97,16 @@ def test_a_crescendo_over_a_sound_begins_where_it_is_and_ends_a_dynamic_louder()
     assert air[:5] == before[:5]
     assert air[12:] == before[12:]
     assert air[4:12] == sorted({*air[4:12]})
+
+
+def test_reasons_tell_marks_by_hand_from_those_of_the_score() -> None:
+    project = _piece((Mark("staccato", "0:2"), Mark("breath", "0:4")), "score")
+    project = set_marks(project, _player(project), [Mark("staccato", "0:3"), Mark("breath", "0:10")])
+    plan = Performance(project).plan(project.players[0])
+    reasons = {event.note_id: text(event.reason) for event in plan.tongues}
+    assert (reasons["0:2"], reasons["0:3"]) == ("staccato in the score", "Staccato by hand")
+    breaths = {event.id: event.reason.id for event in plan.breaths}
+    assert (breaths["breath:0:5"], breaths["breath:0:11"]) == ("breath.written", "breath.by_hand")
 
 
 def test_a_mark_of_the_score_is_taken_away_moved_and_given_back() -> None:
