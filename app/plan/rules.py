@@ -18,6 +18,7 @@ from app.errors import Argument, Message
 from app.plan.by_hand.events import StyleEvent
 from app.plan.event_id import EventId
 from app.plan.gestures.possible_gestures import LoweredSpans, belongs, comes_up, may_start
+from app.plan.kinds import answered_by
 from app.plan.model import ExpressionEvent, GestureEvent, Problem, TimeFrame
 from app.plan.music.piece import LineTimes, Seeds
 from app.plan.music.spans import Spans
@@ -280,6 +281,7 @@ def _is_overruled(event: GestureEvent | ExpressionEvent, spans: Mapping[str, Spa
     return of.partition(":")[0] == "rule" and kind in spans and spans[kind].meet(event.start_s, event.end_s)
 
 
-def lowered_spans_s(gestures: tuple[GestureEvent, ...]) -> tuple[tuple[float, float], ...]:
+def lowered_spans_s(gestures: Sequence[GestureEvent]) -> tuple[tuple[float, float], ...]:
     """Return where the instrument is off the lips."""
-    return tuple((event.start_s, event.end_s) for event in gestures if event.part == "lowering")
+    lowering = answered_by("lowering")
+    return tuple((event.start_s, event.end_s) for event in gestures if event.kind in lowering)

@@ -37,8 +37,7 @@ from app.project.video import VideoTrack
 from app.rig.characters.character_library import bundled_characters, character_named
 from app.rig.model import Character
 from app.score.choose import MapChoice
-from app.score.felt_beat import felt_beats
-from app.score.metre_map import FeltBeats, MetreMap
+from app.score.metre_map import MetreMap
 from app.score.model import ControllerCurve, Note, Part, Score
 from app.score.take import Take
 from instrument_maps.model import Control, InstrumentMap
@@ -186,11 +185,10 @@ class Project:
     def metre_map(self) -> MetreMap:
         """The score's, with the beat that is felt."""
         score = self.score
-        if self.felt_beat_quarters is not None:
-            felt: FeltBeats = ((0, max(round(self.felt_beat_quarters * score.ticks_per_quarter), 1)),)
-        else:
-            felt = felt_beats(score.tempo_map, score.metre_map, score.bar_starts)
-        return msgspec.structs.replace(score.metre_map, felt=felt)
+        if self.felt_beat_quarters is None:
+            return score.felt_metre_map
+        beat_ticks = max(round(self.felt_beat_quarters * score.ticks_per_quarter), 1)
+        return msgspec.structs.replace(score.metre_map, felt=((0, beat_ticks),))
 
     def part(self, player: Player) -> Part:
         """Part of a player."""

@@ -10,6 +10,7 @@ import msgspec
 
 from app.arrays import IntArray
 from app.errors import Message
+from app.score.felt_beat import felt_beats
 from app.score.marks import Mark, Source
 from app.score.metre_map import Metre, MetreMap
 from app.score.tempo import TempoMap
@@ -252,6 +253,12 @@ class Score(msgspec.Struct, frozen=True, dict=True):
         """Return where its bars and beats are; what beat is felt the project says
         (`app.project.model.Project.metre_map`)."""
         return MetreMap(self.ticks_per_quarter, self.metres, self.pickup_ticks > 0)
+
+    @cached_property
+    def felt_metre_map(self) -> MetreMap:
+        """The same with the beat that is felt at the tempo of each bar."""
+        felt = felt_beats(self.tempo_map, self.metre_map, self.bar_starts)
+        return msgspec.structs.replace(self.metre_map, felt=felt)
 
     @property
     def last_bar(self) -> int:

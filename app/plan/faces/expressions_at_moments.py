@@ -13,7 +13,6 @@ import numpy as np
 
 from app.errors import Message
 from app.plan.by_hand.events import StyleEvent
-from app.plan.event_id import EventId
 from app.plan.model import BreathEvent, CueEvent, ExpressionEvent, GestureEvent, TimeFrame
 from app.plan.music.ending import Ending
 from app.plan.music.piece import LineTimes, Seeds
@@ -117,7 +116,7 @@ def _taken(
             continue
         rest_s = float(times.onset_s[index] - times.played_end_s[index - 1])
         why = Message("expression.takes_entry", {"rest_s": round(rest_s, 2)})
-        found.append(_Found((breath.start_s, breath.end_s), index, EventId.parse(breath.id).of, why))
+        found.append(_Found((breath.start_s, breath.end_s), index, notes[index].id, why))
     return found
 
 

@@ -16,6 +16,7 @@ import msgspec
 from app.plan.model import ABOUT, AUDIENCE, CONDUCTOR, CueEvent, GestureEvent, GlanceEvent
 from app.plan.music.piece import Seeds
 from app.plan.music.spans import Spans
+from app.plan.rules import lowered_spans_s
 from metadata.gestures import GazeTrack
 
 EYES_RAD: Final = math.radians(35.0)
@@ -90,7 +91,7 @@ def glances_of(
     taken = Spans((one.start_s, one.end_s) for one in found)
     # What is asked for anyway is more than a look up from the music.
     found += [one for one in up if not taken.meet(one.start_s, one.end_s)]
-    lowered = Spans((event.start_s, event.end_s) for event in gestures if event.part == "lowering")
+    lowered = Spans(lowered_spans_s(gestures))
     return tuple(_in_turn([_turned(one, lowered) for one in found]))
 
 

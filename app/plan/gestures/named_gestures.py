@@ -14,7 +14,7 @@ import numpy as np
 from app.errors import Message
 from app.plan.by_hand.pose_corrections import GENTLE_RAD_S2, pose_limits
 from app.plan.gestures.possible_gestures import LoweredSpans, impossible, may_start
-from app.plan.kinds import GESTURE_KINDS
+from app.plan.kinds import GESTURE_KINDS, answered_by
 from app.plan.model import GestureEvent, Problem
 from app.plan.music.piece import LineTimes
 from app.plan.music.spans import Spans
@@ -42,7 +42,8 @@ def with_definitions(
     """The events, those of the kind ``"named"`` with the gesture as it is made here; the same tuple where there is
     none. One that is not known does nothing; one of the animator's that is where it should not be is done and reported.
     """
-    if all(event.part != "tracks" for event in events):
+    tracked = answered_by("tracks")
+    if all(event.kind not in tracked for event in events):
         return Defined(events, ())
     result: list[GestureEvent] = []
     problems: list[Problem] = []
@@ -51,7 +52,7 @@ def with_definitions(
     busy_s = -np.inf
     for event in events:
         definition = definitions.get(event.name)
-        if event.part != "tracks":
+        if event.kind not in tracked:
             result.append(event)
             continue
         if definition is None:
