@@ -9,6 +9,7 @@ from typing import Final
 
 OCTAVES: Final = "<octave-change> is added to <chromatic>; partitura leaves it out"
 QUARTER_TONES: Final = "ours is the nearest semitone; partitura drops the fraction, or knows no quarter tones"
+PERCUSSION: Final = "partitura fails where a part without pitches has several notes at once"
 TIMES: Final = "the attribute `times` says how often a section is played; partitura knows two times alone"
 NO_FORWARD: Final = (
     "a backward repeat without a forward one leads to the end of the section before, as players read it and as "
@@ -82,6 +83,7 @@ KNOWN: Final[dict[str, dict[str, tuple[str, str]]]] = {
     "trecento/PMFC_13_01-Kyrie-Summe-Clementissime.mxl": {"partitura": ("order", TIMES)},
     "bach/bwv846.mxl": {"music21": ("notes", TIES)},
     "bach/bwv248.9-1.mxl": {"music21": ("notes", TIES)},
+    "montuno.musicxml": {"partitura": ("error", PERCUSSION)},
     "OSMD_function_Test_Repeat.musicxml": {"music21": ("order", NOT_ENDED), "partitura": ("order", NOT_ENDED)},
     "test_slur_across_staves_left_to_right_hand.musicxml": {"music21": ("slurs", LOST)},
     "test_staverepetitions_coda_etc.musicxml": {"partitura": ("order", SOUNDS)},
