@@ -27,8 +27,9 @@ _MOST_TIMES: Final = 64
 """Repetitions of one section."""
 _MUTES: Final = {"off": "open", "stop-hand": "hand"}
 _JUMPS: Final = (
-    ("da_capo", re.compile(r"\bd\.?\s*c\b\.?|\bda\s+capo\b", re.IGNORECASE)),
-    ("dal_segno", re.compile(r"\bd\.?\s*s\b\.?|\bdal\s+segno\b", re.IGNORECASE)),
+    # "Tacet on D.S." says what is different then, and jumps nowhere.
+    ("da_capo", re.compile(r"(?<!\bon )(?:\bd\.?\s*c\b|\bda\s+capo\b)", re.IGNORECASE)),
+    ("dal_segno", re.compile(r"(?<!\bon )(?:\bd\.?\s*s\b|\bdal\s+segno\b)", re.IGNORECASE)),
     ("to_coda", re.compile(r"^\W*to\s+coda\b", re.IGNORECASE)),
     ("fine", re.compile(r"^\W*fine\W*$", re.IGNORECASE)),
     ("trio", re.compile(r"^\W*(?:trio|alternativo)\b", re.IGNORECASE)),

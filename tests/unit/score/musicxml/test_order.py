@@ -98,6 +98,9 @@ def test_words_alone_say_where_to_go(tmp_path: Path) -> None:
     assert [pitch for _, _, pitch in rows(read(tmp_path, document(*measures)))] == [60, 62, 64, 62, 65]
     measures = (note("C4", 16), note("D4", 16) + words("Fine"), note("E4", 16) + words("D.C. al Fine"))
     assert [pitch for _, _, pitch in rows(read(tmp_path, document(*measures)))] == [60, 62, 64, 60, 62]
+    measures = (note("C4", 16), note("D4", 16) + words("Voice tacet on D.S."), note("E4", 16))
+    contents = read(tmp_path, document(*measures))
+    assert ([pitch for _, _, pitch in rows(contents)], contents.warnings) == ([60, 62, 64], ())
 
 
 def test_a_tie_into_the_second_ending_is_one_note(tmp_path: Path) -> None:
