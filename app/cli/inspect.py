@@ -30,6 +30,7 @@ from app.plan.kinds import BREATH_KINDS
 from app.plan.model import BreathEvent, CueEvent, ExpressionEvent, FingeringEvent, GestureEvent, MuteEvent, TongueEvent
 from app.plan.music.pitch_bends import bends
 from app.plan.problem_lines import problem_lines, with_notes_named
+from app.project.edit.marks import player_marks
 from app.project.performers import Dancer, Player
 from app.score.marks import Mark
 from app.score.model import Note, Score
@@ -226,8 +227,8 @@ def _player(performance: Performance, player: Player, instrument: InstrumentMap)
         "gestures": _events(plan.gestures, clock, reason, "kind", "amount"),
         "expressions": _events(plan.expressions, clock, reason, "expression", "strength", "fade_in_s", "fade_out_s"),
     }
-    if part.marks:
-        table["marks"] = [_mark(mark) for mark in part.marks]
+    if origins := player_marks(performance.project, player.id):
+        table["marks"] = [_mark(mark) | {"source": origin} for mark, origin in origins.items()]
     if plan.poses:
         # Only where the animator held something differently: nothing else has any.
         angles = ("up_deg", "left_deg", "roll_deg")
@@ -242,7 +243,7 @@ def _player(performance: Performance, player: Player, instrument: InstrumentMap)
 
 
 def _mark(mark: Mark) -> Table:
-    """Return a mark of the score: its kind and its text, and the notes or ticks that it is at."""
+    """Return a mark: its kind and its text, and the notes or ticks that it is at."""
     if not mark.note_id:
         return {"kind": mark.kind, "tick": mark.tick, "end_tick": mark.end_tick or None, "text": mark.text}
     return {"kind": mark.kind, "note": mark.note_id, "last_note": mark.last_note_id or None, "text": mark.text}

@@ -19,17 +19,21 @@ FactSource: TypeAlias = Literal["score", "sound", "guess", "hand"]
 FACTS: Final = ("dynamic", "slur", "articulation", "tonguing", "fingering", "mute")
 """What is said of each note."""
 _BLOWN: Final = "breath.blown"
-_WRITTEN: Final = ("breath.written", "breath.why_written")
+_MARKED: Final[dict[str, FactSource]] = {
+    "breath.written": "score", "breath.why_written": "score", "breath.by_hand": "hand", "breath.why_by_hand": "hand"
+}  # fmt: skip
+"""Sources of breath marks by their reasons."""
 _TONGUING: Final = "_tongue"
-"""Ends the reasons of strokes that the score has."""
+"""Ends the reasons of strokes by marks of tonguing."""
 
 
 def breath_source(event: BreathEvent) -> FactSource:
     """Return what a breath is from: a breath mark, the breath that a controller recorded, a hand, or rests and air."""
     if event.corrected:
         return "hand"
-    if event.reason.id in _WRITTEN or event.reason.arguments.get("why") in _WRITTEN:
-        return "score"
+    for id in (event.reason.id, str(event.reason.arguments.get("why"))):
+        if id in _MARKED:
+            return _MARKED[id]
     return "sound" if event.reason.id.startswith(_BLOWN) else "guess"
 
 
@@ -115,7 +119,7 @@ def _tonguing(
 ) -> FactSource:
     if event is None:
         return slur
-    if event.reason.id.endswith(_TONGUING):
+    if str(event.reason.arguments.get("mark", event.reason.id)).endswith(_TONGUING):
         return _marked(written.tonguing[index] == read.tonguing[index])
     return "guess"
 

@@ -78,6 +78,8 @@ def test_each_fact_says_where_it_is_from(tmp_path: Path) -> None:
         "guess",
         "score",
     ]
+    marks = {(mark["kind"], mark.get("note")): mark["source"] for mark in found["players"][0]["marks"]}
+    assert (marks["slur", "1:1"], marks["dynamic", None], marks["staccato", "1:3"]) == ("score", "score", "hand")
     assert any("score 3, guess 1" in line for line in tables("x.musicxml", found))
 
 

@@ -10,6 +10,7 @@ import pytest
 from app.errors import AppError, UsageError
 from app.messages import text
 from app.performance.ensemble import Performance
+from app.performance.fact_sources import breath_source
 from app.plan.by_hand.mark_corrections import RemoveMark, SetMark
 from app.plan.music.velocity_ladders import LEVELS
 from app.project.check import require_sound
@@ -105,6 +106,9 @@ def test_reasons_tell_marks_by_hand_from_those_of_the_score() -> None:
     plan = Performance(project).plan(project.players[0])
     reasons = {event.note_id: text(event.reason) for event in plan.tongues}
     assert (reasons["0:2"], reasons["0:3"]) == ("staccato in the score", "Staccato by hand")
+    assert [breath_source(event) for event in plan.breaths if event.id in ("breath:0:5", "breath:0:11")] == [
+        "score", "hand"
+    ]  # fmt: skip
     breaths = {event.id: event.reason.id for event in plan.breaths}
     assert (breaths["breath:0:5"], breaths["breath:0:11"]) == ("breath.written", "breath.by_hand")
 
