@@ -83,6 +83,10 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         "the score has {parts} {parts:part|parts} and no notes",
         "楽譜に音符がありません（{parts} パート）",
     ),
+    "musicxml.slashes": (
+        "{part}: measures {measures} have slashes, whose pitches mean nothing: they are not played",
+        "{part}: {measures} 小節はスラッシュ表記で音高がないため、演奏しません",
+    ),
     "musicxml.lost_jump": (
         "measure {measure} jumps to a segno or coda that the score does not have; it was played without the jump",
         "{measure} 小節のジャンプ先の記号（セーニョまたはコーダ）が楽譜にないため、ジャンプせずに演奏します",

@@ -10,6 +10,7 @@ from typing import Final
 from xml.etree.ElementTree import Element
 
 from app.score.limits import MOST_NAME, MOST_QUARTERS
+from app.score.musicxml.abbreviations import expand_repeats, is_slash
 from app.score.musicxml.directions import read_barline, read_direction, read_dynamics, read_sound
 from app.score.musicxml.parts import WrittenPart, is_kit, stroke_of
 from app.score.musicxml.written import Bar, Chord, Measure, Place, Time, Tone
@@ -136,6 +137,7 @@ def read_measures(part: WrittenPart, bars: list[Bar], ticks: int, place: Place) 
             bars.append(Bar(head.get("number", str(index + 1)), head.get("implicit") == "yes"))
         place.part, place.measure = part.name or part.id, head.get("number", str(index + 1))
         measures.append(_measure(part, content, bars[index], state, place))
+    expand_repeats(part, measures)
     return measures, next(iter(state.shift.values()), None)
 
 
@@ -259,7 +261,7 @@ def _note(part: WrittenPart, one: Element, measure: Measure, state: _State, plac
         state.chord = chord
     if "cue" in found:
         return
-    tone = _tone(part, found, chord, state, place)
+    tone = None if is_slash(found.get("notehead")) else _tone(part, found, chord, state, place)
     if tone is not None:
         tone.tie_start, tone.tie_stop = "start" in ties, "stop" in ties
         loudness = one.get("dynamics")

@@ -18,6 +18,7 @@ Warnings
 --------
 musicxml.no_notes : parts
 musicxml.lost_jump : measure
+musicxml.slashes : part, measures
 """
 
 from __future__ import annotations
@@ -34,6 +35,7 @@ from app.score.contents import PieceContents
 from app.score.ensembles import named_by_ensemble
 from app.score.limits import MOST_NAME, MOST_STREAMS, too_long
 from app.score.model import Marker, Score
+from app.score.musicxml.abbreviations import slashed
 from app.score.musicxml.bars import measure_lengths, metres_of
 from app.score.musicxml.container import read_document
 from app.score.musicxml.notes import read_measures, ticks_per_quarter
@@ -94,6 +96,11 @@ def read_musicxml(path: Path) -> PieceContents:
         raise FileError("musicxml.too_many_parts", file=file, parts=len(streams), most=MOST_STREAMS)
     title = _title(root)
     warnings = [Message("musicxml.lost_jump", {"measure": measure}) for measure in order.lost[:_MOST_LOST]]
+    warnings += [
+        Message("musicxml.slashes", {"part": shown(part.name or part.id), "measures": measures[:_MOST_TEXT]})
+        for part in parts
+        if (measures := slashed(part))
+    ][:_MOST_LOST]
     if not streams:
         warnings.append(Message("musicxml.no_notes", {"parts": len(parts)}))
     return PieceContents(
@@ -108,6 +115,8 @@ def read_musicxml(path: Path) -> PieceContents:
 
 
 _MOST_LOST: Final = 20
+_MOST_TEXT: Final = 200
+"""Characters of a list of measures."""
 
 
 def _require_few(measures: Sequence[Sequence[Measure]], visits: Sequence[Sequence[Time]], most: int, file: str) -> None:
