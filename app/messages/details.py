@@ -87,6 +87,8 @@ _JAPANESE: Final = tuple(
         (r"would come back from the file as another value", "ファイルから読むと別の値になります"),
         (r"unknown key", "この項目はありません"),
         (r"must be one of (.*)", r"使える値: \1"),
+        (r"is needed by (.*)", r"\1 に必要です"),
+        (r"is not used by (.*)", r"\1 では使いません"),
         (
             r"must be the path of a (\S+) file or the name of a bundled choreography",
             r"\1 ファイルのパスか、付属の振り付けの名前にしてください",

@@ -6,6 +6,7 @@ from app.editor.additions import toggle_mark
 from app.editor.selection import Selection
 from app.editor.session import Session
 from app.errors import Message
+from app.messages import text
 from app.project.edit.marks import player_marks, set_marks
 from app.score.marks import Mark
 from tests.gui.inspector.hands import child, click, click_line, show_tab
@@ -35,6 +36,20 @@ def test_marks_some_notes_have_are_given_to_all_and_then_taken_away(panel: Inspe
     click(panel, "mark_staccato")
     assert planned.project == before
     assert len(planned.document.done) == 3
+
+
+def test_the_status_line_says_why_no_mark_fits_and_several_players_are_one_step(planned: Session) -> None:
+    first, second = planned.project.players[:2]
+    before, told = planned.project, []
+    planned.noticed.connect(lambda message, severity: told.append(text(message)))
+    one = before.part(first).notes[3:4]
+    toggle_mark(planned, {first.id: one, second.id: before.part(second).notes[:1]}, "slur")
+    assert told == ["Select at least two notes of one player for this mark."]
+    assert planned.project is before
+    toggle_mark(planned, {first.id: before.part(first).notes[3:6], second.id: before.part(second).notes[:2]}, "slur")
+    assert [len(player_marks(planned.project, player.id)) for player in (first, second)] == [1, 1]
+    assert planned.document.undo() is not None
+    assert planned.project is before
 
 
 def test_a_mark_by_hand_is_reverted_from_its_line(panel: InspectorPanel, planned: Session) -> None:
