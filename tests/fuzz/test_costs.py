@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import pytest
 
-from tests.fuzz.harness.campaign import SIZES
 from tests.fuzz.harness.costly import ALL_COSTLY
 from tests.fuzz.harness.readers import KINDS
 from tests.fuzz.harness.table import costs, worst
@@ -32,4 +31,3 @@ def test_the_worst_files_keep_within_the_bounds(
 def test_every_costly_file_has_a_reader() -> None:
     """The other way round, too, but for journals: what they hold is bounded as a project is."""
     assert ALL_COSTLY.keys() ^ KINDS.keys() == {"journal"}
-    assert SIZES == (1_000, 10_000, 100_000)

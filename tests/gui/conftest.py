@@ -12,7 +12,9 @@ import pytest
 from PySide6.QtCore import QCoreApplication, QEvent, Qt
 from PySide6.QtWidgets import QApplication
 
+from app.choreography.model_file import write_model
 from app.editor.session import Session
+from app.editor.tasks import ThreadTasks
 from app.editor.tokens import DARK
 from app.errors import AppError
 from app.performance.ensemble import Performance
@@ -23,6 +25,8 @@ from app.shell.crash_handler import CrashHandler
 from app.shell.language import Language
 from app.shell.theme import apply_theme
 from instrument_maps.load import bundled_maps
+from tests.gui.japanese import speaking
+from tests.support.dances import model
 from tests.support.motions import know_motion
 from tests.support.tasks import ImmediateTasks
 from widgets.common.font import apply_font
@@ -159,3 +163,27 @@ def _faults_of_the_program_fail(request: pytest.FixtureRequest, monkeypatch: pyt
     yield
     if faults and request.node.get_closest_marker("at_fault") is None:
         pytest.fail("".join("".join(traceback.format_exception(fault)) for fault in faults), pytrace=False)
+
+
+@pytest.fixture
+def japanese(qt_app: QApplication) -> Iterator[None]:
+    with speaking():
+        yield
+
+
+@pytest.fixture
+def threaded(qt_app: object) -> Iterator[Session]:
+    """A session with the bundled quartet whose tasks run in threads, as in the program."""
+    tasks = ThreadTasks()
+    session = Session(quartet_project(), tasks)
+    yield session
+    tasks.cancel_all(5.0)
+    session.deleteLater()
+
+
+@pytest.fixture(scope="session")
+def choreography(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A learned choreography in a file that the editor lets the user choose."""
+    path = tmp_path_factory.mktemp("dances") / "steps & more.choreography"
+    write_model(path, model())
+    return path

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 
 from PySide6.QtWidgets import (
     QAbstractButton,
+    QApplication,
     QComboBox,
     QDoubleSpinBox,
     QGroupBox,
@@ -19,12 +21,24 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from app.shell.language import ROOMS
+from app.shell.language import ROOMS, TextTranslator
 
 _FIELD = re.compile(r"{[^}|]*}")
 """Fields of a text; plurals ({count:note|notes}) are English."""
 _PARTS = re.compile(r"({[^}]*})")
 ENGLISH = {english for room in ROOMS for english, japanese in room.values() if english != japanese}
+
+
+@contextmanager
+def speaking(code: str = "ja") -> Iterator[None]:
+    """Let the application speak a language."""
+    translator = TextTranslator(code)
+    QApplication.installTranslator(translator)
+    try:
+        QApplication.processEvents()
+        yield
+    finally:
+        QApplication.removeTranslator(translator)
 
 
 def english_in(texts: Iterable[str]) -> set[str]:

@@ -25,6 +25,7 @@ from app.editor.tasks import ThreadTasks
 from app.rig.characters.character_library import FOLDER_VARIABLE, character_library
 from app.shell.app import Program, make_application
 from app.shell.characters import bring_character
+from tests.support.windows import child
 from widgets.common.actions import actions
 from widgets.dialogs.character import CharacterDialog
 from widgets.dialogs.characters import CharactersDialog
@@ -98,8 +99,7 @@ def save(widget: QWidget, path: Path) -> None:
 def keep(studio: Studio, dialog: CharacterDialog) -> None:
     """Keep a character, and give it to the player in front."""
     dialog.give.setChecked(True)
-    box = dialog.findChild(QDialogButtonBox)
-    assert box is not None
+    box = child(dialog, QDialogButtonBox)
     QTest.mouseClick(box.button(QDialogButtonBox.StandardButton.Ok), Qt.MouseButton.LeftButton)
     studio.wait(30.0, lambda: bool(character_library().own))
 

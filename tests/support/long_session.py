@@ -31,7 +31,7 @@ from app.shell.app import Program, make_application
 from app.shell.commands.exchange import reimport_from
 from app.shell.garbage import Garbage
 from tests.bench.performance.large import large_project
-from tests.support.windows import LOOK_AGAIN_MS, pause
+from tests.support.windows import LOOK_AGAIN_MS, child, pause
 from widgets.common.actions import actions
 from widgets.dialogs.reimport_midi import ReimportDialog
 
@@ -203,9 +203,7 @@ class LongDay:
         window = self.program.window
         reimport_from(self.program.editor, QUARTET)
         self.until(lambda: window.findChild(ReimportDialog) is not None)
-        dialog = window.findChild(ReimportDialog)
-        assert dialog is not None
-        dialog.reject()
+        child(window, ReimportDialog).reject()
 
     def open_dialogs(self) -> None:
         """Every dialog that stands beside the window, closed at once."""

@@ -169,7 +169,6 @@ class Look:
         live.work = live.judge = lambda stop_requested: False
         # Composing the window with a picture by OpenGL takes most of the time where the processor does its work.
         canvas = self.window.viewport.canvas_widget()
-        assert canvas is not None
         canvas.hide()
         self.window.show()
         self.window.resize(*size)

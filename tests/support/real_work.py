@@ -31,7 +31,7 @@ from app.shell.app import Program, make_application
 from tests.gui.shell.conftest import Answers
 from tests.gui.timeline.hand import Hand
 from tests.gui.timeline.lane_hands import drag, middle
-from tests.support.windows import LOOK_AGAIN_MS, pause
+from tests.support.windows import LOOK_AGAIN_MS, child, pause
 from widgets.common.actions import actions
 from widgets.common.number_slider import NumberSlider
 from widgets.timeline.lanes.regions import RegionLane
@@ -207,8 +207,7 @@ def lower_amplitude(work: Work) -> None:
     player = work.session.project.players[1]
     work.session.set_players((player.id,))
     work.application.processEvents()
-    slider = work.window.panels["players"].findChild(NumberSlider, "parameter_amplitude")
-    assert slider is not None
+    slider = child(work.window.panels["players"], NumberSlider, "parameter_amplitude")
     QTest.mousePress(slider, Qt.MouseButton.LeftButton, pos=QPoint(120, 10))
     for x in (100, 60, 40):
         QTest.mouseMove(slider, QPoint(x, 10))
@@ -273,7 +272,6 @@ def take_recording(work: Work) -> None:
 
     work.until(estimated, "the estimate")
     audio = work.session.project.audio
-    assert audio is not None
     assert abs(audio.offset_s - OFFSET_S) < 0.02, audio
 
 
@@ -330,11 +328,8 @@ def recover_and_export(folder: Path) -> None:
     work.picture("recovered")
     work.do("export.files")
     dialog = next(widget for widget in QApplication.topLevelWidgets() if widget.objectName() == "export_files")
-    where = dialog.findChild(QLineEdit, "export_folder")
-    assert where is not None
-    where.setText(str(folder / "out"))
+    child(dialog, QLineEdit, "export_folder").setText(str(folder / "out"))
     bars, last_bar = dialog.findChild(QComboBox, "export_range"), dialog.findChild(QSpinBox, "export_last_bar")
-    assert bars is not None
     assert last_bar is not None
     bars.setCurrentIndex(1)
     last_bar.setValue(8)

@@ -55,7 +55,6 @@ class SpokenFor(RecorderLink):
 
     def move(self) -> None:
         """The disk of the journal is full."""
-        assert self.writer is not None
         self.writer.write()
         self.writer.move(str(self.elsewhere))
         self.say(Moved(os.fsencode(str(self.elsewhere)), "No space left on device"))

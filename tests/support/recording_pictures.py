@@ -17,7 +17,7 @@ import time
 from collections.abc import Callable, Sequence
 from contextlib import closing
 from pathlib import Path
-from typing import Final, TypeVar
+from typing import Final
 
 from PIL import Image
 from PySide6.QtCore import QEventLoop, QPointF, Qt
@@ -35,6 +35,7 @@ from app.shell.app import Program, make_application
 from tests.gui.timeline.lane_hands import drag
 from tests.support.jack import QUICK_FRAMES, jack_server
 from tests.support.wind_player import Played, WindPlayer
+from tests.support.windows import child
 from widgets.common.actions import actions
 from widgets.dialogs.latency import CLICKS_S, LEAD, LatencyDialog
 from widgets.dialogs.midi_devices import MidiDevicesDialog
@@ -44,7 +45,6 @@ TARGET: Final = ROOT / "docs" / "pictures"
 PIECE: Final = ROOT / "tests" / "data" / "midi" / "ensemble" / "brass_quartet_lutkin_2tpt_tbn_tuba.mid"
 FIRST_BAR, LAST_BAR = 4, 8
 LATE_S, UNEVEN_S = 0.045, 0.009
-W = TypeVar("W", bound=QWidget)
 
 
 class Wind:
@@ -56,7 +56,6 @@ class Wind:
 
     def play(self, played: Sequence[tuple[int, bytes]]) -> None:
         """Blow messages at moments of `time.perf_counter_ns`, after what was to be blown before."""
-        assert self._process.stdin is not None
         self._process.stdin.write(json.dumps([(ns, message.hex()) for ns, message in played]) + "\n")
         self._process.stdin.flush()
 
@@ -66,7 +65,6 @@ class Wind:
 
     def close(self) -> None:
         """Unplug."""
-        assert self._process.stdin is not None
         self._process.stdin.close()
         try:
             self._process.wait(3.0)
@@ -289,13 +287,6 @@ def swipe(film: Film, row: int, start_tick: float, end_tick: float) -> None:
     tempo_map = film.session.project.score.tempo_map
     start_px, end_px = (lane.axis.x_px(tempo_map.seconds(tick)) for tick in (start_tick, end_tick))
     drag(lane, QPointF(start_px, lane.row_rect(row).center().y()), dx=end_px - start_px)
-
-
-def child(parent: QWidget, kind: type[W], name: str) -> W:
-    """The widget of this name."""
-    found = parent.findChild(kind, name)
-    assert found is not None, name
-    return found
 
 
 def main() -> None:

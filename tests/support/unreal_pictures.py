@@ -24,6 +24,7 @@ from app.project.autosave import Autosave
 from app.project.presence import Presence
 from app.shell.app import Program, make_application
 from app.shell.commands.exchange import export_files
+from tests.support.windows import child
 from widgets.dialogs.export_files import ExportDialog
 
 ROOT: Final = Path(__file__).parents[2]
@@ -51,15 +52,13 @@ class Artist:
         self.program.editor.files.open(PIECE, ask=False)
         self.live(lambda: self.program.editor.files.is_open)
         export_files(self.program.editor)
-        found = self.program.window.findChild(ExportDialog)
-        assert found is not None
+        found = child(self.program.window, ExportDialog)
         self.dialog = found
         self.dialog.resize(*SIZE)
         bars, last = (
             self.dialog.findChild(QComboBox, "export_range"),
             self.dialog.findChild(QSpinBox, "export_last_bar"),
         )
-        assert bars is not None
         assert last is not None
         bars.setCurrentIndex(1)
         last.setValue(2)
@@ -75,8 +74,7 @@ class Artist:
 
     def export(self) -> None:
         """Export, and wait for it."""
-        start = self.dialog.findChild(QPushButton, "export_start")
-        assert start is not None
+        start = child(self.dialog, QPushButton, "export_start")
         QTest.mouseClick(start, Qt.MouseButton.LeftButton)
         self.live(start.isEnabled)
 

@@ -116,7 +116,6 @@ class WindPlayer:
 
     def start(self, played: Iterable[Played]) -> None:
         """Begin to play."""
-        assert self._process is not None
         assert self._process.stdin is not None
         json.dump([(due_s, message.hex()) for due_s, message in played], self._process.stdin)
         self._process.stdin.write("\n")
@@ -127,8 +126,6 @@ class WindPlayer:
         return [(ns, bytes.fromhex(message)) for ns, message in self._answer()]
 
     def _answer(self) -> list[tuple[int, str]]:
-        assert self._process is not None
-        assert self._process.stdout is not None
         line = self._process.stdout.readline()
         assert line, f"{self.name} ended with {self._process.wait()}"
         answer: list[tuple[int, str]] = json.loads(line)

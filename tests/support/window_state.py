@@ -20,6 +20,7 @@ from PySide6.QtWidgets import (
 
 from app.shell.app import Program
 from tests.support.tasks import ImmediateTasks
+from tests.support.windows import child
 from widgets.common.actions import actions
 from widgets.common.section import Section
 from widgets.players.stage import StageView
@@ -76,10 +77,8 @@ class Watcher:
     def __init__(self, program: Program, answers: Answers) -> None:
         self._program, self._answers = program, answers
         session = program.session
-        stage = program.window.findChild(StageView)
-        both = program.window.findChild(QToolButton, "expression_both")
-        assert stage is not None
-        assert both is not None
+        stage = child(program.window, StageView)
+        both = child(program.window, QToolButton, "expression_both")
         self._stage, self._both = stage, both
         self._told = dict.fromkeys(("copied", "framed", "notice", "sought", "viewed"), 0)
         for name, signal in (

@@ -4,16 +4,25 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
+from typing import TypeVar
 
-from PySide6.QtCore import QEventLoop, QTimer
+from PySide6.QtCore import QEventLoop, QObject, QTimer
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QWidget
 
 from widgets.viewport.canvas import Canvas
 
 PATIENCE_MS = 180_000
+W = TypeVar("W", bound=QObject)
 LOOK_AGAIN_MS = 10
 """Between two looks whether something has come to be: more often takes much of the processor that it needs itself."""
+
+
+def child(parent: QObject, kind: type[W], *name: str) -> W:
+    """The part of this kind, and of this object name if one is given, which must be there."""
+    found = parent.findChild(kind, *name)
+    assert found is not None, (kind, *name)
+    return found
 
 
 def show(window: QWidget) -> None:

@@ -91,11 +91,9 @@ class Calibration:
             stderr=subprocess.DEVNULL,
             text=True,
         )
-        assert self._process.stdout is not None
         self._process.stdout.readline()
 
     def received(self) -> list[tuple[int, bytes]]:
-        assert self._process.stdin is not None
         assert self._process.stdout is not None
         self._process.stdin.write("\n")
         self._process.stdin.flush()

@@ -117,7 +117,6 @@ class Child:
                 stderr=log,
                 text=True,
             )
-        assert process.stdin is not None
         assert process.stdout is not None
         process.stdin.write(json.dumps(self._kinds) + "\n")
         process.stdin.flush()
@@ -131,7 +130,6 @@ class Child:
     def close(self) -> None:
         """End it."""
         if self._process is not None:
-            assert self._process.stdin is not None
             assert self._process.stdout is not None
             self._process.stdin.close()
             self._process.wait(30)

@@ -130,7 +130,6 @@ def test_every_rest_serves_by_the_thesis_and_no_breath_cuts_a_note(name: str) ->
                 assert rest < 0.5 or is_usual(rest / step, line)
                 assert breath is None or breath.reason.id in SHORT
                 continue
-            assert breath is not None
             assert breath.end_tick == note.onset_tick
             assert breath.start_tick == note.onset_tick - round(quarter * min(rest, 1.0))
             preparation = breaths.get(f"preparation:{note.id}")

@@ -11,23 +11,14 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QCheckBox, QLineEdit, QMenu, QToolButton, QWidget
 from pytestqt.qtbot import QtBot
 
-from app.choreography.model_file import write_model
 from app.editor.session import Session
 from app.errors import Message
-from tests.support.dances import model
-from tests.support.windows import show_in_front
+from tests.support.windows import child, show_in_front
 from widgets.common.combo import Combo
 from widgets.common.number_slider import NumberSlider
 from widgets.players.choreography import dancers
 from widgets.players.choreography.dancers import DancersSection
 from widgets.players.stage_section import StageSection
-
-
-@pytest.fixture(scope="module")
-def choreography(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    path = tmp_path_factory.mktemp("dances") / "steps & more.choreography"
-    write_model(path, model())
-    return path
 
 
 @pytest.fixture
@@ -41,9 +32,7 @@ def section(session: Session, qtbot: QtBot, choreography: Path, monkeypatch: pyt
 
 
 def click(section: DancersSection, name: str) -> None:
-    button = section.findChild(QToolButton, name)
-    assert button is not None
-    QTest.mouseClick(button, Qt.MouseButton.LeftButton)
+    QTest.mouseClick(child(section, QToolButton, name), Qt.MouseButton.LeftButton)
 
 
 def add(section: DancersSection) -> None:
@@ -55,12 +44,10 @@ def add(section: DancersSection) -> None:
 
 
 def slide(section: DancersSection, name: str, text: str) -> None:
-    slider = section.findChild(NumberSlider, name)
-    assert slider is not None
+    slider = child(section, NumberSlider, name)
     slider.setFocus()
     QTest.keyClick(slider, Qt.Key.Key_Return)
-    editor = slider.findChild(QLineEdit)
-    assert editor is not None
+    editor = child(slider, QLineEdit)
     editor.setText(text)
     QTest.keyClick(editor, Qt.Key.Key_Return)
 
@@ -80,12 +67,10 @@ def test_a_dancer_comes_is_changed_and_goes_and_all_is_undone(
     slide(section, "dancer_weight", "-0.5")
     slide(section, "dancer_delay_beats", "4")
     slide(section, "dancer_x_m", "1.5")
-    mirrored = section.findChild(QCheckBox, "dancer_mirrored")
-    assert mirrored is not None
+    mirrored = child(section, QCheckBox, "dancer_mirrored")
     QTest.mouseClick(mirrored, Qt.MouseButton.LeftButton, pos=mirrored.rect().center() * 0.2)
     click(section, "dancer_dice")
-    source = section.findChild(Combo, "dancer_source")
-    assert source is not None
+    source = child(section, Combo, "dancer_source")
     assert [source.itemText(row) for row in range(source.count())] == ["None", "one", "other"]
     source.setCurrentIndex(2)
     source.activated.emit(2)
@@ -110,8 +95,7 @@ def test_a_name_is_typed_in_the_list(session: Session, section: DancersSection) 
     add(section)
     section.list.setFocus()
     QTest.keyClick(section.list, Qt.Key.Key_F2)
-    editor = section.list.findChild(QLineEdit)
-    assert editor is not None
+    editor = child(section.list, QLineEdit)
     editor.setText("Ｙｕｋｉ 1/2")
     QTest.keyClick(editor, Qt.Key.Key_Return)
     QApplication.processEvents()
@@ -137,8 +121,7 @@ def test_a_name_that_cannot_be_is_refused_and_the_old_one_shown(
     session.noticed.connect(lambda message, _: reported.append(message))
     before = names(section)
     QTest.mouseDClick(section.list.viewport(), Qt.MouseButton.LeftButton, pos=row_point(section, 0))
-    editor = section.list.findChild(QLineEdit)
-    assert editor is not None
+    editor = child(section.list, QLineEdit)
     editor.setText("  ")
     QTest.keyClick(editor, Qt.Key.Key_Return)
     qtbot.waitUntil(lambda: bool(reported))
@@ -196,8 +179,7 @@ def test_a_choreography_that_is_gone_leaves_the_section_usable(
 ) -> None:
     section.add(str(tmp_path / "gone.choreography"))
     assert section.dancer is not None
-    source = section.findChild(Combo, "dancer_source")
-    assert source is not None
+    source = child(section, Combo, "dancer_source")
     assert source.count() == 1
     click(section, "dancers_remove_button")
     assert not session.project.dancers
@@ -217,7 +199,6 @@ def test_a_dancer_is_dragged_and_turned_on_the_stage_and_the_players_stay(
     view = stage.view
     start = view.point(first.stage.x_m, first.stage.z_m).toPoint()
     drag_to(view, start, start + QPoint(-40, 0))
-    assert session.dancer is not None
     assert session.dancer.id == first.id
     assert section.list.currentIndex().data() == first.name
     moved = session.project.dancer(first.id)

@@ -25,7 +25,7 @@ from app.project.edit.dancers import add_dancer, change_dancers, dancer_edit, re
 from app.project.model import Project
 from app.score.model import PercussionHit, Score
 from tests.support.dances import model
-from tests.support.windows import show_in_front
+from tests.support.windows import child, show_in_front
 from widgets.common.percussion_names import percussion_names
 from widgets.dialogs.choreography.show import ChoreographyDialog
 
@@ -70,9 +70,7 @@ def with_claves(score: Score) -> Score:
 
 
 def text(dialog: ChoreographyDialog, name: str) -> str:
-    label = dialog.findChild(QLabel, f"choreography_{name}")
-    assert label is not None
-    return label.text()
+    return child(dialog, QLabel, f"choreography_{name}").text()
 
 
 def danced(session: Session) -> Counter[int]:
@@ -210,8 +208,7 @@ def test_names_of_the_sounds_are_those_of_general_midi() -> None:
 
 
 def test_the_button_closes_it(dialog: ChoreographyDialog) -> None:
-    button = dialog.findChild(QPushButton, "choreography_close")
-    assert button is not None
+    button = child(dialog, QPushButton, "choreography_close")
     dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose, False)
     QTest.mouseClick(button, Qt.MouseButton.LeftButton)
     assert not dialog.isVisible()

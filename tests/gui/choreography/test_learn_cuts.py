@@ -18,8 +18,9 @@ from app.choreography.cuts_by_hand import bounds, extrema
 from app.choreography.model_file import read_model
 from app.choreography.read_motion import read_motion
 from app.editor.session import Session
-from tests.gui.choreography.test_learn_dialog import child, drop, press, row_texts, select, shown, type_number
+from tests.gui.choreography.test_learn_dialog import drop, press, row_texts, select, shown, type_number
 from tests.support.dances import stepping
+from tests.support.windows import child
 from tests.unit.choreography.test_command import write_clip, write_drums
 from tests.unit.choreography.test_cuts import arm_swings
 from widgets.dialogs.choreography.cut_figure import pose_of

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from pathlib import Path
-from typing import TypeVar
 
 import pytest
 from PySide6.QtCore import QMimeData, QPoint, QPointF, Qt
@@ -17,10 +15,8 @@ from app.choreography.learn import learn
 from app.choreography.model_file import encode_model, read_model
 from app.choreography.read_pair import read_pair
 from app.editor.session import Session
-from app.editor.tasks import ThreadTasks
-from tests.gui.conftest import quartet_project
 from tests.support.dances import stepping
-from tests.support.windows import show_in_front
+from tests.support.windows import child, show_in_front
 from tests.unit.choreography.test_command import write_clip, write_drums
 from tests.unit.choreography.test_cuts import arm_swings
 from widgets.common.paths import PathEdit, url_of
@@ -46,30 +42,12 @@ def dialog(session: Session, qtbot: QtBot, folder: Path) -> LearnDialog:
     return shown(session, qtbot, folder)
 
 
-@pytest.fixture
-def threaded(qt_app: object) -> Iterator[Session]:
-    tasks = ThreadTasks()
-    session = Session(quartet_project(), tasks)
-    yield session
-    tasks.cancel_all(5.0)
-    session.deleteLater()
-
-
 def shown(session: Session, qtbot: QtBot, folder: Path) -> LearnDialog:
     made = LearnDialog(session, folder)
     made.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose, on=False)
     qtbot.addWidget(made)
     show_in_front(made)
     return made
-
-
-_W = TypeVar("_W", bound=QWidget)
-
-
-def child(dialog: QWidget, kind: type[_W], name: str) -> _W:
-    found = dialog.findChild(kind, name)
-    assert found is not None
-    return found
 
 
 def press(dialog: LearnDialog, name: str) -> None:
@@ -117,7 +95,6 @@ def select(dialog: LearnDialog, row: int) -> None:
 
 def row_texts(dialog: LearnDialog, row: int) -> list[str]:
     item = dialog.list.topLevelItem(row)
-    assert item is not None
     return [item.text(column) for column in range(dialog.list.columnCount())]
 
 

@@ -2,24 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 import pytest
-from PySide6.QtWidgets import QApplication
 
-from app.shell.language import TextTranslator
 from instrument_maps.load import bundled_maps
 from widgets.common.fingering_tags import tag_words, tags_of_text, words_of_tags
 
 USED = {tag for instrument in bundled_maps().values() for one in instrument.fingerings for tag in one.tags}
-
-
-@pytest.fixture
-def japanese(qt_app: QApplication) -> Iterator[None]:
-    translator = TextTranslator("ja")
-    qt_app.installTranslator(translator)
-    yield
-    qt_app.removeTranslator(translator)
 
 
 @pytest.mark.usefixtures("qt_app")

@@ -2,17 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 import pytest
-from PySide6.QtWidgets import QApplication
 
 from app.editor.session import Session
 from app.errors import Message
 from app.messages import PITCHES, WORDINGS, text
 from app.project.edit.notes import move
 from app.score.model import Note
-from app.shell.language import TextTranslator
 from widgets.common.text import message_text
 
 OUTSIDE = {"low": 54, "high": 82, "played_pitch": 54}
@@ -27,14 +23,6 @@ def note(session: Session) -> Note:
     return next(
         item for item in notes if item.onset_tick == score.metre_map.tick_of_bar(2) + 2 * score.ticks_per_quarter
     )
-
-
-@pytest.fixture
-def japanese(qt_app: QApplication) -> Iterator[None]:
-    translator = TextTranslator("ja")
-    qt_app.installTranslator(translator)
-    yield
-    qt_app.removeTranslator(translator)
 
 
 def test_a_note_is_reported_by_pitch_and_place(session: Session, note: Note) -> None:

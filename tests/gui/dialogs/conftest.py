@@ -6,9 +6,13 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QComboBox, QSpinBox
 from pytestqt.qtbot import QtBot
 
 from app.editor.session import Session
+from tests.support.windows import child
 from widgets.dialogs.export_files import ExportDialog
 
 ShowExport = Callable[..., ExportDialog]
@@ -30,3 +34,19 @@ def show_export(qtbot: QtBot, tmp_path: Path) -> ShowExport:
 def dialog(session: Session, show_export: ShowExport) -> ExportDialog:
     """The dialog for the bundled quartet."""
     return show_export(session)
+
+
+def one_player_of_bars(dialog: ExportDialog, last_bar: int) -> None:
+    """Request the first player's bars up to one, 24 frames a second, by mouse and keys."""
+    for row in range(1, dialog._players.count()):
+        dialog._players.item(row).setCheckState(Qt.CheckState.Unchecked)
+    QTest.keyClick(child(dialog, QComboBox, "export_range"), Qt.Key.Key_Down)
+    last = child(dialog, QSpinBox, "export_last_bar")
+    last.setFocus()
+    last.selectAll()
+    QTest.keyClicks(last, str(last_bar))
+    QTest.keyClick(last, Qt.Key.Key_Tab)
+    rate = child(dialog, QComboBox, "export_rate")
+    QTest.keyClick(rate, Qt.Key.Key_Home)
+    QTest.keyClick(rate, Qt.Key.Key_Down)
+    assert rate.currentData() == "24"

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QCheckBox, QComboBox, QLabel, QPushButton, QSpinBox
+from PySide6.QtWidgets import QCheckBox, QComboBox, QLabel, QPushButton
 from pytestqt.qtbot import QtBot
 
 from app.editor.session import Session
@@ -22,38 +22,22 @@ from app.messages import text
 from app.performance.ensemble import Performance
 from app.performance.span import bars_span
 from tests.gui.conftest import quartet_project
-from tests.gui.dialogs.conftest import ShowExport
+from tests.gui.dialogs.conftest import ShowExport, one_player_of_bars
 from tests.support.bad_players import own_folders, with_character, with_instrument
 from tests.support.tasks import ImmediateTasks
+from tests.support.windows import child
 from widgets.dialogs.export_files import ExportDialog
 
 KEY_WIDGETS = ((QComboBox, "export_keys"), (QCheckBox, "export_fbx"), (QCheckBox, "export_bvh"))
 
 
 def one_player_two_bars(dialog: ExportDialog) -> None:
-    for row in range(1, dialog._players.count()):
-        dialog._players.item(row).setCheckState(Qt.CheckState.Unchecked)
+    one_player_of_bars(dialog, 2)
     bvh_only(dialog)
-    box = dialog.findChild(QComboBox, "export_range")
-    assert box is not None
-    QTest.keyClick(box, Qt.Key.Key_Down)
-    last = dialog.findChild(QSpinBox, "export_last_bar")
-    assert last is not None
-    last.setFocus()
-    last.selectAll()
-    QTest.keyClicks(last, "2")
-    QTest.keyClick(last, Qt.Key.Key_Tab)
-    rate = dialog.findChild(QComboBox, "export_rate")
-    assert rate is not None
-    QTest.keyClick(rate, Qt.Key.Key_Home)
-    QTest.keyClick(rate, Qt.Key.Key_Down)
-    assert rate.currentData() == "24"
 
 
 def bvh_only(dialog: ExportDialog) -> None:
-    box = dialog.findChild(QCheckBox, "export_fbx")
-    assert box is not None
-    QTest.mouseClick(box, Qt.MouseButton.LeftButton)
+    QTest.mouseClick(child(dialog, QCheckBox, "export_fbx"), Qt.MouseButton.LeftButton)
 
 
 def start(dialog: ExportDialog) -> None:
@@ -78,8 +62,7 @@ def test_it_writes_what_the_command_line_writes(dialog: ExportDialog, session: S
     export(request, text)
     expected = {path.name: path.read_bytes() for path in (tmp_path / "expected").iterdir()}
     assert {path.name: path.read_bytes() for path in (tmp_path / "out").iterdir()} == expected
-    show = dialog.findChild(QPushButton, "export_show_folder")
-    assert show is not None
+    show = child(dialog, QPushButton, "export_show_folder")
     assert show.isVisible()
 
 
@@ -105,16 +88,13 @@ def test_reduced_keys_are_written_where_a_format_can_have_them(
 
 
 def test_it_says_what_will_be_replaced_and_what_is_missing(dialog: ExportDialog, tmp_path: Path) -> None:
-    outcome = dialog.findChild(QLabel, "export_outcome")
-    button = dialog.findChild(QPushButton, "export_start")
-    assert outcome is not None
-    assert button is not None
+    outcome = child(dialog, QLabel, "export_outcome")
+    button = child(dialog, QPushButton, "export_start")
     (tmp_path / "out").mkdir()
     (tmp_path / "out" / "report.json").write_text("{}")
     bvh_only(dialog)
     assert "report.json" in outcome.text()
-    box = dialog.findChild(QCheckBox, "export_bvh")
-    assert box is not None
+    box = child(dialog, QCheckBox, "export_bvh")
     QTest.mouseClick(box, Qt.MouseButton.LeftButton)
     assert not button.isEnabled()
     QTest.mouseClick(box, Qt.MouseButton.LeftButton)
@@ -128,8 +108,7 @@ def test_a_folder_that_cannot_be_is_reported_and_nothing_is_written(dialog: Expo
     one_player_two_bars(dialog)
     (tmp_path / "out").write_text("a file")
     start(dialog)
-    outcome = dialog.findChild(QLabel, "export_outcome")
-    assert outcome is not None
+    outcome = child(dialog, QLabel, "export_outcome")
     assert "out" in outcome.text()
     assert (tmp_path / "out").read_text() == "a file"
 
@@ -139,8 +118,7 @@ def test_cancelled_it_leaves_nothing(show_export: ShowExport, qt_app: object, qt
     session = Session(quartet_project(), tasks)
     dialog = show_export(session)
     start(dialog)
-    button = dialog.findChild(QPushButton, "export_start")
-    assert button is not None
+    button = child(dialog, QPushButton, "export_start")
     assert not button.isEnabled()
     QTest.mouseClick(dialog.findChild(QPushButton, "export_close"), Qt.MouseButton.LeftButton)
     qtbot.waitUntil(button.isEnabled)
@@ -155,8 +133,7 @@ def test_usd_is_greyed_where_it_cannot_be_written(
 ) -> None:
     monkeypatch.setattr(usd_package, "usd_installed", lambda: False)
     dialog = show_export(session)
-    box = dialog.findChild(QCheckBox, "export_usd")
-    assert box is not None
+    box = child(dialog, QCheckBox, "export_usd")
     assert not box.isEnabled()
     assert "usd-core" in box.text()
     assert "pip install" in box.toolTip()
@@ -171,12 +148,9 @@ def test_usd_is_greyed_where_it_cannot_be_written(
 def test_all_kinds_of_file_at_once(dialog: ExportDialog, session: Session, tmp_path: Path) -> None:
     one_player_two_bars(dialog)
     for name in ("export_sound", "export_glb", *(["export_usd"] if usd_package.usd_installed() else [])):
-        box = dialog.findChild(QCheckBox, name)
-        assert box is not None
-        QTest.mouseClick(box, Qt.MouseButton.LeftButton)
+        QTest.mouseClick(child(dialog, QCheckBox, name), Qt.MouseButton.LeftButton)
     assert dialog._formats.formats >= {"bvh", "glb"}
-    outcome = dialog.findChild(QLabel, "export_outcome")
-    assert outcome is not None
+    outcome = child(dialog, QLabel, "export_outcome")
     promised = outcome.text()
     start(dialog)
     assert str(len(list((tmp_path / "out").iterdir()))) in promised
@@ -188,8 +162,7 @@ def test_all_kinds_of_file_at_once(dialog: ExportDialog, session: Session, tmp_p
 
 def test_a_stage_that_no_ticked_format_can_hold_is_not_written(dialog: ExportDialog, tmp_path: Path) -> None:
     one_player_two_bars(dialog)
-    box = dialog.findChild(QCheckBox, "export_stage")
-    assert box is not None
+    box = child(dialog, QCheckBox, "export_stage")
     assert dialog._formats.formats == {"bvh"}
     assert not box.isEnabled()
     assert not dialog._formats.stage
@@ -202,8 +175,7 @@ def test_a_stage_that_no_ticked_format_can_hold_is_not_written(dialog: ExportDia
 
 def test_bvh_files_get_the_bone_names_of_another_program(dialog: ExportDialog, tmp_path: Path) -> None:
     one_player_two_bars(dialog)
-    names = dialog.findChild(QComboBox, "export_bvh_names")
-    assert names is not None
+    names = child(dialog, QComboBox, "export_bvh_names")
     assert names.isVisible()
     names.setFocus()
     QTest.keyClicks(names, "Mixamo")
@@ -211,9 +183,7 @@ def test_bvh_files_get_the_bone_names_of_another_program(dialog: ExportDialog, t
     start(dialog)
     (path,) = (tmp_path / "out").glob("*.bvh")
     assert {"Hips", "LeftForeArm", "RightHandIndex1"} <= set(read_bvh(path).names)
-    box = dialog.findChild(QCheckBox, "export_bvh")
-    assert box is not None
-    QTest.mouseClick(box, Qt.MouseButton.LeftButton)
+    QTest.mouseClick(child(dialog, QCheckBox, "export_bvh"), Qt.MouseButton.LeftButton)
     assert not names.isVisible()
 
 
@@ -227,8 +197,7 @@ def test_who_is_left_out_is_named_with_the_reason(
     session.noticed.connect(lambda message, severity: noticed.append(f"{severity.value}: {text(message)}"))
     dialog = show_export(session)
     one_player_two_bars(dialog)
-    outcome = dialog.findChild(QLabel, "export_outcome")
-    assert outcome is not None
+    outcome = child(dialog, QLabel, "export_outcome")
     # The bad one alone is an error, and nothing is written.
     start(dialog)
     assert "Trumpet 1" in outcome.text()

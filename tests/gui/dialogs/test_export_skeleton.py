@@ -18,12 +18,13 @@ from app.formats.fbx.write import write_scene
 from app.performance.bodies import character_of
 from app.performance.ensemble import Performance
 from app.performance.span import cut_span
-from app.shell.language import TextTranslator
 from tests.gui.conftest import quartet_project
 from tests.gui.dialogs.conftest import ShowExport
+from tests.gui.japanese import speaking
 from tests.support.bad_players import with_character
 from tests.support.performed import player_motion
 from tests.support.tasks import ImmediateTasks
+from tests.support.windows import child
 from widgets.dialogs.export_files import ExportDialog
 
 
@@ -47,29 +48,22 @@ def mannequin(session: Session, tmp_path: Path) -> Path:
 
 
 def choose(dialog: ExportDialog, key: Qt.Key) -> None:
-    box = dialog.findChild(QComboBox, "export_skeleton")
-    assert box is not None
-    QTest.keyClick(box, key)
+    QTest.keyClick(child(dialog, QComboBox, "export_skeleton"), key)
 
 
 def name(dialog: ExportDialog, path: Path) -> None:
-    field = dialog.findChild(QLineEdit, "export_asset")
-    assert field is not None
+    field = child(dialog, QLineEdit, "export_asset")
     field.setFocus()
     field.selectAll()
     QTest.keyClicks(field, str(path))
 
 
 def reported(dialog: ExportDialog) -> str:
-    label = dialog.findChild(QLabel, "export_differences")
-    assert label is not None
-    return label.text()
+    return child(dialog, QLabel, "export_differences").text()
 
 
 def can_start(dialog: ExportDialog) -> bool:
-    button = dialog.findChild(QPushButton, "export_start")
-    assert button is not None
-    return button.isEnabled()
+    return child(dialog, QPushButton, "export_start").isEnabled()
 
 
 def test_a_request_has_what_is_chosen(dialog: ExportDialog, mannequin: Path) -> None:
@@ -106,17 +100,14 @@ def test_an_asset_that_would_lose_the_animation_is_refused(dialog: ExportDialog,
     assert "53 animated bones are not in the asset" in reported(dialog)
     assert "hips, spine, chest" in reported(dialog)
     assert not can_start(dialog)
-    field = dialog.findChild(QLineEdit, "export_asset")
-    assert field is not None
-    field.clear()
+    child(dialog, QLineEdit, "export_asset").clear()
     assert can_start(dialog)
     assert reported(dialog) == ""
 
 
 def test_a_file_that_is_none_is_named(dialog: ExportDialog, tmp_path: Path, qtbot: QtBot) -> None:
     name(dialog, tmp_path / "absent.fbx")
-    outcome = dialog.findChild(QLabel, "export_outcome")
-    assert outcome is not None
+    outcome = child(dialog, QLabel, "export_outcome")
     assert "The file to compare with was not found." in outcome.text()
     assert not can_start(dialog)
     (tmp_path / "broken.fbx").write_bytes(b"Kaydara FBX Binary  \x00\x1a\x00 and nothing more")
@@ -138,16 +129,11 @@ def test_what_was_chosen_meanwhile_counts(dialog: ExportDialog, mannequin: Path)
 
 
 def test_both_languages(dialog: ExportDialog, qt_app: QApplication) -> None:
-    box = dialog.findChild(QComboBox, "export_skeleton")
-    assert box is not None
+    box = child(dialog, QComboBox, "export_skeleton")
     assert box.itemText(1) == "Unreal Engine 5 mannequin"
-    japanese = TextTranslator("ja")
-    qt_app.installTranslator(japanese)
-    try:
+    with speaking():
         qt_app.sendEvent(dialog._skeleton, QEvent(QEvent.Type.LanguageChange))
         assert box.itemText(1) == "Unreal Engine 5 マネキン"
-    finally:
-        qt_app.removeTranslator(japanese)
 
 
 def test_our_own_file_is_an_asset_that_fits_ours(
@@ -165,13 +151,10 @@ def test_our_own_file_is_an_asset_that_fits_ours(
 def test_a_request_has_the_rig_that_is_chosen(dialog: ExportDialog) -> None:
     assert dialog._request().rig == RigOptions()
     for name, keys in (("export_instrument", 1), ("export_root_bone", 2), ("export_rest_pose", 2)):
-        box = dialog.findChild(QComboBox, name)
-        assert box is not None
+        box = child(dialog, QComboBox, name)
         for _ in range(keys):
             QTest.keyClick(box, Qt.Key.Key_Down)
-    twists = dialog.findChild(QCheckBox, "export_twist_bones")
-    assert twists is not None
-    QTest.mouseClick(twists, Qt.MouseButton.LeftButton)
+    QTest.mouseClick(child(dialog, QCheckBox, "export_twist_bones"), Qt.MouseButton.LeftButton)
     assert dialog._request().rig == RigOptions("socket", "motion", "a", True)
 
 

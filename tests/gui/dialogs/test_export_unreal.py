@@ -8,12 +8,13 @@ from pathlib import Path
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QCheckBox, QComboBox, QLabel, QLineEdit, QPushButton, QSpinBox
+from PySide6.QtWidgets import QCheckBox, QComboBox, QLabel, QLineEdit, QPushButton
 
 from app.editor.session import Session
 from app.errors import Message
 from app.export.unreal.project import find_project
-from tests.gui.dialogs.conftest import ShowExport
+from tests.gui.dialogs.conftest import ShowExport, one_player_of_bars
+from tests.support.windows import child
 from tests.unit.export.unreal.conftest import with_dancers
 from widgets.dialogs.export_files import ExportDialog
 
@@ -27,20 +28,15 @@ def game(tmp_path: Path) -> Path:
 
 
 def outcome(dialog: ExportDialog) -> str:
-    label = dialog.findChild(QLabel, "export_outcome")
-    assert label is not None
-    return label.text()
+    return child(dialog, QLabel, "export_outcome").text()
 
 
 def start_button(dialog: ExportDialog) -> QPushButton:
-    button = dialog.findChild(QPushButton, "export_start")
-    assert button is not None
-    return button
+    return child(dialog, QPushButton, "export_start")
 
 
 def place(dialog: ExportDialog, text: str) -> None:
-    line = dialog.findChild(QLineEdit, "export_folder")
-    assert line is not None
+    line = child(dialog, QLineEdit, "export_folder")
     line.setFocus()
     line.selectAll()
     QTest.keyClick(line, Qt.Key.Key_Delete)
@@ -48,34 +44,15 @@ def place(dialog: ExportDialog, text: str) -> None:
 
 
 def into_unreal(dialog: ExportDialog) -> None:
-    box = dialog.findChild(QComboBox, "export_destination")
-    assert box is not None
+    box = child(dialog, QComboBox, "export_destination")
     QTest.keyClick(box, Qt.Key.Key_Down)
     assert box.currentData() == "unreal"
-
-
-def one_player_one_bar(dialog: ExportDialog) -> None:
-    for row in range(1, dialog._players.count()):
-        dialog._players.item(row).setCheckState(Qt.CheckState.Unchecked)
-    box = dialog.findChild(QComboBox, "export_range")
-    assert box is not None
-    QTest.keyClick(box, Qt.Key.Key_Down)
-    last = dialog.findChild(QSpinBox, "export_last_bar")
-    assert last is not None
-    last.setFocus()
-    last.selectAll()
-    QTest.keyClicks(last, "1")
-    QTest.keyClick(last, Qt.Key.Key_Tab)
-    rate = dialog.findChild(QComboBox, "export_rate")
-    assert rate is not None
-    QTest.keyClick(rate, Qt.Key.Key_Home)
-    QTest.keyClick(rate, Qt.Key.Key_Down)
 
 
 def test_it_exports_into_a_project_and_again(dialog: ExportDialog, game: Path) -> None:
     reported: list[tuple[str, Path]] = []
     dialog.exported.connect(lambda destination, path: reported.append((destination, path)))
-    one_player_one_bar(dialog)
+    one_player_of_bars(dialog, 1)
     into_unreal(dialog)
     assert not start_button(dialog).isEnabled()
     assert ".uproject" in outcome(dialog)
@@ -105,7 +82,7 @@ def test_a_dancer_goes_into_the_project_alone(
 ) -> None:
     session.apply(Message("edit.add_dancer"), with_dancers(session.project, tmp_path, "Ana"))
     dialog = show_export(session)
-    one_player_one_bar(dialog)
+    one_player_of_bars(dialog, 1)
     dialog._players.item(0).setCheckState(Qt.CheckState.Unchecked)
     last = dialog._players.item(dialog._players.count() - 1)
     assert last.text() == "Ana"
@@ -127,8 +104,7 @@ def test_a_dancer_goes_into_the_project_alone(
 
 
 def test_formats_are_for_folders(dialog: ExportDialog, game: Path) -> None:
-    box = dialog.findChild(QCheckBox, "export_fbx")
-    assert box is not None
+    box = child(dialog, QCheckBox, "export_fbx")
     assert box.isVisible()
     into_unreal(dialog)
     assert not box.isVisible()
@@ -142,10 +118,8 @@ def test_formats_are_for_folders(dialog: ExportDialog, game: Path) -> None:
 def test_each_destination_keeps_its_place(dialog: ExportDialog, game: Path, tmp_path: Path) -> None:
     into_unreal(dialog)
     place(dialog, str(game))
-    box = dialog.findChild(QComboBox, "export_destination")
-    line = dialog.findChild(QLineEdit, "export_folder")
-    assert box is not None
-    assert line is not None
+    box = child(dialog, QComboBox, "export_destination")
+    line = child(dialog, QLineEdit, "export_folder")
     QTest.keyClick(box, Qt.Key.Key_Up)
     assert line.text() == str(tmp_path / "out")
     into_unreal(dialog)

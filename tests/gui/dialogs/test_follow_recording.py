@@ -13,6 +13,7 @@ from pytestqt.qtbot import QtBot
 from app.audio.followed_recording import FollowOptions
 from app.editor.session import Session
 from tests.support.tasks import ImmediateTasks
+from tests.support.windows import child
 from tests.unit.audio.pieces import quartet
 from widgets.common.controls import Check
 from widgets.dialogs import follow_recording
@@ -30,9 +31,7 @@ def dialog(qtbot: QtBot) -> FollowRecordingDialog:
 
 
 def press(dialog: FollowRecordingDialog, name: str) -> None:
-    button = dialog.findChild(QPushButton, name)
-    assert button is not None
-    QTest.mouseClick(button, Qt.MouseButton.LeftButton)
+    QTest.mouseClick(child(dialog, QPushButton, name), Qt.MouseButton.LeftButton)
 
 
 def test_beats_alone_are_followed_at_first(dialog: FollowRecordingDialog, qtbot: QtBot) -> None:
@@ -48,8 +47,7 @@ def test_dynamics_with_a_recording_of_one_player(
     second = quartet().players[1].id
     press(dialog, "stem_choose_1")
     assert dialog.options == FollowOptions(), "it is disabled without dynamics"
-    dynamics = dialog.findChild(Check, "follow_dynamics")
-    assert dynamics is not None
+    dynamics = child(dialog, Check, "follow_dynamics")
     QTest.keyClick(dynamics, Qt.Key.Key_Space)
     press(dialog, "stem_choose_1")
     assert dialog.options == FollowOptions(dynamics=True, stems={second: "/music/second.wav"})

@@ -32,6 +32,7 @@ from app.score.read import read_contents, read_midi
 from instrument_maps.load import bundled_maps
 from tests.support.take_files import take_file
 from tests.support.tasks import ImmediateTasks
+from tests.support.windows import child
 from widgets.dialogs.import_midi import ImportDialog
 from widgets.dialogs.notes_preview import NotesPreview
 
@@ -58,8 +59,7 @@ def imported(dialog: ImportDialog) -> Project:
 
 
 def choose(dialog: ImportDialog, name: str, data: object) -> None:
-    box = dialog.findChild(QComboBox, name)
-    assert box is not None
+    box = child(dialog, QComboBox, name)
     box.setFocus()
     index = box.findData(data)
     assert index >= 0
@@ -79,27 +79,23 @@ def test_untouched_it_is_what_the_command_line_does(dialog: ImportDialog) -> Non
 
 
 def test_a_track_no_one_plays_is_ticked_and_given_an_instrument_and_a_character(dialog: ImportDialog) -> None:
-    box = dialog.findChild(QCheckBox, "play_3")
-    assert box is not None
+    box = child(dialog, QCheckBox, "play_3")
     assert not box.isChecked()
     QTest.mouseClick(box, Qt.MouseButton.LeftButton)
     trombone = next(id_ for id_, table in MAPS.items() if "trombone" in table.plays)
     choose(dialog, "instrument_3", trombone)
     choose(dialog, "character_3", "woman_adult")
-    name = dialog.findChild(QLineEdit, "name_3")
-    assert name is not None
+    name = child(dialog, QLineEdit, "name_3")
     name.selectAll()
     QTest.keyClicks(name, "Bass")
     bass = imported(dialog).players[-1]
     assert (bass.name, bass.instrument_id, bass.character_id) == ("Bass", trombone, "woman_adult")
-    summary = dialog.findChild(QLabel, "import_summary")
-    assert summary is not None
+    summary = child(dialog, QLabel, "import_summary")
     assert "4" in summary.text()
 
 
 def test_what_is_left_out_says_why(dialog: ImportDialog) -> None:
-    reported = dialog.findChild(QListWidget, "import_warnings")
-    assert reported is not None
+    reported = child(dialog, QListWidget, "import_warnings")
     assert any("tuba" in reported.item(row).text().lower() for row in range(reported.count()))
 
 
@@ -167,8 +163,7 @@ def test_a_long_title_does_not_widen_the_dialog(qt_app: QApplication, qtbot: QtB
     dialog = ImportDialog(contents, MAPS, DARK, ImmediateTasks())
     qtbot.addWidget(dialog)
     dialog.show()
-    heading = dialog.findChild(QLabel, "heading")
-    assert heading is not None
+    heading = child(dialog, QLabel, "heading")
     assert "Allegro" in heading.text()
     assert "4/4" in heading.text()
     assert dialog.width() == ImportDialog(read_contents(LUTKIN), MAPS, DARK, ImmediateTasks()).width()
@@ -196,8 +191,7 @@ def test_what_comes_of_the_choices_is_worked_out_beside_the_window(qt_app: QAppl
     qtbot.addWidget(dialog)
     dialog.show()
     agree = dialog._buttons.button(QDialogButtonBox.StandardButton.Ok)
-    summary = dialog.findChild(QLabel, "import_summary")
-    assert summary is not None
+    summary = child(dialog, QLabel, "import_summary")
     assert (dialog.rows, agree.isEnabled(), dialog._table.rowCount()) == ((), False, 0)
     QApplication.processEvents()
     tasks.work(0)
@@ -209,12 +203,9 @@ def test_what_comes_of_the_choices_is_worked_out_beside_the_window(qt_app: QAppl
     assert header.length() == header.viewport().width()
     for column in columns:
         widget = dialog._table.cellWidget(0, column)
-        assert widget is not None
         assert dialog._table.columnWidth(column) >= widget.sizeHint().width(), column
     for place in (0, 1):
-        box = dialog.findChild(QCheckBox, f"play_{place}")
-        assert box is not None
-        box.click()
+        child(dialog, QCheckBox, f"play_{place}").click()
     # The newer one is done first: what the older one says is of rows that are no longer those of the dialog.
     tasks.work(1)
     assert summary.text() == "Players: 1"
@@ -247,8 +238,7 @@ def test_many_tracks_are_shown_turn_by_turn(
     monkeypatch.setattr(
         importing, "_instruments", lambda contents, assignment, *more: looked.append(assignment) or ("flute",)
     )
-    name = dialog.findChild(QLineEdit, "name_39")
-    assert name is not None
+    name = child(dialog, QLineEdit, "name_39")
     choose(dialog, "split_39", "every")
     assert [assignment.streams for assignment in looked] == [(39,)]  # type: ignore[attr-defined]
     QTest.keyClicks(name, "x")
@@ -306,15 +296,12 @@ def test_a_percussion_track_is_shown_as_the_dancers(qt_app: QApplication, qtbot:
     dialog = ImportDialog(read_contents(PERCUSSION), MAPS, DARK, ImmediateTasks())
     qtbot.addWidget(dialog)
     dialog.show()
-    instrument = dialog.findChild(QComboBox, "instrument_0")
-    assert instrument is not None
+    instrument = child(dialog, QComboBox, "instrument_0")
     assert instrument.currentText() == "Percussion (for dancers)"
     assert "not played by players" in instrument.toolTip()
-    reported = dialog.findChild(QListWidget, "import_warnings")
-    assert reported is not None
+    reported = child(dialog, QListWidget, "import_warnings")
     assert any(reported.item(row).text().endswith(". Dancers use it as percussion.") for row in range(reported.count()))
-    dances = dialog.findChild(QCheckBox, "import_dancer")
-    assert dances is not None
+    dances = child(dialog, QCheckBox, "import_dancer")
     assert dances.isVisible()
     assert not dialog.assignment.dances
     QTest.mouseClick(dances, Qt.MouseButton.LeftButton, pos=QPoint(8, dances.height() // 2))
@@ -350,7 +337,6 @@ def shown(dialog: ImportDialog) -> list[tuple[bool, str]]:
             dialog.findChild(kind, f"{name}_{place}") for kind, name in ((QCheckBox, "play"), (QComboBox, "instrument"))
         )
         assert play is not None
-        assert instrument is not None
         assert instrument.isEnabled()
         rows.append((play.isChecked(), instrument.currentText()))  # type: ignore[attr-defined]
     return rows
@@ -361,8 +347,7 @@ def test_percussion_and_sound_effects_are_named_and_the_user_can_say_otherwise(k
     assert trumpet == (True, "Automatic: Trumpet in B♭")
     assert drums == (False, "Percussion (for dancers)")
     assert effect == (False, "Sound effect (not played)")
-    dances = kits.findChild(QCheckBox, "import_dancer")
-    assert dances is not None
+    dances = child(kits, QCheckBox, "import_dancer")
     assert dances.isVisible()
     score = imported(kits).score
     assert (len(score.parts), len(score.percussion)) == (1, 4)
@@ -379,9 +364,7 @@ def test_percussion_and_sound_effects_are_named_and_the_user_can_say_otherwise(k
     score = imported(kits).score
     assert (len(score.parts), len(score.percussion)) == (1, 4)
     assert [part.reason.id for part in score.unplayed] == ["score.percussion", "score.sound_effect"]
-    play = kits.findChild(QCheckBox, "play_0")
-    assert play is not None
-    QTest.mouseClick(play, Qt.MouseButton.LeftButton)
+    QTest.mouseClick(child(kits, QCheckBox, "play_0"), Qt.MouseButton.LeftButton)
     assert shown(kits)[0] == trumpet
     choose(kits, "instrument_0", "percussion")
     choose(kits, "instrument_0", None)
@@ -390,8 +373,7 @@ def test_percussion_and_sound_effects_are_named_and_the_user_can_say_otherwise(k
 
 
 def test_without_percussion_no_dancer_is_offered(dialog: ImportDialog) -> None:
-    dances = dialog.findChild(QCheckBox, "import_dancer")
-    assert dances is not None
+    dances = child(dialog, QCheckBox, "import_dancer")
     assert not dances.isVisible()
     instruments = [box.itemText(0) for box in dialog.findChildren(QComboBox) if "instrument_" in box.objectName()]
     assert instruments
@@ -406,7 +388,6 @@ def test_a_file_without_notes_offers_an_empty_stage_and_says_why(
     dialog = ImportDialog(read_contents(path), MAPS, DARK, ImmediateTasks())
     qtbot.addWidget(dialog)
     summary, reported = dialog.findChild(QLabel, "import_summary"), dialog.findChild(QListWidget, "import_warnings")
-    assert summary is not None
     assert reported is not None
     assert summary.text() == "No notes to import. You get an empty stage."
     assert [reported.item(row).text() for row in range(reported.count())] == [
@@ -443,8 +424,7 @@ def test_names_are_read_again_in_the_encoding_that_is_chosen(
     )
     qtbot.addWidget(dialog)
     dialog.show()
-    box = dialog.findChild(QComboBox, "import_encoding")
-    assert box is not None
+    box = child(dialog, QComboBox, "import_encoding")
     assert box.isEnabled()
     assert (box.itemText(0), box.itemData(0)) == ("Automatic", None)
     # What was chosen before stays chosen.
@@ -469,7 +449,6 @@ def test_names_are_read_again_in_the_encoding_that_is_chosen(
         dialog.assignment.contents, dialog.rows, MAPS, str(path), encoding=dialog.assignment.encoding
     )
     assert "Lead" in [player.name for player in project.players]
-    assert project.imported is not None
     assert project.imported.encoding == "euc_jp"
     assert reimported(project, path, MAPS).project is project
 
@@ -490,10 +469,8 @@ def test_a_file_that_is_gone_meanwhile_leaves_the_names_as_they_were(
     dialog.show()
     before = names(dialog)
     path.unlink()
-    box = dialog.findChild(QComboBox, "import_encoding")
-    summary = dialog.findChild(QLabel, "import_summary")
-    assert box is not None
-    assert summary is not None
+    box = child(dialog, QComboBox, "import_encoding")
+    summary = child(dialog, QLabel, "import_summary")
     box.setFocus()
     QTest.keyClick(box, Qt.Key.Key_Down)
     assert box.currentData() is None
@@ -514,10 +491,8 @@ def test_a_take_is_cleaned_by_a_switch_that_says_why(qt_app: QApplication, qtbot
     qtbot.addWidget(dialog)
     dialog.show()
     assert not dialog._table.isColumnHidden(8)
-    box = dialog.findChild(QCheckBox, "clean_0")
-    reported = dialog.findChild(QListWidget, "import_warnings")
-    assert box is not None
-    assert reported is not None
+    box = child(dialog, QCheckBox, "clean_0")
+    reported = child(dialog, QListWidget, "import_warnings")
     assert box.isChecked()
     assert "wind controller" in box.toolTip()
     assert "1 note left out" in reported.item(0).text()

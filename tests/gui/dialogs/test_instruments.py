@@ -19,7 +19,7 @@ from app.editor.session import Session
 from instrument_maps.load import bundled_maps
 from tests.gui.conftest import delete_now
 from tests.support.pipe import add
-from tests.support.windows import show_in_front
+from tests.support.windows import child, show_in_front
 from widgets.common.fingering_diagram import FingeringDiagram
 from widgets.dialogs.instrument_map import CENTS, LABEL, TAGS, InstrumentsDialog
 
@@ -40,9 +40,7 @@ class Page:
         self.problem = self.dialog.findChild(QLabel, "instruments_problem")
 
     def button(self, name: str) -> QPushButton:
-        button = self.dialog.findChild(QPushButton, f"instruments_{name}")
-        assert button is not None
-        return button
+        return child(self.dialog, QPushButton, f"instruments_{name}")
 
     def click(self, name: str) -> None:
         assert self.button(name).isEnabled(), name
@@ -50,7 +48,6 @@ class Page:
 
     def choose(self, written: int, rank: int = 1) -> None:
         draft = self.dialog.draft
-        assert draft is not None
         row = [(one.written_pitch, one.rank) for one in draft.table].index((written, rank))
         self.table.scrollToItem(self.table.item(row, LABEL))
         box = self.table.visualItemRect(self.table.item(row, LABEL))
@@ -99,7 +96,6 @@ def page(session: Session, qtbot: QtBot, folder: Path, monkeypatch: pytest.Monke
 
 
 def test_it_opens_on_the_instrument_of_the_player_in_front_and_lists_all(page: Page) -> None:
-    assert page.dialog.draft is not None
     assert page.dialog.draft.instrument is TRUMPET
     assert page.list.count() == len(bundled_maps()) + 1
     assert page.table.rowCount() == len(TRUMPET.fingerings)

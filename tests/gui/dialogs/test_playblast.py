@@ -17,7 +17,7 @@ from app.editor.tasks import ThreadTasks
 from app.editor.viewport_state import View
 from app.errors import AppError
 from tests.gui.conftest import quartet_project
-from tests.support.windows import pause
+from tests.support.windows import child, pause
 from widgets.dialogs.playblast import PlayblastDialog
 
 
@@ -47,9 +47,7 @@ def film(session: Session, path: Path, times: list[float], fails_at_s: float = 1
 
     dialog = PlayblastDialog(session, shoot, sound, path)
     dialog.show()
-    box = dialog.findChild(QComboBox, "playblast_range")
-    assert box is not None
-    QTest.keyClick(box, Qt.Key.Key_Down)
+    QTest.keyClick(child(dialog, QComboBox, "playblast_range"), Qt.Key.Key_Down)
     return dialog
 
 
@@ -67,8 +65,7 @@ def test_the_loop_becomes_a_film(threaded: Session, qtbot: QtBot, tmp_path: Path
     assert len(times) in (15, 16)
     assert np.allclose(np.diff(times), 1 / 30)
     assert times[0] == pytest.approx(2.0, abs=1 / 30)
-    state = dialog.findChild(QLabel, "playblast_state")
-    assert state is not None
+    state = child(dialog, QLabel, "playblast_state")
     assert "film.mp4" in state.text()
 
 
@@ -78,9 +75,7 @@ def test_cancelled_it_leaves_nothing(threaded: Session, qtbot: QtBot, tmp_path: 
     press(dialog, "playblast_start")
     pause(50)
     press(dialog, "playblast_close")
-    button = dialog.findChild(QPushButton, "playblast_start")
-    assert button is not None
-    qtbot.waitUntil(button.isEnabled)
+    qtbot.waitUntil(child(dialog, QPushButton, "playblast_start").isEnabled)
     qtbot.waitUntil(lambda: list(tmp_path.iterdir()) == [])
 
 
@@ -90,7 +85,6 @@ def test_a_picture_that_cannot_be_drawn_ends_it_and_is_reported(
     dialog = film(threaded, tmp_path / "film.mp4", [], fails_at_s=2.2)
     press(dialog, "playblast_start")
     button, state = dialog.findChild(QPushButton, "playblast_start"), dialog.findChild(QLabel, "playblast_state")
-    assert button is not None
     assert state is not None
     qtbot.waitUntil(button.isEnabled)
     assert "of the test" in state.text()

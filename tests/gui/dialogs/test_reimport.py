@@ -18,6 +18,7 @@ from app.project.reimport import reimport, reimported
 from app.shell.language import Language
 from instrument_maps.load import bundled_maps
 from tests.gui.conftest import quartet_project
+from tests.support.windows import child
 from tests.unit.project.test_reimport import by_hand, file_with
 from tests.unit.project.test_rereading import quintet, tracks, written
 from widgets.common.text import note_text
@@ -45,8 +46,7 @@ def test_conflicts_are_rows_and_what_stays_is_counted(session: Session, qtbot: Q
         )
         qtbot.addWidget(dialog)
         dialog.show()
-        rows = dialog.findChild(QListWidget, "reimport_conflicts")
-        assert rows is not None
+        rows = child(dialog, QListWidget, "reimport_conflicts")
         assert rows.isVisible()
         texts = [rows.item(row).text() for row in range(rows.count())]
         assert len(texts) == 2
@@ -57,8 +57,7 @@ def test_conflicts_are_rows_and_what_stays_is_counted(session: Session, qtbot: Q
         )
         assert texts[0] == f"{part.name}: {here} → {there}"
         assert texts[1].startswith(f"{part.name}: {'deleted' if language == 'en' else '削除'}")
-        table = dialog.findChild(QTableWidget, "reimport_parts")
-        assert table is not None
+        table = child(dialog, QTableWidget, "reimport_parts")
         assert [table.item(row, 4).text() for row in range(table.rowCount())] == ["1", "0", "0", "0"]
         assert table.horizontalHeaderItem(0).textAlignment() & Qt.AlignmentFlag.AlignLeft.value
         ok = dialog.findChild(QDialogButtonBox).button(QDialogButtonBox.StandardButton.Ok)
@@ -93,8 +92,7 @@ def test_a_player_whose_part_is_gone_is_removed_only_if_checked(
 ) -> None:
     project, _, newer = changed_quintet(tmp_path)
     dialog = dialog_of(qtbot, project, newer)
-    gone = dialog.findChild(QListWidget, "reimport_gone")
-    assert gone is not None
+    gone = child(dialog, QListWidget, "reimport_gone")
     assert gone.isVisible()
     assert [gone.item(row).text() for row in range(gone.count())] == [project.players[3].name]
     assert dialog.removed == ()

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -14,7 +14,6 @@ from PySide6.QtWidgets import QCheckBox, QComboBox, QLabel, QPushButton, QSpinBo
 from pytestqt.qtbot import QtBot
 
 from app.editor.session import Session
-from app.editor.tasks import ThreadTasks
 from app.errors import AppError, Cancelled, Message
 from app.evaluation.process import EvaluationFinished, made_by_process
 from app.evaluation.request import EvaluationRequest
@@ -23,18 +22,10 @@ from app.performance.ensemble import Performance
 from app.project.model import Project
 from app.shell.language import ROOMS
 from tests.gui.conftest import quartet_project
+from tests.support.windows import child
 from tests.unit.evaluation.test_keyframes import export_bvh
 from widgets.common.paths import PathEdit
 from widgets.dialogs.evaluation.make import EvaluationDialog, Make
-
-
-@pytest.fixture
-def threaded(qt_app: object) -> Iterator[Session]:
-    tasks = ThreadTasks()
-    session = Session(quartet_project(), tasks)
-    yield session
-    tasks.cancel_all(5.0)
-    session.deleteLater()
 
 
 def dialog_of(session: Session, make: Make, folder: Path) -> EvaluationDialog:
@@ -48,21 +39,16 @@ def press(dialog: EvaluationDialog, name: str) -> None:
 
 
 def choose(dialog: EvaluationDialog, name: str, data: str) -> None:
-    box = dialog.findChild(QComboBox, name)
-    assert box is not None
+    box = child(dialog, QComboBox, name)
     box.setCurrentIndex(box.findData(data))
 
 
 def said(dialog: EvaluationDialog) -> str:
-    state = dialog.findChild(QLabel, "evaluation_state")
-    assert state is not None
-    return state.text()
+    return child(dialog, QLabel, "evaluation_state").text()
 
 
 def enabled(dialog: EvaluationDialog) -> bool:
-    button = dialog.findChild(QPushButton, "evaluation_start")
-    assert button is not None
-    return button.isEnabled()
+    return child(dialog, QPushButton, "evaluation_start").isEnabled()
 
 
 def test_what_is_chosen_is_asked_for(threaded: Session, qtbot: QtBot, tmp_path: Path) -> None:
@@ -77,12 +63,9 @@ def test_what_is_chosen_is_asked_for(threaded: Session, qtbot: QtBot, tmp_path: 
         return EvaluationFinished(12, 3, (("Horn", Message("picture.loading")),), -3.25, 0.875)
 
     dialog = dialog_of(threaded, make, tmp_path / "made")
-    film = dialog.findChild(PathEdit, "evaluation_film")
-    place = dialog.findChild(QComboBox, "evaluation_place")
-    view = dialog.findChild(QComboBox, "evaluation_view")
-    assert film is not None
-    assert place is not None
-    assert view is not None
+    film = child(dialog, PathEdit, "evaluation_film")
+    place = child(dialog, QComboBox, "evaluation_place")
+    view = child(dialog, QComboBox, "evaluation_view")
     assert not place.isEnabled()
     film.set_path(tmp_path / "film.mp4")
     place.setCurrentIndex(place.findData("follow"))
@@ -109,15 +92,13 @@ def test_it_is_not_begun_without_two_variants_or_onto_another(threaded: Session,
     dialog = dialog_of(threaded, make, tmp_path / "made")
     assert enabled(dialog)
     for name in ("evaluation_still", "evaluation_shifted"):
-        box = dialog.findChild(QCheckBox, name)
-        assert box is not None
+        box = child(dialog, QCheckBox, name)
         box.setChecked(False)
     assert not enabled(dialog)
     assert "at least two" in said(dialog)
     box.setChecked(True)
     assert enabled(dialog)
-    folder = dialog.findChild(PathEdit, "evaluation_folder")
-    assert folder is not None
+    folder = child(dialog, PathEdit, "evaluation_folder")
     folder.set_path(tmp_path)
     assert not enabled(dialog)
     assert "choose another folder" in said(dialog)
@@ -154,8 +135,7 @@ def test_bars_and_motion_from_elsewhere_are_asked_for(threaded: Session, tmp_pat
         raise AssertionError("nothing is to be made")
 
     dialog = dialog_of(threaded, make, tmp_path / "made")
-    keyframes = dialog.findChild(PathEdit, "evaluation_keyframes")
-    assert keyframes is not None
+    keyframes = child(dialog, PathEdit, "evaluation_keyframes")
     keyframes.set_path(tmp_path)
     choose(dialog, "evaluation_keyframes_place", "hand")
     choose(dialog, "evaluation_range", "bars")

@@ -135,6 +135,5 @@ def test_what_was_kept_is_deleted_from_the_folder_alone(panel: InspectorPanel, p
     click(panel, "expression_remove")
     assert presets.expressions(presets.expression_folder()).items == {}
     assert (planned.project, planned.document.done) == (before, steps)
-    remove = panel.findChild(QToolButton, "expression_remove")
-    assert remove is not None
+    remove = child(panel, QToolButton, "expression_remove")
     assert not remove.isEnabled(), "what comes with the program stays"

@@ -8,9 +8,9 @@ from app.editor.selection import EventKey, Selection
 from app.editor.session import Session
 from app.errors import Message
 from app.project.edit import events as edit
-from app.shell.language import TextTranslator
 from tests.gui.inspector.hands import show_tab
-from tests.gui.japanese import english_in, texts_of
+from tests.gui.japanese import english_in, speaking, texts_of
+from tests.support.windows import child
 from widgets.common.section import Section
 from widgets.inspector.panel import InspectorPanel
 from widgets.inspector.rows import LineList
@@ -22,23 +22,15 @@ def test_everything_is_japanese_at_once_and_english_again(panel: InspectorPanel,
     gesture = planned.performance.plan(player).gestures[2]
     planned.attempt(Message("edit.give_back"), lambda p: edit.pin_fingerings(p, player.id, {note.id: "123"}))
     planned.select(Selection(frozenset((note.id,)), frozenset((EventKey(player.id, gesture.id),))))
-    maker = panel.findChild(Section, "inspector_expressions")
-    assert maker is not None
-    maker.set_open(True)
+    child(panel, Section, "inspector_expressions").set_open(True)
     show_tab(panel, 1)
     english = texts_of(panel)
-    translator = TextTranslator("ja")
-    QApplication.installTranslator(translator)
-    try:
-        QApplication.processEvents()
+    with speaking():
         shown = texts_of(panel)
         assert not english_in(shown)
         assert "運指図" in shown
         assert "右人差し指" in panel._notes._diagram.spoken()
-        handwork = panel.findChild(LineList, "correction_list")
-        assert handwork is not None
+        handwork = child(panel, LineList, "correction_list")
         assert [line.title for line in handwork.lines.lines] == ["運指 123"]
-    finally:
-        QApplication.removeTranslator(translator)
     QApplication.processEvents()
     assert texts_of(panel) == english

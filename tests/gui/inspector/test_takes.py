@@ -45,7 +45,6 @@ def taken(panel: InspectorPanel, session: Session, tmp_path_factory: pytest.Temp
 
 
 def the_take(session: Session) -> Take:
-    assert session.player is not None
     return session.project.takes[session.player.id].takes[0]
 
 

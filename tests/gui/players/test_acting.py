@@ -13,10 +13,11 @@ from pytestqt.qtbot import QtBot
 from app.editor.library_watch import watch_metadata
 from app.editor.session import Session
 from app.plan.parameters import PARAMETERS
-from app.shell.language import TextTranslator
 from metadata.acting import AMOUNTS
 from metadata.library import FOLDERS, HABITS, STYLES
+from tests.gui.japanese import speaking
 from tests.gui.players.conftest import ShowPlayers
+from tests.support.windows import child
 from widgets.common.chip import Chip
 from widgets.common.combo import Combo
 from widgets.common.section import Section
@@ -26,8 +27,7 @@ from widgets.players.panel import PlayersPanel
 @pytest.fixture
 def panel(session: Session, show_players: ShowPlayers) -> PlayersPanel:
     made = show_players(session, 1900)
-    section = made.findChild(Section, "players_acting")
-    assert section is not None
+    section = child(made, Section, "players_acting")
     assert not section.is_open, "folded away until it is opened"
     QTest.mouseClick(section.header, Qt.MouseButton.LeftButton)
     QApplication.processEvents()
@@ -50,8 +50,7 @@ def habits(session: Session) -> list[str]:
 
 
 def test_a_style_is_chosen_with_the_keys_and_taken_back(panel: PlayersPanel, session: Session) -> None:
-    combo = panel.findChild(Combo, "parameter_style")
-    assert combo is not None
+    combo = child(panel, Combo, "parameter_style")
     assert combo.shown == "section_player"
     assert combo.count() == len(STYLES.now().items)
     first, second = session.project.players[:2]
@@ -92,7 +91,6 @@ def test_habits_are_switched_one_by_one_for_all_who_are_selected(panel: PlayersP
 def test_layers_are_shown_and_hidden_whatever_their_amounts(panel: PlayersPanel, session: Session) -> None:
     first, second = session.project.players[:2]
     box, slider = panel.findChild(QCheckBox, "layer_gaze"), panel.findChild(QWidget, "parameter_gaze")
-    assert box is not None
     assert slider is not None
     assert box.checkState() == Qt.CheckState.Checked
     click(box)
@@ -105,8 +103,7 @@ def test_layers_are_shown_and_hidden_whatever_their_amounts(panel: PlayersPanel,
     QTest.keyClick(box, Qt.Key.Key_Space)
     assert box.checkState() == Qt.CheckState.Checked, "shown by all"
     click(box)
-    sway = panel.findChild(QCheckBox, "layer_sway")
-    assert sway is not None
+    sway = child(panel, QCheckBox, "layer_sway")
     click(sway)
     assert [player.parameters.layers_off for player in session.project.players] == ["gaze,sway", "gaze,sway", "", ""]
     for _ in range(4):
@@ -116,14 +113,12 @@ def test_layers_are_shown_and_hidden_whatever_their_amounts(panel: PlayersPanel,
 
 
 def test_everything_is_within_the_panel_and_nothing_overlaps(panel: PlayersPanel) -> None:
-    section = panel.findChild(Section, "players_acting")
-    assert section is not None
+    section = child(panel, Section, "players_acting")
     amounts = [name for name in AMOUNTS if PARAMETERS[name].section == "acting"]
     controls = [panel.findChild(QWidget, f"parameter_{name}") for name in ("style", *amounts)]
     controls += [chip(panel, name) for name in HABITS.now().items]
     boxes = []
     for control in controls:
-        assert control is not None
         box = control.rect().translated(control.mapTo(section, QPoint()))
         assert section.rect().contains(box), control.objectName()
         boxes.append(box)
@@ -133,8 +128,7 @@ def test_everything_is_within_the_panel_and_nothing_overlaps(panel: PlayersPanel
 
 def test_the_folded_section_says_what_the_player_is(session: Session, show_players: ShowPlayers) -> None:
     panel = show_players(session, 1900)
-    section = panel.findChild(Section, "players_acting")
-    assert section is not None
+    section = child(panel, Section, "players_acting")
     assert section.header.accessibleName() == "Acting Section player"
     QTest.mouseClick(section.header, Qt.MouseButton.LeftButton)
     QApplication.processEvents()
@@ -143,16 +137,10 @@ def test_the_folded_section_says_what_the_player_is(session: Session, show_playe
 
 
 def test_names_are_in_the_language_of_the_editor(panel: PlayersPanel) -> None:
-    translator = TextTranslator("ja")
-    QApplication.installTranslator(translator)
-    try:
-        QApplication.processEvents()
-        combo = panel.findChild(Combo, "parameter_style")
-        assert combo is not None
+    with speaking():
+        combo = child(panel, Combo, "parameter_style")
         assert combo.currentText() == STYLES.now().items["section_player"].title.ja
         assert chip(panel, "tapper").text() == HABITS.now().items["tapper"].title.ja
-    finally:
-        QApplication.removeTranslator(translator)
 
 
 def test_the_users_own_style_is_there_as_soon_as_its_file_is_and_a_fault_is_shown(
@@ -164,8 +152,7 @@ def test_the_users_own_style_is_there_as_soon_as_its_file_is_and_a_fault_is_show
         monkeypatch.setattr(folder, "last", None)
     watch_metadata(session)
     panel = show_players(session, 1900)
-    combo = panel.findChild(Combo, "parameter_style")
-    assert combo is not None
+    combo = child(panel, Combo, "parameter_style")
     noticed: list[str] = []
     session.noticed.connect(lambda message, _: noticed.append(message.id))
     text = 'name = "mine"\ntitle = { en = "My own" }\n[factors]\nsway = 2.0\n'

@@ -10,22 +10,13 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QLineEdit, QToolButton
 from pytestqt.qtbot import QtBot
 
-from app.choreography.model_file import write_model
 from app.editor.session import Session
 from app.project.performers import Player
-from tests.support.dances import model
-from tests.support.windows import show_in_front
+from tests.support.windows import child, show_in_front
 from widgets.common.combo import Combo
 from widgets.common.number_slider import NumberSlider
 from widgets.players import body_dance
 from widgets.players.parameters import ParameterSections
-
-
-@pytest.fixture(scope="module")
-def choreography(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    path = tmp_path_factory.mktemp("dances") / "steps & more.choreography"
-    write_model(path, model())
-    return path
 
 
 @pytest.fixture
@@ -46,15 +37,11 @@ def front(session: Session) -> Player:
 
 
 def combo(sections: ParameterSections) -> Combo:
-    found = sections.findChild(Combo, "parameter_choreography")
-    assert found is not None
-    return found
+    return child(sections, Combo, "parameter_choreography")
 
 
 def slider(sections: ParameterSections, name: str) -> NumberSlider:
-    found = sections.findChild(NumberSlider, name)
-    assert found is not None
-    return found
+    return child(sections, NumberSlider, name)
 
 
 def press(sections: ParameterSections, key: Qt.Key, times: int = 1) -> None:
@@ -115,14 +102,11 @@ def test_amount_and_variation_of_several_players(sections: ParameterSections, se
     amount = slider(sections, "parameter_dance_amount")
     amount.setFocus()
     QTest.keyClick(amount, Qt.Key.Key_Return)
-    field = amount.findChild(QLineEdit)
-    assert field is not None
+    field = child(amount, QLineEdit)
     field.selectAll()
     QTest.keyClicks(field, "0.8")
     QTest.keyClick(field, Qt.Key.Key_Return)
-    dice = sections.findChild(QToolButton, "dance_dice")
-    assert dice is not None
-    QTest.mouseClick(dice, Qt.MouseButton.LeftButton)
+    QTest.mouseClick(child(sections, QToolButton, "dance_dice"), Qt.MouseButton.LeftButton)
     one, two, other, *_ = (player.parameters for player in session.project.players)
     assert (one.choreography, one.dance_amount, two.dance_amount) == ("salsa", 0.8, 0.8)
     assert one.dance_variation > 0

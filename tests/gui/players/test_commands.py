@@ -26,7 +26,6 @@ def test_every_row_has_its_own_id_and_shortcut() -> None:
 def test_add_duplicate_remove(session: Session) -> None:
     session.set_players((ids(session)[3],))
     ROWS["players.add"].run(session)
-    assert session.player is not None
     assert session.player.instrument_id == session.project.players[3].instrument_id
     ROWS["players.duplicate"].run(session)
     assert len(session.project.players) == 6

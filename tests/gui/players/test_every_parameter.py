@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import pytest
-from PySide6.QtWidgets import QApplication, QWidget
+from PySide6.QtWidgets import QWidget
 
 from app.editor.session import Session
 from app.messages import WORDINGS
 from app.plan.parameters import PARAMETERS, Parameter
 from app.project.edit.dancers import add_dancer, set_body_dance
 from app.project.model import DANCER_PARAMETERS
-from app.shell.language import TextTranslator
 from metadata.acting import names_in
+from tests.gui.japanese import speaking
 from tests.gui.players.conftest import ShowPlayers
 from tests.support.parameters import others
 from widgets.common.chip import Chip
@@ -78,10 +78,7 @@ def test_every_parameter_of_a_dancer_is_changed(panel: PlayersPanel, session: Se
 
 def test_words_are_those_of_the_declaration_in_both_languages(panel: PlayersPanel) -> None:
     for language, code in enumerate(("en", "ja")):
-        translator = TextTranslator(code)
-        QApplication.installTranslator(translator)
-        try:
-            QApplication.processEvents()
+        with speaking(code):
             for table, prefix in ((SHOWN, "parameter"), (DANCER_PARAMETERS, "dancer")):
                 for parameter in table.values():
                     control = panel.findChild(QWidget, f"{prefix}_{parameter.name}")
@@ -89,5 +86,3 @@ def test_words_are_those_of_the_declaration_in_both_languages(panel: PlayersPane
                     assert not parameter.tip or control.toolTip().startswith(WORDINGS[parameter.tip][language])
                     label = WORDINGS[parameter.label][language]
                     assert not isinstance(control, NumberSlider) or control.accessibleName() == label
-        finally:
-            QApplication.removeTranslator(translator)

@@ -10,14 +10,13 @@ from PySide6.QtTest import QTest
 from app.editor.session import Session
 from app.editor.settings import Settings
 from tests.gui.players.conftest import ShowPlayers
+from tests.support.windows import child
 from widgets.common.section import Section
 from widgets.players.panel import PlayersPanel
 
 
 def section(panel: PlayersPanel, name: str) -> Section:
-    found = panel.findChild(Section, name)
-    assert found is not None
-    return found
+    return child(panel, Section, name)
 
 
 def test_a_folded_part_is_remembered_by_name(session: Session, show_players: ShowPlayers, tmp_path: Path) -> None:

@@ -5,23 +5,17 @@ from __future__ import annotations
 from PySide6.QtWidgets import QApplication
 
 from app.editor.session import Session
-from app.shell.language import TextTranslator
-from tests.gui.japanese import english_in, texts_of
+from tests.gui.japanese import english_in, speaking, texts_of
 from tests.gui.players.conftest import ShowPlayers
 
 
 def test_everything_is_japanese_at_once_and_english_again(session: Session, show_players: ShowPlayers) -> None:
     panel = show_players(session)
     english = texts_of(panel)
-    translator = TextTranslator("ja")
-    QApplication.installTranslator(translator)
-    try:
-        QApplication.processEvents()
+    with speaking():
         shown = texts_of(panel)
         assert not english_in(shown)
         assert "動きの大きさ" in shown
         assert panel.list.rows.rows[0].instrument == "トランペット（B♭管）"
-    finally:
-        QApplication.removeTranslator(translator)
     QApplication.processEvents()
     assert texts_of(panel) == english

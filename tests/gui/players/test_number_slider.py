@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QApplication, QLineEdit, QVBoxLayout, QWidget
 from pytestqt.qtbot import QtBot
 
 from app.editor.session import Session
-from tests.support.windows import show_in_front
+from tests.support.windows import child, show_in_front
 from widgets.common.number_slider import NumberSlider
 
 
@@ -46,8 +46,7 @@ def window(session: Session, qtbot: QtBot) -> QWidget:
 
 @pytest.fixture
 def slider(window: QWidget) -> NumberSlider:
-    control = window.findChild(NumberSlider)
-    assert control is not None
+    control = child(window, NumberSlider)
     control.set_texts("Amplitude", "beats")
     control.setFocus()
     return control
@@ -118,8 +117,7 @@ def test_shift_is_fine(slider: NumberSlider) -> None:
 
 
 def field(slider: NumberSlider) -> QLineEdit:
-    found = slider.findChild(QLineEdit, "number_field")
-    assert found is not None
+    found = child(slider, QLineEdit, "number_field")
     assert found.isVisible()
     return found
 

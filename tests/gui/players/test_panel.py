@@ -20,6 +20,7 @@ from app.project.performers import Player
 from app.shell.commands.players import toggle_posture
 from instrument_maps.library import find_map
 from tests.gui.players.conftest import ShowPlayers
+from tests.support.windows import child
 from widgets.common.combo import Combo
 from widgets.common.number_slider import NumberSlider
 from widgets.players.panel import PlayersPanel
@@ -31,12 +32,6 @@ from widgets.players.stage import StageView
 def panel(session: Session, show_players: ShowPlayers) -> PlayersPanel:
     session.performance.plans  # noqa: B018 - made, as the shell does
     return show_players(session)
-
-
-def child(panel: QWidget, kind: type[QWidget], name: str) -> QWidget:
-    found = panel.findChild(kind, name)
-    assert found is not None, name
-    return found
 
 
 def row_point(panel: PlayersPanel, number: int, x: int = 40) -> QPoint:

@@ -13,6 +13,7 @@ from app.editor.session import Session
 from app.project import presets
 from app.project.edit.players import set_parameters
 from tests.gui.players.conftest import ShowPlayers
+from tests.support.windows import child
 from widgets.common.combo import Combo
 from widgets.common.section import Section
 
@@ -24,13 +25,9 @@ def test_a_preset_is_saved_applied_and_deleted(
     panel = show_players(session, 1400)
 
     def click(name: str) -> None:
-        button = panel.findChild(QToolButton, name)
-        assert button is not None
-        QTest.mouseClick(button, Qt.MouseButton.LeftButton)
+        QTest.mouseClick(child(panel, QToolButton, name), Qt.MouseButton.LeftButton)
 
-    section = panel.findChild(Section, "players_presets")
-    assert section is not None
-    QTest.mouseClick(section.header, Qt.MouseButton.LeftButton)
+    QTest.mouseClick(child(panel, Section, "players_presets").header, Qt.MouseButton.LeftButton)
     first, second, third, _ = (player.id for player in session.project.players)
     session.document.open(set_parameters(session.project, (first,), amplitude=0.2, sway=1.7, posture="seated"))
     field, combo = panel.findChild(QLineEdit, "preset_name"), panel.findChild(Combo, "preset_choice")

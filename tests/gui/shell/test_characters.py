@@ -22,6 +22,7 @@ from app.rig.characters.load_character import load_character
 from app.shell.app import Program
 from app.shell.characters import bring_character
 from tests.gui.shell.conftest import Answers, trigger
+from tests.support.windows import child
 from widgets.common.character_picture import picture, seen
 from widgets.common.number_slider import NumberSlider
 from widgets.dialogs.body_map import joints, places
@@ -57,15 +58,11 @@ def opened(program: Program, path: Path = TODDLER) -> CharacterDialog:
 
 
 def button(dialog: QWidget, name: str) -> QPushButton:
-    found = dialog.findChild(QPushButton, name)
-    assert found is not None
-    return found
+    return child(dialog, QPushButton, name)
 
 
 def ok(dialog: CharacterDialog) -> QPushButton:
-    box = dialog.findChild(QDialogButtonBox)
-    assert box is not None
-    return box.button(QDialogButtonBox.StandardButton.Ok)
+    return child(dialog, QDialogButtonBox).button(QDialogButtonBox.StandardButton.Ok)
 
 
 def bone_of(dialog: CharacterDialog, joint: str) -> str:
@@ -93,8 +90,7 @@ def test_a_dot_and_a_search_give_a_joint_another_bone(program: Program, qtbot: Q
     assert bone_of(dialog, "leftToes") == "—"
     click_dot(dialog, "leftToes")
     assert dialog.joint == "leftToes"
-    search = dialog.findChild(QLineEdit, "bone_search")
-    assert search is not None
+    search = child(dialog, QLineEdit, "bone_search")
     QTest.mouseDClick(dialog.body, Qt.MouseButton.LeftButton, pos=dialog.body.place("leftToes").toPoint())
     qtbot.waitUntil(search.hasFocus)
     QTest.keyClicks(search, "toe2-1.L")
@@ -139,8 +135,7 @@ def test_without_what_playing_needs_it_cannot_be_kept(program: Program) -> None:
     assert ok(dialog).isEnabled()
     dialog.choose("leftHand")
     QTest.mouseClick(button(dialog, "joint_none"), Qt.MouseButton.LeftButton)
-    reported = dialog.findChild(QLabel, "character_status")
-    assert reported is not None
+    reported = child(dialog, QLabel, "character_status")
     assert "Hand L" in reported.text()
     assert not ok(dialog).isEnabled()
     QTest.mouseClick(button(dialog, "character_reset"), Qt.MouseButton.LeftButton)
@@ -150,8 +145,7 @@ def test_without_what_playing_needs_it_cannot_be_kept(program: Program) -> None:
 
 
 def test_a_mitten_is_reported(program: Program) -> None:
-    reported = opened(program, MITTENS).findChild(QLabel, "character_status")
-    assert reported is not None
+    reported = child(opened(program, MITTENS), QLabel, "character_status")
     assert "Fingers that do not move" in reported.text()
     assert "Blinking is not available" in reported.text()
 
@@ -160,14 +154,12 @@ def test_a_face_is_made_of_other_morphs_in_one_step_each(program: Program, qtbot
     dialog = opened(program)
     dialog.tabs.setCurrentIndex(1)
     dialog.faces.choose("cheekPuff")
-    add = dialog.faces.findChild(QComboBox, "face_add")
-    assert add is not None
+    add = child(dialog.faces, QComboBox, "face_add")
     place = add.findData("Fcl_MTH_U")
     add.setCurrentIndex(place)
     add.activated.emit(place)
     assert dialog.draft.morphs == {"cheekPuff": {"Fcl_MTH_U": 1.0}}
-    slider = dialog.faces.findChild(NumberSlider, "face_part_Fcl_MTH_U")
-    assert slider is not None
+    slider = child(dialog.faces, NumberSlider, "face_part_Fcl_MTH_U")
     y, width = slider.height() // 2, slider.width()
     QTest.mousePress(slider, Qt.MouseButton.LeftButton, pos=QPoint(width // 2, y))
     for x in range(width // 2, width // 4, -15):
@@ -225,8 +217,7 @@ def test_what_is_kept_can_be_cast_and_the_casting_undone(program: Program, folde
     assert (folder / entry.file).read_bytes() == TODDLER.read_bytes()
     project = program.session.project
     assert [project.player(one).character_id for one in (first, second)] == [id, id]
-    chooser = program.window.findChild(QComboBox, "player_character")
-    assert chooser is not None
+    chooser = child(program.window, QComboBox, "player_character")
     assert "Little One" in [chooser.itemText(row) for row in range(chooser.count())]
     program.session.document.undo()
     assert program.session.project.players == before.players
@@ -240,8 +231,7 @@ def test_a_character_is_changed_again_and_removed_if_no_one_objects(
     (id,) = character_library().own
     trigger(program, "application.characters")
     (shelf,) = program.window.findChildren(CharactersDialog)
-    shown = shelf.findChild(QListWidget, "character_list")
-    assert shown is not None
+    shown = child(shelf, QListWidget, "character_list")
     assert shown.item(0).text() == "toddler vrm1"
     QTest.mouseClick(button(shelf, "characters_edit"), Qt.MouseButton.LeftButton)
     (dialog,) = program.window.findChildren(CharacterDialog)
@@ -295,8 +285,7 @@ def test_a_file_put_into_the_folder_is_there_by_itself(program: Program, qtbot: 
     folder.mkdir(parents=True)
     shutil.copy(TODDLER, folder / "tot.vrm")
     (folder / "tot.toml").write_text('file = "tot.vrm"\ntitle = "Tot"\n')
-    chooser = program.window.findChild(QComboBox, "player_character")
-    assert chooser is not None
+    chooser = child(program.window, QComboBox, "player_character")
     qtbot.waitUntil(lambda: "Tot" in [chooser.itemText(row) for row in range(chooser.count())])
 
 

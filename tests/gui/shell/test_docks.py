@@ -37,7 +37,6 @@ def drag(widget: QWidget, start: QPoint, by: QPoint, keys: Qt.KeyboardModifier =
 
 def centre_of(program: Program) -> QRect:
     centre = program.window.centralWidget()
-    assert centre is not None
     return centre.geometry()
 
 

@@ -40,6 +40,7 @@ from tests.support.desk import (
     recorded,
 )
 from tests.support.window_state import Watcher
+from tests.support.windows import child
 from widgets.common.actions import actions
 from widgets.common.number_slider import NumberSlider
 from widgets.common.section import SectionHeader
@@ -284,8 +285,7 @@ def faults(seen: dict[str, dict[str, frozenset[str]]]) -> list[str]:
 def test_entries_of_the_eye_menu_show_or_hide_and_arrows_in_an_open_list_are_no_shortcuts(desk: Desk) -> None:
     project = afresh(desk, None)
     state = desk.session.viewport
-    eye = desk.program.window.findChild(QToolButton, "viewport_show")
-    assert eye is not None
+    eye = child(desk.program.window, QToolButton, "viewport_show")
     for at, what in enumerate(SHOWN):
 
         def click_entry(menu: QMenu, at: int = at) -> None:
@@ -300,8 +300,7 @@ def test_entries_of_the_eye_menu_show_or_hide_and_arrows_in_an_open_list_are_no_
         assert [state.shows(other) for other in SHOWN] == before
 
     # Down moves selected notes in the timeline, and the choice in its list of players.
-    players = desk.program.window.findChild(QComboBox, "front_player")
-    assert players is not None
+    players = child(desk.program.window, QComboBox, "front_player")
     players.setFocus()
     assert click(players)
     QApplication.processEvents()

@@ -15,6 +15,7 @@ from app.shell.app import Program
 from app.shell.crash_handler import CrashHandler
 from tests.gui.conftest import QUARTET
 from tests.gui.shell.conftest import Start
+from tests.support.windows import child
 from widgets.players.player_list import PlayerList
 from widgets.timeline.lanes.recording.waveform import WaveformLane
 
@@ -83,8 +84,7 @@ def test_a_fault_of_one_panel_leaves_the_others_at_work(
     player = program.session.project.players[0]
     program.session.attempt(Message("edit.set_tempo"), lambda project: rename(project, player.id, "Renamed"))
     assert failing == ["audio"]
-    players = program.window.findChild(PlayerList)
-    assert players is not None
+    players = child(program.window, PlayerList)
     assert players.rows.rows[0].player.name == "Renamed"
     assert program.session.performance.project is program.session.project, "the plans are made"
     assert "a lane is at fault" in program.window.status.notice_text

@@ -55,7 +55,6 @@ class Desk:
 
     def crash(self) -> None:
         """End like a process that was killed: the system takes the lock away, and no file is touched."""
-        assert self.autosave.presence._stream is not None
         self.autosave.presence._stream.close()
         self.files._timer.stop()
         self.files.autosave = None

@@ -36,7 +36,7 @@ from tests.gui.shell.test_recovery import click, crash, edit, later
 from tests.support.canary import WATCHES, Canary, canary
 from tests.support.foreign_text import CHARACTER, Judge, Spoken, hostile_score, with_more, write_library
 from tests.support.tasks import ImmediateTasks
-from tests.support.windows import show
+from tests.support.windows import child, show
 from widgets.common.actions import actions
 from widgets.common.section import SectionHeader
 from widgets.dialogs.character import CharacterDialog
@@ -164,8 +164,7 @@ def selections(program: Program, judge: Judge) -> None:
 
 def menus(program: Program, judge: Judge) -> None:
     judge.open_menus("menus")
-    add = program.window.findChild(QToolButton, "players_add_button")
-    assert add is not None
+    add = child(program.window, QToolButton, "players_add_button")
     for name, begin in (
         ("expressions", lambda: choose_expression(program.session)),
         ("instruments", add.click),
@@ -220,7 +219,6 @@ def questions(program: Program, judge: Judge) -> None:
     def answer(state: str) -> None:
         judge.look(state, program.window)
         box = QApplication.activeModalWidget()
-        assert box is not None
         box.close()
 
     steps: tuple[tuple[str, Callable[[], object]], ...] = (

@@ -130,7 +130,6 @@ def test_the_picture_of_the_player_in_front_is_right_before_a_small_edit_returns
     assert before is not None
     assert fresh is not None
     [made] = seen
-    assert made is not None
     assert made.morphs == {**dict.fromkeys(made.morphs, 0.0), **fresh.morphs}
     assert before.morphs != fresh.morphs
 
@@ -148,8 +147,6 @@ def test_motion_is_made_by_itself_and_again_where_an_edit_touched_it(
     assert generator.ready_share < 1.0
     qtbot.waitUntil(lambda: generator.ready_share == 1.0)
     after = generator.live.pose(player.id, at_s)
-    assert before is not None
-    assert after is not None
     assert after.morphs != before.morphs
     assert generator.live.pose(player.id, at_s + 20.0).morphs == other.morphs
 

@@ -17,7 +17,7 @@ from tests.gui.conftest import QUARTET, delete_now
 from tests.gui.shell.conftest import trigger
 from tests.support.dances import model
 from tests.support.studio import Studio
-from tests.support.windows import wait_until
+from tests.support.windows import child, wait_until
 from widgets.common.combo import Combo
 from widgets.dialogs.choreography.learn import LearnDialog
 from widgets.players.choreography.dancers import DancersSection
@@ -36,11 +36,9 @@ def test_a_learned_choreography_is_danced_by_the_selected_dancer_or_a_new_one(st
     program.editor.files.open(QUARTET, ask=False)
     before = session.project
     trigger(program, "dancers.learn")
-    dialog = program.window.findChild(LearnDialog)
-    assert dialog is not None
+    dialog = child(program.window, LearnDialog)
     assert dialog.isVisible()
-    use = dialog.findChild(QPushButton, "learn_use")
-    assert use is not None
+    use = child(dialog, QPushButton, "learn_use")
     assert use.text() == "Add Dancer with This Choreography"
     dialog.used.emit(learned)
     (dancer,) = session.project.dancers
@@ -66,16 +64,13 @@ def test_it_is_where_a_choreography_is_chosen(studio: Studio) -> None:
     program.editor.files.open(QUARTET, ask=False)
     trigger(program, "dancers.add")
     (dancer,) = program.session.project.dancers
-    section = program.window.findChild(DancersSection)
-    assert section is not None
-    combo = section.findChild(Combo, "dancer_choreography")
-    assert combo is not None
+    section = child(program.window, DancersSection)
+    combo = child(section, Combo, "dancer_choreography")
     last = combo.count() - 1
     assert combo.itemText(last) == "Learn..."
     combo.setCurrentIndex(last)
     combo.activated.emit(last)
-    dialog = program.window.findChild(LearnDialog)
-    assert dialog is not None
+    dialog = child(program.window, LearnDialog)
     assert dialog.isVisible()
     assert combo.shown == dancer.choreography
     assert program.session.project.dancers == (dancer,)
@@ -88,10 +83,8 @@ def test_who_dances_a_choreography_that_is_learned_again_dances_the_new_one(stud
     program.editor.files.open(QUARTET, ask=False)
     program.session.attempt(Message("edit.add_dancer"), lambda project: add_dancer(project, learned, "Ana")[0])
     (dancer,) = session.project.dancers
-    section = program.window.findChild(DancersSection)
-    assert section is not None
-    source = section.findChild(Combo, "dancer_source")
-    assert source is not None
+    section = child(program.window, DancersSection)
+    source = child(section, Combo, "dancer_source")
     assert [source.itemText(row) for row in range(source.count())] == ["None", "one", "other"]
     before = dancing_of(session.performance, dancer).steps()
     shown: list[Performance] = []

@@ -30,6 +30,7 @@ from app.shell.app import Program
 from tests.gui.conftest import quartet_project
 from tests.gui.shell.conftest import Answers, Start, trigger
 from tests.support.tasks import ImmediateTasks
+from tests.support.windows import child
 from widgets.common.actions import actions
 from widgets.common.text import message_text
 
@@ -242,8 +243,7 @@ def test_names_that_no_one_expects(program: Program, answers: Answers, tmp_path:
 
 
 def click(program: Program, name: str, qtbot: QtBot) -> None:
-    button = program.window.banner.findChild(QPushButton, name)
-    assert button is not None
+    button = child(program.window.banner, QPushButton, name)
     assert button.isVisible()
     qtbot.mouseClick(button, Qt.MouseButton.LeftButton)
 

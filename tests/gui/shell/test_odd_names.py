@@ -26,6 +26,7 @@ from app.shell.questions import DialogQuestions
 from tests.gui.conftest import QUARTET
 from tests.gui.shell.conftest import Answers, Start, trigger
 from tests.support.odd_names import NAME, odd, on_bytes
+from tests.support.windows import child
 from tests.unit.cli.test_main import named_piece
 from widgets.common.paths import PathEdit, ask_for_file, ask_for_folder, url_of
 from widgets.dialogs.export_files import ExportDialog
@@ -62,7 +63,6 @@ def test_a_piece_is_dropped_played_saved_and_opened_again(
     assert session.project.source == str(odd(folder, ".mid"))
     assert empty.window.windowTitle().startswith(NAME)
     drop(empty, odd(folder, ".wav"))
-    assert session.project.audio is not None
     assert session.project.audio.path == str(odd(folder, ".wav"))
     answers.path = document = odd(folder, ".suisou")
     trigger(empty, "file.save")
@@ -85,8 +85,6 @@ def test_a_piece_is_dropped_played_saved_and_opened_again(
     files.write_now()
     edited = session.project
     presence = files.autosave.presence if files.autosave is not None else None
-    assert presence is not None
-    assert presence._stream is not None
     presence._stream.close()
     files.autosave = None
     again = start()
@@ -113,11 +111,9 @@ def test_players_are_exported(empty: Program, folder: Path, qtbot: QtBot) -> Non
     trigger(program, "export.files")
     (dialog,) = program.window.findChildren(ExportDialog)
     line, reported = dialog.findChild(QLineEdit, "export_folder"), dialog.findChild(QLabel, "export_outcome")
-    assert line is not None
     assert reported is not None
     assert line.text().startswith("bytes:///")
-    keys = dialog.findChild(QComboBox, "export_keys")
-    assert keys is not None
+    keys = child(dialog, QComboBox, "export_keys")
     keys.setCurrentIndex(keys.findData("reduced"))
     dialog.start()
     qtbot.waitUntil(lambda: f"{NAME}/{NAME}.out" in reported.text())
@@ -191,8 +187,7 @@ def test_names_that_no_file_can_have(start: Start, settings: Settings, answers: 
     trigger(program, "export.files")
     (export,) = program.window.findChildren(ExportDialog)
     export.start()
-    outcome = export.findChild(QLabel, "export_outcome")
-    assert outcome is not None
+    outcome = child(export, QLabel, "export_outcome")
     qtbot.waitUntil(lambda: name in outcome.text())
     export.close()
     trigger(program, "export.playblast")
@@ -216,9 +211,7 @@ def test_a_name_is_proposed_that_a_file_can_have(empty: Program, answers: Answer
         trigger(empty, action_id)
     trigger(empty, "export.playblast")
     (film,) = empty.window.findChildren(PlayblastDialog)
-    field = film.findChild(PathEdit)
-    assert field is not None
-    proposals.append(str(field.path))
+    proposals.append(str(child(film, PathEdit).path))
     film.close()
     assert len(proposals) == 3
     for proposal in proposals:

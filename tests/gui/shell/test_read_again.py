@@ -23,6 +23,7 @@ from app.score.contents import PieceContents
 from app.shell.app import Program
 from instrument_maps.load import bundled_maps
 from tests.gui.shell.conftest import Answers, Start, trigger
+from tests.support.windows import child
 from tests.unit.project.test_rereading import BAR, QUINTET, quintet, tracks, written
 from widgets.dialogs.reimport_midi import ReimportDialog
 
@@ -96,8 +97,7 @@ def test_a_player_is_removed_with_the_update_as_one_step(program: Program, answe
     answers.path = written(tmp_path / "newer.mid", [*tracks()[:2], tracks()[4], flute])
     trigger(program, "file.reimport_other")
     dialog = shown(program)
-    gone = dialog.findChild(QListWidget, "reimport_gone")
-    assert gone is not None
+    gone = child(dialog, QListWidget, "reimport_gone")
     assert gone.count() == 2
     gone.setFocus()
     gone.setCurrentRow(0)
@@ -129,8 +129,7 @@ def test_new_parts_without_a_player_are_listed_with_the_reason(
     answers.path = written(tmp_path / "newer.mid", [*tracks(), strings, drums])
     trigger(program, "file.reimport_other")
     dialog = shown(program)
-    listed = dialog.findChild(QListWidget, "reimport_unplayed")
-    assert listed is not None
+    listed = child(dialog, QListWidget, "reimport_unplayed")
     assert listed.isVisible()
     texts = [listed.item(row).text() for row in range(listed.count())]
     assert [text.split()[0].rstrip(":") for text in texts] == ["Violins", "Kit"]
@@ -138,8 +137,7 @@ def test_new_parts_without_a_player_are_listed_with_the_reason(
     agree(dialog)
     # The second time they are known.
     trigger(program, "file.reimport")
-    again = shown(program).findChild(QListWidget, "reimport_unplayed")
-    assert again is not None
+    again = child(shown(program), QListWidget, "reimport_unplayed")
     assert not again.isVisible()
     shown(program).reject()
 

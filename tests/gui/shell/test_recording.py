@@ -15,6 +15,7 @@ from app.editor.live_player import REST_S
 from app.errors import Message
 from tests.support.recorder import EWI
 from tests.support.studio import Studio
+from tests.support.windows import child
 from widgets.common.actions import actions
 from widgets.dialogs.midi_devices import MidiDevicesDialog
 
@@ -232,7 +233,6 @@ def test_a_take_goes_on_in_a_second_place_where_its_disk_is_full(
     studio.press(Qt.Key.Key_R)
     studio.blow(60, 0.3)
     writer = studio.link.writer
-    assert writer is not None
     before = Path(writer.path)
     studio.link.move()
     studio.wait(lambda: any(message.id == "record.goes_on_elsewhere" for message in reported))
@@ -297,8 +297,7 @@ def test_without_a_device_it_is_said_and_the_devices_are_shown(studio: Studio) -
     studio.press(Qt.Key.Key_R)
     assert said == ["record.no_device"]
     assert not studio.session.recording.running
-    dialog = studio.program.window.findChild(MidiDevicesDialog)
-    assert dialog is not None
+    dialog = child(studio.program.window, MidiDevicesDialog)
     assert dialog.isVisible()
     # One that is chosen there is recorded from.
     dialog.chosen.emit(EWI)

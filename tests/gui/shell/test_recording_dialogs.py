@@ -30,6 +30,7 @@ from metadata.load import load_controllers
 from tests.gui.japanese import english_in, texts_of
 from tests.support.recorder import EWI
 from tests.support.studio import Studio
+from tests.support.windows import child
 from widgets.common.actions import actions
 from widgets.dialogs.latency import CLICKS_S, LEAD, LatencyDialog
 from widgets.dialogs.midi_devices import MidiDevicesDialog
@@ -40,16 +41,13 @@ USB = "EWI-USB"
 
 def devices(studio: Studio) -> MidiDevicesDialog:
     actions(studio.session)["record.devices"].trigger()
-    dialog = studio.program.window.findChild(MidiDevicesDialog)
-    assert dialog is not None
+    dialog = child(studio.program.window, MidiDevicesDialog)
     assert QTest.qWaitForWindowActive(dialog, 10_000)
     return dialog
 
 
 def part(dialog: QWidget, kind: type[W], name: str) -> W:
-    found = dialog.findChild(kind, name)
-    assert found is not None
-    return found
+    return child(dialog, kind, name)
 
 
 def click(button: QPushButton) -> None:
@@ -171,7 +169,6 @@ def test_what_comes_in_is_seen(studio: Studio) -> None:
     studio.link.play(bytes((0x90, 60, 90)))
     studio.wait(lambda: reported(dialog, "midi_note") == "C4")
     player = studio.session.player
-    assert player is not None
     semitones = all_maps()[player.instrument_id].transposition_semitones
     assert semitones
     studio.session.pitch_display.set(written=True)
@@ -279,8 +276,7 @@ def test_the_status_line_says_how_the_device_stands_and_opens_the_dialog(studio:
     button = part(studio.program.window, QPushButton, "midi_device")
     assert button.text().strip() == f"{EWI} connected"
     click(button)
-    dialog = studio.program.window.findChild(MidiDevicesDialog)
-    assert dialog is not None
+    dialog = child(studio.program.window, MidiDevicesDialog)
     assert dialog.isVisible()
     studio.link.say(Lost(EWI, 0))
     studio.wait(lambda: "disconnected" in button.text())
@@ -345,8 +341,7 @@ def test_the_dialogs_speak_japanese(studio: Studio) -> None:
 
 def latency(studio: Studio) -> LatencyDialog:
     actions(studio.session)["record.latency"].trigger()
-    dialog = studio.program.window.findChild(LatencyDialog)
-    assert dialog is not None
+    dialog = child(studio.program.window, LatencyDialog)
     assert QTest.qWaitForWindowActive(dialog, 10_000)
     return dialog
 

@@ -23,6 +23,7 @@ from app.shell.app import Program
 from app.shell.crash_handler import CrashHandler
 from tests.gui.conftest import QUARTET
 from tests.gui.shell.conftest import Answers, Start, trigger
+from tests.support.windows import child
 
 
 def edit(program: Program, title: str) -> None:
@@ -32,7 +33,6 @@ def edit(program: Program, title: str) -> None:
 def crash(program: Program) -> None:
     """End like a process that was killed: no file is touched, and the system takes the lock away."""
     autosave = program.editor.files.autosave
-    assert autosave is not None
     autosave.presence._stream.close()
     program.editor.files._timer.stop()
     program.editor.files.autosave = None
@@ -57,9 +57,7 @@ def later(program: Program, monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def click(program: Program, name: str, qtbot: QtBot) -> None:
-    button = program.window.findChild(QPushButton, name)
-    assert button is not None
-    qtbot.mouseClick(button, Qt.MouseButton.LeftButton)
+    qtbot.mouseClick(child(program.window, QPushButton, name), Qt.MouseButton.LeftButton)
 
 
 def test_a_piece_that_was_never_saved_is_offered_on_the_start_page(
@@ -155,7 +153,6 @@ def test_a_fault_is_reported_noted_down_and_the_work_written(
     assert "KeyError" in program.window.status.notice_text
     assert str(log) in program.window.status.notice_text
     autosave = program.editor.files.autosave
-    assert autosave is not None
     assert Path(autosave.presence.note.autosave).is_file()
     capsys.readouterr()
 
@@ -196,8 +193,7 @@ def test_what_the_window_says_of_work_that_no_place_takes(
     first = start()
     first.editor.files.open(QUARTET, ask=False)
     trigger(first, "file.save")
-    button = first.window.status.findChild(QPushButton, "unsaved_at_risk")
-    assert button is not None
+    button = child(first.window.status, QPushButton, "unsaved_at_risk")
     assert button.isHidden()
     shutil.rmtree(document.parent)
     edit(first, "Precious")

@@ -54,7 +54,6 @@ def hire(program: Program) -> Selection:
 def record(program: Program) -> Selection:
     session = program.session
     take = take_of([(0.0, 1.0, 70, 0.6)])
-    assert session.player is not None
     id = session.player.id
     session.attempt(Message("edit.record", {"count": 1}), lambda project: add_takes(project, id, (take,))[0])
     return Selection(take=take.id)

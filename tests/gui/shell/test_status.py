@@ -18,6 +18,7 @@ from app.shell.app import Program
 from app.shell.status import StatusLine
 from tests.gui.conftest import QUARTET
 from tests.gui.shell.conftest import Start
+from tests.support.windows import child
 from widgets.common.text import sentence
 
 
@@ -33,8 +34,7 @@ class Painted(QObject):
 
 def test_the_bar_of_motion_waits_for_the_next_picture(program: Program, qtbot: QtBot) -> None:
     status = program.window.status
-    bar = status.findChild(QProgressBar, "motion_ready")
-    assert bar is not None
+    bar = child(status, QProgressBar, "motion_ready")
     program.generator.close()
     status.set_ready(0.2)
     qtbot.waitUntil(bar.isVisible)
@@ -56,11 +56,8 @@ def test_what_is_said_again_and_again_is_listed_once(program: Program) -> None:
         session.notice(Message("tempo.first_stays"), Severity.WARNING)
     session.notice(Message("problems.none"))
     session.notice(Message("tempo.first_stays"), Severity.WARNING)
-    notice = status.findChild(QPushButton, "notice")
-    assert notice is not None
-    QTest.mouseClick(notice, Qt.MouseButton.LeftButton)
-    listed = program.window.findChild(QFrame, "notices")
-    assert listed is not None
+    QTest.mouseClick(child(status, QPushButton, "notice"), Qt.MouseButton.LeftButton)
+    listed = child(program.window, QFrame, "notices")
     reported = [label.text() for label in listed.findChildren(QLabel) if label.text()]
     again, said = sentence(Message("tempo.first_stays")), sentence(Message("problems.none"))
     assert [text for text in reported if text in (again, said)] == [again, said, again]
@@ -94,10 +91,8 @@ def test_a_path_in_a_notice_can_be_copied_and_its_folder_shown(
     session.notice(Message("export.done", {"count": 3, "folder": str(tmp_path)}))
     session.notice(Message("video.done", {"file": str(file)}))
     session.notice(Message("video.done", {"file": "/nowhere/film.mp4"}))
-    listed = program.window.findChild(QFrame, "notices")
-    assert listed is not None
-    notice = status.findChild(QPushButton, "notice")
-    assert notice is not None
+    listed = child(program.window, QFrame, "notices")
+    notice = child(status, QPushButton, "notice")
     for number in range(2):
         QTest.mouseClick(notice, Qt.MouseButton.LeftButton)
         buttons = [button for button in listed.findChildren(QToolButton, "folder") if button.isVisible()]

@@ -28,6 +28,7 @@ from tests.gui.shell.conftest import Start, trigger
 from tests.support.bad_players import with_instrument
 from tests.support.osc import Frame, Receiver
 from tests.support.performed import playing_of
+from tests.support.windows import child
 from tests.unit.export.unreal.conftest import with_dancers
 from widgets.common.actions import actions
 from widgets.dialogs.stream import StreamDialog
@@ -166,8 +167,7 @@ def test_a_dancer_is_sent_on_the_port_after_the_players(program: Program, qtbot:
         stream_to(program, PORT)
         assert session.streaming.lines[-1] == StreamTarget(dancer.id, PORT + 4)
         received(receiver, qtbot, 2)
-        chip = program.window.status.findChild(QPushButton, "stream_state")
-        assert chip is not None
+        chip = child(program.window.status, QPushButton, "stream_state")
         assert f"Ana: {PORT + 4}" in chip.toolTip()
         pose = program.generator.live.pose(dancer.id, time_s)
         assert pose is not None
@@ -202,8 +202,7 @@ def test_no_one_there_is_said_and_hurts_no_one(program: Program, qtbot: QtBot) -
         free.bind(("127.0.0.1", 0))
         port = free.getsockname()[1]
     stream_to(program, port)
-    chip = program.window.status.findChild(QPushButton, "stream_state")
-    assert chip is not None
+    chip = child(program.window.status, QPushButton, "stream_state")
     qtbot.waitUntil(lambda: program.session.streaming.state == "no_receiver")
     assert "no receiver" in chip.text()
     assert program.session.streaming.trouble is None
@@ -245,14 +244,11 @@ def test_what_is_in_the_way_is_said_once_and_tried_again(
 def test_the_dialog_by_mouse_and_keys(program: Program, qtbot: QtBot) -> None:
     ready(program, qtbot)
     trigger(program, "stream.settings")
-    dialog = program.window.findChild(StreamDialog)
-    assert dialog is not None
+    dialog = child(program.window, StreamDialog)
     qtbot.waitUntil(dialog.isActiveWindow)
-    host = dialog.findChild(QLineEdit, "stream_host")
+    host = child(dialog, QLineEdit, "stream_host")
     warning, reported = dialog.findChild(QLabel, "stream_warning"), dialog.findChild(QLabel, "stream_status")
     toggle, here = dialog.findChild(QPushButton, "stream_toggle"), dialog.findChild(QPushButton, "stream_here")
-    assert host is not None
-    assert warning is not None
     assert reported is not None
     assert toggle is not None
     assert here is not None
@@ -283,11 +279,9 @@ def test_many_computers_are_sent_to_only_after_a_confirmation(
     ready(program, qtbot)
     streaming = program.session.streaming
     trigger(program, "stream.settings")
-    dialog = program.window.findChild(StreamDialog)
-    assert dialog is not None
+    dialog = child(program.window, StreamDialog)
     reported, anyway = dialog.findChild(QLabel, "stream_status"), dialog.findChild(QPushButton, "stream_anyway")
     assert reported is not None
-    assert anyway is not None
     assert anyway.isHidden()
     with Receiver(host="0.0.0.0") as receiver:
         streaming.set(host="127.255.255.255", port=receiver.port)
@@ -363,6 +357,5 @@ def test_who_cannot_be_seen_is_named_and_everyone_else_is_sent(program: Program,
         assert "not sent" in named[0]
         assert "instrument 'ophicleide' of Trumpet 1 is not installed" in named[0]
         assert named[1] == session.project.players[1].name
-    players = program.window.findChild(PlayerList)
-    assert players is not None
+    players = child(program.window, PlayerList)
     assert ["is not installed" in row.unseen for row in players.rows.rows] == [True, False, False, False]

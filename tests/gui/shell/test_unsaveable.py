@@ -20,6 +20,7 @@ from app.project.model import Project
 from app.shell.app import Program
 from tests.gui.conftest import quartet_project
 from tests.support import mouse
+from tests.support.windows import child
 from widgets.common.field_names import FIELDS
 from widgets.common.text import message_text
 
@@ -36,8 +37,7 @@ def corrected(project: Project, *items: Correction) -> Project:
 
 
 def banner_text(program: Program) -> str:
-    label = program.window.banner.findChild(QLabel, "banner_text")
-    assert label is not None
+    label = child(program.window.banner, QLabel, "banner_text")
     assert label.isVisible()
     return label.text().replace("\u200b", "")
 
@@ -51,9 +51,7 @@ def test_the_banner_names_it_and_removes_it(program: Program, monkeypatch: pytes
         assert program.session.attempt(Message("edit.set_audio"), lambda project: corrected(project, CURVE))
     program.editor.files.write_soon()
     assert SAID[language] in banner_text(program)
-    remove = program.window.banner.findChild(QPushButton, "banner_answer_1")
-    assert remove is not None
-    mouse.press(remove)
+    mouse.press(child(program.window.banner, QPushButton, "banner_answer_1"))
     assert program.session.project.corrections == {}
     QTest.keyClick(program.window.palette_field, Qt.Key.Key_Z, Qt.KeyboardModifier.ControlModifier)
     assert program.session.project.corrections != {}

@@ -48,7 +48,7 @@ from tests.support.desk import (
     recorded_and_taken,
 )
 from tests.support.tasks import ImmediateTasks
-from tests.support.windows import show_in_front, wait_until
+from tests.support.windows import child, show_in_front, wait_until
 from widgets.common.actions import actions
 from widgets.players.choreography.dancers import DancersSection
 
@@ -209,7 +209,6 @@ def axis(ready: Deed, right: Callable[[float, float], bool]) -> Case:
 
 def playing(desk: Desk) -> bool:
     was = desk.session.playing
-    assert desk.session.playback is not None
     desk.session.playback.stop()
     return was
 
@@ -316,8 +315,7 @@ def higher_by(desk: Desk, count: int) -> bool:
 
 
 def named(desk: Desk) -> bool:
-    field = desk.timeline.takes.findChild(QLineEdit, "take_name_field")
-    assert field is not None
+    field = child(desk.timeline.takes, QLineEdit, "take_name_field")
     QTest.keyClicks(field, "Best")
     QTest.keyClick(field, Qt.Key.Key_Return)
     return [take.name for take in desk.project.takes[desk.player.id].takes] == ["Take 1", "Best"]

@@ -21,6 +21,7 @@ from app.project.storage import load
 from app.shell.app import Program
 from tests.gui.conftest import QUARTET
 from tests.gui.shell.conftest import Answers, Start, trigger
+from tests.support.windows import child
 from widgets.common.actions import actions
 from widgets.common.number_slider import NumberSlider
 
@@ -62,9 +63,7 @@ def test_the_start_page_is_alone_until_something_is_open(empty: Program) -> None
 
 
 def test_the_example_with_a_dancer_is_on_the_start_page(empty: Program) -> None:
-    button = empty.window.start_page.findChild(QPushButton, "start_danced_example")
-    assert button is not None
-    QTest.mouseClick(button, Qt.MouseButton.LeftButton)
+    QTest.mouseClick(child(empty.window.start_page, QPushButton, "start_danced_example"), Qt.MouseButton.LeftButton)
     session = empty.session
     assert [player.name for player in session.project.players] == ["Trumpet 1", "Trumpet 2", "Trombone", "Tuba"]
     (dancer,) = session.project.dancers
@@ -148,7 +147,6 @@ def test_files_are_dropped_onto_the_window(empty: Program, answers: Answers, tmp
     assert answers.asked == ["import"]
     assert len(empty.session.project.players) == 4
     assert drop(empty, sound)
-    assert empty.session.project.audio is not None
     assert empty.session.project.audio.path == str(sound)
 
 
@@ -242,7 +240,6 @@ def test_a_missing_recording_is_asked_for_and_its_offset_stays(
     assert second.window.banner.isVisible()
     answers.path = moved
     qtbot.mouseClick(second.window.banner.findChild(object, "banner_answer_0"), Qt.MouseButton.LeftButton)
-    assert second.session.project.audio is not None
     assert second.session.project.audio.path == str(moved)
     assert not second.window.banner.isVisible()
 
@@ -267,8 +264,7 @@ def test_a_new_window_shares_its_height_between_players_and_timeline(start: Star
 def test_how_a_user_listens_is_remembered(start: Start, settings: Settings) -> None:
     first = start()
     actions(first.session)["play.click"].trigger()
-    volume = first.window.findChild(NumberSlider, "volume")
-    assert volume is not None
+    volume = child(first.window, NumberSlider, "volume")
     QTest.keyClick(volume, Qt.Key.Key_Down)
     chosen = first.session.listening.volume
     assert chosen < 0.8

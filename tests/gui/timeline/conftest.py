@@ -23,6 +23,7 @@ from app.score.tempo import TempoMap
 from app.shell.actions import ActionTable
 from app.shell.commands import edit, events, notes, timeline
 from tests.gui.timeline.hand import Hand, Place
+from tests.gui.timeline.lane_hands import shown_panel
 from tests.support.tasks import ImmediateTasks
 from tests.support.windows import show_in_front
 from widgets.timeline.panel import TimelinePanel
@@ -120,3 +121,12 @@ def stage(qt_app: QApplication, qtbot: QtBot, tmp_path: Path) -> Iterator[Stage]
     yield Stage(session, panel, table)
     session.timeline_view = None
     session.deleteLater()
+
+
+@pytest.fixture
+def panel(session: Session, qtbot: QtBot) -> TimelinePanel:
+    """The timeline of the bundled quartet, with room for all lanes; its plans follow the project."""
+    result = shown_panel(session)
+    qtbot.addWidget(result)
+    result.axis.show(-3.0, 27.0)
+    return result

@@ -10,7 +10,6 @@ import pytest
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QMenu
-from pytestqt.qtbot import QtBot
 
 from app.audio.peaks import Peaks
 from app.editor.session import Session
@@ -19,7 +18,8 @@ from app.project.edit.pins import pin_beat, recording_second
 from app.project.edit.tempo import set_tempo
 from app.project.recording import AudioTrack, BeatPin, Doubt
 from app.project.storage import load, save
-from tests.gui.timeline.lane_hands import SHIFT, click, double_click, drag, shown_panel, viewport
+from tests.gui.timeline.lane_hands import SHIFT, click, double_click, drag, viewport
+from tests.support.windows import child
 from widgets.timeline.lanes.recording.waveform import WaveformLane
 from widgets.timeline.panel import TimelinePanel
 
@@ -27,11 +27,9 @@ ALT = Qt.KeyboardModifier.AltModifier
 
 
 @pytest.fixture
-def panel(session: Session, qtbot: QtBot) -> TimelinePanel:
-    result = shown_panel(session)
-    qtbot.addWidget(result)
-    result.axis.show(-1.0, 19.0)
-    return result
+def panel(panel: TimelinePanel) -> TimelinePanel:
+    panel.axis.show(-1.0, 19.0)
+    return panel
 
 
 @pytest.fixture
@@ -45,9 +43,7 @@ def lane(panel: TimelinePanel, session: Session) -> WaveformLane:
     session.document.end_gesture()
     samples = np.random.default_rng(0).integers(-20_000, 20_000, (25 * 48_000, 2)).astype(np.int16)
     session.listening.set_waveform(Peaks(samples, 48_000))
-    result = panel.lanes["audio"]
-    assert isinstance(result, WaveformLane)
-    return result
+    return child(panel, WaveformLane)
 
 
 def bar(session: Session, number: int) -> int:
@@ -61,7 +57,6 @@ def handle(lane: WaveformLane, tick: int) -> QPoint:
 
 
 def pins(session: Session) -> tuple[BeatPin, ...]:
-    assert session.project.audio is not None
     return session.project.audio.pins
 
 
@@ -74,7 +69,6 @@ def test_a_bar_line_dragged_on_the_waveform_is_pinned_where_it_sounds(lane: Wave
     (pin,) = pins(session)
     assert (pin.tick, pin.recording_s) == (tick, pytest.approx(expected_s, abs=0.01))
     assert recording_second(session.project, tick) == pytest.approx(pin.recording_s, abs=1e-6)
-    assert session.project.audio is not None
     assert session.project.audio.offset_s == -0.5
     beat = session.project.metre_map.felt_ticks_at(tick)
     beside = [recording_second(session.project, at) - recording_second(before, at) for at in (tick - beat, tick + beat)]
@@ -109,7 +103,6 @@ def test_above_the_handles_the_recording_is_moved(lane: WaveformLane, session: S
     place = handle(lane, bar(session, 3))
     drag(lane, QPoint(place.x(), 24), dx=40)
     assert not pins(session)
-    assert session.project.audio is not None
     assert session.project.audio.offset_s > -0.4
 
 

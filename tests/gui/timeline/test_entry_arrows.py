@@ -18,6 +18,7 @@ from app.plan.model import CueEvent
 from tests.gui.timeline.conftest import TPQ, Stage
 from tests.gui.timeline.hand import ALT, Place
 from tests.gui.timeline.lane_hands import planned
+from tests.support.windows import child
 from widgets.timeline.lanes.acting.acting_lane import ActingLane
 from widgets.timeline.model.roll.entries import EntryArrow
 
@@ -161,8 +162,7 @@ def test_an_end_under_the_mouse_shows_that_it_can_be_held(trio: Stage) -> None:
 
 
 def test_who_comes_in_is_chosen_from_the_menu_of_a_cue(trio: Stage) -> None:
-    lane = trio.panel.lanes["acting"]
-    assert isinstance(lane, ActingLane)
+    lane = child(trio.panel, ActingLane)
     lane.set_folded(False)
     lane.refresh()
     region = next(region for region in lane.regions if region.kind == "cue" and not region.guest)
@@ -170,9 +170,7 @@ def test_who_comes_in_is_chosen_from_the_menu_of_a_cue(trio: Stage) -> None:
     def takers() -> QMenu:
         menu = QMenu(trio.panel)
         lane.menu_entries(menu, region, lane.mouse_at(lane.box(region).center()))
-        found = menu.findChild(QMenu, "takers")
-        assert found is not None
-        return found
+        return child(menu, QMenu, "takers")
 
     assert [action.isChecked() for action in takers().actions() if action.isCheckable()] == [True, True]
     takers().actions()[0].trigger()

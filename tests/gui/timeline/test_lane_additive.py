@@ -8,7 +8,6 @@ from PySide6.QtCore import QPointF, Qt
 from PySide6.QtGui import QAction, QGuiApplication
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QMenu
-from pytestqt.qtbot import QtBot
 
 from app.editor.selection import EventKey, Selection
 from app.editor.session import Session
@@ -28,8 +27,8 @@ from tests.gui.timeline.lane_hands import (
     double_click,
     drag,
     move_to,
-    shown_panel,
 )
+from tests.support.windows import child
 from widgets.timeline.lanes.additive.additive_lane import AdditiveLane
 from widgets.timeline.model.additive.additive_curves import KeyRef
 from widgets.timeline.panel import TimelinePanel
@@ -38,20 +37,16 @@ QUARTER = 480
 
 
 @pytest.fixture
-def panel(session: Session, qtbot: QtBot) -> TimelinePanel:
-    result = shown_panel(session)
-    qtbot.addWidget(result)
-    result.lane_layout.fold_all(True)
-    result.open_lane("additive", True)
-    result.axis.show(-1.0, 14.0)
-    return result
+def panel(panel: TimelinePanel) -> TimelinePanel:
+    panel.lane_layout.fold_all(True)
+    panel.open_lane("additive", True)
+    panel.axis.show(-1.0, 14.0)
+    return panel
 
 
 @pytest.fixture
 def lane(panel: TimelinePanel) -> AdditiveLane:
-    found = panel.lanes["additive"]
-    assert isinstance(found, AdditiveLane)
-    return found
+    return child(panel, AdditiveLane)
 
 
 def player_of(lane: AdditiveLane) -> str:
@@ -125,7 +120,6 @@ def test_a_double_click_adds_a_key_and_another_one_joins_its_curve(lane: Additiv
 def test_what_is_seen_is_what_is_planned(lane: AdditiveLane) -> None:
     double_click(lane, place(lane, 8 * QUARTER, 6.0))
     plan = lane.session.plan
-    assert plan is not None
     (event,) = plan.additive
     assert event.channel == "head.up"
     assert event.segments == lane.curves[0].shape
@@ -206,7 +200,6 @@ def test_a_handle_turns_the_other_one_with_it_unless_ctrl_is_held(lane: Additive
     up_px = lane.y_px(0.0) - lane.y_px(4.0)
     drag(lane, at, dy=-up_px)
     changed = one(lane).keys[1]
-    assert changed.leave is not None
     assert changed.arrive is not None
     assert changed.leave.value == pytest.approx(leave[1] + 4.0 - 2.0, abs=0.4)
     slopes = changed.leave.value / changed.leave.ticks, -changed.arrive.value / changed.arrive.ticks
@@ -251,7 +244,6 @@ def test_a_curve_is_switched_off_weighted_named_and_deleted(lane: AdditiveLane) 
     on_line = place(lane, 10 * QUARTER, 5.0)
     entry(menu_at(lane, on_line), "curve_enabled").trigger()
     assert not one(lane).enabled
-    assert lane.session.plan is not None
     assert lane.session.plan.additive == ()
     entry(menu_at(lane, on_line), "curve_enabled").trigger()
     assert one(lane).enabled
@@ -355,7 +347,6 @@ def test_curves_are_kept_when_everyone_is_regenerated(lane: AdditiveLane) -> Non
     before = one(lane)
     lane.session.attempt(Message("edit.vary_everyone"), vary_everyone)
     assert one(lane) is before
-    assert lane.session.plan is not None
     assert len(lane.session.plan.additive) == 1
 
 
@@ -380,8 +371,7 @@ def test_a_key_may_come_upon_another_one(lane: AdditiveLane) -> None:
 
 def test_the_lane_s_keys_come_before_the_program_s_while_it_has_them(stage: Stage) -> None:
     stage.panel.open_lane("additive", True)
-    lane = stage.panel.lanes["additive"]
-    assert isinstance(lane, AdditiveLane)
+    lane = child(stage.panel, AdditiveLane)
     given(lane, key(QUARTER, 5.0), key(2 * QUARTER, 1.0))
     lane.plot.setFocus()
     lane.select_all()

@@ -50,7 +50,6 @@ def press(panel: TimelinePanel, key: Qt.Key, modifiers: Qt.KeyboardModifier = Qt
 
 
 def corrections(session: Session) -> tuple[object, ...]:
-    assert session.player is not None
     return session.project.corrections.get(session.player.id, ())
 
 

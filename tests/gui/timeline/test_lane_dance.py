@@ -30,7 +30,7 @@ from tests.gui.timeline.conftest import TPQ, scale_project
 from tests.gui.timeline.lane_hands import LEFT, SHIFT, click, planned
 from tests.support.dances import model
 from tests.support.tasks import ImmediateTasks
-from tests.support.windows import show_in_front
+from tests.support.windows import child, show_in_front
 from widgets.timeline.lanes.choreography.dance_lane import DanceLane
 from widgets.timeline.panel import TimelinePanel
 
@@ -58,8 +58,7 @@ def lane(qt_app: QApplication, qtbot: QtBot, tmp_path: Path) -> Iterator[DanceLa
     panel = TimelinePanel(session)
     qtbot.addWidget(panel)
     panel.resize(1200, 900)
-    lane = panel.lanes["dance"]
-    assert isinstance(lane, DanceLane)
+    lane = child(panel, DanceLane)
     lane.set_folded(False)
     show_in_front(panel)
     panel.axis.show(0.0, 12.0)
@@ -133,9 +132,7 @@ def test_a_segment_is_chosen_from_the_menu(lane: DanceLane) -> None:
     dance = lane.dances[MARY]
     tick, before = dance.ticks[6], dance.steps[6]
     menu = menu_at(lane, place(lane, 6))
-    segments = menu.findChild(QMenu, "dance_segments")
-    assert segments is not None
-    segments.actions()[0].trigger()
+    child(menu, QMenu, "dance_segments").actions()[0].trigger()
     [used] = corrections(lane)
     assert isinstance(used, UseSegment)
     assert used.tick == tick
@@ -157,7 +154,6 @@ def test_a_motion_is_dragged_to_other_beats_and_stays_itself(lane: DanceLane) ->
     QTest.mousePress(lane.plot, LEFT, pos=at.toPoint())
     QTest.mouseMove(lane.plot, (at + QPointF(0.4 * by_px, 0.0)).toPoint())
     QTest.mouseMove(lane.plot, (at + QPointF(by_px, 0.0)).toPoint())
-    assert lane.moving is not None
     assert lane.moving.tick == target
     assert corrections(lane) == ()
     QTest.mouseRelease(lane.plot, LEFT, pos=(at + QPointF(by_px, 0.0)).toPoint())

@@ -5,7 +5,6 @@ from __future__ import annotations
 import pytest
 from PySide6.QtCore import QPointF
 from PySide6.QtWidgets import QMenu
-from pytestqt.qtbot import QtBot
 
 from app.editor.selection import EventKey, Selection
 from app.editor.session import Session
@@ -16,7 +15,8 @@ from app.project.edit import events as edit
 from app.project.edit.players import set_parameters
 from app.shell.commands.events import delete
 from metadata.library import GESTURES
-from tests.gui.timeline.lane_hands import click, drag, front_plan, middle, region_of, shown_panel
+from tests.gui.timeline.lane_hands import click, drag, front_plan, middle, region_of
+from tests.support.windows import child
 from widgets.timeline.lanes.acting.acting_lane import ActingLane
 from widgets.timeline.panel import TimelinePanel
 
@@ -24,29 +24,17 @@ NAME = Message("edit.set_event_amount", {"count": 1})
 
 
 @pytest.fixture
-def panel(session: Session, qtbot: QtBot) -> TimelinePanel:
-    result = shown_panel(session)
-    qtbot.addWidget(result)
-    result.axis.show(-3.0, 27.0)
-    return result
-
-
-@pytest.fixture
 def lane(panel: TimelinePanel) -> ActingLane:
-    found = panel.lanes["acting"]
-    assert isinstance(found, ActingLane)
-    return found
+    return child(panel, ActingLane)
 
 
 def said(session: Session) -> tuple[object, ...]:
-    assert session.player is not None
     return session.project.corrections.get(session.player.id, ())
 
 
 def add_shrug(lane: ActingLane) -> None:
     """With the right button at a free place of the lane."""
     menu = lane.context_menu(lane.mouse_at(QPointF(600.0, 60.0)))
-    assert menu is not None
     menus = [action.menu() for action in menu.actions()]
     entries = {entry.text(): entry for one in menus if isinstance(one, QMenu) for entry in one.actions()}
     assert {gesture.title.en for gesture in GESTURES.now().items.values()} <= set(entries)

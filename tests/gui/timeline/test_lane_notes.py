@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 from PySide6.QtCore import QPoint, QPointF, Qt
 from PySide6.QtTest import QTest
-from pytestqt.qtbot import QtBot
 
 from app.audio.peaks import Peaks
 from app.editor.selection import Selection
@@ -21,7 +20,8 @@ from app.plan.model import FingeringEvent
 from app.project.edit import breaths_and_cues
 from app.project.edit import events as edit
 from app.project.recording import AudioTrack
-from tests.gui.timeline.lane_hands import CTRL, SHIFT, click, double_click, drag, front_plan, shown_panel, viewport
+from tests.gui.timeline.lane_hands import CTRL, SHIFT, click, double_click, drag, front_plan, viewport
+from tests.support.windows import child
 from widgets.common.chip import Chip
 from widgets.timeline.lanes.curves import CurvesLane
 from widgets.timeline.lanes.fingering.fingering_lane import FingeringLane, slide_places
@@ -32,29 +32,21 @@ from widgets.timeline.panel import TimelinePanel
 
 
 @pytest.fixture
-def panel(session: Session, qtbot: QtBot) -> TimelinePanel:
-    result = shown_panel(session)
-    qtbot.addWidget(result)
-    result.axis.show(-1.0, 19.0)
-    return result
+def panel(panel: TimelinePanel) -> TimelinePanel:
+    panel.axis.show(-1.0, 19.0)
+    return panel
 
 
 def fingering_lane(panel: TimelinePanel) -> FingeringLane:
-    lane = panel.lanes["fingering"]
-    assert isinstance(lane, FingeringLane)
-    return lane
+    return child(panel, FingeringLane)
 
 
 def curves_lane(panel: TimelinePanel) -> CurvesLane:
-    lane = panel.lanes["curves"]
-    assert isinstance(lane, CurvesLane)
-    return lane
+    return child(panel, CurvesLane)
 
 
 def waveform_lane(panel: TimelinePanel) -> WaveformLane:
-    lane = panel.lanes["audio"]
-    assert isinstance(lane, WaveformLane)
-    return lane
+    return child(panel, WaveformLane)
 
 
 def place_of(lane: FingeringLane | CurvesLane, start_s: float, end_s: float) -> QPointF:
@@ -75,7 +67,6 @@ def with_alternates(session: Session) -> FingeringEvent:
 
 
 def pins(session: Session) -> dict[str, str]:
-    assert session.player is not None
     found = session.project.corrections.get(session.player.id, ())
     return {item.note_id: item.label for item in found if isinstance(item, PinFingering)}
 
@@ -155,7 +146,6 @@ def test_a_slide_is_a_line_over_its_places(panel: TimelinePanel, session: Sessio
     places = slide_places(instrument, slide)
     assert [label for _, label in places] == ["1", "2", "3", "4", "5", "6", "7"]
     assert [label for label, _ in lane.row_names()] == ["T", "1", "2", "3", "4", "5", "6", "7"]
-    assert lane.data is not None
     assert lane.data.slides.shape == (1, len(front_plan(session).fingerings))
     assert lane.data.pressed.shape == (1, len(front_plan(session).fingerings))
 
@@ -212,12 +202,10 @@ def test_dragging_the_recording_moves_its_offset(panel: TimelinePanel, session: 
     steps = len(session.document.done)
     drag(lane, QPoint(400, 30), dx=70)
     audio = session.project.audio
-    assert audio is not None
     assert audio.offset_s == pytest.approx(0.5 + 70 / lane.axis.px_per_s, abs=0.01)
     assert audio.confidence is None
     assert len(session.document.done) == steps + 1
     drag(lane, QPoint(400, 30), dx=-100, modifiers=SHIFT)
-    assert session.project.audio is not None
     assert session.project.audio.offset_s == pytest.approx(audio.offset_s - 10 / lane.axis.px_per_s, abs=0.01)
 
 
@@ -229,7 +217,6 @@ def test_the_offset_is_typed(panel: TimelinePanel, session: Session) -> None:
     lane.editor.clear()
     QTest.keyClicks(lane.editor, "-0,132")
     QTest.keyClick(lane.editor, Qt.Key.Key_Return)
-    assert session.project.audio is not None
     assert session.project.audio.offset_s == pytest.approx(-0.132)
     assert not lane.editor.isVisible()
     double_click(lane, QPoint(300, 30))
@@ -251,8 +238,7 @@ def test_without_a_recording_the_lane_says_what_to_do(panel: TimelinePanel, sess
 
 
 def test_a_problem_is_marked_and_a_click_selects_its_note(panel: TimelinePanel, session: Session) -> None:
-    lane = panel.lanes["problems"]
-    assert isinstance(lane, ProblemsLane)
+    lane = child(panel, ProblemsLane)
     plan = front_plan(session)
     assert session.player is not None
     notes = session.project.part(session.player).notes

@@ -9,7 +9,6 @@ from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QPainter, QPixmap
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QMenu
-from pytestqt.qtbot import QtBot
 
 from app.editor.selection import EventKey, Selection
 from app.editor.session import Session
@@ -37,9 +36,9 @@ from tests.gui.timeline.lane_hands import (
     middle,
     move_to,
     region_of,
-    shown_panel,
     viewport,
 )
+from tests.support.windows import child
 from widgets.timeline.lanes.acting.acting_lane import ActingLane
 from widgets.timeline.lanes.breath import BreathLane
 from widgets.timeline.model.regions.shown_regions import LEAST_REGION_PX
@@ -47,28 +46,15 @@ from widgets.timeline.panel import TimelinePanel
 from widgets.timeline.roll.piano_roll import PianoRoll
 
 
-@pytest.fixture
-def panel(session: Session, qtbot: QtBot) -> TimelinePanel:
-    result = shown_panel(session)
-    qtbot.addWidget(result)
-    result.axis.show(-3.0, 27.0)
-    return result
-
-
 def breath_lane(panel: TimelinePanel) -> BreathLane:
-    lane = panel.lanes["breath"]
-    assert isinstance(lane, BreathLane)
-    return lane
+    return child(panel, BreathLane)
 
 
 def acting_lane(panel: TimelinePanel) -> ActingLane:
-    lane = panel.lanes["acting"]
-    assert isinstance(lane, ActingLane)
-    return lane
+    return child(panel, ActingLane)
 
 
 def corrections(session: Session) -> tuple[object, ...]:
-    assert session.player is not None
     return session.project.corrections.get(session.player.id, ())
 
 
@@ -259,16 +245,14 @@ def test_another_player_gives_the_entry_from_the_menu_of_a_cue(panel: TimelinePa
     giver = front_plan(session).player_id
     cue = front_plan(session).cues[0]
     other = next(player for player in session.project.players if player.id != giver)
-    roll = panel.lanes["roll"]
-    assert isinstance(roll, PianoRoll)
+    roll = child(panel, PianoRoll)
     arrows = roll.entries.arrows
     assert {arrow.giver_id for arrow in arrows if arrow.from_s == cue.peak_s} == {giver}
     assert len(arrows) >= len(cue.takers) > 0
     box = lane.box(region_of(lane, cue.id))
     menu = lane.context_menu(lane.mouse_at(QPointF(box.center().x(), box.bottom() - 3)))
     assert menu is not None
-    givers = menu.findChild(QMenu, "givers")
-    assert givers is not None
+    givers = child(menu, QMenu, "givers")
     entries = {action.text(): action for action in givers.actions()}
     assert len(entries) == len(session.project.players)
     assert [action.isChecked() for action in givers.actions()].count(True) == 1
@@ -421,8 +405,7 @@ def test_from_far_away_the_strongest_of_each_column_is_drawn(panel: TimelinePane
 def test_names_of_neighbouring_cues_do_not_overlap(
     panel: TimelinePanel, session: Session, monkeypatch: pytest.MonkeyPatch, px_per_s: float
 ) -> None:
-    lane = panel.lanes["acting"]
-    assert isinstance(lane, ActingLane)
+    lane = child(panel, ActingLane)
     rooms: list[QRectF] = []
 
     def drawn(painter: QPainter, box: QRectF, text: str) -> None:

@@ -9,7 +9,6 @@ import pytest
 from PySide6.QtCore import QPointF, Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QMenu
-from pytestqt.qtbot import QtBot
 
 from app.editor.additions import bars_of
 from app.editor.selection import Selection
@@ -19,8 +18,8 @@ from app.plan.by_hand.corrections import PlayStyle
 from app.shell.actions import ActionTable
 from app.shell.commands import edit, events
 from tests.gui.timeline.conftest import TPQ, Stage
-from tests.gui.timeline.lane_hands import click, drag, middle, planned, region_of, shown_panel
-from tests.support.windows import show_in_front
+from tests.gui.timeline.lane_hands import click, drag, middle, planned, region_of
+from tests.support.windows import child, show_in_front
 from widgets.common.actions import actions
 from widgets.timeline.lanes.acting.acting_lane import ActingLane
 from widgets.timeline.model.regions.acting_regions import STYLE
@@ -30,21 +29,16 @@ SPAN = (3840, 7680)
 
 
 @pytest.fixture
-def panel(session: Session, qtbot: QtBot, tmp_path: Path) -> Iterator[TimelinePanel]:
-    result = shown_panel(session)
-    qtbot.addWidget(result)
+def panel(panel: TimelinePanel, session: Session, tmp_path: Path) -> Iterator[TimelinePanel]:
     table = ActionTable(session, Settings(tmp_path / "editor.toml"), [*edit.ACTIONS, *events.ACTIONS])
-    table.attach("timeline", result)
-    result.axis.show(-3.0, 27.0)
-    show_in_front(result)
-    yield result
+    table.attach("timeline", panel)
+    show_in_front(panel)
+    yield panel
     table.deleteLater()
 
 
 def acting(panel: TimelinePanel) -> ActingLane:
-    lane = panel.lanes["acting"]
-    assert isinstance(lane, ActingLane)
-    return lane
+    return child(panel, ActingLane)
 
 
 def said(session: Session, player: int = 0) -> list[PlayStyle]:
@@ -58,8 +52,7 @@ def choose(panel: TimelinePanel, menu_name: str, style: str, tick: int, y_px: fl
     x_px = lane.axis.x_px(panel.session.project.score.tempo_map.seconds(float(tick)))
     menu = lane.context_menu(lane.mouse_at(QPointF(x_px, y_px)))
     assert menu is not None
-    styles = menu.findChild(QMenu, menu_name)
-    assert styles is not None
+    styles = child(menu, QMenu, menu_name)
     next(entry for entry in styles.actions() if entry.objectName() == f"style_{style}").trigger()
     menu.close()
 

@@ -26,7 +26,7 @@ from tests.gui.timeline.conftest import TPQ, scale_project
 from tests.gui.timeline.lane_hands import ALT, click, double_click, drag, move_to
 from tests.support.takes import PlayedNote, take_of
 from tests.support.tasks import ImmediateTasks
-from tests.support.windows import show_in_front
+from tests.support.windows import child, show_in_front
 from widgets.common.actions import actions
 from widgets.timeline.lanes.takes.takes_lane import TakesLane
 from widgets.timeline.panel import TimelinePanel
@@ -182,7 +182,6 @@ def test_left_and_right_go_from_span_to_span(lane: TakesLane) -> None:
     QTest.keyClick(lane.plot, Qt.Key.Key_Right)
     assert lane.session.selection.take == BEFORE
     span = lane.session.selection.span
-    assert span is not None
     assert span[0] == 5 * TPQ
 
 
@@ -191,15 +190,13 @@ def test_a_take_is_renamed_where_it_stands(lane: TakesLane) -> None:
     lane.plot.setFocus()
     QApplication.processEvents()
     QTest.keyClick(lane.plot, Qt.Key.Key_F2)
-    field = lane.heads.findChild(QLineEdit, "take_name_field")
-    assert field is not None
+    field = child(lane.heads, QLineEdit, "take_name_field")
     QTest.keyClicks(field, "Best one")
     QTest.keyClick(field, Qt.Key.Key_Return)
     assert lane.session.project.takes[PLAYER].take("take:2").name == "Best one"
     assert steps(lane) == ["edit.rename_take"]
     QTest.keyClick(lane.plot, Qt.Key.Key_F2)
-    field = lane.heads.findChild(QLineEdit, "take_name_field")
-    assert field is not None
+    field = child(lane.heads, QLineEdit, "take_name_field")
     QTest.keyClicks(field, "x")
     QTest.keyClick(field, Qt.Key.Key_Escape)
     assert steps(lane) == ["edit.rename_take"]

@@ -17,6 +17,7 @@ from instrument_maps.load import bundled_maps
 from tests.gui.timeline.lane_hands import ALT, drag, shown_panel
 from tests.support.blown import TEMPO, Blow, breath_curve, take, vibrato_curve
 from tests.support.tasks import ImmediateTasks
+from tests.support.windows import child
 from widgets.timeline.lanes.curves import CurvesLane
 from widgets.timeline.plot.time_axis import TimeAxis
 
@@ -34,7 +35,6 @@ def test_what_was_blown_is_drawn_within_the_notes(qt_app: QApplication, tasks: I
     choices = [lane.choice.itemData(index) for index in range(lane.choice.count())]
     assert choices == ["tension", "effort", "air", "breath", "bite"]
     assert all(lane.choice.itemText(index) for index in range(lane.choice.count()))
-    assert lane.lips is not None
     air = lane.lips.traces["air"]
     assert air.at(1.5) is not None
     assert air.at(4.5) > 2.0 * air.at(1.5)
@@ -50,8 +50,7 @@ def test_a_controller_is_corrected_at_chosen_notes_and_at_one_place(session: Ses
     curve = ControllerCurve("breath", ticks, tuple(0.5 + 0.1 * (number % 2) for number in range(len(ticks))))
     session.apply(Message("edit.follow_recording"), set_dynamics(session.project, {part.id: curve}))
     session.document.end_gesture()
-    lane = panel.lanes["curves"]
-    assert isinstance(lane, CurvesLane)
+    lane = child(panel, CurvesLane)
     lane.set_curve("breath")
     note = next(note for note in part.notes if note.duration_tick >= 480 and note.onset_tick > 960)
 

@@ -21,7 +21,7 @@ from app.project.edit.corrections import with_corrections
 from app.shell.actions import ActionTable
 from app.shell.commands import edit, events, generate
 from tests.gui.timeline.lane_hands import click, drag, middle, region_of, shown_panel
-from tests.support.windows import show_in_front
+from tests.support.windows import child, show_in_front
 from widgets.common.actions import actions
 from widgets.inspector.correction_list import CorrectionList
 from widgets.inspector.generated_values import Generated
@@ -33,27 +33,22 @@ SPAN = (3840, 7680)
 
 
 @pytest.fixture
-def panel(session: Session, qtbot: QtBot, tmp_path: Path) -> Iterator[TimelinePanel]:
-    result = shown_panel(session)
-    qtbot.addWidget(result)
+def panel(panel: TimelinePanel, session: Session, tmp_path: Path) -> Iterator[TimelinePanel]:
     table = ActionTable(
         session, Settings(tmp_path / "editor.toml"), [*edit.ACTIONS, *events.ACTIONS, *generate.ACTIONS]
     )
-    table.attach("timeline", result)
-    result.axis.show(-3.0, 27.0)
+    table.attach("timeline", panel)
     session.select(Selection(span=SPAN))
     table.refresh()
     actions(session)["generate.bars"].trigger()
     session.select(Selection())
-    show_in_front(result)
-    yield result
+    show_in_front(panel)
+    yield panel
     table.deleteLater()
 
 
 def acting(panel: TimelinePanel) -> ActingLane:
-    lane = panel.lanes["acting"]
-    assert isinstance(lane, ActingLane)
-    return lane
+    return child(panel, ActingLane)
 
 
 def said(session: Session) -> tuple[Vary, ...]:
@@ -103,7 +98,6 @@ def test_the_list_of_what_was_done_by_hand_has_it(panel: TimelinePanel, session:
     assert (line.title, line.tone) == ("Regenerated", "by_hand")
     assert line.place == "2.2.000"
     words.list.opened.emit(line.key)
-    assert session.player is not None
     assert session.selection.events == frozenset({EventKey(session.player.id, region_id(acting(panel)))})
 
 

@@ -14,6 +14,7 @@ from app.plan.model import PlayerPlan
 from app.shell.app import Program
 from tests.gui.shell.conftest import answers, program, settings, start  # noqa: F401  (fixtures)
 from tests.gui.timeline.lane_hands import ALT, drag, middle, region_of
+from tests.support.windows import child
 from widgets.common.actions import actions
 from widgets.timeline.lanes.breath import BreathLane
 from widgets.timeline.panel import TimelinePanel
@@ -43,8 +44,7 @@ def test_a_breath_is_dragged_while_plans_are_made_elsewhere(
     panel: TimelinePanel,
     qtbot: QtBot,
 ) -> None:
-    lane = panel.lanes["breath"]
-    assert isinstance(lane, BreathLane)
+    lane = child(panel, BreathLane)
     breath = next(event.id for event in plan(program).breaths if event.kind == "breath" and event.start_s > 1.0)
     before = region_of(lane, breath)
     drag(lane, middle(lane, breath), dx=-40, modifiers=ALT)

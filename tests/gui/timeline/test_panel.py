@@ -25,7 +25,7 @@ from app.score.tempo import TempoMap
 from tests.gui.timeline.conftest import TPQ, Stage
 from tests.gui.timeline.hand import Hand
 from tests.support.tasks import ImmediateTasks
-from tests.support.windows import show
+from tests.support.windows import child, show
 from widgets.timeline.panel import TimelinePanel
 from widgets.timeline.plot.plot import Background
 from widgets.timeline.ruler.time_ruler import Ruler
@@ -156,8 +156,7 @@ def test_a_lane_folds_and_unfolds_by_its_button(stage: Stage) -> None:
 def test_a_lane_is_made_taller_by_its_lower_edge(stage: Stage) -> None:
     lane = stage.roll
     height = lane.height()
-    handle = stage.panel.findChild(QWidget, "handle_roll")
-    assert handle is not None
+    handle = child(stage.panel, QWidget, "handle_roll")
     hand = Hand(handle)
     hand.press((50.0, 2.0))
     hand.move((50.0, 92.0))

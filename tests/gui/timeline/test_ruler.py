@@ -16,6 +16,7 @@ from app.score.model import Score
 from app.score.tempo import TempoChange, TempoMap
 from tests.gui.timeline.conftest import TPQ, Stage
 from tests.gui.timeline.hand import ALT, CTRL, Hand, Place
+from tests.support.windows import child
 from widgets.timeline.lane import GUTTER_PX
 from widgets.timeline.model.ruler.ruler_marks import clock
 from widgets.timeline.plot.time_axis import TimeAxis
@@ -41,8 +42,7 @@ def on_mark(stage: Stage, kind: str, tick: int) -> Place:
 
 
 def type_into(stage: Stage, text: str, key: Qt.Key = Qt.Key.Key_Return) -> None:
-    editor = stage.panel.ruler.findChild(QLineEdit, "mark_editor")
-    assert editor is not None
+    editor = child(stage.panel.ruler, QLineEdit, "mark_editor")
     assert editor.isVisible()
     editor.selectAll()
     QTest.keyClicks(editor, text)
@@ -60,8 +60,7 @@ def test_a_metre_of_a_bar_that_begins_out_of_sight_is_typed_in_sight(stage: Stag
     stage.panel.axis.show(clock.seconds(BAR + 2.0 * TPQ), clock.seconds(3.0 * BAR))
     ruler = ruler_of(stage)
     ruler.edit_mark("metre", BAR)
-    editor = ruler.findChild(QLineEdit, "mark_editor")
-    assert editor is not None
+    editor = child(ruler, QLineEdit, "mark_editor")
     assert editor.visibleRegion().boundingRect() == editor.rect()
     type_into(stage, "3/4")
     assert stage.session.project.score.metre_map.metres[-1].tick == BAR
@@ -82,7 +81,6 @@ def test_a_drag_selects_a_range_on_the_grid(stage: Stage) -> None:
     assert stage.session.selection.span == (2 * TPQ, 5 * TPQ)
     hand.drag(place(stage, 6 * TPQ), place(stage, 4.03 * TPQ), ALT)
     span = stage.session.selection.span
-    assert span is not None
     assert span[0] != 4 * TPQ
     assert abs(span[0] - 4.03 * TPQ) < 4
     hand.click(place(stage, 6 * TPQ))
@@ -104,7 +102,6 @@ def test_edges_of_the_loop_are_dragged(stage: Stage) -> None:
     hand.drag(place(stage, 2 * TPQ + 3), place(stage, 3 * TPQ))
     assert stage.session.loop_s == (1.5, 3.0)
     hand.drag(place(stage, 3 * TPQ), place(stage, 8 * TPQ))
-    assert stage.session.loop_s is not None
     assert stage.session.loop_s[0] < 3.0
 
 

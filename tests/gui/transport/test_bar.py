@@ -60,7 +60,6 @@ def test_play_and_stop(qtbot: QtBot, bar: TransportBar, session: Session, device
     assert session.playing
     assert button.icon().cacheKey() != standing
     elapse(1.0)
-    assert session.playback is not None
     assert session.playback.position_s() == pytest.approx(1.0, abs=0.003)
     qtbot.mouseClick(button, LEFT)
     assert not session.playing
@@ -180,7 +179,6 @@ def test_follow_and_loop(qtbot: QtBot, bar: TransportBar, session: Session) -> N
     assert not session.follow
     session.set_playhead(10.0)
     qtbot.mouseClick(bar.buttons["play.loop"], LEFT)
-    assert session.loop_s is not None
     assert session.loop_s[0] <= 10.0 < session.loop_s[1]
     assert bar.buttons["play.loop"].isChecked()
     qtbot.mouseClick(bar.buttons["play.loop"], LEFT)

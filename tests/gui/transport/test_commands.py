@@ -55,7 +55,6 @@ def test_from_the_start_of_the_bar(run, session: Session, elapse: Elapse) -> Non
     run("bar")
     elapse(0.25)
     assert session.playing
-    assert session.playback is not None
     assert session.playback.position_s() == pytest.approx(seconds(session, 7) + 0.25, abs=0.003)
     run("bar")
     assert session.playhead_s == pytest.approx(seconds(session, 7), abs=0.003)

@@ -33,7 +33,7 @@ from app.project.model import Project
 from tests.gui.conftest import planned_quartet, quartet_project
 from tests.gui.viewport.conftest import AT_S, SIZE, MadeNow
 from tests.support.dances import model
-from tests.support.windows import show
+from tests.support.windows import child, show
 from widgets.viewport.canvas import Canvas
 from widgets.viewport.panel import ViewportPanel
 
@@ -118,7 +118,6 @@ def test_a_valve_that_goes_down_is_seen(session: Session, viewport: ViewportPane
 
         def pose_now(self, player_id: str, time_s: float) -> object:
             found = poses.pose_now(player_id, time_s)
-            assert found is not None
             return replace(found, controls={**found.controls, "valve_1": self.value, "valve_2": self.value})
 
     pressed = Pressed()
@@ -138,7 +137,6 @@ def test_a_face_that_opens_its_mouth_is_seen(viewport: ViewportPanel, poses: Mad
 
         def pose_now(self, player_id: str, time_s: float) -> object:
             found = poses.pose_now(player_id, time_s)
-            assert found is not None
             return replace(found, morphs={**found.morphs, "jawOpen": self.jaw})
 
     agape = Agape()
@@ -218,7 +216,6 @@ def test_who_is_moved_on_the_stage_stands_there_at_once(viewport: ViewportPanel,
         Message("edit.place_players", {"count": 1}),
         replace(session.project, players=(moved, *session.project.players[1:])),
     )
-    assert viewport.scene.loaded is not None
     assert viewport.scene.loaded.shapes is loaded.shapes
     before, after = loaded.stage.joint_m(0, "head"), viewport.scene.stage.joint_m(0, "head")
     assert after - before == pytest.approx([-1.0, 0.0, 0.0], abs=1e-6)
@@ -232,8 +229,6 @@ def test_the_windows_thread_copies_no_figures(
     panel = ViewportPanel(session, poses)
     qtbot.addWidget(panel)
     loaded = panel.scene.loaded
-    assert loaded is not None
-    assert loaded.crowd is not None
     assert {row for row, _ in loaded.crowd.parts} == set(range(len(loaded.stage.members)))
     made = []
     monkeypatch.setattr("widgets.viewport.shapes.crowd", lambda parts: made.append(parts))
@@ -269,8 +264,7 @@ def test_no_one_is_drawn_before_there_is_a_pose(qtbot: QtBot, session: Session, 
 
 def test_keys_and_buttons_choose_views(qtbot: QtBot, viewport: ViewportPanel, session: Session) -> None:
     for view in VIEWS:
-        button = viewport.findChild(QToolButton, f"viewport_view_{view}")
-        assert button is not None
+        button = child(viewport, QToolButton, f"viewport_view_{view}")
         button.click()
         assert session.viewport.view == view
         assert button.isChecked()
@@ -351,10 +345,8 @@ def test_a_view_fills_a_panel_that_is_resized_until_the_camera_is_moved_by_hand(
 
 
 def test_where_there_is_little_room_the_views_fold_into_a_menu(qtbot: QtBot, viewport: ViewportPanel) -> None:
-    folded = viewport.findChild(QToolButton, "viewport_view")
-    segment = viewport.findChild(QToolButton, "viewport_view_front")
-    assert folded is not None
-    assert segment is not None
+    folded = child(viewport, QToolButton, "viewport_view")
+    segment = child(viewport, QToolButton, "viewport_view_front")
     viewport.resize(640, 360)
     qtbot.waitUntil(segment.isVisible)
     assert not folded.isVisible()
@@ -370,8 +362,7 @@ def test_the_right_button_offers_the_tables_actions(qtbot: QtBot, viewport: View
     action = QAction("Frame", session, objectName="viewport.frame")
     action.triggered.connect(lambda: session.viewport.set_view("top"))
     qtbot.mouseClick(canvas(viewport), Qt.MouseButton.RightButton, pos=QPoint(5, 5))
-    menu = viewport.findChild(QMenu, "viewport_menu")
-    assert menu is not None
+    menu = child(viewport, QMenu, "viewport_menu")
     assert action in menu.actions()
     action.trigger()
     assert session.viewport.view == "top"
@@ -450,7 +441,6 @@ def test_clicking_a_dancer_selects_it_and_leaves_the_players(
     for number, modifier in ((0, none), (1, none), (0, control), (0, control)):
         place = place_of(viewport, row + number).toPoint()
         qtbot.mouseClick(canvas(viewport), Qt.MouseButton.LeftButton, modifier, place)
-        assert session.dancer is not None
         assert session.dancer.id == two_dancers[number]
         assert session.players == players
     qtbot.mouseClick(canvas(viewport), Qt.MouseButton.LeftButton, pos=place_of(viewport, 2).toPoint())

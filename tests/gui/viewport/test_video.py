@@ -19,7 +19,7 @@ from app.errors import Message
 from app.project.edit.piece import relocate, set_audio, set_offset, set_video, set_video_offset
 from app.project.video import VideoTrack
 from tests.support.films import number_of, written
-from tests.support.windows import show
+from tests.support.windows import child, show
 from widgets.common.number_slider import NumberSlider
 from widgets.viewport.panel import ViewportPanel
 from widgets.viewport.video import VideoStrip, VideoView, fitted
@@ -86,10 +86,8 @@ def test_playing_shows_every_picture_in_order(
 def test_it_stands_beside_or_behind_the_players(
     viewport: ViewportPanel, session: Session, video: ReferenceVideo, film: Path, qtbot: QtBot
 ) -> None:
-    view = viewport.findChild(VideoView, "video_view")
-    strip = viewport.findChild(VideoStrip, "video_strip")
-    assert view is not None
-    assert strip is not None
+    view = child(viewport, VideoView, "video_view")
+    strip = child(viewport, VideoStrip, "video_strip")
     assert not view.isVisible()
     assert not strip.isVisible()
     session.attempt(NAME, lambda project: set_video(project, film))
@@ -148,8 +146,7 @@ def test_the_offset_is_typed_and_taken_back(
     viewport: ViewportPanel, session: Session, video: ReferenceVideo, film: Path, qtbot: QtBot
 ) -> None:
     session.attempt(NAME, lambda project: set_video(project, film))
-    offset = viewport.findChild(NumberSlider, "video_offset")
-    assert offset is not None
+    offset = child(viewport, NumberSlider, "video_offset")
     typed(qtbot, offset, "-1.25")
     assert session.project.video == VideoTrack(str(film), -1.25)
     session.document.undo()
@@ -164,7 +161,6 @@ def test_its_place_is_found_by_its_sound(session: Session, video: ReferenceVideo
     path = written(tmp_path / "film.mp4", Fraction(8), PICTURES, sound.astype(np.float32))
     session.attempt(NAME, lambda project: set_video(project, path))
     qtbot.waitUntil(lambda: [id.removesuffix("_with_next") for id in notices] == ["video.offset_found"])
-    assert session.project.video is not None
     assert session.project.video.offset_s == pytest.approx(12.0, abs=0.02)
     session.document.undo()
     assert session.project.video.offset_s == 0.0
@@ -197,7 +193,6 @@ def test_sound_and_picture_of_one_file_keep_together(session: Session) -> None:
     project = set_video(project, "/nowhere/a.mp4")
     assert project.video == VideoTrack("/nowhere/a.mp4", 2.0, 0.9)
     project = set_video_offset(project, 3.0)
-    assert project.audio is not None
     assert (project.audio.offset_s, project.audio.confidence) == (3.0, None)
     project = relocate(project, "/nowhere/a.mp4", "/here/b.mp4")
     assert (project.audio.path, project.video) == ("/here/b.mp4", VideoTrack("/here/b.mp4", 3.0))

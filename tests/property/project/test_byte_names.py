@@ -73,11 +73,9 @@ def test_unsaved_work_after_a_crash(tmp_path: Path) -> None:
     edited = replace(project, seed=5)
     autosave.changed(edited, 0.0)
     writing = autosave.take(0.0)
-    assert writing is not None
     autosave.written(writing, writing.run())
     assert note_of(state, presence.token).document == str(document)
     assert recoverable(state) == ()
-    assert presence._stream is not None
     presence._stream.close()  # as when it is killed
     (found,) = recoverable(state)
     assert (found.document, found.name) == (document, f"{NAME}.suisou")

@@ -55,7 +55,6 @@ def test_other_threads_go_on_meanwhile() -> None:
 def test_a_killed_child_is_not_missed() -> None:
     process = RenderProcess()
     process(LONG[0].midi)
-    assert process._child is not None
     process._child.process.kill()
     process._child.process.wait()
     assert np.array_equal(process(LONG[0].midi), rendered(LONG[0].midi))
@@ -70,7 +69,6 @@ def test_the_child_ends_with_its_owner() -> None:
     process = RenderProcess()
     process(LONG[0].midi)
     child = process._child
-    assert child is not None
     assert child.process.poll() is None
     del process
     gc.collect()
@@ -81,6 +79,5 @@ def test_the_child_ends_when_its_input_does() -> None:
     process = RenderProcess()
     process(LONG[0].midi)
     child = process._child
-    assert child is not None
     child.hang_up()
     assert child.process.wait(10.0) == 0

@@ -125,7 +125,6 @@ def test_what_was_rendered_is_remembered() -> None:
     assert synthesiser.render(phrase).samples is piece.samples
     (later,) = phrases(melody((1920, 480, 69)), TEMPO, 56)
     ready = synthesiser.ready(later)
-    assert ready is not None
     assert ready.samples is piece.samples
     assert ready.start == RATE_HZ * 2
 

@@ -196,7 +196,6 @@ def test_a_killed_recorder_is_started_again_and_goes_on(ear: Ear, tmp_path: Path
         before = len(ear.messages)
         place = len(ear.reported)
         child = ear.link._child
-        assert child is not None
         child.process.kill()
         assert ear.wait(Restarted).reason.id == "capture.recorder_ended"
         assert ear.wait(Opened, after=place).port == player.name
@@ -259,7 +258,6 @@ def test_a_killed_editor_loses_nothing(tmp_path: Path) -> None:
             stdout=subprocess.PIPE,
             text=True,
         )
-        assert editor.stdout is not None
         assert editor.stdout.readline()
         sent = [message for _, message in player.play(PHRASE)]
         # What is on its way is not yet heard.
@@ -376,7 +374,6 @@ def test_a_recorder_in_which_something_fails_is_started_again(capfd: pytest.Capt
         ear = Ear(link)
         ear.wait(Ports)
         child = link._child
-        assert child is not None
         child.outgoing.write(b"\x01\x00\x00\x00\xc1")
         child.outgoing.flush()
         ear.wait(Restarted)
@@ -405,7 +402,6 @@ def test_a_journal_that_is_there_is_not_gone_on_with(monkeypatch: pytest.MonkeyP
         link.start(path, HEADER)
         monkeypatch.setattr(link, "_report", report)
         child = link._child
-        assert child is not None
         child.process.kill()
         assert ear.wait(NotStarted).reason.id == "journal.exists"
     assert path.read_text() == "precious"
@@ -418,6 +414,5 @@ def test_a_recorder_that_a_driver_holds_up_does_not_hold_up_the_editor(
     with RecorderLink() as link:
         Ear(link).wait(Ports)
         child = link._child
-        assert child is not None
         child.process.send_signal(signal.SIGSTOP)
     assert child.process.poll() == -signal.SIGKILL

@@ -50,7 +50,6 @@ def test_a_project_plays_with_the_recording(
     target = tmp_path / "concert.suisou"
     assert main(["align", str(quartet), str(concert), "--from", "1.5", "--to", str(target)]) == DONE
     audio = load(target).audio
-    assert audio is not None
     assert Path(audio.path) == concert
     assert audio.offset_s == pytest.approx(-3.0, abs=0.03)
     assert np.percentile(errors_s(target, -audio.offset_s), 90) < 0.05

@@ -56,7 +56,6 @@ def test_a_correction_is_kept_with_the_character(folder: Path, capsys: pytest.Ca
     assert entry.joints == {"leftEye": ""}
     assert entry.morphs == {"jawOpen": {"Fcl_MTH_A": 0.5, "Fcl_MTH_O": 0.25}}
     character = character_library.character_named("the_baby")
-    assert character.own is not None
     assert character.own.bone_of_joint[character.skeleton.index("leftEye")] == -1
     assert character.own.morphs["jawOpen"] == {"Fcl_MTH_A": 0.5, "Fcl_MTH_O": 0.25}
     assert main(["characters"]) == 0

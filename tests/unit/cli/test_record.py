@@ -132,7 +132,6 @@ def test_ctrl_c_ends_the_take(playing: WindPlayer, tmp_path: Path) -> None:
         stderr=subprocess.PIPE,
         text=True,
     )
-    assert recording.stderr is not None
     assert recording.stderr.readline() == "suisou: recording; Ctrl+C ends it\n"
     time.sleep(1.5)
     recording.send_signal(signal.SIGINT)

@@ -7,11 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from app.__main__ import OPENED
 from app.cli import main
 from app.cli.batch import folders_of
 from app.cli.status import BAD_INPUT
-from app.score.suffixes import MUSIC
 from tests.unit.score.musicxml.documents import articulation, document, note, slur
 
 PIECE = document(
@@ -60,8 +58,3 @@ def test_a_folder_is_exported_with_its_scores_and_no_other_xml(tmp_path: Path) -
     ):
         (tmp_path / name).write_text(content, encoding="utf-8")
     assert folders_of(tmp_path) == {"a.musicxml": "a", "b.mxl": "b", "c.xml": "c", "d.mid": "d"}
-
-
-def test_a_score_that_is_named_alone_opens_in_the_editor() -> None:
-    assert {".musicxml", ".mxl", ".mid", ".suisou"} <= set(OPENED)
-    assert {".musicxml", ".mxl", ".xml", ".mid"} <= set(MUSIC)

@@ -39,7 +39,6 @@ def units(rows: str) -> dict[int, list[int]]:
 
 def test_wilcoxon_of_darwins_maize() -> None:
     found = compared(MAIZE)
-    assert found is not None
     assert (found.viewers, found.differing, found.statistic) == (15, 15, 24.0)
     assert found.p == pytest.approx(0.041259765625, abs=1e-12)
     # (96 - 24) / 120, the matched-pairs rank-biserial correlation by its definition (Kerby 2014).
@@ -49,14 +48,12 @@ def test_wilcoxon_of_darwins_maize() -> None:
 def test_wilcoxon_of_hollander_and_wolfe() -> None:
     assert lower_p(DEPRESSION.tolist()) == pytest.approx(0.01953, abs=5e-6)
     found = compared(DEPRESSION.tolist())
-    assert found is not None
     assert found.statistic == 5.0
 
 
 @given(steps)
 def test_wilcoxon_with_ties_is_the_count_of_all_signs(differences: list[int]) -> None:
     found, left = compared(differences), [value for value in differences if value]
-    assert found is not None
     assert found.mean == pytest.approx(sum(differences) / len(differences))
     if not left:
         assert (found.p, found.effect, found.differing) == (None, None, 0)
@@ -74,7 +71,6 @@ def test_wilcoxon_with_ties_is_the_count_of_all_signs(differences: list[int]) ->
 def test_wilcoxon_without_ties_is_scipys(count: int) -> None:
     differences = np.random.default_rng(count).normal(0.3, 1.0, count).tolist()
     found = compared(differences)
-    assert found is not None
     assert found.p == pytest.approx(stats.wilcoxon(differences, method="exact").pvalue)
     assert found.statistic == stats.wilcoxon(differences).statistic
 
@@ -84,7 +80,6 @@ def test_wilcoxon_goes_over_into_the_normal_approximation() -> None:
     few, many = drawn[drawn != 0][:200], drawn[drawn != 0][:201]
     for differences in (few, many):
         found = compared(differences.tolist())
-        assert found is not None
         assert found.p == pytest.approx(stats.wilcoxon(differences, method="approx").pvalue, abs=2e-4)
 
 
@@ -92,13 +87,11 @@ def test_equal_means_of_different_sums_share_a_rank() -> None:
     third, same = 1.0 / 3.0, 4.0 - 11.0 / 3.0
     assert third != same
     found = compared([third, same, -third])
-    assert found is not None
     assert found.statistic == 2.0
 
 
 def test_interval_of_students_sleep() -> None:
     found = summary(SLEEP)
-    assert found is not None
     assert (found.low, found.high) == pytest.approx((-2.4598858, -0.7001142), abs=1e-7)
     assert (found.mean, found.median, found.deviation) == pytest.approx((-1.58, -1.3, 1.2299955), abs=1e-7)
 
@@ -106,10 +99,8 @@ def test_interval_of_students_sleep() -> None:
 def test_what_cannot_be_computed_is_none() -> None:
     assert summary([]) is compared([]) is None
     one = summary([4.0])
-    assert one is not None
     assert (one.mean, one.median, one.deviation, one.low, one.high) == (4.0, 4.0, None, None, None)
     same = summary([3.0, 3.0, 3.0])
-    assert same is not None
     assert (same.deviation, same.low, same.high) == (0.0, 3.0, 3.0)
     assert lower_p([0.0, 0.0]) is None
     assert ordinal_alpha({}) is ordinal_alpha({"a": [3], "b": [4]}) is ordinal_alpha({"a": [3, 3], "b": [3, 3]}) is None

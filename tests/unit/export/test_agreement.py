@@ -146,7 +146,6 @@ def test_characters_of_other_makers_agree_on_their_skeletons(file: str, choice: 
 @pytest.mark.parametrize("fps", RATES, ids=lambda fps: f"{float(fps):.2f}")
 def test_other_programs_readers_agree(performance: Performance, fps: Fraction, tmp_path: Path) -> None:
     scene = _scenes(performance, fps)["character"]
-    assert scene.clip is not None
     frames = [0, 9, scene.clip.frames - 1]
     world_cm = 100 * ScenePlayback(scene, scene.clip).world(0, scene.clip.frames)[frames][..., :3, 3]
     names = [bone.name for bone in scene.bones]

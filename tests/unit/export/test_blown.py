@@ -30,7 +30,6 @@ def test_cheeks_breath_vibrato_and_rim_are_in_the_file(tmp_path: Path) -> None:
     assert main(["export", str(source), "--to", str(folder), "--fps", "60", "--format", "fbx"]) == 0
     report = json.loads((folder / "report.json").read_text(encoding="utf-8"))
     clip = read_scene(folder / "Trumpet.fbx").clip
-    assert clip is not None
     times_s = report["first_frame_s"] + np.arange(clip.frames) / 60
 
     def between(morph: str, start_s: float, end_s: float) -> np.ndarray:

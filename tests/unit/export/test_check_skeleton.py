@@ -24,7 +24,6 @@ from tests.support.foreign import PREFIX, foreign
 @cache
 def exported() -> tuple[TargetSkeleton, Figure]:
     character = foreign(character_named("woman_adult"))
-    assert character.own is not None
     return own_target(character), character.own.figure
 
 
@@ -98,7 +97,6 @@ def test_a_little_is_nothing() -> None:
 
 def test_an_asset_with_several_roots_is_not_ours() -> None:
     character = foreign(character_named("woman_adult"), roots=2)
-    assert character.own is not None
     found = check_skeleton(own_target(character), character.own.figure)
     assert found[0] == SkeletonDifference("root", "root", severe=True, ours="root", theirs="Reference, prop_1")
 

@@ -59,10 +59,8 @@ def test_who_can_dance_is_written_and_the_other_named(written: tuple[Report, Pat
     assert set(files) == {"character_fbx", "character_bvh"}
     assert sorted(path.name for path in folder.iterdir()) == sorted([*files.values(), "piece_stage.fbx", "report.json"])
     assert report.file_count == 4
-    assert report.stage is not None
     assert [figure.node for figure in report.stage.figures] == ["Dancer_ 1_2"]
     (scene,) = read_scenes(folder / "piece_stage.fbx")
-    assert scene.place is not None
     np.testing.assert_allclose(scene.place.matrix[:3, 3], (0.0, 0.0, 200.0))
     reported = json.loads((folder / "report.json").read_text())
     assert reported["dancers"][0]["stage"] == {"x_m": 0.0, "z_m": 2.0, "turn_deg": 0.0}
@@ -71,7 +69,6 @@ def test_who_can_dance_is_written_and_the_other_named(written: tuple[Report, Pat
 
 def test_bones_keep_their_length_and_feet_stand(written: tuple[Report, Path, Project]) -> None:
     measures = written[0].dancers[0].measures
-    assert measures is not None
     assert measures.standing_s > 5.0
     assert measures.kept
     assert measures.slide_most_mm_s < 20.0

@@ -66,7 +66,6 @@ def test_for_either_player_one_character_and_both_instruments_are_written(writte
         *(f"{stem}.{suffix}" for stem in ("Flute", "Flute_flute", "Flute_piccolo") for suffix in ("fbx", "glb")),
         *("changes_stage.fbx", "changes_stage.glb", "report.json"),
     }
-    assert report.stage is not None
     assert [figure.node for figure in report.stage.figures] == ["Flute", "Flute_flute", "Flute_piccolo"]
     assert len({(figure.place.x_m, figure.place.z_m) for figure in report.stage.figures}) == 1
     (player,) = report.players
@@ -86,8 +85,6 @@ def test_both_are_judged_with_that_character_and_keep_every_bound(written: tuple
         assert set(failures(one)) <= REPORTED
     # The body is one: what is measured of it alone is the same with both.
     (double,) = player.doubles
-    assert double.measures is not None
-    assert player.measures is not None
     assert double.measures.feet == player.measures.feet
     assert double.measures.acceleration == player.measures.acceleration
 
@@ -102,7 +99,6 @@ def test_what_is_not_played_lies_still_in_the_files(written: tuple[Path, Report]
         ("Flute_piccolo", first_s, there.taken_s),
     ):
         scene = read_scene(folder / f"{stem}.fbx")
-        assert scene.clip is not None
         times_s = first_s + np.arange(scene.clip.frames) / float(FPS)
         lies = (times_s >= start_s) & (times_s <= end_s)
         place_cm, turns = scene.clip.translations_cm[0], scene.clip.rotations_xyzw[:, 0]

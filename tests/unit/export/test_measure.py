@@ -51,7 +51,6 @@ def case(request: pytest.FixtureRequest) -> Case:
 
 
 def moved(scene: Scene, bone: int, offset_cm: np.ndarray, frames: slice = slice(None)) -> Scene:
-    assert scene.clip is not None
     translations = dict(scene.clip.translations_cm)
     translations[bone] = np.array(translations[bone], np.float64)
     translations[bone][frames] += offset_cm
@@ -131,7 +130,6 @@ def test_a_control_out_of_place_is_found(case: Case) -> None:
 def test_a_bent_and_a_jerked_joint_are_found(case: Case) -> None:
     names = [bone.name for bone in case.player_scene.bones]
     clip = case.player_scene.clip
-    assert clip is not None
     rotations = np.array(clip.rotations_xyzw, np.float64)
     knee = names.index("leftLowerLeg")
     rotations[20, knee] = [np.sin(-0.5), 0.0, 0.0, np.cos(-0.5)]  # the wrong way, for one frame
@@ -147,7 +145,6 @@ def test_a_breath_without_a_jaw_is_missed(case: Case) -> None:
     assert before.planned > 0
     assert before.shown == before.planned
     clip = case.player_scene.clip
-    assert clip is not None
     shut = {**clip.morph_weights, "jawOpen": np.zeros(clip.frames)}
     after = case.measure(player_scene=replace(case.player_scene, clip=replace(clip, morph_weights=shut)))
     assert after.measures.breaths.jaw_open == 0

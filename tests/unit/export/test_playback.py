@@ -41,7 +41,6 @@ def test_the_middle_of_a_surface_is_the_mean_of_its_deformed_vertices(seed: int)
 
 def test_bones_that_are_still_are_where_they_are_all_the_time() -> None:
     scene = random_scene(1)
-    assert scene.clip is not None
     rotations = np.array(scene.clip.rotations_xyzw)
     rotations[:, 1:3] = rotations[:1, 1:3]
     moving = ScenePlayback(scene, scene.clip)

@@ -174,8 +174,6 @@ def test_each_process_goes_on_with_what_it_has_begun(tmp_path: Path) -> None:
     waiting = Waiting(cast.musicians)
     here = waiting.take(None)
     there = waiting.take(None)
-    assert here is not None
-    assert there is not None
     assert here.player.instrument_id != there.player.instrument_id
     waiting.give_back(there)
     again = [waiting.take(here), waiting.take(here), waiting.take(here), waiting.take(here)]

@@ -87,7 +87,6 @@ def _angles_deg(one: np.ndarray, other: np.ndarray) -> np.ndarray:
 def _judge(found: Scene, meant: Scene, most_mm: float) -> None:
     """Hold every bone, joint, vertex group and weight of a played file against the motion, at every frame."""
     assert found.clip is not None
-    assert meant.clip is not None
     frames = meant.clip.frames
     assert found.clip.frames == frames
     shown, asked = ScenePlayback(found, found.clip), ScenePlayback(meant, meant.clip)
@@ -103,7 +102,6 @@ def _judge(found: Scene, meant: Scene, most_mm: float) -> None:
 
 def _landmarks_mm(scene: Scene, character: Character, target: TargetSkeleton, played: Scene) -> dict[str, np.ndarray]:
     """How far every landmark of a played scene is off, frame by frame, by skinning its vertices."""
-    assert scene.clip is not None
     assert played.clip is not None
     frames, result, found = scene.clip.frames, {}, []
     for one in (scene, played):
@@ -143,7 +141,6 @@ def test_an_fbx_character_plays_within_the_bounds_with_a_fraction_of_the_keys(
     assert off_mm[worst].max() <= PLACE_MM + 1e-2, worst
     assert off_mm[worst].max() > 0.2 * PLACE_MM, "as few keys as the bound allows"
     curves = _curve_keys(tmp_path / "player.fbx")
-    assert meant.clip is not None
     assert sum(count for count, _ in curves) < 0.15 * meant.clip.frames * len(curves)
     assert all(count == 1 for count, alike in curves if alike)
     assert any(count == 1 for count, _ in curves)
@@ -156,7 +153,6 @@ def test_an_fbx_instrument_plays_within_the_bounds_and_its_valves_reach_their_pl
     write_scene(tmp_path / "horn.fbx", few["instrument"])
     found = read_scene(tmp_path / "horn.fbx")
     _judge(found, meant, INSTRUMENT_MM)
-    assert meant.clip is not None
     assert found.clip is not None
     frames = meant.clip.frames
     for mesh, played in zip(meant.meshes, found.meshes, strict=True):
@@ -200,7 +196,6 @@ def test_other_programs_play_all_formats_within_the_bounds(
 ) -> None:
     """Frames between the keys, in FBX by ufbx, in GLB and USD by evaluators of their own."""
     clip = every[held].clip
-    assert clip is not None
     expected = _expected(every[held], list(range(0, clip.frames, 11)))
     written: list[tuple[Any, str, tuple[str, ...]]] = [
         (write_scene, "player.fbx", readers.QUICK_FBX),
@@ -287,7 +282,6 @@ def test_slow_readers_play_within_the_bounds(make: Any, suffix: str, tmp_path: P
 
 def test_what_never_moves_keeps_the_length_of_the_clip(tmp_path: Path) -> None:
     scene = scenes.character(FPS)
-    assert scene.clip is not None
     still = np.repeat(scene.clip.rotations_xyzw[:1], 49, axis=0)
     places = {bone: np.repeat(values[:1], 49, axis=0) for bone, values in scene.clip.translations_cm.items()}
     weights = {name: np.full(49, 0.25) for name in scene.clip.morph_weights}
@@ -296,10 +290,7 @@ def test_what_never_moves_keeps_the_length_of_the_clip(tmp_path: Path) -> None:
         clip=replace(scene.clip, rotations_xyzw=still, translations_cm=places, morph_weights=weights),
     )
     few = _few(scene)
-    assert few.clip is not None
-    assert few.clip.keys is not None
     assert [len(keys) for keys in few.clip.keys.bones] == [2] + [1] * (len(scene.bones) - 1)
-    assert few.clip.keys.pose is not None
     assert few.clip.keys.pose.tolist() == [0, 48]
     assert all(len(keys) == 1 for keys in few.clip.keys.morphs.values())
     write_scene(tmp_path / "still.fbx", few)
@@ -321,8 +312,6 @@ def test_a_chain_whose_bones_are_each_within_their_bound_is_tightened_for_what_h
     turns[..., 2], turns[..., 3] = np.sin(angle / 2)[:, None], np.cos(angle / 2)[:, None]
     scene = Scene(bones, (), Clip("wave", FPS, frames, turns))
     few = _few(scene).clip
-    assert few is not None
-    assert few.keys is not None
     kept = few.keys.bones
     played = np.stack(
         [np.interp(np.arange(frames), kept[bone], np.degrees(angle)[kept[bone]]) for bone in range(count)], axis=1

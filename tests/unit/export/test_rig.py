@@ -125,7 +125,6 @@ def plain(made: Made) -> Files:
 def world_m(scene: Scene) -> np.ndarray:
     """Every bone's place (F, B, 4, 4), from the definition."""
     clip = scene.clip
-    assert clip is not None
     result = np.tile(np.eye(4), (clip.frames, len(scene.bones), 1, 1))
     for index, bone in enumerate(scene.bones):
         local = np.tile(np.eye(4), (clip.frames, 1, 1))
@@ -191,7 +190,6 @@ def test_a_skeleton_of_another_file_takes_sockets_and_a_root_that_moves(
 ) -> None:
     found = made.read("own", options)
     own = made.foreign.own
-    assert own is not None
     assert set(own.figure.bone_names) < set(found.target.names)
     check_body(plain, found)
 

@@ -70,7 +70,6 @@ def test_the_bundled_quartet_keeps_every_bound_and_shows_every_breath(tmp_path: 
     )
     assert len(players) == 4
     for player in players:
-        assert player.measures is not None
         assert player.measures.breaths.shown == player.measures.breaths.planned > 10
         assert failures(player) == ()
 
@@ -87,7 +86,6 @@ def test_the_report_says_when_and_where(report: dict[str, Any]) -> None:
 @pytest.mark.parametrize("name", PLAYERS)
 def test_the_character_file(folder: Path, report: dict[str, Any], name: str) -> None:
     scene = read_scene(folder / f"{name}.fbx")
-    assert scene.clip is not None
     assert scene.clip.frames == report["frames"]
     assert scene.clip.fps == 30
     names = [bone.name for bone in scene.bones]
@@ -242,7 +240,6 @@ def test_other_frame_rates(tmp_path: Path, rate: str) -> None:
     arguments = ("--from-bar", "2", "--to-bar", "3", "--player", PLAYERS[1], "--format", "fbx")
     report = export(tmp_path / "out", "--fps", rate, *arguments)
     scene = read_scene(tmp_path / "out" / f"{PLAYERS[1]}.fbx")
-    assert scene.clip is not None
     assert scene.clip.fps == Fraction(report["fps_exact"])
     controls = report["players"][0]["measures"]["controls"]
     assert all(counts["right"] == counts["judged"] for counts in controls.values())

@@ -135,7 +135,6 @@ def test_a_spoilt_file_is_found_on_every_skeleton(piece: Piece, name: str) -> No
 
 
 def what_it_holds(scene: Scene) -> readers.Expected:
-    assert scene.clip is not None
     frames = [0, 40, scene.clip.frames - 1]
     playback = ScenePlayback(scene, scene.clip)
     world_cm = playback.world(0, scene.clip.frames)[frames][..., :3, 3] * 100.0

@@ -83,7 +83,6 @@ def test_everyone_moves_as_in_the_own_files_at_the_place(folder: Path, report: d
     assert [scene.name for scene in scenes] == [figure["node"] for figure in figures]
     for scene, figure in zip(scenes, figures, strict=True):
         alone = read_scene(folder / f"{figure['node']}.fbx")
-        assert scene.clip is not None
         assert alone.clip is not None
         assert scene.place is not None
         assert (scene.clip.name, scene.clip.fps, scene.clip.frames) == ("quartet", 24, report["frames"])
@@ -102,7 +101,6 @@ def test_everyone_moves_as_in_the_own_files_at_the_place(folder: Path, report: d
 
 def test_the_glb_has_a_node_for_everyone(folder: Path, report: dict[str, Any]) -> None:
     file = pygltflib.GLTF2().load(str(folder / "quartet_stage.glb"))
-    assert file is not None
     nodes = {node.name: node for node in file.nodes}
     assert len(file.skins) == len(report["stage"]["figures"])
     for figure, skin in zip(report["stage"]["figures"], file.skins, strict=True):

@@ -109,7 +109,6 @@ def test_in_double_tonguing_every_other_stroke_is_of_the_tongues_back(
     player: tuple[Scene, PlayerReport], first_frame_s: float
 ) -> None:
     scene, _ = player
-    assert scene.clip is not None
     tip = scene.clip.morph_weights["tongueOut"]
     onsets_s = 6.0 + 0.09375 * np.arange(2, 14)
     at = np.rint((onsets_s - 0.01 - first_frame_s) * float(scene.clip.fps)).astype(int)
@@ -120,7 +119,6 @@ def test_in_double_tonguing_every_other_stroke_is_of_the_tongues_back(
 
 def test_lips_stay_on_the_mouthpiece(player: tuple[Scene, PlayerReport]) -> None:
     _, report = player
-    assert report.measures is not None
     assert report.measures.lips.max_mm < 0.5
     assert report.measures.penetration.kept
     assert report.measures.breaths.shown == report.measures.breaths.planned

@@ -97,7 +97,6 @@ def test_joints_are_where_they_are_on_ours(seed: int, roots: int, in_chain: str)
 
 def test_names_hierarchy_and_rest_are_the_files() -> None:
     character = foreign(ours())
-    assert character.own is not None
     figure = character.own.figure
     scene = character_scene(character, random_motion(1), "x", "test", own_target(character))
     assert tuple(bone.name for bone in scene.bones) == figure.bone_names
@@ -157,7 +156,6 @@ def test_blenders_armature_is_no_bone() -> None:
     target = own_target(character)
     assert target.names[0] == PREFIX + "hips"
     assert target.messages[0].id == "skeleton.armature_left_out"
-    assert character.own is not None
     assert check_skeleton(target, character.own.figure) == ()
     playback = played(character, motion, target)
     assert_joints_agree(character, motion, target, playback)

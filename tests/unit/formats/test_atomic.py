@@ -76,7 +76,6 @@ def test_what_a_killed_process_left_is_swept_and_what_a_living_one_writes_is_not
     mine = tmp_path / ".notes.partial"
     mine.write_text("another user's")
     with subprocess.Popen([sys.executable, "-c", script, str(target)], stdout=subprocess.PIPE, text=True) as writer:
-        assert writer.stdout is not None
         assert writer.stdout.readline() == "writing\n"
         (partial,) = set(tmp_path.iterdir()) - {mine}
         sweep(tmp_path)

@@ -61,7 +61,6 @@ def test_the_dialect_is_what_every_reader_takes() -> None:
     assert text.count("CHANNELS 3 Zrotation Xrotation Yrotation") == 6
     assert text.count("End Site") == 3
     frame_time = re.search(r"Frame Time: (\d+\.\d{10,})\n", text)
-    assert frame_time is not None
     assert abs(float(frame_time[1]) - 1001 / 30000) < 1e-15
     rows = text.split(frame_time[0])[1].splitlines()
     assert len(rows) == 3

@@ -21,14 +21,12 @@ def test_frames_are_counted(tmp_path: Path, rate_hz: int, samples: int, quality:
     ffmpeg("-i", str(source), "-c:a", "libmp3lame", *quality, *HEADLESS, str(path))
     data = path.read_bytes()
     facts = mpeg_audio(data)
-    assert facts is not None
     assert facts.rate_hz == rate_hz
     assert not facts.breaks_off
     assert 4 * rate_hz < facts.samples < 4 * rate_hz + 1105 + 2 * samples
     # A tag at the end is no frame; half of the last frame is a cut.
     assert mpeg_audio(data + b"TAG" + bytes(125)) == facts
     cut = mpeg_audio(data[:-20])
-    assert cut is not None
     assert cut.breaks_off
     assert cut.samples == facts.samples - samples
 
@@ -40,8 +38,6 @@ def test_what_lies_between_frames_is_passed_over(tmp_path: Path) -> None:
     whole = mpeg_audio(data)
     second = data.index(data[:2], 417 * 3)
     broken = mpeg_audio(data[:second] + b"junk \xff\xfb junk" * 50 + data[second:])
-    assert whole is not None
-    assert broken is not None
     assert abs(broken.samples - whole.samples) <= 2 * 1152
 
 

@@ -73,7 +73,6 @@ def _expected(figures: tuple[Scene, ...]) -> Expected:
     parents: dict[str, str | None] = {}
     found = [scenes.expected(figure) for figure in figures]
     for figure, one in zip(figures, found, strict=True):
-        assert figure.place is not None
         turn = Rotation.from_quat(figure.place.rotation_xyzw)
         joints |= {name: turn.apply(at) + figure.place.translation_cm for name, at in one.joints_cm.items()}
         parents |= one.parents
@@ -92,8 +91,6 @@ def test_our_reader_finds_every_figure_as_it_was(tmp_path: Path) -> None:
     found = read_scenes(tmp_path / "stage.fbx")
     assert [figure.name for figure in found] == [figure.name for figure in figures]
     for given, read in zip(figures, found, strict=True):
-        assert given.place is not None
-        assert read.place is not None
         assert given.clip is not None
         assert read.clip is not None
         np.testing.assert_allclose(read.place.matrix, given.place.matrix, atol=1e-12)
@@ -276,7 +273,6 @@ def test_the_sdk_finds_the_surfaces(tmp_path: Path) -> None:
 
 def _assert_same_points(found: list[list[float]], figure: Scene, frame: int) -> None:
     """The deformed vertices, in Blender's space (Z up); glTF's importer may have more than one of a vertex."""
-    assert figure.place is not None
     turn = Rotation.from_quat(figure.place.rotation_xyzw)
     points = turn.apply(100.0 * slow_positions_m(figure, frame)) + figure.place.translation_cm
     x, y, z = 100.0 * np.array(found).T

@@ -128,7 +128,6 @@ def uncharted(name: str) -> set[int]:
 def deviation_cents(instrument: InstrumentMap, valves: tuple[str, ...], written: int) -> float:
     """How far the nearest harmonic of the tube with these valves is from a note, from the tube's lengths alone."""
     acoustics = instrument.acoustics
-    assert acoustics is not None
     added = {name: 2 ** (semitones / 12) - 1 for name, semitones in acoustics.semitones.items()}
     again = sum(length for name, length in added.items() if name in valves and name == acoustics.compensator)
     plain = sum(length for name, length in added.items() if name in valves and name != acoustics.compensator)

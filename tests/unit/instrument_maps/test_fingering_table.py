@@ -88,7 +88,6 @@ def test_what_sounds_wrong_is_a_problem_at_once() -> None:
 def test_only_what_changed_is_written(tmp_path: Path) -> None:
     table = edit.with_tags(edit.moved(TRUMPET.fingerings, D5, 1, 1), D5, 1, ("fast", "fast", " "))
     path = edit.save_own(TRUMPET, table, tmp_path / "new" / "folder")
-    assert path is not None
     said = tomllib.loads(path.read_text("utf-8"))
     assert set(said) == {"extends", "id", "fingerings"}
     assert {row["written_pitch"] for row in said["fingerings"]} == {D5}

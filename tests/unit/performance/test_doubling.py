@@ -185,8 +185,6 @@ def test_after_an_edit_of_one_instrument_the_other_shows_it_too() -> None:
     for player in (flute, piccolo, oboe):
         for time_s in (at_s - 1.0, at_s - 0.2, at_s + 0.1):
             shown, right = live.pose(player.id, time_s), fresh.pose(player.id, time_s)
-            assert shown is not None
-            assert right is not None
             assert np.array_equal(shown.rotations, right.rotations)
             assert np.array_equal(shown.instrument_position_m, right.instrument_position_m)
 

@@ -85,8 +85,6 @@ def test_a_setting_of_the_piece_costs_what_it_changes(
     all_made(fresh)
     for player in changed.project.players:
         one, other = live.pose(player.id, 8.1), fresh.pose(player.id, 8.1)
-        assert one is not None
-        assert other is not None
         assert np.array_equal(one.rotations, other.rotations)
 
 
@@ -122,8 +120,6 @@ def test_an_edit_is_awaited_only_until_what_is_looked_at_is_right(performance: P
     assert not live.is_seen
     assert live.work()
     first, right = live.pose(player.id, 6.5), live.pose_now(player.id, 6.5)
-    assert first is not None
-    assert right is not None
     assert first.morphs == right.morphs, "the first piece of work is what is looked at"
     while not live.is_seen:
         assert live.work()
@@ -149,7 +145,6 @@ def test_a_pose_made_at_once_is_the_one_that_is_made_in_time(performance: Perfor
         whole = player_motion(performance, player, whole_span(performance.time_frame, Fraction(60)))
         for index in range(0, whole.frames, 41):
             pose = live.pose_now(player.id, whole.first_frame_s + index / 60.0)
-            assert pose is not None
             assert np.array_equal(pose.rotations, whole.rotations[index])
             assert pose.morphs == {name: float(values[index]) for name, values in whole.morphs.items()}
 
@@ -191,14 +186,9 @@ def test_edits_that_follow_each_other_show_the_newest_pose_there_is(performance:
     after = Performance(smiling, live.performance)
     live.show(after)
     shown = live.pose(player.id, 8.0)
-    assert before is not None
-    assert made is not None
-    assert shown is not None
     assert shown.morphs == made.morphs != before.morphs
     all_made(live)
     last, anew = live.pose(player.id, 8.0), LiveMotion(after).pose_now(player.id, 8.0)
-    assert last is not None
-    assert anew is not None
     assert last.morphs == {**dict.fromkeys(last.morphs, 0.0), **anew.morphs}
     assert last.morphs != made.morphs
 
@@ -232,8 +222,6 @@ def test_after_an_edit_the_player_in_front_does_not_wait_for_another_that_is_bei
         go_on.set()
         worker.join()
     anew = LiveMotion(after).pose_now(first.id, 8.0)
-    assert made is not None
-    assert anew is not None
     assert made.morphs == {**dict.fromkeys(made.morphs, 0.0), **anew.morphs}
     assert live.pose(second.id, 8.0) is not None
     all_made(live)
@@ -246,9 +234,6 @@ def test_between_two_frames_a_pose_is_between_them(performance: Performance) -> 
     player = performance.project.players[2].id
     start_s = performance.time_frame.first_frame_s
     before, middle, after = (live.pose(player, start_s + (900 + share) / 60.0) for share in (0.0, 0.5, 1.0))
-    assert before is not None
-    assert middle is not None
-    assert after is not None
     np.testing.assert_allclose(middle.hips_m, (before.hips_m + after.hips_m) / 2.0, atol=1e-6)
     np.testing.assert_allclose(np.linalg.norm(middle.rotations, axis=1), 1.0, atol=1e-6)
     sign = np.sign(np.einsum("ji,ji->j", before.rotations, after.rotations))[:, None]
@@ -281,8 +266,6 @@ def test_times_outside_the_performance_are_its_first_and_last_frame(performance:
     player, frame = performance.project.players[0].id, performance.time_frame
     for asked_s, there_s in ((-99.0, frame.first_frame_s), (9e9, frame.end_s - 0.5 / 60.0)):
         outside, inside = live.pose_now(player, asked_s), live.pose_now(player, there_s)
-        assert outside is not None
-        assert inside is not None
         np.testing.assert_allclose(outside.rotations, inside.rotations, atol=1e-3)
 
 
@@ -318,11 +301,9 @@ def test_an_edit_leaves_what_it_did_not_touch_and_shows_the_old_until_the_new_is
     shown = live.pose(player.id, 6.5)
     assert shown is not None
     now = live.pose_now(player.id, 6.5)
-    assert now is not None
     assert now.morphs != shown.morphs
     assert all_made(live) <= 3 < whole
     made = live.pose(player.id, 6.5)
-    assert made is not None
     assert made.morphs == now.morphs
     assert old is not None
     assert live.ready_share == 1.0
@@ -339,7 +320,6 @@ def test_undone_edits_and_other_frame_rates(performance: Performance) -> None:
     all_made(live)
     whole = player_motion(other, player, whole_span(other.time_frame, Fraction(24)))
     pose = live.pose(player.id, whole.first_frame_s + 100 / 24.0)
-    assert pose is not None
     assert np.array_equal(pose.rotations, whole.rotations[100])
 
 
@@ -387,8 +367,6 @@ def test_it_is_asked_while_it_works(performance: Performance) -> None:
     all_made(fresh)
     for time_s in np.linspace(-2.0, 20.0, 70):
         one, other = live.pose(player.id, float(time_s)), fresh.pose(player.id, float(time_s))
-        assert one is not None
-        assert other is not None
         assert np.array_equal(one.rotations, other.rotations)
         # What an edit took back stays in the list of shapes, at 0.
         names = one.morphs.keys() | other.morphs.keys()
@@ -445,7 +423,6 @@ def test_a_fault_in_one_players_motion_is_reported_once_and_the_others_are_made(
     assert live.pose_now(first.id, 8.0) is None
     live.make_now(first.id, 8.0)
     error = live.error(first.id)
-    assert error is not None
     assert error.id == "player.fault"
     assert [problem.message for problem in live.broken[first.id]] == [error]
     assert live.is_seen

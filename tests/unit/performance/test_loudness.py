@@ -74,7 +74,6 @@ def test_what_was_not_blown_sounds_by_its_velocity_and_the_rest_as_it_was_blown(
     breath = ControllerCurve("breath", (0, 10, 20, 45, 60), (0.4, 0.6, 0.0, 0.01, 0.5))
     made = part([(0, 20), (20, 10), (30, 10), (40, 10), (60, 10)], breath)
     sounding = sounding_curve(made)
-    assert sounding is not None
     ticks, values = np.array(sounding.ticks), np.array(sounding.values)
     each = [values[max(int(np.searchsorted(ticks, tick, side="right")) - 1, 0)] for tick in range(70)]
     assert each == [0.4] * 10 + [0.6] * 10 + [0.63] * 30 + [0.01] * 10 + [0.5] * 10

@@ -156,7 +156,6 @@ def test_closing_without_saving_throws_the_work_away(editor: Editor, folder: Pat
     autosave.opened(None)
     autosave.changed(small_project(), 0.0)
     path = write(autosave, 4.0)
-    assert path is not None
     assert path.parent == folder
     autosave.closed()
     assert list(folder.iterdir()) == []
@@ -430,7 +429,6 @@ def test_dancers_that_were_never_saved_are_recovered_with_their_files(
     danced = full_project(str(tmp_path / "media"))
     autosave.changed(danced, 0.0)
     written = write(autosave, 4.0)
-    assert written is not None
     assert written.parent == folder
     crash(autosave)
     (item,) = recoverable(folder)
@@ -464,7 +462,6 @@ def killed_in_mid_write(folder: Path, document: Path | None, after_s: float) -> 
     process = subprocess.Popen(
         [sys.executable, "-c", SCRIPT, str(folder), str(document or "")], cwd=ROOT, stdout=subprocess.PIPE
     )
-    assert process.stdout is not None
     assert process.stdout.readline().strip() == b"ready"
     # It writes without a pause, so wherever this strikes it strikes a write.
     time.sleep(after_s)
@@ -503,7 +500,6 @@ def test_killed_in_mid_write(editor: Editor, folder: Path, document: Path, after
 
 def crash(autosave: Autosave) -> None:
     """End without a word, as far as the others can see."""
-    assert autosave.presence._stream is not None
     autosave.presence._stream.close()
 
 

@@ -193,13 +193,10 @@ def test_settings_at_once_are_those_one_by_one(project: Project) -> None:
 
 def test_recordings_and_their_offset(project: Project, tmp_path: Path) -> None:
     with_audio = edit.set_audio(project, tmp_path / "sub" / ".." / "take.wav")
-    assert with_audio.audio is not None
     assert with_audio.audio.path == str(tmp_path / "take.wav")
     estimated = edit.set_offset(with_audio, -0.5, 0.9)
-    assert estimated.audio is not None
     assert (estimated.audio.offset_s, estimated.audio.confidence) == (-0.5, 0.9)
     by_hand = edit.set_offset(estimated, -0.5)
-    assert by_hand.audio is not None
     assert by_hand.audio.confidence is None
     assert edit.set_offset(by_hand, -0.5) is by_hand
     assert edit.set_audio(by_hand, tmp_path / "take.wav") is by_hand

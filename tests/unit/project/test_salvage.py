@@ -31,7 +31,6 @@ def with_bad_curve(project: Project) -> Project:
 def test_a_correction_is_left_out_and_everything_else_is_kept() -> None:
     project = full_project()
     rest = salvaged(with_bad_curve(project))
-    assert rest is not None
     assert rest.project == project
     [(place, detail)] = rest.left_out
     assert place.endswith(".keys[0].value")
@@ -55,7 +54,6 @@ def test_a_value_that_cannot_be_left_out_is_what_it_was(field: str, value: Any) 
         value = {**getattr(edited, field), "\ud800": next(iter(getattr(edited, field).values()))}
     broken = replace(edited, **{field: value})
     rest = salvaged(broken, former)
-    assert rest is not None
     assert not list(faults(rest.project))
     assert getattr(rest.project, field) == getattr(former, field)
     assert rest.left_out
@@ -69,7 +67,6 @@ def test_a_broken_score_is_the_former_one_and_what_was_corrected_is_kept() -> No
     broken = replace(corrected, score=msgspec.structs.replace(former.score, parts=(part, *former.score.parts[1:])))
     assert salvaged(broken) is None
     rest = salvaged(broken, former)
-    assert rest is not None
     assert (rest.project.score, rest.project.section_intensity) == (former.score, 0.25)
 
 
@@ -86,7 +83,6 @@ def test_the_autosave_goes_on_without_it_and_says_which_value_it_is(tmp_path: Pa
             project = set_title(edit(project), f"Edited {number}")
             autosave.changed(project, 0.0)
             writing = autosave.take(0.0)
-            assert writing is not None
             written = writing.run()
             autosave.ended(writing, 0.0)
             autosave.written(writing, written)

@@ -141,7 +141,6 @@ def test_scaled_armatures_are_multiplied_out(tmp_path: Path) -> None:
     )
     # The way of the hips is a hundred times as long too: its keys are written anew.
     clip = scene_of(CLIP, 3).clip
-    assert clip is not None
     keys = np.asarray(clip.translations_cm[1], "<f4")
     binary = data[20 + length + 8 :] + keys.tobytes()
     document["bufferViews"].append({"buffer": 0, "byteOffset": len(data) - 28 - length, "byteLength": keys.size * 4})

@@ -50,12 +50,3 @@ def test_bars_that_are_no_whole_number_of_ticks_neither_drift_nor_overlap(ticks_
     numbers = [piece.metre_map.bar_of_tick(tick) for tick in range(500)]
     slow = [int(np.sum(starts <= tick)) for tick in range(500)]
     assert numbers == slow
-
-
-def test_a_note_ends_where_its_duration_says() -> None:
-    assert Note("1:1", 100, 20, 60, 64).end_tick == 120
-
-
-def test_the_values_cannot_be_changed() -> None:
-    with pytest.raises(AttributeError):
-        score(Metre(0, 4, 4)).title = "other"

@@ -74,7 +74,6 @@ def test_a_file_read_again_is_cleaned_as_it_was_decided(tmp_path: Path, clean: b
     contents = read_contents(path)
     rows = cleaning(usual_rows(contents, MAPS), clean)
     project = import_project(contents, rows, MAPS, str(path))
-    assert project.imported is not None
     assert [row.clean for row in project.imported.rows] == [clean]
     assert len(project.score.parts[0].notes) == len(MELODY) + (not clean)
     again = reimported(project, path, MAPS)

@@ -319,7 +319,6 @@ def test_characters_of_other_makers_in_any_pose(name: str) -> None:
     (frame,) = frames([(0.0, packet) for packet in Sent(character, "horn").datagrams(pose, 0.0)])
     found, expected = world(frame), ours(character, pose, StagePosition(0.0, 0.0, 0.0))
     own = character.own
-    assert own is not None
     assert len(found) == sum(bone >= 0 for bone in own.bone_of_joint[1:]) > 20
     for bone, (place, turn) in found.items():
         np.testing.assert_allclose(place, expected[bone][0], atol=3e-6)

@@ -96,7 +96,6 @@ def test_only_who_is_seated_has_a_seat_under_the_hips() -> None:
     seated = msgspec.structs.replace(player, parameters=msgspec.structs.replace(player.parameters, posture="seated"))
     standing, sitting = (member_of(one, kit_of(one)) for one in (player, seated))
     assert standing.seat_m is None
-    assert sitting.seat_m is not None
     assert 0.3 < sitting.seat_m[1] < 0.5
     assert quartet() is not replace(quartet())
 
@@ -108,7 +107,6 @@ def test_a_ray_finds_the_nearest_player_and_misses_between_them() -> None:
     for row in range(4):
         chest = stage.joint_m(row, "chest")
         found = hit(capsules, chest + np.array([0.0, 0.0, 6.0]), np.array([0.0, 0.0, -1.0]))
-        assert found is not None
         assert found[0] == row
         assert 5.0 < found[1] < 6.2
     assert hit(capsules, np.array([0.0, 5.0, 6.0]), np.array([0.0, 0.0, -1.0])) is None

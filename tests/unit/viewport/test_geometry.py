@@ -105,7 +105,6 @@ def test_normals_follow_a_morph(name: str) -> None:
     """Against the normals of the moved triangles, by another way: finite areas around each vertex."""
     geometry = levels(name)[0]
     face = geometry.face
-    assert face is not None
     weights = np.zeros(len(face.names), np.float32)
     weights[face.names.index("cheekPuff")] = 1.0
     shape = geometry.shape.copy()

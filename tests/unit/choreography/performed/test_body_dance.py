@@ -193,7 +193,6 @@ def test_the_exported_file_keeps_fingers_lips_feet_and_bones(tmp_path: Path) -> 
         measures.append(report.players[0].measures)
     without, danced = measures
     assert without is not None
-    assert danced is not None
     assert all(control.right == control.judged > 0 for control in danced.controls.values())
     touches = [
         name for name, touch in danced.contacts.items() if touch.max_mm > max(2.0, without.contacts[name].max_mm)
@@ -228,12 +227,10 @@ def test_nothing_long_is_done_at_once_in_the_window(tmp_path: Path) -> None:
     live.make_now(player.id, 3.0)
     assert seen is not None
     for pose in (live.pose_now(player.id, 3.0), live.pose(player.id, 3.0)):
-        assert pose is not None
         assert np.array_equal(pose.rotations, seen.rotations)
     while live.work():
         pass
     danced = live.pose_now(player.id, 3.0)
-    assert danced is not None
     assert not np.array_equal(danced.rotations, seen.rotations)
     # From now on it is known.
     assert Performance(set_parameters(dances.project, (player.id,), sway=0.5), dances).prepare_within(60.0)

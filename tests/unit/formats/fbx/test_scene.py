@@ -68,7 +68,6 @@ def test_a_scene_comes_back(make: object, fps: Fraction, tmp_path: Path) -> None
     for mine, theirs in zip(scene.bones, found.bones, strict=True):
         np.testing.assert_array_equal(theirs.translation_cm, mine.translation_cm)
         assert abs(abs(theirs.rotation_xyzw @ mine.rotation_xyzw) - 1) < 1e-14
-    assert found.clip is not None
     assert (found.clip.name, found.clip.fps, found.clip.frames) == (scene.clip.name, fps, scene.clip.frames)
     dots = np.einsum("fji,fji->fj", found.clip.rotations_xyzw, scene.clip.rotations_xyzw.astype(float))
     assert np.abs(np.abs(dots) - 1).max() < 1e-6
@@ -258,7 +257,6 @@ def test_joined_meshes_are_the_meshes() -> None:
         np.testing.assert_array_equal(joined.normals[rows], mesh.normals)
         np.testing.assert_array_equal(joined.faces[faces] - start, mesh.faces)
         np.testing.assert_allclose(dense[rows], _dense(mesh, len(scene.bones)), atol=1e-15)
-        assert joined.face_materials is not None
         assert mesh.face_materials is not None
         assert [joined.materials[m] for m in joined.face_materials[faces]] == [
             mesh.materials[m] for m in mesh.face_materials
@@ -280,7 +278,6 @@ def test_joining_shares_materials_and_fills_in_uvs_and_normals() -> None:
                     materials=(mesh.materials[1],))  # fmt: skip
     joined = join_meshes([mesh, plain], "Both")
     assert joined.materials == mesh.materials
-    assert joined.face_materials is not None
     assert set(joined.face_materials[len(mesh.faces) :].tolist()) == {1}
     np.testing.assert_array_equal(joined.normals, np.concatenate([mesh.normals[corners]] * 2))
     assert joined.uvs is not None

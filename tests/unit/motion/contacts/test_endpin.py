@@ -46,7 +46,6 @@ def tips_m(stood: InstrumentTransform, stand: EndpinStand) -> np.ndarray:
 
 def test_the_tip_stays_where_it_is_and_the_mouthpiece_at_the_lips() -> None:
     stand = EndpinStand.of(PIN, CARRIAGE, USUAL)
-    assert stand is not None
     stood = stand.stood(SWAYING, motion())
     np.testing.assert_array_equal(stood.position_m, SWAYING.position_m)
     np.testing.assert_allclose(tips_m(stood, stand), [[0.0, 0.0, 0.5]] * 3, atol=1e-9)
@@ -56,7 +55,6 @@ def test_the_tip_stays_where_it_is_and_the_mouthpiece_at_the_lips() -> None:
 
 def test_where_an_animator_turns_it_the_tip_goes_along_the_floor() -> None:
     stand = EndpinStand.of(PIN, CARRIAGE, USUAL)
-    assert stand is not None
     found_m = tips_m(stand.stood(SWAYING, motion(yaw=[0.05, -0.05, 0.0])), stand)
     turned = 0.3 * np.sin([0.05, -0.05, 0.0])
     np.testing.assert_allclose(found_m[:, 0], turned, atol=2e-4)
@@ -70,7 +68,6 @@ def test_out_of_reach_of_the_floor_it_does_not_stand(lips_y: float) -> None:
 
 def test_a_short_player_has_it_pushed_in_wholly() -> None:
     stand = EndpinStand.of(PIN, CARRIAGE, replace(USUAL, position_m=np.array([[0.0, 0.99, 0.2]])))
-    assert stand is not None
     assert stand.drawn_out(stand.lips_m, USUAL.rotation).tolist() == [0.0]
 
 

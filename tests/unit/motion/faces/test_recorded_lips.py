@@ -113,7 +113,6 @@ def test_a_note_set_by_hand_keeps_what_was_set() -> None:
     by_hand = SetEmbouchure("1:1", tension=0.2, air=0.9)
     shown = seen(BLOWN, vibrato_curve(1.0, 8.6, 0.15, 5.5), corrections=(by_hand,))
     traces = shown.plan.traces
-    assert traces is not None
     assert traces.air is not None
     assert traces.effort is not None
     at_s = traces.start_s + traces.step_s * np.arange(len(traces.air))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from app.plan.generate import MonophonicPart, make_plans, time_frame
-from app.plan.model import PlayerPlan, TongueEvent
+from app.plan.model import PlayerPlan
 from app.score.marks import Mark
 from app.score.metre_map import Metre
 from instrument_maps.load import bundled_maps
@@ -113,10 +113,6 @@ def test_strokes_differ_in_size() -> None:
     assert size(found, "accent") > size(found, "tongued")
     fast = plan(line_of(*run(16, Q // 4)), 160.0)
     assert size(fast, "ka") == pytest.approx(0.5 * size(fast, "ta"))
-
-
-def test_strokes_keep_their_ids() -> None:
-    assert TongueEvent("1:1", 0.0, 0.1).id == "tongue:1:1"
 
 
 def scored(notes: tuple[PlainNote, ...], *marks: Mark) -> PlayerPlan:

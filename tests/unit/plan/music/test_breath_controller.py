@@ -191,7 +191,6 @@ def test_corrections_win() -> None:
 def test_air_is_what_the_curve_took() -> None:
     part = take(NOTES, breath_curve(BLOWS, noise=0))
     line = MonophonicPart("p", part.notes, TRUMPET, loudness=note_loudness(part), controller=controller_input(part))
-    assert line.controller is not None
     assert line.controller.breath is not None
     breath, times = blown(line.controller.breath, TEMPO), line_times(line, TEMPO)
     used = air_used_s(times, None, breath)
@@ -224,7 +223,6 @@ def test_what_was_drawn_beside_the_recorded_bars_is_breathed_by_its_rests() -> N
     ]
     levels = {event.note_id: event.air for event in plan.embouchures}
     assert levels["1:9"] == levels["1:11"] == 0.63
-    assert plan.traces is not None
     assert plan.traces.air is not None
     at_s = plan.traces.start_s + plan.traces.step_s * np.arange(len(plan.traces.air))
     np.testing.assert_allclose(plan.traces.air[(at_s > 22.2) & (at_s < 23.8)], 0.63)

@@ -34,7 +34,6 @@ def part_of(notes: tuple[PlainNote, ...], marks: tuple[Mark, ...], source: Sourc
 
 def loudness_at(notes: tuple[PlainNote, ...], marks: tuple[Mark, ...], *at_s: float) -> list[float]:
     envelope = dynamics_within(line_times(part_of(notes, marks), CLOCK), marks, "score", CLOCK)
-    assert envelope is not None
     found: list[float] = envelope.mean(np.array(at_s) - 0.01, np.array(at_s) + 0.01).tolist()
     return found
 
@@ -86,7 +85,6 @@ def test_without_changes_within_notes_there_is_no_curve() -> None:
 def test_a_hairpin_shows_in_lips_air_and_size_of_motion() -> None:
     marks = (dynamic("pp", 0), Mark("crescendo", tick=0, end_tick=8 * Q), dynamic("ff", 8))
     traces = planned(notes_of(8, 4), marks).traces
-    assert traces is not None
     assert not traces.recorded
     assert traces.air is not None
     assert traces.effort is not None
