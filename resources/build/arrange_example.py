@@ -79,8 +79,8 @@ TEMPI = (
 )
 
 
-BREATHS = (174.0, 186.0)
-"""Ends of phrases within the middle part, where all players breathe."""
+BREATHS = (147.0, 174.0, 186.0, 198.0, 294.0)
+"""Ends of phrases between rests, where all players who end a note breathe."""
 MIDDLE = (162.0, 206.0)
 BAR = 6.0
 

@@ -52,7 +52,9 @@ MOST_ITEMS: Final = 1_000_000
 """Notes, rests and directions, as often as they are played..."""
 LEAST_ITEMS: Final = 20_000
 MOST_ITEMS_PER_BYTE: Final = 2
-"""... of a small file fewer: compressed music has half a note for each byte, and is played a few times."""
+"""... of a small file fewer: compressed music has half a note for each byte, and is played a few times..."""
+MOST_TIMES: Final = 16
+"""... and no more than so many times as many as are written."""
 
 
 def read_musicxml(path: Path) -> PieceContents:
@@ -78,7 +80,7 @@ def read_musicxml(path: Path) -> PieceContents:
     visits: list[list[Time]] = [[] for _ in bars]
     for one, start in zip(order.measures, starts, strict=True):
         visits[one].append(start)
-    _require_few(measures, visits, min(MOST_ITEMS, LEAST_ITEMS + MOST_ITEMS_PER_BYTE * size), file)
+    _require_few(measures, visits, size, file)
     _require_length(Score("", quarter, tempo_map((), (), 0, quarter)), round(end), file)
     played = [played_part(own, visits) for own in measures]
     metred = metres_of(order.measures, starts, bars, written, quarter)
@@ -97,9 +99,9 @@ def read_musicxml(path: Path) -> PieceContents:
     title = _title(root)
     warnings = [Message("musicxml.lost_jump", {"measure": measure}) for measure in order.lost[:_MOST_LOST]]
     warnings += [
-        Message("musicxml.slashes", {"part": shown(part.name or part.id), "measures": measures[:_MOST_TEXT]})
+        Message("musicxml.slashes", {"part": shown(part.name or part.id), "measures": numbers[:_MOST_TEXT]})
         for part in parts
-        if (measures := slashed(part))
+        if (numbers := slashed(part))
     ][:_MOST_LOST]
     if not streams:
         warnings.append(Message("musicxml.no_notes", {"parts": len(parts)}))
@@ -119,14 +121,16 @@ _MOST_TEXT: Final = 200
 """Characters of a list of measures."""
 
 
-def _require_few(measures: Sequence[Sequence[Measure]], visits: Sequence[Sequence[Time]], most: int, file: str) -> None:
+def _require_few(measures: Sequence[Sequence[Measure]], visits: Sequence[Sequence[Time]], size: int, file: str) -> None:
     """Refuse more than any piece has, as often as it is played."""
-    count = sum(
-        (len(measure.directions) + sum(max(len(chord.tones), 1) for chord in measure.chords)) * len(times)
-        for part in measures
-        for measure, times in zip(part, visits, strict=False)
-    )
-    if count > most:
+    written = played = 0
+    for part in measures:
+        for measure, times in zip(part, visits, strict=False):
+            items = len(measure.directions) + sum(max(len(chord.tones), 1) for chord in measure.chords)
+            written += items
+            played += items * len(times)
+    most = min(MOST_ITEMS, LEAST_ITEMS + min(MOST_ITEMS_PER_BYTE * size, MOST_TIMES * written))
+    if played > most:
         raise FileError("musicxml.too_many_notes", file=file, most=most)
 
 

@@ -124,6 +124,8 @@ def test_bombs_are_refused(tmp_path: Path) -> None:
     assert refused(tmp_path, document(*[note("C4", 99_999)] * 50)) == "musicxml.too_long"
     jumps = [words("D.C.", '<sound dacapo="yes"/>') + note("C4", 1)] * 1000
     assert refused(tmp_path, document(*jumps)) == "musicxml.too_many_repeats"
+    # Fewer, but each is played three hundred times.
+    assert refused(tmp_path, document(*jumps[:300])) == "musicxml.too_many_notes"
 
 
 @pytest.mark.parametrize("method", [zipfile.ZIP_BZIP2, zipfile.ZIP_LZMA])
