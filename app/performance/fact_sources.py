@@ -127,7 +127,7 @@ def _tonguing(
 def _fingering(event: FingeringEvent, index: int, written: WrittenMarks, read: WrittenMarks) -> FactSource:
     if event.corrected:
         return "hand"
-    if event.reason.id == "fingering.written":
+    if written.fingering[index] and event.reason.id in ("fingering.written", "fingering.by_hand"):
         return _marked(written.fingering[index] == read.fingering[index])
     return "guess"
 

@@ -194,7 +194,10 @@ PLAYER: Final = StepTable(
     # What is fingered.
     pins=_pins,
     written_fingerings="written.fingering",
-    planned_fingerings=reading(plan_fingerings, stopped="stopped", written="written_fingerings"),
+    fingering_by_hand="written.fingering_by_hand",
+    planned_fingerings=reading(
+        plan_fingerings, stopped="stopped", written="written_fingerings", written_by_hand="fingering_by_hand"
+    ),
     fingerings="planned_fingerings.events",
     fingering_problems="planned_fingerings.problems",
     mutes=plan_mutes,

@@ -17,7 +17,7 @@ from functools import lru_cache
 import msgspec
 import numpy as np
 
-from app.arrays import IntArray
+from app.arrays import BoolArray, IntArray
 from app.errors import Argument, Message
 from app.plan.fingering.costs import TOLERANCE, FingeringProblem, fingering_problem
 from app.plan.fingering.mutes import stopped_notes
@@ -38,6 +38,7 @@ def plan_fingerings(
     pins: dict[str, str],
     stopped: tuple[tuple[int, int], ...] = (),
     written: tuple[str, ...] = (),
+    written_by_hand: BoolArray | None = None,
 ) -> Planned[FingeringEvent]:
     """Choose a fingering for every note.
 
@@ -49,6 +50,8 @@ def plan_fingerings(
         Where the hand stops the bell: notes are fingered as the map says of it.
     written : tuple of str, optional
         The fingering in the score of each note; empty: none. A correction wins over it, and it over the search.
+    written_by_hand : (N,) bool, optional
+        Which of them a hand wrote.
     """
     if not notes:
         return Planned((), ())
@@ -72,7 +75,8 @@ def plan_fingerings(
             problems.append(Problem(message, note.id, onset_s[index], end_s[index]))
         in_score = problem.in_score.get(index) == chosen[index][1]
         if not pinned and in_score:
-            reason = _reason("fingering.written", fingering.label)
+            is_own = written_by_hand is not None and written_by_hand[index]
+            reason = _reason("fingering.by_hand" if is_own else "fingering.written", fingering.label)
         elif pinned or by_hand[index]:
             reason = _reason("fingering.by_hand" if pinned else "fingering.stopped", fingering.label)
         elif fingering.rank <= 1:

@@ -38,8 +38,8 @@ class WrittenMarks:
         Whether it is tongued softly under a slur (portato).
     breath : bool
         Whether a breath mark or a caesura follows it.
-    breath_by_hand, stroke_by_hand : bool
-        Whether the breath mark, and the mark of the stroke or the tonguing, was written by hand.
+    breath_by_hand, stroke_by_hand, fingering_by_hand : bool
+        Whether the breath mark, the mark of the stroke or the tonguing, and the fingering was written by hand.
     stroke : str
         The mark of `OF_STROKE` that it has; empty: none.
     tonguing : str
@@ -62,6 +62,7 @@ class WrittenMarks:
     breath: BoolArray
     breath_by_hand: BoolArray
     stroke_by_hand: BoolArray
+    fingering_by_hand: BoolArray
     stroke: tuple[str, ...]
     tonguing: tuple[str, ...]
     fingering: tuple[str, ...]
@@ -114,7 +115,8 @@ def written_marks(
         return unwritten(count)
     place = {note.id: index for index, note in enumerate(notes)}
     by_hand = {item.mark for item in corrections if isinstance(item, SetMark)}
-    slurred, apart, ends, breath, breath_by_hand, stroke_by_hand = (np.zeros(count, dtype=bool) for _ in range(6))
+    slurred, apart, ends, breath = (np.zeros(count, dtype=bool) for _ in range(4))
+    breath_by_hand, stroke_by_hand, fingering_by_hand = (np.zeros(count, dtype=bool) for _ in range(3))
     stroke, tonguing, fingering = [""] * count, [""] * count, [""] * count
     for mark in marks:
         first = place.get(mark.note_id)
@@ -141,6 +143,7 @@ def written_marks(
                 # Of an ornament the neighbours have their own.
                 if notes[index].pitch == notes[first].pitch:
                     fingering[index] = mark.text
+                    fingering_by_hand[index] = mark in by_hand
     slurred &= ~apart
     tongued = apart | (ends & ~slurred)
     under = slurred | np.insert(slurred[:-1], 0, False)[:count]
@@ -151,7 +154,7 @@ def written_marks(
     slurred = joined & ~np.append(divided[1:], False)[:count]
     onsets = np.fromiter((note.onset_tick for note in notes), np.int64, count)
     level, swell, struck = note_dynamics(onsets, written_dynamics(marks, source, ticks_per_quarter), ticks_per_quarter)
-    flags = slurred, tongued, joined, divided, breath, breath_by_hand, stroke_by_hand
+    flags = slurred, tongued, joined, divided, breath, breath_by_hand, stroke_by_hand, fingering_by_hand
     by_note = tuple(stroke), tuple(tonguing), tuple(fingering), level, swell, struck
     return WrittenMarks(source, *flags, *by_note)
 
@@ -161,5 +164,5 @@ def unwritten(count: int) -> WrittenMarks:
     none = np.zeros(count, dtype=bool)
     names = ("",) * count
     level, swell = np.full(count, np.nan), np.zeros(count)
-    flags = (none,) * 7
+    flags = (none,) * 8
     return WrittenMarks("sound", *flags, names, names, names, level, swell, none)

@@ -61,7 +61,8 @@ def test_each_fact_says_where_it_is_from(tmp_path: Path) -> None:
     project = opened(path)
     [player] = project.players
     pinned = PinFingering("1:4", "13")
-    project = set_marks(with_corrections(project, player.id, [pinned]), player.id, [Mark("staccato", "1:3")])
+    by_hand = [Mark("staccato", "1:3"), Mark("fingering", "1:1", text="3")]
+    project = set_marks(with_corrections(project, player.id, [pinned]), player.id, by_hand)
     found = inspection(Performance(project), contacts=False)
     rows = {row["id"]: row["sources"] for row in found["players"][0]["notes"]}
     assert {fact: [rows[f"1:{number}"][fact] for number in (1, 2, 3, 4)] for fact in FACTS} == {
@@ -70,7 +71,7 @@ def test_each_fact_says_where_it_is_from(tmp_path: Path) -> None:
         "slur": ["score"] * 4,
         "articulation": ["score", "score", "hand", "score"],
         "tonguing": ["guess", "score", "score", "guess"],
-        "fingering": ["guess", "guess", "score", "hand"],
+        "fingering": ["hand", "guess", "score", "hand"],
         "mute": ["score"] * 4,
     }
     assert [row["dynamic"] for row in found["players"][0]["notes"]] == ["mf", "f", "f", "f"]
