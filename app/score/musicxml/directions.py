@@ -140,7 +140,9 @@ def read_barline(one: Element, bar: Bar, place: Place) -> None:
             bar.forward = True
         elif repeat.get("direction") == "backward":
             times = int(place.number_of(repeat.get("times", "2"), "times"))
-            bar.backward = max(bar.backward, min(max(times, 2), _MOST_TIMES))
+            if times > _MOST_TIMES:
+                raise place.bad("times", repeat.get("times"))
+            bar.backward = max(bar.backward, times, 2)
             bar.after_jump = bar.after_jump or repeat.get("after-jump") == "yes"
     if ending is not None:
         if ending.get("type") == "start":

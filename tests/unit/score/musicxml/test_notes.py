@@ -357,6 +357,14 @@ def test_a_value_that_makes_no_sense_is_refused_with_its_place(tmp_path: Path) -
     )
 
 
+def test_a_section_is_not_played_a_million_times(tmp_path: Path) -> None:
+    again = '<barline location="right"><repeat direction="backward" times="1000000"/></barline>'
+    with pytest.raises(FileError) as raised:
+        read(tmp_path, document(note("C4", 16) + again))
+    assert raised.value.message.id == "musicxml.bad_value"
+    assert raised.value.message.arguments["value"] == "1000000"
+
+
 def test_parts_in_the_order_of_the_list(tmp_path: Path) -> None:
     contents = read(
         tmp_path,
