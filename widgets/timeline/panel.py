@@ -17,13 +17,13 @@ from widgets.timeline.lane import GUTTER_PX, Lane
 from widgets.timeline.lane_layout import LaneLayout, LaneState, lane_state, lane_text
 from widgets.timeline.lanes import LANES
 from widgets.timeline.lanes.takes.takes_lane import TakesLane
-from widgets.timeline.plot.time_axis import TimeAxis
 from widgets.timeline.roll.piano_roll import PianoRoll
 from widgets.timeline.roll.quantise import QuantisePopover
 from widgets.timeline.ruler.flags import Flags
 from widgets.timeline.ruler.time_ruler import Ruler
 from widgets.timeline.stack import LaneStack
 from widgets.timeline.tool_bar import ToolBar
+from widgets.timeline.zoom_and_scroll import TimeAxis
 
 ZOOM_A_CLICK = 1.5
 FIRST_BARS, MOST_FIRST_BARS = 16, 24

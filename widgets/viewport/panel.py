@@ -24,10 +24,11 @@ from widgets.common.layouts import in_column
 from widgets.common.menus import offer_actions
 from widgets.common.plain import Label
 from widgets.viewport.camera import Camera, frame
+from widgets.viewport.camera_moves import Eye
 from widgets.viewport.canvas import Canvas, Picture, pixels, why_no_gl
 from widgets.viewport.cast import Stage
-from widgets.viewport.eye import Eye
 from widgets.viewport.figures import DrawableFigures, cast_key
+from widgets.viewport.framing import bounds, in_the_way, steady_camera, tracked, view_camera
 from widgets.viewport.header import ViewportHeader
 from widgets.viewport.layer import Layer
 from widgets.viewport.look import Emphasis, look_of
@@ -38,7 +39,6 @@ from widgets.viewport.renderer import Renderer
 from widgets.viewport.scene import ViewportScene
 from widgets.viewport.shot import Shot, times_looked_at
 from widgets.viewport.video import BesideVideo, VideoStrip
-from widgets.viewport.views import bounds, in_the_way, steady_camera, tracked, view_camera
 
 Draw = Callable[[float], npt.NDArray[np.uint8]]
 """Draws a film's picture of a time in seconds (height, width, 4)."""

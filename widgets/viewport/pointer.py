@@ -7,7 +7,7 @@ from PySide6.QtGui import QKeyEvent, QMouseEvent, QWheelEvent
 from PySide6.QtWidgets import QWidget
 
 from app.editor.session import Session
-from widgets.viewport.eye import Eye
+from widgets.viewport.camera_moves import Eye
 from widgets.viewport.handles import Handle
 from widgets.viewport.overlay import handle_at
 from widgets.viewport.pose_tool import PoseTool

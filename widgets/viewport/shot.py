@@ -11,7 +11,7 @@ import numpy.typing as npt
 from app.editor.viewport_state import View
 from widgets.viewport.camera import Camera, followed
 from widgets.viewport.cast import Stage
-from widgets.viewport.views import tracked
+from widgets.viewport.framing import tracked
 
 _POSES: Final = 64
 """Most poses of players that are looked at before a film, in all."""

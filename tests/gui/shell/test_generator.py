@@ -32,7 +32,7 @@ from app.shell.commands.problems import go_to_problem
 from tests.support.bodies import playing as odd_bodies
 from widgets.common.text import message_text
 from widgets.timeline.lanes.problems import ProblemsLane
-from widgets.timeline.plot.time_axis import TimeAxis
+from widgets.timeline.zoom_and_scroll import TimeAxis
 
 pytestmark = pytest.mark.drawn
 

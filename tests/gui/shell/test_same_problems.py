@@ -20,7 +20,7 @@ from tests.support.bodies import playing
 from tests.support.live import performance_of
 from tests.support.tasks import ImmediateTasks
 from widgets.timeline.lanes.problems import ProblemsLane
-from widgets.timeline.plot.time_axis import TimeAxis
+from widgets.timeline.zoom_and_scroll import TimeAxis
 
 pytestmark = pytest.mark.moved
 

@@ -19,7 +19,7 @@ from tests.support.blown import TEMPO, Blow, breath_curve, take, vibrato_curve
 from tests.support.tasks import ImmediateTasks
 from tests.support.windows import child
 from widgets.timeline.lanes.curves import CurvesLane
-from widgets.timeline.plot.time_axis import TimeAxis
+from widgets.timeline.zoom_and_scroll import TimeAxis
 
 SWELL = Blow(0.99, 5.0, lambda s: 0.25 + 0.7 * np.minimum(s / 4.0, 1.0))
 

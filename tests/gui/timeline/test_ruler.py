@@ -19,9 +19,9 @@ from tests.gui.timeline.hand import ALT, CTRL, Hand, Place
 from tests.support.windows import child
 from widgets.timeline.lane import GUTTER_PX
 from widgets.timeline.model.ruler.ruler_marks import clock
-from widgets.timeline.plot.time_axis import TimeAxis
 from widgets.timeline.ruler.ruler_labels import lay_marks
 from widgets.timeline.ruler.time_ruler import MARKS_PX, Ruler
+from widgets.timeline.zoom_and_scroll import TimeAxis
 
 BAR = 4 * TPQ
 

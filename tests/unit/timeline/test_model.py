@@ -27,7 +27,7 @@ from widgets.timeline.model.hand import LaneMouse, PixelRect, spanned
 from widgets.timeline.model.regions.shown_event import Region
 from widgets.timeline.model.regions.shown_regions import RegionTable, region_box
 from widgets.timeline.model.roll.shown_notes import edge_of, zoomed_pitches
-from widgets.timeline.model.view import LEAST_SPAN_S, TimeView
+from widgets.timeline.model.visible_time import LEAST_SPAN_S, TimeView
 
 TPQ = 480
 VIEW = TimeView((0.0, 100.0), 10.0, 20.0, 1000)

@@ -17,7 +17,7 @@ from tests.unit.viewport.poses import AT_S, posed_stage, quartet
 from widgets.viewport.camera import Camera
 from widgets.viewport.cast import Stage, kit_of, member_of
 from widgets.viewport.finger_visibility import visible_finger_shares
-from widgets.viewport.views import tracked, turn_rad, view_camera
+from widgets.viewport.framing import tracked, turn_rad, view_camera
 
 USUAL = (-48.0, 14.0)
 

@@ -17,6 +17,7 @@ from instrument_maps.load import bundled_maps
 from metadata.load import load_body
 from tests.unit.viewport.poses import posed_stage, quartet
 from widgets.viewport.camera import Camera
+from widgets.viewport.framing import turn_rad, view_camera
 from widgets.viewport.handles import (
     TARGETS,
     Handle,
@@ -28,7 +29,6 @@ from widgets.viewport.handles import (
     turned,
     with_correction,
 )
-from widgets.viewport.views import turn_rad, view_camera
 
 HEIGHT = 720.0
 FREE = {"up_deg": (-90.0, 90.0)}

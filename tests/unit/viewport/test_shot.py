@@ -11,8 +11,8 @@ from app.editor.viewport_state import VIEWS, View
 from tests.unit.viewport.poses import pose, posed_stage, quartet
 from widgets.viewport.camera import Camera
 from widgets.viewport.cast import Stage
+from widgets.viewport.framing import steady_camera
 from widgets.viewport.shot import Shot, times_looked_at
-from widgets.viewport.views import steady_camera
 
 STEP_S = 0.1
 ASPECT = 16.0 / 9.0

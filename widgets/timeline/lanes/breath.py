@@ -21,7 +21,7 @@ from widgets.timeline.lanes.regions import RegionLane
 from widgets.timeline.model.regions.shown_event import Region
 from widgets.timeline.model.regions.shown_regions import removed_regions
 from widgets.timeline.plot.drawing import draw_mark, draw_text, shade
-from widgets.timeline.plot.time_axis import TimeAxis
+from widgets.timeline.zoom_and_scroll import TimeAxis
 
 PREPARATION_SHARE = 0.45
 """Height of a preparation, of the lane."""

@@ -36,7 +36,7 @@ from widgets.timeline.model.curves import (
 from widgets.timeline.model.geometry import StepCurve, step_path
 from widgets.timeline.model.gestures import LiveEdit
 from widgets.timeline.plot.drawing import draw_lines, draw_mark, draw_path, draw_rects, draw_text, shade, small_font
-from widgets.timeline.plot.time_axis import TimeAxis
+from widgets.timeline.zoom_and_scroll import TimeAxis
 
 CONTROLLERS: Final[tuple[CurveKind, ...]] = ("breath", "bite", "expression", "volume", "aftertouch", "pitch_bend")
 MARGIN_PX = 4.0

@@ -16,7 +16,7 @@ from widgets.common.text import sentence
 from widgets.timeline.lane import Lane, LaneItem, LaneMouse
 from widgets.timeline.model.geometry import TimeSpans
 from widgets.timeline.plot.drawing import shade
-from widgets.timeline.plot.time_axis import TimeAxis
+from widgets.timeline.zoom_and_scroll import TimeAxis
 
 MARK_PX = 11.0
 REACH_PX = 8.0

@@ -35,7 +35,7 @@ from widgets.timeline.model.regions.shown_regions import (
     row_box,
 )
 from widgets.timeline.plot.drawing import MARK_PX, draw_mark, rect, shade, small_font
-from widgets.timeline.plot.time_axis import TimeAxis
+from widgets.timeline.zoom_and_scroll import TimeAxis
 
 STEP, FINE_STEP = 0.05, 0.01
 """Change of an amount by Up and Down, and with Shift."""

@@ -7,7 +7,7 @@ from PySide6.QtWidgets import QWidget
 
 from app.editor.session import Session
 from widgets.timeline.lane import Lane, LaneMouse
-from widgets.timeline.plot.time_axis import TimeAxis
+from widgets.timeline.zoom_and_scroll import TimeAxis
 
 
 class RowLane(Lane):

@@ -14,7 +14,7 @@ from app.project.grid import Grid
 from app.project.model import Project
 from app.score.model import Score
 from widgets.timeline.model.hand import LaneMouse, PixelRect, spanned
-from widgets.timeline.model.view import Scale
+from widgets.timeline.model.visible_time import Scale
 
 DRAG_PX = 3.0
 """The mouse moves this far before a press in a lane becomes a drag."""

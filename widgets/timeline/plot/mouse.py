@@ -7,7 +7,7 @@ from PySide6.QtCore import QPoint, QPointF, Qt
 from app.editor.session import Session
 from widgets.timeline.model.gestures import snapped
 from widgets.timeline.model.hand import LaneMouse
-from widgets.timeline.plot.time_axis import TimeAxis
+from widgets.timeline.zoom_and_scroll import TimeAxis
 
 
 def mouse_at(

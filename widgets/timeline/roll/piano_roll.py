@@ -39,10 +39,10 @@ from widgets.timeline.model.roll.shown_notes import (
     zoomed_pitches,
 )
 from widgets.timeline.plot.drawing import rect
-from widgets.timeline.plot.time_axis import TimeAxis
 from widgets.timeline.roll.drawn_notes import Hint, Labels, Lasso, Notes, Rows
 from widgets.timeline.roll.entry_arrows import EntryArrows
 from widgets.timeline.roll.keyboard import KEYBOARD_PX, Keyboard
+from widgets.timeline.zoom_and_scroll import TimeAxis
 
 ROWS_A_NOTCH = 3.0
 ZOOM_A_NOTCH = 1.18

@@ -13,8 +13,8 @@ from PySide6.QtWidgets import QToolTip, QWidget
 from app.editor.session import Session
 from app.score.model import Score
 from widgets.timeline.lane import GUTTER_PX
-from widgets.timeline.plot.time_axis import TimeAxis
 from widgets.timeline.ruler.strip import Strip
+from widgets.timeline.zoom_and_scroll import TimeAxis
 
 FLAGS_PX = 20
 LEAST_FLAG_PX = 32.0

@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QLineEdit, QWidget
 from app.score.model import Score
 from widgets.timeline.model.ruler import ruler_marks as model
 from widgets.timeline.plot.drawing import rect
-from widgets.timeline.plot.time_axis import TimeAxis
+from widgets.timeline.zoom_and_scroll import TimeAxis
 
 FIELD_PX = 80
 

@@ -10,7 +10,7 @@ from app.editor.session import Session
 from app.editor.tokens import LEAST_TEXT_PT
 from widgets.timeline.lane import GUTTER_PX
 from widgets.timeline.plot.cached_picture import Pictured
-from widgets.timeline.plot.time_axis import TimeAxis
+from widgets.timeline.zoom_and_scroll import TimeAxis
 
 
 class Strip(Pictured):

@@ -45,10 +45,10 @@ from widgets.timeline.model.ruler.ruler_marks import (
 )
 from widgets.timeline.plot.drawing import draw_lines
 from widgets.timeline.plot.mouse import mouse_at
-from widgets.timeline.plot.time_axis import TimeAxis
 from widgets.timeline.ruler.ruler_labels import MarkEditor, RulerLabel, lay_marks
 from widgets.timeline.ruler.ruler_unit import UnitButton
 from widgets.timeline.ruler.strip import Strip
+from widgets.timeline.zoom_and_scroll import TimeAxis
 
 MARKS_PX = 22
 SCALE_PX = 24

@@ -52,7 +52,7 @@ from widgets.timeline.model.regions.acting_regions import (
 from widgets.timeline.model.regions.shown_event import Region
 from widgets.timeline.model.regions.shown_regions import removed_regions
 from widgets.timeline.plot.drawing import draw_columns, draw_mark, draw_rects, shade
-from widgets.timeline.plot.time_axis import TimeAxis
+from widgets.timeline.zoom_and_scroll import TimeAxis
 
 BASE_PX = 5.0
 NEW_BEATS = 2

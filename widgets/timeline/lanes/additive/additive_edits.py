@@ -21,7 +21,7 @@ from widgets.timeline.lane import Lane
 from widgets.timeline.lanes.number_field import NumberField, TextField
 from widgets.timeline.model.additive import additive_curves as model
 from widgets.timeline.model.additive.additive_curves import KeyRef, ShownCurve, by_curve
-from widgets.timeline.plot.time_axis import TimeAxis
+from widgets.timeline.zoom_and_scroll import TimeAxis
 
 MIME = "application/x-suisou-curve-keys"
 FIRST_CHANNEL = "head.up"

@@ -33,7 +33,7 @@ from widgets.timeline.model.additive.additive_curves import Hit, KeyRef
 from widgets.timeline.model.additive.additive_gestures import DragBlend, DragHandle, DragKeys
 from widgets.timeline.model.gestures import Band, MouseGesture, either
 from widgets.timeline.model.hand import PixelRect
-from widgets.timeline.plot.time_axis import TimeAxis
+from widgets.timeline.zoom_and_scroll import TimeAxis
 
 REACH_PX = 6.0
 """Distance to a stretch beyond the body's range within which the mouse shows what is wrong."""

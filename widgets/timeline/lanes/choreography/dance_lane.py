@@ -26,7 +26,7 @@ from widgets.timeline.lanes.choreography.dance_menu import DanceMenu
 from widgets.timeline.lanes.choreography.dragged_step import MoveStep, state_beside
 from widgets.timeline.lanes.row_lane import RowLane
 from widgets.timeline.lanes.row_names import RowNames
-from widgets.timeline.plot.time_axis import TimeAxis
+from widgets.timeline.zoom_and_scroll import TimeAxis
 
 if TYPE_CHECKING:
     # The modules of dances are loaded only for pieces with dancers.

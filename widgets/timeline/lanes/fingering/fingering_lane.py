@@ -26,7 +26,7 @@ from widgets.timeline.lanes.problems import ProblemMarks
 from widgets.timeline.lanes.row_names import RowNames
 from widgets.timeline.model.geometry import TimeSpans
 from widgets.timeline.plot.drawing import draw_mark, draw_path, draw_rects, draw_text, shade, small_font
-from widgets.timeline.plot.time_axis import TimeAxis
+from widgets.timeline.zoom_and_scroll import TimeAxis
 
 LABEL_PX = 16.0
 """Height of the row of labels."""

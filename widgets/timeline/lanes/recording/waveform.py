@@ -23,7 +23,7 @@ from widgets.timeline.lane import Lane, LaneItem, LaneMouse
 from widgets.timeline.lanes.number_field import NumberField
 from widgets.timeline.lanes.recording.beat_anchors import Anchors, paint_doubts
 from widgets.timeline.plot.drawing import draw_lines, draw_text, shade, small_font
-from widgets.timeline.plot.time_axis import TimeAxis
+from widgets.timeline.zoom_and_scroll import TimeAxis
 
 DRAG_PX = 3.0
 FINE = 0.1

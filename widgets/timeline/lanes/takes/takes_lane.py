@@ -23,7 +23,7 @@ from widgets.timeline.lanes.takes.take_drawing import STRIP_PX, TakesItem
 from widgets.timeline.lanes.takes.take_heads import TakeHeads
 from widgets.timeline.model.takes.shown_takes import Swipe, TakesModel
 from widgets.timeline.model.takes.take_rows import TakeRow
-from widgets.timeline.plot.time_axis import TimeAxis
+from widgets.timeline.zoom_and_scroll import TimeAxis
 
 ROW_PX, LEAST_ROW_PX, MOST_ROW_PX = 38, 24, 72
 SHOWN_ROWS, LEAST_SHOWN_ROWS = 6, 3

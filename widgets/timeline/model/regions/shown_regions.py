@@ -15,7 +15,7 @@ from app.plan.model import PlayerPlan
 from app.project.model import Project
 from widgets.timeline.model.hand import LaneMouse, PixelRect
 from widgets.timeline.model.regions.shown_event import Region, place_of, spans_of
-from widgets.timeline.model.view import Scale
+from widgets.timeline.model.visible_time import Scale
 
 EDGE_PX = 6.0
 HANDLE_PX = 5.0

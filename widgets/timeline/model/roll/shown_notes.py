@@ -18,7 +18,7 @@ from app.score.model import Note, Score
 from widgets.timeline.model.gestures import Editing
 from widgets.timeline.model.hand import LaneMouse
 from widgets.timeline.model.roll.note_table import Behind, NoteTable, TimedNotes
-from widgets.timeline.model.view import Scale
+from widgets.timeline.model.visible_time import Scale
 
 EDGE_PX = 6.0
 """Distance from a note's end within which a press takes hold of the end."""

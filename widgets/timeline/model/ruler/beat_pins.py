@@ -15,7 +15,7 @@ from app.project.recording import BeatPin, Doubt
 from widgets.timeline.model.gestures import DRAG_PX, Editing, LiveEdit, MouseGesture, along
 from widgets.timeline.model.hand import LaneMouse
 from widgets.timeline.model.lines import Lines
-from widgets.timeline.model.view import Scale
+from widgets.timeline.model.visible_time import Scale
 
 HANDLE_PX: Final = 11.0
 """Height of the strip in which they are taken hold of, at the lower edge."""

@@ -15,7 +15,7 @@ from app.project.model import Project
 from app.score.model import Score
 from widgets.timeline.model.hand import PixelRect
 from widgets.timeline.model.lines import Lines
-from widgets.timeline.model.view import Scale, VisibleSpan
+from widgets.timeline.model.visible_time import Scale, VisibleSpan
 
 LEAST_LABEL_PX = 64.0
 STEPS_S = (0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 15.0, 30.0, 60.0, 120.0, 300.0, 600.0, 1800.0, 3600.0)

@@ -17,7 +17,7 @@ from app.score.tempo import TempoMap
 from widgets.timeline.model.gestures import DRAG_PX, Editing, MouseGesture, along
 from widgets.timeline.model.hand import LaneMouse
 from widgets.timeline.model.takes.take_rows import TakeRow, comp_of, edges, pitch_range, rows_of, span_at
-from widgets.timeline.model.view import Limited
+from widgets.timeline.model.visible_time import Limited
 
 EDGE_PX = 4.0
 """Distance within which the mouse holds the border of two takes."""

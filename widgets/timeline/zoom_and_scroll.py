@@ -1,4 +1,4 @@
-"""The one time axis that the ruler and all lanes share: which seconds of the performance are visible."""
+"""Zoom and scroll of the timeline, by the wheel and otherwise: the one time axis that the ruler and all lanes share."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from app.arrays import FloatArray
 from app.project.grid import Grid
 from app.score.model import Score
 from widgets.timeline.model.lines import LineCache, Lines
-from widgets.timeline.model.view import TimeView
+from widgets.timeline.model.visible_time import TimeView
 
 ZOOM_A_NOTCH = 1.2
 PAN_A_NOTCH = 0.12

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from widgets.viewport.camera import Camera
-from widgets.viewport.eye import ARRIVED_M, TRANSITION_S, Eye
+from widgets.viewport.camera_moves import ARRIVED_M, TRANSITION_S, Eye
 
 FAR = replace(Camera(), target_m=(2.0, 1.0, 0.0), distance_m=3.0)
 

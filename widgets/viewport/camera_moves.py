@@ -1,4 +1,4 @@
-"""The camera between views, flights, players that are followed, and the user's hand. Nothing here knows Qt or GL."""
+"""Moves of the camera: flights between views, following a player, orbit, pan and zoom. Nothing here knows Qt or GL."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""From where each view looks, and what it keeps in the middle."""
+"""Framing of the 3D viewport: the first camera of each view, and the point that it keeps in the middle."""
 
 from __future__ import annotations
 
