@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Generic, TypeVar
+from typing import Any, Generic, Protocol, TypeVar
 
 import numpy as np
 from PySide6.QtCore import QEvent, QRectF, Qt
 from PySide6.QtGui import (
     QColor,
     QContextMenuEvent,
+    QFont,
     QKeyEvent,
     QMouseEvent,
     QPainter,
@@ -18,14 +19,48 @@ from PySide6.QtGui import (
 )
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
+from app.editor.session import Session
+from widgets.timeline.model.hand import LaneMouse
+from widgets.timeline.model.lines import Lines
 from widgets.timeline.plot.cached_picture import Pictured
 from widgets.timeline.plot.drawing import draw_lines
-
-if TYPE_CHECKING:
-    from widgets.timeline.lane import Lane
+from widgets.timeline.zoom_and_scroll import TimeAxis
 
 
-AnyLane = TypeVar("AnyLane", bound="Lane")
+class LaneView(Protocol):
+    """Part of a lane that its items draw; a protocol, here and in the drawings, since lanes import their items."""
+
+    id: str
+    session: Session
+    axis: TimeAxis
+    plot: Plot
+
+    @property
+    def plot_rect(self) -> QRectF: ...
+    @property
+    def y_range(self) -> tuple[float, float]: ...
+    def y_px(self, value: float) -> float: ...
+    def lines(self) -> Lines: ...
+    def font(self) -> QFont: ...
+
+
+class PlotOwner(Protocol):
+    """Receiver of a plot's events; a protocol, since lanes import their plot."""
+
+    session: Session
+
+    def plot_resized(self) -> None: ...
+    def pressed(self, event: QMouseEvent) -> None: ...
+    def moved(self, event: QMouseEvent) -> None: ...
+    def released(self, event: QMouseEvent) -> None: ...
+    def double_clicked(self, event: QMouseEvent) -> None: ...
+    def wheeled(self, event: QWheelEvent) -> None: ...
+    def key_pressed(self, event: QKeyEvent) -> None: ...
+    def claims(self, event: QKeyEvent) -> bool: ...
+    def hover(self, mouse: LaneMouse | None) -> None: ...
+
+
+AnyLane = TypeVar("AnyLane", bound=LaneView)
 
 
 class LaneItem(Generic[AnyLane]):
@@ -33,7 +68,7 @@ class LaneItem(Generic[AnyLane]):
 
     Parameters
     ----------
-    lane : Lane
+    lane : LaneView
         Or what more the item draws of its lane, where it says so.
     z : float
         What has more lies above.
@@ -53,10 +88,10 @@ class LaneItem(Generic[AnyLane]):
         raise NotImplementedError
 
 
-class Background(LaneItem["Lane"]):
+class Background(LaneItem[LaneView]):
     """Lines of bars, beats and the grid; the loop and the selected span as shades."""
 
-    def __init__(self, lane: Lane) -> None:
+    def __init__(self, lane: LaneView) -> None:
         super().__init__(lane, -100.0)
 
     def paint_px(self, painter: QPainter, exposed: QRectF) -> None:
@@ -97,7 +132,7 @@ class Plot(Pictured):
     lanes again.
     """
 
-    def __init__(self, lane: Lane, parent: QWidget) -> None:
+    def __init__(self, lane: PlotOwner, parent: QWidget) -> None:
         super().__init__(parent)
         self._lane = lane
         self._items: list[LaneItem[Any]] = []

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from itertools import repeat
-from typing import TYPE_CHECKING
+from typing import Protocol
 
 import numpy as np
 from PySide6.QtCore import QLineF, QPointF, QRectF, Qt
@@ -14,12 +14,10 @@ from app.arrays import AnyIntArray, FloatArray, IntArray
 from app.plan.model import FingeringEvent, PlayerPlan, Problem
 from widgets.common.fingering_text import short_label
 from widgets.common.pitch import BLACK
-from widgets.timeline.model.roll.note_table import Behind, NoteTable
+from widgets.timeline.model.roll.note_table import Behind, NoteTable, TimedNotes
+from widgets.timeline.model.roll.shown_notes import RollModel
 from widgets.timeline.plot.drawing import draw_groups, fill_rects
-from widgets.timeline.plot.plot import LaneItem
-
-if TYPE_CHECKING:
-    from widgets.timeline.roll.piano_roll import PianoRoll
+from widgets.timeline.plot.plot import LaneItem, LaneView
 
 LEVELS = 4
 """Shades of velocity."""
@@ -32,6 +30,22 @@ INSIDE_PX = 15.0
 """In rows at least so high a label stands inside its note."""
 
 
+class RollView(LaneView, Protocol):
+    """Part of the roll that its items draw; a protocol for the reason of `LaneView`."""
+
+    model: RollModel
+
+    @property
+    def ghosted(self) -> bool: ...
+    @property
+    def playable(self) -> tuple[int, int] | None: ...
+    @property
+    def row_px(self) -> float: ...
+    def visible(self, table: TimedNotes, exposed: QRectF) -> IntArray: ...
+    def boxes(self, table: TimedNotes, rows: IntArray) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]: ...
+    def hint(self) -> str: ...
+
+
 def mixed(colour: str, other: str, share: float) -> QColor:
     """A colour, ``share`` 0..1 of the way to another."""
     a, b = QColor(colour), QColor(other)
@@ -40,7 +54,7 @@ def mixed(colour: str, other: str, share: float) -> QColor:
     )
 
 
-class Rows(LaneItem["PianoRoll"]):
+class Rows(LaneItem[RollView]):
     """Rows of black keys, lines at every C, and where the instrument in front cannot go."""
 
     def paint_px(self, painter: QPainter, exposed: QRectF) -> None:
@@ -70,10 +84,10 @@ class Rows(LaneItem["PianoRoll"]):
             painter.fillRect(QRectF(exposed.left(), below, exposed.width(), rest) & exposed, shade)
 
 
-class Notes(LaneItem["PianoRoll"]):
+class Notes(LaneItem[RollView]):
     """All players' notes as rectangles."""
 
-    def __init__(self, lane: PianoRoll) -> None:
+    def __init__(self, lane: RollView) -> None:
         super().__init__(lane, 0.0)
         self._behind: tuple[object, Behind, QImage] | None = None
         """The other players' notes as they were drawn last, and what that depends on: a selection, an edit in front or
@@ -137,7 +151,7 @@ def _shade(colour: str, alpha: int) -> QColor:
     return shade
 
 
-def picture_behind(lane: PianoRoll, behind: Behind, alpha: int, ratio: float) -> QImage:
+def picture_behind(lane: RollView, behind: Behind, alpha: int, ratio: float) -> QImage:
     """The other players' notes: as rectangles, or where there are very many, the narrow ones as points.
 
     Parameters
@@ -176,7 +190,7 @@ def picture_behind(lane: PianoRoll, behind: Behind, alpha: int, ratio: float) ->
 
 def _draw_points(
     painter: QPainter,
-    lane: PianoRoll,
+    lane: RollView,
     left: FloatArray,
     pitch: FloatArray,
     width: FloatArray,
@@ -208,10 +222,10 @@ def _premultiplied(shade: QColor) -> int:
     return (alpha << 24) | (red << 16) | (green << 8) | blue
 
 
-class Labels(LaneItem["PianoRoll"]):
+class Labels(LaneItem[RollView]):
     """Fingerings on the notes of the player in front, marks of what was pinned by hand, and of problems."""
 
-    def __init__(self, lane: PianoRoll) -> None:
+    def __init__(self, lane: RollView) -> None:
         super().__init__(lane, 10.0)
         self._texts: dict[str, tuple[QStaticText, float]] = {}
         self._plan: PlayerPlan | None = None
@@ -333,10 +347,10 @@ class Labels(LaneItem["PianoRoll"]):
         return known
 
 
-class Lasso(LaneItem["PianoRoll"]):
+class Lasso(LaneItem[RollView]):
     """The rectangle that is drawn over what shall be selected, and the line where a note would be cut."""
 
-    def __init__(self, lane: PianoRoll) -> None:
+    def __init__(self, lane: RollView) -> None:
         super().__init__(lane, 20.0)
         self.rect: QRectF | None = None
         self.cut: QLineF | None = None
@@ -360,7 +374,7 @@ class Lasso(LaneItem["PianoRoll"]):
             painter.drawLine(self.cut)
 
 
-class Hint(LaneItem["PianoRoll"]):
+class Hint(LaneItem[RollView]):
     """Advice in an empty roll."""
 
     def paint_px(self, painter: QPainter, exposed: QRectF) -> None:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QPainter, QPainterPath, QPen, QPolygonF
 
@@ -12,9 +10,7 @@ from widgets.timeline.model.hand import LaneMouse
 from widgets.timeline.model.roll.entries import End, EntryArrow, EntryDrag, end_at, entry_arrows
 from widgets.timeline.plot.drawing import shade
 from widgets.timeline.plot.plot import LaneItem
-
-if TYPE_CHECKING:
-    from widgets.timeline.roll.piano_roll import PianoRoll
+from widgets.timeline.roll.drawn_notes import RollView
 
 HEAD_PX = 7.0
 DOT_PX = 2.5
@@ -24,10 +20,10 @@ HELD = 1.6
 """An end under the mouse is larger by this factor."""
 
 
-class EntryArrows(LaneItem["PianoRoll"]):
+class EntryArrows(LaneItem[RollView]):
     """The entries that the player in front gives or takes, in the giver's colour."""
 
-    def __init__(self, lane: PianoRoll) -> None:
+    def __init__(self, lane: RollView) -> None:
         super().__init__(lane, 12.0)
         self._known: tuple[tuple[object, ...], tuple[EntryArrow, ...]] = ((), ())
         self._drag: EntryDrag | None = None

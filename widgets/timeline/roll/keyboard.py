@@ -2,24 +2,41 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import Protocol
 
 from PySide6.QtCore import QEvent, QRectF, Qt
 from PySide6.QtGui import QColor, QFontMetricsF, QMouseEvent, QPainter, QPaintEvent, QPen, QWheelEvent
 from PySide6.QtWidgets import QWidget
 
+from app.editor.session import Session
 from widgets.common.pitch import BLACK
 
-if TYPE_CHECKING:
-    from widgets.timeline.roll.piano_roll import PianoRoll
-
 KEYBOARD_PX = 50
+
+
+class Keyed(Protocol):
+    """Owner of the rows of pitches beside the keyboard; a protocol for the reason of `LaneView`."""
+
+    session: Session
+
+    @property
+    def header(self) -> QWidget: ...
+    @property
+    def row_px(self) -> float: ...
+    @property
+    def y_range(self) -> tuple[float, float]: ...
+    def y_px(self, value: float) -> float: ...
+    def value_at(self, y_px: float) -> float: ...
+    def pitch_text(self, pitch: int) -> str: ...
+    def pitch_tip(self, pitch: int) -> str: ...
+    def select_pitch(self, pitch: int, add: bool) -> None: ...
+    def scroll_pitch(self, notches: float) -> None: ...
 
 
 class Keyboard(QWidget):
     """Rows of the roll as keys. A click selects every note of a pitch in the part in front; Shift and Ctrl add."""
 
-    def __init__(self, roll: PianoRoll) -> None:
+    def __init__(self, roll: Keyed) -> None:
         super().__init__(roll.header)
         self.setObjectName("keyboard")
         self._roll = roll

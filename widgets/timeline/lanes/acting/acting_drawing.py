@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import Protocol
 
 import numpy as np
 from PySide6.QtCore import QPointF, QRectF, Qt
@@ -13,18 +13,22 @@ from widgets.timeline.model.regions.acting_regions import BASE
 from widgets.timeline.model.regions.shown_event import Region
 from widgets.timeline.model.regions.shown_regions import HANDLE_PX
 from widgets.timeline.plot.drawing import draw_columns, draw_path, draw_text, polygon, shade
-
-if TYPE_CHECKING:
-    from widgets.timeline.lanes.acting.acting_lane import ActingLane
+from widgets.timeline.plot.plot import LaneView
 
 LEAST_SHAPE_PX = 6.0
 """Something narrower is a bar: no one sees its fades."""
 
 
+class ActingView(LaneView, Protocol):
+    """Part of the lane of acting that is drawn; a protocol for the reason of `LaneView`."""
+
+    def fade_handles(self, region: Region, box: QRectF) -> tuple[tuple[str, QPointF], ...]: ...
+
+
 class ActingPainter:
     """Draws regions in their boxes."""
 
-    def __init__(self, lane: ActingLane) -> None:
+    def __init__(self, lane: ActingView) -> None:
         self._lane = lane
 
     def paint_sway(self, painter: QPainter, x0: FloatArray, x1: FloatArray, y: FloatArray, colour: QColor) -> None:

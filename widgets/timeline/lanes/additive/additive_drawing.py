@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import Protocol
 
 import numpy as np
 from PySide6.QtCore import QPointF, QRectF, Qt
@@ -12,11 +12,9 @@ from app.arrays import FloatArray
 from app.plan.by_hand.additive_curve import Interpolation
 from widgets.common.channel_names import value_text
 from widgets.timeline.model.additive.additive_curves import KeyRef, ShownCurve
+from widgets.timeline.model.hand import PixelRect
 from widgets.timeline.plot.drawing import MARK_PX, draw_path, draw_text, polygon, shade, small_font
-from widgets.timeline.plot.plot import LaneItem
-
-if TYPE_CHECKING:
-    from widgets.timeline.lanes.additive.additive_lane import AdditiveLane  # noqa: F401 - ruff does not see the quoted name
+from widgets.timeline.plot.plot import LaneItem, LaneView
 
 KEY_PX = 4.5
 HANDLE_PX = 3.0
@@ -24,7 +22,23 @@ BLEND_PX = 6.0
 LABEL_PX, SCALE_PX = 90.0, 48.0
 
 
-class CurvesItem(LaneItem["AdditiveLane"]):
+class AdditiveLaneView(LaneView, Protocol):
+    """Interface of the additive lane for its drawing; a protocol for the reason of `LaneView`."""
+
+    curves: tuple[ShownCurve, ...]
+    channel: str
+    selected: frozenset[KeyRef]
+    limits: tuple[float, float]
+    generated: tuple[FloatArray, FloatArray] | None
+
+    @property
+    def band(self) -> PixelRect | None: ...
+    @property
+    def chosen_curves(self) -> frozenset[str]: ...
+    def empty_text(self) -> str: ...
+
+
+class CurvesItem(LaneItem[AdditiveLaneView]):
     """The generated value faint behind, the curves with their keys and handles in front."""
 
     def paint_px(self, painter: QPainter, exposed: QRectF) -> None:

@@ -2,27 +2,43 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QPainter, QPen
 
 from app.arrays import IntArray
+from app.project.performers import Dancer
 from widgets.common.choreography.figures import draw_figures, placed
+from widgets.timeline.lanes.choreography.dragged_step import MoveStep
 from widgets.timeline.plot.drawing import draw_lines, draw_mark, draw_rects, draw_text, shade, small_font
-from widgets.timeline.plot.plot import LaneItem
+from widgets.timeline.plot.plot import LaneItem, LaneView
 
 if TYPE_CHECKING:
     from app.choreography.performed.dance_steps import DanceSteps
-    from widgets.timeline.lanes.choreography.dance_lane import DanceLane  # noqa: F401 - ruff does not see the quoted name
 
 LEAST_NUMBER_PX, LEAST_FIGURE_PX = 12.0, 20.0
 """A narrower block has no number, and no figure."""
 _BAR_PX = 3.0
 
 
-class DancesItem(LaneItem["DanceLane"]):
+class DancesView(LaneView, Protocol):
+    """Part of a lane of dances that is drawn; a protocol for the reason of `LaneView`."""
+
+    dances: dict[str, DanceSteps]
+    moving: MoveStep | None
+
+    @property
+    def dancers(self) -> tuple[Dancer, ...]: ...
+    @property
+    def selected_step(self) -> tuple[str, int] | None: ...
+    def row_rect(self, number: int) -> QRectF: ...
+    def empty_text(self) -> str: ...
+    def reason(self, dance: DanceSteps) -> str: ...
+
+
+class DancesItem(LaneItem[DancesView]):
     """The rows of a lane of dances."""
 
     def paint_px(self, painter: QPainter, exposed: QRectF) -> None:

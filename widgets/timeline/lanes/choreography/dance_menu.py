@@ -2,25 +2,40 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import partial
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 from PySide6.QtGui import QAction, QColor, QIcon
 from PySide6.QtWidgets import QMenu, QWidget
 
 from app.arrays import FloatArray
+from app.editor.session import Session
+from app.project.dance_corrections import DanceCorrection
 from widgets.common.choreography.figures import ICON_PX, figure_icon
 from widgets.common.clicks import on_click
 from widgets.common.controls import named
 from widgets.common.plain import verbatim
 
 if TYPE_CHECKING:
-    from widgets.timeline.lanes.choreography.dance_lane import DanceLane
+    from app.choreography.performed.dance_steps import DanceSteps
 
 MOST_SEGMENTS = 60
 """Most segments of a basic motion that are offered: those with figures nearest to the danced one."""
+
+
+class Dances(Protocol):
+    """Part of the lane that the menu asks and changes; a protocol for the reason of `LaneView`."""
+
+    session: Session
+    dances: dict[str, DanceSteps]
+
+    def pin(self, dancer_id: str, number: int, state: int) -> None: ...
+    def use(self, dancer_id: str, number: int, segment: int) -> None: ...
+    def forbid(self, dancer_id: str, number: int, everywhere: bool = False) -> None: ...
+    def take_back(self, dancer_id: str, corrections: Sequence[DanceCorrection]) -> None: ...
+    def clear(self, dancer_id: str) -> None: ...
 
 
 class DanceMenu(QMenu):
@@ -32,7 +47,7 @@ class DanceMenu(QMenu):
         Of the step.
     """
 
-    def __init__(self, lane: DanceLane, dancer_id: str, number: int, parent: QWidget) -> None:
+    def __init__(self, lane: Dances, dancer_id: str, number: int, parent: QWidget) -> None:
         super().__init__(parent)
         from app.choreography.performed.dance_steps import figures
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Final
+from typing import Final, Protocol
 
 import numpy as np
 from PySide6.QtCore import QLineF, QRectF, Qt
@@ -10,12 +10,10 @@ from PySide6.QtGui import QColor, QPainter, QPen
 
 from app.arrays import FloatArray
 from app.project.model import CompSpan
+from widgets.timeline.model.takes.shown_takes import TakesModel
 from widgets.timeline.model.takes.take_rows import TakeRow, owners
 from widgets.timeline.plot.drawing import draw_lines, draw_rects, draw_text, shade, small_font
-from widgets.timeline.plot.plot import LaneItem
-
-if TYPE_CHECKING:
-    from widgets.timeline.lanes.takes.takes_lane import TakesLane  # noqa: F401 - ruff does not see the quoted name
+from widgets.timeline.plot.plot import LaneItem, LaneView
 
 STRIP_PX: Final = 26.0
 """The comp, beside the lane's title."""
@@ -25,7 +23,18 @@ PALE: Final = 95
 """Opacity of what the part does not have."""
 
 
-class TakesItem(LaneItem["TakesLane"]):
+class TakesView(LaneView, Protocol):
+    """Part of a lane of takes that is drawn; a protocol for the reason of `LaneView`."""
+
+    model: TakesModel
+
+    @property
+    def rows_rect(self) -> QRectF: ...
+    def row_rect(self, number: int) -> QRectF: ...
+    def empty_text(self) -> str: ...
+
+
+class TakesItem(LaneItem[TakesView]):
     """All rows, drawn by arrays."""
 
     def paint_px(self, painter: QPainter, exposed: QRectF) -> None:

@@ -3,7 +3,7 @@ puts the lane elsewhere."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Final
+from typing import Final, Protocol
 
 from PySide6.QtCore import QEvent, QLineF, QObject, QRectF, Qt
 from PySide6.QtGui import (
@@ -18,23 +18,36 @@ from PySide6.QtGui import (
     QPen,
     QWheelEvent,
 )
-from PySide6.QtWidgets import QLineEdit, QToolTip, QWidget
+from PySide6.QtWidgets import QLineEdit, QMenu, QToolTip, QWidget
 
 from app.project.edit.placed_takes import BEFORE
 from widgets.common.actions import actions
 from widgets.common.controls import Retranslated, named
 from widgets.common.icons import icon
 from widgets.common.take_times import clock_text, when_text
-from widgets.timeline.lanes.takes.take_drawing import STRIP_PX
+from widgets.timeline.lanes.takes.take_drawing import STRIP_PX, TakesView
 from widgets.timeline.model.takes.take_rows import TakeRow
 from widgets.timeline.plot.drawing import draw_text, shade, small_font
-
-if TYPE_CHECKING:
-    from widgets.timeline.lanes.takes.takes_lane import TakesLane
 
 BAR_PX: Final = 5.0
 BUTTON_PX: Final = 24.0
 DRAG_PX: Final = 6.0
+
+
+class Headed(TakesView, Protocol):
+    """Lane whose takes have heads, and what heads do with it; a protocol for the reason of `LaneView`."""
+
+    @property
+    def header(self) -> QWidget: ...
+    @property
+    def folded(self) -> bool: ...
+    @property
+    def row_px(self) -> float: ...
+    def row_at(self, y_px: float) -> TakeRow | None: ...
+    def choose(self, take_id: str) -> None: ...
+    def pan_y(self, by_px: float) -> None: ...
+    def menu(self) -> QMenu: ...
+    def wheeled(self, event: QWheelEvent) -> None: ...
 
 
 class TakeHeads(Retranslated, QWidget):
@@ -46,7 +59,7 @@ class TakeHeads(Retranslated, QWidget):
         While a head is dragged: the number of the row before which its lane would lie.
     """
 
-    def __init__(self, lane: TakesLane) -> None:
+    def __init__(self, lane: Headed) -> None:
         super().__init__(lane.header)
         self.setObjectName("take_heads")
         self._lane = lane
