@@ -21,6 +21,7 @@ from typing import IO, Any, Final, Generic, NoReturn, TypeVar
 import msgspec
 
 from app.child_limits import confine_this_process
+from app.errors import StopRequested
 
 _LENGTH: Final = struct.Struct("<I")
 _ENDING: Final = (signal.SIGINT, signal.SIGTERM)
@@ -146,7 +147,7 @@ class StartedChild(Child[T]):
 
 @contextmanager
 def ended_on_request(
-    process: subprocess.Popen[bytes], stop_requested: Callable[[], bool], end: Callable[[], None]
+    process: subprocess.Popen[bytes], stop_requested: StopRequested, end: Callable[[], None]
 ) -> Iterator[None]:
     """Call ``end`` once that is requested during the block, after which the process must have ended."""
 

@@ -14,6 +14,10 @@ import msgspec
 from app.encoding import shown
 
 Argument: TypeAlias = str | int | float | bool
+Progress: TypeAlias = Callable[[float], None]
+"""Called with the share 0..1 of work that is done, perhaps by its thread."""
+StopRequested: TypeAlias = Callable[[], bool]
+"""Asked by work now and then; true stops it, with `Cancelled`."""
 
 
 class Message(msgspec.Struct, frozen=True, gc=False):
@@ -84,13 +88,13 @@ class Cancelled(AppError):
     """The user stopped the work; nothing half-written stays."""
 
 
-def raise_if_stopped(stop_requested: Callable[[], bool]) -> None:
+def raise_if_stopped(stop_requested: StopRequested) -> None:
     """Raise `Cancelled` if the work is to stop."""
     if stop_requested():
         raise Cancelled("work.stopped")
 
 
-def stoppable(progress: Callable[[float], None], stop_requested: Callable[[], bool]) -> Callable[[float], None]:
+def stoppable(progress: Callable[[float], None], stop_requested: StopRequested) -> Callable[[float], None]:
     """A report of progress that raises `Cancelled` if the work is to stop."""
 
     def report(share: float) -> None:

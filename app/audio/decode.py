@@ -9,7 +9,6 @@ Messages: ``audio.not_readable``, ``audio.empty``, ``audio.too_long``, ``audio.t
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
 from mmap import ACCESS_READ, mmap
@@ -20,7 +19,7 @@ import soundfile
 import soxr
 
 from app.audio.track import RATE_HZ, Block, Samples
-from app.errors import FileError, Message, raise_if_stopped
+from app.errors import FileError, Message, Progress, StopRequested, raise_if_stopped
 from app.formats.files import cannot_read, open_file
 from app.formats.film_sound import film_sound
 from app.formats.media_kind import MediaKind, media_kind
@@ -75,9 +74,7 @@ class _Forward(soundfile.SoundFile):  # type: ignore[misc]
 
 
 def decode(
-    path: str,
-    progress: Callable[[float], None] = lambda share: None,
-    stop_requested: Callable[[], bool] = lambda: False,
+    path: str, progress: Progress = lambda share: None, stop_requested: StopRequested = lambda: False
 ) -> AudioRecording:
     """Read a recording.
 
@@ -145,9 +142,7 @@ def _breaks_off(path: str, seconds: float) -> tuple[Message, ...]:
     return (Message("audio.breaks_off", {"file": path, "seconds": round(seconds, 1)}),)
 
 
-def _by_ffmpeg(
-    path: str, delay_s: float | None, progress: Callable[[float], None], stop_requested: Callable[[], bool]
-) -> Samples:
+def _by_ffmpeg(path: str, delay_s: float | None, progress: Progress, stop_requested: StopRequested) -> Samples:
     """The sound of a film, or of a file that only ffmpeg reads."""
     with open_file(path) as stream:
         most_s = _most_s(os.fstat(stream.fileno()).st_size)
@@ -159,13 +154,7 @@ def _by_ffmpeg(
     return samples
 
 
-def _read(
-    path: str,
-    file: _Forward,
-    size: int,
-    progress: Callable[[float], None],
-    stop_requested: Callable[[], bool],
-) -> AudioRecording:
+def _read(path: str, file: _Forward, size: int, progress: Progress, stop_requested: StopRequested) -> AudioRecording:
     rate_hz, channels = file.samplerate, file.channels
     if not (LEAST_RATE_HZ <= rate_hz <= MOST_RATE_HZ and 1 <= channels <= MOST_CHANNELS):
         raise FileError("audio.unusable", file=path, rate_hz=rate_hz, channels=channels)

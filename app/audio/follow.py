@@ -34,7 +34,7 @@ from app.audio.score_sound import (
 from app.audio.steady_tempo import steady_line
 from app.audio.track import Samples
 from app.audio.warping import MISSING_S, NO_PINS, Jump, Pins, Warped, along, dynamic_time_warping, played_passages
-from app.errors import AppError, stoppable
+from app.errors import AppError, Progress, StopRequested, stoppable
 from app.score.beat_following import Following, RunnerUp, UnmatchedSpan
 from app.score.metre_map import MetreMap
 from app.score.model import Score
@@ -89,8 +89,8 @@ def follow(
     rate_hz: int,
     score: Score,
     beat_ticks: IntArray,
-    progress: Callable[[float], None] = lambda share: None,
-    stop_requested: Callable[[], bool] = lambda: False,
+    progress: Progress = lambda share: None,
+    stop_requested: StopRequested = lambda: False,
     pinned: Mapping[int, float] | None = None,
 ) -> Following:
     """Find when every beat of a score sounds in a recording.

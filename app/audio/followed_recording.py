@@ -11,7 +11,7 @@ from app.audio.dynamics import RecordingLoudness, dynamics, loudness
 from app.audio.follow import beats_of, follow
 from app.audio.note_onsets import note_onsets
 from app.audio.track import RATE_HZ, Samples
-from app.errors import stoppable
+from app.errors import Progress, StopRequested, stoppable
 from app.project.edit.dynamics import set_dynamics
 from app.project.edit.follow import follow_recording, pins_for
 from app.project.edit.note_times import shift_onsets
@@ -62,8 +62,8 @@ def listen(
     samples: Samples,
     path: str | os.PathLike[str],
     options: FollowOptions,
-    progress: Callable[[float], None] = lambda share: None,
-    stop_requested: Callable[[], bool] = lambda: False,
+    progress: Progress = lambda share: None,
+    stop_requested: StopRequested = lambda: False,
     begins_s: float = 0.0,
 ) -> Followed:
     """Find in a recording what is requested.

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from typing import Final
 
 import numpy as np
@@ -11,7 +11,7 @@ import soxr
 from app.audio.decode import AudioRecording, decode
 from app.audio.synth import RenderedPhrase, Synthesiser, drum_phrases, phrases, program_of
 from app.audio.track import RATE_HZ, AudioSegment, Block, Mix, MixTrack
-from app.errors import raise_if_stopped
+from app.errors import Progress, StopRequested, raise_if_stopped
 from app.project.model import Project
 from app.project.performers import Player
 from instrument_maps.library import all_maps
@@ -91,8 +91,8 @@ def mixdown(
     start_s: float,
     end_s: float,
     rate_hz: int = RATE_HZ,
-    progress: Callable[[float], None] = lambda share: None,
-    stop_requested: Callable[[], bool] = lambda: False,
+    progress: Progress = lambda share: None,
+    stop_requested: StopRequested = lambda: False,
 ) -> Block:
     """The sound of a span of the performance, as films and files get it: the recording, else the synthesiser.
 
@@ -135,11 +135,7 @@ def mixdown(
 
 
 def _synthesised(
-    project: Project,
-    start_s: float,
-    end_s: float,
-    progress: Callable[[float], None],
-    stop_requested: Callable[[], bool],
+    project: Project, start_s: float, end_s: float, progress: Progress, stop_requested: StopRequested
 ) -> Mix:
     """The phrases of players and percussion that sound within a span."""
     synthesiser = Synthesiser()

@@ -6,7 +6,6 @@ at several moments alike, or sound already in another part.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Final
 
 import numpy as np
@@ -15,6 +14,7 @@ from app.arrays import FloatArray
 from app.audio.features import Sound, tuning
 from app.audio.score_sound import ANALYSIS_RATE_HZ, analysis_sound
 from app.audio.track import Samples
+from app.errors import Progress
 from app.score.model import Score
 
 _HOP: Final = 110
@@ -41,11 +41,7 @@ _LEAST_NOTES: Final = 8
 
 
 def note_onsets(
-    samples: Samples,
-    rate_hz: int,
-    score: Score,
-    offset_s: float,
-    progress: Callable[[float], None] = lambda share: None,
+    samples: Samples, rate_hz: int, score: Score, offset_s: float, progress: Progress = lambda share: None
 ) -> dict[str, float]:
     """Return how much later than in the score notes begin, seconds, by note id; only of those that are clear.
 

@@ -28,7 +28,7 @@ from app.audio.score_sound import (
     sounds_to_compare,
 )
 from app.audio.track import Samples
-from app.errors import stoppable
+from app.errors import Progress, StopRequested, stoppable
 from app.score.beat_following import RunnerUp
 from app.score.model import Score
 
@@ -62,8 +62,8 @@ def estimate_offset(
     samples: Samples,
     rate_hz: int,
     score: Score,
-    progress: Callable[[float], None] = lambda share: None,
-    stop_requested: Callable[[], bool] = lambda: False,
+    progress: Progress = lambda share: None,
+    stop_requested: StopRequested = lambda: False,
 ) -> Estimate:
     """Find where a recording stands.
 

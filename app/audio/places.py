@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Final, TypeAlias
 
@@ -10,6 +10,7 @@ import numpy as np
 
 from app.arrays import ComplexArray, FloatArray, IntArray
 from app.audio.score_sound import CHROMA_S, ExpectedSound, RecordedSound, score_chroma
+from app.errors import Progress
 
 Spectrum: TypeAlias = ComplexArray
 
@@ -53,10 +54,7 @@ def usual_ratios(expected: ExpectedSound) -> list[float]:
 
 
 def places(
-    recorded: RecordedSound,
-    expected: ExpectedSound,
-    ratios: Sequence[float],
-    progress: Callable[[float], None] = lambda share: None,
+    recorded: RecordedSound, expected: ExpectedSound, ratios: Sequence[float], progress: Progress = lambda share: None
 ) -> list[RecordingPlace]:
     """Find the likeliest places, those first that are most alike; they lie a second apart.
 

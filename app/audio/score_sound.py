@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Final, TypeAlias
 
@@ -12,7 +11,7 @@ import soxr
 from app.arrays import FloatArray, IntArray
 from app.audio.features import Sound, chroma, onset_strength, tuning
 from app.audio.track import Samples
-from app.errors import AppError
+from app.errors import AppError, Progress
 from app.score.model import Score
 
 ANALYSIS_RATE_HZ: Final = 22050
@@ -67,7 +66,7 @@ def expected_sound(score: Score) -> ExpectedSound:
 
 
 def sounds_to_compare(
-    score: Score, samples: Samples, rate_hz: int, progress: Callable[[float], None]
+    score: Score, samples: Samples, rate_hz: int, progress: Progress
 ) -> tuple[ExpectedSound, RecordedSound]:
     """Expected sound of a score, and features of a recording of it.
 
@@ -96,7 +95,7 @@ def analysis_sound(samples: Samples, rate_hz: int) -> Sound:
     return np.asarray(soxr.resample(mono, rate_hz, ANALYSIS_RATE_HZ))
 
 
-def recorded_sound(samples: Samples, rate_hz: int, progress: Callable[[float], None]) -> RecordedSound:
+def recorded_sound(samples: Samples, rate_hz: int, progress: Progress) -> RecordedSound:
     """Features of a recording, whatever its tuning.
 
     Parameters

@@ -6,21 +6,20 @@ import argparse
 import os
 import signal
 import threading
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from types import FrameType
-from typing import TYPE_CHECKING, Final, TypeAlias
+from typing import TYPE_CHECKING, Final
 
 from app.encoding import shown
-from app.errors import FileError, UsageError
+from app.errors import FileError, StopRequested, UsageError
 from app.project.parameters import select_players
 
 if TYPE_CHECKING:
     from app.editor.viewport_state import View
     from app.project.model import Project
 
-StopRequested: TypeAlias = Callable[[], bool]
 
 _OF_PLAYERS: Final = ("hands", "mouth")
 """Views that need an instrument."""

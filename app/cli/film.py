@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Final, Literal, TypeAlias
 
 from app.cli.bars import add_bar_options, requested_span
 from app.cli.display import virtual, why_no_display
-from app.cli.drawing import StopRequested, nearest, parsed_view, require_writable, stoppable
+from app.cli.drawing import nearest, parsed_view, require_writable, stoppable
 from app.cli.edit import MOST_PX, THEMES, VIEWS
 from app.cli.options import (
     add_players_option,
@@ -27,7 +27,7 @@ from app.cli.options import (
 from app.cli.progress import Progress, find_holds
 from app.cli.status import NO_DISPLAY, report_left_out
 from app.cli.terminal import say, warn
-from app.errors import AppError, Cancelled, FileError, Message, UsageError
+from app.errors import AppError, Cancelled, FileError, Message, StopRequested, UsageError
 from app.messages import LANGUAGES, error_text, filled, text
 from app.project.frame_rate import USUAL_FILM_RATE, exact_number, frame_rate_text
 

@@ -17,7 +17,7 @@ from app.editor.session import Session, Severity
 from app.editor.settings import Settings
 from app.editor.translated import tr
 from app.encoding import shown
-from app.errors import AppError, Message, raise_if_stopped
+from app.errors import AppError, Message, Progress, StopRequested, raise_if_stopped
 from app.formats.other_computers import agree
 from app.formats.video import SUFFIXES
 from app.project import storage
@@ -254,7 +254,7 @@ class Files(QObject):
     def _load(self, path: Path) -> None:
         presence = self.autosave.presence if self.autosave is not None else None
 
-        def work(progress: Callable[[float], None], stop_requested: Callable[[], bool]) -> Opened:
+        def work(progress: Progress, stop_requested: StopRequested) -> Opened:
             _read_own()
             content = storage.read(path)
             project = storage.decode(content, Path(os.path.realpath(path)), str(path))
@@ -277,7 +277,7 @@ class Files(QObject):
     def _read(self, path: Path, ask: bool, arranged: Callable[[Project], Project] = lambda project: project) -> None:
         source = str(path)
 
-        def read(progress: Callable[[float], None], stop_requested: Callable[[], bool]) -> PieceContents:
+        def read(progress: Progress, stop_requested: StopRequested) -> PieceContents:
             _read_own()
             return read_contents(path)
 
@@ -291,7 +291,7 @@ class Files(QObject):
                 return
             called = tr("action.dancer")
 
-            def build(progress: Callable[[float], None], stop_requested: Callable[[], bool]) -> Project:
+            def build(progress: Progress, stop_requested: StopRequested) -> Project:
                 maps = all_maps()
                 asked = assignment or ImportRequest(usual_rows(contents, maps))
                 project = import_project(
@@ -409,7 +409,7 @@ class Files(QObject):
         """Save to a file; with `over` only to one of which the content is one of these."""
         project = self.session.project
 
-        def work(progress: Callable[[float], None], stop_requested: Callable[[], bool]) -> str | None:
+        def work(progress: Progress, stop_requested: StopRequested) -> str | None:
             raise_if_stopped(stop_requested)
             if over is not None and storage.file_hash(path) not in over:
                 return None
@@ -516,7 +516,7 @@ class Files(QObject):
         return self.autosave.take(now_s)
 
     def _write(self, writing: Writing) -> None:
-        def work(progress: Callable[[float], None], stop_requested: Callable[[], bool]) -> AutosaveResult:
+        def work(progress: Progress, stop_requested: StopRequested) -> AutosaveResult:
             return writing.run()
 
         def ended() -> None:
@@ -571,7 +571,7 @@ class Files(QObject):
             return
         folder = self.autosave.presence.folder
 
-        def work(progress: Callable[[float], None], stop_requested: Callable[[], bool]) -> tuple[Recoverable, ...]:
+        def work(progress: Progress, stop_requested: StopRequested) -> tuple[Recoverable, ...]:
             return recoverable(folder)
 
         self.session.tasks.run(Message("work.recoverable"), work, found, key="recoverable")
@@ -581,7 +581,7 @@ class Files(QObject):
         if item.document is not None:
             agree(item.document)
 
-        def work(progress: Callable[[float], None], stop_requested: Callable[[], bool]) -> tuple[Project, str]:
+        def work(progress: Progress, stop_requested: StopRequested) -> tuple[Project, str]:
             _read_own()
             return load_work(item)
 

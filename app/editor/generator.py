@@ -14,8 +14,8 @@ from PySide6.QtCore import QObject, QTimer, Signal
 from app.editor.calls import Reporter
 from app.editor.plan_worker import PlanWorker, Reports
 from app.editor.session import Session, Severity
-from app.editor.tasks import Progress, StopRequested, Tasks
-from app.errors import AppError, Message
+from app.editor.tasks import Tasks
+from app.errors import AppError, Message, Progress, StopRequested
 from app.performance.ensemble import Performance
 from app.performance.live import LiveMotion
 from app.plan.model import Problem

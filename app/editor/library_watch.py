@@ -9,8 +9,7 @@ from PySide6.QtCore import QObject, QTimer
 
 from app.editor.folder_watch import FolderWatch
 from app.editor.session import Session, Severity
-from app.editor.tasks import Progress, StopRequested
-from app.errors import Message
+from app.errors import Message, Progress, StopRequested
 from app.formats.user_folder import Shelf, UserFolder
 from app.rig.characters.character_library import LIBRARY as CHARACTERS
 from instrument_maps.library import LIBRARY as INSTRUMENTS

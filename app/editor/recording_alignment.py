@@ -7,8 +7,7 @@ from app.audio.decode import AudioRecording
 from app.audio.followed_recording import Followed, FollowOptions, listen, take_over
 from app.audio.offset import Estimate
 from app.editor.session import Session, Severity
-from app.editor.tasks import Progress, StopRequested
-from app.errors import Message
+from app.errors import Message, Progress, StopRequested
 from app.project.edit.piece import set_offset
 from app.project.edit.tempo import scale_tempo
 from app.project.model import Project

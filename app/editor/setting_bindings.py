@@ -21,30 +21,12 @@ class SettingBinding:
     changed: Callable[[Session], SignalInstance]
 
 
-def in_pitches(name: str) -> SettingBinding:
-    """Return how pitches are named."""
+def within(state: str, name: str) -> SettingBinding:
+    """Binding to a field of a state of the session: ``listening``, ``pitch_display`` or ``video``."""
     return SettingBinding(
-        lambda session: getattr(session.pitch_display, name),
-        lambda session, value: session.pitch_display.set(**{name: value}),
-        lambda session: session.pitch_display.changed,
-    )
-
-
-def in_listening(name: str) -> SettingBinding:
-    """Binding to a listening setting."""
-    return SettingBinding(
-        lambda session: getattr(session.listening, name),
-        lambda session, value: session.listening.set(**{name: value}),
-        lambda session: session.listening.changed,
-    )
-
-
-def in_video(name: str) -> SettingBinding:
-    """Binding to a display setting of the reference video."""
-    return SettingBinding(
-        lambda session: getattr(session.video, name),
-        lambda session, value: session.video.set(**{name: value}),
-        lambda session: session.video.changed,
+        lambda session: getattr(getattr(session, state), name),
+        lambda session, value: getattr(session, state).set(**{name: value}),
+        lambda session: getattr(session, state).changed,
     )
 
 

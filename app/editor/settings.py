@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from functools import partial
 from pathlib import Path
-from typing import Annotated, Any, Final
+from typing import Annotated, Any, Final, TypeAlias
 
 import msgspec
 import platformdirs
@@ -18,7 +18,7 @@ import platformdirs
 from app import encoding
 from app.editor.listening import Source
 from app.editor.session import Session
-from app.editor.setting_bindings import FOLDED, THEME, TIME, SettingBinding, in_listening, in_pitches, in_video
+from app.editor.setting_bindings import FOLDED, THEME, TIME, SettingBinding, within
 from app.editor.stored_settings import BytesSetting, FilePathSetting, Setting, StoredSettings
 from app.editor.video_state import DEFAULT_OPACITY, Placement
 from app.formats.keys import KeyChoice
@@ -27,6 +27,7 @@ from app.stream.sender import LEAST_PORT, MOST_PORT
 
 MOST_RECENT: Final = 12
 """Recent files kept."""
+_Share: TypeAlias = Annotated[float, msgspec.Meta(ge=0.0, le=1.0)]
 
 
 def settings_path() -> Path:
@@ -50,21 +51,21 @@ class Settings(StoredSettings):
     written_pitch = Setting(
         "pitch/written",
         False,
-        held=in_pitches("written"),
+        held=within("pitch_display", "written"),
         label="setting.written_pitch",
         options=((False, "setting_choice.as_they_sound_concert"), (True, "setting_choice.as_written_for_instrument")),
     )
     middle_c_octave = Setting(
         "pitch/middle_c_octave",
         4,
-        held=in_pitches("middle_c_octave"),
+        held=within("pitch_display", "middle_c_octave"),
         label="setting.middle_c_octave",
         options=((4, "setting_choice.c4"), (3, "setting_choice.c3")),
     )
     syllables = Setting(
         "pitch/syllables",
         False,
-        held=in_pitches("syllables"),
+        held=within("pitch_display", "syllables"),
         label="setting.syllables",
         options=((False, "setting_choice.c_d_e"), (True, "setting_choice.do_re_mi")),
     )
@@ -82,20 +83,23 @@ class Settings(StoredSettings):
     folded = Setting("interface/folded", dict[str, bool](), dict[str, bool], held=FOLDED)
     """Folded parts of panels, by name."""
 
-    volume = Setting("sound/volume", 0.8, Annotated[float, msgspec.Meta(ge=0.0, le=1.0)], held=in_listening("volume"))
+    volume = Setting("sound/volume", 0.8, _Share, held=within("listening", "volume"))
     """0..1 as the ear judges it."""
-    click = Setting("sound/click", False, held=in_listening("click"))
+    click = Setting("sound/click", False, held=within("listening", "click"))
     """Metronome on or off."""
-    percussion = Setting("sound/percussion", True, held=in_listening("percussion"))
+    percussion = Setting("sound/percussion", True, held=within("listening", "percussion"))
     """Percussion on or off."""
-    scrub_sound = Setting("sound/scrub", True, held=in_listening("scrub_sound"))
+    scrub_sound = Setting("sound/scrub", True, held=within("listening", "scrub_sound"))
     """Sound while scrubbing, on or off."""
-    source = Setting("sound/source", "recording", Source, held=in_listening("source"))
+    source = Setting("sound/source", "recording", Source, held=within("listening", "source"))
     """The sound of a project that has a recording."""
 
-    video_placement = Setting[Placement]("video/placement", "beside", Placement, held=in_video("placement"))
+    video_placement = Setting[Placement]("video/placement", "beside", Placement, held=within("video", "placement"))
     video_opacity = Setting(
-        "video/opacity", DEFAULT_OPACITY, Annotated[float, msgspec.Meta(ge=0.0, le=1.0)], held=in_video("opacity")
+        "video/opacity",
+        DEFAULT_OPACITY,
+        _Share,
+        held=within("video", "opacity"),
     )
     """Behind the players."""
 

@@ -21,8 +21,7 @@ from app.editor.listening import RecordedTake
 from app.editor.recording_alignment import follow_in_background, take_estimate
 from app.editor.session import Session, Severity
 from app.editor.stems import Stems
-from app.editor.tasks import Progress, StopRequested
-from app.errors import AppError, Message
+from app.errors import AppError, Message, Progress, StopRequested
 from app.formats.other_computers import may_touch
 from app.plan.generate import frame_around
 from app.plan.model import TimeFrame

@@ -14,8 +14,8 @@ from app.audio.render_process import RenderProcess
 from app.audio.shelf import Shelved
 from app.audio.synth import RenderedPhrase, Synthesiser
 from app.audio.track import RATE_HZ, MixTrack
-from app.editor.tasks import Progress, StopRequested, Tasks
-from app.errors import Message, raise_if_stopped
+from app.editor.tasks import Tasks
+from app.errors import Message, Progress, StopRequested, raise_if_stopped
 from app.project.model import Project
 from app.project.performers import Player
 

@@ -24,8 +24,7 @@ from app.editor.poses import PoseSource
 from app.editor.session import Session, Severity
 from app.editor.settings import Settings
 from app.editor.streaming import RATES_HZ, StreamState
-from app.editor.tasks import Progress, StopRequested
-from app.errors import AppError, Message
+from app.errors import AppError, Message, Progress, StopRequested
 from app.performance.cast import attempt
 from app.project.casting import StagePosition
 from app.project.performers import Dancer, Player

@@ -17,14 +17,9 @@ from PySide6.QtCore import QObject, Signal
 from shiboken6 import isValid
 
 from app.editor.calls import Ask, window_calls
-from app.errors import AppError, Cancelled, Message
+from app.errors import AppError, Cancelled, Message, Progress, StopRequested
 
 T = TypeVar("T")
-
-Progress = Callable[[float], None]
-"""Called with the share 0..1 that is done; may be called from the worker."""
-StopRequested = Callable[[], bool]
-"""Asked now and then by the worker; true stops the work."""
 
 
 class Tasks(Protocol):

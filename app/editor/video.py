@@ -16,8 +16,7 @@ from app.editor.calls import Reporter
 from app.editor.picture_reader import PictureReader
 from app.editor.recording_alignment import SURE
 from app.editor.session import Session, Severity
-from app.editor.tasks import Progress, StopRequested
-from app.errors import AppError, Message
+from app.errors import AppError, Message, Progress, StopRequested
 from app.formats.other_computers import may_touch
 from app.formats.video import VideoFacts, video_facts
 from app.project.document import Change

@@ -13,7 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from app.audio.track import RATE_HZ, Block
-from app.errors import Message
+from app.errors import Message, Progress, StopRequested
 from app.evaluation.imported_videos import ImportedVideo, pictures_of
 from app.evaluation.request import EvaluationRequest
 from app.export.video import video_into
@@ -25,8 +25,6 @@ from app.performance.span import FrameSpan
 Picture = npt.NDArray[np.uint8]
 Draw: TypeAlias = Callable[[float], Picture]
 """Time in seconds to a picture (H, W, 3 or 4); times ascend."""
-StopRequested: TypeAlias = Callable[[], bool]
-Report: TypeAlias = Callable[[float], None]
 
 CRF: Final = 22
 """x264's rate factor: all clips are part of one page."""
@@ -86,7 +84,7 @@ def draw_ours(
     request: EvaluationRequest,
     files: Mapping[Path, ClipScene],
     wording: Callable[[Message], str],
-    report: Report,
+    report: Progress,
 ) -> tuple[LeftOut, ...]:
     """Draw a variant of ours, or with other poses than ours, into files; who could not be drawn.
 
@@ -103,7 +101,7 @@ def draw_ours(
         return tuple(stage.left_out)
 
 
-def cut_video(video: ImportedVideo, size: tuple[int, int], files: Mapping[Path, ClipScene], report: Report) -> None:
+def cut_video(video: ImportedVideo, size: tuple[int, int], files: Mapping[Path, ClipScene], report: Progress) -> None:
     """Cut the excerpts out of a video, with the sound of all variants."""
     drawn = _drawn(files, report)
     for path, scene in files.items():
@@ -111,7 +109,7 @@ def cut_video(video: ImportedVideo, size: tuple[int, int], files: Mapping[Path, 
             _write(path, scene, size, draw, drawn)
 
 
-def _drawn(files: Mapping[Path, ClipScene], report: Report) -> Callable[[], None]:
+def _drawn(files: Mapping[Path, ClipScene], report: Progress) -> Callable[[], None]:
     """Called after each picture of the files, reports the share that is drawn."""
     whole, done = sum(scene.span.count for scene in files.values()), count(1)
     return lambda: report(next(done) / whole)

@@ -20,7 +20,7 @@ import numpy.typing as npt
 
 from app.audio.decode import decode
 from app.audio.track import RATE_HZ, AudioSegment, Block, Mix, MixTrack, Samples
-from app.errors import AppError, FileError
+from app.errors import AppError, FileError, Progress, StopRequested
 from app.evaluation.excerpts import Excerpt
 from app.formats.video import VideoFacts, VideoPictures, video_facts, video_pictures
 from app.project.model import Project
@@ -96,8 +96,8 @@ def import_video(
     project: Project,
     path: Path,
     offset_s: float | None,
-    progress: Callable[[float], None],
-    stop_requested: Callable[[], bool],
+    progress: Progress,
+    stop_requested: StopRequested,
     follow: bool = False,
 ) -> tuple[ImportedVideo, Project]:
     """A video at its place, and the project at the video's tempo if that was asked for.
@@ -147,12 +147,7 @@ def _about(path: Path) -> Iterator[None]:
 
 
 def _found(
-    project: Project,
-    path: Path,
-    facts: VideoFacts,
-    samples: Samples,
-    progress: Callable[[float], None],
-    stop_requested: Callable[[], bool],
+    project: Project, path: Path, facts: VideoFacts, samples: Samples, progress: Progress, stop_requested: StopRequested
 ) -> tuple[ImportedVideo, Project]:
     from app.audio.offset import estimate_offset
 
@@ -169,12 +164,7 @@ def _found(
 
 
 def _followed(
-    project: Project,
-    path: Path,
-    facts: VideoFacts,
-    samples: Samples,
-    progress: Callable[[float], None],
-    stop_requested: Callable[[], bool],
+    project: Project, path: Path, facts: VideoFacts, samples: Samples, progress: Progress, stop_requested: StopRequested
 ) -> tuple[ImportedVideo, Project]:
     from app.audio.follow import beats_of, follow
     from app.project.edit.follow import follow_recording

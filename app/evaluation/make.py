@@ -18,7 +18,7 @@ from typing import Final, TypeAlias
 from app.audio.mix import mixdown
 from app.audio.track import RATE_HZ, Block
 from app.encoding import restored
-from app.errors import AppError, FileError, Message, raise_if_stopped
+from app.errors import AppError, FileError, Message, StopRequested, raise_if_stopped
 from app.evaluation.clips import CRF, ClipScene, PerformanceRenderer, Stages, cut_video, draw_ours
 from app.evaluation.design import codes, new_id, orders, pairs_of
 from app.evaluation.excerpts import Excerpt, choose_excerpts, practice_of
@@ -39,7 +39,6 @@ from app.performance.span import FrameSpan, bars_span, cut_span
 from app.project.model import Project
 
 Report: TypeAlias = Callable[[float, Message], None]
-StopRequested: TypeAlias = Callable[[], bool]
 Imported: TypeAlias = ImportedVideo | Keyframes
 """Animation from elsewhere that is compared with ours, at its place in the piece."""
 CLIPS: Final = "clips"

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from pathlib import Path
 from typing import Final, Literal
@@ -14,7 +14,7 @@ from app.arrays import AnyFloatArray, BoolArray, FloatArray, SingleArray
 from app.contacts.breaks import Break
 from app.contacts.controls import NoteFrames
 from app.contacts.judge import ContactJudge
-from app.errors import FileError
+from app.errors import FileError, Progress
 from app.evaluation.key import Variant
 from app.evaluation.onset_lag import LagMeasure, measure_lag
 from app.evaluation.variants import OURS, performance_of
@@ -110,7 +110,7 @@ def measure(
     performance: Performance,
     variant: Variant = "generated",
     motions: Mapping[str, Motion] | None = None,
-    progress: Callable[[float], None] = lambda share: None,
+    progress: Progress = lambda share: None,
 ) -> VariantMeasures:
     """Measure every player of a performance.
 
@@ -134,7 +134,7 @@ def measure(
 
 
 def measure_variants(
-    project: Project, variants: Sequence[Variant], progress: Callable[[float], None] = lambda share: None
+    project: Project, variants: Sequence[Variant], progress: Progress = lambda share: None
 ) -> tuple[VariantMeasures, ...]:
     """Measure those of an evaluation's variants that are ours, each against when the notes sound.
 

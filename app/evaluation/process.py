@@ -17,7 +17,7 @@ from typing import Final, TypeAlias
 import msgspec
 
 from app.child import StartedChild, ended_on_request
-from app.errors import AppError, Cancelled, Message, shortened
+from app.errors import AppError, Cancelled, Message, StopRequested, shortened
 from app.evaluation.request import EvaluationRequest
 from app.formats.scratch import scratch_folder
 from app.project.model import Project
@@ -75,7 +75,7 @@ Answer = EvaluationProgress | EvaluationRefused | EvaluationFinished
 
 
 def made_by_process(
-    module: str, project: Project, request: EvaluationRequest, report: Report, stop_requested: Callable[[], bool]
+    module: str, project: Project, request: EvaluationRequest, report: Report, stop_requested: StopRequested
 ) -> EvaluationFinished:
     """Make an evaluation in another process: all of it or nothing.
 

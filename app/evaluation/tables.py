@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Final
 
 import msgspec
 
@@ -15,6 +16,8 @@ from app.messages import WORDINGS, text
 
 NONE = "-"
 """Sign in an empty cell."""
+QUESTION: Final = ("presentation", "aspect", "scale")
+"""Columns that say what was asked."""
 
 
 class ResultTable(msgspec.Struct, frozen=True):
@@ -40,12 +43,12 @@ def variant_name(variant: Variant, language: str) -> str:
 
 
 def _table(
-    title: str, note: str, head: Sequence[str], rows: Sequence[tuple[str, ...]], names: int, language: str
+    name: str, names: tuple[str, ...], numbers: tuple[str, ...], rows: Sequence[tuple[str, ...]], language: str
 ) -> ResultTable:
     def word(id: str) -> str:
-        return text(Message(id), language)
+        return text(Message(f"results.{id}"), language)
 
-    return ResultTable(word(title), word(note), tuple(word(f"results.{name}") for name in head), tuple(rows), names)
+    return ResultTable(word(name), word(f"{name}_note"), tuple(map(word, names + numbers)), tuple(rows), len(names))
 
 
 def _asked(question: Question, language: str) -> tuple[str, str, str]:
@@ -71,14 +74,7 @@ def _scores(results: EvaluationResults, language: str) -> ResultTable:
             )
         )
     head = ("viewers_head", "answers_head", "not_judged_head", "mean", "median", "deviation", "interval")
-    return _table(
-        "results.scores",
-        "results.scores_note",
-        ("presentation", "aspect", "scale", "variant", *head),
-        rows,
-        4,
-        language,
-    )
+    return _table("scores", (*QUESTION, "variant"), head, rows, language)
 
 
 def _contrasts(results: EvaluationResults, language: str) -> ResultTable:
@@ -99,28 +95,14 @@ def _contrasts(results: EvaluationResults, language: str) -> ResultTable:
             )
         )
     head = ("viewers_head", "difference", "interval", "p", "corrected", "effect")
-    return _table(
-        "results.contrasts",
-        "results.contrasts_note",
-        ("presentation", "aspect", "scale", "compared", *head),
-        rows,
-        4,
-        language,
-    )
+    return _table("contrasts", (*QUESTION, "compared"), head, rows, language)
 
 
 def _agreements(results: EvaluationResults, language: str) -> ResultTable:
     rows = [
         (*_asked(one.question, language), str(one.clips), _number(one.alpha, signed=True)) for one in results.agreements
     ]
-    return _table(
-        "results.agreements",
-        "results.agreements_note",
-        ("presentation", "aspect", "scale", "clips", "alpha"),
-        rows,
-        3,
-        language,
-    )
+    return _table("agreements", QUESTION, ("clips", "alpha"), rows, language)
 
 
 def measures_table(measures: Sequence[VariantMeasures], language: str) -> ResultTable:
@@ -143,7 +125,7 @@ def measures_table(measures: Sequence[VariantMeasures], language: str) -> Result
                 )
             )
     head = ("lag", "detected", "unaccepted", "head", "shoulders", "mouth_opens", "contact")
-    return _table("results.measures", "results.measures_note", ("variant", "player", *head), rows, 2, language)
+    return _table("measures", ("variant", "player"), head, rows, language)
 
 
 def _number(value: float | None, digits: int = 2, signed: bool = False) -> str:

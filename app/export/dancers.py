@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
 
 from app.arrays import BoolArray, FloatArray
+from app.errors import Progress
 from app.export.attachment import without_place
 from app.export.figures import dancer_scene
 from app.export.file_names import file_names
@@ -55,9 +55,7 @@ def measure_dancer(scene: Scene, character: Character, target: TargetSkeleton, s
     )
 
 
-def export_dancer(
-    request: ExportRequest, cast: CastDancing, folder: Path, reported: Callable[[float], None]
-) -> DancerReport:
+def export_dancer(request: ExportRequest, cast: CastDancing, folder: Path, reported: Progress) -> DancerReport:
     """Write and measure the files of a dancer; parameters as of `app.export.player.export_player`."""
     dancer, dancing, target, span = cast.dancer, cast.dancing, cast.target, request.span
     files, rows = file_names(request.performance, request.formats)[dancer.id], requested(request.formats)

@@ -29,6 +29,7 @@ from app.contacts.bounds import (
 )
 from app.contacts.controls import ControlMeasure, NoteFrames, notes_of
 from app.contacts.touches import TouchJudge, Traces, distance_m, hole_values
+from app.errors import Progress
 from app.export.frame_blocks import SOLES, Walk, bone_deviation_m
 from app.export.joint_measures import JointMeasure, measure_joints
 from app.export.joint_playback import JointPlayback
@@ -125,7 +126,7 @@ class PlayerJudge:
         player_scene: Scene,
         instrument_scene: Scene,
         first_frame_s: float,
-        progress: Callable[[float], None] = lambda share: None,
+        progress: Progress = lambda share: None,
     ) -> PlayerMeasurement:
         """Measure what was read back of one player's two files.
 
@@ -221,9 +222,7 @@ def greatest_correlations(players: Mapping[str, FloatArray]) -> dict[str, float]
     return greatest
 
 
-def _depths_m(
-    walk: Walk, sounding: BoolArray, beside: Callable[[], None], progress: Callable[[float], None]
-) -> FloatArray:
+def _depths_m(walk: Walk, sounding: BoolArray, beside: Callable[[], None], progress: Progress) -> FloatArray:
     """Walk over all frames, a chunk at a time, while something else is done beside it: the depths in the sounding
     frames, lower bounds but for the deepest, which are reported."""
     frames = len(sounding)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -13,6 +12,7 @@ from app.arrays import FloatArray
 from app.contacts.missed_contacts import missed_mm
 from app.contacts.reach import notes_out_of_reach
 from app.encoding import shown
+from app.errors import Progress
 from app.export.attachment import in_world, without_place
 from app.export.figures import held_scene, musician_scene
 from app.export.file_names import file_names, sound_name
@@ -55,7 +55,7 @@ class ExportedPlayer(msgspec.Struct, frozen=True):
 
 
 def export_player(
-    request: ExportRequest, musician: CastMusician, folder: Path, reported: Callable[[float], None], cores: int = 1
+    request: ExportRequest, musician: CastMusician, folder: Path, reported: Progress, cores: int = 1
 ) -> ExportedPlayer:
     """Write and measure the files of a musician.
 
@@ -107,12 +107,7 @@ class _Written:
 
 
 def _write(
-    request: ExportRequest,
-    musician: CastMusician,
-    performer: Performer,
-    folder: Path,
-    reported: Callable[[float], None],
-    cores: int,
+    request: ExportRequest, musician: CastMusician, performer: Performer, folder: Path, reported: Progress, cores: int
 ) -> _Written:
     """Write the instrument of one of a musician's players, and the character with the first."""
     performance, rows, first = request.performance, requested(request.formats), performer is musician.performers[0]
@@ -171,7 +166,7 @@ def _measured(
     musician: CastMusician,
     performer: Performer,
     read: dict[FileContent, Scene],
-    reported: Callable[[float], None],
+    reported: Progress,
 ) -> PlayerMeasurement | None:
     """Measure the files of a player: the musician's character and the instrument, which may hang on a socket; None if
     none was read. The scenes are taken out of ``read``."""

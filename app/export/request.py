@@ -10,7 +10,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-from app.errors import FileError, Message
+from app.errors import FileError, Message, StopRequested
 from app.export.equipped_skeleton import socket_names
 from app.export.formats import Format, requested
 from app.export.rig import rig_of
@@ -152,7 +152,7 @@ class ExportCast:
 
 
 def cast_of(
-    request: ExportRequest, wording: Callable[[Message], str], stop_requested: Callable[[], bool] = lambda: False
+    request: ExportRequest, wording: Callable[[Message], str], stop_requested: StopRequested = lambda: False
 ) -> ExportCast:
     """Return who of a request can be exported. Nothing is written.
 

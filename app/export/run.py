@@ -11,7 +11,7 @@ from functools import partial
 import msgspec
 import numpy as np
 
-from app.errors import Message, raise_if_stopped
+from app.errors import Message, StopRequested, raise_if_stopped
 from app.export.file_names import REPORT, sound_name, stage_names
 from app.export.folder import files_into
 from app.export.measure import greatest_correlations
@@ -44,7 +44,7 @@ _STAGE_WORK = 0.4
 def export(
     request: ExportRequest,
     wording: Callable[[Message], str],
-    stop_requested: Callable[[], bool] = lambda: False,
+    stop_requested: StopRequested = lambda: False,
     progress: Progress = lambda share, label: None,
 ) -> Report:
     """Write the files of every player asked for who can be exported, and ``report.json``: all of them, or none.
@@ -72,7 +72,7 @@ def write_cast(
     request: ExportRequest,
     cast: ExportCast,
     wording: Callable[[Message], str],
-    stop_requested: Callable[[], bool] = lambda: False,
+    stop_requested: StopRequested = lambda: False,
     progress: Progress = lambda share, label: None,
 ) -> Report:
     """`export` of a request's cast."""

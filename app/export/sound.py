@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from pathlib import Path
 
 import soundfile
 
 from app.audio.mix import mixdown
 from app.audio.track import RATE_HZ
-from app.errors import FileError
+from app.errors import FileError, Progress, StopRequested
 from app.performance.span import FrameSpan
 from app.project.model import Project
 
@@ -18,8 +17,8 @@ def write_sound(
     path: Path,
     project: Project,
     span: FrameSpan,
-    progress: Callable[[float], None] = lambda share: None,
-    stop_requested: Callable[[], bool] = lambda: False,
+    progress: Progress = lambda share: None,
+    stop_requested: StopRequested = lambda: False,
 ) -> None:
     """Write the recording, or else the synthesiser, as 16-bit PCM; its first sample belongs to the first frame.
 

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import replace
 from itertools import chain, count
 from pathlib import Path
 
+from app.errors import Progress
 from app.export.attachment import attached
 from app.export.figures import dancer_scene, held_scene, musician_scene
 from app.export.file_names import sound_name, stage_names
@@ -23,7 +24,7 @@ from app.project.performers import Dancer, Player
 
 
 def write_stage(
-    request: ExportRequest, cast: ExportCast, folder: Path, reported: Callable[[float], None] = lambda share: None
+    request: ExportRequest, cast: ExportCast, folder: Path, reported: Progress = lambda share: None
 ) -> StageReport:
     """Write the stage in every requested format that can hold it.
 
@@ -75,7 +76,7 @@ def with_own_names(scene: Scene, known: dict[str, Material]) -> Scene:
 
 
 def _figures(
-    request: ExportRequest, cast: ExportCast, reported: Callable[[float], None]
+    request: ExportRequest, cast: ExportCast, reported: Progress
 ) -> Iterator[tuple[tuple[StageFigure, ...], Scene]]:
     """Everyone's character and instruments, each with its place, for a file of the requested format; on one skeleton
     where instruments hang on sockets."""

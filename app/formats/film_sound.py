@@ -22,7 +22,7 @@ import numpy as np
 import numpy.typing as npt
 
 from app.child import ended_on_request
-from app.errors import FileError, raise_if_stopped
+from app.errors import FileError, StopRequested, raise_if_stopped
 from app.formats.ffmpeg import ffmpeg_on, kinds_in, refusal
 
 _BLOCK: Final = 1 << 18
@@ -97,7 +97,7 @@ def film_sound(
     path: str,
     rate_hz: int,
     check: Callable[[float], None],
-    stop_requested: Callable[[], bool] = lambda: False,
+    stop_requested: StopRequested = lambda: False,
     delay_s: float | None = 0.0,
 ) -> Samples:
     """Read the sound of a film, from the film's beginning on.
@@ -141,7 +141,7 @@ def film_sound(
 
 
 def _decoded(
-    path: str, rate_hz: int, check: Callable[[float], None], stop_requested: Callable[[], bool]
+    path: str, rate_hz: int, check: Callable[[float], None], stop_requested: StopRequested
 ) -> tuple[bytearray, _Timing, int]:
     """The blocks of sound that there are, one after the other, when each begins, and the status of ffmpeg."""
     # ffmpeg would take a gap of more than thirty hours for a mistake and leave it out.

@@ -11,13 +11,13 @@ from collections.abc import Iterator
 from functools import cache, lru_cache
 
 from app.arrays import FloatArray
-from app.errors import FileError, MapError, UsageError, shortened
+from app.errors import FileError, MapError, Progress, UsageError, shortened
 from app.identity_cache import IdentityCache
 from app.motion.contacts.ready_player import put_aside_transform
 from app.project.performers import Player
 from app.rig.characters.character_library import bundled_characters, character_named, character_revision
 from app.rig.grip.body_size import leg_size, sized_body, sized_model
-from app.rig.grip.fitting.fit_terms import Progress, no_progress
+from app.rig.grip.fitting.fit_terms import no_progress
 from app.rig.grip.fitting.fitted_instrument import FittedInstrument, fitted_to_body
 from app.rig.grip.fitting.grip_files import bundled_path, hold_for
 from app.rig.grip.grip_pose import GripPose

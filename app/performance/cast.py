@@ -12,7 +12,7 @@ from typing import Generic, TypeVar
 
 import msgspec
 
-from app.errors import AppError, Cancelled, FileError, Message, raise_if_stopped
+from app.errors import AppError, Cancelled, FileError, Message, StopRequested, raise_if_stopped
 from app.performance.bodies import body_of, character_of, hold_of, model_of
 from app.performance.dances import Dancing, dancing_of
 from app.performance.ensemble import Performance
@@ -72,9 +72,7 @@ class Performer:
     grip: GripPose
 
 
-def attempt(
-    players: Iterable[P], make: Callable[[P], T], stop_requested: Callable[[], bool] = lambda: False
-) -> Attempt[T]:
+def attempt(players: Iterable[P], make: Callable[[P], T], stop_requested: StopRequested = lambda: False) -> Attempt[T]:
     """Make something of every player or dancer; those that raise an `AppError` are excluded with its message.
 
     Raises
@@ -115,14 +113,14 @@ def performer_of(performance: Performance, player: Player) -> Performer:
 
 
 def performers_of(
-    performance: Performance, players: Iterable[Player], stop_requested: Callable[[], bool] = lambda: False
+    performance: Performance, players: Iterable[Player], stop_requested: StopRequested = lambda: False
 ) -> Attempt[Performer]:
     """`performer_of` each player."""
     return attempt(players, lambda player: performer_of(performance, player), stop_requested)
 
 
 def dancings_of(
-    performance: Performance, dancers: Iterable[Dancer], stop_requested: Callable[[], bool] = lambda: False
+    performance: Performance, dancers: Iterable[Dancer], stop_requested: StopRequested = lambda: False
 ) -> Attempt[Dancing]:
     """`app.performance.dances.dancing_of` each dancer."""
     return attempt(dancers, lambda dancer: dancing_of(performance, dancer), stop_requested)

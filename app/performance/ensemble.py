@@ -10,13 +10,13 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from functools import cached_property
 from threading import RLock
 from typing import Final
 
 from app.contacts.breaks import by_time
-from app.errors import AppError, Cancelled, MapError, Message, raise_if_stopped
+from app.errors import AppError, Cancelled, MapError, Message, Progress, StopRequested, raise_if_stopped
 from app.performance.acting_problems import unfit_choreography, unknown_acting
 from app.performance.bodies import hold_now, is_held, suited_to
 from app.performance.body_problems import body_problems
@@ -203,9 +203,7 @@ class Performance:
         self.prepare()
         return self._ensemble
 
-    def prepare(
-        self, stop_requested: Callable[[], bool] = lambda: False, progress: Callable[[float], None] = lambda share: None
-    ) -> None:
+    def prepare(self, stop_requested: StopRequested = lambda: False, progress: Progress = lambda share: None) -> None:
         """Make all plans, if they are not made yet.
 
         Raises
@@ -387,8 +385,8 @@ class Performance:
 
     def hold(
         self,
-        stop_requested: Callable[[], bool] = lambda: False,
-        progress: Callable[[float], None] = lambda share: None,
+        stop_requested: StopRequested = lambda: False,
+        progress: Progress = lambda share: None,
         players: Iterable[Player] | None = None,
     ) -> None:
         """Find out how the players hold their instruments, where that is not known yet.

@@ -9,11 +9,11 @@ Messages: ``character.hold_waiting``, ``player.fault`` and those of `app.perform
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from threading import Lock
 
-from app.errors import Message
+from app.errors import Message, StopRequested
 from app.motion.model import Motion
 from app.motion.perform import PerformanceCurves
 from app.performance.chunks import Chunk, FrameGrid, Pose, poses_of
@@ -22,8 +22,6 @@ from app.performance.ensemble import Performance
 from app.performance.live_tracks import LiveTrack, ShownTracks, looks_same, motion_changed_s, played_before, soon_made
 from app.plan.model import Problem, no_events
 from app.project.performers import Dancer, Player
-
-StopRequested = Callable[[], bool]
 
 BUDGET_BYTES = 128 * 1024 * 1024
 """Four players for thirteen minutes, fifty for a minute around the playhead; it is made twenty times as fast as it is

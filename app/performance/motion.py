@@ -5,14 +5,14 @@ Messages: ``work.stopped`` (of `Cancelled`): "stopped; nothing was written".
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from functools import lru_cache
 from typing import Final
 
 import numpy as np
 
 from app.arrays import FloatArray
-from app.errors import raise_if_stopped
+from app.errors import Progress, StopRequested, raise_if_stopped
 from app.identity_cache import IdentityCache
 from app.motion.doubling import Doubling, doubled
 from app.motion.generated_channel import generated
@@ -38,10 +38,6 @@ MOST_SAMPLES: Final = 200_000
 _ASKED: Final = ("breaths", "tongues", "embouchures", "cues", "gestures", "expressions", "poses", "traces")
 """Fields of a plan that a channel depends on besides its own curves."""
 
-Progress = Callable[[float], None]
-"""Called with the share 0..1 that is done."""
-StopRequested = Callable[[], bool]
-"""Asked now and then; true stops the work."""
 
 CHUNK = 16384
 """Frames made between two questions whether to stop."""

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from itertools import chain
 from typing import Final, NamedTuple
 
 import msgspec
 
-from app.errors import raise_if_stopped
+from app.errors import Progress, StopRequested, raise_if_stopped
 from app.plan.breath.staggered_breaths import Breathed, breathed_of, shared_line
 from app.plan.by_hand.corrected_events import sound_corrections
 from app.plan.by_hand.corrections import Correction, RemoveEvent, SetBreath, SetCue, of_kinds
@@ -136,8 +136,8 @@ def plan_ensemble(
     gestures: Mapping[str, Gesture] | None = None,
     places: Mapping[str, StagePlace] | None = None,
     before: EnsemblePlan | None = None,
-    stop_requested: Callable[[], bool] = lambda: False,
-    progress: Callable[[float], None] = lambda share: None,
+    stop_requested: StopRequested = lambda: False,
+    progress: Progress = lambda share: None,
 ) -> EnsemblePlan:
     """Plan every line of the ensemble, in order.
 

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 
 import msgspec
 
-from app.errors import Message
+from app.errors import Message, StopRequested
 from app.project.doubling import doubled_parts
 from app.project.import_decisions import ImportDecisions, RowDecision, TrackMark, mark_of
 from app.project.model import Project, map_choices, project_from_score
@@ -149,7 +149,7 @@ def outcome_of(
     rows: Sequence[ImportRow],
     maps: Mapping[str, InstrumentMap],
     before: ImportPreview | None = None,
-    stop_requested: Callable[[], bool] = lambda: False,
+    stop_requested: StopRequested = lambda: False,
 ) -> ImportPreview:
     """Preview of importing the rows.
 
@@ -186,7 +186,7 @@ def _instruments(
     contents: PieceContents,
     assignment: PartAssignment,
     maps: Mapping[str, InstrumentMap],
-    stop_requested: Callable[[], bool],
+    stop_requested: StopRequested,
 ) -> tuple[str, ...]:
     """Instruments that play the tracks of an assignment."""
     # As if the file had no others.
@@ -199,7 +199,7 @@ def score_of_rows(
     contents: PieceContents,
     rows: Sequence[ImportRow],
     maps: Mapping[str, InstrumentMap],
-    stop_requested: Callable[[], bool] = lambda: False,
+    stop_requested: StopRequested = lambda: False,
 ) -> Score:
     """The score with the parts of the selected rows. Raises Cancelled when ``stop_requested`` says so."""
     return assigned_score(
@@ -215,7 +215,7 @@ def import_project(
     rows: Sequence[ImportRow],
     maps: Mapping[str, InstrumentMap],
     source: str = "",
-    stop_requested: Callable[[], bool] = lambda: False,
+    stop_requested: StopRequested = lambda: False,
     *,
     encoding: str | None = None,
     seed: int = 0,

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 
 import msgspec
 
-from app.errors import Message
+from app.errors import Message, StopRequested
 from app.score.assignments import PartAssignment
 from app.score.choose import MapChoice
 from app.score.metre_map import Metre
@@ -44,7 +44,7 @@ def assigned_score(
     contents: PieceContents,
     assignments: Sequence[PartAssignment],
     maps: Sequence[MapChoice],
-    stop_requested: Callable[[], bool] = lambda: False,
+    stop_requested: StopRequested = lambda: False,
 ) -> Score:
     """The score in which the parts are those that the user requests. Raises Cancelled as `assigned_parts`."""
     parts, unplayed, warnings = assigned_parts(contents.streams, assignments, maps, score_of(contents), stop_requested)

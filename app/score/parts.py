@@ -26,9 +26,9 @@ score.key_switches : part, count, place, pitch
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 
-from app.errors import Message, raise_if_stopped
+from app.errors import Message, StopRequested, raise_if_stopped
 from app.score.assignments import PERCUSSION, PartAssignment, usual_assignments
 from app.score.choose import How, MapCandidates, MapChoice, candidates, refusal, require_map
 from app.score.clean import Fault
@@ -67,7 +67,7 @@ def assigned_parts(
     assignments: Sequence[PartAssignment],
     maps: Sequence[MapChoice],
     piece: Score,
-    stop_requested: Callable[[], bool] = lambda: False,
+    stop_requested: StopRequested = lambda: False,
 ) -> tuple[tuple[Part, ...], tuple[UnplayedPart, ...], tuple[Message, ...]]:
     """Sort tracks into requested parts and unplayed ones, and report what was guessed.
 

@@ -8,10 +8,9 @@ from pathlib import Path
 import msgspec
 
 from app.editor.session import Session, Severity
-from app.editor.tasks import Progress, StopRequested
 from app.editor.translated import tr
 from app.encoding import shown
-from app.errors import AppError, Message, shortened
+from app.errors import AppError, Message, Progress, StopRequested, shortened
 from app.project.edit.players import change
 from app.rig.characters.character_library import (
     MOST_TITLE,

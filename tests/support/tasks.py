@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TypeVar
 
-from app.editor.tasks import Progress, StopRequested
-from app.errors import AppError, Cancelled, Message
+from app.errors import AppError, Cancelled, Message, Progress, StopRequested
 
 T = TypeVar("T")
 

@@ -14,9 +14,8 @@ from PySide6.QtGui import QColor, QImage, QKeyEvent, QKeySequence, QPixmap
 from PySide6.QtWidgets import QCheckBox, QDialog, QLineEdit, QScrollArea, QTabWidget, QTreeWidgetItem, QWidget
 
 from app.editor.session import Session
-from app.editor.tasks import Progress, StopRequested
 from app.encoding import shown
-from app.errors import AppError, Message
+from app.errors import AppError, Message, Progress, StopRequested
 from app.rig.figure import Figure
 from widgets.common.character_picture import Crop, Seen, picture, seen
 from widgets.common.controls import Button, ColumnList, OkCancel, Retranslated, named, selectable, wrapped

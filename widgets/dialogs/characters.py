@@ -9,8 +9,7 @@ from PySide6.QtGui import QDragEnterEvent, QDropEvent, QIcon, QImage, QPixmap
 from PySide6.QtWidgets import QDialog, QListWidget, QListWidgetItem, QWidget
 
 from app.editor.session import Session
-from app.editor.tasks import Progress, StopRequested
-from app.errors import Message
+from app.errors import Message, Progress, StopRequested
 from app.rig.characters.character_library import character_library, character_named, character_problems
 from app.rig.characters.read_figure import SUFFIXES
 from widgets.common.character_picture import picture, seen

@@ -16,10 +16,9 @@ from PySide6.QtWidgets import (
 )
 
 from app.editor.session import Session, Severity
-from app.editor.tasks import Progress, StopRequested
 from app.editor.tokens import LEAST_TARGET_PX
 from app.encoding import shown
-from app.errors import AppError, Message
+from app.errors import AppError, Message, Progress, StopRequested
 from app.export.formats import requested
 from app.export.request import ExportRequest
 from app.formats.keys import KEY_CHOICES, KeyChoice

@@ -14,8 +14,7 @@ from PySide6.QtWidgets import (
 )
 
 from app.editor.session import Session
-from app.editor.tasks import Progress, StopRequested
-from app.errors import AppError, Message
+from app.errors import AppError, Message, Progress, StopRequested
 from app.export.check_skeleton import reported
 from app.export.target import SkeletonChoice
 from app.export.targets import CheckedTarget, checked_targets

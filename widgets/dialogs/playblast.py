@@ -16,10 +16,9 @@ from PySide6.QtWidgets import QWidget
 
 from app.arrays import SingleArray
 from app.editor.session import Session
-from app.editor.tasks import Progress, StopRequested
 from app.editor.viewport_state import VIEWS, View
 from app.encoding import shown
-from app.errors import AppError, Cancelled, Message
+from app.errors import AppError, Cancelled, Message, Progress, StopRequested
 from app.export.video import SOUND_RATE_HZ, video_into
 from app.performance.span import FrameSpan, cut_span, whole_span
 from app.project.frame_rate import USUAL_FILM_RATE, USUAL_RATES, frame_rate_text

@@ -11,8 +11,7 @@ from PySide6.QtGui import QImage, QPixmap
 from PySide6.QtWidgets import QWidget
 
 from app.editor.session import Session
-from app.editor.tasks import Progress, StopRequested
-from app.errors import Message
+from app.errors import Message, Progress, StopRequested
 from app.rig.characters.character_library import character_named
 from app.rig.model import Character
 from widgets.common.character_picture import Seen, picture, seen

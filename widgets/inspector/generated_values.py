@@ -7,8 +7,7 @@ from dataclasses import replace
 from PySide6.QtCore import QObject, Signal
 
 from app.editor.session import Session
-from app.editor.tasks import Progress, StopRequested
-from app.errors import AppError, Message
+from app.errors import AppError, Message, Progress, StopRequested
 from app.performance.ensemble import Performance
 from app.plan.model import PlayerPlan
 from app.project.model import Project

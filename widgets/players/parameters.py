@@ -12,8 +12,7 @@ from PySide6.QtGui import QIcon, QImage, QPixmap, QShowEvent
 from PySide6.QtWidgets import QGridLayout, QWidget
 
 from app.editor.session import Session
-from app.editor.tasks import Progress, StopRequested
-from app.errors import AppError, Message
+from app.errors import AppError, Message, Progress, StopRequested
 from app.plan.parameters import Parameter, Value
 from app.project.edit import players as edit
 from app.project.edit.players import parameter_edit

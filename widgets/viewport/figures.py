@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-from app.editor.tasks import Progress, StopRequested
-from app.errors import raise_if_stopped
+from app.errors import Progress, StopRequested, raise_if_stopped
 from app.performance.bodies import is_held
 from app.performance.cast import LeftOut, attempt
 from app.project.model import Project

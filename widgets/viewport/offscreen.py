@@ -11,10 +11,9 @@ from PySide6.QtGui import QColor, QFont, QFontMetrics, QImage, QPainter, QTransf
 from PySide6.QtWidgets import QApplication
 
 from app.editor.session import Session
-from app.editor.tasks import Progress, StopRequested
 from app.editor.tokens import THEMES, Tokens
 from app.editor.viewport_state import View
-from app.errors import AppError, Cancelled, Message, raise_if_stopped
+from app.errors import AppError, Cancelled, Message, Progress, StopRequested, raise_if_stopped
 from app.export.pictures import Picture
 from app.performance.cast import LeftOut
 from app.performance.chunks import Pose, Posed

@@ -6,7 +6,7 @@ has it.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Final
@@ -22,7 +22,7 @@ from app.choreography.generate import Choreographer
 from app.choreography.model import ChoreographyModel
 from app.choreography.performed.dancers import dancing_of, place_of
 from app.choreography.sequence import grid_of
-from app.errors import AppError, Message, raise_if_stopped
+from app.errors import AppError, Message, Progress, StopRequested, raise_if_stopped
 from app.identity_cache import IdentityCache
 from app.performance.ensemble import Performance
 from app.project.dance_corrections import DanceCorrection, ForbidState, PinState, UseSegment
@@ -97,9 +97,7 @@ class DanceSteps:
         return tuple(item for item in self.forbidden if item.start_tick <= tick < item.end_tick)
 
 
-def dances_of(
-    performance: Performance, stop_requested: Callable[[], bool], progress: Callable[[float], None]
-) -> dict[str, DanceSteps]:
+def dances_of(performance: Performance, stop_requested: StopRequested, progress: Progress) -> dict[str, DanceSteps]:
     """Dances of all dancers, by id. Raises Cancelled."""
     made = {}
     dancers = performance.project.dancers

@@ -20,7 +20,7 @@ import msgspec
 import numpy as np
 
 from app.audio.track import RATE_HZ
-from app.errors import Message, raise_if_stopped
+from app.errors import Message, StopRequested, raise_if_stopped
 from app.export.bind_pose import CENTIMETRES
 from app.export.file_names import REPORT as EXPORTED_REPORT
 from app.export.formats import FILE_FORMATS, FileContent
@@ -154,7 +154,7 @@ def export_into(
     request: ExportRequest,
     project: UnrealProject,
     wording: Callable[[Message], str],
-    stop_requested: Callable[[], bool] = lambda: False,
+    stop_requested: StopRequested = lambda: False,
     progress: Progress = lambda share, label: None,
 ) -> UnrealExport:
     """Write a performance into a project.
@@ -221,7 +221,7 @@ def _figures(
     layout: Layout,
     sources: Path,
     wording: Callable[[Message], str],
-    stop_requested: Callable[[], bool],
+    stop_requested: StopRequested,
     progress: Progress,
 ) -> Report:
     """Write the FBX files under their names in the project; the report knows them by these."""
@@ -261,7 +261,7 @@ def _figures(
 
 
 def _sound(
-    request: ExportRequest, layout: Layout, sources: Path, stop_requested: Callable[[], bool], progress: Progress
+    request: ExportRequest, layout: Layout, sources: Path, stop_requested: StopRequested, progress: Progress
 ) -> UnrealSound:
     """Write the sound from the first frame to the last."""
     project, span = request.performance.project, request.span
@@ -291,7 +291,7 @@ def _checked(
     layout: Layout,
     sources: Path,
     sound: UnrealSound,
-    stop_requested: Callable[[], bool],
+    stop_requested: StopRequested,
     progress: Progress,
 ) -> dict[str, tuple[str, ...]]:
     """Read every file that was written and hold it against what it must be; the bones of each."""

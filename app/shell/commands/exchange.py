@@ -8,10 +8,9 @@ from pathlib import Path
 from PySide6.QtCore import Qt
 
 from app.editor.session import Session, Severity
-from app.editor.tasks import Progress, StopRequested
 from app.editor.translated import tr
 from app.encoding import shown
-from app.errors import AppError, Argument, Message
+from app.errors import AppError, Argument, Message, Progress, StopRequested
 from app.formats.other_computers import is_file
 from app.project.edit.players import remove_players
 from app.project.midi_out import export_midi as write_piece

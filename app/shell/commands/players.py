@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from functools import partial
+from typing import Literal
 
 from app.editor.session import Session
 from app.errors import Message
@@ -109,6 +110,19 @@ def _has_several(session: Session) -> bool:
     return len(session.project.players) > 1
 
 
+def _marking(name: str, mark: Literal["muted", "soloed"], key: str) -> Action:
+    return Action(
+        f"players.{name}",
+        lambda session, on: newcomers.mark_players(session, mark, on, session.players),
+        "edit/players",
+        key,
+        "players",
+        enabled=_has_players,
+        checked=lambda session: session.player is not None and getattr(session.player, mark),
+        icon=name,
+    )
+
+
 ACTIONS: tuple[Action | EditorAction, ...] = (
     Action("players.add", add, "edit/players", icon="add"),
     EditorAction(
@@ -145,26 +159,8 @@ ACTIONS: tuple[Action | EditorAction, ...] = (
         enabled=_has_players,
         icon="delete",
     ),
-    Action(
-        "players.mute",
-        lambda session, on: newcomers.mark_players(session, "muted", on, session.players),
-        "edit/players",
-        "M",
-        "players",
-        enabled=_has_players,
-        checked=lambda session: session.player is not None and session.player.muted,
-        icon="mute",
-    ),
-    Action(
-        "players.solo",
-        lambda session, on: newcomers.mark_players(session, "soloed", on, session.players),
-        "edit/players",
-        "S",
-        "players",
-        enabled=_has_players,
-        checked=lambda session: session.player is not None and session.player.soloed,
-        icon="solo",
-    ),
+    _marking("mute", "muted", "M"),
+    _marking("solo", "soloed", "S"),
     Action(
         "players.hear_everyone",
         clear_mute_and_solo,

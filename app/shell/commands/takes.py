@@ -9,8 +9,7 @@ from app.arrays import FloatArray
 from app.editor.listening import RecordedTake
 from app.editor.selection import Selection
 from app.editor.session import Session, Severity
-from app.editor.tasks import Progress, StopRequested
-from app.errors import AppError, Message
+from app.errors import AppError, Message, Progress, StopRequested
 from app.project.edit import takes as edit
 from app.project.edit.placed_takes import BEFORE
 from app.project.limits import LAST_TICK

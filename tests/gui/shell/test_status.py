@@ -12,8 +12,8 @@ from PySide6.QtWidgets import QAbstractButton, QFrame, QLabel, QProgressBar, QPu
 from pytestqt.qtbot import QtBot
 
 from app.editor.session import Severity
-from app.editor.tasks import Progress, StopRequested, ThreadTasks
-from app.errors import Message
+from app.editor.tasks import ThreadTasks
+from app.errors import Message, Progress, StopRequested
 from app.shell.app import Program
 from app.shell.status import StatusLine
 from tests.gui.conftest import QUARTET

@@ -18,9 +18,8 @@ from app.choreography.model import ChoreographyModel
 from app.choreography.model_file import write_model
 from app.choreography.read_pair import CREDITS_SUFFIX, read_pair
 from app.editor.session import Session
-from app.editor.tasks import Progress, StopRequested
 from app.encoding import shown
-from app.errors import AppError, Cancelled, Message
+from app.errors import AppError, Cancelled, Message, Progress, StopRequested
 from app.project.choreography_files import SUFFIX
 from app.score.suffixes import MUSIC
 from widgets.common.clicks import on_click

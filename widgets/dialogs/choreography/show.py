@@ -14,8 +14,7 @@ from PySide6.QtWidgets import QDialog, QPlainTextEdit, QTabWidget, QWidget
 
 from app.arrays import FloatArray
 from app.editor.session import Session
-from app.editor.tasks import Progress, StopRequested
-from app.errors import AppError, Message
+from app.errors import AppError, Message, Progress, StopRequested
 from app.performance.ensemble import Performance
 from app.project.document import Change
 from app.project.performers import Dancer

@@ -12,9 +12,8 @@ from PySide6.QtCore import QSize, QTimer
 from PySide6.QtWidgets import QDoubleSpinBox, QLayout, QSpinBox, QWidget
 
 from app.editor.session import Session, Severity
-from app.editor.tasks import Progress, StopRequested
 from app.encoding import restored, shown, stored
-from app.errors import AppError, Message
+from app.errors import AppError, Message, Progress, StopRequested
 from app.evaluation.key import KEY_FILE, Variant
 from app.evaluation.keyframes import SUFFIXES as MOTION_SUFFIXES
 from app.evaluation.process import EvaluationFinished, Report

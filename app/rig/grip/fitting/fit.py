@@ -18,19 +18,12 @@ from dataclasses import replace
 import numpy as np
 
 from app.arrays import FloatArray
+from app.errors import Progress
 from app.rig import quaternion
 from app.rig.grip.body_size import sized, sized_character, sized_model
 from app.rig.grip.carriage import Upright, upright
 from app.rig.grip.finger_stations import asked_together
-from app.rig.grip.fitting.fit_terms import (
-    GRIP_M,
-    INSIDE_M,
-    TOUCH_M,
-    GripScene,
-    Progress,
-    no_progress,
-    require_landmarks,
-)
+from app.rig.grip.fitting.fit_terms import GRIP_M, INSIDE_M, TOUCH_M, GripScene, no_progress, require_landmarks
 from app.rig.grip.fitting.grip_measures import judge
 from app.rig.grip.fitting.hand_problem import HandProblem, grip_problem, joint_angles, travel, wrist_transform
 from app.rig.grip.fitting.leaning_hand import Leaning, lean_of, leanings, whole_hand

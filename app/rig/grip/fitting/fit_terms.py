@@ -5,7 +5,6 @@ Messages: ``character.landmarks_missing``.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -24,9 +23,6 @@ FIT_VERSION = 15
 ..."""
 PLACES_VERSION = 3
 """... and this one when it does so only where fingers wait over what they work, or work it at several places."""
-
-Progress = Callable[[float], None]
-"""Called with the share 0..1 that is done; what it raises stops the work."""
 
 
 def no_progress(share: float) -> None:

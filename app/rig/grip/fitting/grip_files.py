@@ -20,14 +20,14 @@ import numpy as np
 import numpy.typing as npt
 
 from app.arrays import FloatArray
-from app.errors import FileError
+from app.errors import FileError, Progress
 from app.formats.atomic import atomic_write
 from app.formats.cache import cache_folder
 from app.formats.files import read_file
 from app.formats.json_data import decode_json
 from app.rig.grip.carriage import usual_posture
 from app.rig.grip.finger_stations import asked_together, only_at
-from app.rig.grip.fitting.fit_terms import FIT_VERSION, PLACES_VERSION, Progress, no_progress, require_landmarks
+from app.rig.grip.fitting.fit_terms import FIT_VERSION, PLACES_VERSION, no_progress, require_landmarks
 from app.rig.grip.grip_pose import GripPose, HandHold, Lips
 from app.rig.grip.lips import fit_lips
 from app.rig.model import Character, InstrumentModel

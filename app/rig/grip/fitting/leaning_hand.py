@@ -6,12 +6,13 @@ station the wrist is solved again, near its home, and the other fingers with it.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from app.arrays import FloatArray
+from app.errors import Progress
 from app.rig import quaternion
 from app.rig.grip.finger_stations import Station
 from app.rig.grip.fitting.fit_terms import GripScene
@@ -67,7 +68,7 @@ def leanings(
     scene: GripScene,
     x: FloatArray,
     solved: Sequence[Solved],
-    reported: Callable[[float], None] = lambda share: None,
+    reported: Progress = lambda share: None,
 ) -> tuple[Leaning, ...]:
     """Let the hand give way for every station that its finger misses."""
     found = []

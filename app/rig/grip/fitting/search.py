@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 
 from app.arrays import FloatArray
-from app.rig.grip.fitting.fit_terms import Progress, no_progress
+from app.errors import Progress
+from app.rig.grip.fitting.fit_terms import no_progress
 from app.rig.grip.fitting.hand_problem import HandProblem, home_controls, nodes_at, start_at, travel
 from app.rig.grip.fitting.residuals import Residuals
 from app.rig.model import InstrumentModel

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from copy import copy
 from dataclasses import dataclass
 
 import numpy as np
 
 from app.arrays import FloatArray, IndexArray
+from app.errors import Progress
 from app.rig.grip.finger_stations import Station, hover_m
 from app.rig.grip.fitting.fit_terms import GripScene
 from app.rig.grip.fitting.hand_model import (
@@ -79,7 +80,7 @@ def solve_tables(
     scene: GripScene,
     angles: FloatArray,
     elsewhere: FloatArray,
-    reported: Callable[[float], None] = lambda share: None,
+    reported: Progress = lambda share: None,
 ) -> tuple[Solved, ...]:
     """Solve the fingers at each of their stations over the values of their controls, the wrist held; a finger that
     touches nothing keeps its relaxed bend.

@@ -10,8 +10,7 @@ from PySide6.QtWidgets import QMenu, QSizePolicy, QToolButton, QWidget
 from app.arrays import FloatArray
 from app.editor.selection import EventKey, Selection
 from app.editor.session import Session
-from app.editor.tasks import Progress, StopRequested
-from app.errors import AppError, Message
+from app.errors import AppError, Message, Progress, StopRequested
 from app.performance.ensemble import Performance
 from app.performance.motion import generated_anew, generated_channel
 from app.plan.by_hand.additive_events import channel_limits

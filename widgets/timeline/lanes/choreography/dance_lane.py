@@ -10,8 +10,7 @@ from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import QMenu, QWidget
 
 from app.editor.session import Session
-from app.editor.tasks import Progress, StopRequested
-from app.errors import Message
+from app.errors import Message, Progress, StopRequested
 from app.performance.ensemble import Performance
 from app.project import limits
 from app.project.dance_corrections import DanceCorrection
