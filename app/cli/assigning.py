@@ -45,7 +45,7 @@ def unassigned_parts(
     of instruments that no map plays, as of a piano."""
     found = []
     for row, name in zip(rows, part_names(channels, rows), strict=True):
-        played = [channels[index] for index in row.assignment.streams]
+        played = [channels[index] for index in row.assignment.channels]
         if row.assignment.map_id is None and all(use_of(channel) == "melodic" for channel in played):
             possible = candidates(played, maps)
             if of_others and not possible.maps:
@@ -59,7 +59,7 @@ def unassigned_parts(
 
 def part_names(channels: Sequence[TrackChannel], rows: Sequence[ImportRow]) -> tuple[str, ...]:
     """Names of the parts for ``--assign``: a row is called like its first stream."""
-    return unique_names(stream_name(channels[row.assignment.streams[0]]) for row in rows)
+    return unique_names(stream_name(channels[row.assignment.channels[0]]) for row in rows)
 
 
 def assign_message(arguments: argparse.Namespace, parts: Sequence[Unassigned], id: str = "assign.parts") -> Message:

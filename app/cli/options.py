@@ -339,10 +339,10 @@ def _opened(arguments: argparse.Namespace, maps: Mapping[str, InstrumentMap]) ->
     if is_project_file(arguments.file):
         return _saved_project(arguments), None
     contents, choices = read_contents(arguments.file, encoding=arguments.encoding), map_choices(maps.values())
-    rows = _assigned(contents.streams, usual_rows(contents, maps), arguments.assign, list(maps))
+    rows = _assigned(contents.channels, usual_rows(contents, maps), arguments.assign, list(maps))
     if arguments.clean_takes is not None:
         rows = cleaning(rows, arguments.clean_takes)
-    unassigned = unassigned_parts(contents.streams, rows, choices)
+    unassigned = unassigned_parts(contents.channels, rows, choices)
     for names, written in ((arguments.written, True), (arguments.sounding, False)):
         if names:
             rows = _with_pitches(contents, rows, names, written, maps)
@@ -351,7 +351,7 @@ def _opened(arguments: argparse.Namespace, maps: Mapping[str, InstrumentMap]) ->
     project = import_project(contents, rows, maps, source, encoding=arguments.encoding, seed=seed)
     if unassigned:
         return project, assign_message(arguments, unassigned)
-    others = () if project.performers else unassigned_parts(contents.streams, rows, choices, of_others=True)
+    others = () if project.performers else unassigned_parts(contents.channels, rows, choices, of_others=True)
     return project, assign_message(arguments, others, "assign.others") if others else None
 
 
@@ -367,7 +367,7 @@ def _with_pitches(
     places = {parts[index].place for index in select_players(names, unique_names(part.name for part in parts))}
     return [
         msgspec.structs.replace(row, assignment=msgspec.structs.replace(row.assignment, written=written))
-        if contents.streams[row.assignment.streams[0]].place in places
+        if contents.channels[row.assignment.channels[0]].place in places
         else row
         for row in rows
     ]

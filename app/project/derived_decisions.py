@@ -56,10 +56,10 @@ def derived_decisions(project: Project, contents: PieceContents, choices: Sequen
             groups.setdefault(part.place, []).append(part)
     quarter = contents.tempo_map.ticks_per_quarter
     owned = _owned(project, groups, contents)
-    marks = {place: [mark_of(contents.streams[one], quarter) for one in own] for place, own in owned.items()}
-    free = [index for index in range(len(contents.streams)) if not any(index in own for own in owned.values())]
+    marks = {place: [mark_of(contents.channels[one], quarter) for one in own] for place, own in owned.items()}
+    free = [index for index in range(len(contents.channels)) if not any(index in own for own in owned.values())]
     rest = {place: list(_marks(project, parts)) for place, parts in groups.items() if place not in owned}
-    channels = [contents.streams[index] for index in free]
+    channels = [contents.channels[index] for index in free]
     found = iter(
         recognised_streams(
             [mark for own in rest.values() for mark in own], channels, [melody_of(one, quarter) for one in channels]
@@ -74,16 +74,16 @@ def derived_decisions(project: Project, contents: PieceContents, choices: Sequen
         for place, parts in groups.items()
     ]
     played = {index for own in owned.values() for index in own}
-    silent = [index for index in range(len(contents.streams)) if index not in played]
+    silent = [index for index in range(len(contents.channels)) if index not in played]
     rows += [
-        RowDecision((mark_of(contents.streams[index], quarter),), requested=False)
-        for index in _left_out(project, contents.streams, silent)
+        RowDecision((mark_of(contents.channels[index], quarter),), requested=False)
+        for index in _left_out(project, contents.channels, silent)
     ]
     return ImportDecisions(None, tuple(rows))
 
 
 def _owned(project: Project, groups: Mapping[Place, Sequence[Part]], contents: PieceContents) -> dict[Place, list[int]]:
-    """The streams that most notes of a group's parts were read from, where the file is much as it was then: their ids
+    """The channels that most notes of a group's parts were read from, where the file is much as it was then: their ids
     say which notes they are."""
     old, new = project.score.ticks_per_quarter, contents.tempo_map.ticks_per_quarter
     owners = {
@@ -94,7 +94,7 @@ def _owned(project: Project, groups: Mapping[Place, Sequence[Part]], contents: P
         if not is_made_here(note.id)
     }
     result: dict[Place, list[int]] = {}
-    for index, channel in enumerate(contents.streams):
+    for index, channel in enumerate(contents.channels):
         ids = (f"{channel.track + 1}:{number}" for number in channel.numbers)
         notes = zip(ids, (onset * old for onset in channel.onset_ticks), channel.pitches, strict=True)
         counted = Counter(owners[note] for note in notes if note in owners)
@@ -106,12 +106,12 @@ def _owned(project: Project, groups: Mapping[Place, Sequence[Part]], contents: P
         there = {
             (onset * old, pitch)
             for index in own
-            for onset, pitch in zip(contents.streams[index].onset_ticks, contents.streams[index].pitches, strict=True)
+            for onset, pitch in zip(contents.channels[index].onset_ticks, contents.channels[index].pitches, strict=True)
         }
         # One of several merged tracks that stayed where it was does not tell where the others are.
         if len(whole[place] & there) < _COVERED * len(whole[place]):
             del result[place]
-        own.sort(key=lambda index: contents.streams[index].place != place)
+        own.sort(key=lambda index: contents.channels[index].place != place)
     return result
 
 
@@ -140,21 +140,21 @@ def _row(
     project: Project,
     parts: Sequence[Part],
     marks: Sequence[TrackMark],
-    streams: Sequence[int],
+    channels: Sequence[int],
     contents: PieceContents,
     choices: Sequence[MapChoice],
     unchanged: bool,
 ) -> RowDecision:
-    """The decision that makes these parts of these streams."""
+    """The decision that makes these parts of these channels."""
     first, *_ = parts
     by_id = {choice.map_id: choice for choice in choices}
     own = by_id.get(first.map_id)
     written = own is not None and first.transposed_semitones == -own.transposition_semitones != 0
     decision = RowDecision(tuple(marks), written=written)
-    if not streams:
+    if not channels:
         return msgspec.structs.replace(decision, map_id=first.map_id)
-    mine = msgspec.structs.replace(contents, streams=tuple(contents.streams[index] for index in streams))
-    asked = PartAssignment(tuple(range(len(streams))), written=written, solos=False)
+    mine = msgspec.structs.replace(contents, channels=tuple(contents.channels[index] for index in channels))
+    asked = PartAssignment(tuple(range(len(channels))), written=written, solos=False)
     read = assigned_score(mine, [asked], choices).parts
     if own is not None and (not read or read[0].map_id != own.map_id):
         asked = msgspec.structs.replace(asked, map_id=own.map_id)
@@ -173,7 +173,7 @@ def _row(
 
 
 def _alike(project: Project, old: Sequence[Part], new: Sequence[Part], quarter: int) -> float:
-    """Return how much two readings of some streams have in common, 0..1: above all melodies, then lengths."""
+    """Return how much two readings of some channels have in common, 0..1: above all melodies, then lengths."""
     if not new:
         return 0.0
     before = project.score.ticks_per_quarter
@@ -195,7 +195,7 @@ def _same_lengths(one: Part, other: Part, one_quarter: int, other_quarter: int) 
 
 
 def _left_out(project: Project, channels: Sequence[TrackChannel], silent: Sequence[int]) -> Iterator[int]:
-    """Those of the streams that no part was read from which the project knows as unplayed."""
+    """Those of the channels that no part was read from which the project knows as unplayed."""
     unplayed = list(project.score.unplayed)
     for index in silent:
         name, count = stream_name(channels[index]), len(channels[index].pitches)

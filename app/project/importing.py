@@ -56,10 +56,10 @@ class ImportRequest(msgspec.Struct, frozen=True):
 
 def usual_rows(contents: PieceContents, maps: Mapping[str, InstrumentMap]) -> tuple[ImportRow, ...]:
     """A row for every track, or for the regions of one, as it is imported by default."""
-    found = suggestions(contents.streams, map_choices(maps.values()))
+    found = suggestions(contents.channels, map_choices(maps.values()))
     rows = []
     for one in found:
-        own = (contents.streams[channel] for channel in one.assignment.streams)
+        own = (contents.channels[channel] for channel in one.assignment.channels)
         takes = all(take_reason(channel, contents.tempo_map) for channel in own)
         rows.append(ImportRow(msgspec.structs.replace(one.assignment, clean=takes), one.playable))
     return tuple(rows)
@@ -75,9 +75,9 @@ def cleaning(rows: Sequence[ImportRow], clean: bool) -> tuple[ImportRow, ...]:
 def merged(rows: Sequence[ImportRow], places: Sequence[int]) -> tuple[ImportRow, ...]:
     """The rows with those at some places made into one, where the first of them stood."""
     first, *others = sorted(places)
-    channels = tuple(channel for place in (first, *others) for channel in rows[place].assignment.streams)
+    channels = tuple(channel for place in (first, *others) for channel in rows[place].assignment.channels)
     together = msgspec.structs.replace(
-        rows[first], assignment=msgspec.structs.replace(rows[first].assignment, streams=channels), requested=True
+        rows[first], assignment=msgspec.structs.replace(rows[first].assignment, channels=channels), requested=True
     )
     gone = set(others)
     return tuple(together if place == first else row for place, row in enumerate(rows) if place not in gone)
@@ -98,27 +98,27 @@ def carried_over(
     usual, usual_again : sequence of ImportRow
         Rows by default of ``contents`` and of ``again``.
     """
-    now = {channel.place: index for index, channel in enumerate(again.streams)}
-    by_default = {row.assignment.streams: row for row in usual}
+    now = {channel.place: index for index, channel in enumerate(again.channels)}
+    by_default = {row.assignment.channels: row for row in usual}
     kept: list[ImportRow] = []
     for row in rows:
-        places = [now.get(contents.streams[channel].place) for channel in row.assignment.streams]
+        places = [now.get(contents.channels[channel].place) for channel in row.assignment.channels]
         channels = tuple(place for place in places if place is not None)
-        if channels and row != by_default.get(row.assignment.streams):
+        if channels and row != by_default.get(row.assignment.channels):
             kept.append(
-                msgspec.structs.replace(row, assignment=msgspec.structs.replace(row.assignment, streams=channels))
+                msgspec.structs.replace(row, assignment=msgspec.structs.replace(row.assignment, channels=channels))
             )
-    chosen = {channel for row in kept for channel in row.assignment.streams}
-    kept += (row for row in usual_again if chosen.isdisjoint(row.assignment.streams))
-    return tuple(sorted(kept, key=lambda row: row.assignment.streams[0]))
+    chosen = {channel for row in kept for channel in row.assignment.channels}
+    kept += (row for row in usual_again if chosen.isdisjoint(row.assignment.channels))
+    return tuple(sorted(kept, key=lambda row: row.assignment.channels[0]))
 
 
 def separated(rows: Sequence[ImportRow], place: int) -> tuple[ImportRow, ...]:
     """The rows with the one at a place taken apart into its tracks."""
     row = rows[place]
     alone = tuple(
-        msgspec.structs.replace(row, assignment=msgspec.structs.replace(row.assignment, streams=(channel,), name=""))
-        for channel in row.assignment.streams
+        msgspec.structs.replace(row, assignment=msgspec.structs.replace(row.assignment, channels=(channel,), name=""))
+        for channel in row.assignment.channels
     )
     return (*rows[:place], *alone, *rows[place + 1 :])
 
@@ -190,8 +190,10 @@ def _instruments(
 ) -> tuple[str, ...]:
     """Instruments that play the tracks of an assignment."""
     # As if the file had no others.
-    own = msgspec.structs.replace(contents, streams=tuple(contents.streams[channel] for channel in assignment.streams))
-    alone = msgspec.structs.replace(assignment, streams=tuple(range(len(assignment.streams))))
+    own = msgspec.structs.replace(
+        contents, channels=tuple(contents.channels[channel] for channel in assignment.channels)
+    )
+    alone = msgspec.structs.replace(assignment, channels=tuple(range(len(assignment.channels))))
     return tuple(part.map_id for part in score_of_rows(own, [ImportRow(alone)], maps, stop_requested).parts)
 
 
@@ -235,7 +237,7 @@ def import_project(
     characters = {}
     for row in rows:
         if row.requested and row.character_id is not None:
-            first = contents.streams[row.assignment.streams[0]]
+            first = contents.channels[row.assignment.channels[0]]
             characters[first.place] = row.character_id
     players = []
     for player in project.players:
@@ -252,14 +254,14 @@ def decisions_of(contents: PieceContents, rows: Sequence[ImportRow], encoding: s
     return ImportDecisions(
         encoding,
         tuple(
-            decision_of(row, (mark_of(contents.streams[channel], quarter) for channel in row.assignment.streams))
+            decision_of(row, (mark_of(contents.channels[channel], quarter) for channel in row.assignment.channels))
             for row in rows
         ),
     )
 
 
 def decision_of(row: ImportRow, marks: Iterable[TrackMark]) -> RowDecision:
-    """A row as it is kept with the project, with the marks of its streams."""
+    """A row as it is kept with the project, with the marks of its channels."""
     chosen = row.assignment
     return RowDecision(
         tuple(marks),

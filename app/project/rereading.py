@@ -45,7 +45,7 @@ class MidiReading:
     contents : PieceContents
         Tracks that do not say (any more) what they were chosen by do so again.
     rows : tuple of ImportRow
-        Of its streams.
+        Of its channels.
     decisions : ImportDecisions
         The former ones and those about new tracks, with marks of the file as it is now.
     places : mapping of Place to Place
@@ -74,7 +74,7 @@ def read_as_decided(
     played_on : mapping of Place to str
         The map that each part of the project was read for, by its place: it stays where nothing else is known.
     """
-    channels = list(contents.streams)
+    channels = list(contents.channels)
     quarter = contents.tempo_map.ticks_per_quarter
     marks = [mark for row in decisions.rows for mark in row.tracks]
     found = iter(recognised_streams(marks, channels, [melody_of(channel, quarter) for channel in channels]))
@@ -92,7 +92,7 @@ def read_as_decided(
             if place is None:
                 renewed.append(mark)
                 continue
-            channel = contents.streams[place]
+            channel = contents.channels[place]
             says = not decision.requested or _says_who(channel, mark, choices)
             channels[place] = channel if says else _as_before(channel, mark)
             renewed.append(mark_of(channel, quarter, None if says else mark))
@@ -101,17 +101,17 @@ def read_as_decided(
             kept.append(msgspec.structs.replace(decision, tracks=tuple(renewed)))
         if there:
             lead = decision.tracks[0].place
-            places[lead] = contents.streams[there[0][1]].place
+            places[lead] = contents.channels[there[0][1]].place
             before = played_on.get(lead)
-            rows.append(_row(decision, [place for _, place in there], contents.streams, channels, choices, before))
+            rows.append(_row(decision, [place for _, place in there], contents.channels, channels, choices, before))
     for row in usual_rows(contents, maps):
-        new = tuple(place for place in row.assignment.streams if place not in known)
+        new = tuple(place for place in row.assignment.channels if place not in known)
         if new:
-            added = msgspec.structs.replace(row, assignment=msgspec.structs.replace(row.assignment, streams=new))
-            added = _played(added, contents.streams, choices)
+            added = msgspec.structs.replace(row, assignment=msgspec.structs.replace(row.assignment, channels=new))
+            added = _played(added, contents.channels, choices)
             rows.append(added)
-            kept.append(decision_of(added, [mark_of(contents.streams[place], quarter) for place in new]))
-    read = msgspec.structs.replace(contents, streams=tuple(channels))
+            kept.append(decision_of(added, [mark_of(contents.channels[place], quarter) for place in new]))
+    read = msgspec.structs.replace(contents, channels=tuple(channels))
     return MidiReading(read, tuple(rows), msgspec.structs.replace(decisions, rows=tuple(kept)), places)
 
 
@@ -120,9 +120,9 @@ def _played(row: ImportRow, channels: Sequence[TrackChannel], choices: Sequence[
     fits plays them, for no one is asked here."""
     own = [
         msgspec.structs.replace(channels[place], name="", instrument_name="", program=None)
-        for place in row.assignment.streams
+        for place in row.assignment.channels
     ]
-    unknown = not row.requested and candidates([channels[place] for place in row.assignment.streams], choices).unknown
+    unknown = not row.requested and candidates([channels[place] for place in row.assignment.channels], choices).unknown
     if not unknown or any(refusal(channel, choices) is not None for channel in own):
         return row
     pitches = [pitch for channel in own for pitch in channel.pitches]
@@ -138,7 +138,7 @@ def recognised_streams(
     Parameters
     ----------
     melodies : sequence of tuple of int
-        Sketches of the streams.
+        Sketches of the channels.
     """
     result: list[int | None] = [None] * len(marks)
     if not marks or not channels:
@@ -241,7 +241,7 @@ def _row(
 def characters_of(reading: MidiReading) -> dict[Place, str]:
     """The characters chosen for rows, by the place of the parts that are read from them."""
     return {
-        reading.contents.streams[row.assignment.streams[0]].place: row.character_id
+        reading.contents.channels[row.assignment.channels[0]].place: row.character_id
         for row in reading.rows
         if row.character_id is not None
     }

@@ -22,8 +22,8 @@ class PartAssignment(msgspec.Struct, frozen=True):
 
     Attributes
     ----------
-    streams : tuple of int
-        Places among the streams; several are merged into one line.
+    channels : tuple of int
+        Places among the channels; several are merged into one line.
     map_id : str or None
         The instrument map that plays it; None: what the names, programs and ranges say; `PERCUSSION`: no one, for its
         notes are the sounds of a drum kit.
@@ -39,7 +39,7 @@ class PartAssignment(msgspec.Struct, frozen=True):
         The track's words about who plays ("1. Solo", "a2") are followed.
     """
 
-    streams: tuple[int, ...]
+    channels: tuple[int, ...]
     map_id: str | None = None
     name: str = ""
     split: Split = "sustained"
@@ -68,7 +68,7 @@ def usual_assignments(channels: Sequence[TrackChannel], maps: Sequence[MapChoice
 
 
 def suggestions(channels: Sequence[TrackChannel], maps: Sequence[MapChoice]) -> list[Suggestion]:
-    """Suggested assignments of all streams, those that are one player's together.
+    """Suggested assignments of all channels, those that are one player's together.
 
     The pitches of a part are taken for written ones where many lie outside its instrument's range as they sound and
     none as they are written; where one of a family is written so, the others are with any note that is unusually low or

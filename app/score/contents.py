@@ -22,7 +22,7 @@ class PieceContents(msgspec.Struct, frozen=True):
 
     Attributes
     ----------
-    streams : tuple of TrackChannel
+    channels : tuple of TrackChannel
         The notes of each track, by channel; of a score, of each part, by instrument.
     warnings : tuple of Message
         What was repaired or skipped.
@@ -34,7 +34,7 @@ class PieceContents(msgspec.Struct, frozen=True):
     tempo_map: TempoMap
     metres: tuple[Metre, ...]
     pickup_ticks: int
-    streams: tuple[TrackChannel, ...]
+    channels: tuple[TrackChannel, ...]
     warnings: tuple[Message, ...]
     markers: tuple[Marker, ...] = ()
     encoding: str = ""
@@ -47,7 +47,7 @@ def assigned_score(
     stop_requested: StopRequested = lambda: False,
 ) -> Score:
     """The score in which the parts are those that the user requests. Raises Cancelled as `assigned_parts`."""
-    parts, unplayed, warnings = assigned_parts(contents.streams, assignments, maps, score_of(contents), stop_requested)
+    parts, unplayed, warnings = assigned_parts(contents.channels, assignments, maps, score_of(contents), stop_requested)
     return score_of(contents, parts, unplayed, (*contents.warnings, *warnings), assignments)
 
 
@@ -67,7 +67,7 @@ def uncast_score(contents: PieceContents) -> Score:
             notes=tuple(sorted(channel.notes(), key=lambda note: (note.onset_tick, note.pitch))),
             curves=channel.curves,
         )
-        for channel in contents.streams
+        for channel in contents.channels
         if use_of(channel) == "melodic"
     )
     return score_of(contents, parts)
@@ -90,7 +90,7 @@ def score_of(
         unplayed=unplayed,
         warnings=warnings,
         markers=contents.markers,
-        percussion=_percussion(rhythm_parts(contents.streams, assignments)),
+        percussion=_percussion(rhythm_parts(contents.channels, assignments)),
     )
 
 

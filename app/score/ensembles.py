@@ -41,8 +41,8 @@ _LINE_SHARE: Final = 0.95
 
 
 def named_by_ensemble(channels: Sequence[TrackChannel], title: str) -> list[TrackChannel]:
-    """Give the instruments of a known ensemble to the tracks that say nothing themselves; the streams as they are where
-    they are none."""
+    """Give the instruments of a known ensemble to the tracks that say nothing themselves; the channels as they are
+    where they are none."""
     silent = [says_nothing(channel) for channel in channels]
     sizes = {len(ensemble.parts) for ensemble in vocabulary().ensembles}
     if not any(silent) or len(channels) not in sizes:

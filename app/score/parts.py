@@ -108,7 +108,7 @@ class _Sorting:
 
     def add(self, assignment: PartAssignment) -> None:
         """Make the parts of one assignment, and say what was guessed."""
-        own, maps = assignment.streams, self._maps
+        own, maps = assignment.channels, self._maps
         room = self._most - len(self.parts)
         if assignment.map_id == PERCUSSION:
             self._percussion.update(own)
@@ -142,7 +142,7 @@ class _Sorting:
         self._warnings += instrument_warnings(mine, found, assignment, maps, self._piece)
 
     def _clean(self, own: Sequence[int]) -> dict[Fault, list[Note]]:
-        """Take from streams that are takes what was not meant; what that was."""
+        """Take from channels that are takes what was not meant; what that was."""
         faults: dict[Fault, list[Note]] = {}
         for index in own:
             self._streams[index], found = without_faults(self._streams[index], self._piece.tempo_map)
@@ -175,7 +175,7 @@ class _Sorting:
             self._silent += silent_notes("score.stray_notes", part, shared.left_out, piece)
 
     def unplayed(self) -> tuple[UnplayedPart, ...]:
-        """The streams that no one plays, and the notes of parts that their players do not play."""
+        """The channels that no one plays, and the notes of parts that their players do not play."""
         channels = (
             UnplayedPart(
                 stream_name(channel),
@@ -237,8 +237,8 @@ def _shared(
 
 
 def rhythm_parts(channels: Sequence[TrackChannel], assignments: Sequence[PartAssignment] = ()) -> list[TrackChannel]:
-    """The streams whose notes are the sounds of a drum kit: those that say so, but for what the user assigned."""
-    assigned = {index: one.map_id for one in assignments if one.map_id is not None for index in one.streams}
+    """The channels whose notes are the sounds of a drum kit: those that say so, but for what the user assigned."""
+    assigned = {index: one.map_id for one in assignments if one.map_id is not None for index in one.channels}
     return [
         channel
         for index, channel in enumerate(channels)
@@ -247,7 +247,7 @@ def rhythm_parts(channels: Sequence[TrackChannel], assignments: Sequence[PartAss
 
 
 def _switches(channels: Sequence[TrackChannel], own: Sequence[int], places: Sequence[Sequence[int]]) -> list[Note]:
-    """The key switches of some streams, by onset."""
+    """The key switches of some channels, by onset."""
     found = []
     for index, switches in zip(own, places, strict=True):
         if switches:

@@ -112,7 +112,7 @@ def read_midi(path: Path, *, encoding: str | None = None, maps: Sequence[MapChoi
         If it cannot be read; what can be read in part opens, and the score's warnings say what was left out.
     """
     contents = read_contents(path, encoding=encoding)
-    parts, unplayed, warnings = parts_of(contents.streams, maps, score_of(contents))
+    parts, unplayed, warnings = parts_of(contents.channels, maps, score_of(contents))
     return score_of(contents, parts, unplayed, (*contents.warnings, *warnings))
 
 
@@ -182,7 +182,7 @@ def _midi_contents(
         tempo_map=timing.tempo_map,
         metres=timing.metres,
         pickup_ticks=timing.pickup_ticks,
-        streams=tuple(named_by_ensemble(named_by_title(channels, title), title)),
+        channels=tuple(named_by_ensemble(named_by_title(channels, title), title)),
         warnings=(*no_notes(tracks, counts, texts), *warnings, *timing.warnings, *stuck),
         markers=_markers(tracks, texts),
         encoding=texts.encoding,

@@ -26,7 +26,7 @@ _LEGATO_SHARE: Final = 0.5
 
 
 def groups(channels: Sequence[TrackChannel]) -> list[tuple[int, ...]]:
-    """The places of streams that are one player's, in the order of their first ones; most stand alone."""
+    """The places of channels that are one player's, in the order of their first ones; most stand alone."""
     alone = _alone(channels)
     same: dict[tuple[object, ...], list[int]] = {}
     for place, channel in enumerate(channels):
@@ -54,17 +54,17 @@ def _key(channel: TrackChannel) -> tuple[object, ...]:
 
 
 def are_one_line(channels: Sequence[TrackChannel]) -> bool:
-    """Return whether streams are one player's: regions of one track, or all that a line is spread over."""
+    """Return whether channels are one player's: regions of one track, or all that a line is spread over."""
     return is_spread(channels) or follow_one_another(channels)
 
 
 def is_spread(channels: Sequence[TrackChannel]) -> bool:
-    """Return whether one line is spread over streams."""
+    """Return whether one line is spread over channels."""
     return len(channels) > 1 and len({channel.line for channel in channels}) == 1 and channels[0].line >= 0
 
 
 def follow_one_another(channels: Sequence[TrackChannel]) -> bool:
-    """Return whether streams are regions of one track, in their order."""
+    """Return whether channels are regions of one track, in their order."""
     if len(channels) < 2 or len(set(map(_key, channels))) > 1:
         return False
     return all(
@@ -76,9 +76,9 @@ def follow_one_another(channels: Sequence[TrackChannel]) -> bool:
 
 
 def joined(channels: Sequence[TrackChannel]) -> TrackChannel:
-    """The first of some streams, with the curves, the muted spans and the marks of all.
+    """The first of some channels, with the curves, the muted spans and the marks of all.
 
-    Where the streams do not follow one another the curves are those of the first that has any.
+    Where the channels do not follow one another the curves are those of the first that has any.
     """
     curves = next((channel.curves for channel in channels if channel.curves), ())
     if not is_spread(channels) and follow_one_another(channels):

@@ -65,7 +65,7 @@ def played(path: Path, seed: int = 0, manner: Manner | None = None) -> bytes:
     # Fine, and the same player's chances fall at the same places: `app.plan.music.piece.Seeds` counts ticks and tracks.
     scale = math.ceil(192 / contents.tempo_map.ticks_per_quarter)
     file = mido.MidiFile(type=1, ticks_per_beat=scale * contents.tempo_map.ticks_per_quarter)
-    end_tick = max(max(stream.end_ticks) for stream in contents.streams)
+    end_tick = max(max(stream.end_ticks) for stream in contents.channels)
     events: list[tuple[int, mido.MetaMessage]] = [
         (
             round(metre.tick * scale),
@@ -76,8 +76,8 @@ def played(path: Path, seed: int = 0, manner: Manner | None = None) -> bytes:
     tempi = _bent(contents.tempo_map, end_tick, manner.rubato)
     events += [(round(tick * scale), mido.MetaMessage("set_tempo", tempo=tempo)) for tick, tempo in tempi]
     bent = TempoMap.of_changes(contents.tempo_map.ticks_per_quarter, [TempoChange(*tempo) for tempo in tempi])
-    for index in range(contents.streams[-1].track + 1):
-        streams = [stream for stream in contents.streams if stream.track == index]
+    for index in range(contents.channels[-1].track + 1):
+        streams = [stream for stream in contents.channels if stream.track == index]
         track = mido.MidiTrack()
         file.tracks.append(track)
         rows: list[tuple[int, int, mido.Message | mido.MetaMessage]] = []

@@ -152,7 +152,7 @@ class ImportDialog(Retranslated, QDialog):
     def separate_selected(self) -> None:
         """Take the selected part apart into its tracks."""
         for place in reversed(self._table.selected()):
-            if len(self._table.rows[place].assignment.streams) > 1:
+            if len(self._table.rows[place].assignment.channels) > 1:
                 self._table.rows = separated(self._table.rows, place)
         self._fill()
         self._work_out(self._table.rows)
@@ -248,7 +248,7 @@ class ImportDialog(Retranslated, QDialog):
     def _show_tools(self) -> None:
         places = self._table.selected()
         self._merge.setEnabled(len(places) > 1)
-        self._separate.setEnabled(any(len(self._table.rows[place].assignment.streams) > 1 for place in places))
+        self._separate.setEnabled(any(len(self._table.rows[place].assignment.channels) > 1 for place in places))
 
     def _show_outcome(self) -> None:
         """Say what will come of it: the reader's warnings where nothing was changed, the players in any case."""
@@ -280,10 +280,10 @@ class ImportDialog(Retranslated, QDialog):
         """Say why a part is not played, and that it is for dancers where it is."""
         reason = message_text(part.reason)
         percussion = {
-            stream_name(self._table.contents.streams[channel])
+            stream_name(self._table.contents.channels[channel])
             for row in self._table.rows
             if self._table.is_percussion(row)
-            for channel in row.assignment.streams
+            for channel in row.assignment.channels
         }
         if part.reason.id == "score.percussion" and part.name in percussion:
             return self.tr("import_dialog.is_not_played_dancers_dance").format(name=part.name, reason=reason)

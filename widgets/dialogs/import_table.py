@@ -101,10 +101,10 @@ class ImportTable(Retranslated, QTableWidget):
         header.setDefaultAlignment(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter)
 
     def read(self, contents: PieceContents) -> None:
-        """Take a file, and find its streams that are percussion, or sound effects, if no one says otherwise."""
+        """Take a file, and find its channels that are percussion, or sound effects, if no one says otherwise."""
         self.contents = contents
-        self.end_tick = max((max(stream.end_ticks) for stream in contents.streams), default=1)
-        uses = [use_of(stream) for stream in contents.streams]
+        self.end_tick = max((max(channel.end_ticks) for channel in contents.channels), default=1)
+        uses = [use_of(channel) for channel in contents.channels]
         self._rhythm, self._effects = (
             frozenset(place for place, use in enumerate(uses) if use == one) for one in ("rhythm", "effect")
         )
@@ -135,10 +135,10 @@ class ImportTable(Retranslated, QTableWidget):
 
     def is_percussion(self, row: ImportRow) -> bool:
         chosen = row.assignment.map_id
-        return chosen == PERCUSSION or (chosen is None and self._rhythm.issuperset(row.assignment.streams))
+        return chosen == PERCUSSION or (chosen is None and self._rhythm.issuperset(row.assignment.channels))
 
     def name_of(self, row: ImportRow) -> str:
-        names = Counter(stream_name(self.contents.streams[stream]) for stream in row.assignment.streams)
+        names = Counter(stream_name(self.contents.channels[channel]) for channel in row.assignment.channels)
         return " + ".join(name if count == 1 else f"{name} ×{count}" for name, count in names.items())
 
     def _fill_more(self, count: int) -> None:
@@ -166,13 +166,13 @@ class ImportTable(Retranslated, QTableWidget):
         name.textEdited.connect(lambda text: self._assignment(place, name=text.strip()))
         self.setCellWidget(place, _NAME, name)
 
-        streams = [self.contents.streams[stream] for stream in row.assignment.streams]
-        self.setCellWidget(place, _PREVIEW, NotesPreview(streams, self.end_tick, self._tokens))
+        channels = [self.contents.channels[channel] for channel in row.assignment.channels]
+        self.setCellWidget(place, _PREVIEW, NotesPreview(channels, self.end_tick, self._tokens))
         count = Label(
             self.tr("import_dialog.notes_to").format(
-                count=sum(len(stream.pitches) for stream in streams),
-                low=pitch_name(min(min(stream.pitches) for stream in streams)),
-                high=pitch_name(max(max(stream.pitches) for stream in streams)),
+                count=sum(len(channel.pitches) for channel in channels),
+                low=pitch_name(min(min(channel.pitches) for channel in channels)),
+                high=pitch_name(max(max(channel.pitches) for channel in channels)),
             )
         )
         count.setContentsMargins(6, 0, 6, 0)
@@ -189,7 +189,7 @@ class ImportTable(Retranslated, QTableWidget):
         split.currentIndexChanged.connect(lambda: self._assignment(place, split=split.currentData()))
 
         instruments = [(usual, None), *self._instruments]
-        if not self._rhythm.issuperset(assignment.streams):
+        if not self._rhythm.issuperset(assignment.channels):
             instruments.append((self.tr("import_dialog.percussion_for_dancers"), PERCUSSION))
         instrument = self._choice(place, _INSTRUMENT, "instrument", instruments, assignment.map_id)
         instrument.setSizeAdjustPolicy(ComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
@@ -217,8 +217,8 @@ class ImportTable(Retranslated, QTableWidget):
 
     def _take_reason(self, row: ImportRow) -> TakeReason:
         """The reason for which a row's tracks look like takes; empty if one of them does not."""
-        own = (self.contents.streams[stream] for stream in row.assignment.streams)
-        reasons = [take_reason(stream, self.contents.tempo_map) for stream in own]
+        own = (self.contents.channels[channel] for channel in row.assignment.channels)
+        reasons = [take_reason(channel, self.contents.tempo_map) for channel in own]
         return reasons[0] if all(reasons) else ""
 
     def _choice(
@@ -249,9 +249,9 @@ class ImportTable(Retranslated, QTableWidget):
         names = dict.fromkeys(map(instrument_name, self._played_on(automatic(row.assignment))))
         if names:
             instrument.setItemText(0, self.tr("import_dialog.automatic_2").format(name=" + ".join(names)))
-        elif self._rhythm.issuperset(row.assignment.streams):
+        elif self._rhythm.issuperset(row.assignment.channels):
             instrument.setItemText(0, self.tr("import_dialog.percussion_for_dancers"))
-        elif self._effects.issuperset(row.assignment.streams):
+        elif self._effects.issuperset(row.assignment.channels):
             instrument.setItemText(0, self.tr("import_dialog.sound_effect"))
         elif self.outcome is not None and not row.assignment.map_id:
             instrument.setItemText(0, self.tr("import_dialog.choose_instrument"))
@@ -271,7 +271,7 @@ class ImportTable(Retranslated, QTableWidget):
         row = self.rows[place]
         if self.is_percussion(row):
             return self.tr("import_dialog.percussion_track_no_player_plays")
-        if row.assignment.map_id is None and self._effects.issuperset(row.assignment.streams):
+        if row.assignment.map_id is None and self._effects.issuperset(row.assignment.channels):
             return self.tr("import_dialog.sound_effects_no_player_plays")
         return ""
 

@@ -110,7 +110,7 @@ def read_musicxml(path: Path) -> PieceContents:
         tempo_map=tempo,
         metres=metred.metres,
         pickup_ticks=metred.pickup_ticks,
-        streams=tuple(named_by_ensemble(named_by_title(streams, title), title)),
+        channels=tuple(named_by_ensemble(named_by_title(streams, title), title)),
         warnings=tuple(warnings),
         markers=_markers(played),
     )

@@ -175,7 +175,7 @@ def test_the_bundled_scores_are_what_their_scripts_make_and_have_the_notes_of_th
     assert [change.tick for change in score.tempo_map.changes] == [change.tick for change in sound.tempo_map.changes]
     for one, other in zip(score.tempo_map.changes, sound.tempo_map.changes, strict=True):
         assert one.microseconds_per_quarter == pytest.approx(other.microseconds_per_quarter, abs=0.5)
-    for written, heard in zip(score.streams, sound.streams, strict=True):
+    for written, heard in zip(score.channels, sound.channels, strict=True):
         assert written.name == heard.name
         notes = list(zip(written.onset_ticks, written.pitches, written.end_ticks, strict=True))
         played = list(zip(heard.onset_ticks, heard.pitches, heard.end_ticks, strict=True))

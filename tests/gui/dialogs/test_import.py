@@ -107,12 +107,12 @@ def test_tracks_are_merged_and_taken_apart(dialog: ImportDialog) -> None:
         table.selectionModel().SelectionFlag.Select | table.selectionModel().SelectionFlag.Rows,
     )
     QTest.mouseClick(dialog.findChild(QPushButton, "merge"), Qt.MouseButton.LeftButton)
-    assert [row.assignment.streams for row in dialog.rows] == [(0, 1), (2,), (3,)]
+    assert [row.assignment.channels for row in dialog.rows] == [(0, 1), (2,), (3,)]
     choose(dialog, "split_0", "never")
     assert len(imported(dialog).players) == 2
     table.selectRow(0)
     QTest.mouseClick(dialog.findChild(QPushButton, "separate"), Qt.MouseButton.LeftButton)
-    assert [row.assignment.streams for row in dialog.rows] == [(0,), (1,), (2,), (3,)]
+    assert [row.assignment.channels for row in dialog.rows] == [(0,), (1,), (2,), (3,)]
 
 
 def test_usual_rows_without_assignments_are_an_empty_stage() -> None:
@@ -240,7 +240,7 @@ def test_many_tracks_are_shown_turn_by_turn(
     )
     name = child(dialog, QLineEdit, "name_39")
     choose(dialog, "split_39", "every")
-    assert [assignment.streams for assignment in looked] == [(39,)]  # type: ignore[attr-defined]
+    assert [assignment.channels for assignment in looked] == [(39,)]  # type: ignore[attr-defined]
     QTest.keyClicks(name, "x")
     assert len(looked) == 1
 
@@ -248,12 +248,12 @@ def test_many_tracks_are_shown_turn_by_turn(
 def test_the_preview_draws_what_sounds(qt_app: QApplication, qtbot: QtBot) -> None:
     """Against the slow way: column by column, whether a note of the pitch sounds there."""
     contents = read_contents(LUTKIN)
-    end_tick = max(max(stream.end_ticks) for stream in contents.streams)
-    preview = NotesPreview(contents.streams[:2], end_tick, DARK)
+    end_tick = max(max(stream.end_ticks) for stream in contents.channels)
+    preview = NotesPreview(contents.channels[:2], end_tick, DARK)
     qtbot.addWidget(preview)
     drawn = {(pitch, column) for pitch, begin, end in preview._runs(100.0) for column in range(begin, end)}
     expected = set()
-    for stream in contents.streams[:2]:
+    for stream in contents.channels[:2]:
         for onset, end, pitch in zip(stream.onset_ticks, stream.end_ticks, stream.pitches, strict=True):
             expected |= {
                 (pitch, column)

@@ -163,7 +163,7 @@ def test_what_was_decided_and_edited_stays(data: st.DataObject) -> None:
     tracks = data.draw(pieces())
     with file_of(tracks) as path:
         contents = read_contents(path)
-        rows = data.draw(rows_of(len(contents.streams)))
+        rows = data.draw(rows_of(len(contents.channels)))
         imported = import_project(contents, rows, MAPS, str(path))
         project = edited(data.draw, imported)
         assert reimported(project, path, MAPS).project is project

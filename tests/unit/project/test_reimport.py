@@ -96,8 +96,8 @@ def test_parts_read_as_written_pitches_are_read_so_again() -> None:
 
     def score(written: bool, *more: Note) -> Score:
         assignments = [
-            msgspec.structs.replace(assignment, written=written and assignment.streams == (0,))
-            for assignment in usual_assignments(contents.streams, choices)
+            msgspec.structs.replace(assignment, written=written and assignment.channels == (0,))
+            for assignment in usual_assignments(contents.channels, choices)
         ]
         found = assigned_score(contents, assignments, choices)
         return with_notes(found, 0, [*found.parts[0].notes, *more])

@@ -165,7 +165,7 @@ def test_merged_and_left_out_tracks_stay_so(tmp_path: Path) -> None:
     contents = read_contents(path)
     rows = merged([ImportRow(PartAssignment((place,), map_id)) for place, map_id in enumerate(QUINTET)], (1, 2))
     rows = tuple(
-        msgspec.structs.replace(row, requested=row.assignment.streams != (4,), character_id="woman_adult")
+        msgspec.structs.replace(row, requested=row.assignment.channels != (4,), character_id="woman_adult")
         for row in rows
     )
     project = import_project(contents, rows, MAPS, str(path))

@@ -21,7 +21,7 @@ MAPS = map_choices(bundled_maps().values())
 @pytest.mark.parametrize("path", sorted(MIDI.glob("*.mid")), ids=lambda path: path.stem)
 def test_usual_assignments_are_what_the_reader_does(path: Path) -> None:
     contents = read_contents(path)
-    requested = assigned_score(contents, usual_assignments(contents.streams, MAPS), MAPS)
+    requested = assigned_score(contents, usual_assignments(contents.channels, MAPS), MAPS)
     assert requested == read_midi(path, maps=MAPS)
 
 
@@ -34,7 +34,7 @@ def test_a_track_no_one_would_play_can_be_given_to_a_user() -> None:
     assert len(score.unplayed) == 3
     assert {part.reason.id for part in score.unplayed} == {"score.left_out"}
     assert score.warnings == ()
-    assert sum(len(part.notes) for part in score.parts) == len(contents.streams[3].pitches)
+    assert sum(len(part.notes) for part in score.parts) == len(contents.channels[3].pitches)
 
 
 def test_merged_tracks_are_one_line_and_lose_no_note() -> None:
@@ -42,7 +42,7 @@ def test_merged_tracks_are_one_line_and_lose_no_note() -> None:
     score = assigned_score(contents, [PartAssignment((0, 1), split="never"), PartAssignment((2,))], MAPS)
     assert len(score.parts) == 2
     notes = score.parts[0].notes
-    assert len(notes) == len(contents.streams[0].pitches) + len(contents.streams[1].pitches)
+    assert len(notes) == len(contents.channels[0].pitches) + len(contents.channels[1].pitches)
     assert len({note.id for note in notes}) == len(notes)
     assert [(note.onset_tick, note.pitch) for note in notes] == sorted((note.onset_tick, note.pitch) for note in notes)
 
@@ -60,8 +60,8 @@ SAXOPHONES = {"alto sax": -9, "tenor sax": -14, "baritone sax": -21}
 
 def test_written_parts_of_a_real_band_are_read_so_and_reported() -> None:
     contents = read_contents(BAND)
-    usual = usual_assignments(contents.streams, MAPS)
-    assert {stream_name(contents.streams[one.streams[0]]) for one in usual if one.written} == set(SAXOPHONES)
+    usual = usual_assignments(contents.channels, MAPS)
+    assert {stream_name(contents.channels[one.channels[0]]) for one in usual if one.written} == set(SAXOPHONES)
     sounding = [msgspec.structs.replace(assignment, written=False) for assignment in usual]
     score = assigned_score(contents, sounding, MAPS)
     read = assigned_score(contents, usual, MAPS)

@@ -49,7 +49,7 @@ def stream(rows: list[Row], marks: tuple[Mark, ...], name: str = "Trumpet") -> T
 
 
 def parts_of(one: TrackChannel, split: str = "sustained") -> tuple[Part, ...]:
-    assignment = msgspec.convert({"streams": [0], "split": split}, PartAssignment)
+    assignment = msgspec.convert({"channels": [0], "split": split}, PartAssignment)
     piece = Score("", 480, TempoMap(480))
     return assigned_parts([one], [assignment], map_choices(MAPS.values()), piece)[0]
 

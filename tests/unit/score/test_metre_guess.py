@@ -80,7 +80,7 @@ def test_music_in_two_or_four_stays_in_four(name: str) -> None:
 def _notes(path: Path) -> tuple[list[Line], int]:
     """Return the lines of a file, and its ticks in a quarter."""
     contents = read_contents(path)
-    lines = [Line(stream.onset_ticks, stream.end_ticks, stream.pitches) for stream in contents.streams]
+    lines = [Line(stream.onset_ticks, stream.end_ticks, stream.pitches) for stream in contents.channels]
     return lines, contents.tempo_map.ticks_per_quarter
 
 

@@ -44,7 +44,7 @@ def test_a_played_file_has_the_players_of_the_engraved_one(stem: str, tmp_path: 
     assert players(live) == players(engraved)
     # Nothing but key switches is left out of a line, and every slur stays one.
     assert strays(live) <= strays(engraved) + 0.005 * sum(len(part.notes) for part in engraved.parts)
-    read = [pitch for stream in read_contents(MIDI / f"{stem}.mid").streams for pitch in stream.pitches]
+    read = [pitch for stream in read_contents(MIDI / f"{stem}.mid").channels for pitch in stream.pitches]
     lowest, highest = min(read), max(read)
     assert all(lowest <= one.pitch <= highest + 2 for part in live.parts for one in part.notes)
 

@@ -91,6 +91,6 @@ def test_the_user_can_take_regions_apart() -> None:
         path.write_bytes(tracks(region(0), region(0, "Oboe", 1, 68), region(1)))
         contents = read_contents(path)
     rows = usual_rows(contents, maps)
-    assert [row.assignment.streams for row in rows] == [(0, 2), (1,)]
+    assert [row.assignment.channels for row in rows] == [(0, 2), (1,)]
     assert len(import_project(contents, rows, maps).players) == 2
     assert len(import_project(contents, separated(rows, 0), maps).players) == 3

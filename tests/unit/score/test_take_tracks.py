@@ -21,7 +21,7 @@ MAPS = bundled_maps()
 
 def reason(path: Path) -> str:
     contents = read_contents(path)
-    (stream,) = contents.streams
+    (stream,) = contents.channels
     return take_reason(stream, contents.tempo_map)
 
 

@@ -24,7 +24,7 @@ EMPTY = note("r", 16)
 
 
 def bars(folder: Path, *measures: str) -> list[list[int]]:
-    stream = read(folder, document(*measures)).streams[0]
+    stream = read(folder, document(*measures)).channels[0]
     found: list[list[int]] = [[] for _ in measures]
     for onset, pitch in zip(stream.onset_ticks, stream.pitches, strict=True):
         found[onset // (4 * Q)].append(pitch)
@@ -49,4 +49,4 @@ def test_slashes_are_reported_with_their_measures_and_not_played(tmp_path: Path)
     slashes = "".join(note("B4", 4, "<notehead>slash</notehead>") for _ in range(4))
     contents = read(tmp_path, document(SCALE, slashes, slashes, CHORDS, slashes))
     assert Message("musicxml.slashes", {"part": "Trumpet in Bb", "measures": "2-3, 5"}) in contents.warnings
-    assert 71 not in contents.streams[0].pitches
+    assert 71 not in contents.channels[0].pitches

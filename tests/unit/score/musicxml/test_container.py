@@ -55,7 +55,7 @@ def refused(folder: Path, content: str | bytes, name: str = "piece.musicxml") ->
 def test_encodings_of_real_programs(tmp_path: Path, content: bytes) -> None:
     contents = read(tmp_path, content)
     assert rows(contents) == ONE
-    assert contents.streams[0].name.startswith("Trompete in B")
+    assert contents.channels[0].name.startswith("Trompete in B")
 
 
 @pytest.mark.parametrize(
@@ -148,7 +148,7 @@ def test_many_divisions_without_a_common_multiple_take_no_longer(tmp_path: Path)
     """Sums of fractions would grow with each of them."""
     odd = [f"<attributes><divisions>{2 * number + 1}</divisions></attributes>" for number in range(1500)]
     text = document(*(one + note("C4", 2 * number + 1) for number, one in enumerate(odd)))
-    (stream,) = read(tmp_path, text).streams
+    (stream,) = read(tmp_path, text).channels
     assert stream.onset_ticks == [number * 10_080 for number in range(1500)]
     # The same within a measure, where rests and notes sum up.
     within = document("".join(one + note("C4", 1) for one in odd))
@@ -178,5 +178,5 @@ def test_three_thousand_notes_are_read_within_half_a_second(tmp_path: Path) -> N
         start = time.process_time()
         contents = read(tmp_path, text)
         least = min(least, time.process_time() - start)
-    assert len(contents.streams[0].pitches) == 3000
+    assert len(contents.channels[0].pitches) == 3000
     assert least < 0.5

@@ -30,7 +30,7 @@ Q = 480
 
 def rows(contents: PieceContents, place: int = 0) -> list[tuple[float, float, int]]:
     """Onset and end in quarters, and pitch, of the notes of a stream."""
-    stream = contents.streams[place]
+    stream = contents.channels[place]
     quarter = contents.tempo_map.ticks_per_quarter
     return [
         (onset / quarter, end / quarter, pitch)
@@ -59,8 +59,8 @@ def test_voices_chords_rests_and_ties(tmp_path: Path) -> None:
     )
     contents = read(tmp_path, document(first, note("G4", 4, '<tie type="stop"/>') + note("G4", 12)))
     assert rows(contents) == [(0, 1, 60), (0, 1, 64), (2, 4, 48), (2, 5, 67), (5, 8, 67)]
-    assert contents.streams[0].numbers == [1, 2, 3, 4, 5]
-    assert contents.streams[0].source == "score"
+    assert contents.channels[0].numbers == [1, 2, 3, 4, 5]
+    assert contents.channels[0].source == "score"
 
 
 def test_tuplets_and_changed_divisions_are_exact(tmp_path: Path) -> None:
@@ -89,7 +89,7 @@ def test_marks_are_at_their_notes_and_a_breath_after_a_rest_at_the_note_before(t
     second = note("F4", 8, notations=articulation("staccato") + "<fermata/>") + note(
         "G4", 8, notations=articulation("doit")
     )
-    (stream,) = read(tmp_path, document(first, second)).streams
+    (stream,) = read(tmp_path, document(first, second)).channels
     assert sorted(marks(stream), key=str) == sorted(
         [
             ("slur", 1, 2),
@@ -119,7 +119,7 @@ def test_nested_slurs_of_one_number_and_slurs_across_voices(tmp_path: Path) -> N
     second = (
         note("r", 16) + "<backup><duration>16</duration></backup>" + note("G4", 16, notations=slur("stop", 2), voice=2)
     )
-    (stream,) = read(tmp_path, document(first, second)).streams
+    (stream,) = read(tmp_path, document(first, second)).channels
     # Notes are numbered by onset, then pitch: A4 comes before F5.
     assert [mark for mark in marks(stream) if mark[0] == "slur"] == [("slur", 1, 5), ("slur", 2, 3), ("slur", 5, 6)]
 
@@ -132,7 +132,7 @@ def test_numbers_of_slurs_go_by_the_order_of_the_file(tmp_path: Path) -> None:
     lower = note("D4", 4, voice=2) + note("E4", 12, notations=slur("start"), voice=2)
     last = note("F4", 16, notations=slur("stop"), voice=2)
     text = document(first, upper + "<backup><duration>16</duration></backup>" + lower, last)
-    (stream,) = read(tmp_path, text).streams
+    (stream,) = read(tmp_path, text).channels
     slurred = [[stream.pitches[number - 1] for number in mark[1:]] for mark in marks(stream) if mark[0] == "slur"]
     assert slurred == [[60, 74], [64, 65]]
 
@@ -145,7 +145,7 @@ def test_divisions_behind_the_notes_that_they_are_of(tmp_path: Path) -> None:
 
 def test_a_slur_that_ends_on_a_tied_note_ends_with_it(tmp_path: Path) -> None:
     tied = note("D4", 4, '<tie type="start"/>') + note("D4", 8, '<tie type="stop"/>', notations=slur("stop"))
-    (stream,) = read(tmp_path, document(note("C4", 4, notations=slur("start")) + tied)).streams
+    (stream,) = read(tmp_path, document(note("C4", 4, notations=slur("start")) + tied)).channels
     assert marks(stream) == [("slur", 1, 2)]
     assert stream.end_ticks == [Q, 4 * Q]
 
@@ -159,7 +159,7 @@ def test_grace_notes_come_before_their_note(tmp_path: Path) -> None:
     assert onsets[3] == 2
     assert 1 < onsets[1] < onsets[2] < 2
     assert rows(contents)[0][1] == onsets[1]
-    assert [mark[:2] for mark in marks(contents.streams[0])] == [("grace", 2), ("grace", 3)]
+    assert [mark[:2] for mark in marks(contents.channels[0])] == [("grace", 2), ("grace", 3)]
 
 
 def test_a_grace_note_before_everything_takes_its_time_from_its_note(tmp_path: Path) -> None:
@@ -192,7 +192,7 @@ def test_ornaments_are_written_out_in_the_key_and_keep_their_mark(
     assert own[0][0] == 0
     assert own[-1][1:] == (2, 67 if mark != "turn" or ornament == "turn" else own[-1][2])
     assert all(one[1] == other[0] for one, other in pairwise(own))
-    assert [row[:3] for row in marks(contents.streams[0])] == [(mark, 1, len(own))]
+    assert [row[:3] for row in marks(contents.channels[0])] == [(mark, 1, len(own))]
 
 
 def test_the_neighbour_of_a_trill_is_in_the_key(tmp_path: Path) -> None:
@@ -215,7 +215,7 @@ def test_each_note_of_a_chord_has_its_fingering_and_alternates_are_left_out(tmp_
         + note("G4", 4, before="<chord/>", notations=fingered(">0"))
         + note("A4", 8, notations=f"{fingered('>12')}<ornaments><tremolo>1</tremolo></ornaments>")
     )
-    stream = read(tmp_path, document(chord)).streams[0]
+    stream = read(tmp_path, document(chord)).channels[0]
     found = [mark for mark in marks(stream) if mark[0] == "fingering"]
     assert found == [("fingering", 1, "1-2"), ("fingering", 2, "0"), ("fingering", 3, 6, "12")]
 
@@ -225,7 +225,7 @@ def test_tremolos(tmp_path: Path) -> None:
     first = note("C4", 4, notations=single.format(2)) + note("D4", 4, notations=single.format(3)) + note("r", 8)
     contents = read(tmp_path, document(first))
     assert rows(contents) == [(place / 4, (place + 1) / 4, 60) for place in range(4)] + [(1, 2, 62)]
-    assert ("flutter_tongue", 5) in marks(contents.streams[0])
+    assert ("flutter_tongue", 5) in marks(contents.channels[0])
     double = "<ornaments><tremolo type='{}'>2</tremolo></ornaments>"
     pair = note("C4", 8, notations=double.format("start")) + note("E4", 8, notations=double.format("stop"))
     assert [row[2] for row in rows(read(tmp_path, document(pair)))] == [60, 64] * 8
@@ -237,7 +237,7 @@ def test_dynamics_hairpins_and_accents(tmp_path: Path) -> None:
     )
     second = direction('<wedge type="crescendo"/>') + note("C4", 8) + note("C4", 8) + direction('<wedge type="stop"/>')
     third = dynamic("f") + note("C4", 16)
-    (stream,) = read(tmp_path, document(first, second, third)).streams
+    (stream,) = read(tmp_path, document(first, second, third)).channels
     assert stream.velocities == [49, 59, 112, 49, 72, 96]
     assert [mark for mark in marks(stream) if mark[0] in ("dynamic", "crescendo")] == [
         ("dynamic", 0, "p"),
@@ -256,7 +256,7 @@ def test_mutes_by_words_sounds_and_signs(tmp_path: Path) -> None:
         play.format("harmon-no-stem") + note("C4", 16),
         play.format("off") + note("C4", 8) + note("C4", 8, notations="<technical><stopped/></technical>"),
     )
-    (stream,) = read(tmp_path, document(*bars)).streams
+    (stream,) = read(tmp_path, document(*bars)).channels
     assert stream.muted == ((4 * Q, 8 * Q), (12 * Q, 16 * Q), (18 * Q, 20 * Q))
     assert stream.stopped == ((18 * Q, 20 * Q),)
 
@@ -266,7 +266,7 @@ def test_a_sound_beats_a_name_which_says_size_and_key(tmp_path: Path) -> None:
         said = f"<instrument-name>x</instrument-name><instrument-sound>{sound}</instrument-sound>"
         inside = f'<score-instrument id="I">{said}</score-instrument>'
         shift = f"<attributes><transpose><chromatic>{chromatic}</chromatic></transpose></attributes>"
-        (stream,) = read(tmp_path, document(shift + note("C5", 16), name=name, inside=inside)).streams
+        (stream,) = read(tmp_path, document(shift + note("C5", 16), name=name, inside=inside)).channels
         return stream.played_on
 
     assert played_on("brass.trombone", "Melody", 0) == "trombone"
@@ -283,7 +283,7 @@ def test_a_change_to_the_piccolo_is_a_stream_of_its_own(tmp_path: Path) -> None:
         tmp_path,
         document(note("C5", 16), words("to Picc.") + note("C6", 16), words("to Fl.") + note("C5", 16), name="Flute"),
     )
-    assert [(stream.played_on, stream.change, stream.numbers) for stream in contents.streams] == [
+    assert [(stream.played_on, stream.change, stream.numbers) for stream in contents.channels] == [
         ("", 0, [1, 3]),
         ("piccolo", 1, [2]),
     ]
@@ -304,7 +304,7 @@ def test_notes_that_name_their_instrument_need_no_words(tmp_path: Path) -> None:
         "<attributes><transpose><chromatic>0</chromatic></transpose></attributes>" + note("C5", 16, first),
     )
     contents = read(tmp_path, document(*bars, name="Flute", inside=inside))
-    assert [(stream.played_on, stream.numbers, stream.pitches) for stream in contents.streams] == [
+    assert [(stream.played_on, stream.numbers, stream.pitches) for stream in contents.channels] == [
         ("flute", [1, 3], [72, 72]),
         ("piccolo", [2], [84]),
     ]
@@ -323,7 +323,7 @@ def test_percussion_without_pitches(tmp_path: Path) -> None:
         '<midi-instrument id="I3"><midi-channel>10</midi-channel><midi-unpitched>55</midi-unpitched></midi-instrument>'
     )
     bar = "".join(note("x", 4, f'<instrument id="I{n}"/>') for n in (1, 2, 3)) + note("r", 4)
-    (stream,) = read(tmp_path, document(bar, name="Drums", inside=inside)).streams
+    (stream,) = read(tmp_path, document(bar, name="Drums", inside=inside)).channels
     assert (stream.use, stream.pitches) == ("rhythm", [36, 49, 54])
 
 
@@ -339,7 +339,7 @@ def test_who_plays_and_rehearsal_marks(tmp_path: Path) -> None:
             words("1. Solo") + note("C4", 16), direction("<rehearsal>A</rehearsal>") + words("a2") + note("C4", 16)
         ),
     )
-    assert contents.streams[0].solos == ((0, 1), (4 * Q, 0))
+    assert contents.channels[0].solos == ((0, 1), (4 * Q, 0))
     assert [(marker.tick, marker.text) for marker in contents.markers] == [(4 * Q, "A")]
 
 
@@ -370,7 +370,7 @@ def test_parts_in_the_order_of_the_list(tmp_path: Path) -> None:
         tmp_path,
         score(listed("P1", "Flute"), listed("P2", "Tuba"), part("P2", note("C2", 16)), part("P1", note("C5", 16))),
     )
-    assert [(stream.track, stream.name, stream.pitches) for stream in contents.streams] == [
+    assert [(stream.track, stream.name, stream.pitches) for stream in contents.channels] == [
         (0, "Flute", [72]),
         (1, "Tuba", [36]),
     ]

@@ -67,7 +67,7 @@ def test_rests_that_are_too_long_move_no_one(tmp_path: Path) -> None:
     text = score(listed("P1", "Flute"), listed("P2", "Oboe"), solo, other)
     contents = read(tmp_path, text.replace('number="1"', 'number="0" implicit="yes"'))
     quarter = contents.tempo_map.ticks_per_quarter
-    first, second = (sorted({tick / quarter for tick in stream.onset_ticks}) for stream in contents.streams)
+    first, second = (sorted({tick / quarter for tick in stream.onset_ticks}) for stream in contents.channels)
     # The pickup, a bar, a bar with a rest too many, a cadenza of six quarters, a bar.
     assert contents.pickup_ticks == 2 * quarter
     assert first[-2:] == [10, 16]
