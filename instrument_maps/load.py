@@ -28,7 +28,7 @@ FOLDER = Path(__file__).parent
 MODELS = FOLDER.parent / "resources" / "instruments"
 """Folder of the bundled models."""
 
-NOT_MAPS = frozenset({"vocabulary.toml"})
+NOT_MAPS = frozenset({"instrument_names.toml"})
 
 MOST_BASES = 16
 """Most maps that may extend one another in a row."""

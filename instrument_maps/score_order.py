@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
+from instrument_maps.instrument_names import vocabulary
 from instrument_maps.model import InstrumentMap
-from instrument_maps.vocabulary import vocabulary
 
 
 def in_score_order(maps: Iterable[InstrumentMap]) -> list[InstrumentMap]:

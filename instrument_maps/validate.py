@@ -7,11 +7,11 @@ from collections import defaultdict
 from collections.abc import Iterator
 
 from instrument_maps.fingering_label import WORDS
+from instrument_maps.instrument_names import vocabulary
 from instrument_maps.model import MOVERS, ROOT, SCHEMA_VERSION, Control, ControlMotion, InstrumentMap
 from instrument_maps.validate_fingerings import fingerings_problems
 from instrument_maps.validate_hold import contacts_problems, hold_problems, proxies_problems
 from instrument_maps.value_checks import REACH_M, UNIT_TOLERANCE, Problem, dot, near_point, unit_vector, within
-from instrument_maps.vocabulary import vocabulary
 
 _MOST_NAME = 200
 

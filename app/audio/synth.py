@@ -25,8 +25,8 @@ from app.score.bend_range import USUAL_SEMITONES, range_controls, range_for, whe
 from app.score.channel_sound import DRUM_CHANNEL
 from app.score.model import SAME_SOUND, CurveKind, Note, Part, PercussionHit
 from app.score.tempo import TempoMap
+from instrument_maps.instrument_names import vocabulary
 from instrument_maps.model import InstrumentMap
-from instrument_maps.vocabulary import vocabulary
 
 TICKS_PER_QUARTER: Final = 24000
 """At MIDI's own 120 quarters per minute a tick is a sample at 48 kHz."""

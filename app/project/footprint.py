@@ -11,8 +11,8 @@ from app.identity_cache import IdentityCache
 from app.project.casting import Footprint
 from app.rig import quaternion
 from instrument_maps.hold import Box, Carriage, Cone, Ring
+from instrument_maps.instrument_names import vocabulary
 from instrument_maps.model import ROOT, InstrumentMap
-from instrument_maps.vocabulary import vocabulary
 
 LIPS_AHEAD_M = 0.12
 """The lips are so far before the middle of the body."""

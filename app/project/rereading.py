@@ -29,8 +29,8 @@ from app.score.assignments import PERCUSSION, PartAssignment
 from app.score.choose import How, MapCandidates, MapChoice, candidates, refusal
 from app.score.contents import PieceContents
 from app.score.track_channel import TrackChannel
+from instrument_maps.instrument_names import vocabulary
 from instrument_maps.model import InstrumentMap
-from instrument_maps.vocabulary import vocabulary
 
 _NAMED: Final = 0.32
 """Likelihood of a track that was rewritten from end to end, where all else is the same."""

@@ -10,7 +10,7 @@ import msgspec
 from app.score.choose import LEAST_OUTSIDE, How, MapChoice, candidates, refusal
 from app.score.regions import groups
 from app.score.track_channel import TrackChannel
-from instrument_maps.vocabulary import vocabulary
+from instrument_maps.instrument_names import vocabulary
 
 PERCUSSION: Final = "percussion"
 """Assignment of a part, in place of an instrument, whose notes dancers hear as percussion."""

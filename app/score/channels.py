@@ -18,7 +18,7 @@ from app.score.model import MOST_BEND, ControllerCurve
 from app.score.mutes import sounds_of
 from app.score.sound_module import FIRST_PORT, Port, module_ranges
 from app.score.tracks import SentKind, TrackEvents
-from instrument_maps.vocabulary import vocabulary
+from instrument_maps.instrument_names import vocabulary
 
 _PLAYED_SHARE: Final = 0.8
 """A controller is dynamics where it is up under such a share of the notes; a vibrato comes and goes."""

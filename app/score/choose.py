@@ -22,8 +22,8 @@ from app.score.track_instrument import (
     said_plainly,
     use_of,
 )
+from instrument_maps.instrument_names import vocabulary
 from instrument_maps.instruments import Instrument
-from instrument_maps.vocabulary import vocabulary
 
 _NEEDED_SHARE = 0.5
 LEAST_OUTSIDE: Final = 0.1

@@ -12,8 +12,8 @@ from collections.abc import Sequence
 from app.score.limits import MOST_NAME
 from app.score.mutes import sounds_of
 from app.score.tracks import TrackEvents
+from instrument_maps.instrument_names import vocabulary
 from instrument_maps.instruments import Instrument
-from instrument_maps.vocabulary import vocabulary
 
 _CHANGE = re.compile(
     r"(?:change to|changes to|switch to|to|muta(?:no)? in|muta|nimmt|wechselt zu|wechsel zu|prend|prenez|changez en|"

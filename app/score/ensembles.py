@@ -18,9 +18,9 @@ import msgspec
 
 from app.score.track_channel import TrackChannel
 from app.score.track_instrument import recognised, says_nothing, use_of
+from instrument_maps.instrument_names import vocabulary
 from instrument_maps.instruments import Ensemble, Instrument
 from instrument_maps.name_words import words_of
-from instrument_maps.vocabulary import vocabulary
 
 _LEAST_SHARE: Final = 0.98
 """Least share of a part's notes that its instrument's range holds."""

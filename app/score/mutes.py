@@ -12,8 +12,8 @@ from typing import Final, Literal, NamedTuple, TypeAlias
 
 from app.score.limits import MOST_NAME
 from app.score.tracks import TrackEvents
+from instrument_maps.instrument_names import vocabulary
 from instrument_maps.instruments import Instrument
-from instrument_maps.vocabulary import vocabulary
 
 MUTED_TRUMPET: Final = 59
 """The one muted sound of General MIDI's wind programs."""

@@ -44,7 +44,7 @@ from app.score.tempo import TempoMap
 from app.score.track_channel import TrackChannel
 from app.score.track_instrument import players_named, recognised, use_of
 from app.score.voices import TrackVoices, file_id, split_voices
-from instrument_maps.vocabulary import vocabulary
+from instrument_maps.instrument_names import vocabulary
 
 
 def parts_of(

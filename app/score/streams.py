@@ -23,7 +23,7 @@ from app.score.texts import TextDecoder
 from app.score.track_channel import TrackChannel
 from app.score.track_instrument import is_no_name
 from app.score.tracks import TrackEvents
-from instrument_maps.vocabulary import vocabulary
+from instrument_maps.instrument_names import vocabulary
 
 # LilyPond names a track "staff:voice"; "\\new" is a staff without a name.
 _LILYPOND_NAME = re.compile(r"^([^:]*):([^:]*)$")

@@ -18,7 +18,7 @@ from app.score.model import ControllerCurve, CurveKind, Note
 from app.score.take import Cleaning, Controlled, Played
 from app.score.tempo import TempoMap
 from app.score.track_channel import TrackChannel
-from instrument_maps.vocabulary import vocabulary
+from instrument_maps.instrument_names import vocabulary
 
 RECORDED: Final = "Suisou: recorded take"
 """Text of a track that ``suisou record`` wrote."""

@@ -19,8 +19,8 @@ from typing import Final
 import msgspec
 
 from app.score.frequent import ACCENTED, CENTRAL, CYRILLIC, GREEK, HANGUL, KANJI, SIMPLIFIED, TRADITIONAL
+from instrument_maps.instrument_names import vocabulary
 from instrument_maps.name_words import is_wide
-from instrument_maps.vocabulary import vocabulary
 
 _MOST_TEXTS: Final = 200
 """Texts that decide, and bytes of each."""

@@ -9,8 +9,8 @@ import msgspec
 
 from app.score.channel_sound import KIT_PROGRAMS, Use
 from app.score.track_channel import TrackChannel
+from instrument_maps.instrument_names import vocabulary
 from instrument_maps.instruments import Instrument
-from instrument_maps.vocabulary import vocabulary
 
 _KIT, _EFFECT, _VOICE = "drums", "effect", "voice"
 """Ids in the vocabulary."""

@@ -59,8 +59,8 @@ from app.score.model import ControllerCurve, CurveKind, Note, Part, Score
 from app.score.tempo import TempoChange
 from app.score.tracks import CONTROLLERS, LEAST_TEMPO
 from app.score.voices import is_one_voice
+from instrument_maps.instrument_names import vocabulary
 from instrument_maps.instruments import Instrument
-from instrument_maps.vocabulary import vocabulary
 
 MOST_TEMPO: Final = 0xFFFFFF
 """Microseconds per quarter: the 24 bits of the event."""

@@ -21,7 +21,7 @@ import numpy as np
 import numpy.typing as npt
 import soxr
 
-from instrument_maps.vocabulary import vocabulary
+from instrument_maps.instrument_names import vocabulary
 
 OUT = Path(__file__).parents[1] / "soundfont" / "winds.sf2"
 KIT_OUT = OUT.with_name("drums.sf2")

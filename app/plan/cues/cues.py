@@ -27,7 +27,7 @@ from app.plan.cues.entries import ON_BEAT, Entry, beat_ticks, coming_in, played_
 from app.plan.model import CONDUCTOR, CueEvent, TimeFrame
 from app.plan.music.dynamics import vigour_of
 from app.plan.music.piece import BEFORE_FIRST_TICK, LineTimes, MonophonicPart, Piece
-from instrument_maps.vocabulary import vocabulary
+from instrument_maps.instrument_names import vocabulary
 
 LEAD_BEATS = 1.5
 """Head and instrument begin to rise half a beat before the preparatory beat: they are on their way up on it."""

@@ -10,8 +10,8 @@ from xml.etree.ElementTree import Element
 from app.errors import FileError
 from app.score.limits import MOST_NAME, MOST_STREAMS
 from app.score.musicxml.written import Place
+from instrument_maps.instrument_names import vocabulary
 from instrument_maps.instruments import Instrument
-from instrument_maps.vocabulary import vocabulary
 
 _NO_NAME = re.compile(r"(?:MusicXML Part|Part[_ ]?\d*|P\d+)", re.IGNORECASE)
 """Names that converters give a part or an instrument that no one has named."""

@@ -17,7 +17,7 @@ from app.score.musicxml.played import PlayedChord, PlayedNote, PlayedPart
 from app.score.mutes import How, joined_spans, said_of_mute
 from app.score.solos import words_of_players
 from app.score.track_channel import TrackChannel
-from instrument_maps.vocabulary import vocabulary
+from instrument_maps.instrument_names import vocabulary
 
 _STRUCK: Final = "*"
 """The kind of notes without a pitch."""

@@ -15,9 +15,9 @@ from app.audio.synth import Synthesiser, phrases, program_of, programs
 from app.audio.track import RATE_HZ
 from app.score.model import ControllerCurve
 from app.score.tempo import TempoChange, TempoMap
+from instrument_maps.instrument_names import vocabulary
 from instrument_maps.library import find_map
 from instrument_maps.load import bundled_maps
-from instrument_maps.vocabulary import vocabulary
 from tests.unit.audio.pieces import melody, quartet
 
 TEMPO = TempoMap(480)

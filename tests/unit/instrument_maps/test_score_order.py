@@ -7,10 +7,10 @@ import pytest
 
 from app.cli import main
 from app.errors import MapError
+from instrument_maps.instrument_names import Vocabulary, vocabulary
 from instrument_maps.instruments import Instrument, VocabularyTable
 from instrument_maps.load import bundled_maps
 from instrument_maps.score_order import in_score_order
-from instrument_maps.vocabulary import Vocabulary, vocabulary
 
 EXPECTED = (
     *("piccolo", "flute", "oboe", "english_horn"),

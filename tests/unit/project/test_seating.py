@@ -10,8 +10,8 @@ import pytest
 
 from app.project.casting import BACK_M, ELBOW_M, Footprint, StagePosition, stage_arc, stage_seats
 from app.project.footprint import footprint
+from instrument_maps.instrument_names import vocabulary
 from instrument_maps.load import bundled_maps
-from instrument_maps.vocabulary import vocabulary
 
 MAPS = list(bundled_maps().values())
 

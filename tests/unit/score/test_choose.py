@@ -7,7 +7,7 @@ import pytest
 
 from app.score.choose import MapChoice
 from app.score.model import Score
-from instrument_maps.vocabulary import vocabulary
+from instrument_maps.instrument_names import vocabulary
 from tests.unit.score.midi_bytes import END, chunk, header, meta, note, score_of
 
 

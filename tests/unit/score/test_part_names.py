@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from instrument_maps.vocabulary import vocabulary
+from instrument_maps.instrument_names import vocabulary
 
 NAMES = tomllib.loads(Path(__file__, "../../../data/part_names/part_names.toml").resolve().read_text(encoding="utf-8"))
 

@@ -13,7 +13,7 @@ from app.score.model import ControllerCurve, Note, Part, Score
 from app.score.read import read_midi
 from app.score.tempo import TempoChange, TempoMap
 from app.score.write import PartPlayer, midi_file, write_midi
-from instrument_maps.vocabulary import vocabulary
+from instrument_maps.instrument_names import vocabulary
 from tests.unit.score.midi_bytes import MAPS, TROMBONE, TRUMPET
 
 

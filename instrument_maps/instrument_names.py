@@ -1,7 +1,7 @@
-"""The vocabulary of instruments: what they are called in scores, and their General MIDI programs.
+"""Names of instruments in scores, in many languages, and their General MIDI programs: the vocabulary of instruments.
 
-The table itself is `vocabulary.toml` beside this module. An instrument here need not have a map; the vocabulary says
-what a part is; the maps say which instruments can play it.
+The table itself is `instrument_names.toml` beside this module. An instrument here need not have a map; the vocabulary
+says what a part is; the maps say which instruments can play it.
 
 Messages: ``vocabulary.invalid``.
 """
@@ -25,7 +25,7 @@ from instrument_maps.name_words import is_katakana, is_wide, words_of
 
 T = TypeVar("T")
 
-PATH = Path(__file__).with_name("vocabulary.toml")
+PATH = Path(__file__).with_name("instrument_names.toml")
 
 _NAME_LETTERS = 4
 """In a running text "Ob" or "Tr" may be anything; "Oboe" is not."""

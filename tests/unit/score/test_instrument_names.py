@@ -7,9 +7,9 @@ from pathlib import Path
 import pytest
 
 from app.errors import MapError
+from instrument_maps.instrument_names import PATH, Vocabulary, vocabulary
 from instrument_maps.instruments import Instrument, VocabularyTable
 from instrument_maps.library import all_maps
-from instrument_maps.vocabulary import PATH, Vocabulary, vocabulary
 
 DATA = Path(__file__).parents[2] / "data"
 
