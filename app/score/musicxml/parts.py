@@ -8,7 +8,7 @@ from typing import Final
 from xml.etree.ElementTree import Element
 
 from app.errors import FileError
-from app.score.limits import MOST_NAME, MOST_STREAMS
+from app.score.limits import MOST_BARS, MOST_NAME, MOST_STREAMS
 from app.score.musicxml.written import Place
 from instrument_maps.instrument_names import vocabulary
 from instrument_maps.instruments import Instrument
@@ -96,6 +96,8 @@ def written_parts(root: Element, place: Place) -> list[WrittenPart]:
                 _require_few(count, place)
                 own.measures += [(measure, Element("part"))] * (number - len(own.measures))
                 own.measures.append((measure, part))
+    if any(len(part.measures) > MOST_BARS for part in found.values()):
+        raise FileError("musicxml.too_many_measures", file=place.file, most=MOST_BARS)
     return list(found.values())
 
 

@@ -11,7 +11,7 @@ import pytest
 
 from app.errors import FileError
 from app.messages import LANGUAGES, text
-from app.score.musicxml import container
+from app.score.musicxml import container, parts
 from tests.unit.score.musicxml.documents import HEAD, document, dynamic, listed, note, part, read, score, slur, words
 from tests.unit.score.musicxml.test_notes import rows
 
@@ -160,6 +160,11 @@ def test_many_divisions_without_a_common_multiple_take_no_longer(tmp_path: Path)
 def test_too_many_elements_are_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(container, "MOST_ELEMENTS", 10)
     assert refused(tmp_path, PIECE) == "musicxml.too_many_elements"
+
+
+def test_too_many_measures_of_a_part_are_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(parts, "MOST_BARS", 10)
+    assert refused(tmp_path, document(*[""] * 11)) == "musicxml.too_many_measures"
 
 
 def test_a_score_without_notes_opens_with_a_warning(tmp_path: Path) -> None:
