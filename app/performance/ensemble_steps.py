@@ -8,7 +8,7 @@ from typing import Final
 
 import msgspec
 
-from app.performance.loudness import controller_input, note_loudness, velocities_of
+from app.performance.loudness import controller_input, note_levels, note_loudness, velocities_of
 from app.plan.acting import Acting, acting_of, with_style
 from app.plan.by_hand.corrections import Correction, PlayStyle, RemoveEvent, SetBreath, SetCue, Vary
 from app.plan.by_hand.mark_corrections import OfMark, corrected_marks, mark_corrections
@@ -98,6 +98,7 @@ PLAYED: Final = StepTable(
 LINE: Final = StepTable(
     notes="part.notes",
     loudness=reading(note_loudness, reading="velocity_reading"),
+    levels=reading(note_levels, reading="velocity_reading"),
     muted="part.muted",
     stopped="part.stopped",
     mark_corrections=mark_corrections,
@@ -110,6 +111,7 @@ LINE: Final = StepTable(
         parameters="parameters",
         corrections="corrections",
         loudness="loudness",
+        levels="levels",
         controller="controller",
         musician="musician",
         actings="actings",

@@ -13,6 +13,7 @@ from app.plan.music.dynamics_from_velocities import (
     Velocities,
     VelocityReading,
     is_level,
+    levels_in_force,
     nearest_marks,
     phrase_levels,
     read_dynamics,
@@ -54,6 +55,12 @@ def note_loudness(part: Part, reading: VelocityReading | None = None) -> tuple[f
     curve = speaking_curve(part)
     found = _by_velocity(part, reading) if curve is None else _loudness(part, curve, reading)
     return tuple(found.tolist())
+
+
+def note_levels(part: Part, reading: VelocityReading | None = None) -> tuple[float, ...]:
+    """Loudness of the dynamic mark in force at every note, where a notation program wrote it as velocities; empty where
+    it is unknown."""
+    return () if speaking_curve(part) is not None else tuple(levels_in_force(velocities_of(part), reading).tolist())
 
 
 def note_marks(

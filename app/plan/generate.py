@@ -235,9 +235,13 @@ def _fields(part: MonophonicPart) -> dict[str, object]:
 
 
 def _bare(
-    player_id: str, notes: tuple[Note, ...], instrument: InstrumentMap, loudness: tuple[float, ...]
+    player_id: str,
+    notes: tuple[Note, ...],
+    instrument: InstrumentMap,
+    loudness: tuple[float, ...],
+    levels: tuple[float, ...],
 ) -> MonophonicPart:
-    return MonophonicPart(player_id, notes, instrument, loudness=loudness)
+    return MonophonicPart(player_id, notes, instrument, loudness=loudness, levels=levels)
 
 
 def _leading(
@@ -283,11 +287,14 @@ LINE: Final = StepTable(
     single=reading(one_at_a_time, part="bare"),
     played_notes="single.line.notes",
     played_loudness="single.line.loudness",
+    played_levels="single.line.levels",
     apart="single.problems",
     quarter="clock.ticks_per_quarter",
     mark_corrections=mark_corrections,
     written=reading(written_marks, notes="played_notes", ticks_per_quarter="quarter", corrections="mark_corrections"),
-    times=reading(note_times, notes="played_notes", loudness="played_loudness", written="written"),
+    times=reading(
+        note_times, notes="played_notes", loudness="played_loudness", written="written", levels="played_levels"
+    ),
     reported=_reported,
     leading=_leading,
 )

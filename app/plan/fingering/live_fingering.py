@@ -74,4 +74,5 @@ def _times(notes: Sequence[Fingered]) -> LineTimes:
         played_end_s=ends_s,
         pitch=np.array([note.pitch for note in notes], dtype=np.int64),
         loudness=np.array([note.loudness for note in notes]),
+        level=np.full(len(notes), -np.inf),
     )

@@ -186,7 +186,7 @@ def _articulations(notes: tuple[Note, ...], times: LineTimes, slurred: BoolArray
     # An eighth before an eighth's rest sounds for half of its step, as a staccato quarter does.
     rests = np.append(rest_ticks(times, piece.beat_ticks_at(onset))[1:] > 0, False)
     short &= ~(rests & (times.duration_s >= BEFORE_REST_S - EPSILON))
-    accented = louder_by(times.loudness) >= ACCENT
+    accented = louder_by(times) >= ACCENT
     follows = np.append(~slurred[1:], False)
     # Held to the next stroke, in a line that detaches its notes.
     low, high = DETACHED_GATES

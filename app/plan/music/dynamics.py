@@ -71,7 +71,7 @@ def dynamics_of(times: LineTimes, envelope: BreathEnvelope | None) -> Dynamics:
         loudness[blown] = envelope.mean(starts_s[blown], (starts_s + step_s)[blown])
     at_s = starts_s + step_s / 2.0
     vigour = vigour_of(mean_around(starts_s, step_s, loudness, at_s, AROUND_S)) if len(at_s) else loudness
-    return Dynamics(at_s, vigour, _accents(times.loudness))
+    return Dynamics(at_s, vigour, _accents(times))
 
 
 def vigour_of(loudness: FloatArray) -> FloatArray:
@@ -107,17 +107,19 @@ def mean_around(
     return np.where(sums[0] > 1e-9, sums[1] / np.maximum(sums[0], 1e-9), loudness)
 
 
-def louder_by(loudness: FloatArray) -> FloatArray:
-    """(N,): how much louder each note is than those around it."""
+def louder_by(times: LineTimes) -> FloatArray:
+    """(N,): how much louder each note is than those around it, and than the mark in force where it is known: a *forte*
+    of three notes is no accent on each."""
+    loudness = times.loudness
     if len(loudness) < 2:
         return np.zeros(len(loudness))
     padded = np.pad(loudness, ACCENT_NOTES, mode="reflect" if len(loudness) > ACCENT_NOTES else "edge")
     around = np.median(np.lib.stride_tricks.sliding_window_view(padded, 2 * ACCENT_NOTES + 1), axis=1)
-    return np.asarray(loudness - around)
+    return np.asarray(loudness - np.maximum(around, times.level))
 
 
-def _accents(loudness: FloatArray) -> FloatArray:
+def _accents(times: LineTimes) -> FloatArray:
     """Return how much louder each accented note is than its neighbours; of several in a row the first counts."""
-    more = louder_by(loudness)
-    louder = np.append(-np.inf, loudness[:-1]) + ACCENT / 2.0 <= loudness
+    more = louder_by(times)
+    louder = np.append(-np.inf, times.loudness[:-1]) + ACCENT / 2.0 <= times.loudness
     return np.where((more >= ACCENT) & louder, more, 0.0)

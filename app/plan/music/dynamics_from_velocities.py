@@ -189,6 +189,21 @@ def read_dynamics(part: Velocities, reading: VelocityReading | None = None) -> t
     return marks.read(None if in_force is None else in_force.at(part.staff, _array(part.onsets)))
 
 
+def levels_in_force(part: Velocities, reading: VelocityReading | None = None) -> FloatArray:
+    """Return the loudness 0..1 of the mark in force at every note, where a notation program wrote it; empty where the
+    velocities are on no ladder.
+
+    Parameters
+    ----------
+    reading : VelocityReading, optional
+        As of `read_dynamics`.
+    """
+    reading = read_velocities([part]) if reading is None else reading
+    if not reading.ladder or not is_written(np.clip(_array(part.velocities), 0, 127)):
+        return np.zeros(0)
+    return np.asarray(LEVELS[read_dynamics(part, reading)[1]])
+
+
 def _by_distribution(velocity: IntArray, reading: VelocityReading) -> tuple[FloatArray, IntArray]:
     """Loudness and marks of what was played, or written with unknown levels."""
     unmeant = (1.0 - reading.meant) * UNMEANT_SPREAD / 2.0

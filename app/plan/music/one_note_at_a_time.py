@@ -49,8 +49,11 @@ def one_at_a_time(part: MonophonicPart, clock: TempoMap) -> Single:
     if not left_out:
         return Single(part, tuple(problems))
     kept = [index for index in range(len(notes)) if index not in left_out]
-    loudness = tuple(part.loudness[index] for index in kept) if part.loudness else ()
-    playable = msgspec.structs.replace(part, notes=tuple(notes[index] for index in kept), loudness=loudness)
+    loudness, levels = (
+        tuple(values[index] for index in kept) if values else () for values in (part.loudness, part.levels)
+    )
+    kept_notes = tuple(notes[index] for index in kept)
+    playable = msgspec.structs.replace(part, notes=kept_notes, loudness=loudness, levels=levels)
     return Single(playable, tuple(problems))
 
 

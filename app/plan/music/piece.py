@@ -98,6 +98,8 @@ class MonophonicPart(msgspec.Struct, frozen=True):
         What is written over the notes.
     source : {"sound", "score"}
         What the notes were read from.
+    levels : tuple of float
+        Loudness of the dynamic mark in force at every note; empty: unknown.
     """
 
     player_id: str
@@ -115,6 +117,7 @@ class MonophonicPart(msgspec.Struct, frozen=True):
     stopped: tuple[tuple[int, int], ...] = ()
     marks: tuple[Mark, ...] = ()
     source: Source = "sound"
+    levels: tuple[float, ...] = ()
 
 
 class Piece(msgspec.Struct, frozen=True):
@@ -170,13 +173,15 @@ class LineTimes(NoteTimes):
     """The notes of a line.
 
     ``slurs_next`` is whether the next note is slurred to it; ``silence_tick`` the silence before each note (none is 0;
-    before the first it is very long, since the pre-roll is silent); ``loudness`` 0..1.
+    before the first it is very long, since the pre-roll is silent); ``loudness`` 0..1; ``level`` that of the
+    dynamic mark in force, minus infinity where it is unknown.
     """
 
     slurs_next: BoolArray
     silence_tick: IntArray
     pitch: IntArray
     loudness: FloatArray
+    level: FloatArray
 
     @cached_property
     def rhythm(self) -> NoteTimes:
@@ -242,13 +247,17 @@ def staccato(onset_tick: IntArray, end_tick: IntArray, quarter_ticks: int) -> Bo
 def line_times(part: MonophonicPart, clock: TempoMap) -> LineTimes:
     """The times of a line's notes. A line without notes gives empty arrays."""
     written = written_marks(part.notes, part.marks, part.source, clock.ticks_per_quarter, part.corrections)
-    return note_times(part.notes, part.loudness, clock, written)
+    return note_times(part.notes, part.loudness, clock, written, part.levels)
 
 
 def note_times(
-    notes: tuple[Note, ...], loudness: tuple[float, ...], clock: TempoMap, written: WrittenMarks | None = None
+    notes: tuple[Note, ...],
+    loudness: tuple[float, ...],
+    clock: TempoMap,
+    written: WrittenMarks | None = None,
+    levels: tuple[float, ...] = (),
 ) -> LineTimes:
-    """The same of notes, with the loudness that is known of them (see `MonophonicPart`).
+    """The same of notes, with the loudness and the levels that are known of them (see `MonophonicPart`).
 
     Parameters
     ----------
@@ -266,8 +275,10 @@ def note_times(
     reach = np.maximum.accumulate(end) if count else end
     silence = np.maximum(onset - np.insert(reach[:-1], 0, -BEFORE_FIRST_TICK)[:count], 0)
     loud = np.asarray(loudness, np.float64) if loudness else read_dynamics(Velocities(velocity))[0]
+    level = np.asarray(levels, np.float64) if levels else np.full(count, -np.inf)
     slurred = slurs_next(onset, end)
     if written is not None:
+        level = np.where(np.isnan(written.level), level, np.where(written.struck, -np.inf, written.level))
         loud = np.where(np.isnan(written.level), _swelled(loud, written.swell), written.level)
         slurred = written.slurred if written.is_score else (slurred | written.slurred) & ~written.tongued_next
     return LineTimes(
@@ -279,6 +290,7 @@ def note_times(
         played_end_s=clock.seconds(played_end.astype(np.float64)),
         pitch=pitch,
         loudness=np.clip(loud, 0.0, 1.0),
+        level=level,
     )
 
 

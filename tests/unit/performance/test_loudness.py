@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from app.performance.loudness import note_loudness, note_marks, sounding_curve
+from app.performance.loudness import note_levels, note_loudness, note_marks, sounding_curve
 from app.score.model import ControllerCurve, CurveKind, Note, Part
 
 
@@ -80,3 +80,16 @@ def test_what_was_not_blown_sounds_by_its_velocity_and_the_rest_as_it_was_blown(
     assert note_loudness(made) == pytest.approx((0.5, 0.63, 0.63, 0.63, 0.5))
     blown = part([(0, 20), (60, 10)], breath)
     assert sounding_curve(blown) is breath
+
+
+def test_the_levels_that_a_program_wrote_are_known_and_those_of_a_curve_or_a_hand_are_not() -> None:
+    """MuseScore's piano is 49, its forte 96 and an accent on piano 58."""
+    velocities = [49] * 12 + [96] * 3 + [49] * 6 + [58] + [49] * 6
+    notes = tuple(Note(f"1:{n}", 10 * n, 10, 60, velocity) for n, velocity in enumerate(velocities))
+    made = Part("1.1.1", "x", 0, 0, 0, None, None, "m", notes, ())
+    piano, forte = 49 / 127, 96 / 127
+    assert note_levels(made) == pytest.approx([piano] * 12 + [forte] * 3 + [piano] * 13)
+    assert note_levels(part([(0, 10)] * 3, ControllerCurve("breath", (0, 10), (0.2, 0.6)))) == ()
+    chance = np.random.default_rng(1)
+    struck = tuple(Note(f"1:{n}", 10 * n, 10, 60, int(chance.integers(50, 100))) for n in range(60))
+    assert note_levels(Part("1.1.1", "x", 0, 0, 0, None, None, "m", struck, ())) == ()

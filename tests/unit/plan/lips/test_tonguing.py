@@ -93,6 +93,24 @@ def test_articulation_is_read_from_length_and_loudness() -> None:
     assert set(found[:4] + found[8:]) == {"tongued"}
 
 
+@pytest.mark.parametrize("count", [1, 2, 3])
+def test_a_short_forte_is_no_accents_where_the_level_is_known(count: int) -> None:
+    """MuseScore's piano, forte and accent on piano (49, 96, 58): without a level all that is louder is accented."""
+    louds = [0.386] * 8 + [0.756] * count + [0.386] * 8
+    levels = tuple(louds)
+    louds[4] = 0.546
+    notes = line_of(*((place * Q, 432, 60 + place % 8) for place in range(len(louds))))
+    found = {}
+    for known in ((), levels):
+        line = MonophonicPart("p", notes, bundled_maps()["trumpet_Bb"], loudness=tuple(louds), levels=known)
+        made = make_plans(piece_of(PlainClock(), (COMMON,)), (line,), time_frame((line,), PlainClock()))["p"]
+        found[bool(known)] = [event.articulation for event in made.tongues]
+        raised = {event.reason.arguments["more"] for event in made.gestures if event.reason.id == "gesture.bell_accent"}
+        assert max(raised, default=0.0) == (0.16 if known else 0.37)
+    assert [place for place, kind in enumerate(found[True]) if kind == "accent"] == [4]
+    assert [place for place, kind in enumerate(found[False]) if kind == "accent"] == [4, *range(8, 8 + count)]
+
+
 @pytest.mark.parametrize(("bpm", "kind"), [(46.0, "tongued"), (100.0, "staccato")])
 def test_a_slow_eighth_before_an_eighths_rest_is_not_staccato(bpm: float, kind: str) -> None:
     """A phrase of Mozart's K. 315 ends so: 0.65 s are no short note; at 100 it may be a quarter with a dot."""
