@@ -12,11 +12,15 @@ from dataclasses import dataclass
 import numpy as np
 
 from app.arrays import FloatArray, IntArray
+from app.plan.breath.lungs import FULL_BREATH_S
 from app.plan.music.piece import EPSILON, LineTimes, gaps_s
 
 CATCH_MIN_S = 0.2
 """A shorter gasp is no breath: a litre at 5 to 8 litres a second, the most that healthy adults breathe in with."""
 CATCH_MAX_S = 0.4
+"""A catch breath lasts at most so long, ..."""
+UNHURRIED_SHARE = 0.25
+"""... or as long as a full breath, where that takes at most this part of the note before it."""
 CATCH_NOTE_SHARE = 0.5
 """A catch breath takes at most this part of the note before it ..."""
 LEAST_SOUNDING_S = 1.0 / 24.0
@@ -94,7 +98,9 @@ def catch_lengths_s(score: LineTimes, times: LineTimes, rests: IntArray) -> Floa
     """
     length = np.minimum(_length_s(score, rests, LEAST_SOUNDING_S), _length_s(times, rests, LEAST_PLAYED_S))
     length[0] = 0.0
-    return np.where(length >= CATCH_MIN_S - EPSILON, np.minimum(length, CATCH_MAX_S), 0.0)
+    unhurried_s = gaps_s(score) + UNHURRIED_SHARE * np.insert(score.duration_s[:-1], 0, 0.0)
+    most_s = np.clip(unhurried_s, CATCH_MAX_S, FULL_BREATH_S)
+    return np.where(length >= CATCH_MIN_S - EPSILON, np.minimum(length, most_s), 0.0)
 
 
 def _length_s(times: LineTimes, rests: IntArray, least_s: float) -> FloatArray:

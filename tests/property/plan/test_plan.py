@@ -7,7 +7,8 @@ import dataclasses
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from app.plan.breath.catch_breath_lengths import CATCH_MAX_S, CATCH_MIN_S, CATCH_NOTE_SHARE, LEAST_PLAYED_S
+from app.plan.breath.catch_breath_lengths import CATCH_MIN_S, CATCH_NOTE_SHARE, LEAST_PLAYED_S
+from app.plan.breath.lungs import FULL_BREATH_S
 from app.plan.generate import MonophonicPart, Piece, make_plans, time_frame
 from app.plan.model import BreathEvent, PlayerPlan
 from app.plan.parameters import PlayerParameters
@@ -90,7 +91,7 @@ def test_breaths_end_at_onsets_and_never_lie_in_a_sounding_note(
             left_out = _left_out(breath)
             catch |= bool(left_out)
             if catch:
-                assert CATCH_MIN_S - 1e-9 <= breath.end_s - breath.start_s <= CATCH_MAX_S + 1e-9
+                assert CATCH_MIN_S - 1e-9 <= breath.end_s - breath.start_s <= FULL_BREATH_S + 1e-9
             for index, note in enumerate(line.notes):
                 end_tick = note.onset_tick + note.duration_tick
                 if index + 1 < len(line.notes):

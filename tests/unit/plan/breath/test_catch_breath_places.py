@@ -7,6 +7,7 @@ import random
 
 import pytest
 
+from app.plan.breath.lungs import FULL_BREATH_S
 from app.plan.generate import MonophonicPart, make_plans, time_frame
 from app.plan.parameters import PlayerParameters
 from app.score.metre_map import Metre
@@ -121,7 +122,7 @@ def test_a_breath_between_long_notes_takes_more_than_the_gap_of_an_early_release
     plan = make_plans(piece_of(clock, (Metre(0, 4, 4),)), (line,), time_frame((line,), clock))["p"]
     caught = [event for event in plan.breaths if event.reason.id == "breath.catch"]
     assert caught
-    assert all(event.end_s - event.start_s == pytest.approx(0.4) for event in caught)
+    assert all(event.end_s - event.start_s == pytest.approx(FULL_BREATH_S) for event in caught)
 
 
 @pytest.mark.parametrize("seed", range(4))
