@@ -130,16 +130,16 @@ def _rows(gaps: _Gaps, sounding: list[NoteTimes], piece: Piece) -> list[list[tup
     """The fermatas of chords that each have one, with their places: two to `MOST_IN_A_ROW` gaps, much slower than what
     comes before and after all of them."""
     rows: list[list[tuple[int, Fermata]]] = []
+    slowness: list[float] = gaps.slowness.tolist()
     first = 0
-    while first < len(gaps.starts):
-        last = first
-        while (
-            last + 1 < len(gaps.starts) and gaps.slowness[last + 1] * HELD_TEMPO > gaps.slowness[first : last + 2].max()
-        ):
-            last += 1
-            if last - first >= MOST_IN_A_ROW:
+    while first < len(slowness):
+        last, slowest = first, slowness[first]
+        while last + 1 < len(slowness) and last - first < MOST_IN_A_ROW:
+            slowest = max(slowest, slowness[last + 1])
+            if slowness[last + 1] * HELD_TEMPO <= slowest:
                 break
-        if 1 <= last - first < MOST_IN_A_ROW and last + 1 < len(gaps.starts):
+            last += 1
+        if 1 <= last - first < MOST_IN_A_ROW and last + 1 < len(slowness):
             row = _row(first, last, gaps, sounding, piece)
             if row:
                 rows.append(row)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, fields
+from functools import cached_property
 from typing import Final
 
 import numpy as np
@@ -70,7 +71,7 @@ class WrittenMarks:
     swell: FloatArray
     struck: BoolArray
 
-    @property
+    @cached_property
     def tongued_next(self) -> BoolArray:
         """True if the next note has a mark that says that it is tongued, or follows a slur's end."""
         marked = np.fromiter(map(bool, self.stroke), bool, len(self.stroke))
