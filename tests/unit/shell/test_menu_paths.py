@@ -62,3 +62,20 @@ def test_guides_name_menus_as_they_are(guide: Path) -> None:
 def test_messages_and_texts_name_menus_as_they_are(place: int) -> None:
     texts = {id: wording[place] for room in (WORDINGS, *ROOMS) for id, wording in room.items()}
     assert {id: found for id, text in texts.items() if (found := wrong(text, place))} == {}
+
+
+def test_the_guide_from_notation_names_the_keys_of_marks() -> None:
+    guide = (ROOT / "docs/from-your-notation-program.md").read_text(encoding="utf-8")
+    table = re.findall(r"^\| ((?:Shift\+|`[<>]`).*?) \| (.*?) \|$", guide, re.MULTILINE)
+    named = {
+        key.strip("`"): name.removeprefix("a ").split()[0]
+        for keys, names in table
+        for key, name in zip(keys.split(", "), names.split(", "), strict=False)
+    }
+    assert len(named) >= 9
+    titles = {
+        row.shortcut: TEXTS[f"action.{row.id}"][0].lower()
+        for row in rows()
+        if row.id.startswith("marks.") and row.shortcut
+    }
+    assert {key: name for key, name in named.items() if name not in titles.get(key, "")} == {}
