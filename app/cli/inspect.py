@@ -28,7 +28,7 @@ from app.performance.performance_problems import all_problems
 from app.plan.by_hand.events import AdditiveEvent, PoseEvent, StyleEvent
 from app.plan.kinds import BREATH_KINDS
 from app.plan.model import BreathEvent, CueEvent, ExpressionEvent, FingeringEvent, GestureEvent, MuteEvent, TongueEvent
-from app.plan.music.pitch_bends import bends
+from app.plan.music.pitch_bends import WRITTEN_BENDS, bends
 from app.plan.problem_lines import problem_lines, with_notes_named
 from app.project.edit.marks import player_marks
 from app.project.performers import Dancer, Player
@@ -197,6 +197,11 @@ def _player(performance: Performance, player: Player, instrument: InstrumentMap)
     marks, blown = performance.marks(player), controller_input(part)
     tongues = {event.note_id: event for event in plan.tongues}
     corrections = performance.project.corrections.get(player.id, ())
+    origins = player_marks(performance.project, player.id)
+    bends_of_marks: dict[str, list[str]] = {}
+    for mark in origins:
+        if mark.kind in WRITTEN_BENDS:
+            bends_of_marks.setdefault(mark.note_id, []).append(mark.kind)
     sources = note_sources(part, played, plan, corrections, clock.ticks_per_quarter)
     table = {
         "name": player.name,
@@ -209,7 +214,7 @@ def _player(performance: Performance, player: Player, instrument: InstrumentMap)
             _note(note, fingerings[note.id], instrument, clock)
             | {
                 **_tongued(tongues.get(note.id), reason),
-                "bend": list(bent),
+                "bend": list(bent) or bends_of_marks.get(note.id, []),
                 "loudness": loudness[note.id],
                 "dynamic": marks[note.id],
                 "muted": is_muted(part.muted, note.onset_tick),
@@ -227,7 +232,7 @@ def _player(performance: Performance, player: Player, instrument: InstrumentMap)
         "gestures": _events(plan.gestures, clock, reason, "kind", "amount"),
         "expressions": _events(plan.expressions, clock, reason, "expression", "strength", "fade_in_s", "fade_out_s"),
     }
-    if origins := player_marks(performance.project, player.id):
+    if origins:
         table["marks"] = [_mark(mark) | {"source": origin} for mark, origin in origins.items()]
     if plan.poses:
         # Only where the animator held something differently: nothing else has any.

@@ -193,6 +193,9 @@ class NoteFrames:
         ends_s = np.minimum(self._ends_s[:-1], next_s)
         allowed_s = np.maximum(next_s - ends_s, control.move_note_share * (ends_s - starts_s))
         window_s = np.maximum(needed_s, np.minimum(control.move_window_s, allowed_s))
+        if control.kind == "slide":
+            glides_s = np.array([note.glide_from_s or math.inf for note in self.notes[1:]])
+            window_s = np.maximum(window_s, next_s - glides_s)
         return np.concatenate([np.minimum(ends_s, next_s - window_s), self._ends_s[-1:]])
 
     @cached_property

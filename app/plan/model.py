@@ -39,7 +39,8 @@ class FingeringEvent(msgspec.Struct, frozen=True, gc=False):
     """The fingering of one note.
 
     ``controls`` holds 0..1 for every control of the map that is not at rest, ``fingers`` which finger works those that
-    another than the usual one does. ``vent`` names the controls that are released once the note speaks.
+    another than the usual one does. ``vent`` names the controls that are released once the note speaks. A slide that
+    glides to the note leaves the place of the one before at ``glide_from_s``.
     """
 
     id: str
@@ -56,6 +57,7 @@ class FingeringEvent(msgspec.Struct, frozen=True, gc=False):
     corrected: bool = False
     fingers: dict[str, str] = {}
     vent: Vent | None = None
+    glide_from_s: float | None = None
 
 
 class BreathEvent(msgspec.Struct, frozen=True, gc=False):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from functools import partial
 from itertools import chain
 from typing import Final
@@ -63,6 +64,7 @@ from app.plan.music.dynamics import dynamics_of
 from app.plan.music.dynamics_within_notes import dynamics_within
 from app.plan.music.ending import Ending
 from app.plan.music.piece import ControllerInput, LineTimes, Piece, Seeds, without_sound
+from app.plan.music.pitch_bends import written_bends
 from app.plan.parameters import parameters_deciding
 from app.plan.rule_conditions import facts_of
 from app.plan.rules import lowered_spans_s, plan_by_rules, with_ruled, without_overruled
@@ -91,6 +93,20 @@ def _envelope(
     if controller is not None and controller.breath is not None:
         return blown(controller.breath, clock)
     return dynamics_within(times, marks, source, clock) if marks else None
+
+
+def _lip_input(
+    controller: ControllerInput | None, notes: tuple[Note, ...], marks: tuple[Mark, ...], clock: TempoMap
+) -> ControllerInput | None:
+    """Return what the lips follow: the controllers, and bends in the score where no controller bends."""
+    if controller is not None and controller.bend is not None:
+        return controller
+    bend = written_bends(notes, marks, clock) if marks else None
+    return controller if bend is None else replace(controller or ControllerInput(), bend=bend)
+
+
+def _is_recorded(controller: ControllerInput | None) -> bool:
+    return controller is not None
 
 
 def _from_breath(controller: ControllerInput | None) -> bool:
@@ -195,8 +211,13 @@ PLAYER: Final = StepTable(
     pins=_pins,
     written_fingerings="written.fingering",
     fingering_by_hand="written.fingering_by_hand",
+    glides="written.glides",
     planned_fingerings=reading(
-        plan_fingerings, stopped="stopped", written="written_fingerings", written_by_hand="fingering_by_hand"
+        plan_fingerings,
+        stopped="stopped",
+        written="written_fingerings",
+        written_by_hand="fingering_by_hand",
+        glides="glides",
     ),
     fingerings="planned_fingerings.events",
     fingering_problems="planned_fingerings.problems",
@@ -226,7 +247,9 @@ PLAYER: Final = StepTable(
     from_breath=_from_breath,
     made_embouchures=plan_embouchures,
     embouchures=reading(correct_embouchures, events="made_embouchures", corrections="embouchure_corrections"),
-    traces=reading(plan_traces, corrections="embouchure_corrections"),
+    lip_input=_lip_input,
+    recorded=_is_recorded,
+    traces=reading(plan_traces, corrections="embouchure_corrections", controller="lip_input", recorded="recorded"),
     own_breathed=reading(breathed_of, line="shared_line", caught="catches", events="breaths"),
     # How much the player shows.
     acting=acting_of,

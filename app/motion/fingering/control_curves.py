@@ -125,7 +125,10 @@ def _curve(fingerings: Sequence[FingeringEvent], control: Control, rests: BoolAr
             start_s = event.start_s - window - unseen_s(control, target - value, window)
             # However hurried, the note before has its first frame, and most of its first half.
             earliest_s = last.start_s + max(SLOWEST_FRAME_S, LEAST_HELD_SHARE * (event.start_s - last.start_s))
-            segments.append((min(max(start_s, earliest_s), event.start_s - window), event.start_s, target))
+            start_s = min(max(start_s, earliest_s), event.start_s - window)
+            if control.kind == "slide" and event.glide_from_s is not None:
+                start_s = min(start_s, event.glide_from_s)
+            segments.append((start_s, event.start_s, target))
     last_s = fingerings[-1].end_s
     segments.append((last_s, last_s + release_s(control, float(targets[-1])), rest))
     return moves(segments, rest)

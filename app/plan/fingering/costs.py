@@ -126,6 +126,8 @@ class FingeringProblem:
     ----------
     in_score : dict of int to int
         Columns of the fingerings that the score has, by note.
+    glides : (N,) bool or None
+        From which notes a glissando in the score leads to the next.
     """
 
     times: LineTimes
@@ -134,6 +136,7 @@ class FingeringProblem:
     controls: tuple[Control, ...]
     allowed: BoolArray
     in_score: dict[int, int] = field(default_factory=dict)
+    glides: BoolArray | None = None
 
     @property
     def has_slide(self) -> bool:
@@ -236,6 +239,8 @@ class FingeringProblem:
         slide_m, needed_s, share, slide_cost = self._slides(gap)
         cost += SLIDE_METRE_COST * slide_m * pace[:, None, None]
         gliding = glissando_steps(times)
+        if self.glides is not None:
+            gliding = gliding | self.glides[:-1]
         if gliding.any():
             back = (self._slide_change() * np.diff(times.pitch)[:, None, None] >= 0.0) | (moves[pair] > 0.0)
             slide_cost = np.where(gliding[:, None, None], GLISSANDO_COST * back, slide_cost)
@@ -336,10 +341,11 @@ def fingering_problem(
     pins: dict[str, str],
     by_hand: BoolArray | None = None,
     written: Sequence[str] = (),
+    glides: BoolArray | None = None,
 ) -> FingeringProblem:
     """Set up the search. ``pins`` maps note ids to labels that a correction demands; a label that is no fingering of
     its note is passed over (see `plan_fingerings`), and so is one of ``written``, the fingerings in the score by note.
-    ``by_hand`` (N,) are notes that the hand stops."""
+    ``by_hand`` (N,) are notes that the hand stops, ``glides`` (N,) those from which a glissando leads to the next."""
     stopped = instrument.stopped if by_hand is not None and by_hand.any() else None
     if stopped is not None and by_hand is not None:
         times = replace(times, pitch=times.pitch + stopped.fingered_semitones * by_hand)
@@ -360,7 +366,7 @@ def fingering_problem(
                 allowed[index] = False
                 allowed[index, pinned] = True
     controls = pitch_controls(instrument)
-    return FingeringProblem(times, table, pitch_index.astype(np.int64), controls, allowed, in_score)
+    return FingeringProblem(times, table, pitch_index.astype(np.int64), controls, allowed, in_score, glides)
 
 
 def _in_score(

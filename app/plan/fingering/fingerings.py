@@ -27,6 +27,8 @@ from app.plan.music.piece import LineTimes
 from app.score.model import Note
 from instrument_maps.model import Fingering, InstrumentMap
 
+GLIDE_AFTER = 0.4
+"""A glissando leaves a note after this share of it."""
 LEAST_HELD_S = 0.1
 """A note that would end sooner after its vents are let go keeps them."""
 
@@ -39,6 +41,7 @@ def plan_fingerings(
     stopped: tuple[tuple[int, int], ...] = (),
     written: tuple[str, ...] = (),
     written_by_hand: BoolArray | None = None,
+    glides: BoolArray | None = None,
 ) -> Planned[FingeringEvent]:
     """Choose a fingering for every note.
 
@@ -52,11 +55,13 @@ def plan_fingerings(
         The fingering in the score of each note; empty: none. A correction wins over it, and it over the search.
     written_by_hand : (N,) bool, optional
         Which of them a hand wrote.
+    glides : (N,) bool, optional
+        From which notes a glissando leads to the next.
     """
     if not notes:
         return Planned((), ())
     by_hand = stopped_notes(notes, stopped, instrument)
-    problem = fingering_problem(notes, times, instrument, pins, by_hand, written)
+    problem = fingering_problem(notes, times, instrument, pins, by_hand, written, glides)
     path = never_worse(problem, even_trills(problem, best_path(problem)))
     events = []
     problems: list[Problem] = []
@@ -98,6 +103,7 @@ def plan_fingerings(
             reason=reason,
             corrected=pinned,
             fingers=fingering.fingers,
+            glide_from_s=_glide_from_s(index, glides, onset_s) if problem.has_slide else None,
         )
         events.append(_vented(event, ranked, attacks) if "attack" in fingering.tags and not pinned else event)
     for index, note in enumerate(notes if written else ()):
@@ -106,6 +112,13 @@ def plan_fingerings(
             problems.append(Problem(message, note.id, onset_s[index], end_s[index]))
     problems += [*_out_of_range(notes, times, instrument), *_early_starts(notes, problem, path)]
     return Planned(tuple(events), tuple(problems))
+
+
+def _glide_from_s(index: int, glides: BoolArray | None, onset_s: Sequence[float]) -> float | None:
+    """The time from which a slide glides to a note; None where it does not."""
+    if glides is None or not index or not glides[index - 1]:
+        return None
+    return onset_s[index - 1] + GLIDE_AFTER * (onset_s[index] - onset_s[index - 1])
 
 
 def _controls(

@@ -41,6 +41,7 @@ def plan_traces(
     controller: ControllerInput | None,
     envelope: BreathEnvelope | None,
     corrections: tuple[Correction, ...],
+    recorded: bool = True,
 ) -> SampledCurves | None:
     """The traces of a line; None where there are no notes, or nothing says what happens within them.
 
@@ -48,6 +49,8 @@ def plan_traces(
     ----------
     envelope : BreathEnvelope or None
         ``controller.breath`` in time, or the dynamics in the score.
+    recorded : bool
+        Whether a controller recorded any of it.
     """
     if not notes or (controller is None and envelope is None):
         return None
@@ -82,7 +85,7 @@ def plan_traces(
         if item.tension is not None:
             tension[span], lips[span] = item.tension, 0.0
     tension = _clipped(_smooth(tension, SHIFT_S) + _smooth(lips, LIPS_S))
-    return SampledCurves(first * STEP_S, STEP_S, tension, air, effort, recorded=controller is not None)
+    return SampledCurves(first * STEP_S, STEP_S, tension, air, effort, recorded)
 
 
 def _spans(

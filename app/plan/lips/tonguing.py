@@ -166,6 +166,8 @@ def _slurred(
     slurred[1:] = times.slurs_next[:-1] & (np.diff(times.pitch) != 0)
     smears = np.zeros(len(times.pitch), dtype=bool)
     for index in np.flatnonzero(slurred).tolist() if slides else ():
+        if fingerings[index].glide_from_s is not None:
+            continue
         before, here = fingerings[index - 1].controls, fingerings[index].controls
         smears[index] = any(
             abs(here.get(name, 0.0) - before.get(name, 0.0)) * travel_m > SMEAR_M for name, travel_m in slides

@@ -11,8 +11,16 @@ from typing import Final
 import numpy as np
 
 from app.plan.music.piece import ControllerSteps
+from app.score.marks import Mark
 from app.score.model import Note
+from app.score.tempo import TempoMap
 
+WRITTEN_BENDS: Final = {"scoop": -1.0, "plop": 1.0, "fall": -1.5, "doit": 1.5}
+"""Whole tones of bends that are written: into the start of a note, and away at its end."""
+_INTO: Final = ("scoop", "plop")
+_INTO_S, _AWAY_S = 0.15, 0.35
+"""Time that bends take, at most half of the note."""
+_STEPS: Final = 8
 LEAST_BEND: Final = 0.3
 """Whole tones between a note's end and its middle: 60 cents, which is twice a wide vibrato."""
 
@@ -56,3 +64,30 @@ def _of_note(bend: ControllerSteps, onset_tick: float, end_tick: float) -> tuple
         if abs(float(values[-1])) < LEAST_BEND <= abs(float(values[0])):
             return before
     return before + after
+
+
+def written_bends(notes: Sequence[Note], marks: Sequence[Mark], clock: TempoMap) -> ControllerSteps | None:
+    """The pitch bend in whole tones that marks stand for; None where there are none of them."""
+    kinds: dict[str, set[str]] = {}
+    for mark in marks:
+        if mark.kind in WRITTEN_BENDS:
+            kinds.setdefault(mark.note_id, set()).add(mark.kind)
+    onsets = [note.onset_tick for note in notes]
+    steps: dict[float, float] = {0.0: 0.0} if kinds else {}
+    for note, following in zip(notes, [*onsets[1:], np.inf], strict=True):
+        start_s, end_s = (clock.seconds(float(at)) for at in (
+            note.onset_tick, min(note.onset_tick + note.duration_tick, following)))  # fmt: skip
+        steps[float(note.onset_tick)] = 0.0
+        for kind in sorted(kinds.get(note.id, ())):
+            into = kind in _INTO
+            length_s = min(_INTO_S if into else _AWAY_S, (end_s - start_s) / 2.0)
+            begins_s = start_s if into else end_s - length_s
+            for step in range(_STEPS):
+                share = 1.0 - step / _STEPS if into else (step + 1) / _STEPS
+                steps[float(clock.ticks(begins_s + length_s * step / _STEPS))] = WRITTEN_BENDS[kind] * share
+            if into:
+                steps[float(clock.ticks(begins_s + length_s))] = 0.0
+    if not kinds:
+        return None
+    ticks = np.array(sorted(steps), np.float64)
+    return ControllerSteps(ticks, np.array([steps[tick] for tick in ticks.tolist()]))

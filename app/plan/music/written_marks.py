@@ -37,6 +37,8 @@ class WrittenMarks:
         Whether one slur is over it and the next note, divided or not.
     divided : bool
         Whether it is tongued softly under a slur (portato).
+    glides : bool
+        Whether a glissando leads to the next note, which follows without a rest.
     breath : bool
         Whether a breath mark or a caesura follows it.
     breath_by_hand, stroke_by_hand, fingering_by_hand : bool
@@ -60,6 +62,7 @@ class WrittenMarks:
     tongued: BoolArray
     joined: BoolArray
     divided: BoolArray
+    glides: BoolArray
     breath: BoolArray
     breath_by_hand: BoolArray
     stroke_by_hand: BoolArray
@@ -116,7 +119,7 @@ def written_marks(
         return unwritten(count)
     place = {note.id: index for index, note in enumerate(notes)}
     by_hand = {item.mark for item in corrections if isinstance(item, SetMark)}
-    slurred, apart, ends, breath = (np.zeros(count, dtype=bool) for _ in range(4))
+    slurred, apart, ends, glides, breath = (np.zeros(count, dtype=bool) for _ in range(5))
     breath_by_hand, stroke_by_hand, fingering_by_hand = (np.zeros(count, dtype=bool) for _ in range(3))
     stroke, tonguing, fingering = [""] * count, [""] * count, [""] * count
     for mark in marks:
@@ -130,6 +133,8 @@ def written_marks(
             ends[last] = True
         elif mark.kind == "non_legato":
             apart[first:last] = True
+        elif mark.kind == "glissando" and last + 1 < count:
+            glides[last] = notes[last].onset_tick + notes[last].duration_tick >= notes[last + 1].onset_tick
         elif mark.kind in ("breath", "caesura"):
             breath[last] = True
             breath_by_hand[last] = mark in by_hand
@@ -145,7 +150,7 @@ def written_marks(
                 if notes[index].pitch == notes[first].pitch:
                     fingering[index] = mark.text
                     fingering_by_hand[index] = mark in by_hand
-    slurred &= ~apart
+    slurred = (slurred | glides) & ~apart
     tongued = apart | (ends & ~slurred)
     under = slurred | np.insert(slurred[:-1], 0, False)[:count]
     dividing = np.fromiter((mark in DIVIDING for mark in stroke), bool, count)
@@ -155,7 +160,7 @@ def written_marks(
     slurred = joined & ~np.append(divided[1:], False)[:count]
     onsets = np.fromiter((note.onset_tick for note in notes), np.int64, count)
     level, swell, struck = note_dynamics(onsets, written_dynamics(marks, source, ticks_per_quarter), ticks_per_quarter)
-    flags = slurred, tongued, joined, divided, breath, breath_by_hand, stroke_by_hand, fingering_by_hand
+    flags = slurred, tongued, joined, divided, glides, breath, breath_by_hand, stroke_by_hand, fingering_by_hand
     by_note = tuple(stroke), tuple(tonguing), tuple(fingering), level, swell, struck
     return WrittenMarks(source, *flags, *by_note)
 
@@ -165,5 +170,5 @@ def unwritten(count: int) -> WrittenMarks:
     none = np.zeros(count, dtype=bool)
     names = ("",) * count
     level, swell = np.full(count, np.nan), np.zeros(count)
-    flags = (none,) * 8
+    flags = (none,) * 9
     return WrittenMarks("sound", *flags, names, names, names, level, swell, none)
