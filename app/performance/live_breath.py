@@ -34,7 +34,6 @@ from app.plan.lips.embouchure import strain_of, tension_of
 from app.plan.lips.recorded_lips import pressed_by
 from app.plan.music.piece import MEZZOFORTE
 from metadata.library import bundled_rules
-from metadata.model import Expression
 from metadata.rules import Rule
 
 SILENT = 0.02
@@ -77,16 +76,14 @@ class LiveBreath:
 
     Parameters
     ----------
-    expressions : dict of str to Expression
-        What faces look like: ``neutral``, and those that rules show.
+    curves : PerformanceCurves
+        Of the player, with what faces look like: ``neutral``, and those that rules show.
     rules : tuple of Rule, optional
         Ours without it.
     """
 
-    def __init__(
-        self, curves: PerformanceCurves, expressions: dict[str, Expression], rules: tuple[Rule, ...] | None = None
-    ) -> None:
-        rules = bundled_rules() if rules is None else rules
+    def __init__(self, curves: PerformanceCurves, rules: tuple[Rule, ...] | None = None) -> None:
+        rules, expressions = bundled_rules() if rules is None else rules, curves.expressions
         self._instrument, self._parameters = curves.instrument_map, curves.parameters
         self._lung_s = lungful_s(curves.parameters, curves.instrument_map.air)
         self._breath: float | None = None

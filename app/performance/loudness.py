@@ -117,7 +117,7 @@ def speaking_curve(part: Part) -> ControllerCurve | None:
     return None
 
 
-def sounding_curve(part: Part, reading: VelocityReading | None = None) -> ControllerCurve | None:
+def sounding_curve(part: Part) -> ControllerCurve | None:
     """The same as it sounds: a note that was not blown at all sounds as loud as its velocity says."""
     curve = speaking_curve(part)
     if curve is None:
@@ -127,7 +127,7 @@ def sounding_curve(part: Part, reading: VelocityReading | None = None) -> Contro
     silent = np.flatnonzero(means <= STOPS_AT).tolist()
     if not silent:
         return curve
-    loudness = _loudness(part, curve, reading)
+    loudness = _loudness(part, curve, None)
     onsets, ends = (array.astype(np.int64) for array in _spans(part))
     levels = dict(zip(curve.ticks, curve.values, strict=True))
     for index in silent:

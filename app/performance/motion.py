@@ -12,7 +12,7 @@ from typing import Final
 import numpy as np
 
 from app.arrays import FloatArray
-from app.errors import Progress, StopRequested, raise_if_stopped
+from app.errors import Progress
 from app.identity_cache import IdentityCache
 from app.motion.doubling import Doubling, doubled
 from app.motion.generated_channel import generated
@@ -131,7 +131,6 @@ def player_motion(
     performance: Performance,
     performer: Performer,
     span: FrameSpan,
-    stop_requested: StopRequested = lambda: False,
     progress: Progress = lambda share: None,
     cores: int = 1,
 ) -> Motion:
@@ -142,11 +141,6 @@ def player_motion(
     cores : int
         Those that have nothing else to do, this process's among them: copies of it make their share, where that is
         worth it.
-
-    Raises
-    ------
-    Cancelled
-        ``stop_requested`` said so.
     """
     playing = playing_of(performance, performer)
     first, *others = shares(span.count, cores)
@@ -154,7 +148,6 @@ def player_motion(
     def make(part: range) -> Motion:
         pieces = []
         for start in part[::CHUNK]:
-            raise_if_stopped(stop_requested)
             end = min(start + CHUNK, part.stop)
             pieces.append(playing.motion(span.fps, span.first + start, end - start))
             if part is first:

@@ -8,7 +8,7 @@ begins with its onset; nothing is known beforehand. The layers of the body, the 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from fractions import Fraction
 
@@ -32,8 +32,6 @@ from app.score.bend_range import BendRanges
 from app.score.sounding import SILENCING, SoundingNotes, begins
 from app.score.take import ControllerMapping, curve_values, decoded, is_wired
 from instrument_maps.model import Fingering
-from metadata.load import load_expressions
-from metadata.model import Expression
 from metadata.rules import Rule
 
 LEGATO_S = 0.012
@@ -52,23 +50,14 @@ class PlayAlong:
     ----------
     playing : PerformanceCurves
         Who plays, on what and in which posture (`app.performance.motion.playing_of`); its notes are not looked at.
-    expressions : mapping of str to Expression, optional
-        What the faces look like; the bundled ones without it.
     rules : tuple of Rule, optional
         When faces show; the bundled ones without it.
     """
 
-    def __init__(
-        self,
-        curves: PerformanceCurves,
-        expressions: Mapping[str, Expression] | None = None,
-        rules: tuple[Rule, ...] | None = None,
-    ) -> None:
-        known = dict(load_expressions() if expressions is None else expressions)
-        self._whole = curves
-        self._playing = replace(curves, expressions=known)
+    def __init__(self, curves: PerformanceCurves, rules: tuple[Rule, ...] | None = None) -> None:
+        self._whole = self._playing = curves
         self._hands = LiveHands(curves)
-        self._breath = LiveBreath(curves, known, rules)
+        self._breath = LiveBreath(curves, rules)
         self._look = LiveLook(curves)
         self._help = LiveHelp()
         self._poses, self._at_s = curves.layers.held, -math.inf

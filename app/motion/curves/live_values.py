@@ -99,8 +99,8 @@ class Journey:
     to place only.
     """
 
-    def __init__(self, place: int = 0) -> None:
-        self.before = self.after = self.goal = place
+    def __init__(self) -> None:
+        self.before = self.after = self.goal = 0
         self._share = Reach.at_rest(1.0)
         self._length_s = LEAST_MOVE_S
 

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import tracemalloc
+from dataclasses import replace
 from fractions import Fraction
 from functools import cache
 
+import msgspec
 import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
@@ -51,7 +53,7 @@ def along(instrument_id: str = "trumpet_Bb") -> PlayAlong:
 
 
 def breathing() -> LiveBreath:
-    return LiveBreath(playing_alone("trumpet_Bb", line("trumpet_Bb", 16)), {})
+    return LiveBreath(replace(playing_alone("trumpet_Bb", line("trumpet_Bb", 16)), expressions={}))
 
 
 def faces(breath: LiveBreath, now_s: float) -> Drivers:
@@ -60,6 +62,14 @@ def faces(breath: LiveBreath, now_s: float) -> Drivers:
 
 def looked(player: PlayAlong, start_s: float, length_s: float) -> list[Pose]:
     return [player.pose(start_s + frame / FPS) for frame in range(1, int(length_s * FPS) + 1)]
+
+
+def test_faces_are_those_of_the_performance_also_where_they_are_the_users_own() -> None:
+    playing = playing_alone("trumpet_Bb", line("trumpet_Bb", 16))
+    neutral = msgspec.structs.replace(playing.expressions["neutral"], weights={"noseSneerLeft": 0.7})
+    own = PlayAlong(replace(playing, expressions={**playing.expressions, "neutral": neutral}))
+    shown, usual = (player.pose(3.0).morphs.get("noseSneerLeft", 0.0) for player in (own, PlayAlong(playing)))
+    assert usual < 0.1 < 0.5 < shown
 
 
 @pytest.mark.parametrize("instrument_id", KINDS)
