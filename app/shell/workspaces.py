@@ -86,7 +86,10 @@ WORKSPACES: Final = (
         right_whole="if_low",
         lists_share=0.4,
         lanes=LaneState(
-            order=("audio", "roll", "takes", "fingering", "breath", "acting", "problems", "additive"),
+            order=(
+                *("audio", "roll", "dynamics", "takes", "fingering", "breath", "acting", "problems", "additive"),
+                *("curves", "dance"),
+            ),
             folded=("curves", "additive"),
         ),
     ),
@@ -102,7 +105,10 @@ WORKSPACES: Final = (
         right_whole="never",
         lists_share=0.3,
         lanes=LaneState(
-            order=("audio", "roll", "takes", "curves", "breath"),
+            order=(
+                *("audio", "roll", "dynamics", "takes", "curves", "breath", "fingering", "acting", "dance"),
+                *("problems", "additive"),
+            ),
             shown=("takes",),
             folded=("fingering", "acting", "problems", "additive"),
         ),
@@ -120,16 +126,8 @@ WORKSPACES: Final = (
         lists_share=0.62,
         lanes=LaneState(
             order=(
-                "problems",
-                "roll",
-                "takes",
-                "fingering",
-                "breath",
-                "acting",
-                "additive",
-                "curves",
-                "dance",
-                "audio",
+                *("problems", "roll", "dynamics", "takes", "fingering", "breath", "acting", "additive", "curves"),
+                *("dance", "audio"),
             ),
             folded=("acting", "additive", "curves", "audio"),
         ),

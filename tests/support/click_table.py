@@ -126,6 +126,7 @@ zoom_out, zoom_in, fit, timeline.zoom_*, timeline.fit ? axis
 timeline.count_*, time_display > * ? time
 timeline.ghosts, timeline.all, timeline.alone, ghosts_mode > * ? ghosts + lanes
 */fold ? lanes + project
+timeline.marks = lanes
 lanes.*, lanes_menu > *, lane header > * ? lanes
 front_player ? players
 lane breath > * ? project + selection

@@ -25,7 +25,7 @@ class LaneState(msgspec.Struct, frozen=True, kw_only=True):
     Attributes
     ----------
     order : tuple of str
-        From the top; lanes that are not named follow as in a new window.
+        From the top; lanes that are not named stand below the same lane as in a new window.
     hidden, shown : tuple of str
         Lanes that the user hid, and those that the user shows although there is nothing in them.
     folded : tuple of str
@@ -33,6 +33,8 @@ class LaneState(msgspec.Struct, frozen=True, kw_only=True):
         Of lanes whose height the user set, pixels.
     ghosts : Ghosts
         How the players behind the one in front are seen.
+    marks : bool
+        Whether slurs, articulations and dynamics are seen.
     """
 
     order: tuple[str, ...] = ()
@@ -41,6 +43,7 @@ class LaneState(msgspec.Struct, frozen=True, kw_only=True):
     folded: tuple[str, ...] = ()
     heights: dict[str, int] = {}
     ghosts: Ghosts = Ghosts.GHOSTS
+    marks: bool = True
 
 
 class LaneLayout(QObject):
@@ -76,7 +79,7 @@ class LaneLayout(QObject):
             lane.fold_changed.connect(self.changed)
         roll.session.changed.connect(self._project_changed)
         stack.changed.connect(self.changed)
-        self._show_lanes()
+        self.show_lanes()
 
     # State
 
@@ -91,14 +94,15 @@ class LaneLayout(QObject):
             folded=tuple(id for id in order if self._lanes[id].folded),
             heights=self._stack.heights_px,
             ghosts=self._roll.ghosts_mode,
+            marks=self._roll.marks.marks.shown,
         )
 
     def set_state(self, state: LaneState) -> None:
         """Let the lanes stand so; names that are not lanes are passed over."""
         self._hidden = set(state.hidden) & self._lanes.keys()
         self._shown = set(state.shown) & self._lanes.keys()
-        self._stack.set_order(tuple(dict.fromkeys((*state.order, *self._lanes))))
-        self._show_lanes()
+        self._stack.set_order(_completed(state.order, tuple(self._lanes)))
+        self.show_lanes()
         for id, lane in self._lanes.items():
             lane.set_folded(id in state.folded)
         self._stack.set_heights(state.heights)
@@ -117,7 +121,7 @@ class LaneLayout(QObject):
         """Show or hide a lane."""
         (self._shown if shown else self._hidden).add(lane_id)
         (self._hidden if shown else self._shown).discard(lane_id)
-        self._show_lanes()
+        self.show_lanes()
         self.changed.emit()
 
     def open_lane(self, lane_id: str, is_open: bool) -> None:
@@ -138,10 +142,15 @@ class LaneLayout(QObject):
 
     def _project_changed(self, change: Change) -> None:
         before, after = change.before, change.after
-        if change.opened or before.takes is not after.takes or before.dancers is not after.dancers:
-            self._show_lanes()
+        watched = (
+            (before.takes, after.takes), (before.dancers, after.dancers), (before.corrections, after.corrections),
+            (before.score, after.score),
+        )  # fmt: skip
+        if change.opened or any(one is not other for one, other in watched):
+            self.show_lanes()
 
-    def _show_lanes(self) -> None:
+    def show_lanes(self) -> None:
+        """Show the lanes that are not hidden and, where an empty one hides, have something in them."""
         for id, lane in self._lanes.items():
             idle = lane.hides_empty and lane.is_empty and id not in self._shown
             lane.setVisible(id not in self._hidden and not idle)
@@ -174,6 +183,15 @@ class LaneLayout(QObject):
         on_click(fold, lambda: self.open_lane(lane.id, lane.folded))
         on_click(menu.addAction(self.tr("timeline_panel.hide")), lambda: self.show_lane(lane.id, False))
         menu.popup(lane.header.mapToGlobal(place))
+
+
+def _completed(order: tuple[str, ...], known: tuple[str, ...]) -> tuple[str, ...]:
+    """An order of lanes, in which those that it does not name stand below the same lane as in a new window."""
+    result = [id for id in dict.fromkeys(order) if id in known]
+    for place, id in enumerate(known):
+        if id not in result:
+            result.insert(result.index(known[place - 1]) + 1 if place else 0, id)
+    return tuple(result)
 
 
 def lane_state(text: str) -> LaneState | None:

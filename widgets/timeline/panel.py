@@ -17,6 +17,7 @@ from widgets.timeline.lane import GUTTER_PX, Lane
 from widgets.timeline.lane_layout import LaneLayout, LaneState, lane_state, lane_text
 from widgets.timeline.lanes import LANES
 from widgets.timeline.lanes.takes.takes_lane import TakesLane
+from widgets.timeline.marks.dynamics_lane import DynamicsLane
 from widgets.timeline.roll.piano_roll import PianoRoll
 from widgets.timeline.roll.quantise import QuantisePopover
 from widgets.timeline.ruler.flags import Flags
@@ -82,6 +83,7 @@ class TimelinePanel(Retranslated, QWidget):
         for lane in (*made[:1], self.roll, *made[1:]):
             self.lanes[lane.id] = lane
         self.takes = next(lane for lane in made if isinstance(lane, TakesLane))
+        self.dynamics = next(lane for lane in made if isinstance(lane, DynamicsLane))
 
         self.tool_bar = ToolBar(session, self.roll, self)
         self.flags = Flags(session, self.axis, self)
@@ -164,6 +166,18 @@ class TimelinePanel(Retranslated, QWidget):
         self.tool_bar.show_state()
         self.arranged.emit()
 
+    @property
+    def marks_shown(self) -> bool:
+        """True if slurs, articulations and dynamics are seen."""
+        return self.roll.marks.marks.shown
+
+    def show_marks(self, shown: bool) -> None:
+        """Show or hide slurs, articulations and dynamics."""
+        self.roll.marks.set_shown(shown)
+        self.dynamics.set_shown(shown)
+        self.lane_layout.show_lanes()
+        self.arranged.emit()
+
     def zoom_in(self) -> None:
         """Zoom about the playhead, or the middle where it is out of sight."""
         self.axis.zoom(ZOOM_A_CLICK, self._zoom_centre())
@@ -223,6 +237,7 @@ class TimelinePanel(Retranslated, QWidget):
         if saved is not None:
             self.lane_layout.set_state(saved)
             self.set_ghosts(saved.ghosts)
+            self.show_marks(saved.marks)
 
     def _header_menu(self, place: QPoint) -> None:
         header = self.sender()

@@ -110,6 +110,13 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
         "Tempo in quarter notes per minute. Enter to apply, Esc to cancel.",
         "テンポ（1 分あたりの四分音符の数）。Enter で確定、Esc で取り消し。",
     ),
+    "dynamics_lane.title": ("Dynamics", "強弱記号"),
+    "dynamics_lane.tip": (
+        "Drag to move, an edge of a hairpin to resize. Double-click to change a dynamic, or to add one.",
+        "ドラッグで移動、松葉の端で長さを変更します。ダブルクリックで強弱記号を変更または追加します。",
+    ),
+    "marks.by_hand": ("By hand", "手動で追加"),
+    "marks.in_score": ("In the score", "楽譜に記載"),
     "piano_roll.click_to_select_all_its": (
         "{pitch}: click to select all notes of this pitch",
         "{pitch}: クリックでこの音高の音符をすべて選択",

@@ -29,7 +29,7 @@ from app.project.edit.events import (
     remove,
     toggle_preparation,
 )
-from app.project.edit.marks import corrections_at
+from app.project.edit.marks import corrections_at, player_marks, remove_marks
 from app.project.edit.notes import erase
 from app.project.model import Project
 from app.shell.action import Action
@@ -133,11 +133,16 @@ def delete(session: Session) -> None:
         notes = session.selection.notes
         session.attempt(Message("edit.erase_notes", {"count": len(notes)}), lambda project: erase(project, notes))
         return
-    found = [(plan, ids) for player_id, ids in events.items() if (plan := session.plans.get(player_id)) is not None]
+    plans = session.plans
 
     def edit(project: Project) -> Project:
-        for plan, ids in found:
-            project = remove(project, plan, ids)
+        for player_id, ids in events.items():
+            if player_id in plans:
+                project = remove(project, plans[player_id], ids)
+            else:
+                # Marks are the project's: they go while the plans are being made, too.
+                marks = [mark for mark in player_marks(project, player_id) if mark.id in ids]
+                project = remove_marks(project, player_id, marks)
         return project
 
     count = sum(map(len, events.values()))

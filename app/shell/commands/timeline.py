@@ -10,6 +10,7 @@ from app.editor.timeline_view import Ghosts, TimelineView
 from app.shell.action import Action
 from app.shell.commands.command_targets import on_timeline
 from widgets.timeline.lanes import LANES as BELOW
+from widgets.timeline.marks.dynamics_lane import DynamicsLane
 
 
 def _has_view(session: Session) -> bool:
@@ -28,6 +29,11 @@ def _shown(ghosts: Ghosts, icon: str) -> Action:
     return Action(f"timeline.{ghosts.value}", run, "view/notes", checked=checked, icon=icon)
 
 
+def _show_marks(session: Session, shown: bool) -> None:
+    if session.timeline_view is not None:
+        session.timeline_view.show_marks(shown)
+
+
 def _counted(display: TimeDisplay) -> Action:
     return Action(
         f"timeline.count_{display}",
@@ -41,7 +47,11 @@ LANES: Final = (BELOW[0].id, "roll", *(kind.id for kind in BELOW[1:]))
 """Lanes in their order in a new window."""
 
 
-def _lane(id: str, keys: str) -> Action:
+NUMBERED: Final = tuple(id for id in LANES if id != DynamicsLane.id)
+"""Those with a digit as shortcut: there are no more than ten."""
+
+
+def _lane(id: str) -> Action:
     def checked(session: Session) -> bool:
         return session.timeline_view is not None and session.timeline_view.is_lane_open(id)
 
@@ -49,6 +59,7 @@ def _lane(id: str, keys: str) -> Action:
         if session.timeline_view is not None:
             session.timeline_view.open_lane(id, is_open)
 
+    keys = f"Ctrl+Alt+{(NUMBERED.index(id) + 1) % 10}" if id in NUMBERED else ""
     return Action(f"lanes.{id}", run, "view/lanes", keys, enabled=_has_view, checked=checked)
 
 
@@ -73,10 +84,17 @@ ACTIONS: tuple[Action, ...] = (
     _shown(Ghosts.GHOSTS, "ghosts"),
     _shown(Ghosts.ALL, "players"),
     _shown(Ghosts.ALONE, "player"),
+    Action(
+        "timeline.marks",
+        _show_marks,
+        "view/notes",
+        enabled=_has_view,
+        checked=lambda session: session.timeline_view is not None and session.timeline_view.marks_shown,
+    ),
     _counted("bars"),
     _counted("seconds"),
     _counted("frames"),
-    *(_lane(id, f"Ctrl+Alt+{number % 10}") for number, id in enumerate(LANES, 1)),
+    *map(_lane, LANES),
     _fold("unfold_all", False),
     _fold("fold_all", True),
 )

@@ -15,7 +15,7 @@ from app.editor.settings import Settings
 from app.errors import Message
 from app.project.edit.takes import add_takes
 from app.shell.app import Program
-from app.shell.commands.timeline import LANES
+from app.shell.commands.timeline import LANES, NUMBERED
 from app.shell.workspaces import WORKSPACES
 from tests.gui.conftest import QUARTET
 from tests.gui.shell.conftest import Start, trigger
@@ -180,7 +180,9 @@ def test_the_switch_shows_the_workspace_and_goes_with_the_start_page(program: Pr
 def test_lanes_fold_and_unfold_by_key(program: Program) -> None:
     timeline = program.window.timeline
     assert set(LANES) == set(timeline.lanes)
-    for number, id in enumerate(LANES, 1):
+    assert set(LANES) - set(NUMBERED) == {"dynamics"}
+    assert len(NUMBERED) == 10
+    for number, id in enumerate(NUMBERED, 1):
         for _ in range(2):
             before = timeline.is_lane_open(id)
             QTest.keyClick(program.window, Qt.Key(Qt.Key.Key_0.value + number % 10), CTRL_ALT)

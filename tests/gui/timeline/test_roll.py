@@ -511,7 +511,9 @@ def test_a_contact_that_the_motion_breaks_is_said_at_its_note(stage: Stage) -> N
     stage.hand.move(stage.middle("1:3"))
     assert "9 mm" in stage.roll.plot.toolTip()
     stage.roll.plot.repaint()
-    assert stage.roll.labels._problems >= {3}
+    front = stage.roll.model.front()
+    assert front is not None
+    assert stage.roll.model.warned(front[0]) >= {3}
     stage.session.set_broken({})
     stage.hand.move(stage.middle("1:2"))
     stage.hand.move(stage.middle("1:3"))

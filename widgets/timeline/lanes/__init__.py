@@ -12,9 +12,11 @@ from widgets.timeline.lanes.fingering.fingering_lane import FingeringLane
 from widgets.timeline.lanes.problems import ProblemsLane
 from widgets.timeline.lanes.recording.waveform import WaveformLane
 from widgets.timeline.lanes.takes.takes_lane import TakesLane
+from widgets.timeline.marks.dynamics_lane import DynamicsLane
 
 _OWN: tuple[type[Lane], ...] = (
     WaveformLane,
+    DynamicsLane,
     TakesLane,
     FingeringLane,
     BreathLane,

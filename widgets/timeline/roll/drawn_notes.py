@@ -11,7 +11,7 @@ from PySide6.QtCore import QLineF, QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QFontMetricsF, QImage, QPainter, QPen, QPolygonF, QStaticText
 
 from app.arrays import AnyIntArray, FloatArray, IntArray
-from app.plan.model import FingeringEvent, PlayerPlan, Problem
+from app.plan.model import FingeringEvent, PlayerPlan
 from widgets.common.fingering_text import short_label
 from widgets.common.pitch import BLACK
 from widgets.timeline.model.roll.note_table import Behind, NoteTable, TimedNotes
@@ -235,8 +235,6 @@ class Labels(LaneItem[RollView]):
         self._note_ids: list[str] = []
         self._said: IntArray = np.empty(0, np.int64)
         """Numbers of the events, as the notes are ordered that they finger."""
-        self._reported: tuple[Problem, ...] = ()
-        self._problems: frozenset[int] = frozenset()
 
     def forget_fonts(self) -> None:
         """The font is another one."""
@@ -258,22 +256,12 @@ class Labels(LaneItem[RollView]):
         self._fingered = places[order]
         self._said = order
 
-    def _know_problems(self, table: NoteTable, reported: tuple[Problem, ...]) -> None:
-        """Sort problems to the notes that they are about, once for each pair."""
-        if table is self._table and reported is self._reported:
-            return
-        self._reported = reported
-        places = (table.index.get(problem.note_id) for problem in reported if problem.note_id is not None)
-        self._problems = frozenset(place for place in places if place is not None)
-
     def paint_px(self, painter: QPainter, exposed: QRectF) -> None:
         lane = self.lane
         front = lane.model.front()
         if front is None:
             return
         table, colour = front
-        player = lane.session.player
-        self._know_problems(table, lane.session.problems(player.id) if player is not None else ())
         self._know(table, lane.session.plan)
         wider = exposed.adjusted(-60.0, 0.0, 4.0, 0.0)
         rows = lane.visible(table, wider)
@@ -282,7 +270,8 @@ class Labels(LaneItem[RollView]):
 
     def _paint_problems(self, painter: QPainter, table: NoteTable, rows: IntArray) -> None:
         lane = self.lane
-        found = [place for place in rows.tolist() if place in self._problems] if self._problems else []
+        problems = lane.model.warned(table)
+        found = [place for place in rows.tolist() if place in problems] if problems else []
         if not found:
             return
         left, top, width, height = lane.boxes(table, np.array(found, np.int64))

@@ -20,12 +20,14 @@ from app.errors import AppError, Message
 from app.plan.model import PlayerPlan
 from app.project.document import Change
 from app.project.edit import notes
+from app.score.marks import Mark
 from app.score.model import Note
 from instrument_maps.model import InstrumentMap
 from widgets.common.menus import add_actions
 from widgets.common.pitch import pitch_text
 from widgets.common.text import sentence
 from widgets.timeline.lane import GUTTER_PX, Lane, LaneItem, LaneMouse
+from widgets.timeline.marks.roll_marks import RollMarks
 from widgets.timeline.model.gestures import MouseGesture
 from widgets.timeline.model.roll.entries import EntryDrag
 from widgets.timeline.model.roll.note_table import Behind, TimedNotes
@@ -83,6 +85,7 @@ class PianoRoll(Lane):
         self.rows = Rows(self, -200.0)
         self.notes = Notes(self)
         self.labels = Labels(self)
+        self.marks = RollMarks(self)
         self.entries = EntryArrows(self)
         self.lasso = Lasso(self)
         Hint(self, 5.0)
@@ -228,6 +231,9 @@ class PianoRoll(Lane):
         if entry is not None:
             return EntryDrag(self, mouse, *entry)
         hit = self.model.note_at(mouse)
+        held = self.marks.press(mouse, hit is not None) if self._tool is Tool.SELECT else None
+        if held is not None:
+            return held
         player = self.session.player
         if self._tool is Tool.ERASE:
             return Erase(self, mouse)
@@ -306,26 +312,30 @@ class PianoRoll(Lane):
 
     def double_click(self, mouse: LaneMouse) -> None:
         """A new note on empty ground."""
-        player = self.session.player
-        if self._tool is Tool.SELECT and player is not None and self.model.note_at(mouse) is None:
+        player, on_note = self.session.player, self.model.note_at(mouse) is not None
+        if self._tool is not Tool.SELECT or player is None or on_note:
+            return
+        if self.marks.at(mouse, on_note) is None:
             Draw(self, mouse, player.part_id, self._velocity).release(mouse)
 
     def hover(self, mouse: LaneMouse | None) -> None:
         self.keyboard.show_pitch(None if mouse is None else int(mouse.value // 1))
         over_entry = self.entries.hover(mouse if self._tool is Tool.SELECT else None)
         if mouse is None:
+            self.marks.hover(None, False)
             self.lasso.show(None)
             self.reported.emit("")
             return
         hit = self.model.note_at(mouse)
-        self._report(mouse, hit)
+        mark = self.marks.hover(mouse if self._tool is Tool.SELECT else None, hit is not None)
+        self._report(mouse, hit, mark)
         if self._tool is Tool.SPLIT:
             x = self.axis.x_px(self.session.project.score.tempo_map.seconds(float(mouse.snapped_tick)))
             top = self.y_px(int(mouse.value // 1) + 1)
             self.lasso.show(None, QLineF(x, top - 3, x, top + self.row_px + 3) if hit is not None else None)
         elif self._tool in (Tool.SELECT, Tool.DRAW):
             edge = self.model.edge_at(hit, mouse) if hit is not None and not mouse.ctrl else None
-            if over_entry:
+            if over_entry or self.marks.holds_end:
                 self.plot.setCursor(Qt.CursorShape.OpenHandCursor)
             elif edge is not None:
                 self.plot.setCursor(Qt.CursorShape.SizeHorCursor)
@@ -354,6 +364,9 @@ class PianoRoll(Lane):
 
     def context_menu(self, mouse: LaneMouse) -> QMenu | None:
         hit = self.model.note_at(mouse)
+        menu = self.marks.context_menu(mouse, hit is not None)
+        if menu is not None:
+            return menu
         if hit is not None and hit.id not in self.session.selection.notes:
             self.model.bring_forward(hit)
             self.session.select(Selection(frozenset({hit.id})))
@@ -374,22 +387,24 @@ class PianoRoll(Lane):
             self._velocity = note.velocity
             QToolTip.showText(QCursor.pos(), self.tr("piano_roll.velocity").format(velocity=note.velocity), self.plot)
 
-    def _report(self, mouse: LaneMouse, note: Note | None) -> None:
-        """Say what is under the mouse: place and pitch, or the note; problems of a note as a tool tip."""
+    def _report(self, mouse: LaneMouse, note: Note | None, mark: Mark | None) -> None:
+        """Say what is under the mouse: place and pitch, or the note; problems of a note, or a mark, as a tool tip."""
         score = self.session.project.score
         tick = mouse.tick if note is None else note.onset_tick
         pitch = self.pitch_text(int(mouse.value // 1))
         text = self.tr("piano_roll.pitch_place").format(pitch=pitch, place=score.metre_map.label(int(tick // 1)))
-        problems = ""
+        tip = ""
         if note is not None:
             text += self.tr("piano_roll.velocity_2").format(velocity=note.velocity)
             player = self.session.player
             known = self.session.problems(player.id) if player is not None else ()
             found = [problem for problem in known if problem.note_id == note.id]
-            problems = "\n".join(sentence(problem.message, self.session) for problem in found)
+            tip = "\n".join(sentence(problem.message, self.session) for problem in found)
         self.reported.emit(text)
-        if self.plot.toolTip() != problems:
-            self.plot.setToolTip(problems)
+        if mark is not None:
+            tip = self.marks.tip(mark)
+        if self.plot.toolTip() != tip:
+            self.plot.setToolTip(tip)
 
     # When something changes
 
@@ -400,12 +415,15 @@ class PianoRoll(Lane):
         if change.before.score is not change.after.score or change.before.players is not change.after.players:
             self.update_items()
             self.keyboard.update()
+        elif change.before.corrections is not change.after.corrections:
+            self.marks.update()
 
     def performance_changed(self) -> None:
         self._redraw(self.labels)
 
     def selection_changed(self, before: Selection) -> None:
-        if before.notes != self.session.selection.notes:
+        now = self.session.selection
+        if (before.notes, before.events) != (now.notes, now.events):
             self._redraw(self.notes)
 
     def players_changed(self) -> None:

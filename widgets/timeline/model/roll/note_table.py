@@ -80,6 +80,15 @@ class NoteTable(TimedNotes):
         best = len(rows) - 1 - int(np.argmin(distance[::-1]))
         return int(rows[best]) if distance[best] <= slack_s else None
 
+    def nearest(self, time_s: float) -> int | None:
+        """Place of the note that sounds at a time, else of the one nearest to it."""
+        if not len(self):
+            return None
+        near = int(self.onset_s.searchsorted(time_s, side="right"))
+        rows = np.arange(max(near - 1, 0), min(near + 1, len(self)))
+        distance = np.maximum(np.maximum(self.onset_s[rows] - time_s, time_s - self.end_s[rows]), 0.0)
+        return int(rows[distance.argmin()])
+
     def within(self, start_s: float, end_s: float, low_pitch: int, high_pitch: int) -> list[str]:
         """Ids of the notes that touch a rectangle of time and pitch (both pitches included)."""
         near = self.visible(start_s, end_s)

@@ -11,6 +11,7 @@ from app.arrays import BoolArray, FloatArray, IntArray
 from app.editor.selection import Selection
 from app.editor.timeline_view import Ghosts
 from app.editor.tokens import Tokens
+from app.plan.model import Problem
 from app.project.grid import Grid
 from app.project.model import Project
 from app.project.performers import Player
@@ -41,6 +42,7 @@ class RollSession(Editing, Protocol):
     def tokens(self) -> Tokens: ...
     def colour(self, player: Player) -> str: ...
     def set_players(self, players: tuple[str, ...]) -> None: ...
+    def problems(self, player_id: str) -> tuple[Problem, ...]: ...
 
 
 def kept_pitches(bottom: float, rows: float) -> tuple[float, float]:
@@ -116,6 +118,7 @@ class RollModel:
         """Display of the players behind."""
         self._tables: dict[str, NoteTable] = {}
         self._flags: dict[str, tuple[NoteTable, Selection, BoolArray]] = {}
+        self._warned: tuple[NoteTable | None, tuple[Problem, ...], frozenset[int]] = (None, (), frozenset())
         self._ghosts_of: tuple[tuple[object, ...], Behind] = ((None, None, None, None), NO_GHOSTS)
         """The players behind, and what that was found from: it is asked with every repaint."""
 
@@ -182,6 +185,16 @@ class RollModel:
         tempo = self._session.project.score.tempo_map
         left_px, right_px = (self._axis.x_px(tempo.seconds(float(tick))) for tick in (note.onset_tick, note.end_tick))
         return edge_of(left_px, right_px, mouse.x_px)
+
+    def warned(self, table: NoteTable) -> frozenset[int]:
+        """Places of the notes of the player in front that problems are about."""
+        player = self._session.player
+        reported = self._session.problems(player.id) if player is not None else ()
+        known = self._warned
+        if known[0] is not table or known[1] is not reported:
+            places = (table.index.get(problem.note_id) for problem in reported if problem.note_id is not None)
+            known = self._warned = (table, reported, frozenset(place for place in places if place is not None))
+        return known[2]
 
     def notes_within(self, start_s: float, end_s: float, low: int, high: int) -> frozenset[str]:
         """Ids of the notes that touch a rectangle."""

@@ -1,0 +1,1 @@
+"""Marks of the composer on the timeline, drawn."""

@@ -1,0 +1,182 @@
+"""A player's marks as arrays, sorted to the notes that they belong to."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from itertools import repeat
+from typing import NamedTuple
+
+import numpy as np
+
+from app.arrays import BoolArray, FloatArray, IntArray
+from app.project.edit.marks import Origin
+from app.score.marks import MARK_KINDS, Mark
+from widgets.timeline.model.geometry import TimeSpans
+from widgets.timeline.model.marks.mark_looks import LOOKS
+from widgets.timeline.model.roll.note_table import NoteTable
+
+GAP_UNITS = 0.55
+"""Between a mark and what it stands on."""
+
+
+class MarkList:
+    """The marks of one player, whatever its notes are.
+
+    Parameters
+    ----------
+    origins : mapping of Mark to str
+        Each with where it is from, as `app.project.edit.marks.player_marks` has them.
+
+    Attributes
+    ----------
+    marks : list of Mark
+    by_hand : array (N,)
+        Which of them the user wrote.
+    by_id : dict of str to int
+        Their numbers.
+    over_notes, at_notes, at_ticks : array
+        Numbers of the marks over several notes, at one note, and at ticks.
+    order, height, line : array
+        Of those at one note: from the note outwards, heights in units and in lines of text.
+    is_stacked, is_outer : array
+        Of those at one note: above its beginning; and above slurs.
+    """
+
+    def __init__(self, origins: Mapping[Mark, Origin]) -> None:
+        self.marks = list(origins)
+        self.by_hand: BoolArray = np.fromiter((origin == "hand" for origin in origins.values()), np.bool_, len(origins))
+        self.by_id = {mark.id: number for number, mark in enumerate(self.marks)}
+        numbered = list(enumerate(self.marks))
+        self.over_notes = _numbers(number for number, mark in numbered if MARK_KINDS[mark.kind].anchor == "notes")
+        self.at_notes = _numbers(number for number, mark in numbered if mark.kind in LOOKS)
+        self.at_ticks = _numbers(number for number, mark in numbered if not mark.note_id)
+        looks = [LOOKS[self.marks[number].kind] for number in self.at_notes.tolist()]
+        self.order = np.array([look.order for look in looks], np.int64)
+        self.is_stacked = np.array([look.place == "stack" for look in looks], np.bool_)
+        self.is_outer = np.array([not look.under_slur for look in looks], np.bool_)
+        self.line = np.array([float(look.is_text and look.place == "stack") for look in looks])
+        heights = np.array([look.height + GAP_UNITS for look in looks])
+        self.height: FloatArray = np.where(self.is_stacked & (self.line == 0.0), heights, 0.0)
+
+
+def _numbers(found: object) -> IntArray:
+    numbers: IntArray = np.fromiter(found, np.int64)  # type: ignore[call-overload]
+    return numbers
+
+
+class NoteSpans(NamedTuple):
+    """Marks over several notes, ascending by the first.
+
+    Attributes
+    ----------
+    mark, first, last : array (N,)
+        Number of the mark, places of its first and last note.
+    inner : array (N,)
+        Levels of others that lie within: each goes over those.
+    chained_first, chained_last : array (N,)
+        Whether another one ends at the first note, and begins at the last.
+    """
+
+    mark: IntArray
+    first: IntArray
+    last: IntArray
+    inner: IntArray
+    chained_first: BoolArray
+    chained_last: BoolArray
+
+
+class MarksAtNotes(NamedTuple):
+    """Marks at single notes, ascending by the note.
+
+    Attributes
+    ----------
+    mark, note, last : array (N,)
+        Number of the mark, places of its note and of the last note that it was written out in.
+    units, lines : array (N,)
+        Height of the marks between it and the note or the slur below, in units and in lines of text.
+    is_stacked, is_outer : array (N,)
+        As of `MarkList`.
+    """
+
+    mark: IntArray
+    note: IntArray
+    last: IntArray
+    units: FloatArray
+    lines: FloatArray
+    is_stacked: BoolArray
+    is_outer: BoolArray
+
+
+class MarkTable:
+    """The marks of one player, sorted to its notes; those whose notes are gone are left out.
+
+    Attributes
+    ----------
+    slurs : NoteSpans
+    spans : TimeSpans
+        When these sound.
+    at_notes : MarksAtNotes
+    under_slurs : array (N,)
+        Heights of what stands on each note under a slur, in units.
+    """
+
+    def __init__(self, notes: NoteTable, of_player: MarkList) -> None:
+        self.notes, self.of_player = notes, of_player
+        self.slurs = self._spanning()
+        self.spans = TimeSpans(notes.onset_s[self.slurs.first], notes.end_s[self.slurs.last])
+        self.at_notes = self._standing()
+        at = self.at_notes
+        heights = of_player.height[np.searchsorted(of_player.at_notes, at.mark)]
+        inner = ~at.is_outer
+        self.under_slurs: FloatArray = np.zeros(len(notes))
+        np.add.at(self.under_slurs, at.note[inner], heights[inner])
+
+    def _places(self, numbers: IntArray) -> tuple[IntArray, IntArray]:
+        """Places of the first and the last notes of marks, -1 where they are gone."""
+        marks, index, count = self.of_player.marks, self.notes.index, len(numbers)
+        chosen = [marks[number] for number in numbers.tolist()]
+        first = np.fromiter(map(index.get, (mark.note_id for mark in chosen), repeat(-1)), np.int64, count)
+        last = np.fromiter(map(index.get, (mark.last_note_id for mark in chosen), repeat(-1)), np.int64, count)
+        return first, last
+
+    def _spanning(self) -> NoteSpans:
+        mark = self.of_player.over_notes
+        first, last = self._places(mark)
+        known = np.flatnonzero((first >= 0) & (last > first))
+        known = known[np.lexsort((-last[known], first[known]))]
+        mark, first, last = mark[known], first[known], last[known]
+        return NoteSpans(mark, first, last, _nested(first, last), np.isin(first, last), np.isin(last, first))
+
+    def _standing(self) -> MarksAtNotes:
+        its = self.of_player
+        first, last = self._places(its.at_notes)
+        known = np.flatnonzero(first >= 0)
+        # What a slur goes over and what goes over the slur are two stacks.
+        known = known[np.lexsort((its.order[known], its.is_outer[known], first[known]))]
+        note, outer = first[known], its.is_outer[known]
+        begins = np.append(True, (np.diff(note) != 0) | (np.diff(outer.astype(np.int8)) != 0))[: len(known)]
+        stack = np.cumsum(begins) - 1
+        units, lines = (_within(column[known], np.flatnonzero(begins), stack) for column in (its.height, its.line))
+        latest = np.maximum(last[known], note)
+        return MarksAtNotes(its.at_notes[known], note, latest, units, lines, its.is_stacked[known], outer)
+
+
+def _within(heights: FloatArray, starts: IntArray, stack: IntArray) -> FloatArray:
+    """Sums of the heights before each one in its own stack."""
+    before = np.cumsum(heights) - heights
+    result: FloatArray = before - before[starts][stack]
+    return result
+
+
+def _nested(first: IntArray, last: IntArray) -> IntArray:
+    """Levels of other spans within each: ascending by the first, of those that begin together the longer
+    before."""
+    levels = [0] * len(first)
+    opened: list[tuple[int, int]] = []
+    ends = last.tolist()
+    for place in range(len(ends) - 1, -1, -1):
+        # Those behind it in order begin later, or are shorter: the ones within are on top.
+        while opened and opened[-1][0] <= ends[place]:
+            levels[place] = max(levels[place], levels[opened.pop()[1]] + 1)
+        opened.append((ends[place], place))
+    return np.array(levels, np.int64)

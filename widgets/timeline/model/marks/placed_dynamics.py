@@ -1,0 +1,138 @@
+"""Places of dynamics and hairpins in their lane: letters at their ticks, wedges that leave room for the letters."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Final, NamedTuple
+
+import numpy as np
+
+from app.arrays import FloatArray
+from app.score.marks import MARK_KINDS
+from app.score.tempo import TempoMap
+from widgets.timeline.model.geometry import TimeSpans
+from widgets.timeline.model.hand import PixelRect
+from widgets.timeline.model.marks.mark_drag import Zone
+from widgets.timeline.model.marks.mark_table import MarkList
+from widgets.timeline.model.visible_time import Scale
+
+GAP_PX: Final = 4.0
+LEAST_HAIRPIN_PX = 5.0
+LEAST_MARK_PX = 4.0
+"""Least room for each mark; with less, none is drawn."""
+EDGE_PX = 6.0
+BEHIND_PX = 80.0
+"""Letters that stand so far before the plot may reach into it."""
+
+
+class TimedMarks:
+    """The marks anchored to ticks, by time.
+
+    Attributes
+    ----------
+    numbers : list of int
+        In `MarkList.marks`.
+    spans : TimeSpans
+    """
+
+    def __init__(self, of_player: MarkList, tempo: TempoMap) -> None:
+        self.of_player, self.tempo = of_player, tempo
+        marks = of_player.marks
+        self.numbers = sorted(
+            of_player.at_ticks.tolist(),
+            key=lambda number: (marks[number].tick, MARK_KINDS[marks[number].kind].anchor == "span"),
+        )
+        ticks: FloatArray = np.array([float(marks[number].tick) for number in self.numbers])
+        ends = np.array([float(marks[number].end_tick) for number in self.numbers])
+        self.spans = TimeSpans(tempo.seconds(ticks), tempo.seconds(np.maximum(ticks, ends)))
+
+
+class PlacedDynamic(NamedTuple):
+    """A dynamic or a hairpin in pixels.
+
+    Attributes
+    ----------
+    mark : int
+        Number in `MarkList.marks`.
+    box : PixelRect
+        Of a hairpin the wedge, of a dynamic its letters.
+    end_px : float or None
+        Of a dynamic that holds up to a place.
+    is_hairpin : bool
+    """
+
+    mark: int
+    box: PixelRect
+    end_px: float | None
+    is_hairpin: bool
+
+    def zone_at(self, x_px: float, y_px: float) -> Zone | None:
+        """The part of it under the mouse, if any."""
+        reach = self.box if self.end_px is None else self.box._replace(right=max(self.end_px, self.box.right))
+        if not reach.contains(x_px, y_px, slack_px=EDGE_PX if self.is_hairpin else 2.0):
+            return None
+        if self.end_px is not None and abs(x_px - self.end_px) <= EDGE_PX:
+            return "last"
+        if self.is_hairpin:
+            edge = min(EDGE_PX, reach.width / 3)
+            if x_px >= reach.right - edge:
+                return "last"
+            if x_px <= reach.left + edge:
+                return "first"
+        return "whole" if self.is_hairpin or x_px <= self.box.right + 2.0 else None
+
+
+def placed_dynamics(
+    timed: TimedMarks,
+    scale: Scale,
+    span_s: tuple[float, float],
+    band: tuple[float, float],
+    width_of: Callable[[str], float],
+    kept: frozenset[int] = frozenset(),
+) -> Sequence[PlacedDynamic]:
+    """Place what is visible.
+
+    Parameters
+    ----------
+    span_s : (float, float)
+        Times that are drawn.
+    band : (float, float)
+        Top and bottom of the letters, pixels.
+    width_of : callable
+        Width of a dynamic's letters, pixels.
+    kept : frozenset of int
+        Numbers of marks that are drawn even where they lie over others.
+    """
+    marks = timed.of_player.marks
+    start_s, end_s = span_s
+    shown = timed.spans.between(start_s - BEHIND_PX / scale.px_per_s, end_s).tolist()
+    if len(shown) * LEAST_MARK_PX > (end_s - start_s) * scale.px_per_s:
+        shown = [place for place in shown if timed.numbers[place] in kept]
+    starts, ends = scale.x_px(timed.spans.start_s[shown]).tolist(), scale.x_px(timed.spans.end_s[shown]).tolist()
+    letters: list[PlacedDynamic] = []
+    for place, left, end in zip(shown, starts, ends, strict=True):
+        number = timed.numbers[place]
+        mark = marks[number]
+        if MARK_KINDS[mark.kind].anchor == "span":
+            continue
+        crowded = bool(letters) and left < letters[-1].box.right
+        if not crowded or number in kept:
+            box = PixelRect(left, band[0], left + width_of(mark.text), band[1])
+            letters.append(PlacedDynamic(number, box, end if mark.end_tick else None, False))
+    lefts = np.array([item.box.left for item in letters])
+    found = list(letters)
+    middle, half = (band[0] + band[1]) / 2, (band[1] - band[0]) * 0.27
+    for place, left, right in zip(shown, starts, ends, strict=True):
+        number = timed.numbers[place]
+        if MARK_KINDS[marks[number].kind].anchor != "span":
+            continue
+        # Letters at its beginning push it on, those at its end cut it off.
+        before = int(np.searchsorted(lefts, left + 1.0)) - 1
+        if before >= 0 and letters[before].box.right + GAP_PX > left:
+            left = letters[before].box.right + GAP_PX
+        if before + 1 < len(letters):
+            right = min(right, letters[before + 1].box.left - GAP_PX)
+        if right - left >= LEAST_HAIRPIN_PX or number in kept:
+            right = max(right, left + LEAST_HAIRPIN_PX)
+            found.append(PlacedDynamic(number, PixelRect(left, middle - half, right, middle + half), None, True))
+    return found

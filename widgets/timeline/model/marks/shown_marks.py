@@ -1,0 +1,97 @@
+"""The marks of the player in front, and which of them are selected."""
+
+from __future__ import annotations
+
+from typing import Protocol
+
+from app.editor.selection import EventKey, Selection
+from app.plan.by_hand.mark_corrections import mark_corrections
+from app.project.edit.marks import player_marks
+from app.project.performers import Player
+from app.score.marks import Mark
+from widgets.timeline.model.gestures import Editing
+from widgets.timeline.model.marks.mark_table import MarkList, MarkTable
+from widgets.timeline.model.roll.note_table import NoteTable
+
+_NONE = MarkList({})
+
+
+class MarkSession(Editing, Protocol):
+    """Interface of the session for the display of marks."""
+
+    @property
+    def player(self) -> Player | None: ...
+
+
+class ShownMarks:
+    """The marks of the player in front, sorted once for each value of them.
+
+    Attributes
+    ----------
+    shown : bool
+        Whether they are to be seen.
+    preview : (Mark, Mark) or None
+        A mark in mid-drag, and as it would be.
+    """
+
+    def __init__(self, session: MarkSession) -> None:
+        self._session = session
+        self.shown = True
+        self.preview: tuple[Mark, Mark] | None = None
+        self._corrections: object = None
+        self._made_for: tuple[object, object, object] = (None, None, None)
+        self._list = _NONE
+        self._table: MarkTable | None = None
+
+    @property
+    def of_player(self) -> MarkList:
+        """The marks of the player in front; none where they are not to be seen."""
+        player = self._session.player
+        if not self.shown or player is None:
+            return _NONE
+        project = self._session.project
+        part, corrections = project.part(player), project.corrections.get(player.id, ())
+        marks, said, preview = self._made_for
+        if marks is part.marks and self._corrections is corrections and preview is self.preview:
+            return self._list
+        # Other corrections than those of marks leave the marks as they are.
+        self._corrections, new = corrections, mark_corrections(corrections)
+        if marks is not part.marks or said != new or preview is not self.preview:
+            origins = player_marks(project, player.id)
+            if self.preview is not None:
+                before, after = self.preview
+                origins = {after if mark == before else mark: origin for mark, origin in origins.items()}
+            self._list = MarkList(origins)
+        self._made_for = part.marks, new, self.preview
+        return self._list
+
+    def table(self, notes: NoteTable) -> MarkTable | None:
+        """These marks sorted to the notes of the player in front; None where there are none."""
+        of_player = self.of_player
+        if not of_player.marks:
+            return None
+        if self._table is None or self._table.notes is not notes or self._table.of_player is not of_player:
+            self._table = MarkTable(notes, of_player)
+        return self._table
+
+    def key(self, mark: Mark) -> EventKey:
+        """Name of a mark in the selection."""
+        player = self._session.player
+        return EventKey(player.id if player is not None else "", mark.id)
+
+    @property
+    def selected(self) -> frozenset[int]:
+        """Numbers of the selected marks, and of one in mid-drag."""
+        player, events, by_id = self._session.player, self._session.selection.events, self.of_player.by_id
+        ids = {key.event_id for key in events if player is not None and key.player_id == player.id}
+        if self.preview is not None:
+            ids.add(self.preview[1].id)
+        return frozenset(by_id[id] for id in ids if id in by_id) if ids else frozenset()
+
+    def select(self, mark: Mark, add: bool = False, toggle: bool = False) -> None:
+        """Select a mark, alone or with what is selected already."""
+        key, events = self.key(mark), self._session.selection.events
+        if add or toggle:
+            self._session.select(Selection(events=events ^ {key} if toggle else events | {key}))
+        elif key not in events:
+            self._session.select(Selection(events=frozenset({key})))
