@@ -12,6 +12,7 @@ from xml.etree.ElementTree import Element
 from app.score.limits import MOST_NAME, MOST_QUARTERS
 from app.score.musicxml.abbreviations import expand_repeats, is_slash
 from app.score.musicxml.directions import read_barline, read_direction, read_dynamics, read_sound
+from app.score.musicxml.flutter import is_flutter
 from app.score.musicxml.parts import WrittenPart, is_kit, stroke_of
 from app.score.musicxml.written import Bar, Chord, Measure, Place, Time, Tone
 
@@ -53,7 +54,6 @@ _TECHNIQUES: Final = {
     "half-muted": "stopped",
     "open": "open",
 }
-_FLUTTER: Final = re.compile(r"flutter|flatter|flz|frull", re.IGNORECASE)
 _POSITION: Final = re.compile(
     r"(?:pos(?:ition|\.)?\s*([1-7])|([1-7])(?:st|nd|rd|th|\.)?\s*pos(?:ition|\.)?)", re.IGNORECASE
 )
@@ -361,7 +361,7 @@ def _technical(written: Element, chord: Chord, tone: Tone | None) -> None:
         elif one.tag == "harmon-mute":
             chord.mute = "mute"
         elif one.tag == "other-technical":
-            if _FLUTTER.search(text) or _FLUTTER.search(one.get("smufl", "")):
+            if is_flutter(text) or is_flutter(one.get("smufl", "")):
                 chord.marks.append(("flutter_tongue", ""))
             elif (found := _POSITION.fullmatch(text)) is not None:
                 own.append(("position", found[1] or found[2]))

@@ -11,6 +11,7 @@ from app.score.doublings import requested_instrument
 from app.score.limits import MOST_NAME
 from app.score.marks import Mark
 from app.score.musicxml.desks import Desk
+from app.score.musicxml.flutter import fluttered
 from app.score.musicxml.loudness import hairpins, loudness_of, velocity_of
 from app.score.musicxml.parts import PartInstrument, WrittenPart, said_instrument
 from app.score.musicxml.played import PlayedChord, PlayedNote, PlayedPart
@@ -23,7 +24,6 @@ _STRUCK: Final = "*"
 """The kind of notes without a pitch."""
 _SHORT: Final = {"staccatissimo": 0.34, "staccato": 0.5, "marcato": 0.75}
 """The share of its length that such a note sounds."""
-_WHOLE: Final = frozenset(("trill", "turn", "mordent", "tremolo", "fermata"))
 
 
 @dataclass(slots=True)
@@ -60,6 +60,11 @@ def part_streams(
         return []
     first = next(iter(part.instruments.values()), PartInstrument())
     words = [(tick, one.text) for tick, one in played.directions if one.kind == "words"]
+    by_onset = sorted(played.notes, key=lambda note: note.onset)
+    flags = fluttered(words, [note.onset for note in by_onset])
+    for note, flutters in zip(by_onset, flags, strict=True):
+        if flutters:
+            note.marks.append(("flutter_tongue", ""))
     marks = _marks(played, f"{track + 1}:", spans)
     order = sorted(dict.fromkeys(row.kind for row in rows), key=lambda kind: kind == _STRUCK)
     base = _base(part, first, transposition)
@@ -187,7 +192,9 @@ def _mutes(rows: Sequence[_Row], played: PlayedPart, words: Sequence[tuple[int, 
             place += 1
         chord = row.note.chord
         signs = {kind for kind, _ in chord.marks}
-        own = "hand" if "stopped" in signs else chord.mute
+        own = "hand" if "stopped" in signs else "open" if "open" in signs else chord.mute
+        if own == "open" and current == "hand":
+            current = _how(own)
         found.append((row.onset, row.end, _how(own) if own else current))
     return found
 

@@ -261,6 +261,26 @@ def test_mutes_by_words_sounds_and_signs(tmp_path: Path) -> None:
     assert stream.stopped == ((18 * Q, 20 * Q),)
 
 
+def test_an_open_sign_ends_what_a_hand_stops(tmp_path: Path) -> None:
+    sign = "<technical><open/></technical>"
+    stopped = words("gestopft") + note("C4", 8) + note("D4", 4, notations=sign) + note("E4", 4)
+    muted = words("con sord.") + note("C4", 8) + note("D4", 4, notations=sign) + note("E4", 4)
+    stream = read(tmp_path, document(stopped, words("offen") + muted, name="Horn in F")).channels[0]
+    assert stream.stopped == ((0, 2 * Q),)
+    assert stream.muted == ((0, 2 * Q), (4 * Q, 6 * Q), (7 * Q, 8 * Q))
+
+
+def test_words_have_the_tongue_flutter_until_others_end_it(tmp_path: Path) -> None:
+    first = words("flz.") + note("C4", 4) + note("D4", 4) + words("ord.") + note("E4", 8)
+    second = note("C4", 4) + words("flutter-tongue") + note("D4", 4) + note("E4", 8)
+    stream = read(tmp_path, document(first, second)).channels[0]
+    assert [mark for mark in marks(stream) if mark[0] == "flutter_tongue"] == [
+        ("flutter_tongue", 1),
+        ("flutter_tongue", 2),
+        ("flutter_tongue", 5),
+    ]
+
+
 def test_a_sound_beats_a_name_which_says_size_and_key(tmp_path: Path) -> None:
     def played_on(sound: str, name: str, chromatic: int) -> str:
         said = f"<instrument-name>x</instrument-name><instrument-sound>{sound}</instrument-sound>"
