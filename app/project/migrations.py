@@ -79,7 +79,7 @@ def _with_parameters(raw: Raw, version: int) -> Raw:
 
 def _with_stopped(raw: Raw) -> Raw:
     """14 to 15: where the hand stops the bell is kept, and what is written over the notes; a piece that was read before
-    has both when it is read again.
+    has both when it is read again. There may be marks by hand among the corrections.
     Rows of earlier imports do not follow words about who of several players plays, and clean no takes."""
     parts = [{**part, "stopped": [], "marks": [], "source": "sound"} for part in raw["score"]["parts"]]
     imported = raw["imported"]

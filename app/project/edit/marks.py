@@ -8,6 +8,7 @@ Messages (`UsageError`): ``mark.no_notes``, ``mark.one_note``.
 
 from __future__ import annotations
 
+from bisect import bisect_left, bisect_right
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from typing import Final, NamedTuple
 
@@ -129,19 +130,26 @@ def marks_at(marks: Collection[Mark], notes: Sequence[Note], order: Mapping[str,
         Places of all notes of the part by id.
     """
     places = sorted(order[note.id] for note in notes)
+    onsets = sorted(note.onset_tick for note in notes)
+    ends = {note.onset_tick: note.end_tick for note in notes}
     ids = {note.id for note in notes}
-    found = []
-    for mark in marks:
+
+    def is_at(mark: Mark) -> bool:
         if mark.note_id:
-            first, last = order.get(mark.note_id), order.get(mark.last_note_id or mark.note_id)
-            is_over = first is not None and last is not None and any(first <= place <= last for place in places)
-            if mark.note_id in ids or (MARK_KINDS[mark.kind].anchor == "notes" and is_over):
-                found.append(mark)
-        elif any(note.onset_tick <= mark.tick < note.end_tick for note in notes) or any(
-            mark.tick <= note.onset_tick < mark.end_tick for note in notes
-        ):
-            found.append(mark)
-    return found
+            if MARK_KINDS[mark.kind].anchor != "notes":
+                return mark.note_id in ids
+            first, last = order.get(mark.note_id), order.get(mark.last_note_id)
+            return first is not None and last is not None and _any_within(places, first, last)
+        before = bisect_right(onsets, mark.tick) - 1
+        sounds = before >= 0 and mark.tick < ends[onsets[before]]
+        return sounds or _any_within(onsets, mark.tick, mark.end_tick - 1)
+
+    return [mark for mark in marks if is_at(mark)]
+
+
+def _any_within(ordered: Sequence[int], first: int, last: int) -> bool:
+    at = bisect_left(ordered, first)
+    return at < len(ordered) and ordered[at] <= last
 
 
 def _marks_over(project: Project, player_id: str, notes: Sequence[Note], kind: str, text: str) -> list[Mark]:

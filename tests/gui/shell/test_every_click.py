@@ -60,10 +60,11 @@ def muted_light_japanese(desk: Desk) -> None:
 
 
 def by_hand(desk: Desk) -> None:
-    """A player stands elsewhere and moves otherwise than it was cast, a note has another fingering."""
+    """A player stands elsewhere and moves otherwise than it was cast, notes have other fingerings and dots."""
     there = {desk.player.id: StagePosition(0.3, 1.2, 0.25)}
     actions(desk.session)["players.randomise"].trigger()
     actions(desk.session)["fingering.cycle"].trigger()
+    actions(desk.session)["marks.staccato"].trigger()
     tabs, corrections = desk.program.window.findChild(QTabWidget), desk.program.window.findChild(CorrectionList)
     assert isinstance(tabs, QTabWidget)
     assert isinstance(corrections, CorrectionList)
