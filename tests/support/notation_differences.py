@@ -30,6 +30,7 @@ TIES: Final = "music21 joins tied chords by their first notes, and notes of one 
 LOST: Final = "the slur is in the file; music21 loses it where it goes to another voice or staff"
 CHORDS: Final = "<chord/> joins a note to the one before, whatever stands between; music21 begins another chord"
 OPEN_TIES: Final = "a tie that nothing ends is none; music21 joins what follows"
+SLASHES: Final = "noteheads that are slashes say a rhythm without pitches; both others read the line they stand on"
 FULL_REST: Final = "a rest is a rest; music21 sees the note that was left out"
 FAILS: Final = "the other reader fails, ours does not"
 EMPTY_NUMBER: Final = "the ending has no number: it is the first one"
@@ -40,6 +41,8 @@ KNOWN: Final[dict[str, dict[str, tuple[str, str]]]] = {
     "01f-Pitches-EditorialMicrotoneAccidentals.xml": {"partitura": ("error", QUARTER_TONES)},
     "02e-Rests-NoType.xml": {"music21": ("notes", FULL_REST)},
     "21f-Chord-ElementInBetween.xml": {"music21": ("notes", CHORDS)},
+    "22a-Noteheads.xml": {"music21": ("notes", SLASHES), "partitura": ("notes", SLASHES)},
+    "22c-Noteheads-Chords.xml": {"music21": ("notes", SLASHES), "partitura": ("notes", SLASHES)},
     "32ab-Notations3.xml": {"partitura": ("error", FAILS)},
     "33i-Ties-NotEnded.xml": {"music21": ("notes", OPEN_TIES)},
     "41c-StaffGroups.xml": {"partitura": ("notes", OCTAVES)},
