@@ -86,7 +86,7 @@ class Document:
     def apply(
         self, name: Message, project: Project, gesture: object | None = None, origin: object | None = None
     ) -> None:
-        """Make this the project.
+        """Make this the project; one that is equal to it is no step.
 
         Parameters
         ----------
@@ -106,7 +106,7 @@ class Document:
             ``project.not_storable``: the edit made what could not be saved; nothing is changed.
         """
         before = self._project
-        if project is before:
+        if project is before or project == before:
             return
         require_sound(project, before)
         last = self._done[-1] if self._done else None

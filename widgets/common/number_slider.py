@@ -172,7 +172,10 @@ class NumberSlider(NumberDisplay):
 
     def _request(self, value: float, token: object | None) -> None:
         kept = self._kept(value)
-        if kept == self._value and not self._mixed:
+        if self._press is not None and kept == self._kept(self._press_value) and not self._press_mixed:
+            # A drag back to where it began leaves nothing, however exact the value was.
+            kept = self._press_value
+        if not self._mixed and kept in (self._value, self._kept(self._value)):
             return
         self._value, self._mixed = kept, False
         self.update()

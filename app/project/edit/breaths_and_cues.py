@@ -117,7 +117,7 @@ def breath_at(
         note_id=note.id,
         start_offset_tick=min(start, end - 1) - note.onset_tick,
         end_offset_tick=end - note.onset_tick,
-        moved_from=_moved_from(before, note.id),
+        moved_from=moved_from(before, note.id),
     )
 
 
@@ -140,7 +140,8 @@ def _note_after(notes: Sequence[Note], end: int) -> int:
     return index
 
 
-def _moved_from(before: SetBreath | SetCue, note_id: str) -> str | None:
+def moved_from(before: SetBreath | SetCue, note_id: str) -> str | None:
+    """Return the note whose event it was at first; None for what is at home, or was added."""
     if before.added:
         return None
     home = before.note_id if before.moved_from is None else before.moved_from
@@ -152,7 +153,7 @@ def cue_at(project: Project, player_id: str, event: CueEvent, start: int, end: i
     before = next((item for item in said if isinstance(item, SetCue)), SetCue(EventId.parse(event.id).of))
     note = next((note.id for note in notes_of(project, player_id) if note.onset_tick == end), f"@{end}")
     beats = max(round((end - start) / (LEAD_BEATS * project.metre_map.felt_ticks_at(end)), 4), 0.05)
-    return msgspec.structs.replace(before, note_id=note, beats=beats, moved_from=_moved_from(before, note))
+    return msgspec.structs.replace(before, note_id=note, beats=beats, moved_from=moved_from(before, note))
 
 
 def _room_before(project: Project, notes: Sequence[Note], index: int) -> int:

@@ -39,6 +39,7 @@ from app.project.edit.found_events import is_there as is_there
 from app.project.edit.found_events import placed_events as placed_events
 from app.project.edit.found_events import player_marks as player_marks
 from app.project.edit.marks import corrections_at, remove_marks
+from app.project.edit.preparations import lowered_with, moved_along, preparation_with, preparations_of
 from app.project.model import Project
 
 AMOUNTS: Final[Mapping[type[Event], tuple[str, float]]] = {
@@ -54,6 +55,10 @@ _SPOKEN_OF: Final[Mapping[type[Event], tuple[type[Correction], ...]]] = {
     StyleEvent: (PlayStyle,),
 }
 """The corrections that speak of events."""
+_GIVEN_BACK: Final = ("fingering", "embouchure")
+"""Kinds of events that are given back with their notes."""
+_KEPT: Final = 1e-4
+"""Amounts and fades are kept as exactly as this."""
 
 
 # Changing
@@ -225,7 +230,12 @@ def give_back(project: Project, player_id: str, event_ids: Iterable[str] = (), n
     added has nothing to go back to, and goes."""
     notes = tuple(note_ids)
     project = take_back(project, player_id, corrections_at(project, player_id, notes))
-    ids = (*event_ids, *(f"fingering:{note}" for note in notes), *(f"embouchure:{note}" for note in notes))
+    events = tuple(event_ids)
+    ids = (
+        *events,
+        *moved_along(project, player_id, events),
+        *(f"{kind}:{note}" for kind in _GIVEN_BACK for note in notes),
+    )
     return take_back(project, player_id, corrections_of(project, player_id, ids))
 
 
@@ -265,14 +275,30 @@ def _placed(project: Project, plan: PlayerPlan, event_ids: Sequence[str], start_
     new_ids: dict[str, str] = {}
     stale: list[Correction] = []
     fresh: list[Correction] = []
-    for event in _current(project, plan, event_ids):
+    chosen = _current(project, plan, event_ids)
+    preparations = preparations_of(plan)
+    along = {preparations[event.id].id for event in chosen if moves and event.id in preparations}
+    for event in chosen:
         start, end = event.start_tick + start_ticks, event.end_tick + end_ticks
         if start >= end:
             start, end = (end - 1, end) if start_ticks else (start, start + 1)
         made: Sequence[Correction]
         if isinstance(event, BreathEvent):
-            stale += corrections_of(project, player_id, (event.id,))
-            made = (breath_at(project, player_id, event, start, end, moves),)
+            if event.id in along:
+                # It goes with its breath.
+                continue
+            prepared = preparations.get(event.id) if start_ticks else None
+            if prepared is not None and not moves and prepared.id in event_ids:
+                prepared = None
+            stale += corrections_of(project, player_id, (event.id, *((prepared.id,) if prepared is not None else ())))
+            placed = breath_at(project, player_id, event, start, end, moves)
+            made = (placed,)
+            if prepared is not None:
+                taken = preparation_with(project, player_id, event, placed, prepared)
+                fresh.append(taken)
+                new_ids[prepared.id] = taken.about
+            if start_ticks:
+                fresh += lowered_with(project, player_id, event, placed)
         elif isinstance(event, CueEvent):
             stale += corrections_of(project, player_id, (event.id,))
             made = (cue_at(project, player_id, event, start, end if moves else event.end_tick),)
@@ -305,13 +331,22 @@ def _new_name(project: Project, player_id: str) -> str:
 
 
 def _changed(project: Project, plan: PlayerPlan, event: Placed, **values: object) -> list[Correction]:
-    """The correction that speaks of an event with other values: the one there is, or one of what was generated."""
+    """The correction that speaks of an event with other values: the one there is, or one of what was generated. None
+    where a generated event has these values already."""
+    said = corrections_of(project, plan.player_id, (event.id,))
+    if not said and not event.corrected and all(_same(getattr(event, name), value) for name, value in values.items()):
+        return []
     if isinstance(event, BreathEvent):
         return [msgspec.structs.replace(breath_of(project, plan.player_id, event), **values)]
     kinds = _SPOKEN_OF[type(event)]
-    said = [item for item in corrections_of(project, plan.player_id, (event.id,)) if isinstance(item, kinds)]
-    said = said or [kind(event.id) for kind in kinds if issubclass(kind, ChangeGesture | ChangeExpression)]
-    return [msgspec.structs.replace(item, **values) for item in said[:1]]
+    changes = [item for item in said if isinstance(item, kinds)]
+    changes = changes or [kind(event.id) for kind in kinds if issubclass(kind, ChangeGesture | ChangeExpression)]
+    return [msgspec.structs.replace(item, **values) for item in changes[:1]]
+
+
+def _same(now: object, value: object) -> bool:
+    """Return whether a value is the one there is, as exactly as values are kept."""
+    return abs(now - value) < _KEPT / 2 if isinstance(now, float) and isinstance(value, float) else now == value
 
 
 def _all_changed(

@@ -272,3 +272,29 @@ def test_it_takes_its_keys_before_the_window_does(slider: NumberSlider) -> None:
     assert taken(Qt.Key.Key_Backspace, Qt.KeyboardModifier.NoModifier)
     assert not taken(Qt.Key.Key_Space, Qt.KeyboardModifier.NoModifier, " ")
     assert not taken(Qt.Key.Key_Z, Qt.KeyboardModifier.ControlModifier)
+
+
+def test_a_value_finer_than_shown_is_left_alone_where_nobody_changed_it(window: QWidget, slider: NumberSlider) -> None:
+    slider.show_value(0.5312)
+    reported = Reported(slider)
+    for end in (Qt.Key.Key_Return, Qt.Key.Key_Tab):
+        slider.type_value()
+        field = slider.findChild(QLineEdit)
+        assert field is not None
+        assert field.text() == "0.53"
+        QTest.keyClick(field, end)
+    slider.type_value()
+    window.findChildren(QLineEdit)[-1].setFocus()
+    assert reported.values == []
+
+
+def test_a_drag_back_to_where_it_began_gives_the_exact_value_back(slider: NumberSlider) -> None:
+    slider.show_value(0.5312)
+    reported = Reported(slider)
+    start = QPoint(40, slider.height() // 2)
+    QTest.mousePress(slider, Qt.MouseButton.LeftButton, pos=start)
+    for moved in (4, 30, 4):
+        QTest.mouseMove(slider, start + QPoint(moved, 0))
+    QTest.mouseRelease(slider, Qt.MouseButton.LeftButton, pos=start + QPoint(4, 0))
+    assert reported.values[0] != 0.5312
+    assert reported.values[-1] == 0.5312

@@ -305,3 +305,30 @@ def test_a_muted_passage_is_marked_and_told_under_the_mouse(session: Session, pa
     stroke = front_plan(session).tongues[0]
     first = next(one for one in front_plan(session).fingerings if one.note_id == stroke.note_id)
     assert tip_over(lane, first).endswith("ta: tongued")
+
+
+def test_a_press_just_beside_a_fingering_takes_its_note(panel: TimelinePanel, session: Session) -> None:
+    lane = panel.lanes["fingering"]
+    before = next(a for a, b in pairwise(front_plan(session).fingerings) if b.start_s - a.end_s > 1.0)
+    panel.axis.show(before.start_s - 1.0, before.end_s + 4.0)
+    x = panel.axis.x_px(before.end_s)
+    click(lane, QPointF(x + 5.0, 20.0))
+    assert session.selection.notes == {before.note_id}
+    click(lane, QPointF(x + 30.0, 20.0))
+    assert not session.selection.notes
+
+
+def test_values_of_several_notes_are_not_one_until_typed(panel: TimelinePanel, session: Session) -> None:
+    """Enter in a field that nobody changed makes no step, whether it shows one value or none for several."""
+    lane = curves_lane(panel)
+    lips = [event for event in front_plan(session).embouchures if event.start_s > 0.5]
+    apart = next(b for b in lips if round(b.tension, 2) != round(lips[0].tension, 2))
+    for chosen in ((lips[0],), (lips[0], apart)):
+        session.select(Selection(notes=frozenset(event.note_id for event in chosen)))
+        QTest.keyClick(lane.plot, Qt.Key.Key_Return)
+        field = lane.number
+        assert field.isVisible()
+        assert field.text() == (f"{lips[0].tension:.2f}" if len(chosen) == 1 else "")
+        QTest.keyClick(field, Qt.Key.Key_Return)
+        assert not session.document.done
+        assert not field.isVisible()

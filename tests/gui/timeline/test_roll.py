@@ -552,3 +552,14 @@ def test_the_notes_behind_are_drawn_once_until_they_or_what_is_shown_change(stag
     assert colour("2:5") != seen
     stage.panel.set_ghosts(Ghosts.ALONE)
     assert colour("2:5") not in (seen, "#ff0000")
+
+
+@pytest.mark.parametrize(("dx", "dy"), [(0, 1), (0, -1), (1, 0)])
+def test_a_click_just_off_a_note_takes_it(stage: Stage, dx: int, dy: int) -> None:
+    """Whoever misses a thin row by 5 px and types a fingering means that note."""
+    note, half = stage.note("1:3"), stage.roll.row_px / 2
+    x, y = stage.place(note.end_tick, note.pitch) if dx else stage.middle("1:3")
+    stage.hand.click((x + 5 * dx, y + dy * (half + 5)))
+    assert stage.selected == {"1:3"}
+    stage.hand.click((x + 40 * dx, y + dy * (half + 40)))
+    assert stage.selected == set()

@@ -95,6 +95,7 @@ def placed(kind: type[BreathEvent] | type[CueEvent] | type[GestureEvent] | type[
 gestures = st.sampled_from([item.id for item in placed(GestureEvent)])
 expressions = st.sampled_from([item.id for item in placed(ExpressionEvent)])
 breaths = st.sampled_from([item.id for item in placed(BreathEvent)])
+breath_ids = {item.id for item in placed(BreathEvent)}
 fast = settings(max_examples=25, deadline=None)
 
 
@@ -176,7 +177,7 @@ def test_an_amount_is_what_was_set_within_what_there_is(event_id: str, amount: f
         ExpressionEvent: lambda: after.strength,
     }[type(after)]()
     assert value == pytest.approx(min(max(amount, least), 1.0), abs=1e-4)
-    assert after.corrected
+    assert after.corrected is (project is not piece())
     assert plan_of(edit.give_back(project, player_id(), (event_id,))) == made()
 
 
@@ -393,3 +394,72 @@ def test_a_breath_within_a_note_stays_in_it() -> None:
     assert isinstance(far, BreathEvent)
     assert (far.end_tick, far.end_tick - far.start_tick) == (ticks(4.5), breath.end_tick - breath.start_tick)
     assert "within:1:1" not in edit.events_of(plan_of(edit.remove(project, plan, ("within:1:1",))))
+
+
+prepared_breaths = st.sampled_from(
+    [
+        item.id
+        for item in placed(BreathEvent)
+        if item.draws_air and item.id.replace("breath", "preparation") in breath_ids
+    ]
+)
+
+
+def _led_to(plan: PlayerPlan, breath_id: str) -> tuple[BreathEvent, BreathEvent]:
+    """Return a breath and its preparation."""
+    breath, before = event(plan, breath_id), event(plan, breath_id.replace("breath", "preparation"))
+    assert isinstance(breath, BreathEvent)
+    assert isinstance(before, BreathEvent)
+    return breath, before
+
+
+@fast
+@given(event_id=prepared_breaths, ticks=st.integers(-6000, 6000), both=st.booleans())
+def test_a_moved_breath_takes_its_preparation_along_and_back(event_id: str, ticks: int, both: bool) -> None:
+    breath, before = _led_to(made(), event_id)
+    chosen = (event_id, before.id) if both else (event_id,)
+    project, new_ids = edit.move(piece(), made(), chosen, ticks)
+    moved, after = _led_to(plan_of(project), new_ids[0])
+    by = moved.start_tick - breath.start_tick
+    assert (after.start_tick, after.end_tick) == (before.start_tick + by, before.end_tick + by)
+    assert new_ids[1:] == ((after.id,) if both else ())
+    assert plan_of(edit.give_back(project, player_id(), new_ids[:1])) == made()
+
+
+@fast
+@given(event_id=prepared_breaths, ticks=st.integers(-2000, 400))
+def test_a_breath_drawn_out_at_its_start_keeps_its_preparation_before_it(event_id: str, ticks: int) -> None:
+    breath, before = _led_to(made(), event_id)
+    plan = plan_of(edit.resize(piece(), made(), (event_id,), start_ticks=ticks))
+    longer, after = _led_to(plan, event_id)
+    by = longer.start_tick - breath.start_tick
+    assert (after.start_tick, after.end_tick) == (before.start_tick + by, before.end_tick + by)
+
+
+def test_an_instrument_lowered_by_hand_is_raised_as_much_sooner_as_its_breath() -> None:
+    """What the generator lowers ends before the breath wherever that goes; what a hand put there did not."""
+    for lowered in placed(GestureEvent):
+        breath_id = lowered.id.replace("lower_instrument", "breath")
+        if not lowered.id.startswith("lower_instrument:") or breath_id not in breath_ids:
+            continue
+        project = edit.resize(piece(), made(), (lowered.id,), end_ticks=-100)
+        moved = edit.move(project, plan_of(project), (breath_id,), -960).project
+        assert event(plan_of(moved), lowered.id).end_tick == lowered.end_tick - 1060
+        break
+    else:
+        pytest.fail("no rest of the piece has both")
+
+
+@fast
+@given(event_id=st.one_of(gestures, expressions, breaths))
+def test_an_amount_that_is_there_already_is_no_correction(event_id: str) -> None:
+    now = event(made(), event_id)
+    amount = getattr(now, edit.AMOUNTS[type(now)][0])
+    assert edit.set_amounts(piece(), made(), {event_id: amount}) is piece()
+
+
+def test_faces_and_fades_that_are_there_already_are_no_correction() -> None:
+    face = next(item for item in placed(ExpressionEvent))
+    assert isinstance(face, ExpressionEvent)
+    assert edit.set_expression(piece(), made(), (face.id,), face.expression) is piece()
+    assert edit.set_fades(piece(), made(), (face.id,), face.fade_in_s, face.fade_out_s) is piece()

@@ -285,7 +285,10 @@ class CurvesLane(Lane):
         middle = self.plot_rect.height() / 2
         name = self.curve_name(self.curve)
         box = QRectF(left, middle, 1.0, 1.0)
-        self.number.open(box, self.value_of(event), 2, lambda value: self._change_values(lambda _: value), name)
+        notes, events = self.session.selection.notes, self.lips.events if self.lips is not None else ()
+        values = {round(self.value_of(item), 2) for item in events if item.note_id in notes}
+        value = self.value_of(event) if len(values) < 2 else None
+        self.number.open(box, value, 2, lambda typed: self._change_values(lambda _: typed), name)
 
     def _change_values(self, change: Callable[[EmbouchureEvent], float]) -> None:
         """Give the chosen curve another value at all selected notes."""

@@ -24,12 +24,13 @@ class NumberField(QLineEdit):
         self._lane = lane
         self._decimals = 2
         self._unit = ""
+        self._opened_with = ""
         self._take: Callable[[float], None] | None = None
         self.returnPressed.connect(self._entered)
         self.hide()
 
     def open(
-        self, box: QRectF, value: float, decimals: int, take: Callable[[float], None], name: str, unit: str = ""
+        self, box: QRectF, value: float | None, decimals: int, take: Callable[[float], None], name: str, unit: str = ""
     ) -> None:
         """Ask for a number at a place of the plot.
 
@@ -37,15 +38,18 @@ class NumberField(QLineEdit):
         ----------
         box : QRectF
             What it belongs to.
+        value : float or None
+            The number there; None: each of several has another, and the field is empty.
         take : callable
-            Gets the number.
+            Gets the number, if another one was typed.
         name : str
             For screen readers.
         """
         self._decimals, self._take, self._unit = decimals, take, unit
         self.setAccessibleName(name)
         self.setToolTip(name)
-        self.setText(number_text(value, decimals))
+        self._opened_with = "" if value is None else number_text(value, decimals)
+        self.setText(self._opened_with)
         height = max(self.sizeHint().height(), LEAST_TARGET_PX)
         room = self._lane.plot_rect
         left = min(max(box.left(), 0.0), max(room.width() - WIDTH_PX, 0.0))
@@ -63,6 +67,9 @@ class NumberField(QLineEdit):
             self._lane.plot.setFocus()
 
     def _entered(self) -> None:
+        if self.text() == self._opened_with:
+            self.close_field()
+            return
         value = number_from(self.text(), self._unit)
         if value is None:
             self.selectAll()

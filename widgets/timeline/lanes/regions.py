@@ -287,7 +287,10 @@ class RegionLane(Lane):
 
     def type_amount(self, region: Region) -> None:
         """Ask for the amount of a region; it becomes that of all selected ones."""
-        self.number.open(self.box(region), region.amount, 2, self._set_amounts, self.tr("region_lane.how_much"))
+        chosen = (self._table.by_key.get(key) for key in self.session.selection.events)
+        amounts = {round(one.amount, 2) for one in chosen if one is not None and not (one.removed or one.steady)}
+        amount = region.amount if len(amounts) < 2 else None
+        self.number.open(self.box(region), amount, 2, self._set_amounts, self.tr("region_lane.how_much"))
 
     def _set_amounts(self, amount: float) -> None:
         self._change_amounts(lambda _: amount)

@@ -36,6 +36,8 @@ MOST_BAR_PX = 26.0
 SMALL_BAR_PX = 13.0
 """A trigger beside a slide leaves the slide the room it needs."""
 CHIPS_DELAY_PX = 3.0
+NEAR_PX = 7.0
+"""A press this far beside a note is one on it."""
 
 
 @dataclass(frozen=True)
@@ -273,10 +275,15 @@ class FingeringLane(Lane):
         """The fingering at a time."""
         if self.data is None:
             return None
-        reach_s = 2.0 / self.axis.px_per_s
-        found = self.data.spans.between(time_s - reach_s, time_s + reach_s)
-        inside = [index for index in found.tolist() if self.data.start_s[index] <= time_s <= self.data.end_s[index]]
-        return self.data.events[(inside or found.tolist())[-1]] if len(found) else None
+        reach_s = NEAR_PX / self.axis.px_per_s
+        found = self.data.spans.between(time_s - reach_s, time_s + reach_s).tolist()
+        if not found:
+            return None
+        start_s, end_s = self.data.start_s[found], self.data.end_s[found]
+        away_s: list[float] = np.maximum(np.maximum(start_s - time_s, time_s - end_s), 0.0).tolist()
+        # The last of those at the place.
+        nearest: int = min(zip(away_s, [-index for index in found], found, strict=True))[2]
+        return self.data.events[nearest]
 
     def players_changed(self) -> None:
         self.alternates.hide()

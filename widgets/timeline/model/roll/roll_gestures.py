@@ -25,6 +25,8 @@ class RollPlane(Plane, Protocol):
     def model(self) -> RollModel: ...
     @property
     def drag_px(self) -> float: ...
+    @property
+    def row_px(self) -> float: ...
 
 
 class RollGesture(MouseGesture):
@@ -225,7 +227,7 @@ class Erase(RollGesture):
 
 
 class LassoNotes(Band):
-    """A rectangle over notes; Shift and Ctrl add to what was selected before."""
+    """A rectangle over notes; Shift and Ctrl add to what was selected before. A click takes the note it just missed."""
 
     def __init__(self, roll: RollPlane, mouse: LaneMouse) -> None:
         super().__init__(roll, mouse, together(roll.drag_px), self._select_inside)
@@ -239,7 +241,10 @@ class LassoNotes(Band):
         self._roll.session.select(Selection(self._kept | inside))
 
     def click(self, mouse: LaneMouse) -> None:
-        self._roll.session.select(Selection(self._kept))
+        missed = self._roll.model.note_near(self.at, self._roll.row_px)
+        if missed is not None:
+            self._roll.model.bring_forward(missed)
+        self._roll.session.select(Selection(self._kept | ({missed.id} if missed is not None else frozenset())))
 
     def cancel(self) -> None:
         super().cancel()

@@ -24,6 +24,8 @@ from widgets.timeline.model.visible_time import Scale
 EDGE_PX = 6.0
 """Distance from a note's end within which a press takes hold of the end."""
 SLACK_PX = 3.0
+NEAR_PX = 7.0
+"""A click this far off a note is one on it: rows are thin, and whoever misses one types on."""
 LEAST_ROWS, MOST_ROWS = 10.0, 128.0
 USUAL_ROWS = 30.0
 USUAL_ROW_PX = 8.0
@@ -179,6 +181,21 @@ class RollModel:
             if place is not None:
                 return table.part.notes[place]
         return None
+
+    def note_near(self, mouse: LaneMouse, row_px: float) -> Note | None:
+        """The note nearest to a place, at most `NEAR_PX` away in time and pitch."""
+        near_s, rows = NEAR_PX / self._axis.px_per_s, NEAR_PX / row_px
+        best: tuple[float, Note] | None = None
+        for table in self._touchable():
+            time_s, value = mouse.time_s, mouse.value
+            for id in table.within(time_s - near_s, time_s + near_s, int(value - rows), int(value + rows)):
+                place = table.index[id]
+                pitch = float(table.pitch[place])
+                aside = max(float(table.onset_s[place]) - time_s, time_s - float(table.end_s[place]), 0.0) / near_s
+                above = max(pitch - value, value - pitch - 1.0, 0.0) / rows
+                if max(aside, above) <= 1.0 and (best is None or aside + above < best[0]):
+                    best = (aside + above, table.part.notes[place])
+        return best[1] if best is not None else None
 
     def edge_at(self, note: Note, mouse: LaneMouse) -> bool | None:
         """Return True if the mouse is at the note's beginning, False at its end, None in its middle."""
