@@ -20,7 +20,7 @@ WORDS = frozenset({"key", "hole"})
 """Kinds of controls whose signs are words."""
 
 _BETWEEN: Final = re.compile(r"[\s\-\u2013\u2014+,./|&()]+")
-"""What is written between the signs of a fingering."""
+"""Signs and spaces between the signs of a fingering."""
 _ACCIDENTALS: Final = str.maketrans("", "", "#b\u266d\u266e\u266f")
 """Written at a slide position that is a little higher or lower than usual."""
 _ROMAN: Final = {"i": "1", "ii": "2", "iii": "3", "iv": "4", "v": "5", "vi": "6", "vii": "7"}

@@ -17,7 +17,7 @@ from app.score.mutes import is_muted
 FactSource: TypeAlias = Literal["score", "sound", "guess", "hand"]
 
 FACTS: Final = ("dynamic", "slur", "articulation", "tonguing", "fingering", "mute")
-"""What is said of each note."""
+"""Facts that are reported of each note."""
 _BLOWN: Final = "breath.blown"
 _MARKED: Final[dict[str, FactSource]] = {
     "breath.written": "score", "breath.why_written": "score", "breath.by_hand": "hand", "breath.why_by_hand": "hand"

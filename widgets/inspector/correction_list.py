@@ -149,7 +149,7 @@ class CorrectionList(Retranslated, QWidget):
         return ListRow(place, title, where, detail, self._session.colour(player), "by_hand")
 
     def _mark(self, item: OfMark, player: Player) -> str:
-        """What a mark by hand says, and what of the score stood there; nothing of one taken away."""
+        """Describe a mark set by hand and the mark of the score that it replaces, or say that one was removed."""
         if not isinstance(item, SetMark):
             return self.tr("correction_list.mark_of_score_removed")
         project = self._session.project

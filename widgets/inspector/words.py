@@ -90,7 +90,7 @@ _TITLES: Final = {
 
 
 def mark_text(score: Score, part: Part, mark: Mark) -> str:
-    """What a mark says, and up to where it goes: ``"mf"``, ``"to 13.1"``."""
+    """Text of a mark and its end: ``"mf"``, ``"to 13.1"``."""
     ends = [note.onset_tick for note in part.notes if note.id == mark.last_note_id] if mark.last_note_id else []
     end_tick = ends[0] if ends else mark.end_tick
     until = tr("inspector.mark_until").format(end=score.metre_map.label(end_tick)) if end_tick else ""

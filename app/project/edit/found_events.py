@@ -19,7 +19,7 @@ Placed: TypeAlias = BreathEvent | CueEvent | GestureEvent | ExpressionEvent | Po
 """Events with a place that the user may change."""
 
 Origin: TypeAlias = Literal["score", "hand"]
-"""Who wrote a mark."""
+"""Writer of a mark."""
 OWN: Final = "own-"
 """Prefix of the names of added events."""
 _OF_NOTES: Final = ("fingering", "embouchure", "tongue", *BREATH_KINDS, "cue")

@@ -47,7 +47,7 @@ _ZIP: Final = b"PK\x03\x04"
 _METHODS: Final = (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED)
 """Those that the format has, which unpack bit by bit: the others may give gigabytes at once."""
 _NO_LETTERS: Final = frozenset(("idna", "punycode", "raw-unicode-escape", "undefined", "unicode-escape", "utf-7"))
-"""What Python calls an encoding and no document is written in."""
+"""Names that Python gives to encodings in which no document is written."""
 _START: Final = 1024
 _DECLARED: Final = re.compile(rb"""^\s*<\?xml[^>]*?encoding\s*=\s*["']([A-Za-z][\w.:-]*)["']""")
 _NO_XML: Final = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\ufffe\uffff\ud800-\udfff]")
