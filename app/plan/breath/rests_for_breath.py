@@ -94,16 +94,19 @@ def rest_needs(rest_s: FloatArray, need: float, lung_s: float) -> RestNeeds:
     def scaled(figure: float, most: float) -> float:
         return float(np.interp(need, [0.0, USUAL_NEED, 1.0], [0.0, figure, most]))
 
-    lengths = [rest_s >= least - EPSILON for least in (ALWAYS_S, LONG_S, MIDDLE_S, SHORT_S)]
+    kind = np.searchsorted(np.array([SHORT_S, MIDDLE_S, LONG_S, ALWAYS_S]) - EPSILON, rest_s, side="right")
     short_s = np.interp(rest_s, [SHORT_S, MIDDLE_S], [scaled(played_s, lung_s) for played_s in SHORT_PLAYED_S])
     shares = np.interp(rest_s, [SHORT_S, MIDDLE_S], [scaled(share, 1.0) for share in SHORT_SHARES])
     least, short_least = (scaled(figure, figure) for figure in (LEAST_PLAYED_S, SHORT_LEAST_PLAYED_S))
     middle = scaled(MIDDLE_SHARE, 1.0)
+    # Who waits in a catch breath's rest until the lungs are empty would better have breathed before.
+    empty = scaled(1.0, 1.0) if need < USUAL_NEED else np.inf
+    played_s = np.array([np.inf, 0.0, scaled(MIDDLE_PLAYED_S, lung_s), scaled(LONG_PLAYED_S, lung_s), 0.0])
+    is_short = kind == 1
     return RestNeeds(
-        np.select(lengths, [0.0, least, least, short_least], short_least),
-        np.select(lengths, [0.0, scaled(LONG_PLAYED_S, lung_s), scaled(MIDDLE_PLAYED_S, lung_s), short_s], np.inf),
-        # Who waits in a catch breath's rest until the lungs are empty would better have breathed before.
-        np.select(lengths, [0.0, middle, middle, shares], scaled(1.0, 1.0) if need < USUAL_NEED else np.inf),
+        np.array([short_least, short_least, least, least, 0.0])[kind],
+        np.where(is_short, short_s, played_s[kind]),
+        np.where(is_short, shares, np.array([empty, 0.0, middle, middle, 0.0])[kind]),
     )
 
 

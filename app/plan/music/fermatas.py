@@ -131,8 +131,10 @@ def _rows(gaps: _Gaps, sounding: list[NoteTimes], piece: Piece) -> list[list[tup
     comes before and after all of them."""
     rows: list[list[tuple[int, Fermata]]] = []
     slowness: list[float] = gaps.slowness.tolist()
-    first = 0
-    while first < len(slowness):
+    done = -1
+    for first in _uneven(gaps.slowness):
+        if first <= done:
+            continue
         last, slowest = first, slowness[first]
         while last + 1 < len(slowness) and last - first < MOST_IN_A_ROW:
             slowest = max(slowest, slowness[last + 1])
@@ -143,9 +145,17 @@ def _rows(gaps: _Gaps, sounding: list[NoteTimes], piece: Piece) -> list[list[tup
             row = _row(first, last, gaps, sounding, piece)
             if row:
                 rows.append(row)
-                first = last
-        first += 1
+                done = last
     return rows
+
+
+def _uneven(slowness: FloatArray) -> list[int]:
+    """The gaps after which the tempo is not the same for longer than a row of fermatas lasts."""
+    found = np.ones(len(slowness), dtype=bool)
+    if len(slowness) > MOST_IN_A_ROW:
+        windows = np.lib.stride_tricks.sliding_window_view(slowness, MOST_IN_A_ROW + 1)
+        found[: len(windows)] = windows.min(axis=1) * HELD_TEMPO <= windows.max(axis=1)
+    return np.flatnonzero(found).tolist()
 
 
 def _row(first: int, last: int, gaps: _Gaps, sounding: list[NoteTimes], piece: Piece) -> list[tuple[int, Fermata]]:
