@@ -14,6 +14,8 @@ from graphlib import TopologicalSorter
 from operator import attrgetter
 from typing import Any, Final, NamedTuple, TypeVar
 
+import numpy as np
+
 T = TypeVar("T")
 BEFORE: Final = "before"
 
@@ -122,9 +124,15 @@ class StepResults:
         self._given = given
         self._done: dict[str, _Done] = {}
         self._before: dict[str, _Done] = {} if before is None else before._done
-        if before is not None and before._given == given:
+        if before is not None and before._has(given):
             # Nothing has changed: no step has to be looked at.
             self._given, self._done = before._given, dict(before._done)
+
+    def _has(self, given: Mapping[str, object]) -> bool:
+        """Return whether the same is given here."""
+        return self._given.keys() == given.keys() and _are_equal(
+            tuple(self._given.values()), tuple(given[name] for name in self._given)
+        )
 
     def of(self, function: Callable[..., T]) -> T:
         """Return the result of the one step of a function."""
@@ -143,8 +151,7 @@ class StepResults:
             return attrgetter(attributes)(self[base])
         reads, known = self._steps.reads[name], self._before.get(name)
         inputs = tuple(self[one] if isinstance(one, str) else tuple(map(self.__getitem__, one)) for one in reads)
-        # Of tuples, items that are the same objects are not compared.
-        if known is None or known.inputs != inputs:
+        if known is None or not _are_equal(known.inputs, inputs):
             known = self._do(name, inputs, known)
         self._done[name] = known
         return known.result
@@ -160,6 +167,14 @@ class StepResults:
     def close(self) -> None:
         """Forget the run before, so that runs do not hold one another for ever."""
         self._before = {}
+
+
+def _are_equal(before: tuple[object, ...], now: tuple[object, ...]) -> bool:
+    """Return whether inputs are equal: the same objects are not compared, and arrays are compared as wholes."""
+    return all(
+        one is other or bool(np.array_equal(one, other) if isinstance(one, np.ndarray) else one == other)
+        for one, other in zip(before, now, strict=True)
+    )
 
 
 def _each(named: str | tuple[str, ...]) -> tuple[str, ...]:

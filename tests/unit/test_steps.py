@@ -6,8 +6,10 @@ import itertools
 from functools import partial
 from graphlib import CycleError
 
+import numpy as np
 import pytest
 
+from app.arrays import IntArray
 from app.steps import StepTable, reading
 
 DONE: list[str] = []
@@ -30,6 +32,11 @@ def made_text(sign: tuple[bool, ...], *, name: str) -> str:
 
 def made_count(value: int, before: tuple[int, ...] | None) -> tuple[int, ...]:
     return (value, *(before or ()))
+
+
+def made_sum(values: IntArray) -> int:
+    DONE.append("sum")
+    return int(values.sum())
 
 
 def in_a_circle(text: str) -> int:
@@ -160,3 +167,14 @@ def test_a_run_of_equal_values_has_all_results_of_the_one_before() -> None:
     second = STEPS.begin(first, value=1, name="x")
     second.close()
     assert second.of(made_text) is text
+
+
+def test_arrays_are_compared_as_wholes() -> None:
+    steps = StepTable(sum=made_sum)
+    made = steps.begin(values=np.arange(4))
+    assert made.of(made_sum) == 6
+    for values, again in ((np.arange(4), False), (np.arange(5), True), (np.array([0, 1, 2, 3, 9]), True)):
+        DONE.clear()
+        made = steps.begin(made, values=values)
+        assert made.of(made_sum) == values.sum()
+        assert len(DONE) == again
