@@ -15,12 +15,16 @@ from PySide6.QtWidgets import QApplication, QMenu, QWidget
 from app.editor.selection import EventKey
 from app.editor.tokens import LIGHT
 from app.errors import Message
+from app.plan.music.written_dynamics import DYNAMIC_TEXTS
 from app.project.edit.marks import player_marks, set_marks
 from app.score.marks import Mark
 from tests.gui.timeline.conftest import SCALE, TPQ, Stage
 from tests.gui.timeline.hand import ALT, CTRL, NONE, Hand, Place
 from widgets.timeline.lane_layout import LaneState
-from widgets.timeline.marks.dynamics_lane import DynamicsLane
+from widgets.timeline.marks.dynamics_lane import OFFERED, DynamicsLane
+from widgets.timeline.marks.glyphs import glyph_path
+from widgets.timeline.marks.letters import ASCENT, DESCENT, are_letters, letters_path
+from widgets.timeline.model.marks.mark_looks import LOOKS
 
 FRONT = "p1.1.1"
 SLUR = Mark("slur", "1:1", "1:3")
@@ -375,3 +379,27 @@ def test_a_note_that_is_dragged_takes_its_marks_along(marked: Stage) -> None:
     now = where(marked, ACCENT)
     assert abs(now[0] - x) <= 1
     assert abs(now[1] - (y - up)) <= 1.5
+
+
+@pytest.mark.parametrize("kind", sorted(LOOKS))
+def test_a_glyph_fills_the_room_that_it_is_given(kind: str) -> None:
+    look, unit = LOOKS[kind], 6.0
+    box = glyph_path(kind, unit).boundingRect()
+    if look.is_text or look.place == "next":
+        assert box.isEmpty()
+        return
+    assert 0.6 * look.width * unit <= box.width() <= 1.25 * look.width * unit
+    assert 0.6 * look.height * unit <= box.height() <= 1.35 * look.height * unit
+    if look.place == "stack":
+        assert box.bottom() <= 0.35 * unit
+        assert abs(box.center().x()) <= 0.35 * unit
+
+
+@pytest.mark.parametrize("text", OFFERED)
+def test_the_dynamics_offered_have_letters_and_a_meaning(text: str) -> None:
+    assert are_letters(text)
+    assert text in DYNAMIC_TEXTS
+    path, width = letters_path(text, 10.0)
+    box = path.boundingRect()
+    assert abs(box.width() - width) <= 10.0
+    assert -ASCENT * 10.0 - 2.0 <= box.top() < box.bottom() <= DESCENT * 10.0 + 2.0

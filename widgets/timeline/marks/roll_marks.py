@@ -22,6 +22,7 @@ from widgets.timeline.plot.plot import LaneItem
 from widgets.timeline.plot.scrolled_picture import ScrolledPicture
 from widgets.timeline.roll.drawn_notes import INSIDE_PX, RollView
 
+AIR_ROWS = 3.0
 MENU = ("events.give_back", "edit.delete")
 
 
@@ -53,6 +54,11 @@ class RollMarks(LaneItem[RollView]):
     def session(self) -> Session:
         """The session."""
         return self.lane.session
+
+    @property
+    def air_rows(self) -> float:
+        """Rows that marks take above the highest note."""
+        return AIR_ROWS if self._table() is not None else 0.0
 
     def show_marks(self) -> None:
         """Draw the marks again: one is dragged, or they are shown or hidden."""

@@ -181,7 +181,7 @@ class PianoRoll(Lane):
         front = self.model.front()
         pitches = front[0].pitch if front is not None else np.empty(0)
         if len(pitches):
-            low, high = float(pitches.min()), float(pitches.max()) + 1.0
+            low, high = float(pitches.min()), float(pitches.max()) + 1.0 + self.marks.air_rows
         elif self.playable is not None:
             low, high = float(self.playable[0]), float(self.playable[1])
         else:

@@ -14,7 +14,7 @@ from widgets.timeline.model.marks.mark_table import MarkTable
 from widgets.timeline.model.roll.shown_notes import boxes
 from widgets.timeline.model.visible_time import Scale
 
-LEAST_ROW_PX = 4.0
+LEAST_ROW_PX = 2.5
 LEAST_GLYPH_PX, LEAST_SLUR_PX = 5.0, 12.0
 """Least room for each; with less, none is drawn: they could not be told apart."""
 LEAST_UNIT_PX, MOST_UNIT_PX = 3.8, 5.5
