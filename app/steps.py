@@ -170,11 +170,15 @@ class StepResults:
 
 
 def _are_equal(before: tuple[object, ...], now: tuple[object, ...]) -> bool:
-    """Return whether inputs are equal: the same objects are not compared, and arrays are compared as wholes."""
-    return all(
-        one is other or bool(np.array_equal(one, other) if isinstance(one, np.ndarray) else one == other)
-        for one, other in zip(before, now, strict=True)
-    )
+    """Return whether inputs are equal; the same objects are not compared."""
+    return all(one is other or _is_equal(one, other) for one, other in zip(before, now, strict=True))
+
+
+def _is_equal(one: object, other: object) -> bool:
+    """Return whether two inputs are equal: arrays, as wholes, to arrays only."""
+    if isinstance(one, np.ndarray) or isinstance(other, np.ndarray):
+        return isinstance(one, np.ndarray) and isinstance(other, np.ndarray) and np.array_equal(one, other)
+    return bool(one == other)
 
 
 def _each(named: str | tuple[str, ...]) -> tuple[str, ...]:
