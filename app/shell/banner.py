@@ -7,7 +7,7 @@ from collections.abc import Callable
 
 from PySide6.QtCore import QSize
 from PySide6.QtGui import QResizeEvent
-from PySide6.QtWidgets import QBoxLayout, QFrame, QPushButton, QWidget
+from PySide6.QtWidgets import QBoxLayout, QFrame, QPushButton
 
 from app.editor.session import Session
 from widgets.common.clicks import on_click
@@ -28,8 +28,8 @@ Texts = Callable[[], tuple[str, tuple[str, ...]]]
 class Banner(Retranslated, QFrame):
     """One question at a time."""
 
-    def __init__(self, session: Session, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self, session: Session) -> None:
+        super().__init__()
         self.setObjectName("banner")
         self._session = session
         self._texts: Texts | None = None

@@ -24,8 +24,8 @@ class Garbage(QObject):
     It is made before the first thread of the program, and what is left after `stop` goes with the process.
     """
 
-    def __init__(self, parent: QObject | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self) -> None:
+        super().__init__()
         gc.disable()
         # Modules and what they made.
         gc.freeze()

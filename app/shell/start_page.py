@@ -38,8 +38,8 @@ _BEGIN = (
 class StartPage(Retranslated, QScrollArea):
     """The start page."""
 
-    def __init__(self, session: Session, files: Files, settings: Settings, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self, session: Session, files: Files, settings: Settings) -> None:
+        super().__init__()
         self.setObjectName("start_page")
         self.setFrameShape(QFrame.Shape.NoFrame)
         self.setWidgetResizable(True)
