@@ -17,7 +17,7 @@ from functools import lru_cache
 import msgspec
 import numpy as np
 
-from app.arrays import BoolArray, IntArray
+from app.arrays import IntArray
 from app.errors import Argument, Message
 from app.plan.fingering.costs import TOLERANCE, FingeringProblem, fingering_problem
 from app.plan.fingering.mutes import stopped_notes
@@ -40,8 +40,8 @@ def plan_fingerings(
     pins: dict[str, str],
     stopped: tuple[tuple[int, int], ...] = (),
     written: tuple[str, ...] = (),
-    written_by_hand: BoolArray | None = None,
-    glides: BoolArray | None = None,
+    written_by_hand: tuple[bool, ...] = (),
+    glides: tuple[bool, ...] = (),
 ) -> Planned[FingeringEvent]:
     """Choose a fingering for every note.
 
@@ -53,15 +53,17 @@ def plan_fingerings(
         Where the hand stops the bell: notes are fingered as the map says of it.
     written : tuple of str, optional
         The fingering in the score of each note; empty: none. A correction wins over it, and it over the search.
-    written_by_hand : (N,) bool, optional
+    written_by_hand : tuple of bool, optional
         Which of them a hand wrote.
-    glides : (N,) bool, optional
+    glides : tuple of bool, optional
         From which notes a glissando leads to the next.
     """
     if not notes:
         return Planned((), ())
     by_hand = stopped_notes(notes, stopped, instrument)
-    problem = fingering_problem(notes, times, instrument, pins, by_hand, written, glides)
+    problem = fingering_problem(
+        notes, times, instrument, pins, by_hand, written, np.array(glides) if any(glides) else None
+    )
     path = never_worse(problem, even_trills(problem, best_path(problem)))
     events = []
     problems: list[Problem] = []
@@ -80,7 +82,7 @@ def plan_fingerings(
             problems.append(Problem(message, note.id, onset_s[index], end_s[index]))
         in_score = problem.in_score.get(index) == chosen[index][1]
         if not pinned and in_score:
-            is_own = written_by_hand is not None and written_by_hand[index]
+            is_own = bool(written_by_hand) and written_by_hand[index]
             reason = _reason("fingering.by_hand" if is_own else "fingering.written", fingering.label)
         elif pinned or by_hand[index]:
             reason = _reason("fingering.by_hand" if pinned else "fingering.stopped", fingering.label)
@@ -114,9 +116,9 @@ def plan_fingerings(
     return Planned(tuple(events), tuple(problems))
 
 
-def _glide_from_s(index: int, glides: BoolArray | None, onset_s: Sequence[float]) -> float | None:
+def _glide_from_s(index: int, glides: tuple[bool, ...], onset_s: Sequence[float]) -> float | None:
     """The time from which a slide glides to a note; None where it does not."""
-    if glides is None or not index or not glides[index - 1]:
+    if not glides or not index or not glides[index - 1]:
         return None
     return onset_s[index - 1] + GLIDE_AFTER * (onset_s[index] - onset_s[index - 1])
 

@@ -229,3 +229,13 @@ def test_slurs_and_breath_marks_keep_their_notes_when_these_are_cut_and_joined(b
     assert Mark("slur", "0:3", "0:5") in player_marks(erase(project, ["0:2"]), player)
     without = erase(remove_marks(project, player, [slur]), ["0:5"])
     assert not {mark for mark in player_marks(without, player) if mark.kind == "slur"}
+
+
+def test_marks_are_planned_after_one_another_as_at_once() -> None:
+    project, before = _piece(), None
+    for kind in ("slur", "dynamic", "crescendo", "staccato", "breath"):
+        level = "mf" if kind == "dynamic" else ""
+        project = toggle_marks(project, _notes(project, 2, 6), kind, level).project
+        performance = Performance(project, before)
+        assert performance.plan(project.players[0]) == Performance(project).plan(project.players[0])
+        before = performance
