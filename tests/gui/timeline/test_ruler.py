@@ -18,8 +18,7 @@ from tests.gui.timeline.conftest import TPQ, Stage
 from tests.gui.timeline.hand import ALT, CTRL, Hand, Place
 from tests.support.windows import child
 from widgets.timeline.lane import GUTTER_PX
-from widgets.timeline.model.ruler.ruler_marks import clock
-from widgets.timeline.ruler.ruler_labels import lay_marks
+from widgets.timeline.model.ruler.ruler_marks import clock, lay_marks
 from widgets.timeline.ruler.time_ruler import MARKS_PX, Ruler
 from widgets.timeline.zoom_and_scroll import TimeAxis
 
@@ -38,7 +37,7 @@ def place(stage: Stage, tick: float, y: float = MARKS_PX + 8) -> Place:
 def on_mark(stage: Stage, kind: str, tick: int) -> Place:
     stage.panel.ruler.repaint()
     mark = next(mark for mark in ruler_of(stage)._marks if (mark.kind, mark.tick) == (kind, tick))
-    return mark.rect.center().x(), mark.rect.center().y()
+    return (mark.box.left + mark.box.right) / 2, (mark.box.top + mark.box.bottom) / 2
 
 
 def type_into(stage: Stage, text: str, key: Qt.Key = Qt.Key.Key_Return) -> None:
@@ -370,5 +369,5 @@ def test_marks_stand_where_the_slow_way_puts_them(qt_app: QApplication, seed: in
     axis.show(made.uniform(-1.0, 30.0), made.uniform(31.0, 90.0))
     marks = lay_marks(score, axis, metrics, 100.0, 700.0, 20.0)
     assert marks
-    laid = [(mark.kind, mark.tick, mark.text, pytest.approx(mark.rect.left())) for mark in marks]
+    laid = [(mark.kind, mark.tick, mark.text, pytest.approx(mark.box.left)) for mark in marks]
     assert laid == slow_marks(score, axis, metrics)

@@ -36,16 +36,18 @@ from widgets.timeline.model.lines import Lines
 from widgets.timeline.model.ruler.ruler_gestures import HoldEdge, HoldMark, HoldPlayhead, Seek
 from widgets.timeline.model.ruler.ruler_marks import (
     Labels,
+    RulerMark,
     bar_labels,
     clock_labels,
     frame_labels,
+    lay_marks,
     mark_text,
     removal,
     typed,
 )
-from widgets.timeline.plot.drawing import draw_lines
+from widgets.timeline.plot.drawing import draw_lines, rect
 from widgets.timeline.plot.mouse import mouse_at
-from widgets.timeline.ruler.ruler_labels import MarkEditor, RulerLabel, lay_marks
+from widgets.timeline.ruler.mark_editor import MarkEditor
 from widgets.timeline.ruler.ruler_unit import UnitButton
 from widgets.timeline.ruler.strip import Strip
 from widgets.timeline.zoom_and_scroll import TimeAxis
@@ -65,7 +67,7 @@ class Ruler(Retranslated, Strip):
     def __init__(self, session: Session, axis: TimeAxis, parent: QWidget | None = None) -> None:
         super().__init__(session, axis, MARKS_PX + SCALE_PX, parent)
         self.setObjectName("ruler")
-        self._marks: list[RulerLabel] = []
+        self._marks: list[RulerMark] = []
         self._gesture: MouseGesture | None = None
         self._chosen: tuple[str, int] | None = None
         """The mark that was clicked: Delete removes it."""
@@ -106,8 +108,8 @@ class Ruler(Retranslated, Strip):
     def _tick_at(self, mouse: LaneMouse, free: bool) -> int:
         return max(snapped(self.session.grid, self.session.project.score, mouse.tick, free), 0)
 
-    def _mark_at(self, place: QPointF) -> RulerLabel | None:
-        return next((mark for mark in reversed(self._marks) if mark.rect.contains(place)), None)
+    def _mark_at(self, place: QPointF) -> RulerMark | None:
+        return next((mark for mark in reversed(self._marks) if mark.box.contains(place.x(), place.y())), None)
 
     def _place_of(self, tick: int) -> float:
         return self.seconds_of(max(tick, 0))
@@ -124,11 +126,11 @@ class Ruler(Retranslated, Strip):
             x = self.x_px(mark.tick)
             painter.setPen(Qt.PenStyle.NoPen)
             painter.setBrush(QColor(tokens.accent if held else tokens.raised))
-            painter.drawRoundedRect(mark.rect, 3.0, 3.0)
+            painter.drawRoundedRect(rect(mark.box), 3.0, 3.0)
             # What began before the left edge is said more quietly.
             quiet = tokens.text_dim if x < GUTTER_PX else tokens.text
             painter.setPen(QColor(tokens.accent_text if held else quiet))
-            painter.drawText(mark.rect, int(Qt.AlignmentFlag.AlignCenter), mark.text)
+            painter.drawText(rect(mark.box), int(Qt.AlignmentFlag.AlignCenter), mark.text)
             if x >= GUTTER_PX:
                 painter.setPen(QPen(QColor(tokens.text_dim), 1.0))
                 painter.drawLine(QPointF(int(x) + 0.5, MARKS_PX - 3), QPointF(int(x) + 0.5, MARKS_PX + 3))
@@ -233,7 +235,7 @@ class Ruler(Retranslated, Strip):
         """Type the tempo or the metre at a tick; where there is none, add one."""
         mark = next((mark for mark in self._marks if (mark.kind, mark.tick) == (kind, tick)), None)
         # The start of a bar may lie to the left of what is shown.
-        left = mark.rect.left() if mark is not None else max(self.x_px(tick), GUTTER_PX)
+        left = mark.box.left if mark is not None else max(self.x_px(tick), GUTTER_PX)
         self._editor.open(kind, tick, mark_text(self.session.project.score, kind, tick), left, MARKS_PX + 2)
 
     def _type(self, kind: str, tick: int, text: str) -> None:
@@ -300,7 +302,7 @@ class Ruler(Retranslated, Strip):
                     return name
         return "seek"
 
-    def _take_hold(self, held: str, mouse: LaneMouse, mark: RulerLabel | None) -> MouseGesture | None:
+    def _take_hold(self, held: str, mouse: LaneMouse, mark: RulerMark | None) -> MouseGesture | None:
         """The gesture that a press begins."""
         session, far, at_start = self.session, along(QApplication.startDragDistance() / 2), held.endswith("_start")
         if mark is not None:

@@ -1,37 +1,12 @@
-"""The marks of the ruler as Qt has them: where they are drawn, and the field in which one is typed."""
+"""Field in which a tempo or a metre of the ruler is typed."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
-from PySide6.QtCore import QRectF, Qt, Signal
-from PySide6.QtGui import QFontMetricsF, QKeyEvent
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import QLineEdit, QWidget
 
-from app.score.model import Score
-from widgets.timeline.model.ruler import ruler_marks as model
-from widgets.timeline.plot.drawing import rect
-from widgets.timeline.zoom_and_scroll import TimeAxis
-
 FIELD_PX = 80
-
-
-@dataclass(frozen=True)
-class RulerLabel:
-    """See `widgets.timeline.model.ruler.ruler_marks.RulerMark`."""
-
-    kind: str
-    tick: int
-    text: str
-    rect: QRectF
-
-
-def lay_marks(
-    score: Score, axis: TimeAxis, metrics: QFontMetricsF, left_px: float, right_px: float, height_px: float
-) -> list[RulerLabel]:
-    """See `widgets.timeline.model.ruler.ruler_marks.lay_marks`."""
-    laid = model.lay_marks(score, axis, metrics, left_px, right_px, height_px)
-    return [RulerLabel(mark.kind, mark.tick, mark.text, rect(mark.box)) for mark in laid]
 
 
 class MarkEditor(QLineEdit):
