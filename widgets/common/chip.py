@@ -66,6 +66,16 @@ class Chip(QAbstractButton):
             self.updateGeometry()
             self.update()
 
+    def show_text(self, text: str, note: str) -> None:
+        """Show another text and note."""
+        if (text, note) != (self.text(), self._note):
+            self._note = note
+            self.setText(text)
+            self.setShortcut(QKeySequence())
+            self.setAccessibleName(f"{text} {note}".strip())
+            self.updateGeometry()
+            self.update()
+
     def _note_font(self) -> QFont:
         font = QFont(self.font())
         font.setPointSizeF(max(font.pointSizeF() - 1.0, 9.0))

@@ -21,7 +21,6 @@ from widgets.common.clicks import on_click
 from widgets.common.controls import Caption, IconButton, Retranslated, named, wrapped
 from widgets.common.event_names import mark_name
 from widgets.common.flow import FlowLayout
-from widgets.common.instrument_name import language
 from widgets.common.layouts import in_column, in_row, panel
 from widgets.common.menus import offer_actions
 from widgets.common.plain import Label
@@ -57,7 +56,6 @@ class NoteMarks(Retranslated, QWidget):
         self._kinds: Mapping[tuple[str, str], _Alike] = {}
         self._chips = FlowLayout()
         self._chip_of: dict[tuple[str, str], Chip] = {}
-        self._made_for: tuple[Mapping[tuple[str, str], str], str] = {}, ""
         self._title, self._tongued = Caption("note_marks.marks"), wrapped(named(Label(), "note_tongue"))
         self._add = IconButton(session, "add", "note_marks.add_mark", self._offer, "add_mark")
         self._by_hand = named(ByHandLine(session), "marks_by_hand")
@@ -76,14 +74,14 @@ class NoteMarks(Retranslated, QWidget):
         origins = player_marks(project, player.id)
         order = {note.id: place for place, note in enumerate(part.notes)}
         self._kinds = _alike(marks_at(origins, notes, order), origins, notes)
-        self._make_chips(
-            {
-                key: mark_text(project.score, part, alike.marks[0]) if len(alike.marks) == 1 and not key[1] else ""
-                for key, alike in self._kinds.items()
-            }
-        )
+        for key in self._chip_of.keys() - self._kinds.keys():
+            self._chip_of[key].hide()
         for key, alike in self._kinds.items():
-            chip = self._chip_of[key]
+            kind, text = key
+            until = mark_text(project.score, part, alike.marks[0]) if len(alike.marks) == 1 and not text else ""
+            chip = self._chip(key)
+            chip.show_text(text or mark_name(kind), until)
+            chip.show()
             chip.show_state(alike.is_everywhere, "hand" in alike.origins, outlined="score" in alike.origins)
             chip.setToolTip("\n".join(self.tr(f"note_marks.from_{origin}") for origin in sorted(alike.origins)))
         self._show_by_hand(player, notes, order)
@@ -93,18 +91,14 @@ class NoteMarks(Retranslated, QWidget):
         told = slurred if reason is None else message_text(reason, self._session, player.id)
         self._tongued.setText(self.tr("note_marks.tongue").format(reason=told))
 
-    def _make_chips(self, ends: Mapping[tuple[str, str], str]) -> None:
-        """Make a chip for each kind and text; the same ones stay, so that the keyboard stays where it is."""
-        if (ends, language()) == self._made_for:
-            return
-        self._made_for = ends, language()
-        self._chips.clear()
-        self._chip_of = {}
-        for (kind, text), until in ends.items():
-            chip = named(Chip(self._session, text or mark_name(kind), until), f"mark_{kind}")
-            on_click(chip, self._toggle, (kind, text))
+    def _chip(self, key: tuple[str, str]) -> Chip:
+        """The chip of a kind and text; it stays when it is hidden, so that the keyboard stays where it is."""
+        chip = self._chip_of.get(key)
+        if chip is None:
+            chip = self._chip_of[key] = named(Chip(self._session, ""), f"mark_{key[0]}")
+            on_click(chip, self._toggle, key)
             self._chips.addWidget(chip)
-            self._chip_of[kind, text] = chip
+        return chip
 
     def _show_by_hand(self, player: Player, notes: tuple[Note, ...], order: Mapping[str, int]) -> None:
         project = self._session.project
