@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import lru_cache
 from typing import Final, NamedTuple
 
 MOST_DIGITS: Final = 10
@@ -25,8 +26,9 @@ class EventId(NamedTuple):
     number: int = 1
 
     @classmethod
+    @lru_cache(maxsize=8192)
     def parse(cls, text: str) -> EventId:
-        """Return the parts of an id."""
+        """Return the parts of an id; kept, since planning asks for those of each breath several times."""
         numbered, _, of = text.partition(":")
         kind, _, number = numbered.partition(".")
         return cls(kind, of, int(number) if number.isdecimal() and len(number) < MOST_DIGITS else 1)
