@@ -307,7 +307,8 @@ class Clicker:
     def menus_of_buttons(self) -> None:
         """Click every entry of the menus that buttons open."""
         for name, control in controls(self._window).items():
-            if not control.isEnabled():
+            # What a click changes may be made again: chips of marks are.
+            if not isValid(control) or not control.isEnabled():
                 continue
 
             def open_menu(name: str = name) -> QMenu | None:
