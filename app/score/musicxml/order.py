@@ -18,6 +18,9 @@ from app.score.musicxml.written import Bar
 _ANY: Final = "*"
 """The name of a place that a word means, where no sound names it."""
 
+_STRAINS: Final = 4
+"""Repeated strains of a minuet with its trio."""
+
 
 class Order(msgspec.Struct, frozen=True):
     """Places of measures in the order they are played, and the numbers of those whose jump leads nowhere."""
@@ -55,7 +58,7 @@ def _explain(bars: Sequence[Bar]) -> None:
             bar.segno = _ANY
     if any(bar.da_capo for bar in bars) and not any(bar.fine or bar.to_coda for bar in bars):
         # A minuet is played again without its trio.
-        trio = next((place for place, bar in enumerate(bars) if "trio" in bar.said), 0)
+        trio = next((place for place, bar in enumerate(bars) if "trio" in bar.said), 0) or _unnamed_trio(bars)
         if trio:
             bars[trio - 1].fine = True
     is_open = False
@@ -74,6 +77,18 @@ def _explain(bars: Sequence[Bar]) -> None:
         signs[-1].coda = _ANY
         if len(signs) > 1 and not any(bar.to_coda for bar in bars):
             signs[0].to_coda = _ANY
+
+
+def _unnamed_trio(bars: Sequence[Bar]) -> int:
+    """Return where the trio of a minuet begins that no word names: a piece of four repeated strains and nothing else,
+    with a *D.C.*, has it in the third and fourth. 0: it is no such piece."""
+    groups = [*_groups(bars, _endings(bars)), None]
+    ends = [
+        place
+        for place, bar in enumerate(bars)
+        if (bar.backward if groups[place] is None else groups[place] is not groups[place + 1])
+    ]
+    return ends[1] + 1 if len(ends) == _STRAINS and ends[-1] == len(bars) - 1 else 0
 
 
 class _Player:

@@ -60,6 +60,12 @@ def bars(text: str) -> list[Bar]:
         # A minuet is played again without its trio, unless more is written.
         (": a :|TRIO b|c DC", "11231"),
         ("a FINE|b|TRIO c DC", "1231"),
+        # Four repeated strains are a minuet and its trio, though no word says so; three or five are something else.
+        (": a :|: b :|: c :|: d DC :", "1122334412"),
+        ("a :|: b :|: c :|: d DC|e :", "112233454512"),
+        (": a :|: b|1[ c :]|2[ d ]|: e :|: f|1[ g :]|2[ h DC ]", "1123245567681" + "24"),
+        (": a :|: b :|: c DC :", "112233123"),
+        (": a :|: b :|: c :|: d :|e DC", "11223344512345"),
         ("a|TRIO b|c", "123"),
         # Words that stand before the last repeat of a trio; a bracket whose beginning a program lost.
         ("a FINE|: b|c DC|d :|", "12342341"),
