@@ -70,6 +70,8 @@ def fits(made: Any, read: Any) -> bool:
     if get_origin(read) in (Union, UnionType):
         made_of = get_args(made) if get_origin(made) in (Union, UnionType) else (made,)
         return all(any(fits(one, other) for other in get_args(read)) for one in made_of)
+    if get_origin(made) in (Union, UnionType):
+        return all(fits(one, read) for one in get_args(made))
     whole, other = get_origin(made) or made, get_origin(read) or read
     if not (inspect.isclass(whole) and inspect.isclass(other) and issubclass(whole, other)):
         return False
