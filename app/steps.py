@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import inspect
 from collections import Counter
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from graphlib import TopologicalSorter
 from operator import attrgetter
 from typing import Any, Final, NamedTuple, TypeVar
@@ -124,15 +124,12 @@ class StepResults:
         self._given = given
         self._done: dict[str, _Done] = {}
         self._before: dict[str, _Done] = {} if before is None else before._done
-        if before is not None and before._has(given):
+        if before is None or before._given.keys() != given.keys():
+            return
+        # Of one table, both are in one order.
+        if _are_equal(before._given.values(), given.values()):
             # Nothing has changed: no step has to be looked at.
             self._given, self._done = before._given, dict(before._done)
-
-    def _has(self, given: Mapping[str, object]) -> bool:
-        """Return whether the same is given here."""
-        return self._given.keys() == given.keys() and _are_equal(
-            tuple(self._given.values()), tuple(given[name] for name in self._given)
-        )
 
     def of(self, function: Callable[..., T]) -> T:
         """Return the result of the one step of a function."""
@@ -169,9 +166,10 @@ class StepResults:
         self._before = {}
 
 
-def _are_equal(before: tuple[object, ...], now: tuple[object, ...]) -> bool:
-    """Return whether inputs are equal; the same objects are not compared."""
-    return all(one is other or _is_equal(one, other) for one, other in zip(before, now, strict=True))
+def _are_equal(before: Collection[object], now: Collection[object]) -> bool:
+    """Return whether inputs are equal; the same objects, as nearly all are, are not compared."""
+    changed = [(one, other) for one, other in zip(before, now, strict=True) if one is not other]
+    return not changed or all(_is_equal(one, other) for one, other in changed)
 
 
 def _is_equal(one: object, other: object) -> bool:
