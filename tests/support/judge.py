@@ -377,6 +377,12 @@ def _breaths(
 
     beat = felt_beat * quarter
     notes = player["notes"]
+    # Who holds one note with others may breathe within it, and says so.
+    held = [event for event in player["breaths"] if event["reason"].startswith("staggered breath within a note")]
+    for event in held:
+        if not any(n["onset_s"] < event["start_s"] < event["end_s"] < n["onset_s"] + n["duration_s"] for n in notes):
+            wrong.append(f"the breath at {event['end_s']} is within no note")
+    player = {**player, "breaths": [event for event in player["breaths"] if event not in held]}
     breaths = [event for event in player["breaths"] if event["kind"] == "breath"]
     preparations = [event for event in player["breaths"] if event["kind"] == "preparation"]
     onset_ticks = [note["onset_tick"] for note in notes]
