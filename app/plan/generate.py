@@ -173,10 +173,7 @@ def plan_ensemble(
     shared = _shared_by_all(lines, playable, everyone, known)
     everyone |= {name: shared[name] for name in ("fermatas", "cue_events", "cue_ids", "pulse", "last_s")}
     everyone |= {"piece": shared["piece_felt"], "piece_ending": shared["ending"]}
-    apart = {
-        player_id: SHARED_LINE.begin(known.shared_lines.get(player_id), **everyone, times=results.of(note_times))
-        for player_id, results in playable.items()
-    }
+    apart = _shared_lines(playable, everyone, known)
     made = EnsemblePlan({}, shared, playable, apart, {}, {})
     together = [results.of(shared_line) for results in apart.values()]
     breathed: list[Breathed] = []
@@ -207,6 +204,16 @@ def _shared_by_all(
         musicians=tuple(line.musician or line.player_id for line in lines),
         conducted=CONDUCTOR in stage,
     )
+
+
+def _shared_lines(
+    playable: Mapping[str, StepResults], everyone: Mapping[str, object], known: EnsemblePlan
+) -> dict[str, StepResults]:
+    """Begin the steps of what others know of each player."""
+    return {
+        player_id: SHARED_LINE.begin(known.shared_lines.get(player_id), **everyone, times=results.of(note_times))
+        for player_id, results in playable.items()
+    }
 
 
 def _plan_player(
