@@ -83,7 +83,7 @@ class NoteMarks(Retranslated, QWidget):
             chip.show_text(text or mark_name(kind), until)
             chip.show()
             chip.show_state(alike.is_everywhere, "hand" in alike.origins, outlined="score" in alike.origins)
-            chip.setToolTip("\n".join(self.tr(f"note_marks.from_{origin}") for origin in sorted(alike.origins)))
+            chip.setToolTip("\n".join(self.tr(f"note_marks.origin.{origin}") for origin in sorted(alike.origins)))
         self._show_by_hand(player, notes, order)
         reasons = {event.note_id: event.reason for event in plan.tongues}
         reason = reasons.get(notes[0].id)
