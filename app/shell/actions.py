@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from functools import cache
 from typing import Any, Final
 
-from PySide6.QtCore import QObject, Qt, QTimer, Signal
+from PySide6.QtCore import QEvent, QObject, Qt, QTimer, Signal
 from PySide6.QtGui import QAction, QKeySequence
 from PySide6.QtWidgets import QApplication, QWidget
 
@@ -114,6 +114,15 @@ class RowAction(QAction):
         if self.row.icon:
             self.setIcon(icon(self.row.icon, self._table.session.tokens))
 
+    # Qt
+
+    def event(self, event: QEvent) -> bool:
+        """Do nothing by a shortcut while a menu or list is open: Qt lets the keys through to the panel behind it, where
+        Delete would remove a player."""
+        if event.type() == QEvent.Type.Shortcut and QApplication.activePopupWidget() is not None:
+            return True
+        return super().event(event)
+
 
 class ActionTable(QObject):
     """The rows as actions of Qt.
@@ -131,9 +140,12 @@ class ActionTable(QObject):
     -------
     shortcuts_changed()
         Some action has another shortcut.
+    context_changed(str)
+        The keyboard is in another panel (``"window"``: in none).
     """
 
     shortcuts_changed = Signal()
+    context_changed = Signal(str)
 
     def __init__(self, session: Session, settings: Settings, rows: Sequence[ActionRow[Any]]) -> None:
         super().__init__(session)
@@ -224,6 +236,7 @@ class ActionTable(QObject):
         if context != self._context:
             self._context = context
             self._give_shortcuts()
+            self.context_changed.emit(context)
 
     def _give_shortcuts(self) -> None:
         """Give a shortcut that a panel and the window share to the panel while it has the keyboard, and to none without

@@ -27,6 +27,7 @@ from app.shell.actions import CONTEXTS, ActionTable
 from app.shell.banner import Banner
 from app.shell.docks import Dock, TabsStay
 from app.shell.file_questions import FileQuestions
+from app.shell.focus_mark import FocusMark
 from app.shell.menus import Menus
 from app.shell.palette import Palette
 from app.shell.start_page import StartPage
@@ -124,6 +125,7 @@ class Window(Retranslated, QMainWindow):
         self.workspace_switch = WorkspaceSwitch(self._table)
         self.palette_field = self.texted(named(QPushButton(), "palette_button"), name="window.search_commands")
         self.palette_popup = Palette(self.session, self._table, self)
+        self.focus_mark = FocusMark(self.session, self, {**self.panels, **self.docks})
         self._build()
         self._connect(generator)
         self._restore()
@@ -162,6 +164,7 @@ class Window(Retranslated, QMainWindow):
         for dock in self.docks.values():
             dock.visibilityChanged.connect(self._table.refresh_soon)
         self.workspaces.changed.connect(self._table.refresh_soon)
+        self._table.context_changed.connect(self.focus_mark.mark)
         on_click(self.palette_field, self.show_palette)
         self.menus.menu("file/open_recent").aboutToShow.connect(self._fill_recent)
         self._files.changed.connect(self._report_title)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 from app.editor.session import Session
 from app.editor.viewport_state import Shown, View
@@ -50,11 +51,15 @@ ACTIONS: tuple[Action, ...] = (
     _toggle("skeleton", "skeleton"),
     _toggle("contacts", "contacts"),
     _toggle("wireframe", "wireframe", "W"),
-    _row(
-        "pose",
-        lambda session, posing: session.viewport.set_posing(posing),
-        "P",
-        "pose",
-        checked=lambda session: session.viewport.posing,
+    # From the timeline too: poses are put there in the picture and timed below it.
+    replace(
+        _row(
+            "pose",
+            lambda session, posing: session.viewport.set_posing(posing),
+            "P",
+            "pose",
+            checked=lambda session: session.viewport.posing,
+        ),
+        context="window",
     ),
 )

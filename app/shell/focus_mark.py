@@ -1,0 +1,67 @@
+"""The line that shows which panel has the keyboard: the same keys do other things in another panel."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from PySide6.QtCore import QEvent, QObject, Qt
+from PySide6.QtGui import QColor, QPainter, QPaintEvent
+from PySide6.QtWidgets import QWidget
+from shiboken6 import isValid
+
+from app.editor.session import Session
+
+LINE_PX = 2
+
+
+class FocusMark(QWidget):
+    """A line in the accent's colour along the top of one panel.
+
+    Parameters
+    ----------
+    session : Session
+    window : QWidget
+        Has the line while no panel does.
+    panels : mapping of str to QWidget
+        What is marked, by the context of the shortcuts that hold there.
+    """
+
+    def __init__(self, session: Session, window: QWidget, panels: Mapping[str, QWidget]) -> None:
+        super().__init__(window)
+        self.setObjectName("focus_mark")
+        self.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
+        self._session, self._window, self._panels = session, window, panels
+        self._marked: QWidget | None = None
+        session.theme_changed.connect(self.update)
+        self.hide()
+
+    def mark(self, context: str) -> None:
+        """Mark the panel where the shortcuts of a context hold, if there is one."""
+        if not (isValid(self) and isValid(self._window)):
+            # The window goes, and the keyboard with it.
+            return
+        panel = self._panels.get(context)
+        if self._marked is not None and isValid(self._marked):
+            self._marked.removeEventFilter(self)
+        self._marked = panel
+        self.setParent(panel if panel is not None else self._window)
+        if panel is not None:
+            panel.installEventFilter(self)
+            self._place(panel)
+        self.setVisible(panel is not None)
+
+    def _place(self, panel: QWidget) -> None:
+        self.setGeometry(0, 0, panel.width(), LINE_PX)
+        self.raise_()
+
+    # Qt
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        """Stay as wide as the panel."""
+        if event.type() == QEvent.Type.Resize and self._marked is not None:
+            self._place(self._marked)
+        return False
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """Fill the line."""
+        QPainter(self).fillRect(self.rect(), QColor(self._session.tokens.accent))
