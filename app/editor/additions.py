@@ -135,5 +135,8 @@ def _add(session: Session, id: str, additions: Sequence[Addition]) -> None:
             keys.update(EventKey(plan.player_id, event_id) for event_id in event_ids)
         return project
 
+    before = session.project
     if additions and session.attempt(Message(id), whole):
         session.select(Selection(events=frozenset(keys)))
+        if session.project is before and keys:
+            session.notice(Message("edit.is_there"))

@@ -75,8 +75,40 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         "この位置より後に、ブレスの対象となる音符がありません。もっと前の位置を選んでください",
     ),
     "edit.no_such_fingering": (
-        "{label} is not a fingering of this note; choose one of: {known}",
-        "{label} はこの音の運指ではありません。使えるもの: {known}",
+        "{label} is not a fingering of {note}; choose one of: {known}",
+        "{label} は {note} の運指ではありません。使えるもの: {known}",
+    ),
+    "edit.fingerings_that_fit": (
+        "{label} does not play {note}. These do:",
+        "{label} では {note} を演奏できません。使える運指:",
+    ),
+    "edit.is_there": (
+        "there is one here already: it is selected; drag it, or press Delete",
+        "ここには既にあります。選択しました。ドラッグで移動、Delete で削除できます",
+    ),
+    "region.deleted_here": (
+        "this was deleted by hand; press Backspace to bring it back",
+        "これは手動で削除されています。Backspace で元に戻せます",
+    ),
+    "region.has_no_amount": (
+        "this has no amount to type; drag it to move it, or an edge to resize it",
+        "これには入力できる量がありません。ドラッグで移動、端で長さを変更できます",
+    ),
+    "curves.no_note_here": (
+        "no note sounds here; double-click a note to type its value",
+        "ここには音符がありません。音符の上でダブルクリックすると値を入力できます",
+    ),
+    "curves.not_typed": (
+        "{curve} has no one value for a note; drag it up or down",
+        "{curve} は音符ごとの値を持ちません。上下にドラッグしてください",
+    ),
+    "curves.not_drawn": (
+        "the pencil draws lip curves; take the arrow and drag {curve} up or down at selected notes",
+        "鉛筆で描けるのは唇のカーブです。{curve} は選択ツールで、選択した音符の位置を上下にドラッグしてください",
+    ),
+    "edit.no_note_to_finger": (
+        "no note is selected; click a note, then type its fingering",
+        "音符が選択されていません。音符をクリックしてから運指を入力してください",
     ),
     "problems.none": ("no problems found", "問題は見つかりませんでした"),
     "edit.no_note_to_cue": (

@@ -8,14 +8,17 @@ from PySide6.QtWidgets import QHBoxLayout, QScrollBar, QToolButton, QWidget
 
 from app.editor.session import Session
 from app.editor.timeline_view import Ghosts, Tool
+from app.errors import Message
 from app.project.document import Change
 from widgets.common.controls import IconButton, Retranslated, named
 from widgets.common.icons import icon
 from widgets.common.layouts import in_column, in_row
+from widgets.common.text import sentence
 from widgets.timeline.extent import scroll_limits, selected_span
 from widgets.timeline.lane import GUTTER_PX, Lane
 from widgets.timeline.lane_layout import LaneLayout, LaneState, lane_state, lane_text
 from widgets.timeline.lanes import LANES
+from widgets.timeline.lanes.fingering.fingering_lane import FingeringLane
 from widgets.timeline.lanes.takes.takes_lane import TakesLane
 from widgets.timeline.marks.dynamics_lane import DynamicsLane
 from widgets.timeline.roll.piano_roll import PianoRoll
@@ -222,6 +225,19 @@ class TimelinePanel(Retranslated, QWidget):
     def open_lane(self, lane_id: str, is_open: bool) -> None:
         """Unfold a lane, shown if it is not, or fold it."""
         self.lane_layout.open_lane(lane_id, is_open)
+
+    def offer_fingerings(self, player_id: str, note_id: str, why: Message) -> None:
+        """Show the fingerings of a note beside it, and why another one is none."""
+        lane, plan = self.lanes[FingeringLane.id], self.session.plans.get(player_id)
+        events = () if plan is None else plan.fingerings
+        event = next((event for event in events if event.note_id == note_id), None)
+        note = self.roll.model.note(note_id)
+        if event is None or not isinstance(lane, FingeringLane):
+            return
+        x = min(max(self.axis.x_px(event.start_s), 0.0), self.axis.width_px - 60.0)
+        y = self.roll.y_px(note.pitch + 1) if note is not None else 0.0
+        place = self.roll.plot.mapTo(self.window(), QPoint(round(x), round(min(max(y, 0.0), self.roll.plot.height()))))
+        lane.alternates.show_for(player_id, event, place, sentence(why, self.session, player_id))
 
     def fold_lanes(self, folded: bool) -> None:
         """Fold or unfold every lane."""

@@ -3,19 +3,20 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Mapping, Sequence
 from weakref import WeakKeyDictionary
 
 from app.editor.session import Session, Severity
-from app.errors import AppError, Message
+from app.errors import AppError, Argument, Message
 from app.project.edit.events import pin_fingerings
 from app.project.model import Project
 from app.project.performers import Player
 from app.score.model import Note
 from app.shell.action import Action
-from app.shell.commands.command_targets import has_notes, notes_by_player
+from app.shell.commands.command_targets import has_notes, has_player, notes_by_player
 from instrument_maps.model import Fingering
 
-TYPED_TOGETHER_S = 0.6
+TYPED_TOGETHER_S = 2.0
 """Signs typed within this time are one fingering: 1 and 3 are 13."""
 
 
@@ -44,6 +45,9 @@ def choices(session: Session, player: Player, note: Note) -> tuple[Fingering, ..
 def type_fingering(session: Session, sign: str, now_s: float | None = None) -> None:
     """Pin the fingering that is being typed, sign by sign: its signs in any order, as the map writes its labels.
 
+    What is no fingering is reported beside the first note, with those that are; a beginning of it that was pinned is
+    taken back.
+
     Parameters
     ----------
     sign : str
@@ -55,35 +59,40 @@ def type_fingering(session: Session, sign: str, now_s: float | None = None) -> N
     typed = _typed.setdefault(session, _Typed())
     notes = notes_by_player(session)
     if not notes:
+        session.notice(Message("edit.no_note_to_finger"), Severity.WARNING)
         return
     if at_s - typed.at_s > TYPED_TOGETHER_S or typed.notes != session.selection.notes:
         typed.text, typed.gesture = "", object()
     typed.notes = session.selection.notes
-    labels = [
-        [fingering.label for fingering in choices(session, player, note)]
-        for player, found in notes.items()
-        for note in found
-    ]
-    if not any(_holds(label, typed.text + sign) for known in labels for label in known):
-        # Not the continuation of what came before: it begins again.
-        typed.text, typed.gesture = "", object()
     typed.text += sign
     pins: dict[str, dict[str, str]] = {}
+    begun = False
     for player, found in notes.items():
         for note in found:
             for fingering in choices(session, player, note):
                 if sorted(fingering.label) == sorted(typed.text):
                     pins.setdefault(player.id, {})[note.id] = fingering.label
+                begun = begun or _holds(fingering.label, typed.text)
     if pins:
         _pin(session, pins, typed.gesture)
-    elif not any(_holds(label, typed.text) for known in labels for label in known):
-        known_labels = ", ".join(dict.fromkeys(label for known in labels for label in known))
-        session.notice(
-            Message("edit.no_such_fingering", {"label": typed.text, "known": known_labels}), Severity.WARNING
-        )
-        typed.text = ""
+    else:
+        session.document.cancel_gesture(typed.gesture)
+        _offer(session, notes, typed.text, is_refused=not begun)
+        typed.text = typed.text if begun else ""
     # The time the program needs to show a sign is not a pause between two.
     typed.at_s = time.monotonic() if now_s is None else now_s
+
+
+def _offer(session: Session, notes: Mapping[Player, Sequence[Note]], text: str, is_refused: bool) -> None:
+    """Offer the fingerings of the first note beside it, and say that this is none; in the status line too, if it cannot
+    become one."""
+    player, found = next(iter(notes.items()))
+    known = dict.fromkeys(fingering.label for fingering in choices(session, player, found[0]))
+    place: dict[str, Argument] = {"label": text, "note": found[0].id}
+    if is_refused:
+        session.notice(Message("edit.no_such_fingering", {**place, "known": ", ".join(known)}), Severity.WARNING)
+    if session.timeline_view is not None and known:
+        session.timeline_view.offer_fingerings(player.id, found[0].id, Message("edit.fingerings_that_fit", place))
 
 
 def _holds(label: str, signs: str) -> bool:
@@ -125,7 +134,7 @@ def _sign(sign: str) -> Action:
         "edit/fingering",
         sign,
         "timeline",
-        has_notes,
+        has_player,
     )
 
 

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication, QMenu
+from PySide6.QtWidgets import QApplication, QLabel, QMenu
 from pytestqt.qtbot import QtBot
 
 from app.editor.selection import EventKey, Selection
@@ -23,8 +23,10 @@ from app.shell.actions import ActionTable
 from app.shell.commands import edit as undoing
 from app.shell.commands import events, fingerings, problems
 from tests.gui.timeline.lane_hands import front_plan, shown_panel
-from tests.support.windows import show_in_front
+from tests.support.windows import child, show_in_front
 from widgets.common.actions import actions
+from widgets.common.chip import Chip
+from widgets.timeline.lanes.fingering.fingering_lane import FingeringLane
 from widgets.timeline.panel import TimelinePanel
 
 
@@ -69,6 +71,13 @@ def note_with(session: Session, *labels: str) -> Note:
     )
 
 
+def labels_of(session: Session, note: Note) -> set[str]:
+    """The fingerings of a note that are not obsolete."""
+    assert session.player is not None
+    instrument = session.performance.instrument(session.player)
+    return {fingering.label for fingering in instrument.offered_for(note.pitch, "")}
+
+
 def choose(session: Session, *chosen: Note) -> None:
     session.select(Selection(notes=frozenset(note.id for note in chosen)))
 
@@ -87,6 +96,17 @@ def test_b_adds_a_breath_before_the_selected_note(panel: TimelinePanel, session:
     assert session.selection == Selection(
         events=frozenset({EventKey(front_plan(session).player_id, f"breath:{note.id}")})
     )
+
+
+def test_b_where_a_breath_is_already_selects_it_and_says_so(panel: TimelinePanel, session: Session) -> None:
+    reported: list[Message] = []
+    session.noticed.connect(lambda message, severity: reported.append(message))
+    breath = next(event for event in front_plan(session).breaths if event.draws_air)
+    session.set_playhead((breath.start_s + breath.end_s) / 2)
+    press(panel, Qt.Key.Key_B)
+    assert session.selection.events == {EventKey(front_plan(session).player_id, breath.id)}
+    assert [message.id for message in reported] == ["edit.is_there"]
+    assert not session.document.done
 
 
 def test_b_adds_a_breath_at_the_playhead(panel: TimelinePanel, session: Session) -> None:
@@ -165,9 +185,9 @@ def test_a_first_digit_that_is_a_fingering_is_pinned_at_once(session: Session) -
     choose(session, note)
     fingerings.type_fingering(session, "3", now_s=10.0)
     assert corrections(session) == (PinFingering(note.id, "3"),)
-    fingerings.type_fingering(session, "2", now_s=12.0)
+    fingerings.type_fingering(session, "2", now_s=13.0)
     assert corrections(session) == (PinFingering(note.id, "3"),)
-    fingerings.type_fingering(session, "1", now_s=12.3)
+    fingerings.type_fingering(session, "1", now_s=13.3)
     assert corrections(session) == (PinFingering(note.id, "12"),)
     assert len(session.document.done) == 2
 
@@ -195,6 +215,35 @@ def test_what_is_no_fingering_is_said(session: Session) -> None:
     fingerings.type_fingering(session, "7", now_s=1.0)
     assert [message.id for message in reported] == ["edit.no_such_fingering"]
     assert not session.document.done
+
+
+def test_what_does_not_fit_is_said_beside_the_note_with_what_does(panel: TimelinePanel, session: Session) -> None:
+    """1 and 3 are 13 though 1 alone would do: that one is not left behind."""
+    lane = panel.lanes["fingering"]
+    assert isinstance(lane, FingeringLane)
+    note = next(note for note in notes(session) if labels_of(session, note) & {"1", "13"} == {"1"})
+    choose(session, note)
+    before = session.project
+    panel.axis.show(-1.0, 19.0)
+    for key in (Qt.Key.Key_1, Qt.Key.Key_3):
+        press(panel, key)
+    assert session.project is before
+    assert not session.document.done
+    assert lane.alternates.isVisible()
+    why = child(lane.alternates, QLabel, "why")
+    assert why.isVisible()
+    assert "13" in why.text()
+    assert {chip.text() for chip in lane.alternates.findChildren(Chip) if chip.isVisible()} == labels_of(session, note)
+    QTest.mouseClick(child(lane.alternates, Chip, "chip_1"), Qt.MouseButton.LeftButton)
+    assert corrections(session) == (PinFingering(note.id, "1"),)
+
+
+def test_a_fingering_typed_without_a_note_is_said(panel: TimelinePanel, session: Session) -> None:
+    reported: list[Message] = []
+    session.noticed.connect(lambda message, severity: reported.append(message))
+    session.select(Selection())
+    press(panel, Qt.Key.Key_1)
+    assert [message.id for message in reported] == ["edit.no_note_to_finger"]
 
 
 def test_f_cycles_the_alternates_and_backspace_returns(panel: TimelinePanel, session: Session) -> None:

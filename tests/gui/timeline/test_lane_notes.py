@@ -14,6 +14,7 @@ from PySide6.QtTest import QTest
 from app.audio.peaks import Peaks
 from app.editor.selection import Selection
 from app.editor.session import Session
+from app.editor.timeline_view import Tool
 from app.errors import Message
 from app.plan.by_hand.corrections import PinFingering, SetEmbouchure
 from app.plan.model import FingeringEvent
@@ -23,6 +24,7 @@ from app.project.recording import AudioTrack
 from tests.gui.timeline.lane_hands import CTRL, SHIFT, click, double_click, drag, front_plan, viewport
 from tests.support.windows import child
 from widgets.common.chip import Chip
+from widgets.timeline.lanes.breath import BreathLane
 from widgets.timeline.lanes.curves import CurvesLane
 from widgets.timeline.lanes.fingering.fingering_lane import FingeringLane, slide_places
 from widgets.timeline.lanes.problems import ProblemsLane
@@ -332,3 +334,33 @@ def test_values_of_several_notes_are_not_one_until_typed(panel: TimelinePanel, s
         QTest.keyClick(field, Qt.Key.Key_Return)
         assert not session.document.done
         assert not field.isVisible()
+
+
+def test_the_pencil_draws_a_curve_over_several_notes(panel: TimelinePanel, session: Session) -> None:
+    lane = curves_lane(panel)
+    lips = [event for event in front_plan(session).embouchures if event.start_s > 0.5][:4]
+    panel.set_tool(Tool.DRAW)
+    first, last = place_of(lane, lips[0].start_s, lips[0].end_s), place_of(lane, lips[-1].start_s, lips[-1].end_s)
+    start = QPointF(first.x(), lane.plot_rect.height() * 0.25)
+    drag(lane, start, last.x() - first.x(), lane.plot_rect.height() * 0.5)
+    set_by_hand = session.project.corrections[front_plan(session).player_id]
+    values = {item.note_id: item.tension for item in set_by_hand if isinstance(item, SetEmbouchure)}
+    drawn = [values[event.note_id] for event in lips]
+    assert all(value is not None for value in drawn)
+    assert drawn == sorted(drawn, reverse=True)
+    assert drawn[0] > 0.65 > 0.35 > drawn[-1]
+    assert [step.name.id for step in session.document.done] == ["edit.set_embouchure"]
+
+
+def test_a_double_click_where_nothing_can_be_typed_says_why(panel: TimelinePanel, session: Session) -> None:
+    reported: list[str] = []
+    session.noticed.connect(lambda message, severity: reported.append(message.id))
+    lane = curves_lane(panel)
+    first = front_plan(session).embouchures[0]
+    double_click(lane, QPointF(panel.axis.x_px(first.start_s) - 20.0, 20.0))
+    breaths = panel.lanes["breath"]
+    assert isinstance(breaths, BreathLane)
+    first_breath = min(region.start_s for region in breaths.regions)
+    double_click(breaths, QPointF(panel.axis.x_px(first_breath) - 20.0, 4.0))
+    assert reported == ["curves.no_note_here", "edit.is_there"]
+    assert not session.document.done

@@ -12,7 +12,8 @@ from PySide6.QtWidgets import QMenu, QWidget
 
 from app.arrays import FloatArray
 from app.editor.selection import EventKey, Selection
-from app.editor.session import Session
+from app.editor.session import Session, Severity
+from app.editor.timeline_view import Tool
 from app.errors import Message
 from app.plan.model import EmbouchureEvent, PlayerPlan
 from app.project.document import Change
@@ -28,6 +29,7 @@ from widgets.timeline.model.curves import (
     LIPS,
     DragController,
     DragCurve,
+    DrawCurve,
     EmbouchureCurves,
     controller_steps,
     lips,
@@ -132,7 +134,7 @@ class CurvesLane(Lane):
         self.curve = "tension"
         self._plan: PlayerPlan | None = None
         self._part: Part | None = None
-        self._drag: DragCurve | DragController | None = None
+        self._drag: DragCurve | DragController | DrawCurve | None = None
         self.choice = self.texted(
             named(ComboBox(self.header), "curve_choice"),
             tip="curves_lane.curve_that_is_edited_or",
@@ -234,6 +236,10 @@ class CurvesLane(Lane):
         before, event = self.session.selection, self.event_at(mouse.time_s)
         notes = before.notes
         self._drag = None
+        view = self.session.timeline_view
+        if view is not None and view.tool is Tool.DRAW:
+            self._draw(mouse)
+            return
         if event is None:
             if not (mouse.ctrl or mouse.shift):
                 self.session.select(Selection())
@@ -251,6 +257,22 @@ class CurvesLane(Lane):
         starts = {item.note_id: self.value_of(item) for item in self.lips.events if item.note_id in chosen}
         height_px = self.plot_rect.height() - 2 * MARGIN_PX
         self._drag = DragCurve(self.session, self, mouse, self._plan.player_id, self.curve, starts, height_px)
+
+    def _draw(self, mouse: LaneMouse) -> None:
+        """Begin to draw with the pencil."""
+        if self.curve not in LIPS:
+            self.session.notice(Message("curves.not_drawn", {"curve": self.curve_name(self.curve)}), Severity.WARNING)
+        elif self._plan is not None and self.lips is not None:
+            height_px = max(self.plot_rect.height() - 2 * MARGIN_PX, 1.0)
+            self._drag = DrawCurve(
+                self.session,
+                self,
+                mouse,
+                self._plan.player_id,
+                self.curve,
+                self.lips,
+                lambda y_px: 1.0 - (y_px - MARGIN_PX) / height_px,
+            )
 
     def _controller_drag(self, mouse: LaneMouse, player_id: str, chosen: frozenset[str]) -> DragController | None:
         """At the chosen notes; with Alt held around the place under the mouse alone."""
@@ -277,7 +299,11 @@ class CurvesLane(Lane):
     def double_click(self, mouse: LaneMouse) -> None:
         self._drag = None
         event = self.event_at(mouse.time_s)
-        if event is not None and self.curve in LIPS:
+        if self.curve not in LIPS:
+            self.session.notice(Message("curves.not_typed", {"curve": self.curve_name(self.curve)}), Severity.WARNING)
+        elif event is None:
+            self.session.notice(Message("curves.no_note_here"), Severity.WARNING)
+        else:
             self._type(event)
 
     def _type(self, event: EmbouchureEvent) -> None:

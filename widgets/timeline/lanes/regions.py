@@ -11,7 +11,7 @@ from PySide6.QtGui import QColor, QKeyEvent, QPainter, QPen
 from PySide6.QtWidgets import QMenu, QWidget
 
 from app.editor.selection import EventKey, Selection
-from app.editor.session import Session
+from app.editor.session import Session, Severity
 from app.errors import Message
 from app.plan.by_hand.corrections import RemoveEvent
 from app.plan.model import PlayerPlan
@@ -282,7 +282,10 @@ class RegionLane(Lane):
         self._drag = None
         if region is None:
             self.add_at(mouse)
-        elif not region.removed and not region.steady:
+        elif region.removed or region.steady:
+            why = "region.deleted_here" if region.removed else "region.has_no_amount"
+            self.session.notice(Message(why), Severity.WARNING)
+        else:
             self.type_amount(region)
 
     def type_amount(self, region: Region) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -162,3 +162,54 @@ class DragCurve(MouseGesture):
     def cancel(self) -> None:
         if self.began:
             self._step.take_back()
+
+
+class DrawCurve(MouseGesture):
+    """The pencil: every note that the mouse passes over gets the value at the mouse's height.
+
+    Parameters
+    ----------
+    lips : EmbouchureCurves
+        The notes.
+    value_at : callable
+        Returns the value at a height in pixels.
+    """
+
+    def __init__(
+        self,
+        session: Editing,
+        origin: object,
+        at: LaneMouse,
+        player_id: str,
+        curve: str,
+        lips: EmbouchureCurves,
+        value_at: Callable[[float], float],
+    ) -> None:
+        super().__init__(at)
+        self._step = LiveEdit(session, origin)
+        self._player_id, self._curve, self._lips, self._value_at = player_id, curve, lips, value_at
+        self._last = at
+        self._values: dict[str, float] = {}
+        self.drag(at)
+
+    def follow(self, mouse: LaneMouse) -> None:
+        last, self._last = self._last, mouse
+        spans, (low_s, high_s) = self._lips.spans, sorted((last.time_s, mouse.time_s))
+        for index in spans.between(low_s, high_s).tolist():
+            # A fast mouse skips notes: they get the heights on the line that it took.
+            middle_s = min(max(float(spans.start_s[index] + spans.end_s[index]) / 2, low_s), high_s)
+            share = (middle_s - last.time_s) / (mouse.time_s - last.time_s) if high_s > low_s else 1.0
+            value = self._value_at(last.y_px + share * (mouse.y_px - last.y_px))
+            self._values[self._lips.events[index].note_id] = round(min(max(value, 0.0), 1.0), 3)
+        values = dict(self._values)
+        if values:
+            self._step.attempt(
+                Message("edit.set_embouchure", {"count": len(values)}),
+                lambda project: with_values(project, self._player_id, self._curve, values),
+            )
+
+    def finish(self, mouse: LaneMouse) -> None:
+        self._step.end()
+
+    def cancel(self) -> None:
+        self._step.take_back()

@@ -17,8 +17,8 @@ from widgets.common.clicks import on_click
 from widgets.common.controls import named
 from widgets.common.fingering_tags import words_of_tags
 from widgets.common.icons import icon
-from widgets.common.layouts import in_row
-from widgets.common.plain import verbatim
+from widgets.common.layouts import in_column, in_row
+from widgets.common.plain import Label, verbatim
 from widgets.timeline.lane import Lane
 
 
@@ -34,7 +34,9 @@ class Alternates(QFrame):
         self._lane = lane
         self.event_shown: FingeringEvent | None = None
         self.player_id = ""
-        self._row = in_row(of=self, margins=4, spacing=3)
+        self._why = named(Label(parent=self), "why")
+        self._row = in_row(margins=0, spacing=3)
+        in_column(self._why, self._row, of=self, margins=4, spacing=3)
         self.hide()
 
     def choices(self, player_id: str, event: FingeringEvent) -> tuple[Fingering, ...]:
@@ -54,8 +56,10 @@ class Alternates(QFrame):
         """True if the user chose the fingering."""
         return bool(corrections_of(self._session.project, player_id, (event.id,)))
 
-    def show_for(self, player_id: str, event: FingeringEvent, place: QPoint) -> None:
-        """Show the chips of a note above a place of the window."""
+    def show_for(self, player_id: str, event: FingeringEvent, place: QPoint, why: str = "") -> None:
+        """Show the chips of a note above a place of the window; over them why they are shown, if that is said."""
+        self._why.setText(why)
+        self._why.setVisible(bool(why))
         while (item := self._row.takeAt(0)) is not None:
             if (widget := item.widget()) is not None:
                 widget.hide()
@@ -89,6 +93,7 @@ class Alternates(QFrame):
             back.setToolTip(self.tr("alternates.back_to_generators_choice"))
             on_click(back, self.give_back)
             self._row.addWidget(back)
+        self._row.addStretch(1)
         window = self._lane.window()
         self.setParent(window)
         self.adjustSize()

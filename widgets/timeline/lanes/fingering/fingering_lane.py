@@ -290,7 +290,7 @@ class FingeringLane(Lane):
         super().players_changed()
 
     def project_changed(self, change: Change) -> None:
-        if change.opened:
+        if change.opened or change.before.corrections is not change.after.corrections:
             self.alternates.hide()
 
     def selection_changed(self, before: Selection) -> None:
