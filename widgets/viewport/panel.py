@@ -451,18 +451,19 @@ class ViewportPanel(Retranslated, QWidget):
 
     def _project_changed(self, change: Change) -> None:
         if change.opened:
-            self._eye.touched = False
             self._tool.release()
+            self.scene.leave()
+            self._session.viewport.set_view("ensemble")
         if self._canvas is not None and (change.opened or cast_key(change.before) != cast_key(change.after)):
             self.scene.load()
         self._update()
 
     def _staged(self) -> None:
         loaded = self.scene.loaded
-        if self._canvas is None or self._pointer is None or loaded is None:
+        if self._canvas is None or self._pointer is None:
             return
         self._pointer.forget()
-        if loaded.stage.members:
+        if loaded is not None and loaded.stage.members:
             self._canvas.prepare(lambda renderer: self._send(renderer, loaded))
         else:
             self._canvas.clear_stage()
@@ -517,7 +518,8 @@ class ViewportPanel(Retranslated, QWidget):
 
     def _view_asked(self) -> None:
         self._eye.choose(self._session.viewport.view)
-        self._go(self._view_camera())
+        if self.scene.stage is not None:
+            self._go(self._view_camera())
 
     def _frame_asked(self, selected: bool) -> None:
         """Frame players as the camera stands."""

@@ -60,6 +60,8 @@ class ViewportScene(QObject):
         self._poses: PoseSource = WornFaces(session, LivePoses(session, poses))
         self._tool = tool
         self._loaded: DrawableFigures | None = None
+        self._shapes: Shapes | None = None
+        """Those of the piece before, which may be worn again."""
         self.missing = False
         """True if a pose was missing when it was last requested."""
 
@@ -79,6 +81,13 @@ class ViewportScene(QObject):
 
     # Figures
 
+    def leave(self) -> None:
+        """Show no figures of the piece before: another one is open. They stay where both pieces have the same."""
+        loaded = self._loaded
+        if loaded is not None and not same_figures(loaded.key, cast_key(self._session.project)):
+            self._loaded, self._shapes = None, loaded.shapes
+            self.staged.emit()
+
     def load(self) -> None:
         """Bring the stage to the project's players; what is not there yet is loaded beside the window."""
         project, before = self._session.project, self._loaded
@@ -86,7 +95,7 @@ class ViewportScene(QObject):
             if before.key != cast_key(project):
                 self._set(moved(project, before))
             return
-        shapes = before.shapes if before is not None else None
+        shapes = before.shapes if before is not None else self._shapes
         self._session.tasks.run(
             Message("work.load_figures"),
             lambda progress, stop_requested: load(project, shapes, progress, stop_requested),
@@ -114,7 +123,7 @@ class ViewportScene(QObject):
             self._session.notice(Message("player.not_seen", {"players": names}), Severity.WARNING)
 
     def _set(self, loaded: DrawableFigures) -> None:
-        self._loaded = loaded
+        self._loaded, self._shapes = loaded, None
         self.staged.emit()
 
     # Poses

@@ -688,3 +688,23 @@ def test_a_picture_needs_no_visible_window(qtbot: QtBot, session: Session, poses
     picture = panel.render_image(320, 180, AT_S, "ensemble")
     assert differing(picture, shot("ensemble")) < 60
     assert not panel.isVisible()
+
+
+def test_another_piece_opens_framed_and_without_the_bodies_of_the_one_before(
+    viewport: ViewportPanel, session: Session, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The new bodies take a while to load: meanwhile no one stands there under the new names."""
+    first = session.project
+    session.viewport.set_view("hands")
+    session.set_players((first.players[2].id,))
+    tuba = msgspec.structs.replace(first.players[0], instrument_id=first.players[3].instrument_id)
+    with monkeypatch.context() as patch:
+        patch.setattr(session.tasks, "run", lambda *args, **options: None)
+        session.document.open(replace(first, players=(tuba, *first.players[1:])))
+        assert viewport.scene.stage is None
+        assert viewport.message()
+        assert session.viewport.view == "ensemble"
+    session.document.open(first)
+    QApplication.processEvents()
+    assert viewport.scene.stage is not None
+    assert viewport.camera == viewport._view_camera()
