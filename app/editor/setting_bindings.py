@@ -22,7 +22,7 @@ class SettingBinding:
 
 
 def within(state: str, name: str) -> SettingBinding:
-    """Binding to a field of a state of the session: ``listening``, ``pitch_display`` or ``video``."""
+    """Binding to a field of a state of the session: ``listening``, ``pitch_display``, ``video`` or ``viewport``."""
     return SettingBinding(
         lambda session: getattr(getattr(session, state), name),
         lambda session, value: getattr(session, state).set(**{name: value}),

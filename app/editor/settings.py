@@ -94,6 +94,9 @@ class Settings(StoredSettings):
     source = Setting("sound/source", "recording", Source, held=within("listening", "source"))
     """The sound of a project that has a recording."""
 
+    follows_selection = Setting("viewport/follows_selection", True, held=within("viewport", "follows_selection"))
+    """The playhead goes to the note that is selected."""
+
     video_placement = Setting[Placement]("video/placement", "beside", Placement, held=within("video", "placement"))
     video_opacity = Setting(
         "video/opacity",

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from typing import Literal, get_args
 
-from PySide6.QtCore import QObject, Signal
+from PySide6.QtCore import Signal
+
+from app.editor.state import State
 
 View = Literal["ensemble", "front", "side", "top", "hands", "mouth", "feet"]
 VIEWS: tuple[View, ...] = get_args(View)
@@ -12,8 +14,13 @@ Shown = Literal["wireframe", "skeleton", "contacts", "names"]
 SHOWN: tuple[Shown, ...] = get_args(Shown)
 
 
-class ViewportState(QObject):
+class ViewportState(State):
     """The chosen view and what is drawn beside the players.
+
+    Attributes
+    ----------
+    follows_selection : bool
+        The playhead goes to the note that is selected.
 
     Signals
     -------
@@ -25,7 +32,6 @@ class ViewportState(QObject):
         The camera should frame the selected players (True) or the ensemble.
     """
 
-    changed = Signal()
     viewed = Signal()
     framed = Signal(bool)
 
@@ -34,6 +40,7 @@ class ViewportState(QObject):
         self._view: View = "ensemble"
         self._shown: frozenset[Shown] = frozenset(("names",))
         self._posing = False
+        self.follows_selection = True
 
     @property
     def view(self) -> View:

@@ -19,6 +19,7 @@ from app.editor.files import Files
 from app.editor.generator import Generator
 from app.editor.library_watch import watch_characters, watch_instruments, watch_metadata
 from app.editor.memory import share_memory
+from app.editor.problems import follow_selection
 from app.editor.questions import Questions
 from app.editor.recorder import Recorder
 from app.editor.session import Session, Severity
@@ -142,6 +143,7 @@ class Program(QObject):
         # Children of the session: they stay.
         sound = EditorSound(self.session, playback, audible)
         video = ReferenceVideo(self.session)
+        follow_selection(self.session)
         watch_instruments(self.session)
         watch_characters(self.session)
         watch_metadata(self.session)

@@ -7,7 +7,7 @@ from operator import is_
 from PySide6.QtCore import QEvent, Qt, Signal
 from PySide6.QtWidgets import QWidget
 
-from app.editor.selection import Selection
+from app.editor.problems import go_to_problem
 from app.editor.session import Session
 from app.plan.model import Problem
 from app.project.performers import Dancer, Player
@@ -142,14 +142,7 @@ class ProblemList(Retranslated, QWidget):
     def _open(self, key: object) -> None:
         assert isinstance(key, tuple)
         player_id, problem = key
-        project = self._session.project
-        if player_id in project.dancer_ids:
-            self._session.set_dancer(player_id)
-        elif player_id in {player.id for player in project.players} and player_id not in self._session.players:
-            self._session.set_players((player_id,))
-        if problem.note_id is not None:
-            self._session.select(Selection(notes=frozenset((problem.note_id,))))
-        self._session.reveal(problem.start_s)
+        go_to_problem(self._session, player_id, problem)
 
     def retranslate(self) -> None:
         self._say_anew()

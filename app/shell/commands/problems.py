@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from weakref import WeakKeyDictionary
 
-from app.editor.selection import Selection
-from app.editor.session import Session, Severity
+from app.editor.problems import go_to_problem
+from app.editor.session import Session
 from app.errors import Message
 from app.plan.model import Problem
 from app.shell.action import Action
@@ -19,7 +19,7 @@ def problems(session: Session) -> list[tuple[str, Problem]]:
     return sorted(found, key=lambda item: item[1].start_s)
 
 
-def go_to_problem(session: Session, step: int) -> None:
+def step_problems(session: Session, step: int) -> None:
     """Show the next problem (1) or the one before (-1): of the one shown last, else of the playhead; round the end."""
     found = problems(session)
     if not found:
@@ -35,15 +35,7 @@ def go_to_problem(session: Session, step: int) -> None:
         index = before[-1] if before else -1
     player_id, problem = found[index % len(found)]
     _visited[session] = (player_id, problem)
-    if player_id in session.project.dancer_ids:
-        session.set_dancer(player_id)
-    else:
-        others = tuple(id for id in session.players if id != player_id)
-        session.set_players((player_id, *others) if player_id in session.players else (player_id,))
-    notes = frozenset({problem.note_id}) if problem.note_id is not None else frozenset[str]()
-    session.select(Selection(notes=notes))
-    session.reveal(problem.start_s)
-    session.notice(problem.message, Severity.WARNING)
+    go_to_problem(session, player_id, problem)
 
 
 def _has_problems(session: Session) -> bool:
@@ -52,7 +44,7 @@ def _has_problems(session: Session) -> bool:
 
 ACTIONS: tuple[Action, ...] = (
     Action(
-        "problems.next", lambda session: go_to_problem(session, 1), "view", "F8", enabled=_has_problems, icon="problem"
+        "problems.next", lambda session: step_problems(session, 1), "view", "F8", enabled=_has_problems, icon="problem"
     ),
-    Action("problems.previous", lambda session: go_to_problem(session, -1), "view", "Shift+F8", enabled=_has_problems),
+    Action("problems.previous", lambda session: step_problems(session, -1), "view", "Shift+F8", enabled=_has_problems),
 )

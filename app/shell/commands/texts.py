@@ -217,6 +217,7 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
     "action.viewport.contacts": ("Contact Points", "接触点"),
     "action.viewport.ensemble": ("Ensemble", "全体"),
     "action.viewport.feet": ("Feet", "足元"),
+    "action.viewport.follow_selection": ("Playhead Follows Selected Note", "再生ヘッドを選択した音符に移動"),
     "action.viewport.frame": ("Frame Selected", "選択した奏者を画面に収める"),
     "action.viewport.frame_all": ("Frame All", "全員を画面に収める"),
     "action.viewport.front": ("Front", "正面"),

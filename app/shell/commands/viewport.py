@@ -51,6 +51,13 @@ ACTIONS: tuple[Action, ...] = (
     _toggle("skeleton", "skeleton"),
     _toggle("contacts", "contacts"),
     _toggle("wireframe", "wireframe", "W"),
+    _row(
+        "follow_selection",
+        lambda session, on: session.viewport.set(follows_selection=on),
+        "",
+        enabled=None,
+        checked=lambda session: session.viewport.follows_selection,
+    ),
     # From the timeline too: poses are put there in the picture and timed below it.
     replace(
         _row(

@@ -28,7 +28,7 @@ from app.project.edit import players
 from app.project.edit.corrections import with_corrections
 from app.rig.characters.character_library import character_named
 from app.rig.grip.fitting.grip_files import hold_for
-from app.shell.commands.problems import go_to_problem
+from app.shell.commands.problems import step_problems
 from tests.support.bodies import playing as odd_bodies
 from widgets.common.text import message_text
 from widgets.timeline.lanes.problems import ProblemsLane
@@ -341,7 +341,7 @@ def test_a_broken_contact_is_listed_walked_and_gone_when_it_is_mended(
     assert broken[0] in lane.problems
     assert lane.count.text() == str(len(before) + 1)
     session.set_playhead(broken[0].start_s - 0.001)
-    go_to_problem(session, 1)
+    step_problems(session, 1)
     assert session.selection.notes == {broken[0].note_id}
     assert "mouthpiece" in message_text(broken[0].message, session)
     session.document.undo()

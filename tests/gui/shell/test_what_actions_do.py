@@ -643,6 +643,7 @@ CASES: dict[str, Case] = {
         f"viewport.{name}": toggled(f"viewport.{name}", lambda d, name=name: d.session.viewport.shows(name))
         for name in ("names", "skeleton", "contacts", "wireframe")
     },
+    "viewport.follow_selection": toggled("viewport.follow_selection", lambda d: d.session.viewport.follows_selection),
     "viewport.pose": toggled("viewport.pose", lambda d: d.session.viewport.posing),
     # Playing
     "play.toggle": Case(playing),

@@ -347,7 +347,7 @@ def test_without_problems_it_says_so(session: Session) -> None:
     reported: list[Message] = []
     session.noticed.connect(lambda message, severity: reported.append(message))
     if not problems.problems(session):
-        problems.go_to_problem(session, 1)
+        problems.step_problems(session, 1)
         assert [message.id for message in reported] == ["problems.none"]
 
 

@@ -7,8 +7,9 @@ from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QPainter, QPen, QPolygonF
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
+from app.editor.problems import go_to_problem
 from app.editor.selection import Selection
-from app.editor.session import Session, Severity
+from app.editor.session import Session
 from app.plan.model import Problem
 from widgets.common.controls import named
 from widgets.common.plain import Label
@@ -97,7 +98,7 @@ class _Marks(LaneItem["ProblemsLane"]):
 
 
 class ProblemsLane(Lane):
-    """All problems of the player in front. A click on one selects its note and says what it is."""
+    """All problems of the player in front. A click on one goes there and says what it is."""
 
     id = "problems"
     preferred_height_px = 28
@@ -155,9 +156,8 @@ class ProblemsLane(Lane):
         if problem is None:
             self.session.select(Selection())
             return
-        notes = frozenset({problem.note_id}) if problem.note_id is not None else frozenset[str]()
-        self.session.select(Selection(notes=notes))
-        self.session.notice(problem.message, Severity.WARNING)
+        if self.session.player is not None:
+            go_to_problem(self.session, self.session.player.id, problem)
 
     def hover(self, mouse: LaneMouse | None) -> None:
         problem = self.problem_at(mouse) if mouse is not None else None

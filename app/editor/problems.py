@@ -1,0 +1,90 @@
+"""Problems and selected notes as places: the time, the performer in front, and a camera that shows what is wrong."""
+
+from __future__ import annotations
+
+from typing import Final
+
+from app.editor.selection import Selection
+from app.editor.session import Session, Severity
+from app.editor.viewport_state import View
+from app.plan.model import Problem
+from app.score.model import Note
+
+_VIEWS: Final[dict[str, View]] = {
+    "breath": "mouth",
+    "character.lips_still": "mouth",
+    "character.no_fingers": "hands",
+    "character.no_hand": "hands",
+    "character.no_lips": "mouth",
+    "character.touches_missed": "hands",
+    "choreography": "ensemble",
+    "contact": "hands",
+    "contact.foot_off": "feet",
+    "contact.lips_off": "mouth",
+    "dance": "ensemble",
+    "fingering": "hands",
+    "note": "hands",
+}
+"""Views by the id of a message, or by its first part."""
+_OTHER_VIEW: Final[View] = "front"
+
+
+def view_of(problem: Problem) -> View:
+    """The view that shows what a problem is about."""
+    message_id = problem.message.id
+    return _VIEWS.get(message_id) or _VIEWS.get(message_id.split(".")[0], _OTHER_VIEW)
+
+
+def go_to_problem(session: Session, performer_id: str, problem: Problem) -> None:
+    """Bring a problem before the user: its performer in front, its note selected, playhead, timeline and camera there.
+
+    Other selected players stay selected where the problem's player is among them.
+    """
+    project = session.project
+    if performer_id in project.dancer_ids:
+        session.set_dancer(performer_id)
+    elif performer_id in {player.id for player in project.players}:
+        others = tuple(id for id in session.players if id != performer_id)
+        session.set_players((performer_id, *others) if performer_id in session.players else (performer_id,))
+    notes = frozenset({problem.note_id}) if problem.note_id is not None else frozenset[str]()
+    session.select(Selection(notes=notes))
+    frame = session.performance.time_frame
+    lasts_throughout = problem.start_s <= frame.first_frame_s and problem.end_s >= frame.end_s
+    # Such a problem is seen anywhere: there is no place to go to.
+    at_s = session.playhead_s if lasts_throughout else problem.start_s
+    if not session.recording.running:
+        session.set_playhead(at_s)
+    session.viewport.set_view(view_of(problem))
+    session.reveal(at_s)
+    session.notice(problem.message, Severity.WARNING)
+
+
+def follow_selection(session: Session) -> None:
+    """Let playhead and viewport follow the note that the user selects, from now on, while the setting is on.
+
+    A note that the playhead is in already leaves it there: it may be about to be split.
+    """
+    before = session.selection.notes
+
+    def follow() -> None:
+        nonlocal before
+        added, before = session.selection.notes - before, session.selection.notes
+        if len(before) != 1 or not added or session.playing or session.recording.running:
+            return
+        found = _note(session, next(iter(added)))
+        if not session.viewport.follows_selection or found is None:
+            return
+        clock = session.project.score.tempo_map
+        start_s, end_s = clock.seconds(float(found.onset_tick)), clock.seconds(float(found.end_tick))
+        if not start_s <= session.playhead_s < end_s:
+            session.set_playhead(start_s)
+
+    session.selection_changed.connect(follow)
+
+
+def _note(session: Session, note_id: str) -> Note | None:
+    """The note of an id, of any part."""
+    for part in session.project.score.parts:
+        if note_id in part.note_ids:
+            return next(note for note in part.notes if note.id == note_id)
+    return None
