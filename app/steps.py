@@ -48,8 +48,8 @@ class StepTable:
     Attributes
     ----------
     functions : dict of str to callable
-    paths : dict of str to str
-        Of the attributes.
+    paths : dict of str to (str, callable)
+        Of the attributes: the result that has each, and its getter.
     parameters, reads : dict of str to tuple
         By step its parameters but `BEFORE`, and the name, or names, of what each reads.
     revised : frozenset of str
@@ -66,7 +66,8 @@ class StepTable:
     """
 
     def __init__(self, **steps: Callable[..., object] | StepInputs | str) -> None:
-        self.paths: Final = {name: path for name, path in steps.items() if isinstance(path, str)}
+        split = {name: path.split(".", 1) for name, path in steps.items() if isinstance(path, str)}
+        self.paths: Final = {name: (base, attrgetter(attributes)) for name, (base, attributes) in split.items()}
         read = {
             name: step if isinstance(step, StepInputs) else StepInputs(step, {})
             for name, step in steps.items()
@@ -84,7 +85,7 @@ class StepTable:
         count = Counter(self.functions.values())
         self.names: Final = {function: name for name, function in self.functions.items() if count[function] == 1}
         names = {name: [one for named in reads for one in _each(named)] for name, reads in self.reads.items()}
-        names |= {name: [path.split(".", 1)[0]] for name, path in self.paths.items()}
+        names |= {name: [base] for name, (base, _) in self.paths.items()}
         TopologicalSorter(names).prepare()
         self.given: Final = frozenset(one for reads in names.values() for one in reads if one not in steps)
 
@@ -123,13 +124,14 @@ class StepResults:
         self._steps = steps
         self._given = given
         self._done: dict[str, _Done] = {}
+        self._values: dict[str, Any] = dict(given)
         self._before: dict[str, _Done] = {} if before is None else before._done
         if before is None or before._given.keys() != given.keys():
             return
         # Of one table, both are in one order.
         if _are_equal(before._given.values(), given.values()):
             # Nothing has changed: no step has to be looked at.
-            self._given, self._done = before._given, dict(before._done)
+            self._given, self._done, self._values = before._given, dict(before._done), dict(before._values)
 
     def of(self, function: Callable[..., T]) -> T:
         """Return the result of the one step of a function."""
@@ -138,19 +140,22 @@ class StepResults:
 
     def __getitem__(self, name: str) -> Any:
         """Return a result or a given value."""
-        done = self._done.get(name)
-        if done is not None:
-            return done.result
-        if name in self._given:
-            return self._given[name]
+        values = self._values
+        if name in values:
+            return values[name]
         if name in self._steps.paths:
-            base, attributes = self._steps.paths[name].split(".", 1)
-            return attrgetter(attributes)(self[base])
-        reads, known = self._steps.reads[name], self._before.get(name)
-        inputs = tuple(self[one] if isinstance(one, str) else tuple(map(self.__getitem__, one)) for one in reads)
+            base, attributes = self._steps.paths[name]
+            values[name] = value = attributes(values[base] if base in values else self[base])
+            return value
+        known = self._before.get(name)
+        inputs = tuple([
+            tuple(map(self.__getitem__, one)) if isinstance(one, tuple) else values[one] if one in values else self[one]
+            for one in self._steps.reads[name]
+        ])  # fmt: skip
         if known is None or not _are_equal(known.inputs, inputs):
             known = self._do(name, inputs, known)
         self._done[name] = known
+        values[name] = known.result
         return known.result
 
     def _do(self, name: str, inputs: tuple[object, ...], known: _Done | None) -> _Done:

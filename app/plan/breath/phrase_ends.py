@@ -264,7 +264,7 @@ def _strength(ticks: IntArray, bars: IntArray, beat_ticks: IntArray) -> IntArray
 def _like_entries(rests: IntArray, onsets: IntArray, at: IntArray, bars: IntArray) -> FloatArray:
     """(K,): of the notes that come in after rests, the part that does so where each place stands in its bar."""
     place = np.maximum(np.searchsorted(bars, onsets, side="right") - 1, 0)
-    bar = int(np.median(np.diff(bars))) if len(bars) > 1 else 1
+    bar = _usual_bar(bars)
     phase = (onsets - bars[place]) % max(bar // 2 if bar % 2 == 0 else bar, 1)
     phases, counts = np.unique(phase[rests > 0], return_counts=True)
     known = np.minimum(np.searchsorted(phases, phase[at]), len(phases) - 1)
@@ -276,9 +276,14 @@ def _squareness(rests: IntArray, onsets: IntArray, at: IntArray, bars: IntArray)
     """(K,): 2 a multiple of four bars after the entry before each place, 1 an odd multiple of two bars, 0 elsewhere."""
     entries = np.flatnonzero(rests > 0)
     entry = onsets[entries[np.maximum(np.searchsorted(entries, at, side="right") - 1, 0)]]
-    bar = int(np.median(np.diff(bars))) if len(bars) > 1 else 1
+    bar = _usual_bar(bars)
     since = onsets[at] - entry
     return np.asarray((since > 0) * ((since % (2 * bar) == 0) + 1.0 * (since % (4 * bar) == 0)))
+
+
+def _usual_bar(bars: IntArray) -> int:
+    """Ticks of most bars."""
+    return int(median(np.diff(bars).tolist())) if len(bars) > 1 else 1
 
 
 def _begins_again(steps: IntArray, pitch: IntArray, rests: IntArray) -> BoolArray:

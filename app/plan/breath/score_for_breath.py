@@ -13,7 +13,7 @@ from app.plan.breath.rests_for_breath import ALWAYS_S
 from app.plan.event_id import EventId
 from app.plan.model import BreathEvent
 from app.plan.music.breath_controller import BreathEnvelope, BreathGaps, gaps_within, silences
-from app.plan.music.notation import at_score_tempo, heard_rests_s, notated, usual_release
+from app.plan.music.notation import at_score_tempo, early_share, heard_rests_s, notated, usual_release
 from app.plan.music.piece import EPSILON, LineTimes, Piece, gaps_s
 from app.plan.music.rests import Rests, are_certain, rest_ticks
 from app.plan.music.written_marks import WrittenMarks
@@ -107,10 +107,11 @@ def _rests(steady: LineTimes, played: LineTimes, times: LineTimes, piece: Piece)
     """
     beats = piece.beat_ticks_at(times.onset_tick)
     written = rest_ticks(steady, beats)
-    certain = are_certain(played, beats, usual_release(played)) & (times.silence_tick > 0)
+    early = early_share(played)
+    certain = are_certain(played, beats, usual_release(early)) & (times.silence_tick > 0)
     written = np.where(certain, np.maximum(written, times.silence_tick), written)
     is_rest = (written > 0) & (times.silence_tick > 0)
     written_s, sounding_s = gaps_s(steady), gaps_s(times)
-    lasts_s = np.where(certain, np.maximum(written_s, heard_rests_s(played)), written_s)
+    lasts_s = np.where(certain, np.maximum(written_s, heard_rests_s(played, early)), written_s)
     lasts_s = np.where(sounding_s >= ALWAYS_S - EPSILON, np.maximum(lasts_s, sounding_s), lasts_s)
     return Rests(*(np.where(is_rest, column, 0) for column in (times.silence_tick, written, lasts_s)))

@@ -138,7 +138,7 @@ class FingeringProblem:
     in_score: dict[int, int] = field(default_factory=dict)
     glides: BoolArray | None = None
 
-    @property
+    @cached_property
     def has_slide(self) -> bool:
         """True if a slide is among the controls of pitch."""
         return any(control.kind == "slide" for control in self.controls)

@@ -121,14 +121,13 @@ def notated(times: LineTimes, piece: Piece) -> LineTimes:
     else:
         early = np.rint(clock.ticks(times.played_end_s[:-1] + EARLY_RELEASE_S)).astype(np.int64) - end
         sounding = RELEASE_NOTE_SHARE * (end - times.onset_tick[:-1])
+        release = usual_release(early_share(times))
         # A note that began early ended early, too.
         moved = 0 if onset is times.onset_tick else near[:-1]
-        latest = end + np.minimum(
-            np.maximum(early, max(usual_release(times), RELEASE_SHARES[0]) * np.diff(onset) + moved), sounding
-        )
+        latest = end + np.minimum(np.maximum(early, max(release, RELEASE_SHARES[0]) * np.diff(onset) + moved), sounding)
         # No release is an audible silence after a long note, nor one of a beat.
         audible = np.minimum(np.ceil(clock.ticks(times.played_end_s[:-1] + AUDIBLE_S)), following) - 1.0
-        certain = are_certain(times, piece.beat_ticks_at(times.onset_tick), usual_release(times))[1:]
+        certain = are_certain(times, piece.beat_ticks_at(times.onset_tick), release)[1:]
         latest = np.where(certain, np.minimum(latest, audible), latest)
         begins = bar_starts(end, bars)
         since = end - begins
@@ -174,26 +173,31 @@ def _meant_slurs(times: LineTimes, onset_s: FloatArray) -> BoolArray:
     return slurred
 
 
-def usual_release(times: LineTimes) -> float:
-    """The part of the time to the next onset by which notes of the line are released early; 0 where none shows it."""
-    return min(RELEASE_MARGIN * (_early_share(times) or 0.0), RELEASE_SHARES[1])
+def usual_release(early: float) -> float:
+    """The part of the time to the next onset by which notes of a line are released early, by its `early_share`."""
+    return min(RELEASE_MARGIN * early, RELEASE_SHARES[1])
 
 
-def _early_share(times: LineTimes) -> float | None:
-    """The part of the time to the next onset by which notes without a rest after them end early; None if unknown."""
+def early_share(times: LineTimes) -> float:
+    """The part of the time to the next onset by which notes without a rest after them end early; 0 if unknown."""
     gates = 1.0 - times.silence_tick[1:] / np.maximum(np.diff(times.onset_tick), 1)
     gates = gates[(gates >= RELEASE_GATES[0]) & (gates <= RELEASE_GATES[1]) & ~are_audible(times)[1:]]
-    return None if len(gates) < LEAST_RELEASED else max(1.0 - float(np.percentile(gates, EARLIEST_PERCENT)), 0.0)
+    return 0.0 if len(gates) < LEAST_RELEASED else max(1.0 - float(np.percentile(gates, EARLIEST_PERCENT)), 0.0)
 
 
-def heard_rests_s(times: LineTimes) -> FloatArray:
+def heard_rests_s(times: LineTimes, release: float) -> FloatArray:
     """(N,): how long a rest before each note is heard to last, less what its note may have been released early.
 
     Where no note of the line shows how early they are released, and where no release is as long as the silence, the
     whole silence counts.
+
+    Parameters
+    ----------
+    release : 0..1
+        `early_share` of the line.
     """
     gap_s = gaps_s(times)
-    early_s = (_early_share(times) or 0.0) * np.insert(np.diff(times.onset_s), 0, 0.0)
+    early_s = release * np.insert(np.diff(times.onset_s), 0, 0.0)
     return np.where(gap_s >= SILENT_S - EPSILON, gap_s, np.maximum(gap_s - early_s, 0.0))
 
 

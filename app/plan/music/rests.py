@@ -8,6 +8,7 @@ step for which most notes of the line do.
 
 from __future__ import annotations
 
+from functools import reduce
 from typing import NamedTuple
 
 import numpy as np
@@ -104,21 +105,29 @@ def _detached(times: LineTimes, silence_s: FloatArray) -> BoolArray:
     steps = np.maximum(np.diff(times.onset_tick), 1).astype(np.float64)
     gates = 1.0 - times.silence_tick[1:] / steps
     silent = times.silence_tick[1:] > 0
+    in_a_run = _in_a_run(steps, gates, RUN_NOTES)
     slow = silence_s >= SLOW_S - EPSILON
-    in_a_run = np.where(slow, _in_a_run(steps, gates, SLOW_RUN_NOTES), _in_a_run(steps, gates, RUN_NOTES))
+    if slow.any():
+        in_a_run = np.where(slow, _in_a_run(steps, gates, SLOW_RUN_NOTES), in_a_run)
     return np.asarray(silent & (in_a_run | (np.abs(gates - _habit(gates, silent)) < HABIT_GATE)))
 
 
 def _in_a_run(steps: FloatArray, gates: FloatArray, notes: int) -> BoolArray:
     """(N-1,): whether a note stands in a run of so many, of equal steps with equal gates."""
     result = np.zeros(len(steps), dtype=bool)
-    if len(steps) >= notes:
-        runs = np.lib.stride_tricks.sliding_window_view(np.stack((steps, gates)), notes, axis=1)
-        (shortest, low), (longest, high) = runs.min(axis=2), runs.max(axis=2)
+    count = len(steps) - notes + 1
+    if count > 0:
+        (shortest, longest), (low, high) = (_extremes(column, notes) for column in (steps, gates))
         alike = (longest - shortest < SAME_STEP * shortest) & (high - low < SAME_GATE)
         for place in range(notes):
-            result[place : place + len(alike)] |= alike
+            result[place : place + count] |= alike
     return result
+
+
+def _extremes(values: FloatArray, length: int) -> tuple[FloatArray, FloatArray]:
+    """Least and greatest of every so many values in a row."""
+    rows = [values[place : len(values) - length + 1 + place] for place in range(length)]
+    return reduce(np.minimum, rows), reduce(np.maximum, rows)
 
 
 def _habit(gates: FloatArray, silent: BoolArray) -> float:
