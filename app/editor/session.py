@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from enum import Enum
+from operator import is_
 from typing import TYPE_CHECKING, Literal
 
 from PySide6.QtCore import QObject, Signal
@@ -28,6 +29,7 @@ from app.performance.ensemble import Performance
 from app.plan.model import PlayerPlan, Problem
 from app.project.document import Change, Document
 from app.project.grid import Grid
+from app.project.ignored_problems import split_by_ignored
 from app.project.model import Project
 from app.project.performers import Dancer, Player
 
@@ -141,7 +143,8 @@ class Session(QObject):
         """The timeline, for commands that mean it; the panel sets it."""
         self._performance = Performance(project)
         self._broken: Mapping[str, tuple[Problem, ...]] = {}
-        self._problems: dict[str, tuple[tuple[Problem, ...], tuple[Problem, ...], tuple[Problem, ...]]] = {}
+        self._problems: dict[str, tuple[tuple[object, ...], tuple[Problem, ...], tuple[Problem, ...]]] = {}
+        """By player: what they were made from, those that count, and those that are ignored."""
         self._selection = Selection()
         self._players: tuple[str, ...] = tuple(player.id for player in project.players[:1])
         self._dancer_id = project.dancers[-1].id if project.dancers else ""
@@ -181,18 +184,30 @@ class Session(QObject):
         return self.plans.get(self._players[0]) if self._players else None
 
     def problems(self, player_id: str) -> tuple[Problem, ...]:
-        """Problems of a player's performance by time, including its motion as far as it was made; the same tuple until
-        they change, and none before there are plans. For a dancer, who has no plan, the problems of the dance."""
+        """Problems of a player's performance by time, including its motion as far as it was made, without those that
+        the user ignores; the same tuple until they change, and none before there are plans. For a dancer, who has no
+        plan, the problems of the dance."""
+        return self._split_problems(player_id)[0]
+
+    def ignored_problems(self, player_id: str) -> tuple[Problem, ...]:
+        """Problems of a player or dancer that are there and ignored."""
+        return self._split_problems(player_id)[1]
+
+    def _split_problems(self, player_id: str) -> tuple[tuple[Problem, ...], tuple[Problem, ...]]:
         performance, broken = self._performance, self._broken.get(player_id, ())
         planned = performance.problems(player_id) if performance.planned else ()
-        if not broken:
-            return planned
-        if not performance.planned or player_id not in performance.plans:
-            return broken if player_id in performance.project.dancer_ids else planned
-        known = self._problems.get(player_id)
-        if known is None or known[0] is not planned or known[1] is not broken:
-            known = self._problems[player_id] = (planned, broken, by_time(planned + broken))
-        return known[2]
+        ignored = self.project.ignored_problems.get(player_id, ())
+        if not broken and not ignored:
+            return planned, ()
+        if broken and (not performance.planned or player_id not in performance.plans):
+            # Of a dancer the motion's are all; a player who is being planned has none yet.
+            planned, broken = broken if player_id in performance.project.dancer_ids else planned, ()
+        known, sources = self._problems.get(player_id), (planned, broken, ignored)
+        if known is None or not all(map(is_, known[0], sources)):
+            every = by_time(planned + broken) if broken else planned
+            clock = performance.project.score.tempo_map
+            known = self._problems[player_id] = (sources, *split_by_ignored(every, ignored, clock))
+        return known[1], known[2]
 
     def set_broken(self, broken: Mapping[str, tuple[Problem, ...]]) -> None:
         """By player the contacts that the motion breaks, as the worker found."""
@@ -250,6 +265,8 @@ class Session(QObject):
             self.selection_changed.emit()
         if change.opened:
             self.loop_changed.emit()
+        if change.before.ignored_problems is not change.after.ignored_problems:
+            self.problems_changed.emit()
 
     # Who is in front
 

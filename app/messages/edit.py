@@ -24,6 +24,9 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
     "edit.estimate_video_offset": ("Estimate Video Offset", "ビデオのオフセットを推定"),
     # Events of the plan
     "edit.move_events": ("Move {count} {count:Event|Events}", "イベントを移動（{count} 個）"),
+    "edit.fix_problems": ("Fix {count} {count:Problem|Problems}", "問題を解決（{count} 件）"),
+    "edit.ignore_problems": ("Ignore {count} {count:Problem|Problems}", "問題を無視（{count} 件）"),
+    "edit.count_problems": ("Stop Ignoring {count} {count:Problem|Problems}", "問題の無視を解除（{count} 件）"),
     "edit.resize_events": ("Resize {count} {count:Event|Events}", "イベントの長さを変更（{count} 個）"),
     "edit.set_event_amount": ("Change Amount of {count} {count:Event|Events}", "イベントの量を変更（{count} 個）"),
     "edit.set_fades": ("Change Fades", "フェードを変更"),

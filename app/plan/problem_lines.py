@@ -33,11 +33,16 @@ def problem_lines(problems: Iterable[Problem], score: Score, wording: Wording, p
     part_id : str or None
         The player's part, whose notes are looked up first.
     """
+    return [_line(found, score, wording, part_id) for found in problems_by_kind(problems)]
+
+
+def problems_by_kind(problems: Iterable[Problem]) -> list[list[Problem]]:
+    """Problems of a player, those of one kind together, by the first of each kind."""
     kinds: dict[tuple[object, ...], list[Problem]] = {}
     for problem in problems:
         parts = (problem.message.arguments.get(name) for name in PARTS)
         kinds.setdefault((problem.message.id, *parts), []).append(problem)
-    return [_line(found, score, wording, part_id) for found in kinds.values()]
+    return list(kinds.values())
 
 
 def note_place(score: Score, note: Note) -> Message:

@@ -27,6 +27,7 @@ from app.project.dance_corrections import DanceCorrection
 from app.project.doubling import common_postures, doubled_parts, embodied
 from app.project.footprint import footprint, together
 from app.project.frame_rate import USUAL_RATE
+from app.project.ignored_problems import IgnoredProblem
 from app.project.import_decisions import ImportDecisions, ReadTiming
 from app.project.names import unique_names
 from app.project.parameters import ParameterSetting
@@ -131,6 +132,8 @@ class Project:
         In the order in which they are listed.
     dance_corrections : mapping of str to tuple of DanceCorrection
         By dancer id.
+    ignored_problems : mapping of str to tuple of IgnoredProblem
+        By player or dancer id: what the user has seen and lets be.
     """
 
     score: Score
@@ -147,6 +150,7 @@ class Project:
     takes: Mapping[str, PlayerTakes] = field(default_factory=dict)
     dancers: tuple[Dancer, ...] = ()
     dance_corrections: Mapping[str, tuple[DanceCorrection, ...]] = field(default_factory=dict)
+    ignored_problems: Mapping[str, tuple[IgnoredProblem, ...]] = field(default_factory=dict)
     section_intensity: float = 1.0
     conductor: ConductorPlace | None = None
     video: VideoTrack | None = None

@@ -71,7 +71,7 @@ class Autosaved(msgspec.Struct, frozen=True):
     base: str = ""
 
 
-class _Autosave(Content):
+class _Autosave(Content, kw_only=True):
     """Contents of an autosave."""
 
     autosave: Autosaved

@@ -18,6 +18,7 @@ from app.project.check import faults
 from app.project.dance_corrections import DanceCorrection
 from app.project.frame_rate import stored_rate
 from app.project.ids import is_made_here
+from app.project.ignored_problems import IgnoredProblem
 from app.project.import_decisions import ImportDecisions, ReadTiming
 from app.project.migrations import CURRENT, Raw
 from app.project.model import PlayerTakes, Project
@@ -47,7 +48,7 @@ _CHECKED: Final = (
 """Keys whose content may hold nothing that is not known."""
 
 
-class Content(msgspec.Struct, forbid_unknown_fields=True):
+class Content(msgspec.Struct, forbid_unknown_fields=True, omit_defaults=True):
     """Contents of a file of the present version; corrections are read player by player, so that a fault in one of them
     is found by name."""
 
@@ -75,6 +76,8 @@ class Content(msgspec.Struct, forbid_unknown_fields=True):
     """By part that was read from a MIDI file: the file's controllers where they are other ones here."""
     read_timing: ReadTiming | None
     imported: ImportDecisions | None
+    ignored_problems: dict[str, tuple[IgnoredProblem, ...]] = {}
+    """By player or dancer; left out where there are none, as in files written before it was there."""
 
 
 def content_of(project: Project, path: Path) -> Content:
@@ -109,6 +112,7 @@ def content_of(project: Project, path: Path) -> Content:
         edited_curves=_edited_curves(project),
         read_timing=project.read_timing,
         imported=project.imported,
+        ignored_problems={id: items for id, items in project.ignored_problems.items() if items},
     )
 
 
@@ -164,6 +168,7 @@ def project_of(raw: Raw, folder: Path, file: str) -> Project:
             for dancer in content.dancers
         ),
         dance_corrections=dance_corrections,
+        ignored_problems=content.ignored_problems,
     )
 
 

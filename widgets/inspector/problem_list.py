@@ -3,18 +3,25 @@
 from __future__ import annotations
 
 from operator import is_
+from typing import NamedTuple
 
-from PySide6.QtCore import QEvent, Qt, Signal
-from PySide6.QtWidgets import QWidget
+from PySide6.QtCore import QEvent, QPoint, Qt, Signal
+from PySide6.QtWidgets import QCheckBox, QPushButton, QWidget
 
+from app.editor.problem_fixes import ProblemFix, fixed, fixes_of
 from app.editor.problems import go_to_problem
 from app.editor.session import Session
+from app.errors import Message
 from app.plan.model import Problem
+from app.plan.problem_lines import problems_by_kind
+from app.project.ignored_problems import ignore, unignore
 from app.project.performers import Dancer, Player
 from app.score.model import Score
+from widgets.common.clicks import on_click, on_switch
 from widgets.common.combo import Combo
 from widgets.common.controls import Retranslated, named, wrapped
 from widgets.common.layouts import in_column, in_row
+from widgets.common.menus import passing_menu
 from widgets.common.plain import Label
 from widgets.common.text import sentence
 from widgets.inspector.rows import LineList, ListRow
@@ -44,6 +51,14 @@ MOST_LINES = 300
 """No one reads more; a large score that does not fit its instruments has thousands."""
 
 
+class ProblemGroup(NamedTuple):
+    """Problems of one kind and performer: a row of the list."""
+
+    performer: Player | Dancer
+    problems: tuple[Problem, ...]
+    is_ignored: bool
+
+
 class ProblemList(Retranslated, QWidget):
     """Problems, by player and kind; a click shows where.
 
@@ -68,8 +83,19 @@ class ProblemList(Retranslated, QWidget):
         self._empty.setContentsMargins(12, 4, 12, 4)
         self._empty.setAlignment(Qt.AlignmentFlag.AlignTop)
         filters = in_row((self._who, 1), (self._kind, 1), margins=(6, 6, 6, 4), spacing=4)
-        in_column(filters, (self.list, 1), (self._empty, 1), of=self, margins=0, spacing=0)
+        self._gone_to: tuple[object, int] | None = None
+        self._fix, self._ignore = named(QPushButton(), "fix_problems"), named(QPushButton(), "ignore_problems")
+        self._ignored = named(QCheckBox(), "show_ignored_problems")
+        for button, run in ((self._fix, self._fix_first), (self._ignore, self._ignore_chosen)):
+            on_click(button, run)
+        on_switch(self._ignored, lambda _: self.show_problems())
+        deeds = in_row((self._fix, 1), self._ignore, margins=(6, 4, 6, 6), spacing=4)
+        shown = in_row(self._ignored, margins=(6, 4, 6, 0))
+        in_column(filters, (self.list, 1), (self._empty, 1), shown, deeds, of=self, margins=0, spacing=0)
         self.list.opened.connect(self._open)
+        self.list.setContextMenuPolicy(Qt.ContextMenuPolicy.CustomContextMenu)
+        self.list.customContextMenuRequested.connect(self._offer)
+        self.list.selectionModel().selectionChanged.connect(self._show_buttons)
         self._who.chosen.connect(lambda _: self.show_problems())
         self._kind.chosen.connect(lambda _: self.show_problems())
         session.performance_changed.connect(self.show_problems)
@@ -80,37 +106,41 @@ class ProblemList(Retranslated, QWidget):
         whose = {EVERYONE: "problem_list.all_players", SELECTED: "problem_list.selected_players"}
         self.texted(self._who, explained="problem_list.whose_problems", options=whose)
         self.texted(self._kind, explained="problem_list.problems_of_which_kind", options=_KIND_TEXTS)
+        self.texted(self._fix, explained="problem_list.mend_selected")
+        self.texted(self._ignore, explained="problem_list.ignore_selected")
+        self.texted(self._ignored, explained="problem_list.show_what_is_ignored")
         self._who.show_option(EVERYONE)
         self._kind.show_option(ALL)
         self.retranslate()
 
     def show_problems(self) -> None:
         """Show what the newest plans have."""
-        project = self._session.performance.project
-        found = [(one, problem) for one in project.performers for problem in self._session.problems(one.id)]
-        self.counted.emit(len(found))
+        session, project = self._session, self._session.performance.project
+        by_player = [(one, session.problems(one.id)) for one in project.performers]
+        ignored = [(one, session.ignored_problems(one.id)) for one in project.performers]
+        found, left = (sum(len(problems) for _, problems in each) for each in (by_player, ignored))
+        self.counted.emit(found)
         if not self.isVisible():
             return
-        chosen = set(self._session.players) if self._who.shown == SELECTED else None
-        kind = self._kind.shown
-        current = {one.id: one for one in self._session.project.performers}
-        requested = [
-            (player, problem)
-            for player, problem in sorted(found, key=lambda item: item[1].start_s)
-            if (chosen is None or player.id in chosen) and kind in (ALL, None, _kind(problem))
-        ]
+        self._ignored.setVisible(bool(left))
+        self._ignored.setText(self.tr("problem_list.show_ignored").format(count=left))
+        shows_ignored = self._ignored.isChecked() and bool(left)
+        requested = self._requested(by_player, False) + (self._requested(ignored, True) if shows_ignored else [])
+        requested.sort(key=lambda group: group.problems[0].start_s)
+        current = {one.id: one for one in session.project.performers}
         before, self._known = self._known, {}
         lines = []
-        for player, problem in requested[:MOST_LINES]:
-            colour = self._session.colour(current[player.id]) if player.id in current else ""
+        for group in requested[:MOST_LINES]:
+            player = group.performer
+            colour = session.colour(current[player.id]) if player.id in current else ""
             # What a line says comes from these; the player's notes are among them, which problems name.
             score = project.score
             part = project.part(player) if isinstance(player, Player) else None
-            sources = (problem, player, part, score.tempo_map, score.metres, colour)
-            known = before.get(id(problem))
-            if known is None or not all(map(is_, known[0], sources)):
-                known = (sources, self._line(player, problem, colour, score))
-            self._known[id(problem)] = known
+            sources = (*group.problems, player, part, score.tempo_map, score.metres, colour, group.is_ignored)
+            known = before.get(id(group.problems[0]))
+            if known is None or len(known[0]) != len(sources) or not all(map(is_, known[0], sources)):
+                known = (sources, self._line(group, colour, score))
+            self._known[id(group.problems[0])] = known
             lines.append(known[1])
         self.list.lines.show_lines(lines)
         self.list.setVisible(bool(lines))
@@ -124,11 +154,30 @@ class ProblemList(Retranslated, QWidget):
                 if not found
                 else self.tr("problem_list.none_of_these_choose_other")
             )
+        self._show_buttons()
 
-    def _line(self, player: Player | Dancer, problem: Problem, colour: str, score: Score) -> ListRow:
-        place = score.metre_map.label(round(score.tempo_map.ticks(problem.start_s)))
-        text = sentence(problem.message, self._session, player.id)
-        return ListRow((player.id, problem), player.name, place, text, colour, "warning")
+    def _requested(
+        self, by_player: list[tuple[Player | Dancer, tuple[Problem, ...]]], is_ignored: bool
+    ) -> list[ProblemGroup]:
+        """Groups of the players and the kind that are asked for."""
+        chosen = set(self._session.players) if self._who.shown == SELECTED else None
+        kind = self._kind.shown
+        return [
+            ProblemGroup(player, tuple(problems), is_ignored)
+            for player, every in by_player
+            if chosen is None or player.id in chosen
+            for problems in problems_by_kind(every)
+            if kind in (ALL, None, _kind(problems[0]))
+        ]
+
+    def _line(self, group: ProblemGroup, colour: str, score: Score) -> ListRow:
+        first = group.problems[0]
+        place = score.metre_map.label(round(score.tempo_map.ticks(first.start_s)))
+        if len(group.problems) > 1:
+            place = f"{place}  ×{len(group.problems)}"
+        text = sentence(first.message, self._session, group.performer.id)
+        tone = "faint" if group.is_ignored else "warning"
+        return ListRow((group.performer.id, group.problems), group.performer.name, place, text, colour, tone)
 
     def _say_anew(self) -> None:
         """Words or colours are others."""
@@ -140,9 +189,94 @@ class ProblemList(Retranslated, QWidget):
             self.show_problems()
 
     def _open(self, key: object) -> None:
+        """Go to a problem of a row: another click goes to its next one."""
         assert isinstance(key, tuple)
-        player_id, problem = key
-        go_to_problem(self._session, player_id, problem)
+        player_id, problems = key
+        step = self._gone_to[1] + 1 if self._gone_to is not None and self._gone_to[0] == key else 0
+        self._gone_to = key, step % len(problems)
+        go_to_problem(self._session, player_id, problems[self._gone_to[1]])
+
+    # What is done about them
+
+    def _chosen(self) -> list[tuple[str, tuple[Problem, ...]]]:
+        """The selected rows: the player and the problems of each."""
+        return [key for key in self.list.selected_keys() if isinstance(key, tuple)]
+
+    def _show_buttons(self) -> None:
+        chosen = self._chosen()
+        fixes = self._fixes(chosen[0]) if len(chosen) == 1 else ()
+        self._fix.setEnabled(bool(fixes))
+        self._fix.setText(self._fix_text(fixes[0], chosen[0][1]) if fixes else self.tr("problem_list.fix"))
+        self._ignore.setEnabled(bool(chosen))
+        self._ignore.setText(self.tr(self._ignore_text(chosen)))
+
+    def _ignore_text(self, rows: list[tuple[str, tuple[Problem, ...]]]) -> str:
+        return "problem_list.count_again" if rows and self._are_ignored(rows) else "problem_list.ignore"
+
+    def _are_ignored(self, rows: list[tuple[str, tuple[Problem, ...]]]) -> bool:
+        return all(problems[0] in self._session.ignored_problems(player_id) for player_id, problems in rows)
+
+    def _fixes(self, row: tuple[str, tuple[Problem, ...]]) -> tuple[ProblemFix, ...]:
+        project = self._session.project
+        # Old problems of a project that is being planned name notes that may be other ones by now.
+        return fixes_of(project, *row) if self._session.performance.project is project else ()
+
+    def _fix_text(self, fix: ProblemFix, problems: tuple[Problem, ...]) -> str:
+        return self.tr(fix.text_id).format(count=len(problems))
+
+    def _fix_first(self) -> None:
+        chosen = self._chosen()
+        fixes = self._fixes(chosen[0]) if len(chosen) == 1 else ()
+        if fixes:
+            self._mend(fixes[0], chosen)
+
+    def _mend(self, fix: ProblemFix, rows: list[tuple[str, tuple[Problem, ...]]]) -> None:
+        count = sum(len(problems) for _, problems in rows)
+        self._session.attempt(Message("edit.fix_problems", {"count": count}), lambda project: fixed(project, fix, rows))
+
+    def _ignore_chosen(self) -> None:
+        self._set_ignored(self._chosen())
+
+    def _set_ignored(self, rows: list[tuple[str, tuple[Problem, ...]]]) -> None:
+        """Ignore rows, or count them again where all of them are ignored."""
+        if not rows:
+            return
+        again = self._are_ignored(rows)
+        project = self._session.project
+        for player_id, problems in rows:
+            project = (unignore if again else ignore)(project, player_id, problems)
+        count = sum(len(problems) for _, problems in rows)
+        self._session.apply(
+            Message("edit.count_problems" if again else "edit.ignore_problems", {"count": count}), project
+        )
+
+    def _offer(self, at: QPoint) -> None:
+        """Open the menu of the row under the pointer."""
+        index = self.list.indexAt(at)
+        if not index.isValid():
+            return
+        key = self.list.lines.lines[index.row()].key
+        assert isinstance(key, tuple)
+        rows = self._chosen() if key in self._chosen() else [key]
+        menu = passing_menu(self, "problem_menu")
+        on_click(menu.addAction(self.tr("problem_list.go_to")), self._open, key)
+        menu.addSeparator()
+        kind = key[1][0].message.id
+        others = [
+            line.key
+            for line in self.list.lines.lines
+            if isinstance(line.key, tuple) and line.key[1][0].message.id == kind and not self._are_ignored([line.key])
+        ]
+        for fix in self._fixes(key):
+            text = self._fix_text(fix, key[1])
+            on_click(menu.addAction(text), self._mend, fix, [key])
+            if len(others) > 1:
+                of_all = self._fix_text(fix, tuple(problem for _, problems in others for problem in problems))
+                all_text = self.tr("problem_list.fix_all_players").format(fix=of_all)
+                on_click(menu.addAction(all_text), self._mend, fix, others)
+        menu.addSeparator()
+        on_click(menu.addAction(self.tr(self._ignore_text(rows))), self._set_ignored, rows)
+        menu.popup(self.list.viewport().mapToGlobal(at))
 
     def retranslate(self) -> None:
         self._say_anew()

@@ -356,6 +356,7 @@ def remove_players(project: Project, player_ids: Collection[str]) -> Project:
         players=kept,
         corrections={id: items for id, items in project.corrections.items() if id not in player_ids},
         takes={id: recorded for id, recorded in project.takes.items() if id not in player_ids},
+        ignored_problems={id: items for id, items in project.ignored_problems.items() if id not in player_ids},
     )
     if len(parts) < len(project.score.parts):
         result = replace(result, score=msgspec.structs.replace(project.score, parts=parts))

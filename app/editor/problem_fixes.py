@@ -1,0 +1,117 @@
+"""Fixes of problems: edits that mend every problem of one kind at once."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Final, NamedTuple
+
+from app.plan.model import Problem
+from app.project.edit import notes as edit
+from app.project.edit.corrections import take_back
+from app.project.model import Project
+from app.project.performers import Player
+from app.score.model import Note
+from instrument_maps.library import library
+
+OCTAVE: Final = 12
+
+
+class ProblemFix(NamedTuple):
+    """An edit that mends problems of a kind.
+
+    Attributes
+    ----------
+    text_id : str
+        Of its button; its text may name ``count``.
+    edit : callable
+        Makes another project of a project, a player in it and problems of the kind; the project itself where the edit
+        mends none of them.
+    """
+
+    text_id: str
+    edit: Callable[[Project, Player, Sequence[Problem]], Project]
+
+
+def fixes_of(project: Project, player_id: str, problems: Sequence[Problem]) -> tuple[ProblemFix, ...]:
+    """Fixes that would change something about problems of one kind, the best one first."""
+    player = next((player for player in project.players if player.id == player_id), None)
+    if player is None or not problems:
+        return ()
+    return tuple(
+        fix for fix in _FIXES.get(problems[0].message.id, ()) if fix.edit(project, player, problems) is not project
+    )
+
+
+def fixed(project: Project, fix: ProblemFix, by_player: Sequence[tuple[str, Sequence[Problem]]]) -> Project:
+    """A project with problems of several players mended."""
+    for player_id, problems in by_player:
+        project = fix.edit(project, project.player(player_id), problems)
+    return project
+
+
+def _named(project: Project, player: Player, problems: Sequence[Problem]) -> list[Note]:
+    ids = {problem.note_id for problem in problems}
+    return [note for note in project.part(player).notes if note.id in ids]
+
+
+def _from_written(project: Project, player: Player, problems: Sequence[Problem]) -> Project:
+    """The whole part sounds as it would if its notes had been written for the instrument, if all are in range then."""
+    instrument = library().maps.get(player.instrument_id)
+    if instrument is None or not instrument.transposition_semitones or not _named(project, player, problems):
+        return project
+    notes, down = project.part(player).notes, instrument.transposition_semitones
+    if not all(instrument.range.low <= note.pitch - down <= instrument.range.high for note in notes):
+        return project
+    return edit.move(project, [note.id for note in notes], 0, -down)
+
+
+def _by_octaves(project: Project, player: Player, problems: Sequence[Problem]) -> Project:
+    """Notes go by whole octaves into the range, as few as are enough; those that no octave brings there stay."""
+    instrument = library().maps.get(player.instrument_id)
+    if instrument is None:
+        return project
+    low, high = instrument.range.low, instrument.range.high
+    by: dict[int, list[str]] = {}
+    for note in _named(project, player, problems):
+        octaves = -(-(low - note.pitch) // OCTAVE) if note.pitch < low else -(-(note.pitch - high) // OCTAVE)
+        way = octaves * OCTAVE if note.pitch < low else -octaves * OCTAVE
+        if way and low <= note.pitch + way <= high:
+            by.setdefault(way, []).append(note.id)
+    for way, ids in by.items():
+        project = edit.move(project, ids, 0, way)
+    return project
+
+
+def _shorten(project: Project, player: Player, problems: Sequence[Problem]) -> Project:
+    """Notes end where the next note begins."""
+    onsets = {note.id: note.onset_tick for note in project.part(player).notes}
+    following = {problem.note_id: onsets.get(str(problem.message.arguments["other"])) for problem in problems}
+    for note in _named(project, player, problems):
+        end_tick = following[note.id]
+        if end_tick is not None and note.onset_tick < end_tick < note.end_tick:
+            project = edit.resize(project, [note.id], end_tick - note.end_tick)
+    return project
+
+
+def _erase(project: Project, player: Player, problems: Sequence[Problem]) -> Project:
+    """Notes that cannot sound together with others go."""
+    return edit.erase(project, [note.id for note in _named(project, player, problems)])
+
+
+def _revert(project: Project, player: Player, problems: Sequence[Problem]) -> Project:
+    """Corrections that lost their notes go."""
+    lost = {(problem.message.arguments["kind"], problem.message.arguments["anchor"]) for problem in problems}
+    items = project.corrections.get(player.id, ())
+    return take_back(project, player.id, [item for item in items if (item.tag, item.subject) in lost])
+
+
+_FIXES: Final[dict[str, tuple[ProblemFix, ...]]] = {
+    "fingering.out_of_range": (
+        ProblemFix("problem_list.fix_from_written", _from_written),
+        ProblemFix("problem_list.fix_by_octaves", _by_octaves),
+    ),
+    "note.overlaps": (ProblemFix("problem_list.fix_shorten", _shorten),),
+    "note.struck_together": (ProblemFix("problem_list.fix_erase", _erase),),
+    "correction.orphaned": (ProblemFix("problem_list.fix_revert", _revert),),
+}
+"""Fixes by the id of a problem's message."""

@@ -1,0 +1,94 @@
+"""Problems that the user has seen and lets be: kept with the project, recognised again in every later plan."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import replace
+from typing import TYPE_CHECKING, Annotated
+
+import msgspec
+
+from app.plan.model import Problem
+from app.plan.problem_lines import PARTS
+from app.score.limits import LAST_TICK
+from app.score.tempo import TempoMap
+
+if TYPE_CHECKING:
+    from app.project.model import Project
+
+_Id = Annotated[str, msgspec.Meta(max_length=200)]
+
+
+class IgnoredProblem(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """A problem by what it is about, not by what was measured: that changes whenever the player is planned again.
+
+    Attributes
+    ----------
+    message_id, note_id : str
+        ``note_id`` is empty where the problem names no note.
+    body_part : str
+        The side or touch that its message names.
+    tick : int
+        Begin of a problem without a note; 0 for others.
+    """
+
+    message_id: _Id
+    note_id: _Id = ""
+    body_part: _Id = ""
+    tick: Annotated[int, msgspec.Meta(ge=-LAST_TICK, le=LAST_TICK)] = 0
+
+
+def ignored_problem(problem: Problem, clock: TempoMap) -> IgnoredProblem:
+    """The problem as it is kept."""
+    named = [str(problem.message.arguments[name]) for name in PARTS if name in problem.message.arguments]
+    tick = 0 if problem.note_id is not None else round(clock.ticks(problem.start_s))
+    body_part = " ".join(named)[:200]
+    return IgnoredProblem(problem.message.id, problem.note_id or "", body_part, min(max(tick, -LAST_TICK), LAST_TICK))
+
+
+def is_ignored(problem: Problem, ignored: Iterable[IgnoredProblem], clock: TempoMap) -> bool:
+    """Return whether a problem is one of these; without a note it may begin up to a quarter earlier or later."""
+    own = ignored_problem(problem, clock)
+    return any(
+        (own.message_id, own.note_id, own.body_part) == (item.message_id, item.note_id, item.body_part)
+        and abs(own.tick - item.tick) <= clock.ticks_per_quarter
+        for item in ignored
+    )
+
+
+def split_by_ignored(
+    problems: tuple[Problem, ...], ignored: tuple[IgnoredProblem, ...], clock: TempoMap
+) -> tuple[tuple[Problem, ...], tuple[Problem, ...]]:
+    """Problems that count, and those that are ignored; in their order."""
+    if not ignored:
+        return problems, ()
+    by_kind: dict[tuple[str, str], list[IgnoredProblem]] = {}
+    for item in ignored:
+        by_kind.setdefault((item.message_id, item.note_id), []).append(item)
+    counted, left = list[Problem](), list[Problem]()
+    for problem in problems:
+        same = by_kind.get((problem.message.id, problem.note_id or ""), ())
+        (left if is_ignored(problem, same, clock) else counted).append(problem)
+    return tuple(counted), tuple(left)
+
+
+def ignore(project: Project, performer_id: str, problems: Iterable[Problem]) -> Project:
+    """Let problems of a performer be."""
+    clock, known = project.score.tempo_map, project.ignored_problems.get(performer_id, ())
+    added = (ignored_problem(problem, clock) for problem in problems)
+    return _with(project, performer_id, tuple(dict.fromkeys((*known, *added))))
+
+
+def unignore(project: Project, performer_id: str, problems: Iterable[Problem]) -> Project:
+    """Count problems of a performer again."""
+    clock, known = project.score.tempo_map, project.ignored_problems.get(performer_id, ())
+    again = tuple(problems)
+    kept = tuple(item for item in known if not any(is_ignored(problem, (item,), clock) for problem in again))
+    return _with(project, performer_id, kept)
+
+
+def _with(project: Project, performer_id: str, ignored: tuple[IgnoredProblem, ...]) -> Project:
+    if ignored == project.ignored_problems.get(performer_id, ()):
+        return project
+    others = {id: items for id, items in project.ignored_problems.items() if id != performer_id}
+    return replace(project, ignored_problems={**others, performer_id: ignored} if ignored else others)
