@@ -11,10 +11,11 @@ from app.editor.session import Session, Severity
 from app.errors import AppError, Message
 from app.plan.kinds import GESTURE_KINDS, GestureKind
 from app.plan.model import PlayerPlan
+from app.plan.music.written_dynamics import holding_row
 from app.project.edit import breaths_and_cues
 from app.project.edit import events as edit
 from app.project.edit.corrections import Edited
-from app.project.edit.marks import toggle_marks
+from app.project.edit.marks import next_dynamic_tick, player_marks, toggle_marks
 from app.project.model import Project
 from app.score.marks import MARK
 from app.score.model import Note
@@ -48,7 +49,24 @@ def toggle_mark(session: Session, notes: Mapping[str, Sequence[Note]], kind: str
         session.notice(error.message, Severity.WARNING)
         return
     id = "edit.add_mark" if marked.added else "edit.remove_mark"
-    session.apply(Message(id, {"mark": text or f"{MARK}.{kind}"}), marked.project)
+    done = session.apply(Message(id, {"mark": text or f"{MARK}.{kind}"}), marked.project)
+    if done and marked.added:
+        tell_reach(session, [(player_id, own[0].onset_tick) for player_id, own in notes.items() if own], text)
+
+
+def tell_reach(session: Session, places: Iterable[tuple[str, int]], text: str) -> None:
+    """Report up to which place a dynamic holds that was written for players at these ticks: of several, the last."""
+    project, ends = session.project, []
+    for player_id, tick in places:
+        there = player_marks(project, player_id)
+        for mark in there:
+            if (mark.kind, mark.tick, mark.text) == ("dynamic", tick, text) and holding_row(mark) is not None:
+                ends.append(mark.end_tick or next_dynamic_tick(there, mark))
+    known = [tick for tick in ends if tick is not None]
+    if len(known) < len(ends):
+        session.notice(Message("mark.holds_to_the_end", {"mark": text}))
+    elif known:
+        session.notice(Message("mark.holds_up_to", {"mark": text, "place": project.metre_map.label(max(known))}))
 
 
 def add_cues(session: Session, places: Places) -> None:

@@ -36,6 +36,11 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
     "mark.open": ("Open", "オープン"),
     "mark.fingering": ("Fingering", "運指記号"),
     "mark.position": ("Slide position", "スライド・ポジション"),
+    "mark.holds_up_to": ("{mark} holds up to {place}.", "{mark} は {place} まで有効です。"),
+    "mark.holds_to_the_end": (
+        "{mark} holds to the end of the piece: no dynamic follows.",
+        "{mark} は曲の終わりまで有効です（後に強弱記号がありません）。",
+    ),
     "mark.no_notes": ("Select notes first.", "先に音符を選択してください。"),
     "mark.one_note": (
         "Select at least two notes of one player for this mark.",

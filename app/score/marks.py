@@ -63,6 +63,8 @@ MARKINGS: Final = (
     Marking("fingering"),
     Marking("position"),
 )
+SFORZANDI: Final = frozenset({"sf", "sfz", "sffz", "fz", "rf", "rfz", "sfzz"})
+"""Dynamics of one note, played louder than those around it: they stand beside the one that holds."""
 MARK: Final = "mark"
 """Begins the ids of marks."""
 MARK_KINDS: Final[Mapping[str, Marking]] = {kind.id: kind for kind in MARKINGS}
@@ -105,12 +107,15 @@ class Mark(msgspec.Struct, frozen=True, gc=False, omit_defaults=True):
     @property
     def id(self) -> str:
         """Name of the mark among the events of its player: its kind and where it stands."""
-        return mark_id(self.kind, self.note_id, self.last_note_id, self.tick)
+        return mark_id(self.kind, self.note_id, self.last_note_id, self.tick, self.text)
 
 
-def mark_id(kind: str, note_id: str, last_note_id: str, tick: int) -> str:
-    """Return `Mark.id` of a mark at notes (``"mark:slur:0:1-0:5"``), or else at a tick (``"mark:dynamic:@480"``)."""
+def mark_id(kind: str, note_id: str, last_note_id: str, tick: int, text: str = "") -> str:
+    """Return `Mark.id` of a mark at notes (``"mark:slur:0:1-0:5"``), or else at a tick (``"mark:dynamic:@480"``, and
+    ``"mark:sforzando:@480"`` beside it)."""
     if not note_id:
+        if text in SFORZANDI:
+            kind = "sforzando"
         return f"{MARK}:{kind}:@{tick}"
     return f"{MARK}:{kind}:{note_id}-{last_note_id}" if last_note_id else f"{MARK}:{kind}:{note_id}"
 

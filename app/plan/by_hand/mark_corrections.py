@@ -6,7 +6,7 @@ from collections.abc import Collection, Iterable
 from typing import ClassVar
 
 from app.plan.by_hand.correction import Correcting
-from app.score.marks import Mark, MarkKind, mark_id
+from app.score.marks import SFORZANDI, Mark, MarkKind, mark_id
 
 
 class OfMark(Correcting, frozen=True):
@@ -18,6 +18,8 @@ class OfMark(Correcting, frozen=True):
         The note, and the last one of several.
     start_tick : int or None
         Of a mark that belongs to no note.
+    text : str
+        As of a `Mark`; of one left out only that of a sforzando.
     """
 
     has_event: ClassVar[bool] = False
@@ -25,11 +27,12 @@ class OfMark(Correcting, frozen=True):
     note_id: str | None = None
     last_note_id: str | None = None
     start_tick: int | None = None
+    text: str = ""
 
     @property
     def anchor(self) -> str:
         """The mark's id."""
-        return mark_id(self.kind, self.note_id or "", self.last_note_id or "", self.start_tick or 0)
+        return mark_id(self.kind, self.note_id or "", self.last_note_id or "", self.start_tick or 0, self.text)
 
     @property
     def subject(self) -> str:
@@ -64,12 +67,9 @@ class SetMark(OfMark, frozen=True, tag="set_mark"):
     end_tick : int or None
         Where a crescendo or a diminuendo ends; of a dynamic, where that before it holds again (None: it holds until the
         next one).
-    text : str
-        As of a `Mark`.
     """
 
     end_tick: int | None = None
-    text: str = ""
 
     @property
     def is_added(self) -> bool:
@@ -98,7 +98,7 @@ def remove_mark(mark: Mark) -> RemoveMark:
     """Return the correction that leaves a mark out."""
     if mark.note_id:
         return RemoveMark(mark.kind, mark.note_id, mark.last_note_id or None)
-    return RemoveMark(mark.kind, start_tick=mark.tick)
+    return RemoveMark(mark.kind, start_tick=mark.tick, text=mark.text if mark.text in SFORZANDI else "")
 
 
 def mark_corrections(corrections: Iterable[Correcting]) -> tuple[SetMark | RemoveMark, ...]:

@@ -9,7 +9,7 @@ import numpy as np
 
 from app.arrays import BoolArray, FloatArray, IntArray
 from app.plan.music.velocity_ladders import DYNAMICS, LEVELS
-from app.score.marks import Mark, Source
+from app.score.marks import SFORZANDI, Mark, Source
 
 ROW_OF_DYNAMIC: Final[dict[str, float]] = {
     **{name: float(row) for row, (name, _) in enumerate(DYNAMICS)},
@@ -18,8 +18,6 @@ ROW_OF_DYNAMIC: Final[dict[str, float]] = {
 """Row in `DYNAMICS` of each mark that holds until the next one."""
 FORTE_THEN: Final = {"fp": "p", "sfp": "p", "ffp": "p", "mfp": "p", "sfzp": "p", "sfpp": "pp", "pf": "f"}
 """Marks of which the first part is one note's, with the dynamic that holds after it."""
-SFORZANDI: Final = frozenset({"sf", "sfz", "sffz", "fz", "rf", "rfz", "sfzz"})
-"""Marks of one note, played louder than those around it."""
 DYNAMIC_TEXTS: Final = (*ROW_OF_DYNAMIC, *FORTE_THEN, *sorted(SFORZANDI))
 """Marks that have a meaning."""
 FORTE: Final = ROW_OF_DYNAMIC["f"]
@@ -81,7 +79,7 @@ def written_dynamics(marks: Iterable[Mark], source: Source, quarter: int) -> Wri
     of_dynamics = [mark for mark in marks if mark.kind in ("dynamic", "crescendo", "diminuendo")]
     if not of_dynamics:
         return NONE_WRITTEN
-    holding = {mark.tick: row for mark in of_dynamics if not mark.end_tick and (row := _holding_row(mark)) is not None}
+    holding = {mark.tick: row for mark in of_dynamics if not mark.end_tick and (row := holding_row(mark)) is not None}
     hairpins = [mark for mark in of_dynamics if mark.kind != "dynamic" and mark.end_tick > mark.tick]
     swells = []
     if source == "sound":
@@ -96,7 +94,7 @@ def written_dynamics(marks: Iterable[Mark], source: Source, quarter: int) -> Wri
     spans = [
         (mark.tick, mark.end_tick, row)
         for mark in of_dynamics
-        if mark.kind == "dynamic" and mark.end_tick and (row := _holding_row(mark)) is not None
+        if mark.kind == "dynamic" and mark.end_tick and (row := holding_row(mark)) is not None
     ]
     struck = [mark.tick for mark in of_dynamics if mark.kind == "dynamic" and _is_of_one_note(mark.text)]
     found = np.array(ticks, np.float64), np.array(rows, np.float64)
@@ -141,7 +139,7 @@ def _is_of_one_note(text: str) -> bool:
     return text in SFORZANDI or (text in FORTE_THEN and text != "pf")
 
 
-def _holding_row(mark: Mark) -> float | None:
+def holding_row(mark: Mark) -> float | None:
     """Row in `DYNAMICS` of what a dynamic mark leaves in force; None: it says nothing about that."""
     return ROW_OF_DYNAMIC.get(FORTE_THEN.get(mark.text, mark.text)) if mark.kind == "dynamic" else None
 

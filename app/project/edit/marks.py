@@ -20,6 +20,7 @@ from app.plan.by_hand.mark_corrections import (
     remove_mark,
     set_mark,
 )
+from app.plan.music.written_dynamics import holding_row
 from app.project.edit.corrections import take_back, with_corrections
 from app.project.edit.found_events import Origin as Origin
 from app.project.edit.found_events import player_marks as player_marks
@@ -119,6 +120,12 @@ def toggle_marks(project: Project, notes: Mapping[str, Sequence[Note]], kind: st
         excluded = _excluded(there[player_id], fresh)
         project = set_marks(remove_marks(project, player_id, excluded), player_id, fresh)
     return Marked(project, adds, count)
+
+
+def next_dynamic_tick(marks: Iterable[Mark], mark: Mark) -> int | None:
+    """Return the tick of the next dynamic that holds, up to which one without an end does; None: there is none."""
+    later = (one.tick for one in marks if one.tick > mark.tick and not one.end_tick and holding_row(one) is not None)
+    return min(later, default=None)
 
 
 def marks_at(marks: Collection[Mark], notes: Sequence[Note], order: Mapping[str, int]) -> list[Mark]:

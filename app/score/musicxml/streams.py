@@ -229,7 +229,8 @@ def _marks(played: PlayedPart, prefix: str, spans: Sequence[Mark]) -> list[Mark]
             if one is not other:
                 found.append(Mark("slur", first(one), last(other)))
     dynamics = [Mark("dynamic", tick=tick, text=one.text) for tick, one in played.directions if one.kind == "dynamic"]
-    return list(dict.fromkeys([*found, *dynamics, *spans]))
+    # Of several in one place the last one counts.
+    return list({mark.id: mark for mark in (*found, *dynamics, *spans)}.values())
 
 
 def _paired(start: PlayedChord, end: PlayedChord) -> list[tuple[PlayedNote, PlayedNote]]:

@@ -12,9 +12,11 @@ from PySide6.QtGui import QImage, QMouseEvent
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QMenu, QWidget
 
+from app.editor.additions import toggle_mark
 from app.editor.selection import EventKey
 from app.editor.tokens import LIGHT
 from app.errors import Message
+from app.messages import text
 from app.plan.music.written_dynamics import DYNAMIC_TEXTS
 from app.project.edit.marks import player_marks, set_marks
 from app.score.marks import Mark
@@ -225,6 +227,62 @@ def test_a_double_click_changes_a_dynamic_or_adds_one(marked: Stage) -> None:
     QTest.keyClick(lane(marked).plot, Qt.Key.Key_Return)
     choose("mf")
     assert Mark("dynamic", tick=TPQ, text="mf") in marks(marked)
+
+
+def test_a_dynamic_at_one_midi_note_says_how_far_it_holds_and_shows_it(stage: Stage) -> None:
+    noted: list[Message] = []
+    stage.session.noticed.connect(lambda message, _: noted.append(message))
+    first, later = stage.note("1:1"), stage.note("1:5")
+    stage.hand.click(stage.middle("1:1"))
+    toggle_mark(stage.session, {FRONT: [first]}, "dynamic", "f")
+    assert [(message.id, text(message)) for message in noted] == [
+        ("mark.holds_to_the_end", "f holds to the end of the piece: no dynamic follows.")
+    ]
+    QApplication.processEvents()
+    [placed] = lane(stage).placed()
+    last = stage.session.project.score.parts[0].notes[-1]
+    assert placed.holds_px == pytest.approx(in_lane(stage, last.end_tick)[0], abs=1.0)
+    # Its line is no end that could be dragged.
+    assert lane(stage).placed()[0].end_px is None
+    noted.clear()
+    toggle_mark(stage.session, {FRONT: [later]}, "dynamic", "p")
+    stage.session.document.undo()
+    stage.session.attempt(
+        Message("edit.add_dynamic"),
+        lambda p: set_marks(p, FRONT, [Mark("dynamic", tick=later.onset_tick, text="p")]),
+    )
+    noted.clear()
+    double_click(stage, on_letters(stage, Mark("dynamic", tick=first.onset_tick, text="f")))
+    choose("mf")
+    label = stage.session.project.metre_map.label(later.onset_tick)
+    assert [text(message) for message in noted] == [f"mf holds up to {label}."]
+    assert lane(stage).placed()[0].holds_px == pytest.approx(in_lane(stage, later.onset_tick)[0], abs=1.0)
+    # Over several notes it says the end of these.
+    noted.clear()
+    toggle_mark(stage.session, {FRONT: [stage.note("1:2"), stage.note("1:3")]}, "dynamic", "pp")
+    assert [message.arguments["place"] for message in noted] == [
+        stage.session.project.metre_map.label(stage.note("1:3").end_tick)
+    ]
+    # A sforzando is of one note.
+    noted.clear()
+    toggle_mark(stage.session, {FRONT: [later]}, "dynamic", "sfz")
+    assert not noted
+
+
+def test_two_dynamics_at_one_tick_stand_side_by_side_and_go_one_by_one(marked: Stage) -> None:
+    struck = msgspec.structs.replace(FORTE, text="sfz")
+    marked.session.attempt(Message("edit.add_dynamic"), lambda p: set_marks(p, FRONT, [struck]))
+    QApplication.processEvents()
+    placed = {marks_of(marked)[one.mark]: one.box for one in lane(marked).placed()}
+    assert placed[FORTE].right < placed[struck].left
+    Hand(lane(marked).plot).click((placed[struck].left + 3.0, in_lane(marked, 0)[1]))
+    assert chosen(marked) == {EventKey(FRONT, struck.id)}
+    marked.do("edit.delete")
+    assert set(marks(marked)) == {SLUR, ACCENT, FORTE, SWELL}
+
+
+def marks_of(stage: Stage) -> list[Mark]:
+    return lane(stage).marks.of_player.marks
 
 
 def right_click(widget: QWidget, place: Place) -> None:

@@ -239,3 +239,19 @@ def test_marks_are_planned_after_one_another_as_at_once() -> None:
         performance = Performance(project, before)
         assert performance.plan(project.players[0]) == Performance(project).plan(project.players[0])
         before = performance
+
+
+@pytest.mark.parametrize(("deleted", "left"), [("p", "sfz"), ("sfz", "p")])
+def test_a_sforzando_stands_beside_the_dynamic_that_holds(deleted: str, left: str) -> None:
+    marks = {text: Mark("dynamic", tick=480, text=text) for text in ("p", "sfz")}
+    project = _piece(tuple(marks.values()), "score")
+    player = _player(project)
+    plan = Performance(project).plan(project.players[0])
+    changed = remove(project, plan, [marks[deleted].id])
+    assert player_marks(changed, player) == {marks[left]: "score"}
+    assert give_back(changed, player, [marks[deleted].id]) == project
+    # So it does where it is written by hand.
+    project = _piece((marks["p"],), "score")
+    struck = toggle_marks(project, _notes(project, 1, 1), "dynamic", "sfz").project
+    assert player_marks(struck, player) == {marks["p"]: "score", marks["sfz"]: "hand"}
+    assert player_marks(remove_marks(struck, player, [marks["p"]]), player) == {marks["sfz"]: "hand"}

@@ -10,6 +10,7 @@ from PySide6.QtCore import QLineF, QPoint, QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QFontMetricsF, QKeyEvent, QPainter, QPen
 from PySide6.QtWidgets import QMenu, QWidget
 
+from app.editor.additions import tell_reach
 from app.editor.selection import Selection
 from app.editor.session import Session
 from app.errors import Message
@@ -87,12 +88,14 @@ class _Dynamics(LaneItem["DynamicsLane"]):
         else:
             painter.setPen(colour)
             painter.drawText(QPointF(box.left, base), mark.text)
-        if placed.end_px is not None and placed.end_px > box.right + 6.0:
+        until_px = placed.holds_px if placed.end_px is None else placed.end_px
+        if until_px is not None and until_px > box.right + 6.0:
             y = round(base - letter_px / 2) + 0.5
             painter.setPen(QPen(shade(colour.name(), CALM // 2), 1.0, Qt.PenStyle.DashLine))
-            painter.drawLine(QPointF(box.right + 4.0, y), QPointF(placed.end_px, y))
-            painter.setPen(QPen(colour, 1.0))
-            painter.drawLine(QPointF(placed.end_px, y - 4.0), QPointF(placed.end_px, y + 4.0))
+            painter.drawLine(QPointF(box.right + 4.0, y), QPointF(until_px, y))
+            if placed.end_px is not None:
+                painter.setPen(QPen(colour, 1.0))
+                painter.drawLine(QPointF(placed.end_px, y - 4.0), QPointF(placed.end_px, y + 4.0))
 
 
 class DynamicsLane(Lane):
@@ -120,11 +123,14 @@ class DynamicsLane(Lane):
 
     def placed(self, span_s: tuple[float, float] | None = None) -> tuple[PlacedDynamic, ...]:
         """The marks of a span of time, else the visible ones."""
-        of_player, tempo = self.marks.of_player, self.session.project.score.tempo_map
-        if not len(of_player.at_ticks):
+        of_player, tempo, player = self.marks.of_player, self.session.project.score.tempo_map, self.session.player
+        if not len(of_player.at_ticks) or player is None:
             return ()
-        if self._timed is None or self._timed.of_player is not of_player or self._timed.tempo is not tempo:
-            self._timed = TimedMarks(of_player, tempo)
+        part = self.session.project.part(player)
+        last_tick = max((note.end_tick for note in part.notes), default=0) if part.source == "sound" else None
+        timed = self._timed
+        if timed is None or (timed.of_player, timed.tempo, timed.last_tick) != (of_player, tempo, last_tick):
+            self._timed = timed = TimedMarks(of_player, tempo, last_tick)
         letter_px, font = self.letter_px, small_font(self.font())
 
         def width_of(text: str) -> float:
@@ -135,7 +141,7 @@ class DynamicsLane(Lane):
         top = (self.plot_rect.height() - letter_px * LINES_OF_LETTER) / 2
         band = top, top + letter_px * LINES_OF_LETTER
         span_s = span_s or (self.axis.start_s, self.axis.end_s)
-        return tuple(placed_dynamics(self._timed, self.axis, span_s, band, width_of, self.marks.selected))
+        return tuple(placed_dynamics(timed, self.axis, span_s, band, width_of, self.marks.selected))
 
     @property
     def is_empty(self) -> bool:
@@ -278,4 +284,5 @@ class DynamicsLane(Lane):
             name = Message("edit.set_dynamic", {"text": text})
             done = self.session.attempt(name, lambda project: replace_mark(project, player.id, before, changed))
         if done:
+            tell_reach(self.session, [(player.id, changed.tick)], text)
             self.session.select(Selection(events=frozenset({self.marks.key(changed)})))

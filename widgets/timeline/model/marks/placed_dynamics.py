@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from bisect import bisect_right
 from collections.abc import Callable, Sequence
 from typing import Final, NamedTuple
 
 import numpy as np
 
 from app.arrays import FloatArray
-from app.score.marks import MARK_KINDS
+from app.plan.music.written_dynamics import holding_row
+from app.score.marks import MARK_KINDS, SFORZANDI
 from app.score.tempo import TempoMap
 from widgets.timeline.model.geometry import TimeSpans
 from widgets.timeline.model.hand import PixelRect
@@ -33,18 +35,36 @@ class TimedMarks:
     numbers : list of int
         In `MarkList.marks`.
     spans : TimeSpans
+    last_tick : int or None
+        End of a part read from sound: there a dynamic visibly takes the place of what is heard up to the next mark,
+        or the end. None: of a part of a score.
     """
 
-    def __init__(self, of_player: MarkList, tempo: TempoMap) -> None:
-        self.of_player, self.tempo = of_player, tempo
+    def __init__(self, of_player: MarkList, tempo: TempoMap, last_tick: int | None = None) -> None:
+        self.of_player, self.tempo, self.last_tick = of_player, tempo, last_tick
         marks = of_player.marks
         self.numbers = sorted(
             of_player.at_ticks.tolist(),
             key=lambda number: (marks[number].tick, MARK_KINDS[marks[number].kind].anchor == "span"),
         )
         ticks: FloatArray = np.array([float(marks[number].tick) for number in self.numbers])
-        ends = np.array([float(marks[number].end_tick) for number in self.numbers])
+        ends = np.array(
+            [float(marks[number].end_tick or held) for number, held in zip(self.numbers, self._held(), strict=True)]
+        )
         self.spans = TimeSpans(tempo.seconds(ticks), tempo.seconds(np.maximum(ticks, ends)))
+
+    def _held(self) -> list[int]:
+        """Ticks up to which dynamics without an end visibly hold; 0 for other marks."""
+        marks = [self.of_player.marks[number] for number in self.numbers]
+        if self.last_tick is None:
+            return [0] * len(marks)
+        starts = [*(mark.tick for mark in marks if mark.text not in SFORZANDI), self.last_tick]
+        return [
+            starts[min(bisect_right(starts, mark.tick, hi=len(starts) - 1), len(starts) - 1)]
+            if holding_row(mark) is not None
+            else 0
+            for mark in marks
+        ]
 
 
 class PlacedDynamic(NamedTuple):
@@ -59,12 +79,15 @@ class PlacedDynamic(NamedTuple):
     end_px : float or None
         Of a dynamic that holds up to a place.
     is_hairpin : bool
+    holds_px : float or None
+        Of a dynamic without an end, in a part read from sound: where the next mark or the end of the part is.
     """
 
     mark: int
     box: PixelRect
     end_px: float | None
     is_hairpin: bool
+    holds_px: float | None = None
 
     def zone_at(self, x_px: float, y_px: float) -> Zone | None:
         """The part of it under the mouse, if any."""
@@ -116,9 +139,13 @@ def placed_dynamics(
         if MARK_KINDS[mark.kind].anchor == "span":
             continue
         crowded = bool(letters) and left < letters[-1].box.right
+        if crowded and mark.tick == marks[letters[-1].mark].tick:
+            # Those at one tick stand side by side.
+            left, crowded = letters[-1].box.right + GAP_PX, False
         if not crowded or number in kept:
             box = PixelRect(left, band[0], left + width_of(mark.text), band[1])
-            letters.append(PlacedDynamic(number, box, end if mark.end_tick else None, False))
+            ends_px = (end, None) if mark.end_tick else (None, end if end > left else None)
+            letters.append(PlacedDynamic(number, box, ends_px[0], False, ends_px[1]))
     lefts = np.array([item.box.left for item in letters])
     found = list(letters)
     middle, half = (band[0] + band[1]) / 2, (band[1] - band[0]) * 0.27
