@@ -174,6 +174,16 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
             "秒分の息が必要ですが、{lung_s:g} 秒分しかありません。その音を {from_note_ms:g} ms 短くします"
         ),
     ),
+    "breath.catch_rest_slurred": (
+        (
+            "catch breath in the rest under a slur, after note {after_note}: {phrase_s:g} s without a breath in a rest "
+            "need {air_s:g} s of air, but {lung_s:g} s are available"
+        ),
+        (
+            "スラー内の休符（音符 {after_note} の後）での息継ぎ: 休符でブレスできない {phrase_s:g} 秒に {air_s:g} "
+            "秒分の息が必要ですが、{lung_s:g} 秒分しかありません"
+        ),
+    ),
     "breath.written": (
         "breath mark in the score after note {after_note}, which is shortened by {from_note_ms:g} ms",
         "楽譜のブレス記号。前の音符 {after_note} を {from_note_ms:g} ms 短くします",
@@ -211,6 +221,30 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
             "秒分の息が必要ですが、{lung_s:g} 秒分しかありません。短くできる長さの音もありません"
         ),
     ),
+    "breath.catch_dropped_slurred": (
+        (
+            "catch breath in place of note {after_note}, which is excluded: it {why}; {phrase_s:g} s without a breath "
+            "in a rest need {air_s:g} s of air, but {lung_s:g} s are available, and there is no other place"
+        ),
+        (
+            "音符 {after_note} を除外した息継ぎ（{why}）: 休符でブレスできない {phrase_s:g} 秒に {air_s:g} "
+            "秒分の息が必要ですが、{lung_s:g} 秒分しかありません。ほかに吸える場所もありません"
+        ),
+    ),
+    "breath.catch_dropped_two_slurred": (
+        (
+            "catch breath in place of notes {first_note} and {after_note}, which are excluded: it {why}; "
+            "{phrase_s:g} s without a breath in a rest need {air_s:g} s of air, but {lung_s:g} s are available, and "
+            "there is no other place"
+        ),
+        (
+            "音符 {first_note} と {after_note} を除外した息継ぎ（{why}）: 休符でブレスできない {phrase_s:g} 秒に "
+            "{air_s:g} 秒分の息が必要ですが、{lung_s:g} 秒分しかありません。ほかに吸える場所もありません"
+        ),
+    ),
+    "breath.slur_broken": ("breaks a written slur", "スラーの途中"),
+    "breath.slur_begins_late": ("takes the beginning of a written slur", "スラーの始めの音を省略"),
+    "breath.slur_ends_early": ("takes the end of a written slur", "スラーの終わりの音を省略"),
     "breath.staggered": (
         (
             "staggered breath within a note that others of the line sustain: {air_s:g} s of air are needed, "

@@ -114,7 +114,7 @@ def plan_breaths(
             refill[line.number_of(event)] = drawn_share(event.end_s - event.start_s)
     events = tuple(sorted([*in_rests, *given.by_hand, *caught], key=lambda event: (event.start_s, event.end_s)))
     early_end_s, cut = _cut_notes(line, events)
-    said = (*broken_slurs(line, caught, stock.room), *hasty_at_marks(line, caught))
+    said = (*broken_slurs(line, caught, stock.room, score.rests.sounding_tick), *hasty_at_marks(line, caught))
     return BreathPlan(
         events=with_depths(events, stock.used, score.lung_s, refill, line.index_of),
         problems=(*cut, *said, *too_long(notes, times, stock.used, score.lung_s, refill)),

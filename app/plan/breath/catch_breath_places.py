@@ -25,6 +25,10 @@ HASTY_COST = 10.0
 GASP_COST = 100.0
 """Breathing in again after less than `LEAST_PLAYED_S` of playing: only for want of air."""
 TOO_LONG_COST = 1000.0
+BREAKING_COST = 150.0
+"""Places that cost so much break what a score says: other ways of breathing before them are compared too."""
+AIR_STEPS = 32
+"""Amounts of air that are told apart then."""
 DROPPED_COST = 30.0
 """Leaving out a note, where none is long enough to take a gasp from."""
 MISSING_COST = 10.0
@@ -78,7 +82,10 @@ def catch_places(line: ComparedLine, lungs: AirSupply, may: BoolArray, missing: 
     stretches = _stretches(lungs, level)
     if not stretches:
         return []
-    dropping = may & ~open_ & (room.drop_s > 0.0)
+    # No note is left out that a breath in a rest comes before.
+    breathed = np.concatenate(([0], np.cumsum(refill > 0.0)))
+    places = np.arange(len(refill))
+    dropping = may & ~open_ & (room.drop_s > 0.0) & (breathed[places] == breathed[places - room.dropped])
     cost = np.full(len(refill), np.inf)
     at = np.concatenate([start + 1 + np.flatnonzero(open_[start + 1 : end]) for start, end, _ in stretches])
     cost[at] = place_costs(line, at)
@@ -88,15 +95,10 @@ def catch_places(line: ComparedLine, lungs: AirSupply, may: BoolArray, missing: 
     def chain(start: int, end: int, allowed: BoolArray) -> tuple[list[int], bool]:
         places = start + 1 + np.flatnonzero(allowed[start + 1 : end])
         nodes = np.concatenate(([start], places, [end]))
-        found, is_enough = _cheapest_chain(
-            used[nodes].tobytes(),
-            played_s[nodes].tobytes(),
-            cost[places].tobytes(),
-            air_s[places].tobytes(),
-            float(level[start]),
-            lung_s,
-            free_s,
-        )
+        numbers = used[nodes].tobytes(), played_s[nodes].tobytes(), cost[places].tobytes(), air_s[places].tobytes()
+        found, is_enough = cheapest_chain(*numbers, float(level[start]), lung_s, free_s)
+        if (cost[places[list(found)]] >= BREAKING_COST).any():
+            found, is_enough = cheapest_chain(*numbers, float(level[start]), lung_s, free_s, AIR_STEPS)
         return places[list(found)].tolist(), is_enough
 
     # Where the air lasts only a phrase's end is worth a breath, and in no rest: `rests_for_breath` says in which.
@@ -137,12 +139,13 @@ def _dropping_costs(line: ComparedLine, at: IntArray, dropped: IntArray, missing
 
 
 @lru_cache(maxsize=4096)
-def _cheapest_chain(
-    used: bytes, played: bytes, cost: bytes, drawn: bytes, level: float, lung_s: float, free_s: float
+def cheapest_chain(
+    used: bytes, played: bytes, cost: bytes, drawn: bytes, level: float, lung_s: float, free_s: float, steps: int = 1
 ) -> tuple[tuple[int, ...], bool]:
     """The places, and whether the air lasts with them.
 
-    Label by label: what is left of the best way so far, and what the catch breath adds, is the air of a place.
+    Label by label: what is left of the best way so far, and what the catch breath adds, is the air of a place. That way
+    may leave too little air for what follows; in several steps the best way to each amount of air is kept.
 
     Remembered by its numbers: an edit leaves nearly all stretches of a line as they were.
 
@@ -154,15 +157,16 @@ def _cheapest_chain(
         What each place costs, and the air that a catch breath brings there.
     free_s : float
         Air used without which no place costs less than `LEAST_COST`.
+    steps : int
+        Amounts of air in the lungs that are told apart.
     """
     used_s, played_s = np.frombuffer(used), np.frombuffer(played)
     costs, drawn_s = np.frombuffer(cost).tolist(), np.frombuffer(drawn).tolist()
     last = len(used_s) - 1
-    air_s = np.zeros(last + 1)
-    air_s[0] = level * lung_s
-    total = np.full(last + 1, np.inf)
-    total[0] = 0.0
-    origin = np.zeros(last + 1, dtype=np.int64)
+    air_s = np.full((last + 1, steps), level * lung_s)
+    total = np.full((last + 1, steps), np.inf)
+    total[0, 0] = 0.0
+    origin = np.zeros((last + 1, steps), dtype=np.int64)
     # No lungful reaches further back than this; where it does not even reach the place before, that one has to do.
     reach = np.minimum(np.searchsorted(used_s, used_s - lung_s - EPSILON), np.arange(last + 1) - 1)
     # From here on so little is used up since that the breath is hasty.
@@ -171,11 +175,11 @@ def _cheapest_chain(
     gasps = np.searchsorted(played_s, played_s - LEAST_PLAYED_S + EPSILON, side="right").tolist()
     for node, back in enumerate(reach.tolist()[1:], 1):
         needed = used_s[node] - used_s[back:node]
-        left_s = air_s[back:node] - needed
+        left_s = air_s[back:node] - needed[:, None]
         ways = total[back:node].copy()
         late = max(hasty[node] - back, 0)
         if late < len(ways):
-            ways[late:] += HASTY_COST * np.maximum(1.0 - needed[late:] / hasty_s, 0.0)
+            ways[late:] += HASTY_COST * np.maximum(1.0 - needed[late:, None] / hasty_s, 0.0)
         if gasps[node] < node:
             ways[max(gasps[node] - back, 0) :] += GASP_COST
         if left_s.min() < 0.0:
@@ -183,15 +187,20 @@ def _cheapest_chain(
             np.maximum(left_s, 0.0, out=left_s)
         if node < last:
             here = costs[node - 1]
-            ways += here if here >= LEAST_COST else np.where(needed < free_s, LEAST_COST, here)
+            ways += here if here >= LEAST_COST else np.where(needed[:, None] < free_s, LEAST_COST, here)
             ways += (EARLY_COST / lung_s**2) * left_s * left_s
-        best = int(ways.argmin())
-        origin[node], total[node] = back + best, ways[best]
-        if node < last:
-            air_s[node] = min(left_s[best] + drawn_s[node - 1], lung_s)
+            left_s = np.minimum(left_s + drawn_s[node - 1], lung_s)
+        ways, left_s = ways.ravel(), left_s.ravel()
+        if steps == 1 or node == last:
+            best = np.array([ways.argmin()])
+        else:
+            order = ways.argsort(kind="stable")
+            best = order[np.unique((left_s[order] * (steps - 1) / lung_s).astype(np.int64), return_index=True)[1]]
+        kept = slice(len(best))
+        origin[node, kept], total[node, kept], air_s[node, kept] = back * steps + best, ways[best], left_s[best]
     chain = []
-    node = int(origin[-1])
-    while node > 0:
-        chain.append(node - 1)
-        node = int(origin[node])
-    return tuple(chain[::-1]), bool(total[-1] < TOO_LONG_COST)
+    label = int(origin[-1, 0])
+    while label >= steps:
+        chain.append(label // steps - 1)
+        label = int(origin.flat[label])
+    return tuple(chain[::-1]), bool(total[-1, 0] < TOO_LONG_COST)

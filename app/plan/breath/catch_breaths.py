@@ -1,8 +1,9 @@
 """Catch breaths: before which notes they are taken, how, and why.
 
 Messages: ``breath.catch``, ``breath.catch_dropped``, ``breath.catch_dropped_two``, ``breath.catch_slurred``,
-``breath.phrase_end``, ``breath.after_hold``, ``breath.written``, ``breath.by_hand``, ``breath.breaks_slur``,
-``breath.mark_too_short``.
+``breath.catch_rest_slurred``, ``breath.catch_dropped_slurred``, ``breath.catch_dropped_two_slurred``,
+``breath.slur_broken``, ``breath.slur_begins_late``, ``breath.slur_ends_early``, ``breath.phrase_end``,
+``breath.after_hold``, ``breath.written``, ``breath.by_hand``, ``breath.breaks_slur``, ``breath.mark_too_short``.
 """
 
 from __future__ import annotations
@@ -68,17 +69,18 @@ def catch_breaths(
     if score.gaps is not None:
         blown = [index for index in catches if score.gaps.played[index] and not line.written.breath[index - 1]]
         found = {index: blown_catch(line.notes[index], line.piece, score.gaps, index) for index in blown}
-    found |= _made(line, stock, score.lung_s, [index for index in catches if index not in found], after_hold)
+    found |= _made(line, score, stock, [index for index in catches if index not in found], after_hold)
     return [found[index] for index in catches]
 
 
 def _made(
-    line: Breather, stock: AirStock, lung_s: float, catches: list[int], after_hold: Collection[int]
+    line: Breather, score: BreathScore, stock: AirStock, catches: list[int], after_hold: Collection[int]
 ) -> dict[int, BreathEvent]:
     """Catch breaths out of the notes before, by the notes that they come before."""
     if not catches:
         return {}
     notes, times, room = line.notes, line.times, stock.room
+    lung_s, rests = score.lung_s, score.rests.sounding_tick
     phrase_ends = _not_for_air(stock, lung_s, catches)
     at = np.array(catches)
     onset_s, start_s = times.onset_s[at], times.onset_s[at] - room.lasts_s[at]
@@ -110,16 +112,12 @@ def _made(
             reason = Message("breath.by_hand" if line.written.breath_by_hand[index - 1] else "breath.written", short)
         elif index in after_hold and not dropped:
             reason = Message("breath.after_hold", {"after_note": after})
-        elif dropped > 1:
-            first_note = notes[index - dropped].id
-            reason = Message("breath.catch_dropped_two", {"first_note": first_note, "after_note": after, **why})
         elif dropped:
-            reason = Message("breath.catch_dropped", {"after_note": after, **why})
+            reason = _dropping(line, index, dropped, why)
         elif index in phrase_ends:
             reason = Message("breath.phrase_end", short)
         else:
-            is_slurred = line.written.joined[index - 1]
-            reason = Message("breath.catch_slurred" if is_slurred else "breath.catch", {**short, **why})
+            reason = Message(_catch(line, rests, index), {**short, **why})
         found[index] = BreathEvent(
             id=f"breath:{notes[index].id}",
             kind="breath",
@@ -131,6 +129,28 @@ def _made(
             reason=reason,
         )
     return found
+
+
+def _catch(line: Breather, rests: IntArray, index: int) -> str:
+    """Message of a catch breath for want of air: by the slur that it is under."""
+    if not line.written.joined[index - 1]:
+        return "breath.catch"
+    return "breath.catch_rest_slurred" if rests[index] > 0 else "breath.catch_slurred"
+
+
+def _dropping(line: Breather, index: int, dropped: int, why: dict[str, Argument]) -> Message:
+    """Reason of a breath that notes are left out for: by the slurs over them."""
+    arguments: dict[str, Argument] = {"after_note": line.notes[index - 1].id, **why}
+    if dropped > 1:
+        arguments["first_note"] = line.notes[index - dropped].id
+    slurred = line.written.joined[index - 1 - dropped : index]
+    if not slurred.any():
+        return Message("breath.catch_dropped" if dropped == 1 else "breath.catch_dropped_two", arguments)
+    if slurred.all():
+        arguments["why"] = "breath.slur_broken"
+    else:
+        arguments["why"] = "breath.slur_begins_late" if slurred[-1] else "breath.slur_ends_early"
+    return Message("breath.catch_dropped_slurred" if dropped == 1 else "breath.catch_dropped_two_slurred", arguments)
 
 
 def _needed_s(stock: AirStock, lung_s: float, first: IntArray, last: IntArray) -> tuple[FloatArray, FloatArray]:
@@ -160,13 +180,20 @@ def _not_for_air(stock: AirStock, lung_s: float, catches: list[int]) -> set[int]
     return found
 
 
-def broken_slurs(line: Breather, caught: list[BreathEvent], room: Room) -> list[Problem]:
-    """Return what is to be said of catch breaths under slurs, unless they are written too."""
+def broken_slurs(line: Breather, caught: list[BreathEvent], room: Room, rests: IntArray) -> list[Problem]:
+    """Return what is to be said of catch breaths under slurs, unless they are written too, or in a rest.
+
+    Parameters
+    ----------
+    rests : (N,) int64
+        Ticks of rest before each note.
+    """
     problems = []
     for event in caught:
         index = line.number_of(event)
-        first = index - 1 - (int(room.dropped[index]) if room.length_s[index] == 0.0 else 0)
-        if line.written.joined[[first, index - 1]].any() and not line.written.breath[index - 1]:
+        dropped = int(room.dropped[index]) if room.length_s[index] == 0.0 else 0
+        breaks = line.written.joined[index - 1 - dropped : index].any() and (dropped or not rests[index])
+        if breaks and not line.written.breath[index - 1]:
             note_id = line.notes[index - 1].id
             message = Message("breath.breaks_slur", {"note": note_id})
             problems.append(Problem(message, note_id, event.start_s, event.end_s))

@@ -71,7 +71,8 @@ AGAIN_NOTES: Final = 4
 SLURRED: Final = -40.0
 """Within a slur: only without any air left."""
 WRITTEN_SLUR: Final = -300.0
-"""Within a slur of the score: rather notes are left out, or two breaths come close together, elsewhere."""
+"""Within a slur of the score, unless in a rest under it: rather notes are left out, or two breaths come close
+together, elsewhere."""
 ALL_SLURRED: Final = (0.75, 0.9)
 """Shares of notes that run into the next one: above the first, that is how they are played and no phrasing, so that
 slurs count less, and from the second on not at all."""
@@ -231,7 +232,8 @@ def _are_dotted(long: IntArray, short: IntArray) -> BoolArray:
 def slur_costs(line: ComparedLine, at: IntArray) -> FloatArray:
     """(K,): what a breath before each of the notes ``at`` costs for the slur that leads to it."""
     heard = -SLURRED * (1.0 - _legato(line)) * line.times.slurs_next[at - 1]
-    return np.asarray(np.where(line.written.joined[at - 1], -WRITTEN_SLUR, heard), dtype=np.float64)
+    written = np.where(line.rests[at] > 0, -SLURRED, -WRITTEN_SLUR)
+    return np.asarray(np.where(line.written.joined[at - 1], written, heard), dtype=np.float64)
 
 
 def _legato(line: ComparedLine) -> float:

@@ -35,11 +35,11 @@ def raised(project: Project, semitones: int = 1, row: int = 0) -> Project:
 
 
 def test_stretches_that_an_edit_left_alone_are_not_searched_again(performance: Performance) -> None:
-    before = catch_breath_places._cheapest_chain.cache_info()
+    before = catch_breath_places.cheapest_chain.cache_info()
     assert before.currsize > 4, "the piece asks for catch breaths"
     edited = Performance(raised(performance.project, 12), performance)
     edited.prepare()
-    after = catch_breath_places._cheapest_chain.cache_info()
+    after = catch_breath_places.cheapest_chain.cache_info()
     assert after.hits > before.hits
     # The note's own stretch, and the next one where it begins with the leap from it.
     assert after.misses - before.misses <= 2

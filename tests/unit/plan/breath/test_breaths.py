@@ -270,6 +270,13 @@ def test_in_endless_quick_notes_weak_notes_are_left_out(bpm: float, left_out: in
     assert played.end_s > played.start_s
 
 
+def test_no_note_is_left_out_right_after_the_rest_that_is_breathed_in() -> None:
+    """Its place and the rest before it would be two breaths that overlap."""
+    notes = line_of(*((60 * step, 60, 65) for step in range(9)), (780, 60, 65), (840, 1920, 67))
+    made = plan(notes, PlainClock(((0, 100.0),)), lung_s=2.0)
+    assert [event.id for event in made.breaths if event.kind == "breath"] == ["breath:1:1", "breath:1:10"]
+
+
 @pytest.mark.parametrize("last_tick", [60, 90, 110, 119])
 def test_a_note_cut_for_a_breath_that_leaves_out_the_next_keeps_half(last_tick: int) -> None:
     # An overlapping long note, a tiny one under its end, and then the entry: written, the long one has more room.

@@ -97,6 +97,28 @@ def test_a_slur_longer_than_the_air_is_broken_and_reported() -> None:
     assert problem.note_id == f"1:{int(place)}"
 
 
+def test_a_rest_under_a_slur_is_breathed_in_rather_than_the_slur_is_broken() -> None:
+    notes = line_of(*((beat * Q, Q - (Q // 2 if beat == 12 else 0), 65 + beat % 2) for beat in range(32)))
+    [plan] = plans(notes, Mark("slur", "1:1", "1:32"))
+    assert ends(plan) == [13.0]
+    assert plan.breaths[-1].reason.id == "breath.catch_rest_slurred"
+    assert not plan.problems
+
+
+@pytest.mark.parametrize(
+    ("length", "reasons"),
+    [(384, {"breath.slur_broken"}), (3, {"breath.slur_begins_late", "breath.slur_ends_early"})],
+)
+def test_notes_of_slurs_that_are_left_out_for_a_breath_are_reported(length: int, reasons: set[str]) -> None:
+    """Notes so short that two are left out for a breath, all of them slurred."""
+    notes = line_of(*((step * 80, 80, 65 + step % 2) for step in range(384)))
+    slurs = [Mark("slur", f"1:{first}", f"1:{first + length - 1}") for first in range(1, 385, length)]
+    [plan] = plans(notes, *slurs)
+    [*said] = (event.reason for event in plan.breaths if event.reason.id == "breath.catch_dropped_two_slurred")
+    assert said
+    assert {message.arguments["why"] for message in said} <= reasons
+
+
 @pytest.mark.parametrize(("length", "lasts_ms"), [(30, 21), (60, 52), (120, 115), (200, 198), (205, None), (480, None)])
 def test_a_mark_after_a_note_too_short_for_a_breath_is_reported(length: int, lasts_ms: int | None) -> None:
     """A breath takes 200 ms; of the note before it 10 ms at least are left."""
