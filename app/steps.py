@@ -11,7 +11,7 @@ import inspect
 from collections import Counter
 from collections.abc import Callable, Collection, Mapping
 from graphlib import TopologicalSorter
-from operator import attrgetter
+from operator import attrgetter, is_
 from typing import Any, Final, NamedTuple, TypeVar
 
 import numpy as np
@@ -48,8 +48,10 @@ class StepTable:
     Attributes
     ----------
     functions : dict of str to callable
-    paths : dict of str to (str, callable)
-        Of the attributes: the result that has each, and its getter.
+    paths : dict of str to str
+        Of the attributes.
+    getters : dict of str to (str, callable)
+        The result that has each attribute, and what gets it from there.
     parameters, reads : dict of str to tuple
         By step its parameters but `BEFORE`, and the name, or names, of what each reads.
     revised : frozenset of str
@@ -66,8 +68,9 @@ class StepTable:
     """
 
     def __init__(self, **steps: Callable[..., object] | StepInputs | str) -> None:
-        split = {name: path.split(".", 1) for name, path in steps.items() if isinstance(path, str)}
-        self.paths: Final = {name: (base, attrgetter(attributes)) for name, (base, attributes) in split.items()}
+        self.paths: Final = {name: path for name, path in steps.items() if isinstance(path, str)}
+        split = {name: path.split(".", 1) for name, path in self.paths.items()}
+        self.getters: Final = {name: (base, attrgetter(attributes)) for name, (base, attributes) in split.items()}
         read = {
             name: step if isinstance(step, StepInputs) else StepInputs(step, {})
             for name, step in steps.items()
@@ -85,7 +88,7 @@ class StepTable:
         count = Counter(self.functions.values())
         self.names: Final = {function: name for name, function in self.functions.items() if count[function] == 1}
         names = {name: [one for named in reads for one in _each(named)] for name, reads in self.reads.items()}
-        names |= {name: [base] for name, (base, _) in self.paths.items()}
+        names |= {name: [base] for name, (base, _) in self.getters.items()}
         TopologicalSorter(names).prepare()
         self.given: Final = frozenset(one for reads in names.values() for one in reads if one not in steps)
 
@@ -104,9 +107,11 @@ class StepTable:
         TypeError
             A value is missing.
         """
-        if not given.keys() >= self.given:
-            raise TypeError(f"not given: {sorted(self.given - given.keys())}")
-        return StepResults(self, {name: given[name] for name in self.given}, before)
+        try:
+            taken = {name: given[name] for name in self.given}
+        except KeyError:
+            raise TypeError(f"not given: {sorted(self.given - given.keys())}") from None
+        return StepResults(self, taken, before)
 
 
 class _Done(NamedTuple):
@@ -123,15 +128,15 @@ class StepResults:
     def __init__(self, steps: StepTable, given: Mapping[str, object], before: StepResults | None) -> None:
         self._steps = steps
         self._given = given
-        self._done: dict[str, _Done] = {}
-        self._values: dict[str, Any] = dict(given)
         self._before: dict[str, _Done] = {} if before is None else before._done
-        if before is None or before._given.keys() != given.keys():
-            return
+        self._done: dict[str, _Done]
+        self._values: dict[str, Any]
         # Of one table, both are in one order.
-        if _are_equal(before._given.values(), given.values()):
+        if before is not None and before._steps is steps and _are_equal(before._given.values(), given.values()):
             # Nothing has changed: no step has to be looked at.
             self._given, self._done, self._values = before._given, dict(before._done), dict(before._values)
+        else:
+            self._done, self._values = {}, dict(given)
 
     def of(self, function: Callable[..., T]) -> T:
         """Return the result of the one step of a function."""
@@ -143,9 +148,9 @@ class StepResults:
         values = self._values
         if name in values:
             return values[name]
-        if name in self._steps.paths:
-            base, attributes = self._steps.paths[name]
-            values[name] = value = attributes(values[base] if base in values else self[base])
+        if name in self._steps.getters:
+            base, attribute = self._steps.getters[name]
+            values[name] = value = attribute(values[base] if base in values else self[base])
             return value
         known = self._before.get(name)
         inputs = tuple([
@@ -173,8 +178,11 @@ class StepResults:
 
 def _are_equal(before: Collection[object], now: Collection[object]) -> bool:
     """Return whether inputs are equal; the same objects, as nearly all are, are not compared."""
-    changed = [(one, other) for one, other in zip(before, now, strict=True) if one is not other]
-    return not changed or all(_is_equal(one, other) for one, other in changed)
+    if len(before) != len(now):
+        return False
+    return all(map(is_, before, now)) or all(
+        one is other or _is_equal(one, other) for one, other in zip(before, now, strict=True)
+    )
 
 
 def _is_equal(one: object, other: object) -> bool:

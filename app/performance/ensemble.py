@@ -46,6 +46,8 @@ EYES_M: Final[Mapping[Posture, float]] = {"standing": 1.58, "seated": 1.22}
 CONDUCTOR_EYES_M: Final = 1.8
 """About how high eyes are, the conductor's on a podium."""
 
+_PLAYED_BY_LINE: Final = (*PLAYED.functions, "corrections", "name")
+"""Results and values of `PLAYED` that `LINE` may read."""
 _CHECKED: Final = {""}
 """Choreographies of players that were read once: it takes a second."""
 
@@ -162,7 +164,7 @@ class Performance:
             part=self.project.part(player),
             velocity_reading=self.velocity_reading,
             musician=player.doubles,
-            **{name: played[name] for name in PLAYED.functions.keys() | {"corrections", "name"}},
+            **{name: played[name] for name in _PLAYED_BY_LINE},
         )
         return self._lines[player.id].of(MonophonicPart)
 

@@ -170,9 +170,13 @@ def _neutral(clock: TempoMap, frame: TimeFrame, faces: Mapping[str, Expression])
     return neutral_face(clock, frame, faces["neutral"])
 
 
+def _note_ids(notes: tuple[Note, ...]) -> frozenset[str]:
+    return frozenset(note.id for note in notes)
+
+
 def _lost(
     corrections: tuple[Correction, ...],
-    notes: tuple[Note, ...],
+    note_ids: frozenset[str],
     planned_breaths: BreathPlan,
     cue_ids: frozenset[str],
     made_gestures: tuple[GestureEvent, ...],
@@ -182,7 +186,7 @@ def _lost(
     """Return a problem for every correction of what is not there."""
     made = planned_breaths.generated_ids | cue_ids
     made |= {event.id for event in made_gestures} | {event.id for event in made_expressions}
-    return orphans(corrections, frozenset(note.id for note in notes), made, frame.first_frame_s)
+    return orphans(corrections, note_ids, made, frame.first_frame_s)
 
 
 def _by_start(problems: tuple[tuple[Problem, ...], ...]) -> tuple[Problem, ...]:
@@ -327,6 +331,7 @@ PLAYER: Final = StepTable(
     additive="planned_additive.events",
     additive_problems="planned_additive.problems",
     # All of it.
+    note_ids=_note_ids,
     lost=_lost,
     problems=reading(
         _by_start,
