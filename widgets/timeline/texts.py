@@ -158,6 +158,10 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
     "ruler.add_tempo_here": ("Add Tempo Here", "ここにテンポを追加"),
     "ruler.change_metre": ("Change Time Signature", "拍子を変更"),
     "ruler.change_tempo": ("Change Tempo", "テンポを変更"),
+    "ruler.drag_to_scrub": (
+        "Drag to scrub. Shift+drag to select a range",
+        "ドラッグでスクラブ、Shift+ドラッグで範囲を選択",
+    ),
     "ruler.felt_beat": ("Beat Unit", "拍の単位"),
     "ruler.remove_metre": ("Remove Time Signature", "拍子を削除"),
     "ruler.remove_tempo": ("Remove Tempo", "テンポを削除"),

@@ -15,7 +15,7 @@ from app.score.metre_map import Metre
 from app.score.model import Score
 from app.score.tempo import TempoChange, TempoMap
 from tests.gui.timeline.conftest import TPQ, Stage
-from tests.gui.timeline.hand import ALT, CTRL, Hand, Place
+from tests.gui.timeline.hand import ALT, CTRL, SHIFT, Hand, Place
 from tests.support.windows import child
 from widgets.timeline.lane import GUTTER_PX
 from widgets.timeline.model.ruler.ruler_marks import clock, lay_marks
@@ -74,11 +74,13 @@ def test_a_click_seeks(stage: Stage) -> None:
     assert stage.session.selection.span is None
 
 
-def test_a_drag_selects_a_range_on_the_grid(stage: Stage) -> None:
+def test_a_drag_with_shift_selects_a_range_on_the_grid(stage: Stage) -> None:
     hand = Hand(ruler_of(stage))
-    hand.drag(place(stage, 2.02 * TPQ), place(stage, 4.9 * TPQ))
+    before_s = stage.session.playhead_s
+    hand.drag(place(stage, 2.02 * TPQ), place(stage, 4.9 * TPQ), SHIFT)
     assert stage.session.selection.span == (2 * TPQ, 5 * TPQ)
-    hand.drag(place(stage, 6 * TPQ), place(stage, 4.03 * TPQ), ALT)
+    hand.drag(place(stage, 6 * TPQ), place(stage, 4.03 * TPQ), SHIFT | ALT)
+    assert stage.session.playhead_s == before_s
     span = stage.session.selection.span
     assert span[0] != 4 * TPQ
     assert abs(span[0] - 4.03 * TPQ) < 4
@@ -91,6 +93,30 @@ def test_the_playhead_is_scrubbed(stage: Stage) -> None:
     Hand(ruler_of(stage)).drag(place(stage, 2 * TPQ + 2, 42), place(stage, 5 * TPQ, 42))
     assert stage.session.playhead_s == pytest.approx(2.5, abs=0.01)
     assert stage.session.selection.span is None
+
+
+def test_a_drag_anywhere_on_the_ruler_scrubs(stage: Stage) -> None:
+    stage.session.select(Selection(frozenset({"1:1"})))
+    hand, seen = Hand(ruler_of(stage)), list[float]()
+    stage.session.playhead_changed.connect(seen.append)
+    for y in (8.0, MARKS_PX + 8.0):
+        hand.drag(place(stage, 3 * TPQ, y), place(stage, 6 * TPQ, y))
+        # At the press, half way and at the end.
+        assert seen == pytest.approx([1.5, 2.25, 3.0], abs=0.02)
+        seen.clear()
+    assert stage.session.selection == Selection(frozenset({"1:1"}))
+    # Past the edge the timeline scrolls, and the playhead stays in the piece.
+    hand.drag(place(stage, 2 * TPQ), (-3000.0, MARKS_PX + 8.0))
+    assert stage.session.playhead_s == stage.panel.axis.limits_s[0]
+
+
+def test_escape_takes_a_scrub_back(stage: Stage) -> None:
+    stage.session.set_playhead(0.75)
+    hand = Hand(ruler_of(stage))
+    hand.press(place(stage, 3 * TPQ))
+    hand.move(place(stage, 5 * TPQ))
+    QTest.keyClick(ruler_of(stage), Qt.Key.Key_Escape)
+    assert stage.session.playhead_s == 0.75
 
 
 def test_edges_of_the_loop_are_dragged(stage: Stage) -> None:

@@ -33,7 +33,7 @@ from widgets.timeline.lane import GUTTER_PX
 from widgets.timeline.model.gestures import MouseGesture, along, snapped
 from widgets.timeline.model.hand import LaneMouse
 from widgets.timeline.model.lines import Lines
-from widgets.timeline.model.ruler.ruler_gestures import HoldEdge, HoldMark, HoldPlayhead, Seek
+from widgets.timeline.model.ruler.ruler_gestures import HoldEdge, HoldMark, Scrub, SelectSpan
 from widgets.timeline.model.ruler.ruler_marks import (
     Labels,
     RulerMark,
@@ -76,6 +76,7 @@ class Ruler(Retranslated, Strip):
         self._recorded: tuple[object, ...] = ()
         self.setFocusPolicy(Qt.FocusPolicy.ClickFocus)
 
+        self.texted(self, tip="ruler.drag_to_scrub")
         self.unit_button = UnitButton(session, self)
         self._editor = MarkEditor(self)
         self._editor.typed.connect(self._type)
@@ -308,8 +309,8 @@ class Ruler(Retranslated, Strip):
         if mark is not None:
             stays = partial(session.notice, Message("tempo.first_stays"), Severity.WARNING)
             return HoldMark(session, mouse, far, (mark.kind, mark.tick), self, stays)
-        if held == "playhead":
-            return HoldPlayhead(session, mouse, far, self.sought.emit)
+        if held == "span":
+            return SelectSpan(session, mouse, far, self._tick_at)
         if held in ("loop_start", "loop_end"):
             return HoldEdge(mouse, far, at_start, lambda: session.loop_s, session.set_loop, self._place_of)
         if held in ("punch_start", "punch_end"):
@@ -322,13 +323,17 @@ class Ruler(Retranslated, Strip):
                 lambda span: recording.set(punch_ticks=span),
                 lambda tick: max(tick, 0),
             )
-        return Seek(session, mouse, far, self._tick_at) if held else None
+        return Scrub(session, mouse, far, self._scrub, session.playhead_s) if held else None
+
+    def _scrub(self, seconds: float) -> None:
+        low, high = self.axis.limits_s
+        self.sought.emit(min(max(seconds, low), high))
 
     def _drag(self, gesture: MouseGesture, mouse: LaneMouse) -> None:
         gesture.drag(mouse)
         if isinstance(gesture, HoldMark) and gesture.began:
             self._chosen = gesture.chosen
-        elif isinstance(gesture, Seek) and gesture.began:
+        elif isinstance(gesture, Scrub | SelectSpan) and gesture.began:
             self.axis.reveal(mouse.time_s)
 
     def _cancel(self) -> None:
@@ -375,6 +380,8 @@ class Ruler(Retranslated, Strip):
             self._panned_px = event.position().x()
         elif event.button() == Qt.MouseButton.LeftButton:
             held, mark = self._held_at(event.position()), self._mark_at(event.position())
+            if held == "seek" and event.modifiers() & Qt.KeyboardModifier.ShiftModifier:
+                held = "span"
             self._chosen = (mark.kind, mark.tick) if mark is not None else None
             self._gesture = self._take_hold(held, self._mouse(event), mark)
             if held == "seek":

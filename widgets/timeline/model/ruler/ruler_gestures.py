@@ -1,4 +1,4 @@
-"""Gestures on the ruler: a span is selected, an edge of the loop or of the punch, the playhead or a mark is dragged."""
+"""Gestures on the ruler: the playhead, a span, an edge of the loop or of the punch, or a mark is dragged."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from widgets.timeline.model.hand import LaneMouse
 Place = TypeVar("Place", int, float)
 
 
-class Seek(MouseGesture):
+class SelectSpan(MouseGesture):
     """A span is selected from the press on; a press alone lets go of one."""
 
     def __init__(self, session: Editing, at: LaneMouse, far: Far, tick_at: Callable[[LaneMouse, bool], int]) -> None:
@@ -33,18 +33,23 @@ class Seek(MouseGesture):
         self._session.select(self._before)
 
 
-class HoldPlayhead(MouseGesture):
-    """The playhead goes along; Escape leaves it where it is."""
+class Scrub(MouseGesture):
+    """The playhead goes along; Escape brings it back to where it was."""
 
-    def __init__(self, session: Editing, at: LaneMouse, far: Far, seek: Callable[[float], None]) -> None:
+    def __init__(
+        self, session: Editing, at: LaneMouse, far: Far, seek: Callable[[float], None], before_s: float
+    ) -> None:
         super().__init__(at, far)
-        self._session, self._seek = session, seek
+        self._session, self._seek, self._before_s = session, seek, before_s
 
     def follow(self, mouse: LaneMouse) -> None:
         self._seek(mouse.time_s)
 
     def click(self, mouse: LaneMouse) -> None:
         drop_span(self._session)
+
+    def cancel(self) -> None:
+        self._seek(self._before_s)
 
 
 class HoldEdge(MouseGesture):
