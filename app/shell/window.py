@@ -47,6 +47,8 @@ from widgets.transport.bar import TransportBar
 from widgets.viewport.panel import ViewportPanel
 
 SIZE: Final = QSize(1600, 1000)
+FRAME: Final = QSize(16, 48)
+"""Most that the title bar and the frame of a window take of the screen."""
 LEAST_SIZE: Final = QSize(960, 600)
 NARROW_PX: Final = 1060
 """In a window narrower than this the field for commands does not show its keys beside menus and workspaces."""
@@ -179,8 +181,11 @@ class Window(Retranslated, QMainWindow):
     def _restore(self) -> None:
         settings = self._settings
         if settings.geometry.isEmpty() or not self.restoreGeometry(settings.geometry):
-            available = self.screen().availableSize()
-            self.resize(SIZE.boundedTo(available))
+            available = self.screen().availableGeometry()
+            size = SIZE.boundedTo(available.size() - FRAME)
+            self.resize(size)
+            spare = (available.size() - FRAME - size) / 2
+            self.move(available.topLeft() + QPoint(spare.width(), spare.height()))
 
     def remember(self) -> None:
         """Keep the layout for the next time."""

@@ -5,9 +5,10 @@ from __future__ import annotations
 import shutil
 import tomllib
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
-from PySide6.QtCore import QMimeData, QPoint, QPointF, Qt, QUrl
+from PySide6.QtCore import QMimeData, QPoint, QPointF, QRect, Qt, QUrl
 from PySide6.QtGui import QDragEnterEvent, QDropEvent
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QMenu, QPushButton
@@ -19,6 +20,7 @@ from app.errors import Message
 from app.project.edit.piece import set_title
 from app.project.storage import load
 from app.shell.app import Program
+from app.shell.window import FRAME, Window
 from tests.gui.conftest import QUARTET
 from tests.gui.shell.conftest import Answers, Start, trigger
 from tests.support.windows import child
@@ -47,6 +49,27 @@ def drop(program: Program, path: Path) -> bool:
     if enter.isAccepted():
         QApplication.sendEvent(program.window, QDropEvent(QPointF(50, 50), action, mime, left, none))
     return enter.isAccepted()
+
+
+@pytest.mark.parametrize("room", [QRect(0, 0, 1366, 768), QRect(60, 32, 1306, 736), QRect(0, 0, 1600, 1000)])
+def test_a_first_window_fits_the_screen_with_its_title_bar(
+    start: Start, monkeypatch: pytest.MonkeyPatch, room: QRect
+) -> None:
+    monkeypatch.setattr(Window, "screen", lambda window: SimpleNamespace(availableGeometry=lambda: room))
+    program = start()
+    window = program.window
+    assert room.contains(QRect(window.pos(), window.size() + FRAME))
+    for language in ("en", "ja"):
+        program.editor.speak(language)
+        program.editor.files.open(QUARTET, ask=False)
+        for workspace in ("animate", "record", "check"):
+            trigger(program, f"workspace.{workspace}")
+            QApplication.processEvents()
+            # Nothing in it asks for more.
+            assert window.size() == room.size() - FRAME
+            assert window.rect().contains(window.status.geometry())
+            timeline = window.timeline
+            assert window.rect().contains(timeline.rect().translated(timeline.mapTo(window, QPoint())))
 
 
 def test_the_start_page_is_alone_until_something_is_open(empty: Program) -> None:
@@ -255,9 +278,8 @@ def test_a_new_window_shares_its_height_between_players_and_timeline(start: Star
     assert window.viewport.height() >= 0.41 * height
     lanes = window.timeline.stack.viewport()
     heights = {lane.id: lane.mapTo(lanes, lane.rect().topLeft()).y() for lane in window.timeline.stack.lanes}
-    assert heights["acting"] < lanes.height()
-    if height >= 1000:
-        assert heights["problems"] < lanes.height()
+    assert window.timeline.roll.height() >= min(220, 0.6 * lanes.height())
+    assert heights["fingering"] < lanes.height()
     assert window.timeline.lanes["audio"].height() <= 30
 
 
