@@ -25,6 +25,8 @@ from widgets.timeline.zoom_and_scroll import TimeAxis
 __all__ = ["FOLDED_PX", "GUTTER_PX", "Lane", "LaneItem", "LaneMouse"]
 
 FOLDED_PX = 26
+HEIGHT_A_NOTCH_PX = 8
+"""Change of a lane's height by a notch of the wheel."""
 AUTOSCROLL_MS = 30
 AUTOSCROLL_SHARE = 0.02
 """Share of the visible span scrolled at each tick of the timer while a drag is held past the edge."""
@@ -45,6 +47,10 @@ class Lane(Retranslated, QWidget):
     fold_changed()
     height_asked()
         The lane would have another height now.
+    unfolded_by_hand()
+        By its button or header.
+    resized_by_hand(int)
+        The user makes the lane taller by so many pixels, or less tall.
 
     Attributes
     ----------
@@ -66,6 +72,8 @@ class Lane(Retranslated, QWidget):
     sought = Signal(float)
     fold_changed = Signal()
     height_asked = Signal()
+    unfolded_by_hand = Signal()
+    resized_by_hand = Signal(int)
 
     def __init__(self, session: Session, axis: TimeAxis, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -156,6 +164,10 @@ class Lane(Retranslated, QWidget):
         """The wheel turned (or Alt and the wheel) by notches, away from the hand is positive; whether it was used."""
         return False
 
+    def zoom_y(self, mouse: LaneMouse, steps: float) -> None:
+        """The wheel turned with Ctrl and Shift, by notches: the lane becomes taller, or its scale larger."""
+        self.resized_by_hand.emit(round(steps * HEIGHT_A_NOTCH_PX))
+
     def pan_y(self, by_px: float) -> None:
         """The plot is dragged up or down (positive) with the middle button."""
 
@@ -171,6 +183,11 @@ class Lane(Retranslated, QWidget):
         """Return whether a key that may be an action's shortcut is the lane's own while the plot has the focus; `key`
         follows then."""
         return False
+
+    @property
+    def needed_height_px(self) -> int:
+        """Height of the lane at least, while the user set none."""
+        return self.least_height_px
 
     # What a lane uses
 
@@ -239,6 +256,8 @@ class Lane(Retranslated, QWidget):
 
     def _toggle_fold(self) -> None:
         self.set_folded(not self._folded)
+        if not self._folded:
+            self.unfolded_by_hand.emit()
 
     @property
     def dragging(self) -> bool:
@@ -306,6 +325,8 @@ class Lane(Retranslated, QWidget):
         self._end_press()
         if left:
             self.release(mouse)
+            # While a lane is dragged in, its neighbours keep their heights.
+            self.height_asked.emit()
 
     def _end_press(self) -> None:
         if self._panned_px is not None:
@@ -326,7 +347,9 @@ class Lane(Retranslated, QWidget):
         notches = (event.angleDelta().y() or event.angleDelta().x()) / 120.0
         modifiers = event.modifiers()
         sideways = not event.angleDelta().y() and not modifiers & Qt.KeyboardModifier.AltModifier
-        if modifiers & Qt.KeyboardModifier.ControlModifier:
+        if modifiers & Qt.KeyboardModifier.ControlModifier and modifiers & Qt.KeyboardModifier.ShiftModifier:
+            self.zoom_y(self._mouse(event), notches)
+        elif modifiers & Qt.KeyboardModifier.ControlModifier:
             self.axis.turn_wheel(notches, event.position().x(), zooms=True)
         elif sideways or modifiers & Qt.KeyboardModifier.ShiftModifier or not self.wheel(self._mouse(event), notches):
             self.axis.turn_wheel(notches, event.position().x(), zooms=False)
@@ -335,6 +358,7 @@ class Lane(Retranslated, QWidget):
         if event.key() == Qt.Key.Key_Escape and self.dragging:
             self._end_press()
             self.cancel()
+            self.height_asked.emit()
             event.accept()
         elif self.key(event):
             event.accept()

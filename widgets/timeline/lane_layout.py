@@ -106,6 +106,7 @@ class LaneLayout(QObject):
         for id, lane in self._lanes.items():
             lane.set_folded(id in state.folded)
         self._stack.set_heights(state.heights)
+        self._stack.verticalScrollBar().setValue(0)
 
     # What the user does
 
@@ -122,23 +123,29 @@ class LaneLayout(QObject):
         (self._shown if shown else self._hidden).add(lane_id)
         (self._hidden if shown else self._shown).discard(lane_id)
         self.show_lanes()
+        if shown:
+            self._stack.bring_into_view(self._lanes[lane_id])
         self.changed.emit()
 
     def open_lane(self, lane_id: str, is_open: bool) -> None:
         """Unfold a lane, shown if it is not, or fold it."""
         if is_open and not self.is_shown(lane_id):
             self.show_lane(lane_id, True)
-        lane = self._lanes[lane_id]
-        if not is_open and lane.isAncestorOf(QApplication.focusWidget() or self._stack):
+        self._fold(self._lanes[lane_id], not is_open)
+        if is_open:
+            self._stack.bring_into_view(self._lanes[lane_id])
+
+    def _fold(self, lane: Lane, folded: bool) -> None:
+        if folded and lane.isAncestorOf(QApplication.focusWidget() or self._stack):
             # The keys stay with the lane, which is unfolded again where it was folded.
             lane.fold_button.setFocus()
-        lane.set_folded(not is_open)
+        lane.set_folded(folded)
 
     def fold_all(self, folded: bool) -> None:
         """Fold or unfold every lane."""
-        for id in self._lanes:
+        for id, lane in self._lanes.items():
             if self.is_shown(id):
-                self.open_lane(id, not folded)
+                self._fold(lane, folded)
 
     def _project_changed(self, change: Change) -> None:
         before, after = change.before, change.after

@@ -21,7 +21,7 @@ from widgets.timeline.lanes import LANES
 from widgets.timeline.lanes.fingering.fingering_lane import FingeringLane
 from widgets.timeline.lanes.takes.takes_lane import TakesLane
 from widgets.timeline.marks.dynamics_lane import DynamicsLane
-from widgets.timeline.roll.piano_roll import PianoRoll
+from widgets.timeline.roll.piano_roll import ZOOM_A_KEY, PianoRoll
 from widgets.timeline.roll.quantise import QuantisePopover
 from widgets.timeline.ruler.flags import Flags
 from widgets.timeline.ruler.time_ruler import Ruler
@@ -189,6 +189,14 @@ class TimelinePanel(Retranslated, QWidget):
         """Zoom about the playhead, or the middle where it is out of sight."""
         self.axis.zoom(1 / ZOOM_A_CLICK, self._zoom_centre())
 
+    def zoom_in_pitch(self) -> None:
+        """Make the notes taller."""
+        self.roll.zoom_pitch(ZOOM_A_KEY)
+
+    def zoom_out_pitch(self) -> None:
+        """Make the notes lower, so that more pitches are in sight."""
+        self.roll.zoom_pitch(1 / ZOOM_A_KEY)
+
     def fit(self) -> None:
         """Show the whole piece, and the pitches of the player in front."""
         self.axis.fit()
@@ -215,8 +223,9 @@ class TimelinePanel(Retranslated, QWidget):
         self.takes.step(by)
 
     def reveal(self, time_s: float) -> None:
-        """Bring a time into view."""
+        """Bring a time into view, and the notes that are selected there."""
         self.axis.reveal(time_s)
+        self.roll.bring_notes_into_view(self.session.selection.notes)
 
     def is_lane_open(self, lane_id: str) -> bool:
         """True if a lane is there, and not folded."""
@@ -311,6 +320,7 @@ class TimelinePanel(Retranslated, QWidget):
             if not 0 <= share <= PAGE_AT:
                 start_s = playhead_s - PAGE_TO * axis.span_s
                 axis.show(start_s, start_s + axis.span_s)
+                self.roll.follow()
         self._place_playhead()
 
     def _place_playhead(self) -> None:
@@ -339,7 +349,7 @@ class TimelinePanel(Retranslated, QWidget):
             # Only now is it known how wide everything is.
             self._fitted = True
             self._show_beginning()
-            self.roll.fit_pitch()
+            self.roll.show_legibly()
         self._place_playhead()
 
     def hideEvent(self, event: QHideEvent) -> None:

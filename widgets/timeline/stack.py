@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 
 from PySide6.QtCore import QEvent, QObject, QSize, Qt, Signal
 from PySide6.QtGui import QColor, QMouseEvent, QPainter, QPaintEvent, QResizeEvent
-from PySide6.QtWidgets import QFrame, QScrollArea, QWidget
+from PySide6.QtWidgets import QApplication, QFrame, QScrollArea, QWidget
 
 from app.editor.session import Session
 from app.editor.tokens import SPLITTER_PX
@@ -17,6 +17,8 @@ from widgets.timeline.lane import FOLDED_PX, Lane
 LINE_PX = 1
 """Below a lane that has only one height."""
 MOST_PX = 2000
+ELASTIC_SHARE = 0.68
+"""Most of the height in sight that the elastic lane takes where the lanes do not fit."""
 
 
 class LaneResizeHandle(QWidget):
@@ -65,8 +67,8 @@ class LaneResizeHandle(QWidget):
 class LaneStack(QScrollArea):
     """Lanes from top to bottom.
 
-    A lane whose height no one set is between its least and its preferred height, as there is room; what is left over
-    is the elastic lane's.
+    A lane whose height no one set is between the height that it needs and the one it prefers, as there is room; what is
+    left over is the elastic lane's. Where the lanes do not fit, they are scrolled.
 
     Parameters
     ----------
@@ -97,7 +99,9 @@ class LaneStack(QScrollArea):
         for lane in lanes:
             lane.installEventFilter(self)
             lane.fold_changed.connect(self.arrange)
-            lane.height_asked.connect(self.arrange)
+            lane.height_asked.connect(self._arrange_if_idle)
+            lane.resized_by_hand.connect(self._resize_by_hand)
+            lane.unfolded_by_hand.connect(self._bring_sender_into_view)
         self.setWidget(panel(self._column))
         self._fill()
 
@@ -154,20 +158,52 @@ class LaneStack(QScrollArea):
         lines_px = sum(self._handles[lane.id].height() for lane in shown)
         free = [lane for lane in shown if not lane.folded and lane.id not in self._set_px]
         heights = {lane.id: FOLDED_PX if lane.folded else self._set_px.get(lane.id, 0) for lane in shown}
-        heights |= {lane.id: lane.least_height_px for lane in free}
+        heights |= {lane.id: self._needed_px(lane) for lane in free}
         room = self.viewport().height() - sum(heights.values()) - lines_px
-        requested = sum(lane.preferred_height_px - lane.least_height_px for lane in free)
+        wishes = {lane.id: max(lane.preferred_height_px - heights[lane.id], 0) for lane in free}
+        requested = sum(wishes.values())
         share = min(max(room, 0) / requested, 1.0) if requested else 0.0
         for lane in free:
-            heights[lane.id] += int(share * (lane.preferred_height_px - lane.least_height_px))
+            heights[lane.id] += int(share * wishes[lane.id])
         left_over = self.viewport().height() - sum(heights.values()) - lines_px
         if left_over > 0 and self._elastic in free:
             heights[self._elastic.id] += left_over
         for lane in shown:
             lane.setFixedHeight(heights[lane.id])
 
+    def _arrange_if_idle(self) -> None:
+        """Nothing moves under a mouse that drags."""
+        if not any(lane.dragging for lane in self._order):
+            self.arrange()
+
+    def _needed_px(self, lane: Lane) -> int:
+        """Height of a lane at least, while the user set none; the elastic lane leaves some of what is in sight."""
+        if lane is not self._elastic:
+            return lane.needed_height_px
+        most = max(int(ELASTIC_SHARE * self.viewport().height()), lane.least_height_px)
+        return min(lane.needed_height_px, most)
+
+    def bring_into_view(self, lane: Lane) -> None:
+        """Scroll to a lane; one that is taller than what is in sight shows its beginning."""
+        # The lane may have been shown or unfolded just now.
+        self.arrange()
+        QApplication.sendPostedEvents(None, QEvent.Type.LayoutRequest.value)
+        bar = self.verticalScrollBar()
+        top, bottom = lane.y(), lane.y() + lane.height()
+        bar.setValue(min(max(bar.value(), bottom - self.viewport().height()), top))
+
+    def _bring_sender_into_view(self) -> None:
+        lane = self.sender()
+        if isinstance(lane, Lane):
+            self.bring_into_view(lane)
+
+    def _resize_by_hand(self, by_px: int) -> None:
+        lane = self.sender()
+        if isinstance(lane, Lane) and self._resizes(lane):
+            self.set_height(lane, lane.height() + by_px)
+
     def _resizes(self, lane: Lane) -> bool:
-        least, preferred = lane.least_height_px, lane.preferred_height_px
+        least, preferred = lane.least_height_px, max(lane.preferred_height_px, lane.needed_height_px)
         return not lane.folded and (preferred > least or lane.id in self._set_px)
 
     def _fill(self) -> None:

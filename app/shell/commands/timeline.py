@@ -12,13 +12,16 @@ from app.shell.commands.command_targets import on_timeline
 from widgets.timeline.lanes import LANES as BELOW
 from widgets.timeline.marks.dynamics_lane import DynamicsLane
 
+ICONS: Final = {"zoom_in_pitch": "zoom_in", "zoom_out_pitch": "zoom_out"}
+"""Of actions whose icon has another name."""
+
 
 def _has_view(session: Session) -> bool:
     return session.timeline_view is not None
 
 
 def _zoom(name: str, run: Callable[[TimelineView], None], keys: str) -> Action:
-    return Action(f"timeline.{name}", on_timeline(run), "view", keys, enabled=_has_view, icon=name)
+    return Action(f"timeline.{name}", on_timeline(run), "view", keys, enabled=_has_view, icon=ICONS.get(name, name))
 
 
 def _shown(ghosts: Ghosts, icon: str) -> Action:
@@ -71,6 +74,8 @@ def _fold(name: str, folded: bool) -> Action:
 ACTIONS: tuple[Action, ...] = (
     _zoom("zoom_in", lambda view: view.zoom_in(), "Ctrl++;Ctrl+="),
     _zoom("zoom_out", lambda view: view.zoom_out(), "Ctrl+-"),
+    _zoom("zoom_in_pitch", lambda view: view.zoom_in_pitch(), "Ctrl+Shift+Up"),
+    _zoom("zoom_out_pitch", lambda view: view.zoom_out_pitch(), "Ctrl+Shift+Down"),
     _zoom("fit", lambda view: view.fit(), "Ctrl+0"),
     Action(
         "timeline.zoom_selection",

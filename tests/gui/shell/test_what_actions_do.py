@@ -610,6 +610,12 @@ CASES: dict[str, Case] = {
     # How the timeline is seen
     "timeline.zoom_in": axis(lambda d: d.timeline.fit(), lambda a, b: b < 0.95 * a),
     "timeline.zoom_out": axis(lambda d: d.timeline.axis.show(4.0, 8.0), lambda a, b: b > 1.05 * a),
+    "timeline.zoom_in_pitch": Case(
+        lambda d: d.timeline.roll.row_px > 1.2 * d.seen["row"], remember("row", lambda d: d.timeline.roll.row_px)
+    ),
+    "timeline.zoom_out_pitch": Case(
+        lambda d: d.timeline.roll.row_px < 0.9 * d.seen["row"], remember("row", lambda d: d.timeline.roll.row_px)
+    ),
     "timeline.fit": axis(lambda d: d.timeline.axis.show(4.0, 8.0), lambda a, b: b > 10.0),
     "timeline.zoom_selection": Case(
         lambda d: (

@@ -5,6 +5,7 @@ from __future__ import annotations
 import base64
 from pathlib import Path
 
+import numpy as np
 import pytest
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
@@ -69,13 +70,28 @@ def test_in_a_new_window_players_are_large_and_parameters_many(start: Start) -> 
         program.editor.speak(language)
         trigger(program, "workspace.reset")
         settle()
-        assert window.viewport.height() >= 440
+        assert window.viewport.height() >= 0.45 * window.height()
         scroll = window.players._scroll.viewport()
         rows = [*window.players.findChildren(ParameterSlider), *window.players.findChildren(ParameterChoice)]
         assert sum(seen_wholly(row, scroll) for row in rows if row.isVisible()) >= 8
-        lanes = window.timeline.stack.viewport()
-        for id in ("roll", "fingering", "breath", "acting", "problems"):
-            assert seen_wholly(window.timeline.lanes[id].header, lanes), id
+        timeline, roll = window.timeline, window.timeline.roll
+        for id in ("roll", "fingering"):
+            assert seen_wholly(timeline.lanes[id].header, timeline.stack.viewport()), id
+        assert roll.height() >= 220
+        for player in program.session.project.players:
+            program.session.set_players((player.id,))
+            settle()
+            front = roll.model.front()
+            assert front is not None
+            _, _, _, height = roll.boxes(front[0], np.arange(len(front[0])))
+            assert height.min() >= 8
+            bottom, top = roll.y_range
+            assert top - bottom >= 24
+        # Lanes below are scrolled to.
+        trigger(program, "lanes.problems")
+        trigger(program, "lanes.problems")
+        settle()
+        assert seen_wholly(timeline.lanes["problems"].header, timeline.stack.viewport())
 
 
 @pytest.mark.parametrize(("width", "height"), [(1280, 800), (1600, 1000)])

@@ -54,7 +54,7 @@ def trio(stage: Stage) -> Stage:
     planned(stage.session)
     stage.session.set_players((FIRST,))
     stage.panel.axis.show(0.0, 5.0)
-    stage.roll.set_y_range(42, 76)
+    stage.roll.choose_pitches(42, 76)
     return stage
 
 

@@ -8,7 +8,7 @@ import pytest
 from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QPainter, QPixmap
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QMenu
+from PySide6.QtWidgets import QApplication, QMenu
 
 from app.editor.selection import EventKey, Selection
 from app.editor.session import Session
@@ -429,6 +429,8 @@ def test_names_of_neighbouring_cues_do_not_overlap(
 
 def test_the_wheel_and_the_middle_button_show_the_rows_that_do_not_fit(panel: TimelinePanel) -> None:
     lane = acting_lane(panel)
+    panel.stack.set_height(lane, lane.least_height_px)
+    QApplication.processEvents()
     assert lane.row_box(lane.rows - 1)[0] > lane.plot_rect.height(), "there are more rows than fit"
     mouse = lane.mouse_at(QPointF(100.0, 30.0))
     start_s = lane.axis.start_s

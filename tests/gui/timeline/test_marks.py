@@ -425,7 +425,7 @@ def test_others_have_no_marks(marked: Stage) -> None:
 
 def test_notes_too_small_have_no_marks(marked: Stage) -> None:
     assert len(drawn(marked)[0])
-    marked.roll.set_y_range(0.0, 128.0)
+    marked.roll.choose_pitches(0.0, 128.0)
     assert not len(drawn(marked)[0])
 
 

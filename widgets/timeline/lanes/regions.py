@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Callable, Iterable, Sequence
+from math import ceil
 
 from msgspec.structs import replace
 from PySide6.QtCore import QPointF, QRectF, Qt
@@ -144,6 +145,10 @@ class RegionLane(Lane):
         """The rectangle being drawn to select."""
         return rect(self._drag.lasso) if self._drag is not None and self._drag.lasso is not None else None
 
+    @property
+    def needed_height_px(self) -> int:
+        return max(self.least_height_px, ceil(self._row_count * self.least_row_px))
+
     def row_box(self, row: int) -> tuple[float, float]:
         """Top and height of a row, pixels: as high as there is room, at least `least_row_px`."""
         return row_box(row, self._row_count, self.plot_rect.height(), self.least_row_px, self._scrolled_px)
@@ -213,11 +218,14 @@ class RegionLane(Lane):
             self.update_items()
             return
         self._made_for = made_for
+        needed_px = self.needed_height_px
         regions, self._row_count = self.make_regions(plan) if plan is not None else ([], 1)
         self._table = RegionTable(regions, self.is_calm)
         self._hovered = None
         self.regions_refreshed()
         self.update_items()
+        if self.needed_height_px != needed_px:
+            self.height_asked.emit()
 
     def regions_refreshed(self) -> None:
         """The regions are others."""

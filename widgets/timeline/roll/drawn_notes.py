@@ -26,6 +26,7 @@ MOST_RECTANGLES = 6000
 """More notes behind than this, and the narrow ones become points of a picture: two to four times as fast."""
 NARROW_PX = 5.0
 LABEL_GAP_PX = 5.0
+OUT_OF_SIGHT_PX = 3.0
 INSIDE_PX = 15.0
 """In rows at least so high a label stands inside its note."""
 
@@ -143,6 +144,25 @@ class Notes(LaneItem[RollView]):
         if not len(rows):
             return
         fill_rects(painter, *self.lane.boxes(table, rows), shade)
+
+
+class OutOfSight(LaneItem[RollView]):
+    """Bars at the upper and lower edge: there are notes of the player in front above or below what is seen."""
+
+    def paint_px(self, painter: QPainter, exposed: QRectF) -> None:
+        lane = self.lane
+        front = lane.model.front()
+        if front is None:
+            return
+        table, colour = front
+        found = table.visible(lane.axis.seconds(exposed.left()), lane.axis.seconds(exposed.right()))
+        pitch, (bottom, top) = table.pitch[found], lane.y_range
+        for hidden, y in ((pitch >= top, 0.0), (pitch + 1 <= bottom, lane.plot_rect.height() - OUT_OF_SIGHT_PX)):
+            rows = np.flatnonzero(hidden) + found.start
+            if len(rows):
+                left, _, width, _ = lane.boxes(table, rows)
+                height = np.full(len(rows), OUT_OF_SIGHT_PX)
+                fill_rects(painter, left, np.full(len(rows), y), width, height, QColor(colour))
 
 
 def _shade(colour: str, alpha: int) -> QColor:

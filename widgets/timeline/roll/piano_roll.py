@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 import numpy as np
@@ -33,21 +33,26 @@ from widgets.timeline.model.roll.entries import EntryDrag
 from widgets.timeline.model.roll.note_table import Behind, TimedNotes
 from widgets.timeline.model.roll.roll_gestures import Copy, Draw, Erase, LassoNotes, Move, Resize, RollGesture, Velocity
 from widgets.timeline.model.roll.shown_notes import (
+    LEGIBLE_ROW_PX,
     RollModel,
     boxes,
     fitted_pitches,
     kept_pitches,
+    legible_pitches,
     visible,
     zoomed_pitches,
 )
 from widgets.timeline.plot.drawing import rect
-from widgets.timeline.roll.drawn_notes import Hint, Labels, Lasso, Notes, Rows
+from widgets.timeline.roll.drawn_notes import Hint, Labels, Lasso, Notes, OutOfSight, Rows
 from widgets.timeline.roll.entry_arrows import EntryArrows
 from widgets.timeline.roll.keyboard import KEYBOARD_PX, Keyboard
 from widgets.timeline.zoom_and_scroll import TimeAxis
 
+NEEDED_PX = 225
+"""Two octaves of notes that are 8 pixels high."""
 ROWS_A_NOTCH = 3.0
 ZOOM_A_NOTCH = 1.18
+ZOOM_A_KEY = 1.4
 FIRST_VELOCITY = 80
 MENU = (
     "notes.cut",
@@ -80,11 +85,14 @@ class PianoRoll(Lane):
         self._gesture: MouseGesture | None = None
         self._tool = Tool.SELECT
         self._velocity = FIRST_VELOCITY
+        self._pitches_chosen = False
+        """Whether the user scrolled or zoomed the pitches; until then they suit the height of the lane."""
         super().__init__(session, axis, parent)
         self.keyboard = Keyboard(self)
         self.rows = Rows(self, -200.0)
         self.notes = Notes(self)
         self.labels = Labels(self)
+        OutOfSight(self, 8.0)
         self.marks = RollMarks(self)
         self.entries = EntryArrows(self)
         self.lasso = Lasso(self)
@@ -92,7 +100,7 @@ class PianoRoll(Lane):
         self._set_font()
         session.pitch_display.changed.connect(self.keyboard.update)
         session.problems_changed.connect(self.performance_changed)
-        self.fit_pitch()
+        self.show_legibly()
         self.texted(self.title, text="piano_roll.notes", tip="piano_roll.notes_of_player_in_front")
         self.retranslate()
 
@@ -102,6 +110,10 @@ class PianoRoll(Lane):
     def tool(self) -> Tool:
         """Tool of the left button."""
         return self._tool
+
+    @property
+    def needed_height_px(self) -> int:
+        return NEEDED_PX
 
     def set_tool(self, tool: Tool) -> None:
         """Let the left button do this."""
@@ -176,8 +188,45 @@ class PianoRoll(Lane):
 
     # Pitch
 
+    def show_legibly(self) -> None:
+        """Show the notes of the player in front that are in sight, or all of them, so that they can be read."""
+        self._pitches_chosen = False
+        front = self.model.front()
+        if front is None or not len(front[0]):
+            self.fit_pitch()
+            return
+        table = front[0]
+        here = table.pitch[table.visible(self.axis.start_s, self.axis.end_s)]
+        pitches = here if len(here) else table.pitch
+        room_px = self.plot_rect.height()
+        if np.ptp(table.pitch) + 1 + self.marks.air_rows <= room_px / LEGIBLE_ROW_PX:
+            pitches = table.pitch
+        self._show_pitches(*legible_pitches(pitches, self.marks.air_rows, room_px))
+
+    def bring_notes_into_view(self, note_ids: Iterable[str]) -> None:
+        """Scroll to the pitches of notes of the player in front, if none of them is in view."""
+        front = self.model.front()
+        places = [front[0].index[id] for id in note_ids if id in front[0].index] if front is not None else []
+        if front is None or not places:
+            return
+        pitches = front[0].pitch[places]
+        bottom, top = self.y_range
+        if not np.any((pitches >= bottom) & (pitches + 1 <= top)):
+            middle = float(np.median(pitches)) + 0.5
+            self._show_pitches(*kept_pitches(middle - (top - bottom) / 2, top - bottom))
+
+    def follow(self) -> None:
+        """Scroll to the pitches of the page that is played, if most of its notes are out of sight."""
+        front = self.model.front()
+        if front is None:
+            return
+        here = front[0].pitch[front[0].visible(self.axis.start_s, self.axis.end_s)]
+        bottom, top = self.y_range
+        if len(here) and np.mean((here >= bottom) & (here + 1 <= top)) < 0.5:
+            self._show_pitches(*kept_pitches(float(np.median(here)) + 0.5 - (top - bottom) / 2, top - bottom))
+
     def fit_pitch(self) -> None:
-        """Show the notes of the player in front, with some air."""
+        """Show all notes of the player in front, with some air."""
         front = self.model.front()
         pitches = front[0].pitch if front is not None else np.empty(0)
         if len(pitches):
@@ -191,7 +240,25 @@ class PianoRoll(Lane):
     def scroll_pitch(self, notches: float) -> None:
         """Scroll up and down."""
         bottom, top = self.y_range
-        self._show_pitches(*kept_pitches(bottom + notches * ROWS_A_NOTCH, top - bottom))
+        self.choose_pitches(*kept_pitches(bottom + notches * ROWS_A_NOTCH, top - bottom))
+
+    def zoom_pitch(self, factor: float, at: float | None = None) -> None:
+        """Show ``factor`` times fewer pitches; the one ``at`` stays, or that of the selected notes, or the middle."""
+        if at is None:
+            bottom, top = self.y_range
+            selected = self.session.selection.notes
+            here = [note.pitch + 0.5 for note in map(self.model.note, selected) if note is not None]
+            seen = [pitch for pitch in here if bottom <= pitch <= top]
+            at = sum(seen) / len(seen) if seen else (bottom + top) / 2
+        self.choose_pitches(*zoomed_pitches(self.y_range, factor, at))
+
+    def zoom_y(self, mouse: LaneMouse, steps: float) -> None:
+        self.zoom_pitch(ZOOM_A_NOTCH**steps, mouse.value)
+
+    def choose_pitches(self, bottom: float, top: float) -> None:
+        """Show these pitches, whatever height the lane is given."""
+        self._pitches_chosen = True
+        self._show_pitches(bottom, top)
 
     def _show_pitches(self, bottom: float, top: float) -> None:
         self.set_y_range(bottom, top)
@@ -354,13 +421,13 @@ class PianoRoll(Lane):
         if not mouse.alt:
             self.scroll_pitch(steps)
             return True
-        self._show_pitches(*zoomed_pitches(self.y_range, ZOOM_A_NOTCH**steps, mouse.value))
+        self.zoom_pitch(ZOOM_A_NOTCH**steps, mouse.value)
         return True
 
     def pan_y(self, by_px: float) -> None:
         """The plot is dragged up or down with the middle button."""
         bottom, top = self.y_range
-        self._show_pitches(*kept_pitches(bottom + by_px / self.row_px, top - bottom))
+        self.choose_pitches(*kept_pitches(bottom + by_px / self.row_px, top - bottom))
 
     def context_menu(self, mouse: LaneMouse) -> QMenu | None:
         hit = self.model.note_at(mouse)
@@ -406,12 +473,17 @@ class PianoRoll(Lane):
         if self.plot.toolTip() != tip:
             self.plot.setToolTip(tip)
 
+    def plot_resized(self) -> None:
+        super().plot_resized()
+        if hasattr(self, "marks") and not self._pitches_chosen:
+            self.show_legibly()
+
     # When something changes
 
     def project_changed(self, change: Change) -> None:
         if change.opened:
             self.model.forget()
-            self.fit_pitch()
+            self.show_legibly()
         if change.before.score is not change.after.score or change.before.players is not change.after.players:
             self.update_items()
             self.keyboard.update()
@@ -431,7 +503,7 @@ class PianoRoll(Lane):
         if front is not None and len(front[0]):
             bottom, top = self.y_range
             if front[0].pitch.min() < bottom or front[0].pitch.max() + 1 > top:
-                self.fit_pitch()
+                self.show_legibly()
         self.keyboard.update()
         self.update_items()
 

@@ -28,7 +28,8 @@ NEAR_PX = 7.0
 """A click this far off a note is one on it: rows are thin, and whoever misses one types on."""
 LEAST_ROWS, MOST_ROWS = 10.0, 128.0
 USUAL_ROWS = 30.0
-USUAL_ROW_PX = 8.0
+LEGIBLE_ROW_PX = 9.0
+"""Of a row in which a note is 8 pixels high."""
 AIR_ROWS = 4.0
 """Around what is fitted."""
 
@@ -56,8 +57,31 @@ def kept_pitches(bottom: float, rows: float) -> tuple[float, float]:
 
 def fitted_pitches(low: float, high: float, room_px: float) -> tuple[float, float]:
     """The lowest and the highest pitch to show around a range, with some air."""
-    rows = max(high - low + AIR_ROWS, min(USUAL_ROWS, room_px / USUAL_ROW_PX))
+    rows = max(high - low + AIR_ROWS, min(USUAL_ROWS, room_px / LEGIBLE_ROW_PX))
     return kept_pitches((low + high) / 2 - rows / 2, rows)
+
+
+def legible_pitches(pitches: FloatArray, air: float, room_px: float) -> tuple[float, float]:
+    """The lowest and the highest pitch to show so that notes are legible; where not all fit, as many as possible.
+
+    Parameters
+    ----------
+    pitches : array (N,)
+        Of the notes to show, at least one.
+    air : float
+        Rows to leave free above the notes.
+    """
+    low, high = float(pitches.min()), float(pitches.max()) + 1.0 + air
+    rows = room_px / LEGIBLE_ROW_PX
+    if high - low <= rows:
+        # The air around them is given up first.
+        rows = max(min(max(high - low + AIR_ROWS, USUAL_ROWS), rows), LEAST_ROWS)
+        return kept_pitches((low + high) / 2 - rows / 2, rows)
+    whole = max(int(rows), int(LEAST_ROWS))
+    counts = np.bincount(pitches.astype(np.int64), minlength=int(MOST_ROWS))
+    seen = np.convolve(counts, np.ones(whole, np.int64), "valid")
+    best = np.flatnonzero(seen == seen.max())
+    return kept_pitches(float(best[(len(best) - 1) // 2]), max(rows, LEAST_ROWS))
 
 
 def zoomed_pitches(pitches: tuple[float, float], factor: float, at: float) -> tuple[float, float]:
