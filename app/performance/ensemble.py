@@ -21,7 +21,7 @@ from app.performance.acting_problems import unfit_choreography, unknown_acting
 from app.performance.bodies import hold_now, is_held, suited_to
 from app.performance.body_problems import body_problems
 from app.performance.ensemble_steps import HELD, LINE, PLAYED, WHOLE, all_expressions, with_parts, work_of
-from app.performance.loudness import note_marks, velocities_of
+from app.performance.loudness import note_marks, unaccented
 from app.plan.acting import with_style
 from app.plan.by_hand.mark_corrections import corrected_marks
 from app.plan.doubling import InstrumentChange, changes, first_played
@@ -101,7 +101,7 @@ class Performance:
             clock=project.score.tempo_map,
             metre_map=project.metre_map,
             accompaniment=project.score.accompaniment,
-            velocities=tuple(results.of(velocities_of) for results in self._players.values()),
+            velocities=tuple(results.of(unaccented) for results in self._players.values()),
             installed=self.metadata.expressions_by_name,
             own=project.expressions,
         )

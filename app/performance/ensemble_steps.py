@@ -8,7 +8,7 @@ from typing import Final
 
 import msgspec
 
-from app.performance.loudness import controller_input, note_levels, note_loudness, velocities_of
+from app.performance.loudness import controller_input, note_levels, note_loudness, unaccented
 from app.plan.acting import Acting, acting_of, with_style
 from app.plan.by_hand.corrections import Correction, PlayStyle, RemoveEvent, SetBreath, SetCue, Vary
 from app.plan.by_hand.mark_corrections import OfMark, corrected_marks, mark_corrections
@@ -86,7 +86,7 @@ WHOLE: Final = StepTable(
 )
 """Steps that all players share."""
 PLAYED: Final = StepTable(
-    velocities=velocities_of,
+    velocities=unaccented,
     controller=controller_input,
     parameters=reading(with_style, parameters="own_parameters", player_id="musician_id"),
     actings=_actings,

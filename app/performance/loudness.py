@@ -21,6 +21,7 @@ from app.plan.music.dynamics_from_velocities import (
 from app.plan.music.piece import MEZZOFORTE, ControllerInput, ControllerSteps
 from app.plan.music.velocity_ladders import DYNAMICS
 from app.plan.music.written_dynamics import NONE_WRITTEN, WrittenDynamics
+from app.score.marks import ACCENT_SHARES
 from app.score.model import ControllerCurve, Part
 
 _SPEAKING = ("breath", "expression", "aftertouch", "volume")
@@ -38,6 +39,16 @@ def velocities_of(part: Part) -> Velocities:
     """The velocities of a part; equal after every edit that changes neither them nor an onset."""
     onsets = tuple(note.onset_tick for note in part.notes)
     return Velocities(tuple(note.velocity for note in part.notes), part.program, onsets, part.track)
+
+
+def unaccented(part: Part) -> Velocities:
+    """The velocities without what accents of the score add to them: an accent is no dynamic."""
+    found = velocities_of(part)
+    stressed = {mark.note_id: share for mark in part.marks if (share := ACCENT_SHARES.get(mark.kind)) is not None}
+    if part.source != "score" or not stressed:
+        return found
+    plain = (round(note.velocity / stressed.get(note.id, 1.0)) for note in part.notes)
+    return found._replace(velocities=tuple(plain))
 
 
 def note_loudness(part: Part, reading: VelocityReading | None = None) -> tuple[float, ...]:
@@ -60,7 +71,7 @@ def note_loudness(part: Part, reading: VelocityReading | None = None) -> tuple[f
 def note_levels(part: Part, reading: VelocityReading | None = None) -> tuple[float, ...]:
     """Loudness of the dynamic mark in force at every note, where a notation program wrote it as velocities; empty where
     it is unknown."""
-    return () if speaking_curve(part) is not None else tuple(levels_in_force(velocities_of(part), reading).tolist())
+    return () if speaking_curve(part) is not None else tuple(levels_in_force(unaccented(part), reading).tolist())
 
 
 def note_marks(
@@ -83,7 +94,7 @@ def note_marks(
 def _heard_marks(part: Part, reading: VelocityReading | None) -> list[str]:
     curve = speaking_curve(part)
     if curve is None:
-        marks = read_dynamics(velocities_of(part), reading)[1]
+        marks = read_dynamics(unaccented(part), reading)[1]
     else:
         marks = nearest_marks(phrase_levels(_loudness(part, curve, reading)))
     return [DYNAMICS[mark][0] for mark in marks.tolist()]

@@ -65,6 +65,8 @@ MARKINGS: Final = (
 )
 SFORZANDI: Final = frozenset({"sf", "sfz", "sffz", "fz", "rf", "rfz", "sfzz"})
 """Dynamics of one note, played louder than those around it: they stand beside the one that holds."""
+ACCENT_SHARES: Final[Mapping[str, float]] = {"accent": 1.2, "marcato": 1.3}
+"""Velocity that a reader of notation gives to accented notes, as a multiple of the others'."""
 MARK: Final = "mark"
 """Begins the ids of marks."""
 MARK_KINDS: Final[Mapping[str, Marking]] = {kind.id: kind for kind in MARKINGS}

@@ -10,7 +10,7 @@ from bisect import bisect_right, insort
 from collections.abc import Iterable, Sequence
 from typing import Final, NamedTuple
 
-from app.score.marks import Mark
+from app.score.marks import ACCENT_SHARES, Mark
 from app.score.musicxml.written import Direction
 
 _SOFT: Final = (49, 33, 16, 10, 5, 1)
@@ -21,7 +21,6 @@ _FORTE: Final = 90.0
 _STEP: Final = 16.0
 """Change over a hairpin that leads to no mark."""
 _MOST: Final = 127.0
-_SHARES: Final = {"accent": 1.2, "marcato": 1.3}
 _FORCED: Final = 112.0
 _GROWING: Final = re.compile(r"\bcresc", re.IGNORECASE)
 _FADING: Final = re.compile(r"\b(?:decresc|dim(?:\.|in|$))", re.IGNORECASE)
@@ -55,7 +54,7 @@ def velocity_of(level: float, kinds: Iterable[str], loudness: float | None) -> i
     """The velocity of a note with marks of some kinds; ``loudness`` is what the file says of just this note."""
     if loudness is not None:
         return int(min(max(round(_FORTE * loudness), 1), _MOST))
-    share = max((_SHARES.get(kind, 1.0) for kind in kinds), default=1.0)
+    share = max((ACCENT_SHARES.get(kind, 1.0) for kind in kinds), default=1.0)
     return int(min(max(round(level * share), 1), _MOST))
 
 

@@ -7,7 +7,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from app.performance.loudness import note_levels, note_loudness, note_marks, sounding_curve
+from app.performance.loudness import note_levels, note_loudness, note_marks, sounding_curve, unaccented, velocities_of
+from app.plan.music.dynamics_from_velocities import read_velocities
+from app.score.marks import Mark
 from app.score.model import ControllerCurve, CurveKind, Note, Part
 
 
@@ -93,3 +95,15 @@ def test_the_levels_that_a_program_wrote_are_known_and_those_of_a_curve_or_a_han
     chance = np.random.default_rng(1)
     struck = tuple(Note(f"1:{n}", 10 * n, 10, 60, int(chance.integers(50, 100))) for n in range(60))
     assert note_levels(Part("1.1.1", "x", 0, 0, 0, None, None, "m", struck, ())) == ()
+
+
+@pytest.mark.parametrize(("kind", "velocity"), [("accent", 96), ("marcato", 104)])
+def test_accents_in_a_row_of_a_score_are_no_dynamic(kind: str, velocity: int) -> None:
+    """A passage without a dynamic, then a forte."""
+    velocities = [80] * 8 + [velocity] * 4 + [80] * 12 + [96] * 24
+    notes = tuple(Note(f"1:{n}", 10 * n, 10, 60, struck) for n, struck in enumerate(velocities))
+    marks = tuple(Mark(kind, f"1:{n}") for n in range(8, 12))
+    written = Part("1.1.1", "x", 0, 0, 0, None, None, "m", notes, (), marks=marks, source="score")
+    heard = Part("1.1.1", "x", 0, 0, 0, None, None, "m", notes, ())
+    assert note_marks(heard, read_velocities([velocities_of(heard)]))[8:12] == ("f",) * 4, "a sound says no more"
+    assert note_marks(written, read_velocities([unaccented(written)]))[:24] == ("mf",) * 24
