@@ -64,6 +64,8 @@ class Task:
         What is being done.
     share : float
         0..1 of it that is done, as the worker says.
+    is_cancelled : bool
+        The user does not want it any more; what is stopped by newer work of its key is not cancelled.
     """
 
     name: Message
@@ -74,6 +76,7 @@ class Task:
     ended: Callable[[], None] | None
     runner: weakref.ref[ThreadTasks]
     share: float = 0.0
+    is_cancelled: bool = False
     stop: threading.Event = field(default_factory=threading.Event)
     thread: threading.Thread | None = None
     result: object = None
@@ -89,12 +92,15 @@ class ThreadTasks(QObject):
         Work began or ended.
     failed(AppError)
         Work without a ``failed`` of its own met an error that the user can act on.
+    cancelled(Message)
+        Work of this name was cancelled by the user.
     unexpected(BaseException)
         Work met a fault of the program.
     """
 
     changed = Signal()
     failed = Signal(object)
+    cancelled = Signal(object)
     unexpected = Signal(object)
 
     def __init__(self) -> None:
@@ -135,6 +141,7 @@ class ThreadTasks(QObject):
 
     def cancel(self, task: Task) -> None:
         """Ask work to stop; it is no longer shown, and its result is dropped."""
+        task.is_cancelled = True
         task.stop.set()
         self.changed.emit()
 
@@ -159,6 +166,8 @@ class ThreadTasks(QObject):
 
     def _report(self, task: Task) -> None:
         error = task.error
+        if task.is_cancelled or (isinstance(error, Cancelled) and not task.stop.is_set()):
+            self.cancelled.emit(task.name)
         if task.stop.is_set() or isinstance(error, Cancelled):
             return
         if error is None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Final
 
 WORDINGS: Final[dict[str, tuple[str, str]]] = {
+    "work.cancelled": ("cancelled: {work}", "中止しました: {work}"),
     "work.open": ("opening…", "開いています…"),
     "work.save": ("saving…", "保存中…"),
     "work.autosave": ("autosaving…", "自動保存中…"),

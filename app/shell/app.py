@@ -196,6 +196,9 @@ def run(start: LaunchOptions) -> int:
     program = Program(settings, autosave=Autosave(presence))
     if isinstance(program.tasks, ThreadTasks):
         program.tasks.failed.connect(lambda error: program.session.notice(error.message, Severity.ERROR))
+        program.tasks.cancelled.connect(
+            lambda name: program.session.notice(Message("work.cancelled", {**name.arguments, "work": name.id}))
+        )
     faults = CrashHandler(program.session, program.editor.files.write_now, log_path())
     faults.install()
     if isinstance(program.tasks, ThreadTasks):

@@ -38,7 +38,7 @@ from widgets.dialogs.export_place import PlaceChooser
 from widgets.dialogs.export_range import TEXT_MARGIN_PX, RangeChooser
 from widgets.dialogs.export_rig import RigChooser
 from widgets.dialogs.export_skeleton import SkeletonChooser
-from widgets.dialogs.working import WorkingDialog
+from widgets.dialogs.working import WorkingDialog, stopping
 
 SHOW_MS = 50
 """Progress is shown this often."""
@@ -61,6 +61,34 @@ def _profiles() -> ComboBox:
 
 def _some(names: tuple[str, ...]) -> str:
     return ", ".join(names[:_NAMES]) + (" …" if len(names) > _NAMES else "")
+
+
+class Written:
+    """Progress of an export, noted by its thread.
+
+    Parameters
+    ----------
+    count : int
+        Number of the things that files are written of.
+
+    Attributes
+    ----------
+    share : float
+        Share of the whole that is written.
+    label : str
+        What was worked on last.
+    labels : dict
+        All that was worked on.
+    """
+
+    def __init__(self, count: int) -> None:
+        self.count, self.share, self.label = count, 0.0, ""
+        self.labels: dict[str, None] = {}
+
+    def report(self, share: float, label: str) -> None:
+        """Note how far it is, and what was worked on."""
+        self.share, self.label = share, label
+        self.labels[label] = None
 
 
 class ExportDialog(WorkingDialog):
@@ -134,10 +162,9 @@ class ExportDialog(WorkingDialog):
         self._outcome.setWidgetResizable(True)
         self._outcome.setWidget(self._files)
         self._outcome.setMinimumHeight(OUTCOME_PX)
-        self._share = [0.0]
-        """Share of the whole that is written, set by the thread."""
+        self._written = Written(0)
         self._timer = QTimer(self, interval=SHOW_MS)
-        self._timer.timeout.connect(lambda: self._show_share(self._share[0]))
+        self._timer.timeout.connect(self._show_written)
         self._lay_out()
         self._place.changed.connect(lambda: self._skeleton.set_destination(self._place.destination))
         for chooser in (self._skeleton, self._place, self._range, self._formats):
@@ -179,7 +206,7 @@ class ExportDialog(WorkingDialog):
         self.fields += (self._skeleton, self._rig, self._range, self._preroll, self._rate)
         columns = in_row((left, 1), (self._form, 2), spacing=18)
         buttons = self._box("export_dialog.export", self.start, self._show_folder)
-        in_column((columns, 1), self._progress, buttons, of=self)
+        in_column((columns, 1), self._under_way, self._progress, buttons, of=self)
 
     # What is requested
 
@@ -236,23 +263,31 @@ class ExportDialog(WorkingDialog):
             return
         self._show.hide()
         self._set_running(True)
-        self._share = written = [0.0]
         stop = self._stop
         request, destination = self._request(), self._place.destination
+        performers = {player.name for player in request.players} | {dancer.name for dancer in request.dancers}
+        self._written = written = Written(len(performers) + request.sound + request.stage)
 
         def work(progress: Progress, stop_requested: StopRequested) -> Done:
             def reported(share: float, label: str) -> None:
                 progress(share)
-                written[0] = share
+                written.report(share, label)
 
-            return write(destination, request, lambda: stop.is_set() or stop_requested(), reported)
+            return write(destination, request, stopping(stop, stop_requested), reported)
 
         self._timer.start()
         self._session.tasks.run(
             Message("work.export"), work, self._done, self._failed, key="export", ended=self._finish
         )
 
+    def _show_written(self) -> None:
+        written = self._written
+        number = len(written.labels)
+        doing = self.tr("export_dialog.under_way").format(what=written.label, number=number, count=written.count)
+        self._show_share(written.share, doing if number else "")
+
     def _done(self, done: Done) -> None:
+        self._under_way.hide()
         if done.project is None:
             text = self.tr("export_dialog.files_written_to").format(folder=shown(done.folder), count=done.count)
             reported = Message("export.done", {"count": done.count, "folder": str(done.folder)})

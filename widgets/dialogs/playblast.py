@@ -27,7 +27,7 @@ from widgets.common.layouts import in_column, in_form, in_row
 from widgets.common.paths import PathEdit, ask_where_to_save, show_folder
 from widgets.common.plain import ComboBox, Label
 from widgets.common.text import message_text
-from widgets.dialogs.working import WorkingDialog
+from widgets.dialogs.working import WorkingDialog, stopping
 
 Pictures = npt.NDArray[np.uint8]
 Draw = Callable[[float], Pictures]
@@ -110,7 +110,7 @@ class PlayblastDialog(WorkingDialog):
         )
         self.fields = (self._size, self._rate, self._range, self._view, self._with_sound, self._file, self._choose)
         buttons = self._box("playblast_dialog.make_film", self.start, self._show_folder)
-        in_column(form, (self._state, 1), self._progress, buttons, of=self)
+        in_column(form, (self._state, 1), self._under_way, self._progress, buttons, of=self)
         self.texted(self, title="playblast_dialog.playblast")
         self.retranslate()
 
@@ -133,9 +133,10 @@ class PlayblastDialog(WorkingDialog):
 
         def work(progress: Progress, stop_requested: StopRequested) -> Path:
             samples = sound(span.first_frame_s, span.end_s, SOUND_RATE_HZ) if with_sound else None
+            asked = stopping(stop, stop_requested)
             with video_into(path, (size[0], size[1]), span.fps, samples) as film:
                 for index in range(span.count):
-                    film.write(_next(pictures, lambda: stop.is_set() or stop_requested()))
+                    film.write(_next(pictures, asked))
                     progress((index + 1) / span.count)
             return path
 
@@ -171,9 +172,11 @@ class PlayblastDialog(WorkingDialog):
             return
         self._pictures.put(picture)
         self._drawn += 1
-        self._show_share(self._drawn / span.count)
+        frame = self.tr("playblast_dialog.frame").format(number=self._drawn, count=span.count)
+        self._show_share(self._drawn / span.count, frame)
 
     def _done(self, path: Path) -> None:
+        self._under_way.hide()
         self._state.setText(self.tr("playblast_dialog.film_is_written").format(file=shown(path)))
         self._show.show()
         self._session.notice(Message("video.done", {"file": str(path)}))

@@ -2,16 +2,35 @@
 
 from __future__ import annotations
 
+import math
 import threading
+import time
 from collections.abc import Callable
 
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QDialog, QDialogButtonBox, QProgressBar, QPushButton, QWidget
 
+from app.errors import Message, StopRequested
 from widgets.common.clicks import on_click
 from widgets.common.controls import Button, Retranslated, named
+from widgets.common.plain import Label
+from widgets.common.text import message_text
 
 _PARTS = 1000
+_LEAST_SHARE, _LEAST_S = 0.02, 0.5
+"""Less done, or in a shorter time, foretells nothing."""
+
+
+def stopping(stop: threading.Event, stop_requested: StopRequested) -> StopRequested:
+    """Return whether work is to stop, for its thread: it was cancelled in its dialog, or in the status line, which the
+    dialog then knows too."""
+
+    def asked() -> bool:
+        if stop_requested():
+            stop.set()
+        return stop.is_set()
+
+    return asked
 
 
 class WorkingDialog(Retranslated, QDialog):
@@ -40,6 +59,10 @@ class WorkingDialog(Retranslated, QDialog):
         self._progress = named(QProgressBar(), f"{prefix}_progress")
         self._progress.setRange(0, _PARTS)
         self._progress.hide()
+        # What is being written, how many there are, how long it takes; afterwards that it was cancelled.
+        self._under_way = named(Label(), f"{prefix}_under_way")
+        self._under_way.hide()
+        self._began_s = 0.0
         self._close = named(QPushButton(), f"{prefix}_close")
         on_click(self._close, self.reject)
 
@@ -60,15 +83,30 @@ class WorkingDialog(Retranslated, QDialog):
     def _set_running(self, running: bool) -> None:
         if running:
             self._stop = threading.Event()
+            self._began_s = time.monotonic()
             self._show_share(0.0)
+        elif self._stop.is_set():
+            self._under_way.setText(message_text(Message("work.stopped")))
         self._running = running
         self._progress.setVisible(running)
+        self._under_way.setVisible(running or self._stop.is_set())
         for field in self.fields:
             field.setEnabled(not running)
+            # What was chosen is still read, though it cannot be changed.
+            field.setProperty("working", running)
+            for widget in (field, *field.findChildren(QWidget)):
+                widget.style().polish(widget)
         self.retranslate()
 
-    def _show_share(self, share: float) -> None:
+    def _show_share(self, share: float, doing: str = "") -> None:
+        """Show how much is done, what is being done, and how long the rest will take once that can be said."""
         self._progress.setValue(round(_PARTS * share))
+        elapsed_s = time.monotonic() - self._began_s
+        left = self.tr("working_dialog.finishing" if share >= 1.0 else "working_dialog.estimating")
+        if _LEAST_SHARE <= share < 1.0 and elapsed_s >= _LEAST_S:
+            left_s = math.ceil(elapsed_s * (1.0 - share) / share)
+            left = self.tr("working_dialog.left").format(minutes=left_s // 60, seconds=left_s % 60)
+        self._under_way.setText(" · ".join(part for part in (doing, left) if part))
 
     def retranslate(self) -> None:
         self._close.setText(self.tr("working_dialog.cancel") if self._running else self.tr("working_dialog.close"))

@@ -14,6 +14,7 @@ from pytestqt.qtbot import QtBot
 
 from app.editor.session import Session
 from app.editor.tasks import ThreadTasks
+from app.errors import Message
 from app.export.request import ExportRequest
 from app.export.run import export
 from app.formats import usd_package
@@ -113,16 +114,31 @@ def test_a_folder_that_cannot_be_is_reported_and_nothing_is_written(dialog: Expo
     assert (tmp_path / "out").read_text() == "a file"
 
 
-def test_cancelled_it_leaves_nothing(show_export: ShowExport, qt_app: object, qtbot: QtBot, tmp_path: Path) -> None:
+@pytest.mark.parametrize("by", ["button", "status line"])
+def test_cancelled_it_leaves_nothing_and_says_so(
+    show_export: ShowExport, qt_app: object, qtbot: QtBot, tmp_path: Path, by: str
+) -> None:
     tasks = ThreadTasks()
     session = Session(quartet_project(), tasks)
     dialog = show_export(session)
     start(dialog)
     button = child(dialog, QPushButton, "export_start")
     assert not button.isEnabled()
-    QTest.mouseClick(dialog.findChild(QPushButton, "export_close"), Qt.MouseButton.LeftButton)
+    under_way = child(dialog, QLabel, "export_under_way")
+    qtbot.waitUntil(lambda: " of 5 · " in under_way.text())
+    assert any(player.name in under_way.text() for player in session.project.players)
+    assert "left" in under_way.text()
+    reported: list[str] = []
+    tasks.cancelled.connect(lambda name: reported.append(name.id))
+    if by == "button":
+        QTest.mouseClick(dialog.findChild(QPushButton, "export_close"), Qt.MouseButton.LeftButton)
+    else:
+        tasks.cancel(tasks.running[0])
     qtbot.waitUntil(button.isEnabled)
     assert dialog.isVisible()
+    assert under_way.isVisible()
+    assert under_way.text() == text(Message("work.stopped"))
+    qtbot.waitUntil(lambda: reported == ["work.export"])
     qtbot.waitUntil(lambda: not (tmp_path / "out").exists())
     tasks.cancel_all(5.0)
     session.deleteLater()

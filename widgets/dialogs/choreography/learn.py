@@ -39,7 +39,7 @@ from widgets.dialogs.choreography.learn_rows import (
     missing_text,
     training_pair,
 )
-from widgets.dialogs.working import WorkingDialog
+from widgets.dialogs.working import WorkingDialog, stopping
 
 MOST_STATES: Final = 1000
 MOST_SEED: Final = 2**31 - 1
@@ -127,7 +127,9 @@ class LearnDialog(WorkingDialog):
         numbers = in_row(self._states, 14, Caption("learn_dialog.seed", self._seed), self._seed, STRETCH)
         file = in_row((self._file, 1), self._choose)
         form = in_form({"learn_dialog.states": numbers, "learn_dialog.save_to": file})
-        bottom = in_row((self._progress, 20), STRETCH, self._use, self._learn, self._close)
+        bottom = in_row(
+            (in_column(self._under_way, self._progress, spacing=2), 20), STRETCH, self._use, self._learn, self._close
+        )
         in_column((self._top, 2), (self.cuts, 3), form, self._state, bottom, of=self, margins=14, spacing=10)
 
     def _connect(self) -> None:
@@ -259,8 +261,10 @@ class LearnDialog(WorkingDialog):
         stop = self._stop
 
         def work(progress: Progress, stop_requested: StopRequested) -> _Learned:
+            asked = stopping(stop, stop_requested)
+
             def went(share: float, label: str) -> None:
-                if stop.is_set() or stop_requested():
+                if asked():
                     raise Cancelled("work.stopped")
                 written[0] = share
                 progress(share)

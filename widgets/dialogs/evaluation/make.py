@@ -26,7 +26,7 @@ from widgets.common.paths import PathEdit, ask_for_file, ask_for_folder, show_fo
 from widgets.common.plain import ComboBox, Label
 from widgets.common.text import message_text
 from widgets.dialogs.export_range import TEXT_MARGIN_PX, RangeChooser
-from widgets.dialogs.working import WorkingDialog
+from widgets.dialogs.working import WorkingDialog, stopping
 
 Make: TypeAlias = Callable[[Project, EvaluationRequest, Report, StopRequested], EvaluationFinished]
 """Makes an evaluation beside the window; see `app.evaluation.process.made_by_process`."""
@@ -176,7 +176,7 @@ class EvaluationDialog(WorkingDialog):
             *(film_button, keyframes_button, keyframes_folder, folder_button),
         )
         buttons = self._box("evaluation_dialog.make", self.start, self._show_folder)
-        in_column(form, (self._state, 1), self._progress, buttons, of=self)
+        in_column(form, (self._state, 1), self._under_way, self._progress, buttons, of=self)
 
     def start(self) -> None:
         """Begin the evaluation."""
@@ -195,7 +195,7 @@ class EvaluationDialog(WorkingDialog):
                 now[0] = (share, message)
                 progress(share)
 
-            return make(project, request, report, lambda: stop.is_set() or stop_requested())
+            return make(project, request, report, stopping(stop, stop_requested))
 
         self._session.tasks.run(
             Message("work.evaluation"), work, self._done, self._failed, key="evaluation", ended=self._finish
@@ -242,6 +242,7 @@ class EvaluationDialog(WorkingDialog):
         self._show_state()
 
     def _done(self, made: EvaluationFinished) -> None:
+        self._under_way.hide()
         page = f"{shown(restored(self.request().folder))}{os.sep}evaluation.html"
         lines = [self.tr("evaluation_dialog.done").format(page=page, clips=made.clips, pairs=made.pairs)]
         if made.confidence is not None and made.offset_s is not None:

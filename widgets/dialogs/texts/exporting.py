@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Final
 
 TEXTS: Final[dict[str, tuple[str, str]]] = {
+    "export_dialog.under_way": ("Writing {what}, {number} of {count}", "{what} を書き出し中（{number} / {count}）"),
     "export_dialog.all_or_none": ("Select/deselect all", "すべて選択/解除"),
     "export_dialog.beats": (" beats", " 拍"),
     "export_dialog.bone_names_in_bvh": ("Bone names in BVH", "BVH のボーン名"),
@@ -94,6 +95,7 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
     "playblast_dialog.film_is_written": ("Video saved: {file}", "動画を保存しました: {file}"),
     "playblast_dialog.films_mp4": ("Videos (*.mp4)", "動画 (*.mp4)"),
     "playblast_dialog.frames_per_second": ("Frames per second", "フレームレート"),
+    "playblast_dialog.frame": ("Frame {number} of {count}", "フレーム {number} / {count}"),
     "playblast_dialog.front": ("Front", "正面"),
     "playblast_dialog.hands": ("Hands", "手元"),
     "playblast_dialog.loop": ("Loop", "ループ範囲"),
@@ -165,6 +167,9 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
             "指定しない場合は標準の軸になるため、Unreal の IK リターゲッターを使ってください。"
         ),
     ),
+    "working_dialog.estimating": ("estimating time left…", "残り時間を計算中…"),
+    "working_dialog.finishing": ("finishing…", "仕上げ中…"),
+    "working_dialog.left": ("about {minutes}:{seconds:02d} left", "残り約 {minutes}:{seconds:02d}"),
     "working_dialog.cancel": ("Cancel", "キャンセル"),
     "working_dialog.close": ("Close", "閉じる"),
     "working_dialog.show_in_folder": ("Show in Folder", "フォルダーで表示"),
