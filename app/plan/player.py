@@ -65,7 +65,6 @@ from app.plan.music.dynamics_within_notes import dynamics_within
 from app.plan.music.ending import Ending
 from app.plan.music.piece import ControllerInput, LineTimes, Piece, Seeds, without_sound
 from app.plan.music.pitch_bends import written_bends
-from app.plan.music.written_marks import WrittenMarks
 from app.plan.parameters import parameters_deciding
 from app.plan.rule_conditions import facts_of
 from app.plan.rules import lowered_spans_s, plan_by_rules, with_ruled, without_overruled
@@ -85,16 +84,6 @@ def _seeds(seed: int, own_seed: int, player_id: str, corrections: tuple[Correcti
 
 def _pins(corrections: tuple[Correction, ...]) -> dict[str, str]:
     return {item.note_id: item.label for item in corrections if isinstance(item, PinFingering)}
-
-
-def _fingering_by_hand(written: WrittenMarks) -> tuple[bool, ...]:
-    """Return which fingerings over notes a hand wrote; bare arrays cannot be compared as inputs of steps."""
-    return tuple(written.fingering_by_hand.tolist())
-
-
-def _glides(written: WrittenMarks) -> tuple[bool, ...]:
-    """Return from which notes a glissando leads to the next."""
-    return tuple(written.glides.tolist())
 
 
 def _envelope(
@@ -224,16 +213,8 @@ PLAYER: Final = StepTable(
     seeds=_seeds,
     # What is fingered.
     pins=_pins,
-    written_fingerings="written.fingering",
-    fingering_by_hand=_fingering_by_hand,
-    glides=_glides,
-    planned_fingerings=reading(
-        plan_fingerings,
-        stopped="stopped",
-        written="written_fingerings",
-        written_by_hand="fingering_by_hand",
-        glides="glides",
-    ),
+    written_fingerings="written.fingerings",
+    planned_fingerings=reading(plan_fingerings, stopped="stopped", written="written_fingerings"),
     fingerings="planned_fingerings.events",
     fingering_problems="planned_fingerings.problems",
     mutes=plan_mutes,

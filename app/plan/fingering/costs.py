@@ -19,6 +19,7 @@ from app.plan.fingering.fingering_table import (
 )
 from app.plan.fingering.trills_and_runs import TRILL_S, attacked_notes, chromatic_notes, glissando_steps, trill_steps
 from app.plan.music.piece import LineTimes
+from app.plan.music.written_marks import NO_FINGERINGS, WrittenFingerings
 from app.score.model import Note
 from instrument_maps.fingering_label import written_choice
 from instrument_maps.model import Control, Fingering, InstrumentMap
@@ -340,12 +341,11 @@ def fingering_problem(
     instrument: InstrumentMap,
     pins: dict[str, str],
     by_hand: BoolArray | None = None,
-    written: Sequence[str] = (),
-    glides: BoolArray | None = None,
+    written: WrittenFingerings = NO_FINGERINGS,
 ) -> FingeringProblem:
     """Set up the search. ``pins`` maps note ids to labels that a correction demands; a label that is no fingering of
-    its note is passed over (see `plan_fingerings`), and so is one of ``written``, the fingerings in the score by note.
-    ``by_hand`` (N,) are notes that the hand stops, ``glides`` (N,) those from which a glissando leads to the next."""
+    its note is passed over (see `plan_fingerings`), and so is one of ``written``, the fingerings in the score.
+    ``by_hand`` (N,) are notes that the hand stops."""
     stopped = instrument.stopped if by_hand is not None and by_hand.any() else None
     if stopped is not None and by_hand is not None:
         times = replace(times, pitch=times.pitch + stopped.fingered_semitones * by_hand)
@@ -356,7 +356,7 @@ def fingering_problem(
         without = [place for place, item in enumerate(pitch_controls(instrument)) if item.name in stopped.without]
         plain = allowed & (table.values[pitch_index][:, :, without] == 0.0).all(axis=2)
         allowed = np.where((by_hand & plain.any(axis=1))[:, None], plain, allowed)
-    in_score = _in_score(written, table.choices, pitch_index, instrument)
+    in_score = _in_score(written.label, table.choices, pitch_index, instrument)
     if pins or in_score:
         for index, note in enumerate(notes):
             pinned = _pinned(table.choices[pitch_index[index]], pins.get(note.id))
@@ -366,6 +366,7 @@ def fingering_problem(
                 allowed[index] = False
                 allowed[index, pinned] = True
     controls = pitch_controls(instrument)
+    glides = np.array(written.glides) if any(written.glides) else None
     return FingeringProblem(times, table, pitch_index.astype(np.int64), controls, allowed, in_score, glides)
 
 

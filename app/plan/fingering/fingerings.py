@@ -24,6 +24,7 @@ from app.plan.fingering.mutes import stopped_notes
 from app.plan.fingering.search import best_path, even_trills, never_worse
 from app.plan.model import FingeringEvent, Planned, Problem, Vent
 from app.plan.music.piece import LineTimes
+from app.plan.music.written_marks import NO_FINGERINGS, WrittenFingerings
 from app.score.model import Note
 from instrument_maps.model import Fingering, InstrumentMap
 
@@ -39,9 +40,7 @@ def plan_fingerings(
     instrument: InstrumentMap,
     pins: dict[str, str],
     stopped: tuple[tuple[int, int], ...] = (),
-    written: tuple[str, ...] = (),
-    written_by_hand: tuple[bool, ...] = (),
-    glides: tuple[bool, ...] = (),
+    written: WrittenFingerings = NO_FINGERINGS,
 ) -> Planned[FingeringEvent]:
     """Choose a fingering for every note.
 
@@ -51,46 +50,31 @@ def plan_fingerings(
         Labels demanded by corrections, by note id.
     stopped : tuple of (start tick, end tick), optional
         Where the hand stops the bell: notes are fingered as the map says of it.
-    written : tuple of str, optional
-        The fingering in the score of each note; empty: none. A correction wins over it, and it over the search.
-    written_by_hand : tuple of bool, optional
-        Which of them a hand wrote.
-    glides : tuple of bool, optional
-        From which notes a glissando leads to the next.
+    written : WrittenFingerings, optional
+        The fingerings in the score. A correction wins over them, and they over the search.
     """
     if not notes:
         return Planned((), ())
     by_hand = stopped_notes(notes, stopped, instrument)
-    problem = fingering_problem(
-        notes, times, instrument, pins, by_hand, written, np.array(glides) if any(glides) else None
-    )
+    problem = fingering_problem(notes, times, instrument, pins, by_hand, written)
     path = never_worse(problem, even_trills(problem, best_path(problem)))
     events = []
-    problems: list[Problem] = []
     shortest_s, in_trill = _shortest_steps(problem)
-    attacks = {control.name: control.attack_s for control in instrument.controls if control.attack_s is not None}
     onset_tick, end_tick = times.onset_tick.tolist(), times.played_end_tick.tolist()
     onset_s, end_s = times.onset_s.tolist(), times.played_end_s.tolist()
     chosen = list(zip(problem.pitch_index.tolist(), path.tolist(), strict=True))
     controls = _controls(problem, chosen, instrument)
-    for index, note in enumerate(notes):
-        ranked = problem.table.choices[chosen[index][0]]
-        fingering = ranked[chosen[index][1]]
+    for index, (note, (row, column)) in enumerate(zip(notes, chosen, strict=True)):
+        ranked = problem.table.choices[row]
+        fingering = ranked[column]
         pinned = pins.get(note.id) == fingering.label
-        if note.id in pins and not pinned:
-            message = Message("correction.no_such_fingering", {"note": note.id, "label": pins[note.id]})
-            problems.append(Problem(message, note.id, onset_s[index], end_s[index]))
-        in_score = problem.in_score.get(index) == chosen[index][1]
-        if not pinned and in_score:
-            is_own = bool(written_by_hand) and written_by_hand[index]
+        if pinned or problem.in_score.get(index) == column:
+            is_own = pinned or any(written.by_hand[index : index + 1])
             reason = _reason("fingering.by_hand" if is_own else "fingering.written", fingering.label)
-        elif pinned or by_hand[index]:
-            reason = _reason("fingering.by_hand" if pinned else "fingering.stopped", fingering.label)
-        elif fingering.rank <= 1:
-            reason = _reason("fingering.first_choice", fingering.label)
+        elif by_hand[index]:
+            reason = _reason("fingering.stopped", fingering.label)
         else:
-            rule = "fingering.trill" if in_trill[index] else "fingering.speed"
-            reason = _reason(rule, fingering.label, (ranked[0].label, round(shortest_s[index] * 1000.0)))
+            reason = _searched(fingering, ranked[0], in_trill[index], shortest_s[index])
         event = FingeringEvent(
             id=f"fingering:{note.id}",
             note_id=note.id,
@@ -105,15 +89,44 @@ def plan_fingerings(
             reason=reason,
             corrected=pinned,
             fingers=fingering.fingers,
-            glide_from_s=_glide_from_s(index, glides, onset_s) if problem.has_slide else None,
+            glide_from_s=_glide_from_s(index, written.glides, onset_s) if problem.has_slide else None,
         )
-        events.append(_vented(event, ranked, attacks) if "attack" in fingering.tags and not pinned else event)
-    for index, note in enumerate(notes if written else ()):
-        if written[index] and index not in problem.in_score:
-            message = Message("fingering.not_in_map", {"note": note.id, "label": written[index]})
-            problems.append(Problem(message, note.id, onset_s[index], end_s[index]))
-    problems += [*_out_of_range(notes, times, instrument), *_early_starts(notes, problem, path)]
-    return Planned(tuple(events), tuple(problems))
+        events.append(_vented(event, ranked, instrument) if "attack" in fingering.tags and not pinned else event)
+    of_notes = *_out_of_range(notes, times, instrument), *_early_starts(notes, problem, path)
+    return Planned(tuple(events), (*_unplayed(notes, events, pins, written, problem), *of_notes))
+
+
+def _unplayed(
+    notes: Sequence[Note],
+    events: Sequence[FingeringEvent],
+    pins: Mapping[str, str],
+    written: WrittenFingerings,
+    problem: FingeringProblem,
+) -> list[Problem]:
+    """Return a problem for every fingering, first by correction, then in the score, that the map does not have."""
+    wrong = [
+        ("correction.no_such_fingering", index, pins[note.id])
+        for index, note in enumerate(notes if pins else ())
+        if pins.get(note.id, events[index].label) != events[index].label
+    ]
+    wrong += [
+        ("fingering.not_in_map", index, label)
+        for index, label in enumerate(written.label)
+        if label and index not in problem.in_score
+    ]
+    return [
+        Problem(Message(id, {"note": notes[index].id, "label": label}), notes[index].id, event.start_s, event.end_s)
+        for id, index, label in wrong
+        for event in (events[index],)
+    ]
+
+
+def _searched(fingering: Fingering, first_choice: Fingering, in_trill: bool, step_s: float) -> Message:
+    """Return why the search chose a fingering, whose quicker step from or to a neighbour takes ``step_s``."""
+    if fingering.rank <= 1:
+        return _reason("fingering.first_choice", fingering.label)
+    rule = "fingering.trill" if in_trill else "fingering.speed"
+    return _reason(rule, fingering.label, (first_choice.label, round(step_s * 1000.0)))
 
 
 def _glide_from_s(index: int, glides: tuple[bool, ...], onset_s: Sequence[float]) -> float | None:
@@ -152,16 +165,17 @@ def _reason(rule: str, label: str, instead: tuple[str, int] | None = None) -> Me
     return Message(rule, {"label": label, **more})
 
 
-def _vented(event: FingeringEvent, ranked: Sequence[Fingering], attacks: Mapping[str, float]) -> FingeringEvent:
+def _vented(event: FingeringEvent, ranked: Sequence[Fingering], instrument: InstrumentMap) -> FingeringEvent:
     """The fingering of an attack, whose vents are let go once the note speaks, if it lasts.
 
     Parameters
     ----------
     ranked : sequence of Fingering
         All fingerings of the note.
-    attacks : mapping of str to float
-        How long the controls are held that are let go, seconds.
+    instrument : InstrumentMap
+        Its controls say for how long they are held at an attack.
     """
+    attacks = {control.name: control.attack_s for control in instrument.controls if control.attack_s is not None}
     vents = tuple(name for name in event.controls if name in attacks)
     length_s, open_s = event.end_s - event.start_s, max((attacks[name] for name in vents), default=0.0)
     if not vents or length_s < open_s + LEAST_HELD_S:

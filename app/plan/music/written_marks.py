@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, fields
 from functools import cached_property
-from typing import Final
+from typing import Final, NamedTuple
 
 import numpy as np
 
@@ -19,6 +19,19 @@ DIVIDING: Final = frozenset({"staccato", "staccatissimo", "tenuto", "marcato"})
 """Marks that divide a slur: its notes are tongued softly."""
 OF_STROKE: Final = ("staccatissimo", "staccato", "tenuto", "accent", "marcato")
 """Marks that say how a note is struck, the strongest last."""
+
+
+class WrittenFingerings(NamedTuple):
+    """Fingerings in a score, each field by note; empty: none."""
+
+    label: tuple[str, ...] = ()
+    by_hand: tuple[bool, ...] = ()
+    """True where a hand wrote it."""
+    glides: tuple[bool, ...] = ()
+    """True where a glissando leads to the next note."""
+
+
+NO_FINGERINGS: Final = WrittenFingerings()
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,6 +92,11 @@ class WrittenMarks:
         """True if the next note has a mark that says that it is tongued, or follows a slur's end."""
         marked = np.fromiter(map(bool, self.stroke), bool, len(self.stroke))
         return np.append(marked[1:], False)[: len(marked)] | self.tongued
+
+    @cached_property
+    def fingerings(self) -> WrittenFingerings:
+        """The fingerings, as the plan of fingerings reads them."""
+        return WrittenFingerings(self.fingering, tuple(self.fingering_by_hand.tolist()), tuple(self.glides.tolist()))
 
     @property
     def is_score(self) -> bool:
@@ -150,19 +168,22 @@ def written_marks(
                 if notes[index].pitch == notes[first].pitch:
                     fingering[index] = mark.text
                     fingering_by_hand[index] = mark in by_hand
-    slurred = (slurred | glides) & ~apart
-    tongued = apart | (ends & ~slurred)
-    under = slurred | np.insert(slurred[:-1], 0, False)[:count]
-    dividing = np.fromiter((mark in DIVIDING for mark in stroke), bool, count)
-    divided = under & dividing
-    # The stroke of the next note divides them.
-    joined = slurred
-    slurred = joined & ~np.append(divided[1:], False)[:count]
+    joined = (slurred | glides) & ~apart
+    tongued = apart | (ends & ~joined)
+    slurred, divided = _divided(joined, stroke)
     onsets = np.fromiter((note.onset_tick for note in notes), np.int64, count)
     level, swell, struck = note_dynamics(onsets, written_dynamics(marks, source, ticks_per_quarter), ticks_per_quarter)
     flags = slurred, tongued, joined, divided, glides, breath, breath_by_hand, stroke_by_hand, fingering_by_hand
     by_note = tuple(stroke), tuple(tonguing), tuple(fingering), level, swell, struck
     return WrittenMarks(source, *flags, *by_note)
+
+
+def _divided(joined: BoolArray, stroke: list[str]) -> tuple[BoolArray, BoolArray]:
+    """Return which notes are slurred to the next, and which a stroke under a slur divides from the note before."""
+    count = len(stroke)
+    under = joined | np.insert(joined[:-1], 0, False)[:count]
+    divided = under & np.fromiter((mark in DIVIDING for mark in stroke), bool, count)
+    return joined & ~np.append(divided[1:], False)[:count], divided
 
 
 def unwritten(count: int) -> WrittenMarks:

@@ -60,15 +60,10 @@ def part_streams(
         return []
     first = next(iter(part.instruments.values()), PartInstrument())
     words = [(tick, one.text) for tick, one in played.directions if one.kind == "words"]
-    by_onset = sorted(played.notes, key=lambda note: note.onset)
-    flags = fluttered(words, [note.onset for note in by_onset])
-    for note, flutters in zip(by_onset, flags, strict=True):
-        if flutters:
-            note.marks.append(("flutter_tongue", ""))
+    _mark_flutters(played, words)
     marks = _marks(played, f"{track + 1}:", spans)
-    order = sorted(dict.fromkeys(row.kind for row in rows), key=lambda kind: kind == _STRUCK)
     base = _base(part, first, transposition)
-    order.sort(key=lambda kind: (kind == _STRUCK, kind != base))
+    order = sorted(dict.fromkeys(row.kind for row in rows), key=lambda kind: (kind == _STRUCK, kind != base))
     streams = []
     for change, kind in enumerate(order):
         own = [row for row in rows if row.kind == kind]
@@ -101,6 +96,14 @@ def part_streams(
             )
         )
     return streams
+
+
+def _mark_flutters(played: PlayedPart, words: list[tuple[int, str]]) -> None:
+    """Mark the notes that words over them ask to be flutter-tongued."""
+    by_onset = sorted(played.notes, key=lambda note: note.onset)
+    for note, flutters in zip(by_onset, fluttered(words, [note.onset for note in by_onset]), strict=True):
+        if flutters:
+            note.marks.append(("flutter_tongue", ""))
 
 
 def _channel(track: int) -> int:
