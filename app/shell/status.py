@@ -200,6 +200,15 @@ class StatusLine(Retranslated, QStatusBar):
         """The notice that is shown; empty: none."""
         return "" if self._notice.isHidden() else message_text(self._log[-1][0], self._session)
 
+    def _forget_device(self, port: str, is_open: bool) -> None:
+        """Take a warning about a device away once another one is chosen, or none, or that one works."""
+        if self._notice.isHidden() or self._log[-1][1] is Severity.INFORMATION:
+            return
+        message = self._log[-1][0]
+        device = message.arguments.get("device", message.arguments.get("port"))
+        if message.id.startswith(("capture.", "record.")) and device is not None and (is_open or device != port):
+            self.dismiss()
+
     def _unfold(self) -> None:
         self._details.open_over(self._notice, tuple(self._log))
 
@@ -244,6 +253,7 @@ class StatusLine(Retranslated, QStatusBar):
         if reported == self._reported_device:
             return
         self._reported_device = reported
+        self._forget_device(recording.port, recording.connection == "open")
         self._device.setVisible(bool(recording.port or recording.ports))
         text, name, colour = {
             "none": (self.tr("status_line.choose_midi_device"), "record", tokens.text_dim),

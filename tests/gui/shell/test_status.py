@@ -139,3 +139,23 @@ def test_much_work_at_once_leaves_room_for_its_names(program: Program, qtbot: Qt
         go_on.set()
         qtbot.waitUntil(lambda: tasks.is_idle)
     qtbot.waitUntil(lambda: not reported())
+
+
+@pytest.mark.parametrize(
+    ("change", "goes"),
+    [
+        ({"port": "", "connection": "none"}, True),
+        ({"port": "EWI USB", "connection": "refused"}, True),
+        ({"connection": "open"}, True),
+        ({"connection": "lost"}, False),
+    ],
+)
+def test_a_warning_about_a_device_goes_with_the_choice_of_it(
+    program: Program, change: dict[str, str], goes: bool
+) -> None:
+    status, session = program.window.status, program.session
+    session.recording.set(port="Aerophone", connection="refused")
+    session.notice(Message("capture.port_taken", {"port": "Aerophone"}), Severity.ERROR)
+    assert "Aerophone" in status.notice_text
+    session.recording.set(**change)
+    assert (status.notice_text == "") is goes
