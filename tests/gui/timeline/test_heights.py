@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
+import msgspec
 import numpy as np
 import pytest
 from hypothesis import given
@@ -11,6 +14,7 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication
 
 from app.editor.selection import Selection
+from app.errors import Message
 from tests.gui.timeline.conftest import TPQ, Stage
 from tests.gui.timeline.hand import CTRL, SHIFT, Hand
 from widgets.timeline.lane import Lane
@@ -149,6 +153,26 @@ def test_notes_elsewhere_are_brought_into_view(stage: Stage) -> None:
     roll.choose_pitches(100.0, 120.0)
     roll.follow()
     assert roll.y_range[0] < 66
+
+
+def test_ghosts_have_one_faint_colour_whoever_plays_them(stage: Stage) -> None:
+    session, roll = stage.session, stage.roll
+
+    def ghost() -> str:
+        # The second player's first note, a third below.
+        x, y = stage.place(TPQ / 2, 57)
+        return roll.plot.grab().toImage().pixelColor(round(x), round(y)).name()
+
+    before = ghost()
+    front, behind = session.project.players
+    red = (front, msgspec.structs.replace(behind, colour="#ff0000"))
+    session.apply(Message("edit.player_colour", {"count": 1}), replace(session.project, players=red))
+    settle()
+    assert ghost() == before
+    stage.do("timeline.all")
+    assert ghost() == "#ff0000"
+    stage.do("timeline.alone")
+    assert ghost() not in (before, "#ff0000")
 
 
 def test_notes_above_and_below_are_marked_at_the_edges(stage: Stage) -> None:

@@ -61,7 +61,7 @@ def test_notes_behind_lie_where_they_belong_as_points_and_as_rectangles(
     stage.panel.axis.fit()
     QApplication.processEvents()
     roll, (colour,) = stage.roll, stage.roll.ghosts().colours
-    image = picture_behind(roll, roll.ghosts(), 255, 1.0)
+    image = picture_behind(roll, roll.ghosts(), None, 1.0)
     for note in roll.ghosts().tables[0].part.notes:
         left = roll.axis.x_px(stage.session.project.score.tempo_map.seconds(float(note.onset_tick)))
         y = round(roll.y_px(note.pitch + 0.5))

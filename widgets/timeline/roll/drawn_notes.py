@@ -116,11 +116,12 @@ class Notes(LaneItem[RollView]):
         behind = lane.model.ghosts()
         if not behind.tables:
             return
-        alpha = GHOST_ALPHA if lane.ghosted else 255
+        # Ghosts of one colour: many players in many colours would hide the one in front.
+        ghost = _shade(lane.session.tokens.text_dim, GHOST_ALPHA) if lane.ghosted else None
         ratio = lane.plot.devicePixelRatioF()
-        key = (lane.axis.start_s, lane.axis.end_s, lane.y_range, lane.plot_rect.size().toTuple(), ratio, alpha)
+        key = (lane.axis.start_s, lane.axis.end_s, lane.y_range, lane.plot_rect.size().toTuple(), ratio, ghost)
         if self._behind is None or self._behind[0] != key or not self._behind[1].looks_like(behind):
-            self._behind = (key, behind, picture_behind(lane, behind, alpha, ratio))
+            self._behind = (key, behind, picture_behind(lane, behind, ghost, ratio))
         painter.drawImage(QPointF(0.0, 0.0), self._behind[2])
         if lane.model.selects_behind:
             for table, colour in zip(behind.tables, behind.colours, strict=True):
@@ -171,15 +172,15 @@ def _shade(colour: str, alpha: int) -> QColor:
     return shade
 
 
-def picture_behind(lane: RollView, behind: Behind, alpha: int, ratio: float) -> QImage:
+def picture_behind(lane: RollView, behind: Behind, ghost: QColor | None, ratio: float) -> QImage:
     """The other players' notes: as rectangles, or where there are very many, the narrow ones as points.
 
     Parameters
     ----------
     behind : Behind
         Later players lie over those before.
-    alpha : int
-        Opacity 0..255.
+    ghost : QColor or None
+        Colour of all of them; None: each player's own.
     ratio : float
         Pixels of the screen in one of the plot's.
     """
@@ -195,7 +196,7 @@ def picture_behind(lane: RollView, behind: Behind, alpha: int, ratio: float) -> 
     rows = rows[np.argsort(notes.owner[rows], kind="stable")]
     owner = notes.owner[rows]
     left, top, width, height = boxes = lane.boxes(notes, rows)
-    shades = [_shade(colour, alpha) for colour in behind.colours]
+    shades = [QColor(colour) if ghost is None else ghost for colour in behind.colours]
     painter = QPainter(image)
     # See `Pictured`.
     painter.setClipRect(room)
