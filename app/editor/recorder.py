@@ -350,7 +350,10 @@ class Recorder(QObject):
         start_s = session.playhead_s
         if session.loop_s is not None and not session.loop_s[0] <= start_s < session.loop_s[1]:
             start_s = session.loop_s[0]
-        lead_s = self.count_in_from_s(start_s)
+        # Nothing is played before the piece begins: from the pre-roll, as after Home, a take begins with the piece.
+        lead_s, start_s = start_s, max(start_s, 0.0)
+        if self._state.count_in_bars:
+            lead_s = self.count_in_from_s(start_s)
         try:
             path = journal_path(self._files.path, *self._files.recovery_stems)
         except AppError as error:

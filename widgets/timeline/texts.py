@@ -136,8 +136,8 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
     ),
     "piano_roll.notes": ("Notes", "音符"),
     "piano_roll.notes_of_player_in_front": (
-        "Notes of the active player; the others are shown behind",
-        "アクティブな奏者の音符（ほかの奏者は背面に表示）",
+        "Notes of the active player; the others are shown behind. Ctrl+Shift+wheel zooms vertically",
+        "アクティブな奏者の音符（ほかの奏者は背面に表示）。Ctrl+Shift+ホイールで縦に拡大・縮小",
     ),
     "piano_roll.pitch_place": ("{pitch} · {place}", "{pitch} · {place}"),
     "piano_roll.velocity": ("Velocity {velocity}", "ベロシティ {velocity}"),

@@ -61,6 +61,20 @@ def test_a_take_is_counted_in(studio: Studio) -> None:
     assert take_text(studio).text() == ""
 
 
+@pytest.mark.parametrize(("bars", "counted_from_s"), [(1, -2.0), (0, None)])
+def test_a_take_after_home_begins_with_the_piece(studio: Studio, bars: int, counted_from_s: float | None) -> None:
+    studio.session.recording.set(count_in_bars=bars)
+    actions(studio.session)["play.to_start"].trigger()
+    home_s = studio.session.playhead_s
+    assert home_s < 0.0
+    studio.press(Qt.Key.Key_R)
+    recording = studio.session.recording
+    assert recording.start_s == 0.0
+    # Without clicks the pre-roll leads in.
+    assert recording.counted_from_s == (home_s if counted_from_s is None else counted_from_s)
+    studio.press(Qt.Key.Key_R)
+
+
 def test_each_pass_of_a_loop_is_a_take(studio: Studio) -> None:
     studio.session.set_loop((0.0, 0.8))
     studio.press(Qt.Key.Key_R)
