@@ -44,6 +44,8 @@ PREROLL_LEAST_S = 2.0
 COME_UP_S = 3.0
 """A new piece begins so long before the first note at least: time to be seen at rest, and to come up from it."""
 MOST_PREROLL_BEATS = 32
+START_BEATS = 2.0
+"""The preparatory beat of the start, and what is missing of the one before it where a pickup begins the piece."""
 AFTER_LAST_S = 6.0
 """Time to hold still, lower the instrument, look up and bow."""
 
@@ -75,9 +77,11 @@ def frame_around(
     beat_ticks: int | None = None,
 ) -> TimeFrame:
     """The same of a piece that sounds from one tick to another."""
-    preroll = preroll_beats * (beat_ticks or clock.ticks_per_quarter)
+    beat = beat_ticks or clock.ticks_per_quarter
     first_s = clock.seconds(float(first_tick))
-    start_s = min(clock.seconds(first_tick - preroll), first_s - PREROLL_LEAST_S)
+    # The start is given in the tempo that begins, whatever the one before it is.
+    given_s = min(preroll_beats, START_BEATS) * (clock.seconds(float(first_tick + beat)) - first_s)
+    start_s = first_s - max(first_s - clock.seconds(first_tick - preroll_beats * beat), PREROLL_LEAST_S, given_s)
     return TimeFrame(start_s, clock.seconds(float(last_tick)) + AFTER_LAST_S)
 
 

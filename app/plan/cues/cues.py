@@ -18,6 +18,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+import msgspec
 import numpy as np
 
 from app.errors import Argument, Message
@@ -31,6 +32,9 @@ from instrument_maps.instrument_names import vocabulary
 
 LEAD_BEATS = 1.5
 """Head and instrument begin to rise half a beat before the preparatory beat: they are on their way up on it."""
+
+LEAST_RISE_BEATS = 0.25
+"""Part of a beat in which they still rise to it, after another cue."""
 
 MELODY_BARS = 2
 """Bars over which the players of the melody are determined."""
@@ -128,8 +132,11 @@ def plan_cues(
         amount = _size(entry, all_times)
         takers = _takers(leader, entry.players, parts)
         cue = _cue(parts[leader].player_id, note, entry, why, piece, frame, amount=amount, takers=takers)
-        # No one nods twice at once.
-        if cue.start_s >= busy_until_s.get(leader, -np.inf):
+        # No one nods twice at once: head and instrument rise again once the last cue was given.
+        free_s = busy_until_s.get(leader, -np.inf)
+        if cue.peak_s - max(free_s, cue.start_s) >= min(LEAST_RISE_BEATS * cue.beat_s, cue.peak_s - cue.start_s):
+            if cue.start_s < free_s:
+                cue = msgspec.structs.replace(cue, start_s=free_s, start_tick=round(piece.clock.ticks(free_s)))
             busy_until_s[leader] = cue.end_s
             generated.append(cue)
     events = {event.id + event.player_id: event for event in generated}

@@ -109,6 +109,27 @@ def test_no_one_nods_twice_at_once() -> None:
     assert [cue.end_tick / Q for cue in found.events] == [4, 6]
 
 
+@pytest.mark.parametrize(("bpm", "starts_s"), [(120.0, [1.25, 2.25]), (80.0, [1.25, 2.0]), (72.0, [1.25])])
+def test_after_a_cue_the_next_one_rises_for_as_long_as_is_left(bpm: float, starts_s: list[float]) -> None:
+    # The second entry, a second after the first, begins another tempo, whose beats its cue has.
+    clock = PlainClock(((0, 120.0), (6 * Q, bpm)))
+    notes = line_of((4 * Q, Q, 60), (6 * Q, Q, 60))
+    line = MonophonicPart("p", notes, valves())
+    entries = tuple(Entry(note.onset_tick, "cue.start", None, ((0, place),)) for place, note in enumerate(notes))
+    frame = time_frame((line,), clock)
+    found = plan_cues(entries, (line,), (line_times(line, clock),), piece_of(clock), frame).events
+    assert [cue.start_s for cue in found] == pytest.approx(starts_s)
+    assert [cue.peak_s for cue in found] == pytest.approx([cue.end_s - cue.beat_s for cue in found])
+
+
+def test_the_performance_begins_with_the_start_in_the_tempo_to_come() -> None:
+    clock = PlainClock(((0, 120.0), (2, 20.0)))
+    lines = (HIGH, LOW)
+    first = cues(*lines, clock=clock)[0]
+    assert time_frame(lines, clock).first_frame_s <= first.start_s
+    assert time_frame(lines, PlainClock(), 1.0).first_frame_s == -2.0
+
+
 def test_who_plays_a_part_of_the_melody_only_does_not_have_it() -> None:
     tune = [(place * Q, Q, pitch) for place, pitch in enumerate((72, 74, 76, 77, 79, 77, 76, 74))]
     below = [MonophonicPart(f"low{n}", line_of((0, Q, 60), (Q, Q, 62), track=n), slide()) for n in (1, 2)]
