@@ -18,7 +18,7 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         "change_expression": ("expression", "表情"),
         "add_expression": ("expression", "表情"),
         "pose": ("pose", "ポーズ"),
-        "additive": ("additive curve", "加算カーブ"),
+        "additive": ("body curve", "体のカーブ"),
         "vary": ("regenerated", "再生成"),
         "play_style": ("style", "演奏スタイル"),
         "set_mark": ("mark", "記号"),

@@ -64,4 +64,6 @@ def rows() -> tuple[ActionRow[Any], ...]:
         *(*characters.ACTIONS, *piece_metadata.ACTIONS, *application.ACTIONS),
     )
     found = extended(own, "actions", lambda row: row.id)
-    return tuple(sorted(found, key=lambda row: place.get(row.id, len(place))))
+    # Those of features stand before the last two, which close.
+    others = {"file": place["file.close"] - 0.5}
+    return tuple(sorted(found, key=lambda row: place.get(row.id, others.get(row.menu, len(place)))))

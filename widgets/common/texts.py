@@ -51,7 +51,7 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
     "event.style": ("Style", "演奏スタイル"),
     "event.mark": ("Mark", "記号"),
     "event.vary": ("Regenerated", "再生成"),
-    "event.additive": ("Additive curve", "加算カーブ"),
+    "event.additive": ("Body curve", "体のカーブ"),
     "event.pose": ("Pose", "ポーズ"),
     "expression_name.bright": ("Bright", "明るい"),
     "expression_name.brows_up": ("Brows up", "眉を上げる"),

@@ -53,7 +53,7 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
     "additive_lane.paste_keys_here": ("Paste Keys Here", "ここにキーを貼り付け"),
     "additive_lane.rename": ("Rename...", "名前を変更..."),
     "additive_lane.tangents": ("Tangents", "接線"),
-    "additive_lane.title": ("Additive Curves", "加算カーブ"),
+    "additive_lane.title": ("Body Curves", "体のカーブ"),
     "additive_lane.value": ("Value...", "値..."),
     "additive_lane.weight": ("Weight...", "ウェイト..."),
     "additive_lane.weight_is": ("Weight {weight:.2f}", "ウェイト {weight:.2f}"),
@@ -84,7 +84,7 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
     "curves_lane.breath_controller": ("Breath controller", "ブレス（CC2）"),
     "curves_lane.curve": ("Curve", "カーブ"),
     "curves_lane.curve_that_is_edited_or": ("Active curve", "編集・表示するカーブ"),
-    "curves_lane.curves": ("Curves", "カーブ"),
+    "curves_lane.curves": ("Lips and Breath", "唇と息"),
     "curves_lane.drag_notes_value_up_or": (
         "Drag a note's value up or down. Hold Shift for fine steps, and Alt to change a controller at one place.",
         "音符の値を上下にドラッグします。Shift で微調整、Alt でコントローラーをその位置だけ変更できます。",

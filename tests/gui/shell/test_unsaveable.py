@@ -27,8 +27,8 @@ from widgets.common.text import message_text
 BAR_3 = quartet_project().score.metre_map.span_of_bar(3)[0]
 CURVE = AdditiveCurve("a1", "bell.up", (CurveKey(0, 1.0), CurveKey(BAR_3, 5e9)))
 SAID = {
-    "en": "Value: must be from -180 to 180 (player 'Trumpet 1', bar 3, additive curve 'Bell: Up')",
-    "ja": "値: -180～180 の範囲にしてください（奏者 'Trumpet 1'、3 小節、加算カーブ 'ベル: 上'）",
+    "en": "Value: must be from -180 to 180 (player 'Trumpet 1', bar 3, body curve 'Bell: Up')",
+    "ja": "値: -180～180 の範囲にしてください（奏者 'Trumpet 1'、3 小節、体のカーブ 'ベル: 上'）",
 }
 
 
@@ -63,9 +63,9 @@ BAD = {
     "handle": (
         AdditiveCurve("a1", "head.left", (CurveKey(BAR_3, 1.0, arrive=Tangent(10, 1e9)),)),
         "Value: ",
-        "bar 3, additive curve 'Head: Left')",
+        "bar 3, body curve 'Head: Left')",
     ),
-    "title": (AdditiveCurve("a1", "head.left", CURVE.keys, title="Nod"), "Value: ", "bar 3, additive curve 'Nod')"),
+    "title": (AdditiveCurve("a1", "head.left", CURVE.keys, title="Nod"), "Value: ", "bar 3, body curve 'Nod')"),
 }
 
 
