@@ -8,7 +8,7 @@ from typing import Any, Literal
 
 from PySide6.QtCore import Qt, QTimer
 from PySide6.QtGui import QContextMenuEvent, QResizeEvent
-from PySide6.QtWidgets import QScrollArea, QSplitter, QWidget
+from PySide6.QtWidgets import QLineEdit, QScrollArea, QSplitter, QWidget
 
 from app.editor.session import Session
 from app.errors import Message
@@ -58,6 +58,8 @@ MENU = (
 )
 """The context menu: actions by id, an empty one is a line."""
 LEAST_LIST_PX = 130
+SEARCHED_FROM = 9
+"""Players from which on the list can be searched."""
 LIST_SHARE = 0.5
 """Largest share of the panel: where there are many players the parameters still have room."""
 
@@ -76,6 +78,10 @@ class PlayersPanel(Retranslated, QWidget):
             "remove": self._tool("delete", "players_panel.remove_selected_players", remove),
         }
         self.list = named(PlayerList(session), "player_list")
+        self.search = self.texted(
+            named(QLineEdit(), "players_search"), placeholder="players_panel.search", tip="players_panel.search_tip"
+        )
+        self.search.setClearButtonEnabled(True)
         self._empty = wrapped(Caption("players_panel.no_players_yet_add_player"))
         self._empty.setContentsMargins(12, 4, 12, 4)
         self._parameters = ParameterSections(session)
@@ -112,7 +118,7 @@ class PlayersPanel(Retranslated, QWidget):
     def _build(self) -> None:
         self._count = Label()
         bar = in_row((self._count, 1), *self._tools.values(), margins=(6, 4, 4, 4), spacing=2)
-        upper = panel(in_column(bar, (self.list, 1), (self._empty, 1), margins=0, spacing=0))
+        upper = panel(in_column(bar, self.search, (self.list, 1), (self._empty, 1), margins=0, spacing=0))
         buttons = in_row((self._throw, 1), (self._reset, 1), spacing=4)
         self._variety.body.addWidget(self._spread)
         self._variety.body.addLayout(buttons)
@@ -143,6 +149,8 @@ class PlayersPanel(Retranslated, QWidget):
         for section in self.sections.values():
             section.sought.connect(partial(self._scroll_to, section))
         self.list.chosen.connect(session.set_players)
+        self.search.textChanged.connect(self.list.search)
+        self.search.returnPressed.connect(self._select_found)
         self.list.mute_clicked.connect(partial(self._toggle, "muted"))
         self.list.arm_clicked.connect(self._arm)
         self.list.solo_clicked.connect(partial(self._toggle, "soloed"))
@@ -230,10 +238,18 @@ class PlayersPanel(Retranslated, QWidget):
                     "" if unseen is None else sentence(unseen, self._session, player.id),
                 )
             )
+        if len(rows) < SEARCHED_FROM:
+            self.search.clear()
+        self.search.setVisible(len(rows) >= SEARCHED_FROM)
         self.list.show_rows(tuple(rows))
         self.list.setVisible(bool(rows))
         self._empty.setVisible(not rows)
         self._divide()
+
+    def _select_found(self) -> None:
+        """Select all whom the search shows: a section is muted or soloed by one of them."""
+        if self.list.found:
+            self._session.set_players(self.list.found)
 
     def _show_buttons(self) -> None:
         chosen, everyone = self._session.players, self._session.project.players

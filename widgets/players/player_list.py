@@ -253,6 +253,7 @@ class PlayerList(OrderedList):
         self.rows = PlayerModel(self)
         self._delegate = _RowDelegate(session, self)
         self._showing = False
+        self._searched = ""
         self.setModel(self.rows)
         self.setItemDelegate(self._delegate)
         self.setSelectionMode(QAbstractItemView.SelectionMode.ExtendedSelection)
@@ -268,7 +269,27 @@ class PlayerList(OrderedList):
         self._showing = True
         self.rows.show_rows(rows)
         self._showing = False
+        self._hide_rows()
         self.show_selection()
+
+    def search(self, text: str) -> None:
+        """Show only the players whose name or instrument contains a text, in upper or lower case."""
+        self._searched = text.strip().casefold()
+        self._hide_rows()
+
+    @property
+    def found(self) -> tuple[str, ...]:
+        """Ids of the players that the search shows."""
+        return tuple(
+            row.player.id
+            for row in self.rows.rows
+            if self._searched in row.player.name.casefold() or self._searched in row.instrument.casefold()
+        )
+
+    def _hide_rows(self) -> None:
+        found = set(self.found)
+        for number, row in enumerate(self.rows.rows):
+            self.setRowHidden(number, row.player.id not in found)
 
     def show_selection(self) -> None:
         """Show whom the session has selected."""

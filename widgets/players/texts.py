@@ -78,6 +78,11 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
         "Reset all parameters of the selected players to the values from import",
         "選択した奏者の全パラメーターを読み込み時の値に戻す",
     ),
+    "players_panel.search": ("Search players and instruments", "奏者・楽器を検索"),
+    "players_panel.search_tip": (
+        "Enter selects all that are shown",
+        "Enterで表示中の奏者をすべて選択",
+    ),
     "players_panel.selected_players": ("selected players", "選択した奏者"),
     "players_panel.spread": ("Randomisation range", "ばらつきの範囲"),
     "players_panel.variety": ("Variety", "ばらつき"),

@@ -13,6 +13,7 @@ from PySide6.QtWidgets import QComboBox, QLineEdit, QMenu, QPushButton, QToolBut
 from pytestqt.qtbot import QtBot
 
 from app.editor.session import Session
+from app.errors import Message
 from app.project.casting import stage_arc
 from app.project.edit import players as players_edit
 from app.project.edit.players import cast_parameters, duplicate_players
@@ -110,6 +111,35 @@ def test_mute_and_solo(panel: PlayersPanel, session: Session) -> None:
     session.set_players(tuple(ids(session)[:2]))
     click_row(panel, 0, x=-40)
     assert [player.muted for player in session.project.players] == [True, True, False, False]
+
+
+def test_players_of_a_large_piece_are_searched_and_muted_by_section(panel: PlayersPanel, session: Session) -> None:
+    search = child(panel, QLineEdit, "players_search")
+    assert not search.isVisible()
+    for _ in range(2):
+        session.attempt(
+            Message("edit.duplicate_players", {"count": 4}),
+            lambda project: duplicate_players(project, [player.id for player in project.players])[0],
+        )
+    players = session.project.players
+    assert len(players) == 16
+    assert search.isVisible()
+    QTest.keyClicks(search, "TROMB")
+    shown = [number for number in range(16) if not panel.list.visualRect(panel.list.rows.index(number)).isEmpty()]
+    trombones = [number for number, player in enumerate(players) if player.name.startswith("Trombone")]
+    assert shown == trombones
+    QTest.keyClick(search, Qt.Key.Key_Return)
+    assert set(session.players) == {players[number].id for number in trombones}
+    # The button of one mutes all of them, and one step brings them back.
+    panel.list.mute_clicked.emit(players[trombones[0]].id)
+    assert [player.muted for player in session.project.players] == [number in trombones for number in range(16)]
+    session.document.undo()
+    assert session.project.players == players
+    QTest.keyClicks(search, "x")
+    QTest.keyClick(search, Qt.Key.Key_Return)
+    assert len(session.players) == len(trombones), "nobody is found: the selection stays"
+    search.clear()
+    assert not any(panel.list.isRowHidden(number) for number in range(16))
 
 
 def test_who_is_recorded_is_armed_where_there_is_something_to_record_from(
