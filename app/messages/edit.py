@@ -23,6 +23,9 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
     "edit.set_video_offset": ("Change Video Offset", "ビデオのオフセットを変更"),
     "edit.estimate_video_offset": ("Estimate Video Offset", "ビデオのオフセットを推定"),
     # Events of the plan
+    "edit.move_event": ("Move {event}", "{event}を移動"),
+    "edit.resize_event": ("Resize {event}", "{event}の長さを変更"),
+    "edit.remove_event": ("Delete {event}", "{event}を削除"),
     "edit.move_events": ("Move {count} {count:Event|Events}", "イベントを移動（{count} 個）"),
     "edit.fix_problems": ("Fix {count} {count:Problem|Problems}", "問題を解決（{count} 件）"),
     "edit.ignore_problems": ("Ignore {count} {count:Problem|Problems}", "問題を無視（{count} 件）"),

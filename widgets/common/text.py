@@ -64,6 +64,8 @@ def _reported(message: Message, name: str, session: Session | None, player_id: s
             return _anchor(session, value, player, is_anchor=name == "anchor")
     if name in ("parameter", "mark"):
         return parameter_text(str(value))
+    if name == "event":
+        return kind_name(str(value))
     if name == "work":
         return message_text(Message(str(value), message.arguments), session, player_id).rstrip("…")
     if name in DETAILS:

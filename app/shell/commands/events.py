@@ -17,7 +17,7 @@ from app.editor.additions import (
     bars_of,
     change_styles,
 )
-from app.editor.selection import EventKey, Selection
+from app.editor.selection import EventKey, Selection, edit_of_events
 from app.editor.session import Session
 from app.errors import Message
 from app.plan.event_id import EventId
@@ -145,8 +145,8 @@ def delete(session: Session) -> None:
                 project = remove_marks(project, player_id, marks)
         return project
 
-    count = sum(map(len, events.values()))
-    if session.attempt(Message("edit.remove_events", {"count": count}), edit):
+    keys = [EventKey(player_id, event_id) for player_id, ids in events.items() for event_id in ids]
+    if session.attempt(edit_of_events("edit.remove_events", keys), edit):
         session.select(Selection())
 
 

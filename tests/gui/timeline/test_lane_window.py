@@ -57,6 +57,7 @@ def test_a_breath_is_dragged_while_plans_are_made_elsewhere(
     assert after.end_tick - after.start_tick == before.end_tick - before.start_tick
     assert list(lane.visible(0.0, 1e6)).count(after) == 1
     qtbot.waitUntil(actions(program.session)["edit.undo"].isEnabled)
+    assert actions(program.session)["edit.undo"].text() == "Undo: Move Breath"
     actions(program.session)["edit.undo"].trigger()
     assert not program.session.project.corrections
     up_to_date(program, qtbot)

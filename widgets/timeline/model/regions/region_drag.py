@@ -8,7 +8,7 @@ from typing import Protocol
 
 from msgspec.structs import replace
 
-from app.editor.selection import EventKey, Selection
+from app.editor.selection import EventKey, Selection, edit_of_events
 from app.errors import Message
 from app.plan.by_hand.corrections import SetBreath
 from app.plan.model import PlayerPlan
@@ -167,7 +167,7 @@ class RegionDrag(MouseGesture):
         preview = {
             key: self._at_ticks(item, item.start_tick + start, item.end_tick + end) for key, item in self._shown.items()
         }
-        self._apply(Message(name, {"count": len(self._keys)}), edit, preview)
+        self._apply(edit_of_events(name, self._keys), edit, preview)
 
     def _change_amount(self, region: Region, mouse: LaneMouse) -> None:
         """All selected change by the same."""

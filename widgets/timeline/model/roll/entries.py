@@ -221,7 +221,7 @@ class EntryDrag(MouseGesture):
             return Message("edit.set_giver", {"player": project.player(shown.giver_id).name})
         if shown.taker_id != arrow.taker_id:
             return Message("edit.set_taker", {"player": project.player(shown.taker_id).name})
-        return Message("edit.resize_events" if self.end == "tail" else "edit.move_events", {"count": 1})
+        return Message("edit.resize_event" if self.end == "tail" else "edit.move_event", {"event": "cue"})
 
     def cancel(self) -> None:
         self.shown, self.meant = self.arrow, False
