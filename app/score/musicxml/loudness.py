@@ -16,6 +16,8 @@ from app.score.musicxml.written import Direction
 _SOFT: Final = (49, 33, 16, 10, 5, 1)
 _LOUD: Final = (96, 112, 126, 127)
 _USUAL: Final = 80.0
+USUAL_DYNAMIC: Final = "mf"
+"""What is played where nothing is written."""
 _FORTE: Final = 90.0
 """Velocity of the format's loudness 1."""
 _STEP: Final = 16.0
@@ -72,6 +74,13 @@ def _level(text: str) -> float | None:
     # "fp", "sfp", "sffpp": what it falls to.
     soft = len(text) - len(text.rstrip("p"))
     return float(_SOFT[min(soft, len(_SOFT)) - 1]) if soft else None
+
+
+def held_dynamic(text: str) -> str:
+    """The dynamic that holds behind one: "p" of "fp"; empty where it is an accent alone."""
+    if _level(text) is None or text in ("mp", "mf", "n") or text.strip("p") == "" or text.strip("f") == "":
+        return text if _level(text) is not None else ""
+    return "f" if text == "pf" else text[len(text.rstrip("p")) :]
 
 
 def _struck(text: str) -> float | None:

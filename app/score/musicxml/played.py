@@ -8,10 +8,13 @@ from operator import attrgetter
 from typing import Final
 
 from app.score.musicxml.desks import EVERYONE, Desk, seat
+from app.score.musicxml.in_force import restored
 from app.score.musicxml.written import Chord, Direction, Measure, Time, Tone
 
 _MOST_OPEN: Final = 32
 """Slurs of one number, and ties of one pitch, that wait for their ends."""
+_NONE: Final = Measure()
+"""A measure that a part lacks."""
 
 
 @dataclass(slots=True, eq=False)
@@ -88,17 +91,14 @@ def played_part(measures: Sequence[Measure], visits: Sequence[Sequence[Time]]) -
     """
     chords: list[PlayedChord] = []
     document: list[list[PlayedChord]] = []
-    directions: list[tuple[int, Direction]] = []
     held: list[tuple[int, int, float]] = []
     last: dict[str, PlayedChord] = {}
-    written = (
-        (start, place)
-        for place, (measure, times) in enumerate(zip(measures, visits, strict=False))
-        if measure.chords or measure.directions
-        for start in times
-    )
-    for start, place in sorted(written):
-        measure = measures[place]
+    order = sorted((start, place) for place, times in enumerate(visits) for start in times)
+    directions = restored(measures, order)
+    for start, place in order:
+        measure = measures[place] if place < len(measures) else _NONE
+        if not (measure.chords or measure.directions):
+            continue
         directions += [(round(start + one.start), one) for one in measure.directions]
         own = [
             PlayedChord(round(start + chord.start), round(start + chord.start + chord.length), chord)

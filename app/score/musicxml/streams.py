@@ -139,7 +139,9 @@ def _kinds(part: WrittenPart, played: PlayedPart, transposition: int | None) -> 
     changes: list[tuple[int, str]] = []
     for tick, one in played.directions:
         asked = None
-        if one.kind == "words":
+        if one.kind == "own_instrument":
+            changes.append((tick, base))
+        elif one.kind == "words":
             asked = requested_instrument(one.text)
         elif one.kind == "instrument":
             asked = vocabulary().by_sound(one.text or instruments.get(one.number, PartInstrument()).sound)

@@ -132,7 +132,7 @@ class Direction:
     ----------
     kind : str
         ``dynamic``, ``wedge``, ``words``, ``tempo``, ``metronome``, ``rehearsal``, ``mute``, ``dashes``, ``loudness``,
-        ``instrument``.
+        ``instrument``, ``own_instrument`` (back to the part's own).
     """
 
     start: Time
