@@ -186,9 +186,10 @@ class Performance:
             last_ticks.append(self.project.score.sounding_end_tick)
         first_tick, last_tick = min(first_ticks, default=0), max(last_ticks, default=0)
         beat_ticks = self.project.metre_map.felt_ticks_at(first_tick)
-        return frame_around(first_tick, last_tick, self.piece.clock, self.project.preroll_beats, beat_ticks)
+        frame = frame_around(first_tick, last_tick, self.piece.clock, self.project.preroll_beats, beat_ticks)
+        return frame if self._before is None or self._before.time_frame != frame else self._before.time_frame
 
-    @property
+    @cached_property
     def places(self) -> dict[str, StagePlace]:
         """Places of the players on the stage, and of the conductor who stands there."""
         found = {}
@@ -198,7 +199,7 @@ class Performance:
         conductor = self.project.conducting
         if conductor is not None:
             found[CONDUCTOR] = StagePlace(conductor.x_m, conductor.z_m, math.pi, CONDUCTOR_EYES_M)
-        return found
+        return found if self._before is None or self._before.places != found else self._before.places
 
     @cached_property
     def _ensemble(self) -> EnsemblePlan:

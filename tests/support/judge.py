@@ -42,6 +42,8 @@ FIRST = {
 }
 HELD_S = 0.35
 RELEASED = 0.22
+OFF_S = 0.045
+"""Seconds by which a played note may begin before or after its place."""
 SLOW_S = 0.4
 """Neighbouring onsets further apart than this force no one to an alternate."""
 TUBE_M = 2.76
@@ -134,6 +136,9 @@ def faults(
             if preroll < 4.0 or preroll % 1.0:
                 wrong.append(f"a pre-roll of {preroll} beats")
         start_s = min(slow_seconds(first - preroll * felt_beat * quarter, changes, quarter), first_s - 2.0)
+        # The start is given in the tempo that begins: for it there are two beats of that, or all where there are fewer.
+        beat_s = slow_seconds(first + felt_beat * quarter, changes, quarter) - first_s
+        start_s = min(start_s, first_s - min(preroll, 2.0) * beat_s)
         if abs(found["first_frame_s"] - start_s) > 1e-6:
             wrong.append(f"first_frame_s {found['first_frame_s']} instead of {start_s}")
         wrong += _cues(found, first, changes, quarter, felt_beat)
@@ -422,9 +427,10 @@ def _breaths(
         if rest < 1.0 and detached[index]:
             reach = max(reach, onset + note["duration_tick"])
             continue
-        # Who plays releases a note early, the more where it began early: a fifth of the time to the next is no rest.
+        # Who plays releases a note early, the more where it began early: a fifth of the time to the next is no rest,
+        # nor what the next one is late.
         step_s = seconds(onset) - seconds(onset_ticks[index - 1])
-        early = seconds(onset) - seconds(reach) <= RELEASED * step_s + 0.05
+        early = seconds(onset) - seconds(reach) <= RELEASED * step_s + 2.0 * OFF_S
         if is_played and breath is None and rest < 1.0 and early:
             reach = max(reach, onset + note["duration_tick"])
             continue
