@@ -43,12 +43,17 @@ def variant_name(variant: Variant, language: str) -> str:
 
 
 def _table(
-    name: str, names: tuple[str, ...], numbers: tuple[str, ...], rows: Sequence[tuple[str, ...]], language: str
+    title: tuple[str, str],
+    names: tuple[str, ...],
+    numbers: tuple[str, ...],
+    rows: Sequence[tuple[str, ...]],
+    language: str,
 ) -> ResultTable:
     def word(id: str) -> str:
         return text(Message(f"results.{id}"), language)
 
-    return ResultTable(word(name), word(f"{name}_note"), tuple(map(word, names + numbers)), tuple(rows), len(names))
+    name, note = map(word, title)
+    return ResultTable(name, note, tuple(map(word, names + numbers)), tuple(rows), len(names))
 
 
 def _asked(question: Question, language: str) -> tuple[str, str, str]:
@@ -74,7 +79,7 @@ def _scores(results: EvaluationResults, language: str) -> ResultTable:
             )
         )
     head = ("viewers_head", "answers_head", "not_judged_head", "mean", "median", "deviation", "interval")
-    return _table("scores", (*QUESTION, "variant"), head, rows, language)
+    return _table(("scores", "scores_note"), (*QUESTION, "variant"), head, rows, language)
 
 
 def _contrasts(results: EvaluationResults, language: str) -> ResultTable:
@@ -95,14 +100,14 @@ def _contrasts(results: EvaluationResults, language: str) -> ResultTable:
             )
         )
     head = ("viewers_head", "difference", "interval", "p", "corrected", "effect")
-    return _table("contrasts", (*QUESTION, "compared"), head, rows, language)
+    return _table(("contrasts", "contrasts_note"), (*QUESTION, "compared"), head, rows, language)
 
 
 def _agreements(results: EvaluationResults, language: str) -> ResultTable:
     rows = [
         (*_asked(one.question, language), str(one.clips), _number(one.alpha, signed=True)) for one in results.agreements
     ]
-    return _table("agreements", QUESTION, ("clips", "alpha"), rows, language)
+    return _table(("agreements", "agreements_note"), QUESTION, ("clips", "alpha"), rows, language)
 
 
 def measures_table(measures: Sequence[VariantMeasures], language: str) -> ResultTable:
@@ -125,7 +130,7 @@ def measures_table(measures: Sequence[VariantMeasures], language: str) -> Result
                 )
             )
     head = ("lag", "detected", "unaccepted", "head", "shoulders", "mouth_opens", "contact")
-    return _table("measures", ("variant", "player"), head, rows, language)
+    return _table(("measures", "measures_note"), ("variant", "player"), head, rows, language)
 
 
 def _number(value: float | None, digits: int = 2, signed: bool = False) -> str:
