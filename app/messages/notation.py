@@ -43,6 +43,10 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         "{file} is not a score: its root element is <{root}>; export the piece as MusicXML from the notation program",
         "{file} は楽譜ではありません: ルート要素が <{root}> です。楽譜作成ソフトから MusicXML で書き出してください",
     ),
+    "musicxml.list_of_scores": (
+        "{file} lists other scores and has no notes of its own (a MusicXML opus); open one of the scores that it lists",
+        "{file} は他の楽譜の一覧（MusicXML の opus）で、音符を含みません。一覧にある楽譜を開いてください",
+    ),
     "musicxml.bad_value": (
         (
             "{file}, part {part}, measure {measure}: <{element}> is {value!r}, which makes no sense; correct the "

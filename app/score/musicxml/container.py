@@ -14,6 +14,7 @@ musicxml.damaged : file, line, detail
 musicxml.entities : file
 musicxml.too_deep : file, line, most
 musicxml.too_many_elements : file, most
+musicxml.list_of_scores : file
 musicxml.not_a_score : file, root
 """
 
@@ -99,6 +100,8 @@ def read_document(path: Path) -> tuple[Element, int]:
         content = _unpacked(content, file)
     root = _parsed(_decoded(content), file)
     if root.tag not in ("score-partwise", "score-timewise"):
+        if root.tag == "opus":
+            raise FileError("musicxml.list_of_scores", file=file)
         raise FileError("musicxml.not_a_score", file=file, root=shortened(root.tag, 60))
     return root, size
 

@@ -97,6 +97,7 @@ def test_a_score_by_measures(tmp_path: Path) -> None:
 def test_damage_and_other_documents(tmp_path: Path) -> None:
     assert refused(tmp_path, PIECE[:-40]) == "musicxml.damaged"
     assert refused(tmp_path, "<html><body/></html>") == "musicxml.not_a_score"
+    assert refused(tmp_path, "<opus><score/></opus>") == "musicxml.list_of_scores"
     assert refused(tmp_path, b"", "a.musicxml") == "musicxml.damaged"
     assert refused(tmp_path, b"PK\x03\x04 and no more", "a.mxl") == "musicxml.damaged_archive"
     assert refused(tmp_path, packed(readme="hello"), "a.mxl") == "musicxml.no_score_in_archive"
