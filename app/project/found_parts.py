@@ -77,7 +77,7 @@ class FoundParts:
     parts : tuple of Part
         With the ids of the project.
     former : tuple of (Part or None)
-        What each of them was; None: it is new.
+        What each of them was; None: it is new, or kept.
     others : tuple of Part
         The project's parts that the file does not have.
     places : mapping of str to list of (int, int)
@@ -86,6 +86,8 @@ class FoundParts:
         Ids of new notes.
     still : bool
         No note has moved.
+    kept : frozenset of str
+        Ids of parts that stay as they are here, whatever the file has (`app.project.kept_parts`).
     """
 
     parts: tuple[Part, ...]
@@ -97,6 +99,7 @@ class FoundParts:
     places: dict[str, list[tuple[int, int]]]
     added: tuple[str, ...]
     still: bool
+    kept: frozenset[str] = frozenset()
 
     @property
     def is_unchanged(self) -> bool:
@@ -106,7 +109,9 @@ class FoundParts:
     @property
     def pairs_of_ticks(self) -> list[tuple[int, int]]:
         """Former and present ticks of all parts; none where nothing has moved."""
-        return [] if self.still else [pair for own in self.places.values() for pair in own]
+        if self.still:
+            return []
+        return [pair for id, own in self.places.items() if id not in self.kept for pair in own]
 
 
 def found_again(project: Project, score: Score, places_now: Mapping[Place, Place], scale: Fraction) -> FoundParts:

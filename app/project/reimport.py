@@ -11,6 +11,8 @@ file's parts where they do not overlap what the file has there.
 Dancers stay; what was corrected of their dances moves like other corrections at places of the score, and so do beats
 pinned to the recording.
 
+Parts may be kept as they are here (`Reimport.keeping`); what the file has for them is offered again the next time.
+
 Corrections whose note is gone stay as they are and do nothing (`app.project.orphans`).
 
 Messages (`UsageError`): ``piece.too_long``.
@@ -19,8 +21,8 @@ Messages (`UsageError`): ``piece.too_long``.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Collection, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from pathlib import Path
 from typing import Any, Literal, TypeAlias
@@ -33,7 +35,7 @@ from app.project.derived_decisions import derived_decisions, is_read
 from app.project.doubling import doubled_parts
 from app.project.edit.length import with_score
 from app.project.edit.players import free_name, newcomer, with_newcomers
-from app.project.file_curves import merged_curves, moved_curve
+from app.project.file_curves import merged_curves
 from app.project.file_timing import merged_timing, timing_of, with_timing
 from app.project.found_parts import Conflict, FoundParts, PartMatch, found_again
 from app.project.ids import (
@@ -43,12 +45,12 @@ from app.project.ids import (
 )
 from app.project.import_decisions import Place
 from app.project.importing import score_of_rows
+from app.project.kept_parts import keeping, moved_part, read_curves_of
 from app.project.model import Project, map_choices
 from app.project.moved_ticks import place_map
 from app.project.orphans import Orphan, orphaned
 from app.project.recording import with_places
 from app.project.rereading import MidiReading, characters_of, read_as_decided
-from app.score.marks import moved_marks
 from app.score.model import Part, Score, UnplayedPart
 from app.score.read import read_contents
 from app.score.stated_timing import Assumed
@@ -77,6 +79,8 @@ class Reimport:
         In the order of the parts.
     replaced : tuple of {"tempo", "metres", "controllers"}
         Edited here and in the file: the file's version is taken.
+    keeping : callable
+        Returns the same re-import with the parts of some ids kept as they are here; new ones among them stay out.
     """
 
     project: Project
@@ -89,6 +93,7 @@ class Reimport:
     conflicts: tuple[Conflict, ...]
     replaced: tuple[ReplacedKind, ...] = ()
     new_unplayed: tuple[UnplayedPart, ...] = ()
+    keeping: Callable[[Collection[str]], Reimport] = field(kw_only=True, compare=False, repr=False)
 
 
 def reimported(project: Project, path: Path, maps: Mapping[str, InstrumentMap]) -> Reimport:
@@ -132,6 +137,19 @@ def reimport(
     """
     scale = Fraction(score.ticks_per_quarter, project.score.ticks_per_quarter)
     found = found_again(project, score, {} if reading is None else reading.places, scale)
+    return _outcome(project, found, score, maps, source, reading)
+
+
+def _outcome(
+    project: Project,
+    found: FoundParts,
+    score: Score,
+    maps: Mapping[str, InstrumentMap],
+    source: str | None,
+    reading: MidiReading | None,
+) -> Reimport:
+    """Let parts that were found again take their place; parameters as of `reimport`."""
+    scale = Fraction(score.ticks_per_quarter, project.score.ticks_per_quarter)
     everywhere = place_map(found.pairs_of_ticks, scale)
     timing = merged_timing(project, score, everywhere, scale, found.is_unchanged)
     parts, replaced = _with_curves(project, found, everywhere, scale)
@@ -144,7 +162,7 @@ def reimport(
     result = replace(
         result,
         read_notes=found.read_notes,
-        read_curves={part.id: part.curves for part in found.parts},
+        read_curves=read_curves_of(project, found, scale),
         read_timing=timing_of(score),
         source=project.source if source is None else source,
         imported=project.imported if reading is None else reading.decisions,
@@ -163,6 +181,7 @@ def reimport(
         conflicts=found.conflicts,
         replaced=(*timing.replaced, *replaced),
         new_unplayed=_new_unplayed(project.score, score),
+        keeping=lambda ids: _outcome(project, keeping(found, project, ids, scale), score, maps, source, reading),
     )
 
 
@@ -220,28 +239,8 @@ def _add_others(
         if read and part.id not in played:
             continue
         result[part.id] = next(ids) if read else part.id
-        parts.append(_moved_part(part, result[part.id], place, scale))
+        parts.append(moved_part(part, result[part.id], place, scale))
     return result
-
-
-def _moved_part(part: Part, id: str, place: Callable[[int], int], scale: Fraction) -> Part:
-    """A part that the file does not have, where its music is now."""
-    notes = [
-        msgspec.structs.replace(
-            note,
-            onset_tick=max(place(note.onset_tick), 0),
-            duration_tick=max(round(note.duration_tick * scale), 1),
-        )
-        for note in part.notes
-    ]
-    ordered = tuple(sorted(notes, key=lambda note: (note.onset_tick, note.pitch)))
-    curves = tuple(moved_curve(curve, place) for curve in part.curves)
-    muted, stopped = (
-        tuple(sorted((max(place(start), 0), max(place(end), 0)) for start, end in spans))
-        for spans in (part.muted, part.stopped)
-    )
-    marks = moved_marks(part.marks, place)
-    return msgspec.structs.replace(part, id=id, notes=ordered, curves=curves, muted=muted, stopped=stopped, marks=marks)
 
 
 def _with_players(

@@ -51,7 +51,7 @@ def sentence(message: Message, session: Session | None = None, player_id: str | 
 def note_text(session: Session, note: Note, player: Player | None) -> str:
     """A note as the user finds it: its pitch, and bar and beat."""
     place = note_place(session.project.score, note)
-    return tr(place.id).format(**{**place.arguments, "pitch": _pitch(session, note.pitch, player)})
+    return tr(place.id).format(**{**place.arguments, "pitch": player_pitch(session, note.pitch, player)})
 
 
 def _reported(message: Message, name: str, session: Session | None, player_id: str | None) -> Argument:
@@ -59,7 +59,7 @@ def _reported(message: Message, name: str, session: Session | None, player_id: s
     if session is not None:
         player = _player(session, player_id)
         if name in PITCHES.get(message.id, ()):
-            return _pitch(session, float(value), player)
+            return player_pitch(session, float(value), player)
         if name in NOTES and isinstance(value, str):
             return _anchor(session, value, player, is_anchor=name == "anchor")
     if name in ("parameter", "mark"):
@@ -81,7 +81,8 @@ def _player(session: Session, player_id: str | None) -> Player | None:
     return next((player for player in players if player.id == player_id), None) if player_id else session.player
 
 
-def _pitch(session: Session, pitch: float, player: Player | None) -> str:
+def player_pitch(session: Session, pitch: float, player: Player | None) -> str:
+    """A sounding pitch as the user reads those of a player."""
     instrument = all_maps().get(player.instrument_id) if player is not None else None
     semitones = instrument.transposition_semitones if instrument is not None else 0
     return pitch_text(session.pitch_display, round(pitch), semitones)

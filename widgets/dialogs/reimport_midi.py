@@ -7,33 +7,22 @@ from dataclasses import replace
 from functools import partial
 
 from PySide6.QtCore import QSize, Qt
-from PySide6.QtGui import QColor
-from PySide6.QtWidgets import (
-    QAbstractItemView,
-    QDialog,
-    QHeaderView,
-    QListWidget,
-    QListWidgetItem,
-    QTableWidget,
-    QTableWidgetItem,
-    QWidget,
-)
+from PySide6.QtWidgets import QAbstractItemView, QDialog, QListWidget, QListWidgetItem, QWidget
 
-from app.editor.tokens import LEAST_TARGET_PX, Tokens
+from app.editor.session import Session
+from app.editor.tokens import LEAST_TARGET_PX
 from app.editor.translated import tr
 from app.errors import Message
 from app.plan.by_hand.corrections import Correction
+from app.project.file_timing import timing_of
 from app.project.found_parts import Conflict
-from app.project.model import Project
+from app.project.performers import Player
 from app.project.reimport import Reimport
-from app.score.model import Note
 from widgets.common.controls import Caption, OkCancel, Retranslated, named, said, selectable, wrapped
-from widgets.common.layouts import in_column
+from widgets.common.layouts import begin_with_size, in_column
 from widgets.common.plain import Label
-from widgets.common.text import message_text
-
-_LEFT = Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter
-_RIGHT = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
+from widgets.common.text import message_text, note_text
+from widgets.dialogs.reimport_changes import ReimportChanges
 
 
 class ReimportDialog(Retranslated, QDialog):
@@ -41,30 +30,28 @@ class ReimportDialog(Retranslated, QDialog):
 
     Parameters
     ----------
-    before : Project
-        The project as it is.
+    session : Session
+        Has the project as it is; changes that are stepped through are shown in it.
     file : str
         Name of the MIDI file.
     title : callable
         Names a correction.
-    note_title : callable
-        Names a note of a part, by part id and note.
     """
 
     def __init__(
         self,
-        before: Project,
+        session: Session,
         outcome: Reimport,
         file: str,
         title: Callable[[Correction], str],
-        note_title: Callable[[str, Note], str],
-        tokens: Tokens,
         parent: QWidget | None = None,
     ) -> None:
         super().__init__(parent)
         self.setObjectName("reimport_midi")
-        self._before, self._outcome = before, outcome
-        self._title, self._note_title = title, note_title
+        self._session, self._before, self._outcome = session, session.project, outcome
+        self._title = title
+        self._changes = ReimportChanges(session, outcome)
+        self._changes.chosen.connect(lambda: self._enable())
         self._gone = named(QListWidget(), "reimport_gone")
         self._buttons = OkCancel("reimport_dialog.re_import", "reimport_dialog.cancel")
         self._buttons.accepted.connect(self.accept)
@@ -72,7 +59,8 @@ class ReimportDialog(Retranslated, QDialog):
         heading = selectable(wrapped(Label()))
         in_column(
             self.texted(heading, text=said(self._heading_id(), file=file)),
-            (self._table_of_parts(tokens), 1),
+            (self._changes, 1),
+            *self._timing(),
             *self._new_and_gone(),
             *self._replaced(),
             *self._lost_and_contradicted(),
@@ -81,6 +69,8 @@ class ReimportDialog(Retranslated, QDialog):
         )
         self.texted(self, title="reimport_dialog.re_import_midi")
         self._enable()
+        begin_with_size(self, QSize(860, 660))
+        self._changes.setFocus()
 
     def _heading_id(self) -> str:
         before, outcome = self._before, self._outcome
@@ -89,37 +79,6 @@ class ReimportDialog(Retranslated, QDialog):
         if replace(outcome.project, source=before.source) == before:
             return "reimport_dialog.says_nothing_new_but_lies_elsewhere"
         return "reimport_dialog.what_changes_fingerings_breaths_and"
-
-    def _table_of_parts(self, tokens: Tokens) -> QTableWidget:
-        """The parts, and how many of their notes were found again, are new, are gone, and were changed by hand."""
-        table = named(QTableWidget(len(self._outcome.parts), 5), "reimport_parts")
-        table.verticalHeader().hide()
-        table.setShowGrid(False)
-        table.setSelectionMode(QAbstractItemView.SelectionMode.NoSelection)
-        table.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
-        table.horizontalHeader().setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
-        table.horizontalHeader().setSectionResizeMode(0, QHeaderView.ResizeMode.Stretch)
-        table.horizontalHeader().setDefaultAlignment(_LEFT)
-        columns = ("part", "kept", "new", "gone", "changed_by_hand")
-        self.texted(table, columns=[f"reimport_dialog.{column}" for column in columns])
-        for column in range(len(columns)):
-            side, role = _RIGHT if column else _LEFT, Qt.ItemDataRole.TextAlignmentRole
-            table.model().setHeaderData(column, Qt.Orientation.Horizontal, side, role)
-        for row, part in enumerate(self._outcome.parts):
-            name = part.name if part.name == part.former_name else f"{part.former_name} → {part.name}"
-            table.setItem(row, 0, QTableWidgetItem(name))
-            counts = (
-                (part.kept, tokens.text),
-                (part.added, tokens.good),
-                (part.removed, tokens.warning),
-                (part.by_hand, tokens.text),
-            )
-            for column, (count, colour) in enumerate(counts, start=1):
-                item = QTableWidgetItem(str(count))
-                item.setTextAlignment(_RIGHT)
-                item.setForeground(QColor(colour if count else tokens.text_dim))
-                table.setItem(row, column, item)
-        return table
 
     def _new_and_gone(self) -> tuple[QWidget, ...]:
         """Players and parts that the file has and the project lacks, and the other way round."""
@@ -141,6 +100,18 @@ class ReimportDialog(Retranslated, QDialog):
         gone = wrapped(Caption("reimport_dialog.players_whose_part_is_gone"))
         return (players, *unplayed, *_shown(bool(outcome.gone_players), gone, self._gone))
 
+    def _timing(self) -> tuple[QWidget, ...]:
+        """Name what the file changes of the whole piece; it is taken whichever players are kept."""
+        before, now = (timing_of(project.score) for project in (self._before, self._outcome.project))
+        changed = {
+            "tempo": before.tempo_map != now.tempo_map,
+            "metres": (before.metres, before.pickup_ticks) != (now.metres, now.pickup_ticks),
+        }
+        ids = [f"reimport_dialog.{kind}" for kind, is_changed in changed.items() if is_changed]
+        label = named(wrapped(Label()), "reimport_timing")
+        self.texted(label, text=lambda: tr("reimport_dialog.for_whole_piece").format(kinds=", ".join(map(tr, ids))))
+        return _shown(bool(ids), label)
+
     def _replaced(self) -> tuple[QWidget, ...]:
         """List what the file replaces in the piece, whatever the project had."""
         ids = [f"reimport_dialog.{kind}" for kind in self._outcome.replaced]
@@ -150,10 +121,14 @@ class ReimportDialog(Retranslated, QDialog):
 
     def _lost_and_contradicted(self) -> tuple[QWidget, ...]:
         """Notes that were changed here and in the file, and corrections that have lost their notes."""
-        outcome, title, about_note = self._outcome, self._title, self._note_title
-        parts = {part.id: part.name for part in self._before.score.parts}
+        outcome, title, session = self._outcome, self._title, self._session
+        names = {part.id: part.name for part in self._before.score.parts}
+        players = {player.part_id: player for player in reversed(self._before.players)}
+        names |= {id: player.name for id, player in players.items()}
         changed = said("reimport_dialog.changed_here_and_in_file", count=len(outcome.conflicts))
-        conflicts = [partial(_conflict, parts[one.part_id], one, about_note) for one in outcome.conflicts]
+        conflicts = [
+            partial(_conflict, session, names[one.part_id], one, players.get(one.part_id)) for one in outcome.conflicts
+        ]
         orphans = [
             partial(_orphan, outcome.project.player(one.player_id).name, one.correction, title)
             for one in outcome.orphans
@@ -180,12 +155,16 @@ class ReimportDialog(Retranslated, QDialog):
             item.data(Qt.ItemDataRole.UserRole) for item in items if item.checkState() == Qt.CheckState.Checked
         )
 
+    @property
+    def taken(self) -> Reimport:
+        """The re-import of the players that are checked."""
+        kept = self._changes.kept
+        return self._outcome.keeping(kept) if kept else self._outcome
+
     def _enable(self) -> None:
         """Nothing is to be agreed to where nothing changes."""
-        self._buttons.ok.setEnabled(self._outcome.project is not self._before or bool(self.removed))
-
-    def sizeHint(self) -> QSize:
-        return QSize(620, 460)
+        some = bool(self._changes.changed - self._changes.kept)
+        self._buttons.ok.setEnabled(some or bool(self.removed) or self.taken.project is not self._before)
 
 
 def _shown(shown: bool, *widgets: QWidget) -> tuple[QWidget, ...]:
@@ -200,12 +179,12 @@ def _not_played(part: str, reason: Message) -> str:
     return tr("import_dialog.is_not_played").format(name=part, reason=message_text(reason))
 
 
-def _conflict(part: str, conflict: Conflict, note_title: Callable[[str, Note], str]) -> str:
+def _conflict(session: Session, name: str, conflict: Conflict, player: Player | None) -> str:
     """Name what happens to a note: as the user has it → as the file has it."""
     mine, file = conflict.by_hand, conflict.file
-    here = tr("reimport_dialog.erased") if mine is None else note_title(conflict.part_id, mine)
-    there = tr("reimport_dialog.not_in_file_any_more") if file is None else note_title(conflict.part_id, file)
-    return f"{part}: {here} → {there}"
+    here = tr("reimport_dialog.erased") if mine is None else note_text(session, mine, player)
+    there = tr("reimport_dialog.not_in_file_any_more") if file is None else note_text(session, file, player)
+    return f"{name}: {here} → {there}"
 
 
 def _orphan(player: str, correction: Correction, title: Callable[[Correction], str]) -> str:

@@ -15,14 +15,13 @@ from app.formats.other_computers import is_file
 from app.project.edit.players import remove_players
 from app.project.midi_out import export_midi as write_piece
 from app.project.model import Project
-from app.project.performers import Player
 from app.project.reimport import Reimport, reimported
 from app.score import suffixes
 from app.shell.action import Action
 from app.shell.editor import Editor, EditorAction, is_open
 from app.version import program_version
 from instrument_maps.library import all_maps
-from widgets.common.text import message_text, note_text
+from widgets.common.text import message_text
 from widgets.inspector.words import correction_title
 
 
@@ -58,27 +57,15 @@ def reimport_from(editor: Editor, path: Path) -> None:
             return
         from widgets.dialogs.reimport_midi import ReimportDialog
 
-        dialog = ReimportDialog(
-            project,
-            outcome,
-            shown(path.name),
-            correction_title,
-            lambda part_id, note: note_text(session, note, _who_plays(project, part_id)),
-            session.tokens,
-            editor.window,
-        )
+        dialog = ReimportDialog(session, outcome, shown(path.name), correction_title, editor.window)
         dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        dialog.accepted.connect(lambda: _take(session, project, outcome, dialog.removed))
+        dialog.accepted.connect(lambda: _take(session, project, dialog.taken, dialog.removed))
         dialog.open()
 
     def failed(error: AppError) -> None:
         session.notice(error.message, Severity.ERROR)
 
     session.tasks.run(Message("work.reimport"), work, done, failed, key="reimport")
-
-
-def _who_plays(project: Project, part_id: str) -> Player | None:
-    return next((player for player in project.players if player.part_id == part_id), None)
 
 
 def _take(session: Session, before: Project, outcome: Reimport, removed: tuple[str, ...]) -> None:

@@ -157,7 +157,6 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
     ),
     "reimport_dialog.new_players": ("New players: {names}", "新しい奏者: {names}"),
     "reimport_dialog.not_in_file_any_more": ("no longer in the file", "ファイルに存在しません"),
-    "reimport_dialog.part": ("Part", "パート"),
     "reimport_dialog.players_whose_part_is_gone": (
         "These players' parts are no longer in the file. They keep their notes; check the players to remove:",
         "次の奏者のパートはファイルにありません。奏者と音符は残ります。削除する奏者をチェックしてください:",
@@ -180,12 +179,48 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
     ),
     "reimport_dialog.what_changes_fingerings_breaths_and": (
         (
-            "Changes from {file}. Manual corrections stay with their notes, and notes edited here are kept unless "
-            "the file changed them too. The update can be undone."
+            "Changes from {file}. Uncheck players whose notes are to stay. Manual corrections stay with their notes, "
+            "and notes edited here are kept unless the file changed them too. The update can be undone."
         ),
         (
-            "{file} による変更内容です。手動修正は音符とともに残り、ここで変更した音符も、"
+            "{file} による変更内容です。今の音符を残す奏者はチェックを外してください。"
+            "手動修正は音符とともに残り、ここで変更した音符も、"
             "ファイル側で変更されていなければ残ります。この更新は元に戻せます。"
         ),
     ),
+    "reimport_dialog.all_changes": ("All Changes", "すべての変更"),
+    "reimport_dialog.and": (", ", "、"),
+    "reimport_dialog.bar": ("{count} bar", "{count} 小節"),
+    "reimport_dialog.bars": ("{count} bars", "{count} 小節"),
+    "reimport_dialog.change": ("Changes", "変更内容"),
+    "reimport_dialog.controllers_changed": ("Controllers or mutes changed", "コントローラーまたはミュートの変更"),
+    "reimport_dialog.count_added": ("{count} added", "追加 {count}"),
+    "reimport_dialog.count_changed": ("{count} changed", "変更 {count}"),
+    "reimport_dialog.count_controllers": ("controllers", "コントローラー"),
+    "reimport_dialog.count_marks": ("marks: {count}", "記号 {count}"),
+    "reimport_dialog.count_moved": ("{count} moved", "移動 {count}"),
+    "reimport_dialog.count_removed": ("{count} removed", "削除 {count}"),
+    "reimport_dialog.for_whole_piece": ("Also changed, for all players: {kinds}", "全奏者に共通の変更: {kinds}"),
+    "reimport_dialog.length_changed": ("length {before} → {now}", "長さ {before} → {now}"),
+    "reimport_dialog.mark_added": ("{mark} added", "{mark}を追加"),
+    "reimport_dialog.mark_changed": ("{mark} moved", "{mark}を移動"),
+    "reimport_dialog.mark_removed": ("{mark} removed", "{mark}を削除"),
+    "reimport_dialog.next": ("Next", "次へ"),
+    "reimport_dialog.next_change_tip": ("Go to the next change (F8)", "次の変更へ移動（F8）"),
+    "reimport_dialog.no_changes": ("no changes", "変更なし"),
+    "reimport_dialog.note_added": ("{pitch} added", "{pitch} を追加"),
+    "reimport_dialog.note_moved": ("{pitch} moved by {distance}", "{pitch} を {distance} 移動"),
+    "reimport_dialog.note_removed": ("{pitch} removed", "{pitch} を削除"),
+    "reimport_dialog.notes_moved": ("{count} notes moved by {distance}", "{count} 個の音符を {distance} 移動"),
+    "reimport_dialog.only_added": ("Added", "追加"),
+    "reimport_dialog.only_changed": ("Pitch, Length or Velocity", "音高・長さ・ベロシティ"),
+    "reimport_dialog.only_controllers": ("Controllers and Mutes", "コントローラーとミュート"),
+    "reimport_dialog.only_marks": ("Marks", "記号"),
+    "reimport_dialog.only_moved": ("Moved", "移動"),
+    "reimport_dialog.only_removed": ("Removed", "削除"),
+    "reimport_dialog.player": ("Player", "奏者"),
+    "reimport_dialog.previous": ("Previous", "前へ"),
+    "reimport_dialog.previous_change_tip": ("Go to the previous change (Shift+F8)", "前の変更へ移動（Shift+F8）"),
+    "reimport_dialog.ticks": ("{count} ticks", "{count} ティック"),
+    "reimport_dialog.velocity_changed": ("velocity {before} → {now}", "ベロシティ {before} → {now}"),
 }

@@ -1,0 +1,110 @@
+"""Changes between two versions of a part, in the order of the music: what a reader checks before the newer is taken."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import groupby
+from typing import Literal, TypeAlias
+
+from app.project.kept_parts import moved_part
+from app.project.moved_ticks import place_map
+from app.score.marks import Mark
+from app.score.model import Note, Part
+
+ChangeKind: TypeAlias = Literal["added", "removed", "moved", "changed", "marks", "controllers"]
+KINDS: tuple[ChangeKind, ...] = ("added", "removed", "moved", "changed", "marks", "controllers")
+
+
+@dataclass(frozen=True)
+class PartChange:
+    """A change of a note, of a mark, of the controllers, or of a run of notes that moved by the same distance.
+
+    Attributes
+    ----------
+    tick, tick_now : int
+        Its place in the former and in the present version.
+    before, now : Note, Mark or None
+        None: there is none in this version. Of a run, its first note.
+    count : int
+        Notes that moved.
+    """
+
+    kind: ChangeKind
+    tick: int
+    tick_now: int
+    before: Note | Mark | None = None
+    now: Note | Mark | None = None
+    count: int = 1
+
+
+def part_changes(before: Part | None, now: Part | None, scale: Fraction) -> tuple[PartChange, ...]:
+    """The changes between two versions of a part.
+
+    Notes are the same by their ids. Neighbours that moved by the same distance are one change, so that bars inserted
+    before a thousand notes are one row, not a thousand.
+
+    Parameters
+    ----------
+    before, now : Part or None
+        None: there is no such version, and all notes are new, or gone.
+    scale : Fraction
+        Present ticks per former tick.
+    """
+    was = {note.id: note for note in before.notes} if before is not None else {}
+    new = {note.id: note for note in now.notes} if now is not None else {}
+    stayed = [(was[id], note) for id, note in new.items() if id in was]
+    pairs = [(one.onset_tick, other.onset_tick) for one, other in stayed]
+    place, back = place_map(pairs, scale), place_map([pair[::-1] for pair in pairs], 1 / scale)
+    found = [PartChange("added", back(note.onset_tick), note.onset_tick, None, note) for note in _only(new, was)]
+    found += [PartChange("removed", note.onset_tick, place(note.onset_tick), note) for note in _only(was, new)]
+    found += _moves(stayed, scale)
+    found += [
+        PartChange("changed", one.onset_tick, other.onset_tick, one, other)
+        for one, other in stayed
+        if (max(round(one.duration_tick * scale), 1), one.pitch, one.velocity)
+        != (other.duration_tick, other.pitch, other.velocity)
+    ]
+    if before is not None and now is not None:
+        moved = moved_part(before, before.id, place, scale)
+        found += _marks(before, moved, now)
+        if (moved.curves, moved.muted, moved.stopped) != (now.curves, now.muted, now.stopped):
+            found.append(PartChange("controllers", 0, 0))
+    return tuple(sorted(found, key=lambda change: (change.tick_now, KINDS.index(change.kind))))
+
+
+def _only(notes: dict[str, Note], others: dict[str, Note]) -> Iterator[Note]:
+    return (note for id, note in notes.items() if id not in others)
+
+
+def _moves(stayed: Sequence[tuple[Note, Note]], scale: Fraction) -> Iterator[PartChange]:
+    """Runs of notes that moved by the same distance."""
+    distances = groupby(stayed, lambda pair: pair[1].onset_tick - round(pair[0].onset_tick * scale))
+    for distance, run in distances:
+        if distance:
+            (before, now), *more = run
+            yield PartChange("moved", before.onset_tick, now.onset_tick, before, now, 1 + len(more))
+
+
+def _marks(before: Part, moved: Part, now: Part) -> Iterator[PartChange]:
+    """Marks that came, went or read otherwise.
+
+    Parameters
+    ----------
+    moved : Part
+        The former version with its marks where their music is now.
+    """
+    onsets = {note.id: note.onset_tick for note in before.notes}
+    onsets_now = {note.id: note.onset_tick for note in now.notes}
+    former = {mark.id: (was, mark) for was, mark in zip(before.marks, moved.marks, strict=True)}
+    present = {mark.id: mark for mark in now.marks}
+    for id in dict.fromkeys((*former, *present)):
+        was, mark = former.get(id, (None, None))
+        here = present.get(id)
+        there, now_there = was or here, here or mark
+        if mark == here or there is None or now_there is None:
+            continue
+        tick = onsets.get(there.note_id, onsets_now.get(there.note_id, there.tick))
+        tick_now = onsets_now.get(now_there.note_id, onsets.get(now_there.note_id, now_there.tick))
+        yield PartChange("marks", tick, tick_now, mark, here)

@@ -1,0 +1,316 @@
+"""The changes of a re-import by player and bar, to step through, and to take or leave by player."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from fractions import Fraction
+
+from PySide6.QtCore import QSignalBlocker, Qt, Signal
+from PySide6.QtGui import QBrush, QColor, QKeySequence, QShortcut
+from PySide6.QtWidgets import QTreeWidgetItem, QWidget
+
+from app.editor.selection import Selection
+from app.editor.session import Session
+from app.editor.translated import tr
+from app.project.found_parts import PartMatch
+from app.project.part_changes import KINDS, PartChange, part_changes
+from app.project.performers import Player
+from app.project.reimport import Reimport
+from app.score.marks import Mark
+from app.score.metre_map import MetreMap
+from app.score.model import Note, Part
+from widgets.common.combo import Combo
+from widgets.common.controls import Button, ColumnList, Retranslated, named
+from widgets.common.event_names import mark_name
+from widgets.common.layouts import in_column, in_row
+from widgets.common.text import player_pitch
+
+_ALL = "all"
+_SIDE = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
+_COUNTS = slice(2, 6)
+
+
+class _Row:
+    """A part of the re-import, or what it changes of the whole piece, and its item in the tree.
+
+    Attributes
+    ----------
+    shown : tuple of PartChange
+        Those that the filter lets through.
+    """
+
+    def __init__(self, part_id: str, name: str, player: Player | None, changes: tuple[PartChange, ...]) -> None:
+        self.part_id, self.name, self.player = part_id, name, player
+        self.changes = self.shown = changes
+        self.item = QTreeWidgetItem()
+
+
+class ReimportChanges(Retranslated, QWidget):
+    """A tree of players and, below each, its changes in the order of the music; rows are made when they are opened.
+
+    Signals
+    -------
+    chosen()
+        A player was checked or unchecked.
+    """
+
+    chosen = Signal()
+
+    def __init__(self, session: Session, outcome: Reimport, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._session, self._before, self._outcome = session, session.project, outcome
+        former, now = self._before.score, outcome.project.score
+        self._scale = Fraction(now.ticks_per_quarter, former.ticks_per_quarter)
+        self._tree = ColumnList(
+            "reimport_parts",
+            *(f"reimport_dialog.{column}" for column in ("player", "change", "kept", "new", "gone", "changed_by_hand")),
+            stretches=(1,),
+        )
+        self._tree.setRootIsDecorated(True)
+        self._tree.setAllColumnsShowFocus(True)
+        self._filter = named(Combo(), "reimport_filter")
+        options = {_ALL: "reimport_dialog.all_changes"} | {kind: f"reimport_dialog.only_{kind}" for kind in KINDS}
+        self.texted(self._filter, options=options)
+        self._filter.show_option(_ALL)
+        self._filter.chosen.connect(self._apply_filter)
+        self._rows = self._rows_of(outcome)
+        steps = (("previous", -1, "Shift+F8"), ("next", 1, "F8"))
+        buttons = []
+        for name, step, key in steps:
+            go = self._step(step)
+            buttons.append(
+                Button(f"reimport_dialog.{name}", go, f"reimport_{name}", f"reimport_dialog.{name}_change_tip")
+            )
+            QShortcut(QKeySequence(key), self).activated.connect(go)
+        QShortcut(QKeySequence(Qt.Key.Key_Space), self._tree, self._toggle, context=Qt.ShortcutContext.WidgetShortcut)
+        in_column(in_row(self._filter, None, *buttons), (self._tree, 1), of=self, margins=0)
+        self._tree.itemExpanded.connect(self._fill)
+        self._tree.itemChanged.connect(lambda: self.chosen.emit())
+        self._tree.currentItemChanged.connect(lambda item: self._show(item))
+        self.setFocusProxy(self._tree)
+        self._tree.addTopLevelItems([row.item for row in self._rows])
+        self._apply_filter(_ALL)
+        first = next((row for row in self._rows if row.shown), None)
+        if first is not None:
+            first.item.setExpanded(True)
+
+    def _rows_of(self, outcome: Reimport) -> list[_Row]:
+        """The parts of the file, each with its player, count and check."""
+        former = {part.id: part for part in self._before.score.parts}
+        matches = {match.part_id: match for match in outcome.parts}
+        gone = {outcome.project.player(id).part_id for id in outcome.gone_players}
+        players = {player.part_id: player for player in reversed(outcome.project.players)}
+        rows = []
+        for part in outcome.project.score.parts:
+            if part.id in gone or (part.id in former and part.id not in matches):
+                continue
+            player = players.get(part.id)
+            row = _Row(
+                part.id,
+                part.name if player is None else player.name,
+                player,
+                part_changes(former.get(part.id), part, self._scale),
+            )
+            self._fill_counts(row, matches.get(part.id), part)
+            rows.append(row)
+        return rows
+
+    def _fill_counts(self, row: _Row, match: PartMatch | None, part: Part) -> None:
+        counts = (
+            (0, len(part.notes), 0, 0) if match is None else (match.kept, match.added, match.removed, match.by_hand)
+        )
+        tokens = self._session.tokens
+        colours = tokens.text, tokens.good, tokens.warning, tokens.text
+        for column, count, colour in zip(range(*_COUNTS.indices(6)), counts, colours, strict=True):
+            row.item.setText(column, str(count))
+            row.item.setTextAlignment(column, _SIDE)
+            row.item.setForeground(column, QBrush(QColor(colour if count else tokens.text_dim)))
+        row.item.setText(0, row.name)
+        if match is not None and match.former_name != match.name:
+            row.item.setToolTip(0, f"{match.former_name} → {match.name}")
+        if row.changes:
+            row.item.setFlags(row.item.flags() | Qt.ItemFlag.ItemIsUserCheckable)
+            row.item.setCheckState(0, Qt.CheckState.Checked)
+
+    @property
+    def kept(self) -> frozenset[str]:
+        """Ids of the parts whose changes are not to be taken."""
+        return frozenset(
+            row.part_id for row in self._rows if row.changes and row.item.checkState(0) == Qt.CheckState.Unchecked
+        )
+
+    @property
+    def changed(self) -> frozenset[str]:
+        """Ids of the parts that the file changes."""
+        return frozenset(row.part_id for row in self._rows if row.changes)
+
+    def _apply_filter(self, kind: str) -> None:
+        """Show the changes of one kind, or all; a player without any is hidden, unless all are shown."""
+        blocker = QSignalBlocker(self._tree)
+        current = self._current_row()
+        opened = {row.part_id for row in self._rows if row.item.isExpanded()}
+        for row in self._rows:
+            row.item.setExpanded(False)
+            row.item.takeChildren()
+            row.shown = tuple(change for change in row.changes if kind in (_ALL, change.kind))
+            row.item.setHidden(kind != _ALL and not row.shown)
+            policy = QTreeWidgetItem.ChildIndicatorPolicy
+            row.item.setChildIndicatorPolicy(policy.ShowIndicator if row.shown else policy.DontShowIndicator)
+            row.item.setText(1, self._summary(row))
+            if row.part_id in opened:
+                self._fill(row.item)
+                row.item.setExpanded(True)
+        blocker.unblock()
+        if current is not None and not current.item.isHidden():
+            self._tree.setCurrentItem(current.item)
+
+    def _current_row(self) -> _Row | None:
+        item = self._tree.currentItem()
+        return None if item is None else self._row_of(item)
+
+    def _row_of(self, item: QTreeWidgetItem) -> _Row:
+        return self._rows[self._tree.indexOfTopLevelItem(item.parent() or item)]
+
+    def _place_of(self, item: QTreeWidgetItem) -> tuple[_Row, int]:
+        """Return the player of an item, and which of its changes it is; -1: the player itself."""
+        parent = item.parent()
+        return self._row_of(item), -1 if parent is None else parent.indexOfChild(item)
+
+    def _fill(self, item: QTreeWidgetItem) -> None:
+        """Make the rows of a player when it is opened."""
+        if item.childCount():
+            return
+        row = self._row_of(item)
+        item.addChildren([QTreeWidgetItem(list(self._texts(row, change))) for change in row.shown])
+
+    def _step(self, step: int) -> Callable[[], None]:
+        """Return what goes to the next change (1) or the one before (-1), through all players."""
+
+        def go() -> None:
+            places = [(row, place) for row in self._rows for place in range(len(row.shown))]
+            if not places:
+                return
+            item = self._tree.currentItem()
+            at = -1 if step > 0 else len(places)
+            if item is not None:
+                row, place = self._place_of(item)
+                at = sum(len(one.shown) for one in self._rows[: self._rows.index(row)]) + max(place, 0)
+                if place < 0 < step:
+                    at -= 1
+            row, place = places[min(max(at + step, 0), len(places) - 1)]
+            row.item.setExpanded(True)
+            child = row.item.child(place)
+            if child is not None:
+                self._tree.setCurrentItem(child)
+
+        return go
+
+    def _toggle(self) -> None:
+        """Check or uncheck the player of the current row."""
+        row = self._current_row()
+        if row is not None and row.changes:
+            checked = row.item.checkState(0) == Qt.CheckState.Checked
+            row.item.setCheckState(0, Qt.CheckState.Unchecked if checked else Qt.CheckState.Checked)
+
+    def _show(self, item: QTreeWidgetItem | None) -> None:
+        """Bring a change into view behind the dialog: its player, its note, and the playhead at it."""
+        row, place = (None, -1) if item is None else self._place_of(item)
+        if row is None or place < 0:
+            return
+        session, change = self._session, row.shown[place]
+        player = row.player
+        if player is not None and any(one.id == player.id for one in session.project.players):
+            others = tuple(id for id in session.players if id != player.id)
+            session.set_players((player.id, *others) if player.id in session.players else (player.id,))
+        ids = frozenset({change.before.id}) if isinstance(change.before, Note) else frozenset[str]()
+        session.select(Selection(notes=ids).within(session.project))
+        time_s = session.project.score.tempo_map.seconds(change.tick)
+        if not session.playing:
+            session.set_playhead(time_s)
+        session.reveal(time_s)
+
+    def _summary(self, row: _Row) -> str:
+        """Count a player's changes by kind."""
+        if not row.changes:
+            return tr("reimport_dialog.no_changes")
+        found = []
+        for kind in KINDS:
+            count = sum(change.count for change in row.shown if change.kind == kind)
+            if count:
+                found.append(tr(f"reimport_dialog.count_{kind}").format(count=count))
+        return tr("reimport_dialog.and").join(found)
+
+    def _texts(self, row: _Row, change: PartChange) -> tuple[str, str]:
+        """A change's place and what it is."""
+        former, now = self._before.metre_map, self._outcome.project.metre_map
+        there, here = former.label(change.tick), now.label(change.tick_now)
+        before, after = change.before, change.now
+        if change.kind == "controllers":
+            return "", tr("reimport_dialog.controllers_changed")
+        place = there if after is None else here if before is None or there == here else f"{there} → {here}"
+        if change.kind == "marks":
+            return place, _mark_text(before, after)
+        pitch, pitch_now = (
+            player_pitch(self._session, note.pitch, row.player) if isinstance(note, Note) else ""
+            for note in (before, after)
+        )
+        if before is None or after is None:
+            return place, tr(f"reimport_dialog.note_{change.kind}").format(pitch=pitch or pitch_now)
+        if change.kind == "moved":
+            several = "notes" if change.count > 1 else "note"
+            distance = _distance(change, former, now, self._scale)
+            return place, tr(f"reimport_dialog.{several}_moved").format(
+                count=change.count, pitch=pitch_now, distance=distance
+            )
+        assert isinstance(before, Note)
+        assert isinstance(after, Note)
+        return place, self._note_text(before, after, pitch, pitch_now)
+
+    def _note_text(self, before: Note, now: Note, pitch: str, pitch_now: str) -> str:
+        """A note's changes: pitch, or else its length and its velocity under its pitch."""
+        length = max(round(before.duration_tick * self._scale), 1)
+        parts = [pitch if before.pitch == now.pitch else f"{pitch} → {pitch_now}"]
+        if length != now.duration_tick:
+            whole = 4 * self._outcome.project.score.ticks_per_quarter
+            texts = [_value(ticks, whole) for ticks in (length, now.duration_tick)]
+            parts.append(tr("reimport_dialog.length_changed").format(before=texts[0], now=texts[1]))
+        if before.velocity != now.velocity:
+            parts.append(tr("reimport_dialog.velocity_changed").format(before=before.velocity, now=now.velocity))
+        return tr("reimport_dialog.and").join(parts)
+
+    def retranslate(self) -> None:
+        """Word the rows again."""
+        self._apply_filter(self._filter.currentData() or _ALL)
+
+
+def _mark_text(before: Note | Mark | None, now: Note | Mark | None) -> str:
+    """Name a mark and what happened to it."""
+    mark = now if before is None else before
+    assert isinstance(mark, Mark)
+    name = mark_name(mark.kind)
+    named_so = f"{name} {mark.text}".rstrip()
+    if before is None or now is None:
+        return tr(f"reimport_dialog.mark_{'added' if before is None else 'removed'}").format(mark=named_so)
+    assert isinstance(now, Mark)
+    if now.text != mark.text:
+        return f"{named_so} → {now.text}"
+    return tr("reimport_dialog.mark_changed").format(mark=named_so)
+
+
+def _distance(change: PartChange, former: MetreMap, now: MetreMap, scale: Fraction) -> str:
+    """Name the distance that notes moved: in bars where that is exact, else as a note value."""
+    (bar, *rest), (bar_now, *rest_now) = former.place_of_tick(change.tick), now.place_of_tick(change.tick_now)
+    ticks = change.tick_now - round(change.tick * scale)
+    sign = "+" if ticks > 0 else "−"
+    if scale == 1 and rest == rest_now and bar != bar_now:
+        bars = abs(bar_now - bar)
+        return tr(f"reimport_dialog.{'bar' if bars == 1 else 'bars'}").format(count=f"{sign}{bars}")
+    return sign + _value(abs(ticks), 4 * now.ticks_per_quarter)
+
+
+def _value(ticks: int, whole: int) -> str:
+    """Ticks as a fraction of a whole note, or as ticks where that is not simple."""
+    value = Fraction(ticks, whole)
+    if value.denominator > 64:
+        return tr("reimport_dialog.ticks").format(count=ticks)
+    return f"{4 * value}/4" if value.denominator < 4 else str(value)
