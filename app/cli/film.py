@@ -84,6 +84,9 @@ def add_arguments(command: argparse.ArgumentParser) -> None:
         metavar="RATE",
         help=f"frames per second of a film or folder (default: the project's, at most {USUAL_FILM_RATE})",
     )
+    command.add_argument(
+        "--marks", action="store_true", help="draw players' names, and rings around those that the view is about"
+    )
     command.add_argument("--no-sound", action="store_true", help="a film without sound")
     command.add_argument(
         "--every", type=_every, metavar="S", help=f"seconds between frames of a sheet (default {float(USUAL_EVERY_S)})"
@@ -193,7 +196,9 @@ def _draw(film: _Film, stop_requested: StopRequested) -> int:
         try:
             with _WRITERS[film.kind](film, stop_requested) as writer:
                 progress(0.0, "how the players are seen")
-                draw = viewport.film(size, (span.first_frame_s, span.end_s), film.view, film.player_ids)
+                draw = viewport.film(
+                    size, (span.first_frame_s, span.end_s), film.view, film.player_ids, marked=film.arguments.marks
+                )
                 for number, time_s in enumerate(film.times_s, start=1):
                     if stop_requested():
                         raise KeyboardInterrupt

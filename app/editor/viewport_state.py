@@ -30,10 +30,13 @@ class ViewportState(State):
         A view was asked for, perhaps the same once more.
     framed(bool)
         The camera should frame the selected players (True) or the ensemble.
+    turned()
+        The camera should look from the other side.
     """
 
     viewed = Signal()
     framed = Signal(bool)
+    turned = Signal()
 
     def __init__(self) -> None:
         super().__init__()
@@ -74,6 +77,10 @@ class ViewportState(State):
         if posing != self._posing:
             self._posing = posing
             self.changed.emit()
+
+    def turn(self) -> None:
+        """Look from the other side."""
+        self.turned.emit()
 
     def frame(self, selected: bool) -> None:
         """Bring the selected players, or everyone, into the picture."""

@@ -32,7 +32,7 @@ from widgets.dialogs.working import WorkingDialog, stopping
 Pictures = npt.NDArray[np.uint8]
 Draw = Callable[[float], Pictures]
 """Time in seconds to a picture (H, W, 3 or 4)."""
-Film = Callable[[int, int, tuple[float, float], View | None], Draw]
+Film = Callable[[int, int, tuple[float, float], View | None, bool], Draw]
 """Width, height, span in seconds, view (None: as the viewport shows it now) to what draws the pictures in order."""
 Sound = Callable[[float, float, int], SingleArray]
 """Start, end in seconds and samples per second to (N, 2) samples of the sound; runs beside the window."""
@@ -87,6 +87,7 @@ class PlayblastDialog(WorkingDialog):
         self._view = self.texted(named(ComboBox(), "playblast_view"), options=views)
         self._with_sound = named(Check("playblast_dialog.include_audio"), "playblast_sound")
         self._with_sound.setChecked(True)
+        self._with_marks = named(Check("playblast_dialog.include_marks"), "playblast_marks")
         self._file = named(PathEdit(path), "playblast_file")
         self._choose = Button("playblast_dialog.choose", self._choose_file)
         self._state = selectable(wrapped(named(Label(), "playblast_state")))
@@ -105,10 +106,20 @@ class PlayblastDialog(WorkingDialog):
                 "playblast_dialog.size": self._size,
                 "playblast_dialog.frames_per_second": self._rate,
                 "playblast_dialog.sound": self._with_sound,
+                "playblast_dialog.overlays": self._with_marks,
                 "playblast_dialog.file": file,
             }
         )
-        self.fields = (self._size, self._rate, self._range, self._view, self._with_sound, self._file, self._choose)
+        self.fields = (
+            self._size,
+            self._rate,
+            self._range,
+            self._view,
+            self._with_sound,
+            self._with_marks,
+            self._file,
+            self._choose,
+        )
         buttons = self._box("playblast_dialog.make_film", self.start, self._show_folder)
         in_column(form, (self._state, 1), self._under_way, self._progress, buttons, of=self)
         self.texted(self, title="playblast_dialog.playblast")
@@ -160,7 +171,8 @@ class PlayblastDialog(WorkingDialog):
             if self._draw_at is None:
                 width, height = self._size.currentData()
                 view = self._view.currentData() or None
-                self._draw_at = self._film(width, height, (span.first_frame_s, span.end_s), view)
+                marked = self._with_marks.isChecked()
+                self._draw_at = self._film(width, height, (span.first_frame_s, span.end_s), view, marked)
             picture = self._draw_at(time_s)
         except Exception as error:
             # The encoder stops and takes back what it has written.

@@ -166,6 +166,17 @@ def frame(camera: Camera, low_m: npt.ArrayLike, high_m: npt.ArrayLike, aspect: f
     return replace(camera, target_m=triple(middle), distance_m=distance)
 
 
+_FRONTAL_RAD = math.radians(10.0)
+"""A camera within this of someone's front looks from the front."""
+
+
+def from_other_side(camera: Camera, front_rad: float) -> Camera:
+    """Look at the same from the other side of someone who faces ``front_rad`` (from +Z towards +X)."""
+    side = _wrapped(camera.yaw_rad - front_rad)
+    is_frontal = min(abs(side), math.pi - abs(side)) < _FRONTAL_RAD
+    return replace(camera, yaw_rad=_wrapped(front_rad + (side + math.pi if is_frontal else -side)))
+
+
 def between(start: Camera, end: Camera, share: float) -> Camera:
     """Part of the way from one camera to another, by the shorter turn, eased at both ends."""
     if share >= 1.0:

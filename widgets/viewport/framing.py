@@ -30,6 +30,8 @@ _HALF_M: dict[View, float] = {"hands": 0.21, "mouth": 0.115, "feet": 0.30}
 """Half the height of a close-up's picture, at least."""
 HEAD_M = 0.16
 """From a head's joint to its crown."""
+_BUST_M = 0.3
+"""From the middle of the head to the side of a bust's box."""
 BODY_M = 0.55
 """Room that a player with an instrument takes, from the middle."""
 
@@ -71,7 +73,7 @@ def steady_camera(view: View, posed: Iterable[Stage], rows: Sequence[int], camer
             clear.append(visible_finger_shares(stage, chosen[0], directions(usual), turn))
         middle = tracked(view, stage, chosen[0])
         if middle is None:
-            boxes.append(bounds(stage, chosen))
+            boxes.append(_bust(stage, chosen) if view == "front" else bounds(stage, chosen))
         else:
             halves.append(_half(view, stage, chosen[0]))
     if not boxes and not halves:
@@ -150,6 +152,19 @@ def bounds(stage: Stage, rows: Sequence[int]) -> tuple[FloatArray, FloatArray]:
     flesh_m = 0.10
     low, high = whole.min(axis=0) - flesh_m, whole.max(axis=0) + np.array([flesh_m, HEAD_M, flesh_m])
     low[1] = min(float(low[1]), 0.0)
+    return low, high
+
+
+def _bust(stage: Stage, rows: Sequence[int]) -> tuple[FloatArray, FloatArray]:
+    """The box around players from the hips up, in the middle whatever they hold out; dancers from the floor up."""
+    low, high = bounds(stage, rows)
+    if any(stage.members[row].assets.held is None for row in rows):
+        return low, high
+    heads_m = np.array([stage.joint_m(row, "head") for row in rows])
+    hips_m = min(float(stage.joint_m(row, "hips")[1]) for row in rows)
+    for axis in (0, 2):
+        low[axis], high[axis] = heads_m[:, axis].min() - _BUST_M, heads_m[:, axis].max() + _BUST_M
+    low[1] = hips_m
     return low, high
 
 

@@ -16,13 +16,12 @@ Color = tuple[float, float, float]
 
 @dataclass(frozen=True)
 class ViewportLook:
-    """Colours 0..1 in display values (backdrop, floor, lines, glow), and lights in linear units."""
+    """Colours 0..1 in display values (backdrop, floor, lines), and lights in linear units."""
 
     top: Color
     horizon: Color
     floor: Color
     lines: Color
-    glow: Color
     sky: Color
     ground: Color
     rim: Color
@@ -35,13 +34,12 @@ class ViewportLook:
 
 @dataclass(frozen=True)
 class Emphasis:
-    """Highlights: rings by row, the row under the pointer, rows that are seen through, how figures are drawn, and the
+    """Highlights: rings by row, rows that are seen through, how figures are drawn, and the
     podium."""
 
     rings: Mapping[int, Color] = field(default_factory=dict)
     podium: tuple[float, float, Color] | None = None
     """The conductor's place: x, z, and the colour of the rings that mark it."""
-    hovered: int | None = None
     in_the_way: frozenset[int] = frozenset()
     wireframe: bool = False
     video: Picture | None = None
@@ -92,7 +90,6 @@ def look_of(tokens: Tokens) -> ViewportLook:
             horizon=mixed(surface, text, 0.07),
             floor=mixed(raised, text, 0.24),
             lines=mixed(raised, text, 0.5),
-            glow=accent,
             sky=(0.30, 0.315, 0.345),
             ground=(0.11, 0.105, 0.10),
             rim=(2.0, 2.2, 2.6),
@@ -107,7 +104,6 @@ def look_of(tokens: Tokens) -> ViewportLook:
         horizon=mixed(sunken, text, 0.09),
         floor=mixed(sunken, text, 0.11),
         lines=mixed(sunken, text, 0.42),
-        glow=accent,
         sky=(0.45, 0.46, 0.48),
         ground=(0.24, 0.235, 0.23),
         rim=(0.8, 0.85, 0.9),

@@ -60,7 +60,7 @@ class Offscreen:
         selected = tuple(own for own in player_ids if own not in self._session.project.dancer_ids)
         self._session.set_players(selected if marked else ())
         self._session.viewport.show("names", marked)
-        return self._panel.film(*size, span_s, view, player_ids, cameras)
+        return self._panel.film(*size, span_s, view, marked, player_ids, cameras)
 
     @property
     def left_out(self) -> list[LeftOut]:

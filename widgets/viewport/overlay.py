@@ -17,7 +17,7 @@ from widgets.viewport.cast import Stage
 from widgets.viewport.contacts import ContactReading
 from widgets.viewport.handles import Handle
 
-HANDLE_RADIUS_PX = 9.0
+HANDLE_RADIUS_PX = 13.0
 CROWN_M = np.array([0.0, 0.12, 0.0])
 """Top of the head in its joint's frame."""
 NAME_UP_M = 0.19
@@ -61,12 +61,13 @@ def paint(
     painter.setRenderHint(QPainter.RenderHint.Antialiasing)
     for row, color in marks.skeletons:
         _paint_skeleton(painter, stage, row, color, camera, size, tokens)
+    names = _placed_names(painter, marks.names, camera, size) if marks.names else []
     if marks.touches:
-        _paint_touches(painter, marks.touches, camera, size, tokens)
+        _paint_touches(painter, marks.touches, camera, size, tokens, [box for _, box in names])
     if marks.handles:
-        _paint_handles(painter, marks, camera, size, tokens)
-    if marks.names:
-        _paint_names(painter, marks.names, camera, size, tokens)
+        _paint_handles(painter, marks, camera, size, tokens, [box for _, box in names])
+    for name, box in names:
+        _paint_pill(painter, name.text, box, tokens, name.color if name.in_front else "")
 
 
 def over_heads_m(stage: Stage, rows: Sequence[int], upwards: FloatArray) -> FloatArray:
@@ -110,14 +111,20 @@ def _paint_skeleton(
 
 
 def _paint_touches(
-    painter: QPainter, touches: Sequence[ContactReading], camera: Camera, size: tuple[float, float], tokens: Tokens
+    painter: QPainter,
+    touches: Sequence[ContactReading],
+    camera: Camera,
+    size: tuple[float, float],
+    tokens: Tokens,
+    names: Sequence[QRectF],
 ) -> None:
+    """Paint contact points with their distances, which keep clear of the names."""
     requested, depths = camera.project(np.array([touch.requested_m for touch in touches]), *size)
     found, _ = camera.project(np.array([touch.found_m for touch in touches]), *size)
     font = _font(painter, 9.0)
     painter.setFont(font)
     metrics = QFontMetricsF(font)
-    taken: list[QRectF] = []
+    taken = list(names)
     for touch, goal, place, depth in zip(touches, requested, found, depths, strict=True):
         if depth <= 0.0:
             continue
@@ -151,8 +158,14 @@ def _paint_touches(
 
 
 def _paint_handles(
-    painter: QPainter, marks: OverlayMarks, camera: Camera, size: tuple[float, float], tokens: Tokens
+    painter: QPainter,
+    marks: OverlayMarks,
+    camera: Camera,
+    size: tuple[float, float],
+    tokens: Tokens,
+    names: Sequence[QRectF],
 ) -> None:
+    """Paint handles and the angles of the one in hand, which keep clear of the names."""
     places, depths = camera.project(np.array([handle.at_m for handle in marks.handles]), *size)
     for handle, place, depth in zip(marks.handles, places, depths, strict=True):
         if depth <= 0.0:
@@ -171,25 +184,30 @@ def _paint_handles(
         if grasped and marks.reading:
             metrics = QFontMetricsF(_font(painter, 9.0, bold=True))
             box = _pill_box(metrics, marks.reading, at + QPointF(0.0, -HANDLE_RADIUS_PX - 14.0), size)
+            for name in names:
+                if box.intersects(name):
+                    # Under the handle there is room.
+                    box.moveTop(max(at.y() + HANDLE_RADIUS_PX + 6.0, name.bottom() + 2.0))
             _paint_pill(painter, marks.reading, box, tokens, tokens.accent)
 
 
-def _paint_names(
-    painter: QPainter, names: Sequence[NameTag], camera: Camera, size: tuple[float, float], tokens: Tokens
-) -> None:
+def _placed_names(
+    painter: QPainter, names: Sequence[NameTag], camera: Camera, size: tuple[float, float]
+) -> list[tuple[NameTag, QRectF]]:
+    """The names that are painted, with their boxes."""
     places, depths = camera.project(np.array([name.at_m for name in names]), *size)
     metrics = {bold: QFontMetricsF(_font(painter, 9.0, bold)) for bold in (False, True)}
-    taken: list[QRectF] = []
+    placed: list[tuple[NameTag, QRectF]] = []
     # The selected players first, then the nearest; a name that would cover another is left out.
     for index in sorted(range(len(names)), key=lambda index: (not names[index].in_front, depths[index])):
         name, place = names[index], places[index]
         if depths[index] <= 0.0 or not (-50.0 < place[0] < size[0] + 50.0 and 0.0 < place[1] < size[1]):
             continue
         box = _pill_box(metrics[name.in_front], name.text, QPointF(*place), size)
-        if not name.in_front and any(box.intersects(other) for other in taken):
+        if not name.in_front and any(box.intersects(other) for _, other in placed):
             continue
-        taken.append(box)
-        _paint_pill(painter, name.text, box, tokens, name.color if name.in_front else "")
+        placed.append((name, box))
+    return placed
 
 
 def _pill_box(metrics: QFontMetricsF, text: str, at: QPointF, size: tuple[float, float]) -> QRectF:

@@ -23,12 +23,12 @@ from widgets.common.controls import Retranslated, named, wrapped
 from widgets.common.layouts import in_column
 from widgets.common.menus import offer_actions
 from widgets.common.plain import Label
-from widgets.viewport.camera import Camera, frame
+from widgets.viewport.camera import Camera, frame, from_other_side
 from widgets.viewport.camera_moves import Eye
 from widgets.viewport.canvas import Canvas, Picture, pixels, why_no_gl
 from widgets.viewport.cast import Stage
 from widgets.viewport.figures import DrawableFigures, cast_key
-from widgets.viewport.framing import bounds, in_the_way, steady_camera, tracked, view_camera
+from widgets.viewport.framing import bounds, in_the_way, steady_camera, tracked, turn_rad, view_camera
 from widgets.viewport.header import ViewportHeader
 from widgets.viewport.layer import Layer
 from widgets.viewport.look import Emphasis, look_of
@@ -54,6 +54,7 @@ LEAST_SIZE = QSize(160, 120)
 MENU = (
     *("viewport.frame", "viewport.frame_all", ""),
     *(f"viewport.{view}" for view in VIEWS),
+    "viewport.other_side",
     "",
     *(f"viewport.{what}" for what in SHOWN),
     *("", "viewport.pose", "application.full_screen"),
@@ -130,6 +131,7 @@ class ViewportPanel(Retranslated, QWidget):
         session.viewport.changed.connect(self._state_changed)
         session.viewport.viewed.connect(self._view_asked)
         session.viewport.framed.connect(self._frame_asked)
+        session.viewport.turned.connect(self._turn)
         scene.staged.connect(self._staged)
         scene.shown.connect(self._place_camera)
         if self._pointer is not None:
@@ -206,7 +208,7 @@ class ViewportPanel(Retranslated, QWidget):
 
     def render_image(self, width: int, height: int, time_s: float, view: View | None = None) -> npt.NDArray[np.uint8]:
         """A picture of a moment, with the names and marks that are shown: see `film`."""
-        return self.film(width, height, (time_s, time_s), view)(time_s)
+        return self.film(width, height, (time_s, time_s), view, True)(time_s)
 
     def film(
         self,
@@ -214,10 +216,11 @@ class ViewportPanel(Retranslated, QWidget):
         height: int,
         span_s: tuple[float, float],
         view: View | None = None,
+        marked: bool = False,
         player_ids: tuple[str, ...] | None = None,
         cameras: dict[float, Camera] | None = None,
     ) -> Draw:
-        """Make the drawer of a film's pictures, in their order, with the names and marks that are shown.
+        """Make the drawer of a film's pictures, in their order.
 
         Parameters
         ----------
@@ -227,6 +230,8 @@ class ViewportPanel(Retranslated, QWidget):
             Seconds of the performance in which all pictures lie.
         view : View, optional
             The camera as it stands if absent.
+        marked : bool
+            Draw the names and marks that the window shows, and the rings of who is selected.
         player_ids : tuple of str, optional
             Players or dancers that the view is about; the selected players if absent.
         cameras : dict of float to Camera, optional
@@ -248,6 +253,7 @@ class ViewportPanel(Retranslated, QWidget):
             shot = Shot(view, self._eye.camera, chosen, cameras=cameras)
         else:
             shot = self._shot(view, width / height, span_s, chosen, cameras)
+        shot.marked = marked
         return partial(self._render, width, height, shot)
 
     def _require_stage(self) -> tuple[Canvas, Stage]:
@@ -267,7 +273,7 @@ class ViewportPanel(Retranslated, QWidget):
             picture = canvas.render_image(width, height)
             if picture is None:
                 raise AppError("picture.no_gl", reason=self._failure or "QOpenGLContext")
-            marks = self.scene.marks(camera)
+            marks = self.scene.marks(camera) if shot.marked else None
             if not marks:
                 return picture
             image = QImage(picture.data, width, height, 4 * width, QImage.Format.Format_RGBA8888)
@@ -347,17 +353,16 @@ class ViewportPanel(Retranslated, QWidget):
         """Describe the picture to draw, for the canvas."""
         stage, pointer, session = self.scene.stage, self._pointer, self._session
         here = self._elsewhere is None
-        camera, view, rows = self._eye.camera, self._eye.view, self.scene.rows()
+        camera, view, rows, marked = self._eye.camera, self._eye.view, self.scene.rows(), True
         if self._elsewhere is not None and stage is not None:
             camera, shot = self._elsewhere
-            view, rows = shot.view, stage.rows(shot.player_ids)
+            view, rows, marked = shot.view, stage.rows(shot.player_ids), shot.marked
         moving = (
             session.playing or self._live.isActive() or self._eye.flying or (pointer is not None and pointer.dragging)
         )
         emphasis = Emphasis(
-            rings=self.scene.rings(),
-            podium=self.scene.podium(),
-            hovered=pointer.hovered if pointer is not None and here else None,
+            rings=self.scene.rings(pointer.hovered if pointer is not None and here else None) if marked else {},
+            podium=self.scene.podium() if marked else None,
             in_the_way=in_the_way(view, stage, rows, camera) if stage is not None else frozenset(),
             wireframe=session.viewport.shows("wireframe"),
             video=session.video.picture if here and session.video.placement == "behind" else None,
@@ -520,6 +525,13 @@ class ViewportPanel(Retranslated, QWidget):
         self._eye.choose(self._session.viewport.view)
         if self.scene.stage is not None:
             self._go(self._view_camera())
+
+    def _turn(self) -> None:
+        """Look from the other side: a view from the front from behind, any other as in a mirror before the player."""
+        stage, rows = self.scene.stage, self.scene.rows()
+        if stage is not None:
+            self._eye.touched = True
+            self._go(from_other_side(self._eye.destination, turn_rad(stage, rows[0]) if rows else 0.0))
 
     def _frame_asked(self, selected: bool) -> None:
         """Frame players as the camera stands."""

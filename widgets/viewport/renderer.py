@@ -259,8 +259,6 @@ class Renderer:
         rows[:, :-1] = stage.bones.reshape(count, -1, 4)
         rows[:, -1] = 0.0
         rows[:, -1, 0] = level == LEVELS - 1
-        if emphasis.hovered is not None and emphasis.hovered < count:
-            rows[emphasis.hovered, -1, 1] = 1.0
         rows[[row for row in emphasis.in_the_way if row < count], -1, 2] = SEEN_THROUGH
         self._bones.set_data(rows)
         capsules = limbs.capsules()
@@ -298,7 +296,6 @@ class Renderer:
         program["u_fill"] = fill / np.linalg.norm(fill)
         program["u_rim"], program["u_sky"], program["u_ground"] = look.rim, look.sky, look.ground
         program["u_key_light"], program["u_fill_light"] = look.key_light, look.fill_light
-        program["u_glow"] = look.glow
 
     def _draw_near(self, stage: Stage, shapes: Shapes, level: IndexArray, mode: str) -> None:
         """All performers that are drawn singly; things of one kind in a row, so that buffers are bound once."""

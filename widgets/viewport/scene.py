@@ -190,14 +190,18 @@ class ViewportScene(QObject):
         found = hit(LimbCapsules(stage).capsules(), origin_m, direction)
         return found[0] if found is not None else None
 
-    def rings(self) -> dict[int, Color]:
-        """Rings on the floor: the rows of the selected players and the selected dancer with their colours."""
+    def rings(self, hovered: int | None = None) -> dict[int, Color]:
+        """Rings on the floor: the rows of the selected players and the selected dancer with their colours, and a faint
+        one of the row under the pointer."""
         stage = self.stage
         if stage is None:
             return {}
         selected = {player.id: player for player in self._session.project.seen if self._is_selected(player)}
         rows = {own: stage.index(own) for own in selected}
-        return {row: rgb(self._session.colour(selected[own])) for own, row in rows.items() if row is not None}
+        rings = {row: rgb(self._session.colour(selected[own])) for own, row in rows.items() if row is not None}
+        if hovered is not None and hovered < len(stage.members):
+            rings.setdefault(hovered, rgb(self._session.tokens.text_dim))
+        return rings
 
     def podium(self) -> tuple[float, float, Color] | None:
         """The conductor's place, and the colour that marks it."""

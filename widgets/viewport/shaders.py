@@ -26,7 +26,6 @@ varying vec3 v_position;
 varying vec3 v_normal;
 varying vec4 v_color;
 varying float v_metallic;
-varying float v_glow;
 varying vec2 v_open;
 varying float v_solid;
 
@@ -90,7 +89,6 @@ void main() {
     v_normal = vec3(dot(x.xyz, a_normal), dot(y.xyz, a_normal), dot(z.xyz, a_normal));
     v_color = a_color;
     v_metallic = a_metallic;
-    v_glow = state.y;
     v_solid = 1.0 - state.z;
     v_open = u_shaded > 0.5 ? shaded(v_position, normalize(v_normal), row) : vec2(1.0);
     vec3 shown = v_position + u_lift * normalize(u_eye - v_position);
@@ -108,13 +106,11 @@ uniform vec3 u_sky;
 uniform vec3 u_ground;
 uniform vec3 u_key_light;
 uniform vec3 u_fill_light;
-uniform vec3 u_glow;
 uniform vec4 u_line;
 varying vec3 v_position;
 varying vec3 v_normal;
 varying vec4 v_color;
 varying float v_metallic;
-varying float v_glow;
 varying vec2 v_open;
 varying float v_solid;
 
@@ -181,7 +177,6 @@ void main() {
     // A light behind parts dark cloth from a dark background.
     float edge = away * away * away;
     result += u_rim * edge * (0.35 + 0.65 * clamp(n.y + 0.35, 0.0, 1.0)) * (0.018 + 0.5 * albedo) * (1.0 - v_metallic);
-    result += u_glow * v_glow * (0.05 + 0.6 * away * away);
 
     // Highlights roll off instead of clipping (ACES, Narkowicz's fit, 2015); then the display's curve.
     result *= 0.92;

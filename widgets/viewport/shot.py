@@ -47,6 +47,8 @@ class Shot:
         self._cameras = cameras
         self._shift_m = np.asarray(shift_m, np.float64)
         self._last_s = -math.inf
+        self.marked = False
+        """Names, marks and rings are drawn."""
 
     def camera_at(self, stage: Stage, time_s: float) -> Camera:
         """The camera for the poses that the stage shows at a time after the last one; the first one is centred."""

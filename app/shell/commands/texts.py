@@ -226,6 +226,7 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
     "action.viewport.hands": ("Hands", "手元"),
     "action.viewport.mouth": ("Mouth", "口元"),
     "action.viewport.names": ("Player Names", "奏者名"),
+    "action.viewport.other_side": ("Other Side", "反対側から見る"),
     "action.viewport.pose": ("Pose Tool", "ポーズツール"),
     "action.viewport.side": ("Side", "側面"),
     "action.viewport.skeleton": ("Skeleton", "スケルトン"),

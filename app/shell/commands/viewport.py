@@ -45,6 +45,7 @@ ACTIONS: tuple[Action, ...] = (
     _view("hands", "5"),
     _view("mouth", "6"),
     _view("feet", "7"),
+    _row("other_side", lambda session: session.viewport.turn(), "9", "", has_everyone),
     _row("frame", lambda session: session.viewport.frame(True), "F", "frame"),
     _row("frame_all", lambda session: session.viewport.frame(False), "A", "players"),
     _toggle("names", "player"),

@@ -32,7 +32,11 @@ def threaded(qt_app: object) -> Iterator[Session]:
 
 
 def film(session: Session, path: Path, times: list[float], fails_at_s: float = 1e9) -> PlayblastDialog:
-    def shoot(width: int, height: int, span_s: tuple[float, float], view: View | None) -> Callable[[float], np.ndarray]:
+    def shoot(
+        width: int, height: int, span_s: tuple[float, float], view: View | None, marked: bool
+    ) -> Callable[[float], np.ndarray]:
+        assert not marked
+
         def draw(time_s: float) -> np.ndarray:
             assert span_s[0] <= time_s < span_s[1]
             if time_s > fails_at_s:

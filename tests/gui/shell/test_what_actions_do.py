@@ -649,6 +649,10 @@ CASES: dict[str, Case] = {
         f"viewport.{name}": toggled(f"viewport.{name}", lambda d, name=name: d.session.viewport.shows(name))
         for name in ("names", "skeleton", "contacts", "wireframe")
     },
+    "viewport.other_side": Case(
+        lambda d: abs(d.viewport.camera.yaw_rad - d.seen["yaw_rad"]) > 0.1,
+        lambda d: d.seen.update(yaw_rad=d.viewport.camera.yaw_rad),
+    ),
     "viewport.follow_selection": toggled("viewport.follow_selection", lambda d: d.session.viewport.follows_selection),
     "viewport.pose": toggled("viewport.pose", lambda d: d.session.viewport.posing),
     # Playing

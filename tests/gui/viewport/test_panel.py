@@ -14,7 +14,7 @@ import numpy as np
 import numpy.typing as npt
 import pytest
 from PySide6.QtCore import QEvent, QPoint, QPointF, Qt, QTimer
-from PySide6.QtGui import QAction, QMouseEvent, QWheelEvent
+from PySide6.QtGui import QAction, QImage, QMouseEvent, QWheelEvent
 from PySide6.QtWidgets import QApplication, QMenu, QToolButton, QWidget
 from pytestqt.qtbot import QtBot
 
@@ -34,7 +34,7 @@ from tests.gui.conftest import planned_quartet, quartet_project
 from tests.gui.viewport.conftest import AT_S, SIZE, MadeNow
 from tests.support.dances import model
 from tests.support.windows import child, show
-from widgets.viewport.canvas import Canvas
+from widgets.viewport.canvas import Canvas, pixels
 from widgets.viewport.panel import ViewportPanel
 
 ROOT = Path(__file__).parents[3]
@@ -708,3 +708,59 @@ def test_another_piece_opens_framed_and_without_the_bodies_of_the_one_before(
     QApplication.processEvents()
     assert viewport.scene.stage is not None
     assert viewport.camera == viewport._view_camera()
+
+
+def test_a_film_has_no_names_and_no_rings_unless_they_are_asked_for(viewport: ViewportPanel, session: Session) -> None:
+    def picture(marked: bool) -> npt.NDArray[np.uint8]:
+        return viewport.film(320, 180, (AT_S, AT_S), "ensemble", marked)(AT_S)
+
+    marked, plain = picture(True), picture(False)
+    assert differing(marked, plain) > 200
+    session.viewport.show("names", False)
+    session.set_players(())
+    assert differing(picture(True), plain) == 0
+
+
+def test_hovering_leaves_the_body_as_it_is(viewport: ViewportPanel, session: Session) -> None:
+    """Only the floor says who is under the pointer."""
+    session.viewport.show("names", False)
+    session.viewport.set_view("mouth")
+    viewport._eye.jump(viewport.camera)
+
+    def shown() -> npt.NDArray[np.uint8]:
+        image = viewport._canvas.native.grabFramebuffer().convertToFormat(QImage.Format.Format_RGBA8888)
+        return pixels(image)
+
+    before = shown()
+    at = place_of(viewport, 0, "head")
+    send(canvas(viewport), QEvent.Type.MouseMove, at, Qt.MouseButton.NoButton)
+    QApplication.processEvents()
+    assert viewport.hovered == session.players[0]
+    assert differing(shown(), before) == 0
+
+
+def test_the_front_view_is_a_bust_with_the_player_in_the_middle(viewport: ViewportPanel, session: Session) -> None:
+    stage = viewport.scene.stage
+    assert stage is not None
+    for row, player in enumerate(session.project.players):
+        session.set_players((player.id,))
+        session.viewport.set_view("front")
+        (head, feet), _ = viewport.camera.project([stage.joint_m(row, "head"), stage.joint_m(row, "leftFoot")], *SIZE)
+        assert head[0] == pytest.approx(SIZE[0] / 2, abs=0.04 * SIZE[0])
+        assert 0.0 < head[1] < 0.5 * SIZE[1]
+        assert feet[1] > SIZE[1]
+
+
+def test_a_key_shows_the_hands_from_the_other_side(qtbot: QtBot, viewport: ViewportPanel, session: Session) -> None:
+    session.viewport.set_view("hands")
+    first = viewport.camera
+    session.viewport.turn()
+    other = viewport.camera
+    assert other.target_m == first.target_m
+    stage = viewport.scene.stage
+    assert stage is not None
+    right, left = (camera.right @ stage.members[0].world_from_player[:, 2] for camera in (first, other))
+    assert right == pytest.approx(-left)
+    assert abs(right) > 0.1
+    session.viewport.turn()
+    assert viewport.camera.yaw_rad == pytest.approx(first.yaw_rad)

@@ -106,6 +106,8 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
     "playblast_dialog.selection": ("Selection", "選択範囲"),
     "playblast_dialog.side": ("Side", "側面"),
     "playblast_dialog.size": ("Size", "サイズ"),
+    "playblast_dialog.include_marks": ("Names, marks and selection", "奏者名、マーク、選択表示"),
+    "playblast_dialog.overlays": ("Overlays", "オーバーレイ"),
     "playblast_dialog.sound": ("Audio", "オーディオ"),
     "playblast_dialog.this_file_is_there_and": (
         "The file already exists and will be replaced.",
