@@ -21,6 +21,7 @@ class Ghosts(Enum):
     """Display of the players behind the one in front."""
 
     GHOSTS = "ghosts"
+    SELECTED = "selected"
     ALL = "all"
     ALONE = "alone"
 

@@ -124,7 +124,7 @@ problems.* ? selection + players
 # The timeline
 zoom_out, zoom_in, fit, timeline.zoom_*, timeline.fit ? axis
 timeline.count_*, time_display > * ? time
-timeline.ghosts, timeline.all, timeline.alone, ghosts_mode > * ? ghosts + lanes
+timeline.ghosts, timeline.selected, timeline.all, timeline.alone, ghosts_mode > * ? ghosts + lanes
 */fold ? lanes + project
 timeline.marks = lanes
 lanes.*, lanes_menu > *, lane header > * ? lanes

@@ -231,6 +231,7 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
         "Select: click, box-select, or drag notes and their ends",
         "選択: クリック、ボックス選択、音符や端のドラッグ",
     ),
+    "tool_bar.selected_as_ghosts": ("Ghost Notes of Selected Players", "選択した奏者のみゴースト表示"),
     "tool_bar.selected_notes": ("Selected notes: {count}", "選択中の音符: {count}"),
     "tool_bar.split_click_where_note_shall": ("Split: click where to cut the note", "分割: 音符を切る位置をクリック"),
     "unit_button.bars": ("Bars", "小節"),

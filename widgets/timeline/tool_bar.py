@@ -24,10 +24,11 @@ TOOL_TIPS = {
 }
 MODES = {
     Ghosts.GHOSTS: "tool_bar.others_as_ghosts",
+    Ghosts.SELECTED: "tool_bar.selected_as_ghosts",
     Ghosts.ALL: "tool_bar.all_players",
     Ghosts.ALONE: "tool_bar.only_this_player",
 }
-GHOST_ICONS = {Ghosts.GHOSTS: "ghosts", Ghosts.ALL: "players", Ghosts.ALONE: "player"}
+GHOST_ICONS = {Ghosts.GHOSTS: "ghosts", Ghosts.SELECTED: "ghosts", Ghosts.ALL: "players", Ghosts.ALONE: "player"}
 BUTTON_PX = 26
 SWATCH_PX = 12
 

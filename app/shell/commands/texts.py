@@ -211,6 +211,7 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
     "action.timeline.fit": ("Zoom to Whole Piece", "曲全体を表示"),
     "action.timeline.ghosts": ("Ghost Notes", "ほかの奏者をゴースト表示"),
     "action.timeline.marks": ("Slurs, Articulations and Dynamics", "スラー・アーティキュレーション・強弱記号"),
+    "action.timeline.selected": ("Ghost Notes of Selected Players", "選択した奏者のみゴースト表示"),
     "action.timeline.zoom_in": ("Zoom In Timeline", "タイムラインを拡大"),
     "action.timeline.zoom_in_pitch": ("Zoom In Notes Vertically", "ノートを縦に拡大"),
     "action.timeline.zoom_out": ("Zoom Out Timeline", "タイムラインを縮小"),

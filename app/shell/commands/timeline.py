@@ -87,6 +87,7 @@ ACTIONS: tuple[Action, ...] = (
         icon="zoom_selection",
     ),
     _shown(Ghosts.GHOSTS, "ghosts"),
+    _shown(Ghosts.SELECTED, "ghosts"),
     _shown(Ghosts.ALL, "players"),
     _shown(Ghosts.ALONE, "player"),
     Action(

@@ -625,7 +625,7 @@ CASES: dict[str, Case] = {
         ),
         lambda d: (d.timeline.fit(), d.seen.update(span=span_s(d))),
     ),
-    **{f"timeline.{name}": ghosts(name) for name in ("ghosts", "all", "alone")},
+    **{f"timeline.{name}": ghosts(name) for name in ("ghosts", "selected", "all", "alone")},
     "timeline.marks": toggled("timeline.marks", lambda d: d.timeline.marks_shown),
     **{
         f"timeline.count_{name}": becomes(

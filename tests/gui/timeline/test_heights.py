@@ -171,6 +171,10 @@ def test_ghosts_have_one_faint_colour_whoever_plays_them(stage: Stage) -> None:
     assert ghost() == before
     stage.do("timeline.all")
     assert ghost() == "#ff0000"
+    stage.do("timeline.selected")
+    assert ghost() not in (before, "#ff0000")
+    session.set_players((front.id, behind.id))
+    assert ghost() == before
     stage.do("timeline.alone")
     assert ghost() not in (before, "#ff0000")
 

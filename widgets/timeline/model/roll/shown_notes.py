@@ -42,6 +42,8 @@ class RollSession(Editing, Protocol):
     @property
     def player(self) -> Player | None: ...
     @property
+    def players(self) -> tuple[str, ...]: ...
+    @property
     def tokens(self) -> Tokens: ...
     def colour(self, player: Player) -> str: ...
     def set_players(self, players: tuple[str, ...]) -> None: ...
@@ -145,7 +147,7 @@ class RollModel:
         self._tables: dict[str, NoteTable] = {}
         self._flags: dict[str, tuple[NoteTable, Selection, BoolArray]] = {}
         self._warned: tuple[NoteTable | None, tuple[Problem, ...], frozenset[int]] = (None, (), frozenset())
-        self._ghosts_of: tuple[tuple[object, ...], Behind] = ((None, None, None, None), NO_GHOSTS)
+        self._ghosts_of: tuple[tuple[object, ...], Behind] = ((None,) * 6, NO_GHOSTS)
         """The players behind, and what that was found from: it is asked with every repaint."""
 
     def forget(self) -> None:
@@ -172,14 +174,17 @@ class RollModel:
         if self.ghosts_mode is Ghosts.ALONE:
             return NO_GHOSTS
         project, front = self._session.project, self._session.player
-        sources = (project.players, project.score, front, self._session.tokens)
+        # Selecting players matters where only these are seen.
+        chosen = self._session.players if self.ghosts_mode is Ghosts.SELECTED else None
+        sources = (project.players, project.score, front, self._session.tokens, self.ghosts_mode, chosen)
         if not all(map(is_, sources, self._ghosts_of[0])):
             self._ghosts_of = (sources, self._find_ghosts(project, front))
         return self._ghosts_of[1]
 
     def _find_ghosts(self, project: Project, front: Player | None) -> Behind:
         # Players of one part are seen once, in the colour of the first.
-        behind = {player.part_id: player for player in reversed(project.players)}
+        seen = self._session.players if self.ghosts_mode is Ghosts.SELECTED else None
+        behind = {player.part_id: player for player in reversed(project.players) if seen is None or player.id in seen}
         if front is not None:
             behind.pop(front.part_id, None)
         tables = [self.table(player) for player in behind.values()]
