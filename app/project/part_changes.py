@@ -8,6 +8,8 @@ from fractions import Fraction
 from itertools import groupby
 from typing import Literal, TypeAlias
 
+import msgspec
+
 from app.project.kept_parts import moved_part
 from app.project.moved_ticks import place_map
 from app.score.marks import Mark
@@ -63,11 +65,11 @@ def part_changes(before: Part | None, now: Part | None, scale: Fraction) -> tupl
     found += [
         PartChange("changed", one.onset_tick, other.onset_tick, one, other)
         for one, other in stayed
-        if (max(round(one.duration_tick * scale), 1), one.pitch, one.velocity)
-        != (other.duration_tick, other.pitch, other.velocity)
+        if (one.pitch, one.velocity) != (other.pitch, other.velocity)
+        or max(_scaled(one.duration_tick, scale), 1) != other.duration_tick
     ]
     if before is not None and now is not None:
-        moved = moved_part(before, before.id, place, scale)
+        moved = moved_part(msgspec.structs.replace(before, notes=()), before.id, place, scale)
         found += _marks(before, moved, now)
         if (moved.curves, moved.muted, moved.stopped) != (now.curves, now.muted, now.stopped):
             found.append(PartChange("controllers", 0, 0))
@@ -78,9 +80,14 @@ def _only(notes: dict[str, Note], others: dict[str, Note]) -> Iterator[Note]:
     return (note for id, note in notes.items() if id not in others)
 
 
+def _scaled(ticks: int, scale: Fraction) -> int:
+    # Fractions are slow, and most files count as before.
+    return ticks if scale == 1 else round(ticks * scale)
+
+
 def _moves(stayed: Sequence[tuple[Note, Note]], scale: Fraction) -> Iterator[PartChange]:
     """Runs of notes that moved by the same distance."""
-    distances = groupby(stayed, lambda pair: pair[1].onset_tick - round(pair[0].onset_tick * scale))
+    distances = groupby(stayed, lambda pair: pair[1].onset_tick - _scaled(pair[0].onset_tick, scale))
     for distance, run in distances:
         if distance:
             (before, now), *more = run

@@ -9,7 +9,7 @@ import mido
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QDialogButtonBox, QListWidget
+from PySide6.QtWidgets import QDialogButtonBox, QListWidget, QTreeWidget
 
 from app.editor.questions import ReadAgain
 from app.editor.tasks import Tasks
@@ -17,6 +17,8 @@ from app.editor.tokens import Tokens
 from app.plan.by_hand.corrections import Correction, PinFingering, SetBreath, SetCue
 from app.project.edit.corrections import with_corrections
 from app.project.importing import ImportRequest, ImportRow
+from app.project.model import Project
+from app.project.performers import Player
 from app.project.reimport import reimported
 from app.score.assignments import PartAssignment
 from app.score.contents import PieceContents
@@ -49,6 +51,10 @@ def program(request: pytest.FixtureRequest, start: Start, tmp_path: Path) -> Pro
 
 def shown(program: Program) -> ReimportDialog:
     return program.window.findChildren(ReimportDialog)[-1]
+
+
+def onsets(project: Project, player: Player) -> list[int]:
+    return [note.onset_tick for note in project.part(player).notes]
 
 
 def agree(dialog: ReimportDialog) -> None:
@@ -84,6 +90,31 @@ def test_update_from_a_newer_file_keeps_players_and_corrections(
         assert [note.onset_tick + 2 * BAR for note in before.part(player).notes] == [
             note.onset_tick for note in after.part(player).notes
         ]
+    program.session.document.undo()
+    assert program.session.project is before
+
+
+def test_a_player_that_is_unchecked_keeps_its_notes_in_one_step(
+    program: Program, answers: Answers, tmp_path: Path
+) -> None:
+    before = program.session.project
+    answers.path = written(tmp_path / "newer.mid", tracks(("", "Piano", "Stimme", "Low", "Bottom"), 2 * BAR))
+    trigger(program, "file.reimport_other")
+    tree = child(shown(program), QTreeWidget, "reimport_parts")
+    tree.setCurrentItem(tree.topLevelItem(1))
+    QTest.keyClick(tree, Qt.Key.Key_Space)
+    agree(shown(program))
+    after = program.session.project
+    shifts = [
+        {
+            new.onset_tick - old.onset_tick
+            for old, new in zip(before.part(one).notes, after.part(one).notes, strict=True)
+        }
+        for one in before.players
+    ]
+    assert shifts == [{0} if place == 1 else {2 * BAR} for place in range(5)]
+    assert after.corrections == before.corrections
+    assert len(program.session.document.done) == 1
     program.session.document.undo()
     assert program.session.project is before
 
