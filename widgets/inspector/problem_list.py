@@ -14,7 +14,7 @@ from app.editor.session import Session
 from app.errors import Message
 from app.plan.model import Problem
 from app.plan.problem_lines import problems_by_kind
-from app.project.ignored_problems import ignore, unignore
+from app.project.edit.ignored_problems import ignore, unignore
 from app.project.performers import Dancer, Player
 from app.score.model import Score
 from widgets.common.clicks import on_click, on_switch
