@@ -22,7 +22,7 @@ _UNSAID: Final = {
     "mute": Direction(0, "mute", "open"),
     "players": Direction(0, "words", "tutti"),
 }
-"""What holds where nothing has been said yet, by subject."""
+"""Words in force before any are written, by subject."""
 
 _State = dict[str, Direction]
 
@@ -56,7 +56,7 @@ def restored(measures: Sequence[Measure], order: Sequence[tuple[Time, int]]) -> 
 
 
 def _after(state: _State, measure: Measure) -> _State:
-    """What is in force behind a measure, what was said last behind the others."""
+    """Words in force after a measure, and the last ones after the others."""
     changed = {}
     for one in sorted(measure.directions, key=lambda one: one.start):
         subject = _subject(one)
@@ -68,7 +68,7 @@ def _after(state: _State, measure: Measure) -> _State:
 
 
 def _subject(one: Direction) -> str:
-    """What a direction is about that holds until another; empty: it holds no longer than its place."""
+    """Subject of a direction that holds until another; empty: it holds no longer than its place."""
     if one.kind in ("instrument", "mute"):
         return one.kind
     if one.kind == "dynamic":

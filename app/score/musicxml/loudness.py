@@ -17,7 +17,7 @@ _SOFT: Final = (49, 33, 16, 10, 5, 1)
 _LOUD: Final = (96, 112, 126, 127)
 _USUAL: Final = 80.0
 USUAL_DYNAMIC: Final = "mf"
-"""What is played where nothing is written."""
+"""Velocity where no dynamic is written."""
 _FORTE: Final = 90.0
 """Velocity of the format's loudness 1."""
 _STEP: Final = 16.0

@@ -13,7 +13,7 @@ from widgets.timeline.lanes import LANES as BELOW
 from widgets.timeline.marks.dynamics_lane import DynamicsLane
 
 ICONS: Final = {"zoom_in_pitch": "zoom_in", "zoom_out_pitch": "zoom_out"}
-"""Of actions whose icon has another name."""
+"""Names of icons by action, where they differ."""
 
 
 def _has_view(session: Session) -> bool:

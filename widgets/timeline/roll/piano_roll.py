@@ -86,7 +86,7 @@ class PianoRoll(Lane):
         self._tool = Tool.SELECT
         self._velocity = FIRST_VELOCITY
         self._pitches_chosen = False
-        """Whether the user scrolled or zoomed the pitches; until then they suit the height of the lane."""
+        """True once the user scrolled or zoomed the pitches; until then they suit the height of the lane."""
         super().__init__(session, axis, parent)
         self.keyboard = Keyboard(self)
         self.rows = Rows(self, -200.0)

@@ -29,7 +29,7 @@ NEAR_PX = 7.0
 LEAST_ROWS, MOST_ROWS = 10.0, 128.0
 USUAL_ROWS = 30.0
 LEGIBLE_ROW_PX = 9.0
-"""Of a row in which a note is 8 pixels high."""
+"""Height of a row in which a note is 8 pixels high."""
 AIR_ROWS = 4.0
 """Around what is fitted."""
 
