@@ -101,6 +101,7 @@ LINE: Final = StepTable(
     levels=reading(note_levels, reading="velocity_reading"),
     muted="part.muted",
     stopped="part.stopped",
+    mute_kinds="part.mute_kinds",
     mark_corrections=mark_corrections,
     read_marks="part.marks",
     marks=reading(corrected_marks, marks="read_marks", corrections="mark_corrections"),
@@ -121,6 +122,7 @@ LINE: Final = StepTable(
         stopped="stopped",
         marks="marks",
         source="source",
+        mute_kinds="mute_kinds",
     ),
 )
 """The line of a player who has an instrument."""

@@ -17,6 +17,7 @@ from app.plan.by_hand.events import AdditiveEvent, PoseEvent, StyleEvent
 from app.plan.event_id import EventId
 from app.plan.kinds import BREATH_KINDS, GESTURE_KINDS, BreathKind, GestureKind, Part
 from app.plan.lips.sampled_curves import SampledCurves
+from app.score.mutes import MuteName
 from metadata.gestures import Gesture
 
 E = TypeVar("E")
@@ -110,7 +111,7 @@ class TongueEvent(msgspec.Struct, frozen=True, gc=False):
         return f"tongue:{self.note_id}"
 
 
-MuteKind: TypeAlias = Literal["mute", "stopped"]
+MuteKind: TypeAlias = Literal["mute", "stopped"] | MuteName
 
 
 class MuteEvent(msgspec.Struct, frozen=True, gc=False):

@@ -19,6 +19,7 @@ from app.score.limits import too_long
 from app.score.marks import Mark
 from app.score.metre_map import Metre
 from app.score.model import ControllerCurve, Marker, Note, Part, PercussionHit, Score, value_range
+from app.score.mutes import NAMED
 from app.score.tempo import TempoChange
 
 
@@ -140,6 +141,12 @@ def _part_faults(part: Part, place: str) -> Iterator[Fault]:
             yield from faults_of_bounds(f"{place}.{name}[{index}][1]", end, (start, limits.LAST_TICK))
         if spans != tuple(sorted(spans)):
             yield f"{place}.{name}", "spans must be ordered by start"
+    for index, (tick, kind) in enumerate(part.mute_kinds):
+        yield from faults_of_bounds(f"{place}.mute_kinds[{index}][0]", tick, (0, limits.LAST_TICK))
+        if kind not in ("mute", *NAMED):
+            yield f"{place}.mute_kinds[{index}][1]", "must be a kind of mute"
+    if [tick for tick, _ in part.mute_kinds] != sorted(tick for tick, _ in part.mute_kinds):
+        yield f"{place}.mute_kinds", "changes must be ordered by tick"
     yield from note_faults(part.notes, f"{place}.notes")
     for index, mark in enumerate(part.marks):
         yield from faults_at_key(f"{place}.marks[{index}]", _mark_faults(mark))

@@ -78,7 +78,10 @@ def moved_part(part: Part, id: str, place: Callable[[int], int], scale: Fraction
         for spans in (part.muted, part.stopped)
     )
     marks = moved_marks(part.marks, place)
-    return msgspec.structs.replace(part, id=id, notes=ordered, curves=curves, muted=muted, stopped=stopped, marks=marks)
+    kinds = tuple(sorted((max(place(tick), 0), kind) for tick, kind in part.mute_kinds))
+    return msgspec.structs.replace(
+        part, id=id, notes=ordered, curves=curves, muted=muted, stopped=stopped, mute_kinds=kinds, marks=marks
+    )
 
 
 def _as_here(former: Part, part: Part, place: Callable[[int], int], scale: Fraction) -> Part:

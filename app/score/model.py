@@ -141,6 +141,8 @@ class Part(msgspec.Struct, frozen=True, dict=True):
         Spans of ticks, by start, in which it is played with a mute.
     stopped : tuple of (start, end)
         Those of them in which the hand stops the bell; no older file has any.
+    mute_kinds : tuple of (tick, kind)
+        Which mute is in the bell from there on, where it is named; no older file has any.
     marks : tuple of Mark
         What is written over its notes; no older file has any, nor has what was read from MIDI.
     source : {"sound", "score"}
@@ -162,6 +164,7 @@ class Part(msgspec.Struct, frozen=True, dict=True):
     stopped: tuple[tuple[int, int], ...] = ()
     marks: tuple[Mark, ...] = ()
     source: Source = "sound"
+    mute_kinds: tuple[tuple[int, str], ...] = ()
 
     @property
     def place(self) -> tuple[int, int, int]:

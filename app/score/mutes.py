@@ -8,7 +8,7 @@ from __future__ import annotations
 import re
 from bisect import bisect_right
 from collections.abc import Collection, Sequence
-from typing import Final, Literal, NamedTuple, TypeAlias
+from typing import Final, Literal, NamedTuple, TypeAlias, get_args
 
 from app.score.limits import MOST_NAME
 from app.score.tracks import TrackEvents
@@ -21,9 +21,10 @@ MUTED_TRUMPET: Final = 59
 _MUTE: Final = r"(?:sord(?:\.|in[oai]?|ine)?|mutes?|muted|dämpfern?|d[äa]mpfer|sourdines?|surdinas?|ミュート|弱音器)"
 _ON: Final = re.compile(
     rf"(?:.*\b)?(?:con|with|mit|avec|com|add|put on)\s+(?:(?:a|the|la|il)\s+)?(?:\w+\s+)?{_MUTE}\b.*"
-    rf"|(?:(?:cup|straight|harmon|wah[- ]?wah|plunger|bucket|practice|stop|solotone|pixie)\s+)?{_MUTE}"
+    r"|(?:(?:cup|straight|harmon|wah[- ]?wah|plunger|bucket|practice|stop|solotone|pixie|hat|カップ|ストレート"
+    rf"|ハー[マモ]ン|プランジャー|バケット|ハット)[\s・]*)?{_MUTE}"
     r"(?:\s+(?:on|in)|\s*(?:付き|つき|装着|あり))?"
-    r"|harmon(?:\s*,?\s*stem\s+(?:in|out|half))?|plunger|in\s+(?:cup|straight|harmon|bucket|plunger|hat)"
+    r"|harmon(?:\s*,?\s*stem\s+(?:in|out|half))?|plunger|(?:straight|cup|bucket)|in\s+(?:cup|straight|harmon|bucket|plunger|hat)"
     r"|(?:c\.|m\.)\s*(?:sord|d)\.?",
     re.IGNORECASE,
 )
@@ -40,11 +41,30 @@ _OFF: Final = re.compile(
     re.IGNORECASE,
 )
 _IN_NAME: Final = re.compile(
-    rf"\b(?:(?:con|with|mit|avec|com)\s+{_MUTE}|muted|c\.\s*sord)|ミュート|弱音器", re.IGNORECASE
+    rf"\b(?:(?:con|with|mit|avec|com)\s+(?:\w+\s+)?{_MUTE}|muted|c\.\s*sord)|ミュート|弱音器", re.IGNORECASE
 )
 
 Span = tuple[int, int]
-How: TypeAlias = Literal["open", "mute", "hand"]
+Change = tuple[int, str]
+"""Tick, and the kind of mute that is in the bell from there on, as in `NAMED`; ``mute``: not said."""
+MuteName: TypeAlias = Literal["straight", "cup", "harmon", "plunger", "bucket", "hat", "practice", "solotone"]
+NAMED: Final[tuple[MuteName, ...]] = get_args(MuteName)
+"""Kinds of mutes that a score names."""
+How: TypeAlias = Literal["open", "mute", "hand"] | MuteName
+_NAMES: Final[dict[str, MuteName]] = {
+    **{name: name for name in NAMED},
+    "wah": "harmon",
+    "wah-wah": "harmon",
+    "wahwah": "harmon",
+    "カップ": "cup",
+    "ストレート": "straight",
+    "ハーマン": "harmon",
+    "ハーモン": "harmon",
+    "プランジャー": "plunger",
+    "バケット": "bucket",
+    "ハット": "hat",
+}
+_NAME: Final = re.compile("|".join(sorted(_NAMES, key=len, reverse=True)), re.IGNORECASE)
 
 
 def sounds_of(programs: Sequence[tuple[int, int]], named: Instrument | None = None) -> list[tuple[int, int]]:
@@ -65,10 +85,12 @@ def _sections(section: Instrument) -> tuple[str, ...]:
 
 
 class Mutes(NamedTuple):
-    """Spans (first onset, last end) of ticks, in order: all that are muted, and those of them that the hand stops."""
+    """Spans (first onset, last end) of ticks, in order: all that are muted, and those of them that the hand stops; and
+    where the kind of mute changes."""
 
     muted: tuple[Span, ...] = ()
     stopped: tuple[Span, ...] = ()
+    mute_kinds: tuple[Change, ...] = ()
 
 
 def mutes_of(events: TrackEvents, channels: Collection[int], name: str, texts: Sequence[tuple[int, str]]) -> Mutes:
@@ -81,7 +103,7 @@ def mutes_of(events: TrackEvents, channels: Collection[int], name: str, texts: S
     texts : sequence of (tick, text)
         What the track says to the player of these channels.
     """
-    always: How = "mute" if _IN_NAME.search(name) is not None else "open"
+    always: How = named_mute(name) if _IN_NAME.search(name) is not None else "open"
     said = [(tick, how) for tick, text in sorted(texts) if (how := said_of_mute(text)) is not None]
     signed = {tick for tick, text in texts if text.strip() == _STOPPED_NOTE}
     sounds = {program for channel in channels for _, program in events.programs.get(channel, [])}
@@ -99,10 +121,31 @@ def mutes_of(events: TrackEvents, channels: Collection[int], name: str, texts: S
             if onset in signed:
                 how = "hand"
             elif program and programs[program - 1][1] == MUTED_TRUMPET:
-                how = "mute"
+                how = how if how in NAMED else "mute"
             rows.append((onset, end, how))
     rows.sort()
-    return Mutes(joined_spans(rows, ("mute", "hand")), joined_spans(rows, ("hand",)))
+    return mutes_in(rows)
+
+
+def mutes_in(rows: Sequence[tuple[int, int, How]]) -> Mutes:
+    """The mutes of notes (onset, end, how), by onset."""
+    changes: list[Change] = []
+    for onset, _, how in rows:
+        if how not in ("open", "hand") and how != (changes[-1][1] if changes else "mute"):
+            changes.append((onset, how))
+    return Mutes(joined_spans(rows, ("mute", "hand", *NAMED)), joined_spans(rows, ("hand",)), tuple(changes))
+
+
+def named_mute(text: str) -> How:
+    """The kind of mute that a text names; ``mute`` where it names none."""
+    found = _NAME.search(text)
+    return "mute" if found is None else _NAMES[found[0].lower().replace(" ", "-")]
+
+
+def mute_at(changes: Sequence[Change], tick: int) -> str:
+    """The kind of mute at a tick."""
+    place = bisect_right(changes, tick, key=lambda change: change[0])
+    return changes[place - 1][1] if place else "mute"
 
 
 def joined_spans(rows: Sequence[tuple[int, int, How]], ways: Collection[str]) -> tuple[Span, ...]:
@@ -126,11 +169,10 @@ def is_muted(spans: Sequence[Span], tick: int) -> bool:
 
 
 def said_of_mute(text: str) -> How | None:
-    """Return whether a text puts a mute in, has the hand stop the bell, or ends both; None: it speaks of something
-    else."""
+    """Return whether a text puts a mute in and which, has the hand stop the bell, or ends both; None: neither."""
     words = " ".join(text[:MOST_NAME].split()).strip("()[]")
     if _OFF.fullmatch(words):
         return "open"
     if _HAND.fullmatch(words):
         return "hand"
-    return "mute" if _ON.fullmatch(words) else None
+    return named_mute(words) if _ON.fullmatch(words) else None

@@ -302,6 +302,7 @@ def _parts(
                 transposed_semitones=shift,
                 muted=channel.muted,
                 stopped=channel.stopped,
+                mute_kinds=channel.mute_kinds,
                 marks=_marks(channel.marks, onsets, notes),
                 source=channel.source,
             )

@@ -86,7 +86,10 @@ def joined(channels: Sequence[TrackChannel]) -> TrackChannel:
     muted = tuple(sorted({span for channel in channels for span in channel.muted}))
     stopped = tuple(sorted({span for channel in channels for span in channel.stopped}))
     marks = tuple(dict.fromkeys(mark for channel in channels for mark in channel.marks))
-    return msgspec.structs.replace(channels[0], curves=curves, muted=muted, stopped=stopped, marks=marks)
+    mute_kinds = tuple(sorted({change for channel in channels for change in channel.mute_kinds}))
+    return msgspec.structs.replace(
+        channels[0], curves=curves, muted=muted, stopped=stopped, mute_kinds=mute_kinds, marks=marks
+    )
 
 
 def _curves(channels: Sequence[TrackChannel]) -> tuple[ControllerCurve, ...]:

@@ -58,7 +58,7 @@ def streams_of(
             notes = events.notes(channels)
             first = leading_channel(events, channels)
             heard, among = (events, channels) if spread is None else (spread.events, spread.channels)
-            muted, stopped = mutes_of(events, channels, name, said)
+            muted, stopped, mute_kinds = mutes_of(events, channels, name, said)
             whole = TrackChannel(
                 track=index,
                 channel=first,
@@ -70,6 +70,7 @@ def streams_of(
                 recorded=any(text == RECORDED.encode() for _, text in events.texts),
                 muted=muted,
                 stopped=stopped,
+                mute_kinds=mute_kinds,
                 line=-1 if spread is None else spread.first,
                 **msgspec.structs.asdict(notes),
             )

@@ -36,6 +36,8 @@ class TrackChannel(msgspec.Struct, frozen=True):
         Spans of ticks in which the track is played with a mute.
     stopped : tuple of (start, end)
         Those of them in which the hand stops the bell.
+    mute_kinds : tuple of (tick, kind)
+        Which mute is in the bell from there on, where it is named.
     recorded : bool
         The file says that it is a take of ``suisou record``.
     solos : tuple of (tick, player)
@@ -71,6 +73,7 @@ class TrackChannel(msgspec.Struct, frozen=True):
     change: int = 0
     muted: tuple[tuple[int, int], ...] = ()
     stopped: tuple[tuple[int, int], ...] = ()
+    mute_kinds: tuple[tuple[int, str], ...] = ()
     solos: tuple[tuple[int, int], ...] = ()
     desks: tuple[tuple[int, int, int], ...] = ()
     recorded: bool = False

@@ -1,6 +1,6 @@
 """Passages that are muted: with a mute in the bell, or stopped by the hand where the instrument's map has that.
 
-Messages: ``mute.mute``, ``mute.stopped_left``, ``mute.stopped_right``, ``mute.no_hand``.
+Messages: ``mute.mute`` and one of each of `NAMED`, ``mute.stopped_left``, ``mute.stopped_right``, ``mute.no_hand``.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from app.arrays import BoolArray
 from app.errors import Message
 from app.plan.model import MuteEvent, MuteKind
 from app.score.model import Note
-from app.score.mutes import is_muted
+from app.score.mutes import NAMED, is_muted, mute_at
 from app.score.tempo import TempoMap
 from instrument_maps.model import InstrumentMap
 
@@ -26,9 +26,14 @@ def stopped_notes(notes: tuple[Note, ...], stopped: Spans, instrument: Instrumen
 
 
 def plan_mutes(
-    notes: tuple[Note, ...], muted: Spans, stopped: Spans, instrument: InstrumentMap, clock: TempoMap
+    notes: tuple[Note, ...],
+    muted: Spans,
+    stopped: Spans,
+    mute_kinds: tuple[tuple[int, str], ...],
+    instrument: InstrumentMap,
+    clock: TempoMap,
 ) -> tuple[MuteEvent, ...]:
-    """The muted passages that have notes, in order; a passage ends where mute and hand change."""
+    """The muted passages that have notes, in order; a passage ends where its kind changes."""
     if not muted:
         return ()
     rows: list[tuple[MuteKind, int, int, Message]] = []
@@ -38,7 +43,9 @@ def plan_mutes(
             continue
         end = note.onset_tick + note.duration_tick
         by_hand = is_muted(stopped, note.onset_tick)
-        kind: MuteKind = "stopped" if by_hand and instrument.stopped is not None else "mute"
+        said = "mute" if by_hand else mute_at(mute_kinds, note.onset_tick)
+        named: MuteKind = next((one for one in NAMED if one == said), "mute")
+        kind: MuteKind = "stopped" if by_hand and instrument.stopped is not None else named
         if rows and last == place - 1 and rows[-1][0] == kind:
             rows[-1] = (kind, rows[-1][1], max(rows[-1][2], end), rows[-1][3])
         else:
@@ -53,4 +60,4 @@ def plan_mutes(
 def _reason(kind: MuteKind, by_hand: bool, instrument: InstrumentMap) -> Message:
     if kind == "stopped" and instrument.stopped is not None:
         return Message(f"mute.stopped_{instrument.stopped.hand}")
-    return Message("mute.no_hand" if by_hand else "mute.mute")
+    return Message("mute.no_hand" if by_hand else f"mute.{kind}")

@@ -94,6 +94,8 @@ class MonophonicPart(msgspec.Struct, frozen=True):
         What the player and the styles there are are called, for what is reported.
     muted, stopped : tuple of (start tick, end tick)
         Where it is played with a mute, and where among these the hand stops the bell.
+    mute_kinds : tuple of (tick, kind)
+        Which mute is in the bell from there on, where it is named.
     marks : tuple of Mark
         What is written over the notes.
     source : {"sound", "score"}
@@ -118,6 +120,7 @@ class MonophonicPart(msgspec.Struct, frozen=True):
     marks: tuple[Mark, ...] = ()
     source: Source = "sound"
     levels: tuple[float, ...] = ()
+    mute_kinds: tuple[tuple[int, str], ...] = ()
 
 
 class Piece(msgspec.Struct, frozen=True):

@@ -116,7 +116,7 @@ def read_sound(sound: Element, at: Time, bar: Bar, place: Place) -> Iterator[Dir
         yield Direction(at, "loudness", value=float(place.number_of(loudness, "dynamics")) / 100.0)
     for child in sound:
         if child.tag == "play" and (mute := (child.findtext("mute") or "").strip()):
-            yield Direction(at, "mute", _MUTES.get(mute, "mute"))
+            yield Direction(at, "mute", _MUTES.get(mute, mute[:MOST_NAME]))
         elif child.tag == "instrument-change":
             sounding = (child.findtext("instrument-sound") or "").strip().lower()
             yield Direction(at, "instrument", sounding, child.get("id", ""))

@@ -270,7 +270,7 @@ def _note(part: WrittenPart, one: Element, measure: Measure, state: _State, plac
         chord.tones.append(tone)
     play = found.get("play")
     if play is not None and (mute := (play.findtext("mute") or "").strip()):
-        chord.mute = _MUTES.get(mute, "mute")
+        chord.mute = _MUTES.get(mute, mute[:MOST_NAME])
     if tone is not None and "pitch" in found and any(written.find("ornaments") is not None for written in notations):
         _with_neighbours(tone, found["pitch"], state.fifths, place)
     for written in notations:

@@ -15,7 +15,7 @@ from app.score.musicxml.flutter import fluttered
 from app.score.musicxml.loudness import hairpins, loudness_of, velocity_of
 from app.score.musicxml.parts import PartInstrument, WrittenPart, said_instrument
 from app.score.musicxml.played import PlayedChord, PlayedNote, PlayedPart
-from app.score.mutes import How, joined_spans, said_of_mute
+from app.score.mutes import How, mutes_in, named_mute, said_of_mute
 from app.score.solos import words_of_players
 from app.score.track_channel import TrackChannel
 from instrument_maps.instrument_names import vocabulary
@@ -69,7 +69,7 @@ def part_streams(
         own = [row for row in rows if row.kind == kind]
         struck = kind == _STRUCK
         ids = {f"{track + 1}:{row.number}" for row in own}
-        muted = _mutes(own, played, words)
+        mutes = mutes_in(_mutes(own, played, words))
         streams.append(
             TrackChannel(
                 track=track,
@@ -85,8 +85,9 @@ def part_streams(
                 curves=(),
                 played_on="" if struck else kind,
                 change=change,
-                muted=() if struck else joined_spans(muted, ("mute", "hand")),
-                stopped=() if struck else joined_spans(muted, ("hand",)),
+                muted=() if struck else mutes.muted,
+                stopped=() if struck else mutes.stopped,
+                mute_kinds=() if struck else mutes.mute_kinds,
                 desks=() if struck else tuple((row.number, *row.desk) for row in own if row.desk.first),
                 solos=() if struck else words_of_players(words),
                 use="rhythm" if struck else "melodic",
@@ -183,7 +184,7 @@ def _rows(played: PlayedPart, level: Callable[[int], float], kinds: dict[int, st
 
 
 def _mutes(rows: Sequence[_Row], played: PlayedPart, words: Sequence[tuple[int, str]]) -> list[tuple[int, int, How]]:
-    """Mutes of a stream's notes: each by its own sign, else by the last words before it."""
+    """How a stream's notes are played: each by its own sign, else by the last words before it."""
     said: list[tuple[int, How]] = [(tick, how) for tick, text in words if (how := said_of_mute(text)) is not None]
     for tick, one in played.directions:
         if one.kind == "mute":
@@ -205,7 +206,7 @@ def _mutes(rows: Sequence[_Row], played: PlayedPart, words: Sequence[tuple[int, 
 
 
 def _how(text: str) -> How:
-    return "hand" if text == "hand" else "open" if text == "open" else "mute"
+    return "hand" if text == "hand" else "open" if text == "open" else named_mute(text)
 
 
 def _marks(played: PlayedPart, prefix: str, spans: Sequence[Mark]) -> list[Mark]:

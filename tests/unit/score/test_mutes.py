@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from app.score.model import Part
-from app.score.mutes import is_muted
+from app.score.mutes import is_muted, mute_at
 from tests.unit.score.test_doublings import LOW, program, score_of, words
 
 
@@ -74,3 +74,31 @@ def test_mutes_are_known_by_their_own_names(tmp_path: Path, text: str) -> None:
     (part,) = score_of(tmp_path, "Trumpet", LOW, words(text), LOW, words("open"), LOW).parts
     assert muted(part) == [False, False, True, True, False, False]
     assert part.stopped == ()
+
+
+@pytest.mark.parametrize(
+    ("text", "kind"),
+    [
+        ("con sord.", "mute"),
+        ("straight mute", "straight"),
+        ("(with cup mute)", "cup"),
+        ("cup", "cup"),
+        ("con sord. (cup)", "cup"),
+        ("Harmon, stem out", "harmon"),
+        ("wah-wah mute", "harmon"),
+        ("plunger", "plunger"),
+        ("in bucket", "bucket"),
+        ("カップミュート", "cup"),
+        ("カップ・ミュート", "cup"),
+        ("ハーマンミュート", "harmon"),
+    ],
+)
+def test_the_words_say_which_mute(tmp_path: Path, text: str, kind: str) -> None:
+    (part,) = score_of(tmp_path, "Trumpet", LOW, words(text), LOW, words("open"), LOW).parts
+    assert muted(part) == [False, False, True, True, False, False]
+    assert [mute_at(part.mute_kinds, note.onset_tick) for note in part.notes][2:4] == [kind] * 2
+
+
+def test_a_name_says_which_mute(tmp_path: Path) -> None:
+    (part,) = score_of(tmp_path, "Trumpet with cup mute", LOW, words("con sord."), LOW).parts
+    assert part.mute_kinds[0][1] == "cup"

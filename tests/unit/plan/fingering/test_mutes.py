@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+from typing import Any
+
+from app.messages import WORDINGS
 from app.plan.generate import MonophonicPart, make_plans, time_frame
 from app.plan.model import PlayerPlan
 from app.score.metre_map import Metre
+from app.score.mutes import NAMED
 from instrument_maps.load import bundled_maps
 from tests.support.plan import PlainClock, even, piece_of
 
@@ -12,7 +16,7 @@ Q = 480
 BAR = 4 * Q
 
 
-def plan(instrument: str, pitches: list[int], **spans: tuple[tuple[int, int], ...]) -> PlayerPlan:
+def plan(instrument: str, pitches: list[int], **spans: Any) -> PlayerPlan:
     clock = PlainClock()
     line = MonophonicPart("p", even(pitches, Q), bundled_maps()[instrument], **spans)
     return make_plans(piece_of(clock, (Metre(0, 4, 4),)), (line,), time_frame((line,), clock))["p"]
@@ -56,3 +60,16 @@ def test_mute_and_hand_in_turn_are_two_passages() -> None:
     assert [(mute.kind, mute.start_tick, mute.end_tick) for mute in found.mutes] == [
         ("mute", 0, 2 * Q), ("stopped", 2 * Q, BAR)
     ]  # fmt: skip
+
+
+def test_mutes_of_two_kinds_are_two_passages_and_their_reasons_name_them() -> None:
+    found = plan(
+        "trumpet_Bb", [60, 62, 64, 65], muted=((0, BAR),), mute_kinds=((0, "cup"), (2 * Q, "harmon"))
+    )  # fmt: skip
+    assert [(mute.kind, mute.start_tick, mute.end_tick, mute.reason.id) for mute in found.mutes] == [
+        ("cup", 0, 2 * Q, "mute.cup"), ("harmon", 2 * Q, BAR, "mute.harmon")
+    ]  # fmt: skip
+
+
+def test_every_mute_has_a_name_in_both_languages() -> None:
+    assert {f"mute.{name}" for name in NAMED} <= WORDINGS.keys()

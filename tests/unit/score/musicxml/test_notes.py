@@ -258,6 +258,7 @@ def test_mutes_by_words_sounds_and_signs(tmp_path: Path) -> None:
     )
     (stream,) = read(tmp_path, document(*bars)).channels
     assert stream.muted == ((4 * Q, 8 * Q), (12 * Q, 16 * Q), (18 * Q, 20 * Q))
+    assert stream.mute_kinds == ((12 * Q, "harmon"),)
     assert stream.stopped == ((18 * Q, 20 * Q),)
 
 
