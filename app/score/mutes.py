@@ -31,8 +31,10 @@ _ON: Final = re.compile(
 _HAND: Final = re.compile(
     r"gestopft|gest\.?|stopped|hand[- ]?stopped|bouch[ée]|chiuso|chius[ae]|ゲシュトップ|ストップ奏法", re.IGNORECASE
 )
-_STOPPED_NOTE: Final = "+"
-"""This sign stops only the notes that begin with it."""
+STOPPED_SIGN: Final = "+"
+"""This sign stops only the notes that begin with it..."""
+OPEN_SIGN: Final = "o"
+"""... and this one, where a score has it, ends what is stopped."""
 _OFF: Final = re.compile(
     r"(?:.*\b)?(?:senza|without|no|ohne|sans|sem|sin|remove|take off|via|ôtez|enlevez)\s+"
     rf"(?:(?:the|la|le|les|il)\s+)?{_MUTE}.*"
@@ -67,11 +69,20 @@ _NAMES: Final[dict[str, MuteName]] = {
 _NAME: Final = re.compile("|".join(sorted(_NAMES, key=len, reverse=True)), re.IGNORECASE)
 
 
+def takes_mutes(instrument: Instrument | None) -> bool:
+    """Return whether an instrument is of the section that is muted and stopped by hand: brass."""
+    return instrument is not None and instrument.family in _muted_families()
+
+
+def _muted_families() -> set[str]:
+    return {family for one in vocabulary().instruments.values() if one.any_pitch for family in _sections(one)}
+
+
 def sounds_of(programs: Sequence[tuple[int, int]], named: Instrument | None = None) -> list[tuple[int, int]]:
     """The changes (tick, program) of a player without those to the muted sound, where other changes or the name say
     which brass instrument is muted: notation programs give muted horns and trombones the trumpet's."""
     known = vocabulary()
-    brass = {family for one in known.instruments.values() if one.any_pitch for family in _sections(one)}
+    brass = _muted_families()
     others = [known.by_program(program) for _, program in programs if program != MUTED_TRUMPET]
     if any(one is not None and one.family in brass for one in (named, *others)):
         return [row for row in programs if row[1] != MUTED_TRUMPET]
@@ -105,7 +116,7 @@ def mutes_of(events: TrackEvents, channels: Collection[int], name: str, texts: S
     """
     always: How = named_mute(name) if _IN_NAME.search(name) is not None else "open"
     said = [(tick, how) for tick, text in sorted(texts) if (how := said_of_mute(text)) is not None]
-    signed = {tick for tick, text in texts if text.strip() == _STOPPED_NOTE}
+    signed = {tick for tick, text in texts if text.strip() == STOPPED_SIGN}
     sounds = {program for channel in channels for _, program in events.programs.get(channel, [])}
     if not (always != "open" or said or signed or MUTED_TRUMPET in sounds):
         return Mutes()

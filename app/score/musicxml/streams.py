@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from bisect import bisect_left
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Final
 
@@ -15,7 +16,7 @@ from app.score.musicxml.flutter import fluttered
 from app.score.musicxml.loudness import hairpins, loudness_of, velocity_of
 from app.score.musicxml.parts import PartInstrument, WrittenPart, said_instrument
 from app.score.musicxml.played import PlayedChord, PlayedNote, PlayedPart
-from app.score.mutes import How, mutes_in, named_mute, said_of_mute
+from app.score.mutes import OPEN_SIGN, STOPPED_SIGN, How, mutes_in, named_mute, said_of_mute, takes_mutes
 from app.score.solos import words_of_players
 from app.score.track_channel import TrackChannel
 from instrument_maps.instrument_names import vocabulary
@@ -69,7 +70,7 @@ def part_streams(
         own = [row for row in rows if row.kind == kind]
         struck = kind == _STRUCK
         ids = {f"{track + 1}:{row.number}" for row in own}
-        mutes = mutes_in(_mutes(own, played, words))
+        mutes = mutes_in(_mutes(own, played, words, brass=_is_brass(kind, part.name)))
         streams.append(
             TrackChannel(
                 track=track,
@@ -183,12 +184,22 @@ def _rows(played: PlayedPart, level: Callable[[int], float], kinds: dict[int, st
     return rows
 
 
-def _mutes(rows: Sequence[_Row], played: PlayedPart, words: Sequence[tuple[int, str]]) -> list[tuple[int, int, How]]:
+def _is_brass(kind: str, name: str) -> bool:
+    """Return whether a stream of notes is that of a brass instrument."""
+    return takes_mutes(
+        vocabulary().instruments[kind] if kind in vocabulary().instruments else vocabulary().by_name(name)
+    )
+
+
+def _mutes(
+    rows: Sequence[_Row], played: PlayedPart, words: Sequence[tuple[int, str]], *, brass: bool
+) -> list[tuple[int, int, How]]:
     """How a stream's notes are played: each by its own sign, else by the last words before it."""
     said: list[tuple[int, How]] = [(tick, how) for tick, text in words if (how := said_of_mute(text)) is not None]
     for tick, one in played.directions:
         if one.kind == "mute":
             said.append((tick, _how(one.text)))
+    said += _signed(rows, words, [tick for tick, _ in said]) if brass else []
     said.sort(key=lambda row: row[0])
     found: list[tuple[int, int, How]] = []
     place, current = 0, _how("open")
@@ -203,6 +214,21 @@ def _mutes(rows: Sequence[_Row], played: PlayedPart, words: Sequence[tuple[int, 
             current = _how(own)
         found.append((row.onset, row.end, _how(own) if own else current))
     return found
+
+
+def _signed(rows: Sequence[_Row], words: Sequence[tuple[int, str]], others: Sequence[int]) -> Iterator[tuple[int, How]]:
+    """Places where "+" and "o" as words stop and open the bell: "+" holds until an "o" or other words, and where no "o"
+    follows only for the notes that begin with it."""
+    signs = [(tick, text.strip()) for tick, text in words if text.strip() in (STOPPED_SIGN, OPEN_SIGN)]
+    ends = sorted({tick for tick, _ in signs} | set(others))
+    onsets = sorted({row.onset for row in rows})
+    for place, (tick, sign) in enumerate(signs):
+        yield tick, "hand" if sign == STOPPED_SIGN else "open"
+        if sign == STOPPED_SIGN and OPEN_SIGN not in (text for _, text in signs[place + 1 : place + 2]):
+            after = bisect_left(onsets, tick) + 1
+            end = bisect_left(ends, tick + 1)
+            if after < len(onsets) and not (end < len(ends) and ends[end] <= onsets[after]):
+                yield onsets[after], "open"
 
 
 def _how(text: str) -> How:

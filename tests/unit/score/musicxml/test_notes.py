@@ -395,3 +395,14 @@ def test_parts_in_the_order_of_the_list(tmp_path: Path) -> None:
         (0, "Flute", [72]),
         (1, "Tuba", [36]),
     ]
+
+
+def test_a_plus_as_words_stops_a_note_and_all_as_far_as_an_o(tmp_path: Path) -> None:
+    bars = (
+        words("+") + note("C4", 8) + note("D4", 8),
+        words("+") + note("C4", 8) + note("D4", 4) + words("o") + note("E4", 4),
+    )
+    (stream,) = read(tmp_path, document(*bars, name="Horn in F")).channels
+    assert stream.stopped == ((0, 2 * Q), (4 * Q, 7 * Q))
+    assert read(tmp_path, document(*bars, name="Trombone")).channels[0].muted == stream.stopped
+    assert read(tmp_path, document(*bars, name="Flute")).channels[0].muted == ()
