@@ -167,7 +167,7 @@ class _Sorting:
         if shared.solos:
             marked = [note for note in notes if note.id in {*shared.solos}]
             self._warnings.append(about_notes("score.solos", part, marked, piece))
-        if len(mine) > 1:
+        if len(mine) > 1 and shared.together:
             self._warnings.append(about_notes("score.voices", part, shared.together, piece, voices=len(mine)))
         if len(mine) == MOST_VOICES and shared.left_out:
             self._warnings.append(about_notes("score.notes_left_out", part, shared.left_out, piece, most=len(mine)))
@@ -223,6 +223,7 @@ def _shared(
         most,
         least=players_named(chosen[0].name) if said is not None else 1,
         every_chord=assignment.split == "every",
+        in_turn=assignment.solos and bool(chosen[0].solos),
         unison=said is not None and not said.vague,
     )
     count = len(shared.voices)

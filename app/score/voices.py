@@ -99,6 +99,7 @@ def split_voices(
     least: int = 1,
     every_chord: bool = False,
     unison: bool = False,
+    in_turn: bool = False,
 ) -> TrackVoices:
     """Share the notes of one track among those who play it.
 
@@ -115,6 +116,8 @@ def split_voices(
         A player for every note that ever sounds together with others, however short.
     unison : bool
         The players are of one section: what one of them could play alone is played by all, if they move together.
+    in_turn : bool
+        Words say who of those whom the name counts plays: there are that many even if only one line is written.
     """
     if not notes:
         return TrackVoices([], [], [], [])
@@ -128,7 +131,8 @@ def split_voices(
             return alone._replace(unisons=[notes[place] for place in sorted(twins)])
     if deepest == 1:
         line, shortened = _legato(notes, spans, tempo_map)
-        return TrackVoices([line], [], [], shortened)
+        players = [line] + [()] * (min(least, most) - 1 if in_turn else 0)
+        return TrackVoices(_with_unisons(players, tempo_map) if len(players) > 1 else players, [], [], shortened)
     pitches = np.array([note.pitch for note in notes])
     struck_together = bool(np.any((np.diff(spans.onsets) <= CHORD_S) & (depths[1:] > 1)))
     count = max(deepest if every_chord else players_needed(spans, depths, pitches), least if struck_together else 1)

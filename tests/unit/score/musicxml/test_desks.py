@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
@@ -18,10 +19,10 @@ NAMES = ("C4", "D4", "E4", "F4", "G4", "A4", "B4", "C5", "D5")
 PITCHES = dict(zip(NAMES, (60, 62, 64, 65, 67, 69, 71, 72, 74), strict=True))
 
 
-def players(folder: Path, *measures: str) -> list[list[tuple[float, int]]]:
+def players(folder: Path, *measures: str, name: str = "Trumpet 1.2") -> list[list[tuple[float, int]]]:
     """Onsets in quarters and pitches of each player of a staff for two."""
     path = folder / "piece.musicxml"
-    path.write_text(document(*measures, name="Trumpet 1.2"), "utf-8")
+    path.write_text(document(*measures, name=name), "utf-8")
     contents, maps = read_contents(path), bundled_maps()
     score = import_project(contents, usual_rows(contents, maps), maps).score
     quarter = score.ticks_per_quarter
@@ -94,3 +95,24 @@ def test_each_player_has_their_voice_and_both_have_what_is_written_once(
         for who in (0, 1)
     ]
     assert players(tmp_path, *measures) == expected
+
+
+@pytest.mark.parametrize("name", ["Horn in F 1.2", "Horns 1+2", "Trumpet 1, 2"])
+@pytest.mark.parametrize(
+    ("said", "first", "second"),
+    [
+        (("1.", "a2", "solo", ""), [0, 1, 2, 3], [1]),
+        (("", "1.", "a2", "2."), [0, 1, 2], [0, 2, 3]),
+    ],
+)
+def test_two_players_of_one_line_play_as_the_words_say(
+    tmp_path: Path, name: str, said: tuple[str, ...], first: list[int], second: list[int]
+) -> None:
+    bars = [f"{words(text) if text else ''}{line('C4', 'D4')}" for text in said]
+    found = players(tmp_path, *bars, name=name)
+    assert [sorted({onset // 4 for onset, _ in one}) for one in found] == [first, second]
+    assert [len(one) for one in found] == [2 * len(first), 2 * len(second)]
+
+
+def test_one_line_without_such_words_is_of_one_player(tmp_path: Path) -> None:
+    assert len(players(tmp_path, line("C4"))) == 1
