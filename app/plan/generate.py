@@ -81,7 +81,10 @@ def frame_around(
     first_s = clock.seconds(float(first_tick))
     # The start is given in the tempo that begins, whatever the one before it is.
     given_s = min(preroll_beats, START_BEATS) * (clock.seconds(float(first_tick + beat)) - first_s)
-    start_s = first_s - max(first_s - clock.seconds(first_tick - preroll_beats * beat), PREROLL_LEAST_S, given_s)
+    preroll_s = clock.seconds(first_tick - preroll_beats * beat)
+    start_s = min(preroll_s, first_s - PREROLL_LEAST_S)
+    if first_s - start_s < given_s - 1e-6:
+        start_s = first_s - given_s
     return TimeFrame(start_s, clock.seconds(float(last_tick)) + AFTER_LAST_S)
 
 
