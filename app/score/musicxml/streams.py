@@ -194,7 +194,7 @@ def _is_brass(kind: str, name: str) -> bool:
 def _mutes(
     rows: Sequence[_Row], played: PlayedPart, words: Sequence[tuple[int, str]], *, brass: bool
 ) -> list[tuple[int, int, How]]:
-    """How a stream's notes are played: each by its own sign, else by the last words before it."""
+    """Ways in which a stream's notes are played: each by its own sign, else by the last words before it."""
     said: list[tuple[int, How]] = [(tick, how) for tick, text in words if (how := said_of_mute(text)) is not None]
     for tick, one in played.directions:
         if one.kind == "mute":
