@@ -10,7 +10,7 @@ import re
 import unicodedata
 from bisect import bisect_right
 from collections.abc import Callable
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import TypeAlias, overload
 
 import msgspec
@@ -41,8 +41,16 @@ def beat_ticks_at(beats: FeltBeats, ticks: npt.ArrayLike) -> IntArray:
     """Ticks of the beat that is felt at each of some ticks; before the first known one it is felt too."""
     if len(beats) == 1:
         return np.full(np.shape(ticks), beats[0][1])
-    starts, lengths = np.array(beats, np.int64).T
+    starts, lengths = _edges(beats)
     return np.asarray(lengths[np.maximum(np.searchsorted(starts, ticks, side="right") - 1, 0)])
+
+
+@lru_cache(maxsize=64)
+def _edges(beats: FeltBeats) -> IntArray:
+    """(2, N): where beats begin to be felt, and their ticks."""
+    edges = np.ascontiguousarray(np.array(beats, np.int64).T)
+    edges.flags.writeable = False
+    return edges
 
 
 class MetreMap(msgspec.Struct, frozen=True, dict=True):

@@ -211,8 +211,8 @@ def _cue(
     clock, tick, beat = piece.clock, entry.tick, beat_ticks(piece, entry.tick)
     end_s = clock.seconds(float(tick))
     beat_s = clock.seconds(float(tick + beat)) - end_s
-    beats = piece.metre_map.felt_between(tick - 2 * beat, tick + 1)
-    late = (tick - int(beats[np.searchsorted(beats, tick, side="right") - 1])) / beat
+    bar_tick = piece.metre_map.tick_of_bar(piece.metre_map.bar_of_tick(tick))
+    late = (tick - bar_tick) % piece.metre_map.felt_ticks_at(bar_tick) / beat
     peak_s = end_s - beat_s * (1.0 + (late if ON_BEAT < late < 1.0 - ON_BEAT else 0.0))
     start_s = peak_s - (LEAD_BEATS - 1.0) * beat_s
     arguments: dict[str, Argument] = {"leader_reason": why, "beat_s": round(beat_s, 3)}

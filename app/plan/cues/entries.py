@@ -107,7 +107,7 @@ def _stretches(times: NoteTimes) -> tuple[IntArray, IntArray]:
 
 
 def beat_ticks(piece: Piece, tick: int) -> int:
-    return int(piece.beat_ticks_at(np.array([tick]))[0])
+    return piece.metre_map.felt_ticks_at(tick)
 
 
 def played_together(piece: Piece, tick: int) -> int:

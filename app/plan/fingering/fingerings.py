@@ -64,6 +64,7 @@ def plan_fingerings(
     onset_s, end_s = times.onset_s.tolist(), times.played_end_s.tolist()
     chosen = list(zip(problem.pitch_index.tolist(), path.tolist(), strict=True))
     controls = _controls(problem, chosen, instrument)
+    glides_s = _glides_s(written.glides if problem.has_slide else (), onset_s)
     for index, (note, (row, column)) in enumerate(zip(notes, chosen, strict=True)):
         ranked = problem.table.choices[row]
         fingering = ranked[column]
@@ -89,7 +90,7 @@ def plan_fingerings(
             reason=reason,
             corrected=pinned,
             fingers=fingering.fingers,
-            glide_from_s=_glide_from_s(index, written.glides, onset_s) if problem.has_slide else None,
+            glide_from_s=glides_s.get(index),
         )
         events.append(_vented(event, ranked, instrument) if "attack" in fingering.tags and not pinned else event)
     of_notes = *_out_of_range(notes, times, instrument), *_early_starts(notes, problem, path)
@@ -129,11 +130,13 @@ def _searched(fingering: Fingering, first_choice: Fingering, in_trill: bool, ste
     return _reason(rule, fingering.label, (first_choice.label, round(step_s * 1000.0)))
 
 
-def _glide_from_s(index: int, glides: tuple[bool, ...], onset_s: Sequence[float]) -> float | None:
-    """The time from which a slide glides to a note; None where it does not."""
-    if not glides or not index or not glides[index - 1]:
-        return None
-    return onset_s[index - 1] + GLIDE_AFTER * (onset_s[index] - onset_s[index - 1])
+def _glides_s(glides: tuple[bool, ...], onset_s: Sequence[float]) -> dict[int, float]:
+    """The times from which a slide glides to a note, by the note."""
+    return {
+        index: onset_s[index - 1] + GLIDE_AFTER * (onset_s[index] - onset_s[index - 1])
+        for index in range(1, len(onset_s))
+        if glides and glides[index - 1]
+    }
 
 
 def _controls(

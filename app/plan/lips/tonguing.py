@@ -115,9 +115,12 @@ def plan_tongues(
 
 def _with_marks(written: WrittenMarks, kinds: list[Articulation]) -> list[Articulation]:
     """Return the articulation of each note, where it has a mark as this says; a sforzando is an accent."""
-    marked = [OF_MARK.get(mark, kind) for mark, kind in zip(written.stroke, kinds, strict=True)]
-    struck = written.struck.tolist()
-    return ["accent" if own and kind == "tongued" else kind for own, kind in zip(struck, marked, strict=True)]
+    marked = list(kinds)
+    if any(written.stroke):
+        marked = [OF_MARK.get(mark, kind) for mark, kind in zip(written.stroke, kinds, strict=True)]
+    for index in np.flatnonzero(written.struck).tolist():
+        marked[index] = "accent" if marked[index] == "tongued" else marked[index]
+    return marked
 
 
 def _write_strokes(

@@ -114,7 +114,9 @@ def louder_by(times: LineTimes) -> FloatArray:
     if len(loudness) < 2:
         return np.zeros(len(loudness))
     padded = np.pad(loudness, ACCENT_NOTES, mode="reflect" if len(loudness) > ACCENT_NOTES else "edge")
-    around = np.median(np.lib.stride_tricks.sliding_window_view(padded, 2 * ACCENT_NOTES + 1), axis=1)
+    windows = np.lib.stride_tricks.sliding_window_view(padded, 2 * ACCENT_NOTES + 1)
+    # Their medians, faster than by `np.median`.
+    around = np.partition(windows, ACCENT_NOTES, axis=1)[:, ACCENT_NOTES]
     return np.asarray(loudness - np.maximum(around, times.level))
 
 
