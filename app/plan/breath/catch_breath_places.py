@@ -98,7 +98,7 @@ def catch_places(line: ComparedLine, lungs: AirSupply, may: BoolArray, missing: 
         numbers = used[nodes].tobytes(), played_s[nodes].tobytes(), cost[places].tobytes(), air_s[places].tobytes()
         found, is_enough = cheapest_chain(*numbers, float(level[start]), lung_s, free_s)
         if (cost[places[list(found)]] >= BREAKING_COST).any():
-            found, is_enough = cheapest_chain(*numbers, float(level[start]), lung_s, free_s, AIR_STEPS)
+            found, is_enough = cheapest_chain(*numbers, float(level[start]), lung_s, free_s, steps=AIR_STEPS)
         return places[list(found)].tolist(), is_enough
 
     # Where the air lasts only a phrase's end is worth a breath, and in no rest: `rests_for_breath` says in which.
@@ -140,7 +140,7 @@ def _dropping_costs(line: ComparedLine, at: IntArray, dropped: IntArray, missing
 
 @lru_cache(maxsize=4096)
 def cheapest_chain(
-    used: bytes, played: bytes, cost: bytes, drawn: bytes, level: float, lung_s: float, free_s: float, steps: int = 1
+    used: bytes, played: bytes, cost: bytes, drawn: bytes, level: float, lung_s: float, free_s: float, *, steps: int = 1
 ) -> tuple[tuple[int, ...], bool]:
     """The places, and whether the air lasts with them.
 

@@ -121,6 +121,6 @@ def test_no_more_slurs_are_broken_than_by_the_best_of_all_ways_to_breathe(data: 
 
     every = chain.from_iterable(combinations(range(count), size) for size in range(count + 1))
     least = min((broken(places) for places in every if lasts(places)), default=None)
-    found, is_enough = cheapest_chain(*numbers, 1.0, float(lung_s), 0.0, AIR_STEPS)
+    found, is_enough = cheapest_chain(*numbers, 1.0, float(lung_s), 0.0, steps=AIR_STEPS)
     assert is_enough == lasts(found)
     assert (broken(found) if is_enough else None) == least
