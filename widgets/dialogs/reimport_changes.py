@@ -237,7 +237,7 @@ class ReimportChanges(Retranslated, QWidget):
         for kind in KINDS:
             count = sum(change.count for change in row.shown if change.kind == kind)
             if count:
-                found.append(tr(f"reimport_dialog.count_{kind}").format(count=count))
+                found.append(tr(f"reimport_dialog.count.{kind}").format(count=count))
         return tr("reimport_dialog.and").join(found)
 
     def _texts(self, row: _Row, change: PartChange) -> tuple[str, str]:
@@ -255,7 +255,7 @@ class ReimportChanges(Retranslated, QWidget):
             for note in (before, after)
         )
         if before is None or after is None:
-            return place, tr(f"reimport_dialog.note_{change.kind}").format(pitch=pitch or pitch_now)
+            return place, tr(f"reimport_dialog.note.{change.kind}").format(pitch=pitch or pitch_now)
         if change.kind == "moved":
             several = "notes" if change.count > 1 else "note"
             distance = _distance(change, former, now, self._scale)
@@ -290,11 +290,11 @@ def _mark_text(before: Note | Mark | None, now: Note | Mark | None) -> str:
     name = mark_name(mark.kind)
     named_so = f"{name} {mark.text}".rstrip()
     if before is None or now is None:
-        return tr(f"reimport_dialog.mark_{'added' if before is None else 'removed'}").format(mark=named_so)
+        return tr(f"reimport_dialog.mark.{'added' if before is None else 'removed'}").format(mark=named_so)
     assert isinstance(now, Mark)
     if now.text != mark.text:
         return f"{named_so} → {now.text}"
-    return tr("reimport_dialog.mark_changed").format(mark=named_so)
+    return tr("reimport_dialog.mark.changed").format(mark=named_so)
 
 
 def _distance(change: PartChange, former: MetreMap, now: MetreMap, scale: Fraction) -> str:
