@@ -70,6 +70,7 @@ class ReimportChanges(Retranslated, QWidget):
         self._tree.setAllColumnsShowFocus(True)
         self._filter = named(Combo(), "reimport_filter")
         options = {_ALL: "reimport_dialog.all_changes"} | {kind: f"reimport_dialog.only_{kind}" for kind in KINDS}
+        self._filter.setSizeAdjustPolicy(Combo.SizeAdjustPolicy.AdjustToContents)
         self.texted(self._filter, options=options)
         self._filter.show_option(_ALL)
         self._filter.chosen.connect(self._apply_filter)
