@@ -72,8 +72,10 @@ def written_bends(notes: Sequence[Note], marks: Sequence[Mark], clock: TempoMap)
     for mark in marks:
         if mark.kind in WRITTEN_BENDS:
             kinds.setdefault(mark.note_id, set()).add(mark.kind)
+    if not kinds or not notes:
+        return None
     onsets = [note.onset_tick for note in notes]
-    steps: dict[float, float] = {0.0: 0.0} if kinds else {}
+    steps = {0.0: 0.0}
     for note, following in zip(notes, [*onsets[1:], np.inf], strict=True):
         start_s, end_s = (clock.seconds(float(at)) for at in (
             note.onset_tick, min(note.onset_tick + note.duration_tick, following)))  # fmt: skip
@@ -87,7 +89,5 @@ def written_bends(notes: Sequence[Note], marks: Sequence[Mark], clock: TempoMap)
                 steps[float(clock.ticks(begins_s + length_s * step / _STEPS))] = WRITTEN_BENDS[kind] * share
             if into:
                 steps[float(clock.ticks(begins_s + length_s))] = 0.0
-    if not kinds:
-        return None
     ticks = np.array(sorted(steps), np.float64)
     return ControllerSteps(ticks, np.array([steps[tick] for tick in ticks.tolist()]))

@@ -469,7 +469,7 @@ class Day(RuleBasedStateMachine):
     def applied(self, project: Project) -> None:
         before = self.document.project
         self.document.apply(NAME, project)
-        if project is not before:
+        if project != before:
             self.past.append(before)
             self.future.clear()
 

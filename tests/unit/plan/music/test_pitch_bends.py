@@ -6,8 +6,10 @@ import numpy as np
 import pytest
 
 from app.plan.music.piece import ControllerSteps
-from app.plan.music.pitch_bends import bends
+from app.plan.music.pitch_bends import bends, written_bends
+from app.score.marks import Mark
 from app.score.model import Note
+from app.score.tempo import TempoMap
 
 NOTE = Note("1:1", 480, 480, 67, 80)
 
@@ -47,3 +49,11 @@ def test_a_bend_counts_until_the_next_note_begins() -> None:
     curve = steps((0, 0.0), (890, 0.0), (900, -0.9), (1000, 0.0))
     assert bends([NOTE, following], curve) == [(), ("scoop",)]
     assert bends([NOTE, following], None) == [(), ()]
+
+
+def test_a_mark_whose_note_is_gone_bends_nothing() -> None:
+    fall = (Mark("fall", "1:9"),)
+    assert written_bends((), fall, TempoMap(480)) is None
+    alone = written_bends((NOTE,), fall, TempoMap(480))
+    assert alone is not None
+    assert not alone.values.any()
