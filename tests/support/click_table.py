@@ -21,22 +21,22 @@ BESIDES: Final = frozenset(
 _LINES: Final = """
 # The start page, the status line and the title of the window
 start_open = asked
-start_new = file page panels project + lanes
-start_example, start_danced_example = file page players project + dancer panels
+start_new = file page panels project + lanes view
+start_example, start_danced_example = file page players project + dancer panels view
 midi_device, stream_state = dialog
 palette_button = palette popup
-problems = selection + players
+problems = selection + players view
 notice = popup
 dismiss_notice = status
 
 # The menu of files
-file.new = project + asked file page panels players selection recording tool
+file.new = project + asked file page panels players selection recording tool view
 file.open, file.import_midi, file.add_character, file.save, file.save_as, file.reimport_other = asked
 file.add_audio, file.add_video, file.export_midi, file.save_metadata, file.load_metadata = asked
 file.compare_metadata, file.metadata_folder = asked
-file.open_example, file.open_danced_example = project + asked file page players panels selection dancer lanes
+file.open_example, file.open_danced_example = project + asked file page players panels selection dancer lanes view
 file.reimport, file.rules, file.piece_settings, file.evaluation, file.evaluation_results = dialog
-file.close = file page panels project + asked players selection dancer recording tool
+file.close = file page panels project + asked players selection dancer recording tool view
 export.files, export.playblast = dialog
 application.characters, application.instruments, application.preferences, application.shortcuts = dialog
 application.about, record.devices, record.latency, stream.settings, dancers.learn, dancers.choreography = dialog
@@ -99,6 +99,8 @@ workspace.reset ? lanes + panels workspace
 workspace.*, workspace_* ? workspace + lanes panels
 viewport_view_*, viewport.ensemble, viewport.front, viewport.side, viewport.top, viewport.hands ? view
 viewport.mouth, viewport.feet ? view
+viewport.other_side = turned
+viewport.follow_selection ? playhead
 viewport_pose, viewport.pose = posing
 viewport_frame, viewport.frame, viewport.frame_all = framed
 viewport.names, viewport.skeleton, viewport.contacts, viewport.wireframe, viewport_show > * = shown
@@ -119,7 +121,7 @@ take_swatch = popup
 take_beats, takes.find_beats ? notice + project
 takes.rename ? lanes
 takes.* ? project + selection
-problems.* ? selection + players
+problems.* ? selection + players view
 
 # The timeline
 zoom_out, zoom_in, fit, timeline.zoom_*, timeline.fit ? axis

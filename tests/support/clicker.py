@@ -23,7 +23,9 @@ Path = tuple[str, ...]
 """Names of an entry of a menu and of the submenus it is in, the entry last."""
 Open = Callable[[], QMenu | None]
 """Opens a menu as a user does; None: nothing came."""
-CALM = frozenset(("sought", "view", "framed", "shown", "posing", "sound", "time", "pitch", "ghosts", "tool", "follow"))
+CALM = frozenset(
+    ("sought", "view", "turned", "framed", "shown", "posing", "sound", "time", "pitch", "ghosts", "tool", "follow")
+)
 """What may stay changed before the next click."""
 NOTHING = frozenset(("unchanged",))
 TRIES = 4
@@ -129,6 +131,9 @@ def popup() -> QMenu | None:
 
 def menu_under(widget: QWidget, place: QPoint) -> QMenu | None:
     """Right-click a place; None: it has no context menu, or cannot be seen."""
+    # What was clicked before may have moved it out of sight.
+    mouse.bring_into_view(widget)
+    QApplication.processEvents()
     if not widget.visibleRegion().contains(place):
         return None
     mouse.move(widget, place)

@@ -57,8 +57,12 @@ def press(widget: QWidget, place: QPoint | None = None) -> None:
     AssertionError
         It is hidden, greyed out or out of sight.
     """
-    bring_into_view(widget)
-    QApplication.processEvents()
+    # Panels that a click before has resized are laid out again in some rounds.
+    for _ in range(20):
+        bring_into_view(widget)
+        QApplication.processEvents()
+        if not widget.visibleRegion().isEmpty():
+            break
     assert widget.isVisible(), "hidden"
     assert widget.isEnabled(), "greyed out"
     seen: QRect = widget.visibleRegion().boundingRect()

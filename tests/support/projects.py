@@ -11,6 +11,8 @@ from hypothesis import strategies as st
 from app.errors import Message
 from app.plan.by_hand.additive_curve import CHANNELS, INTERPOLATIONS, AdditiveCurve, CurveKey, Tangent
 from app.plan.by_hand.corrections import Correction
+from app.plan.by_hand.mark_corrections import OfMark
+from app.plan.music.written_dynamics import DYNAMIC_TEXTS
 from app.plan.parameters import PARAMETERS, Bounds, PlayerParameters
 from app.project import limits
 from app.project.casting import StagePosition
@@ -21,6 +23,7 @@ from app.project.performers import Dancer, Player
 from app.project.recording import AudioTrack
 from app.project.video import VideoTrack
 from app.score.limits import too_long
+from app.score.marks import MARK_KINDS
 from app.score.metre_map import Metre
 from app.score.model import ControllerCurve, Note, Part, PercussionHit, Score, UnplayedPart
 from app.score.tempo import TempoChange, TempoMap
@@ -200,8 +203,27 @@ def corrections(draw: st.DrawFn) -> Correction:
             values[field.name] = draw(st.booleans())
         elif field.required:
             values[field.name] = draw(st.from_type(field.type))
+    if issubclass(struct, OfMark):
+        values |= draw(_mark_anchors(values["kind"]))
+        values = {name: value for name, value in values.items() if name in struct.__struct_fields__}
     made: Correction = struct(**values)
     return made
+
+
+@st.composite
+def _mark_anchors(draw: st.DrawFn, kind: str) -> dict[str, object]:
+    """Anchors and text of a mark, as its kind has them."""
+    anchor = MARK_KINDS[kind].anchor
+    at_tick = anchor in ("place", "span")
+    note = st.none() if at_tick else st.text("0123456789:", min_size=1, max_size=8)
+    tick = ticks if at_tick else st.none()
+    return {
+        "note_id": draw(note),
+        "last_note_id": draw(note) if anchor == "notes" else None,
+        "start_tick": draw(tick.map(lambda at: None if at is None else abs(at))),
+        "end_tick": draw(tick.map(lambda at: None if at is None else abs(at))),
+        "text": draw(st.sampled_from(DYNAMIC_TEXTS)) if kind == "dynamic" else draw(texts),
+    }
 
 
 marks = st.builds(

@@ -80,10 +80,11 @@ class Watcher:
         stage = child(program.window, StageView)
         both = child(program.window, QToolButton, "expression_both")
         self._stage, self._both = stage, both
-        self._told = dict.fromkeys(("copied", "framed", "notice", "sought", "viewed"), 0)
+        self._told = dict.fromkeys(("copied", "framed", "notice", "sought", "turned", "viewed"), 0)
         for name, signal in (
             ("framed", session.viewport.framed),
             ("viewed", session.viewport.viewed),
+            ("turned", session.viewport.turned),
             ("notice", session.noticed),
             ("copied", QApplication.clipboard().dataChanged),
             ("sought", session.playhead_changed),
@@ -137,6 +138,7 @@ class Watcher:
             "shown": tuple(session.viewport.shows(what) for what in ("wireframe", "skeleton", "contacts", "names")),
             "posing": session.viewport.posing,
             "framed": self._told["framed"],
+            "turned": self._told["turned"],
             "notice": self._told["notice"],
             "dialog": _dialogs(),
             "popup": _popup(),
@@ -147,7 +149,7 @@ class Watcher:
             "palette": window.palette_popup.isVisible(),
             "status": window.status.notice_text,
             "lanes": repr(timeline.lane_layout.state),
-            "axis": (timeline.axis.start_s, timeline.axis.span_s),
+            "axis": (timeline.axis.start_s, timeline.axis.span_s, timeline.lanes["roll"].row_px),
             "tool": timeline.tool,
             "ghosts": timeline.ghosts,
             "quantise": timeline.quantise.isVisible(),
