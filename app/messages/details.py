@@ -88,6 +88,8 @@ _JAPANESE: Final = tuple(
         (r"unknown key", "この項目はありません"),
         (r"must be one of (.*)", r"使える値: \1"),
         (r"is needed by (.*)", r"\1 に必要です"),
+        (r"changes must be ordered by tick", "変更はティック順に並べる必要があります"),
+        (r"must be a kind of mute", "ミュートの種類を指定してください"),
         (r"is not used by (.*)", r"\1 では使いません"),
         (
             r"must be the path of a (\S+) file or the name of a bundled choreography",
