@@ -149,7 +149,7 @@ class Watcher:
             "palette": window.palette_popup.isVisible(),
             "status": window.status.notice_text,
             "lanes": repr(timeline.lane_layout.state),
-            "axis": (timeline.axis.start_s, timeline.axis.span_s, timeline.lanes["roll"].row_px),
+            "axis": (timeline.axis.start_s, timeline.axis.span_s, timeline.roll.row_px),
             "tool": timeline.tool,
             "ghosts": timeline.ghosts,
             "quantise": timeline.quantise.isVisible(),
