@@ -85,14 +85,14 @@ def written_choice(text: str, choices: Sequence[Fingering], controls: Iterable[C
         lever = next((control.label.casefold() for control in pitch if control.kind == "lever" and control.label), "")
         if lever and signs[:1] in _FIRST_LEVER and signs[1:]:
             signs = lever + signs[1:]
-    wanted = _signs(signs.translate(_OPEN_SIGNS))
-    found = _only(place for place, one in enumerate(choices) if _signs(one.label.casefold()) == wanted)
-    if found is not None or not all(sign.isdigit() for sign in wanted):
+    written = _signs(signs.translate(_OPEN_SIGNS))
+    found = _only(place for place, one in enumerate(choices) if _signs(one.label.casefold()) == written)
+    if found is not None or not all(sign.isdigit() for sign in written):
         return found
     alike = (
         place
         for place, one in enumerate(choices)
-        if not one.is_obsolete and [sign for sign in _signs(one.label) if sign.isdigit()] == wanted
+        if not one.is_obsolete and [sign for sign in _signs(one.label) if sign.isdigit()] == written
     )
     return _only(alike)
 
