@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Final
 
 from app.cli.bars import add_bar_options, requested_bars, requested_span
 from app.cli.options import (
+    add_ignored_option,
     add_players_option,
     add_rate_option,
     add_source_options,
@@ -78,6 +79,7 @@ def add_arguments(command: argparse.ArgumentParser) -> None:
     add_players_option(command, "only this player or dancer; repeatable")
     _add_skeleton_options(command)
     _add_content_options(command)
+    add_ignored_option(command)
     command.add_argument(
         "--jobs",
         type=jobs,
@@ -271,6 +273,7 @@ def _request(
         dancers=tuple(project.dancers[index - count] for index in chosen if index >= count),
         processes=arguments.jobs,
         keys=arguments.keys,
+        with_ignored=arguments.ignored,
     )
 
 

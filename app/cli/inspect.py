@@ -11,7 +11,7 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from app.cli.options import add_rate_option, add_source_options, add_title_option, open_project
+from app.cli.options import add_ignored_option, add_rate_option, add_source_options, add_title_option, open_project
 from app.cli.progress import find_holds
 from app.cli.status import report_left_out
 from app.cli.summary import columns, look_at
@@ -24,12 +24,12 @@ from app.performance.cast import attempt
 from app.performance.ensemble import Performance
 from app.performance.fact_sources import FACTS, breath_source, note_sources, tempo_source
 from app.performance.loudness import controller_input
-from app.performance.performance_problems import all_problems
+from app.performance.performance_problems import all_problems, reported_lines
 from app.plan.by_hand.events import AdditiveEvent, PoseEvent, StyleEvent
 from app.plan.kinds import BREATH_KINDS
 from app.plan.model import BreathEvent, CueEvent, ExpressionEvent, FingeringEvent, GestureEvent, MuteEvent, TongueEvent
 from app.plan.music.pitch_bends import WRITTEN_BENDS, bends
-from app.plan.problem_lines import problem_lines, with_notes_named
+from app.plan.problem_lines import with_notes_named
 from app.project.edit.marks import player_marks
 from app.project.performers import Dancer, Player
 from app.score.marks import Mark
@@ -54,6 +54,7 @@ def add_arguments(command: argparse.ArgumentParser) -> None:
     add_source_options(command)
     add_title_option(command)
     add_rate_option(command)
+    add_ignored_option(command)
     command.add_argument("--json", action="store_true", help="print one JSON object instead of tables")
     contacts = command.add_mutually_exclusive_group()
     contacts.add_argument(
@@ -83,7 +84,12 @@ def _inspect(arguments: argparse.Namespace) -> int:
     performance = Performance(open_project(arguments))
     if not arguments.no_contacts:
         find_holds(performance, performance.project.players)
-    found = inspection(performance, contacts=not arguments.no_contacts, without_limit=arguments.all_contacts)
+    found = inspection(
+        performance,
+        contacts=not arguments.no_contacts,
+        without_limit=arguments.all_contacts,
+        with_ignored=arguments.ignored,
+    )
     if arguments.json:
         say_json(found)
     else:
@@ -91,7 +97,9 @@ def _inspect(arguments: argparse.Namespace) -> int:
     return report_left_out((one["player"], one["reason"]) for one in found["left_out"])
 
 
-def inspection(performance: Performance, *, contacts: bool = True, without_limit: bool = False) -> Table:
+def inspection(
+    performance: Performance, *, contacts: bool = True, without_limit: bool = False, with_ignored: bool = False
+) -> Table:
     """Everything ``inspect --json`` prints: seconds are the performance's, beats are quarters from tick 0.
 
     Parameters
@@ -100,6 +108,8 @@ def inspection(performance: Performance, *, contacts: bool = True, without_limit
         Whether all motion is generated to check what the bodies reach.
     without_limit : bool
         Whether it is of every player at the usual rate, however long that takes.
+    with_ignored : bool
+        Whether ignored problems are among the warnings.
     """
     project = performance.project
     score, place = project.score, project.conducting
@@ -110,6 +120,11 @@ def inspection(performance: Performance, *, contacts: bool = True, without_limit
         problems, notice = all_problems(performance, project.players, without_limit)
     else:
         problems, notice = {player.id: performance.problems(player.id) for player in project.players}, None
+    reported = [
+        (player, *reported_lines(performance, player, problems[player.id], text, with_ignored))
+        for player in project.players
+        if player.id not in absent
+    ]
     return {
         "title": score.title,
         "fps": float(project.fps),
@@ -132,13 +147,9 @@ def inspection(performance: Performance, *, contacts: bool = True, without_limit
         "warnings": [
             *(text(message) for message in score.warnings),
             *([] if notice is None else [text(notice)]),
-            *(
-                f"{player.name}: {line}"
-                for player in project.players
-                if player.id not in absent
-                for line in problem_lines(problems[player.id], score, text, player.part_id)
-            ),
+            *(f"{player.name}: {line}" for player, lines, _ in reported for line in lines),
         ],
+        "ignored_problems": sum(ignored for _, _, ignored in reported),
         "unplayed": [
             {"name": part.name, "reason": text(part.reason), "note_count": part.note_count} for part in score.unplayed
         ],
@@ -346,7 +357,7 @@ def tables(file: str, found: Table) -> list[str]:
         lines += [
             f"  {part['name']} ({_counted(part['note_count'], 'note')}): {part['reason']}" for part in found["unplayed"]
         ]
-    return [*lines, *look_at(found["warnings"])]
+    return [*lines, *look_at(found["warnings"], found["ignored_problems"])]
 
 
 def _tempo(tempos: list[Table]) -> str:

@@ -244,6 +244,13 @@ def add_source_options(command: argparse.ArgumentParser) -> None:
     )
 
 
+def add_ignored_option(command: argparse.ArgumentParser) -> None:
+    """Add the option that lists ignored problems."""
+    command.add_argument(
+        "--ignored", action="store_true", help="also list the problems that the project ignores, not only their number"
+    )
+
+
 def add_title_option(command: argparse.ArgumentParser) -> None:
     """Declare the title, for commands whose result has one."""
     command.add_argument(

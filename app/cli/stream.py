@@ -8,7 +8,15 @@ import time
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Final
 
-from app.cli.options import add_players_option, add_source_options, bounded_number, frame_rate, open_project, seconds
+from app.cli.options import (
+    add_ignored_option,
+    add_players_option,
+    add_source_options,
+    bounded_number,
+    frame_rate,
+    open_project,
+    seconds,
+)
 from app.cli.progress import Progress, find_holds
 from app.cli.status import report_left_out
 from app.cli.summary import look_at
@@ -73,6 +81,7 @@ def add_arguments(command: argparse.ArgumentParser) -> None:
     command.add_argument(
         "--from", dest="from_s", type=seconds, metavar="S", help="begin here, in seconds (default: the beginning)"
     )
+    add_ignored_option(command)
     command.add_argument("--loop", action="store_true", help="begin again at the end")
     command.set_defaults(run=stream)
 
@@ -130,7 +139,8 @@ def stream(arguments: argparse.Namespace) -> int:
             _Streamed(performance, one, made[one.id], _beside(performance, one, playing.made), span, arguments, alone)
             for one in sent
         ]
-        say(*look_at([line for streamed in cast for line in streamed.warnings])[1:], stream=sys.stderr)
+        warnings = [line for streamed in cast for line in streamed.warnings]
+        say(*look_at(warnings, sum(streamed.ignored for streamed in cast))[1:], stream=sys.stderr)
         for one, sender in zip(sent, senders, strict=True):
             say(f"{one.name}: {arguments.host}:{sender.address.at[1]}")
         if not is_loopback(arguments.host):
@@ -178,12 +188,12 @@ class _Streamed:
     ) -> None:
         from app.performance.cast import Performer
         from app.performance.motion import player_motion
-        from app.performance.performance_problems import judged_problems
-        from app.plan.problem_lines import problem_lines
+        from app.performance.performance_problems import judged_problems, reported_lines
         from app.stream.vmc import IN_THE_MIDDLE, Sent
 
         progress = Progress(sys.stderr)
         self.warnings: list[str] = []
+        self.ignored = 0
         try:
             if isinstance(made, Performer):
                 self._motion: Motion = player_motion(
@@ -196,7 +206,8 @@ class _Streamed:
             played = [(made, self._motion)] if isinstance(made, Performer) else []
             for one, motion in [*played, *zip(beside, self._beside, strict=True)]:
                 found = judged_problems(performance, one, motion)
-                lines = problem_lines(found, performance.project.score, text, one.player.part_id)
+                lines, left = reported_lines(performance, one.player, found, text, arguments.ignored)
+                self.ignored += left
                 self.warnings += [f"{one.player.name}: {line}" for line in lines]
         finally:
             progress.clear()

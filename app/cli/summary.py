@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Final
 
 from app.contacts.bounds import GRIP_MM, TOUCH_MM, Spread
 from app.encoding import shown
+from app.errors import Message
 from app.export.measure import PlayerMeasures
 from app.export.report import (
     BONES_BOUND_MM,
@@ -135,12 +136,16 @@ def _judgement(report: Report) -> list[str]:
             f"  {part.name} ({filled('{count} {count:note|notes}', {'count': part.note_count})}): {part.reason}"
             for part in report.unplayed
         ]
-    return [*lines, *look_at(report.warnings)]
+    return [*lines, *look_at(report.warnings, report.ignored_problems)]
 
 
-def look_at(warnings: Sequence[str]) -> list[str]:
-    """Warnings to look at, after an empty line; nothing if there are none."""
-    return ["", "to look at:", *(f"  {warning}" for warning in warnings)] if warnings else []
+def look_at(warnings: Sequence[str], ignored: int = 0) -> list[str]:
+    """Warnings to look at, after an empty line, and the number of ignored problems that are not among them; nothing if
+    there are none of either."""
+    lines = ["to look at:", *(f"  {warning}" for warning in warnings)] if warnings else []
+    if ignored:
+        lines.append(f"{text(Message('problem.ignored', {'count': ignored}))} (--ignored)")
+    return ["", *lines] if lines else []
 
 
 def columns(rows: Iterable[tuple[str, ...]], of_numbers: bool = True, names: int = 1) -> list[str]:

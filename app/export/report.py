@@ -217,6 +217,8 @@ class Report(msgspec.Struct, frozen=True):
     """Missing content of the piece's file, which was read as far as it goes; also among the warnings."""
     keys: KeyChoice = "every"
     """Frames that have keys; their number is reported for each performer."""
+    ignored_problems: int = 0
+    """Problems that the project ignores; they are not among the warnings."""
 
     @property
     def file_count(self) -> int:

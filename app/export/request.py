@@ -66,6 +66,8 @@ class ExportRequest:
         File of the asset that the animation is for: every player's skeleton is compared with its.
     keys : KeyChoice
         Which frames have keys, in formats that can leave out some.
+    with_ignored : bool
+        Whether problems that the project ignores are among the report's warnings.
     """
 
     performance: Performance
@@ -85,6 +87,7 @@ class ExportRequest:
     stage: bool = False
     processes: int | None = None
     keys: KeyChoice = "every"
+    with_ignored: bool = False
 
 
 @dataclass(frozen=True, eq=False)

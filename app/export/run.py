@@ -29,7 +29,7 @@ from app.export.report import (
 from app.export.request import ExportCast, ExportRequest, cast_of
 from app.export.stage import write_stage
 from app.formats.atomic import atomic_write
-from app.plan.problem_lines import problem_lines
+from app.performance.performance_problems import reported_lines
 from app.score.chunks import INCOMPLETE
 
 Progress = Callable[[float, str], None]
@@ -147,15 +147,14 @@ def _report(
     wording: Callable[[Message], str],
 ) -> Report:
     project, span = request.performance.project, request.span
-    warnings = [
-        f"{player.name}: {line}"
-        for musician in cast.musicians
-        for player in (performer.player for performer in musician.performers)
-        for line in (
-            *(map(wording, musician.checked.messages) if player is musician.player else ()),
-            *problem_lines(players[musician.player.id].problems[player.id], project.score, wording, player.part_id),
-        )
-    ]
+    warnings, ignored = list[str](), 0
+    for musician in cast.musicians:
+        for player in (performer.player for performer in musician.performers):
+            own = map(wording, musician.checked.messages) if player is musician.player else ()
+            found = players[musician.player.id].problems[player.id]
+            lines, left = reported_lines(request.performance, player, found, wording, request.with_ignored)
+            warnings += [f"{player.name}: {line}" for line in (*own, *lines)]
+            ignored += left
     rate = span.fps
     return Report(
         version=request.creator,
@@ -178,4 +177,5 @@ def _report(
         dancers=dancers,
         stage=stage,
         keys=request.keys,
+        ignored_problems=ignored,
     )

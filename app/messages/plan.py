@@ -12,6 +12,7 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         "{problem}; the same kind occurs {count} more {count:time|times}: {places}",
         "{problem}。同じ種類がほかに {count} 件: {places}",
     ),
+    "problem.ignored": ("{count} {count:problem|problems} ignored", "無視した問題 {count} 件"),
     "doubling.rest_short": (
         ("the rest of {rest_s:g} s is too short to change from {before} to {after}; about {needed_s:g} s are needed"),
         "{before} から {after} への持ち替えには {rest_s:g} 秒の休みでは短すぎます。約 {needed_s:g} 秒必要です",

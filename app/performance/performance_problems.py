@@ -20,6 +20,8 @@ from app.performance.ensemble import Performance
 from app.performance.motion import CHUNK, playing_of
 from app.performance.span import whole_span
 from app.plan.model import Problem
+from app.plan.problem_lines import Wording, problem_lines
+from app.project.ignored_problems import split_by_ignored
 from app.project.performers import Player
 
 WHOLE_FRAMES: Final = 120_000
@@ -140,6 +142,28 @@ def _notice(
         last = groups[judged - 1][-1].player.name
         return Message("judged.some", {**said, "judged": sum(map(len, groups[:judged])), "last": last})
     return Message("judged.sparsely", said) if rate < float(performance.project.fps) / usual else None
+
+
+def reported_lines(
+    performance: Performance,
+    player: Player,
+    problems: tuple[Problem, ...],
+    wording: Wording,
+    with_ignored: bool = False,
+) -> tuple[list[str], int]:
+    """Lines of a report for a player's problems, and the number of those left out because the project ignores them.
+
+    Parameters
+    ----------
+    problems : tuple of Problem
+        All of the player, as `judged_problems` finds them.
+    with_ignored : bool
+        Leave none out.
+    """
+    project = performance.project
+    ignored = () if with_ignored else project.ignored_problems.get(player.id, ())
+    counted, left = split_by_ignored(problems, ignored, project.score.tempo_map)
+    return problem_lines(counted, project.score, wording, player.part_id), len(left)
 
 
 def judged_problems(performance: Performance, performer: Performer, motion: Motion) -> tuple[Problem, ...]:

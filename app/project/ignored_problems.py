@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from typing import Annotated
 
 import msgspec
@@ -40,6 +40,11 @@ def ignored_problem(problem: Problem, clock: TempoMap) -> IgnoredProblem:
     tick = 0 if problem.note_id is not None else round(clock.ticks(problem.start_s))
     body_part = " ".join(named)[:200]
     return IgnoredProblem(problem.message.id, problem.note_id or "", body_part, min(max(tick, -LAST_TICK), LAST_TICK))
+
+
+def moved_ignored(ignored: IgnoredProblem, place: Callable[[int], int]) -> IgnoredProblem:
+    """The same problem after its music was moved: ``place`` maps former ticks to ticks."""
+    return ignored if ignored.note_id else msgspec.structs.replace(ignored, tick=place(ignored.tick))
 
 
 def is_ignored(problem: Problem, ignored: Iterable[IgnoredProblem], clock: TempoMap) -> bool:

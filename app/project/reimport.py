@@ -43,6 +43,7 @@ from app.project.ids import (
     fresh_part_ids,
     fresh_player_ids,
 )
+from app.project.ignored_problems import moved_ignored
 from app.project.import_decisions import Place
 from app.project.importing import score_of_rows
 from app.project.kept_parts import keeping, moved_part, read_curves_of
@@ -260,12 +261,16 @@ def _with_players(
         The ids of parts that the file does not have, by their former ones.
     """
     corrections: dict[str, tuple[Correction, ...]] = {}
+    ignored = {id: tuple(moved_ignored(one, everywhere) for one in own) for id, own in project.ignored_problems.items()}
     for player in project.players:
-        own = project.corrections.get(player.id, ())
-        if own:
+        own, let_be = project.corrections.get(player.id, ()), project.ignored_problems.get(player.id, ())
+        if own or let_be:
             here = None if found.still else found.places.get(player.part_id)
             place = place_map(here, scale) if here else everywhere
+        if own:
             corrections[player.id] = tuple(moved_correction(correction, {}, place, scale) for correction in own)
+        if let_be:
+            ignored[player.id] = tuple(moved_ignored(one, place) for one in let_be)
     whole = msgspec.structs.replace(score, title=project.score.title, parts=tuple(parts))
     danced = {
         dancer: tuple(moved_correction(correction, {}, everywhere, scale) for correction in own)
@@ -279,6 +284,7 @@ def _with_players(
         ),
         corrections=corrections,
         dance_corrections=danced,
+        ignored_problems=ignored,
         audio=project.audio if project.audio is None or found.still else with_places(project.audio, everywhere),
     )
 

@@ -121,12 +121,19 @@ def write(
         written = export_into(request, project, message_text, stop_requested, progress)
         kept = tuple(message_text(message) for message in written.plan.kept)
         folder = project.folder / written.plan.layout.sources
-        warnings = kept + written.report.warnings
+        warnings = kept + _warnings(written.report)
         return Done(
             len(written.plan.written), folder, _left_out(written.report), warnings, project, bool(written.plan.plugin)
         )
     report = export(request, message_text, stop_requested, progress)
-    return Done(report.file_count, request.folder, _left_out(report), report.warnings)
+    return Done(report.file_count, request.folder, _left_out(report), _warnings(report))
+
+
+def _warnings(report: Report) -> tuple[str, ...]:
+    """Warnings of a report, after the number of the problems that the project ignores."""
+    if not report.ignored_problems:
+        return report.warnings
+    return message_text(Message("problem.ignored", {"count": report.ignored_problems})), *report.warnings
 
 
 def _left_out(report: Report) -> tuple[Message, ...]:

@@ -12,6 +12,7 @@ from app.editor.problem_fixes import ProblemFix, fixed, fixes_of
 from app.editor.problems import go_to_problem
 from app.editor.session import Session
 from app.errors import Message
+from app.messages import filled
 from app.plan.model import Problem
 from app.plan.problem_lines import problems_by_kind
 from app.project.edit.ignored_problems import ignore, unignore
@@ -222,7 +223,7 @@ class ProblemList(Retranslated, QWidget):
         return fixes_of(project, *row) if self._session.performance.project is project else ()
 
     def _fix_text(self, fix: ProblemFix, problems: tuple[Problem, ...]) -> str:
-        return self.tr(fix.text_id).format(count=len(problems))
+        return filled(self.tr(fix.text_id), {"count": len(problems)})
 
     def _fix_first(self) -> None:
         chosen = self._chosen()

@@ -58,12 +58,13 @@ def add_dancer(project: Project, choreography: str | os.PathLike[str], name: str
 
 
 def remove_dancers(project: Project, dancer_ids: Collection[str]) -> Project:
-    """Send dancers away, with their corrections."""
+    """Send dancers away, with their corrections and ignored problems."""
     kept = tuple(dancer for dancer in project.dancers if dancer.id not in dancer_ids)
     if len(kept) == len(project.dancers):
         return project
     corrections = {id: items for id, items in project.dance_corrections.items() if id not in dancer_ids}
-    return replace(project, dancers=kept, dance_corrections=corrections)
+    ignored = {id: items for id, items in project.ignored_problems.items() if id not in dancer_ids}
+    return replace(project, dancers=kept, dance_corrections=corrections, ignored_problems=ignored)
 
 
 def duplicate_dancers(project: Project, dancer_ids: Collection[str]) -> tuple[Project, tuple[str, ...]]:
