@@ -157,12 +157,14 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
     ),
     "score.stray_notes": (
         (
-            "{count} overlapping {count:note was|notes were} excluded, the first at {place} ({pitch}); "
-            "too few and too short for another player"
+            "{count} {count:note that overlaps others is|notes that overlap others are} left out, the first at {place} "
+            "({pitch}): too few and too short for a player of their own. All other notes of the part are played. To "
+            "keep {count:it|them}, set Overlapping notes to Split among players in the import dialog"
         ),
         (
-            "ほかの音と重なる {count} 音を除外しました（最初は {place} の {pitch}）。"
-            "別の奏者に分けるには少なく短いためです"
+            "ほかの音と重なる {count} 音を除きました（最初は {place} の {pitch}）。奏者を増やすには少なく短いためで、"
+            "パートのほかの音はすべて演奏されます。残すには、読み込みのダイアログで「重なる音」を"
+            "「複数の奏者で分担」にしてください"
         ),
     ),
     "score.slurred": (
@@ -178,9 +180,12 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
     "score.key_switches": (
         (
             "{count} {count:note|notes} far outside the range of the instrument {count:was|were} treated as key "
-            "{count:switch|switches}, the first at {place} ({pitch})"
+            "{count:switch|switches}, the first at {place} ({pitch}). All other notes of the part are played"
         ),
-        "楽器の音域から遠い {count} 音をキースイッチと見なしました（最初は {place} の {pitch}）",
+        (
+            "楽器の音域から遠い {count} 音をキースイッチと見なしました（最初は {place} の {pitch}）。"
+            "パートのほかの音はすべて演奏されます"
+        ),
     ),
     "score.voices": (
         (

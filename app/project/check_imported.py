@@ -9,6 +9,7 @@ from app.project import limits
 from app.project.fault import Fault, faults_of_bounds, id_faults, text_faults
 from app.project.import_decisions import MOST_ROWS, ImportDecisions, RowDecision, TrackMark
 from app.project.likeness import SKETCH, SKETCH_BITS
+from app.score.model import MOST_VOICES
 
 
 def import_faults(imported: ImportDecisions) -> Iterator[Fault]:
@@ -27,8 +28,10 @@ def import_faults(imported: ImportDecisions) -> Iterator[Fault]:
 def _row_faults(row: RowDecision, place: str) -> Iterator[Fault]:
     if not row.tracks:
         yield f"{place}.tracks", "must not be empty"
-    for field in ("map_id", "character_id"):
-        value = getattr(row, field)
+    if len(row.voice_maps) > MOST_VOICES:
+        yield f"{place}.voice_maps", f"at most {MOST_VOICES}"
+    ids = {f"voice_maps[{voice}]": map_id for voice, map_id in enumerate(row.voice_maps)}
+    for field, value in ({"map_id": row.map_id, "character_id": row.character_id} | ids).items():
         if value is not None:
             yield from id_faults(f"{place}.{field}", value)
     yield from text_faults(f"{place}.name", row.name)

@@ -71,6 +71,8 @@ class RowDecision(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
         As in `PartAssignment`; imports of earlier versions did not follow such words, and do not when read again.
     clean : bool
         As in `PartAssignment`; imports of earlier versions cleaned nothing, and do not when read again.
+    voice_maps : tuple of (str or None)
+        As in `PartAssignment`.
     """
 
     tracks: tuple[TrackMark, ...]
@@ -82,6 +84,7 @@ class RowDecision(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     character_id: str | None = None
     solos: bool = False
     clean: bool = False
+    voice_maps: tuple[str | None, ...] = ()
 
 
 class ImportDecisions(msgspec.Struct, frozen=True, forbid_unknown_fields=True):

@@ -77,7 +77,9 @@ def merged(rows: Sequence[ImportRow], places: Sequence[int]) -> tuple[ImportRow,
     first, *others = sorted(places)
     channels = tuple(channel for place in (first, *others) for channel in rows[place].assignment.channels)
     together = msgspec.structs.replace(
-        rows[first], assignment=msgspec.structs.replace(rows[first].assignment, channels=channels), requested=True
+        rows[first],
+        assignment=msgspec.structs.replace(rows[first].assignment, channels=channels, voice_maps=()),
+        requested=True,
     )
     gone = set(others)
     return tuple(together if place == first else row for place, row in enumerate(rows) if place not in gone)
@@ -117,7 +119,9 @@ def separated(rows: Sequence[ImportRow], place: int) -> tuple[ImportRow, ...]:
     """The rows with the one at a place taken apart into its tracks."""
     row = rows[place]
     alone = tuple(
-        msgspec.structs.replace(row, assignment=msgspec.structs.replace(row.assignment, channels=(channel,), name=""))
+        msgspec.structs.replace(
+            row, assignment=msgspec.structs.replace(row.assignment, channels=(channel,), name="", voice_maps=())
+        )
         for channel in row.assignment.channels
     )
     return (*rows[:place], *alone, *rows[place + 1 :])
@@ -174,8 +178,8 @@ def outcome_of(
 
 
 def automatic(assignment: PartAssignment) -> PartAssignment:
-    """The assignment without an instrument of its own: names, programs and ranges say which."""
-    return msgspec.structs.replace(assignment, map_id=None)
+    """The assignment without instruments of its own: names, programs and ranges say which."""
+    return msgspec.structs.replace(assignment, map_id=None, voice_maps=())
 
 
 def _unnamed(assignment: PartAssignment) -> PartAssignment:
@@ -273,4 +277,5 @@ def decision_of(row: ImportRow, marks: Iterable[TrackMark]) -> RowDecision:
         row.character_id,
         chosen.solos,
         chosen.clean,
+        chosen.voice_maps,
     )

@@ -84,7 +84,8 @@ def _with_stopped(raw: Raw) -> Raw:
     parts = [{**part, "stopped": [], "marks": [], "source": "sound"} for part in raw["score"]["parts"]]
     imported = raw["imported"]
     if imported is not None:
-        imported = {**imported, "rows": [{**row, "solos": False, "clean": False} for row in imported["rows"]]}
+        new = {"solos": False, "clean": False, "voice_maps": []}
+        imported = {**imported, "rows": [{**row, **new} for row in imported["rows"]]}
     return {**raw, "score": {**raw["score"], "parts": parts}, "imported": imported}
 
 

@@ -233,7 +233,14 @@ def _row(
     if not name and own[0].name != called[places[0]].name:
         name = called[places[0]].name
     assignment = PartAssignment(
-        tuple(places), map_id, name, decision.split, decision.written, decision.solos, decision.clean
+        tuple(places),
+        map_id,
+        name,
+        decision.split,
+        decision.written,
+        decision.solos,
+        decision.clean,
+        tuple(voice if voice in installed else None for voice in decision.voice_maps),
     )
     return ImportRow(assignment, decision.requested, decision.character_id)
 

@@ -37,6 +37,9 @@ class PartAssignment(msgspec.Struct, frozen=True):
         The tracks are takes: notes that were not meant are left out (`app.score.take_tracks`).
     solos : bool
         The track's words about who plays ("1. Solo", "a2") are followed.
+    voice_maps : tuple of (str or None)
+        The instrument maps of single players, from voice 0, where the track is split; None, and voices beyond: as of
+        the whole part.
     """
 
     channels: tuple[int, ...]
@@ -46,6 +49,7 @@ class PartAssignment(msgspec.Struct, frozen=True):
     written: bool = False
     solos: bool = True
     clean: bool = False
+    voice_maps: tuple[str | None, ...] = ()
 
 
 class Suggestion(msgspec.Struct, frozen=True):

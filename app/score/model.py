@@ -182,6 +182,10 @@ class Part(msgspec.Struct, frozen=True, dict=True):
         return max((note.end_tick for note in self.notes), default=0)
 
 
+_LEFT_OUT_OF_PARTS: Final = frozenset({"score.stray_notes", "score.key_switches"})
+"""Reasons for leaving out some notes of a part that is played."""
+
+
 class UnplayedPart(msgspec.Struct, frozen=True):
     """A part that no one plays, and why. Its last note ends at ``end_tick``.
 
@@ -194,6 +198,11 @@ class UnplayedPart(msgspec.Struct, frozen=True):
     note_count: int
     end_tick: int = 0
     sounding: tuple[tuple[int, int], ...] = ()
+
+    @property
+    def is_of_played_part(self) -> bool:
+        """True if only these notes of the part are left out, and the others have a player."""
+        return self.reason.id in _LEFT_OUT_OF_PARTS
 
 
 def sounding_spans(spans: Iterable[tuple[int, int]], quarter_ticks: int) -> tuple[tuple[int, int], ...]:

@@ -106,7 +106,10 @@ def instrument_warnings(
     warnings = []
     if found.how is not How.RANGE:
         warnings += _written_warnings(parts, maps, piece)
-    if assignment.map_id is not None:
+    # An instrument that the user chose is no guess.
+    own = assignment.voice_maps
+    parts = [part for voice, part in enumerate(parts) if voice >= len(own) or own[voice] is None]
+    if assignment.map_id is not None or not parts:
         return warnings
     if found.how is How.RANGE:
         return [*warnings, *(_range_warning(part, maps, piece) for part in parts)]

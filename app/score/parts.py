@@ -19,14 +19,16 @@ score.outside_ranges : lowest, highest
 score.unknown_instrument : lowest, highest
     "the instrument cannot be determined because the name is not understood ({lowest} to {highest}); select one"
 score.stray_notes : part, count, place, pitch
-    "{count} notes sound together with others, the first at ...; too few and too short for another player"
+    "{part}: {count} notes sound together with others, the first at ...; too few and too short for another player"
 score.key_switches : part, count, place, pitch
-    "{count} notes far from the instrument's range are key switches, the first at ..."
+    "{part}: {count} notes far from the instrument's range are key switches, the first at ..."
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+
+import msgspec
 
 from app.errors import Message, StopRequested, raise_if_stopped
 from app.score.assignments import PERCUSSION, PartAssignment, usual_assignments
@@ -120,7 +122,9 @@ class _Sorting:
         found = _found([self._streams[index] for index in own], assignment.map_id, maps)
         if found.unknown:
             return
-        read = [without_key_switches(self._streams[index], found, maps, self._piece.tempo_map) for index in own]
+        of_voices = [None if map_id is None else _map(map_id, maps) for map_id in assignment.voice_maps]
+        reached = msgspec.structs.replace(found, maps=(*found.maps, *filter(None, of_voices)))
+        read = [without_key_switches(self._streams[index], reached, maps, self._piece.tempo_map) for index in own]
         chosen = [channel for channel, _ in read]
         if any(places for _, places in read):
             found = _found(chosen, assignment.map_id, maps)
@@ -129,7 +133,7 @@ class _Sorting:
         notes.sort(key=lambda note: (note.onset_tick, note.pitch))
         shared = _shared(assignment, chosen, notes, self._piece.tempo_map, min(MOST_VOICES, room))
         name = assignment.name or chosen[0].name or chosen[0].instrument_name
-        mine = _parts(joined(chosen), name, found, shared.voices, assignment.written)
+        mine = _parts(joined(chosen), name, found, shared.voices, assignment.written, of_voices)
         part = mine[0].name
         self.parts += mine
         self._slurred += [(part, note) for note in shared.shortened]
@@ -262,12 +266,17 @@ def _found(chosen: Sequence[TrackChannel], map_id: str | None, maps: Sequence[Ma
     `require_map`."""
     found = candidates(chosen, maps)
     if map_id is not None:
-        by_id = {choice.map_id: choice for choice in maps}
-        return MapCandidates(How.SAID, found.instrument, (by_id[require_map(map_id, by_id)],))
+        return MapCandidates(How.SAID, found.instrument, (_map(map_id, maps),))
     if not found.maps:
         # The user requests a player though no map fits, and must select the instrument.
         return MapCandidates(How.RANGE, None, tuple(maps), unknown=True)
     return found
+
+
+def _map(map_id: str, maps: Sequence[MapChoice]) -> MapChoice:
+    """The map of an id. Raises as `require_map`."""
+    by_id = {choice.map_id: choice for choice in maps}
+    return by_id[require_map(map_id, by_id)]
 
 
 def stream_name(channel: TrackChannel) -> str:
@@ -279,14 +288,21 @@ def stream_name(channel: TrackChannel) -> str:
 
 
 def _parts(
-    channel: TrackChannel, name: str, found: MapCandidates, voices: Sequence[tuple[Note, ...]], written: bool
+    channel: TrackChannel,
+    name: str,
+    found: MapCandidates,
+    voices: Sequence[tuple[Note, ...]],
+    written: bool,
+    of_voices: Sequence[MapChoice | None],
 ) -> list[Part]:
-    """A part for every voice."""
+    """A part for every voice, on its own instrument where one was chosen for it."""
     parts = []
     instrument = found.instrument
     onsets = {file_id(note.id): note.onset_tick for notes in voices for note in notes} if channel.marks else {}
-    for voice, notes in enumerate(voices, channel.change * MOST_VOICES):
-        chosen = found.best([note.pitch for note in notes], written)
+    for number, notes in enumerate(voices):
+        voice = channel.change * MOST_VOICES + number
+        own = of_voices[number] if number < len(of_voices) else None
+        chosen = own or found.best([note.pitch for note in notes], written)
         shift = -chosen.transposition_semitones if written else 0
         parts.append(
             Part(

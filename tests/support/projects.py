@@ -247,6 +247,7 @@ rows = st.builds(
     split=st.sampled_from(["sustained", "every", "never"]),
     written=st.booleans(),
     character_id=st.none() | ids,
+    voice_maps=st.lists(st.none() | ids, max_size=3).map(tuple),
 )
 decisions = st.builds(
     ImportDecisions,

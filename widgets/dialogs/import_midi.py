@@ -279,6 +279,8 @@ class ImportDialog(Retranslated, QDialog):
     def _unplayed(self, part: UnplayedPart) -> str:
         """Say why a part is not played, and that it is for dancers where it is."""
         reason = message_text(part.reason)
+        if part.is_of_played_part:
+            return self.tr("import_dialog.left_out_of_part").format(name=part.name, reason=reason)
         percussion = {
             stream_name(self._table.contents.channels[channel])
             for row in self._table.rows

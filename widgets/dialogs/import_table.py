@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
+from functools import partial
 from typing import Final
 
 import msgspec
@@ -34,7 +35,7 @@ from instrument_maps.model import InstrumentMap
 from instrument_maps.score_order import in_score_order
 from widgets.common.controls import Retranslated, named
 from widgets.common.instrument_name import character_name, instrument_name
-from widgets.common.layouts import in_row, panel
+from widgets.common.layouts import in_column, in_row, panel
 from widgets.common.plain import ComboBox, Label
 from widgets.dialogs.notes_preview import ROW_PX, NotesPreview
 
@@ -191,9 +192,10 @@ class ImportTable(Retranslated, QTableWidget):
         instruments = [(usual, None), *self._instruments]
         if not self._rhythm.issuperset(assignment.channels):
             instruments.append((self.tr("import_dialog.percussion_for_dancers"), PERCUSSION))
-        instrument = self._choice(place, _INSTRUMENT, "instrument", instruments, assignment.map_id)
+        instrument = _box(f"instrument_{place}", instruments, assignment.map_id)
         instrument.setSizeAdjustPolicy(ComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
         instrument.setMinimumContentsLength(_INSTRUMENT_LETTERS)
+        self.setCellWidget(place, _INSTRUMENT, _InstrumentCell(instrument))
         instrument.currentIndexChanged.connect(lambda: self._choose(place, instrument.currentData()))
         instrument.currentTextChanged.connect(lambda text: instrument.setToolTip(self._tip(place) or text))
 
@@ -225,10 +227,7 @@ class ImportTable(Retranslated, QTableWidget):
         self, place: int, column: int, name: str, options: Iterable[tuple[str, object]], chosen: object
     ) -> ComboBox:
         """A cell with options by their texts; the first where what is chosen is not among them."""
-        box = named(ComboBox(), f"{name}_{place}")
-        for text, value in options:
-            box.addItem(text, value)
-        box.setCurrentIndex(max(box.findData(chosen), 0))
+        box = _box(f"{name}_{place}", options, chosen)
         self.setCellWidget(place, column, box)
         return box
 
@@ -243,9 +242,11 @@ class ImportTable(Retranslated, QTableWidget):
     def _show_instruments(self, place: int) -> None:
         """Say which instruments a row's names, programs and ranges choose, and whether its pitches can be written."""
         row = self.rows[place]
-        instrument, pitches = self.cellWidget(place, _INSTRUMENT), self.cellWidget(place, _PITCHES)
-        assert isinstance(instrument, ComboBox)
+        cell, pitches = self.cellWidget(place, _INSTRUMENT), self.cellWidget(place, _PITCHES)
+        assert isinstance(cell, _InstrumentCell)
         assert pitches is not None
+        instrument = cell.whole
+        self._show_players(place, cell)
         names = dict.fromkeys(map(instrument_name, self._played_on(automatic(row.assignment))))
         if names:
             instrument.setItemText(0, self.tr("import_dialog.automatic_2").format(name=" + ".join(names)))
@@ -265,6 +266,42 @@ class ImportTable(Retranslated, QTableWidget):
         # Only there is a difference.
         transposes = any(table.transposition_semitones for table in self._played_on(row.assignment))
         pitches.setEnabled(row.requested and transposes)
+
+    def _show_players(self, place: int, cell: _InstrumentCell) -> None:
+        """Offer an instrument for each of the players who share a row."""
+        row = self.rows[place]
+        assignment = row.assignment
+        players = len(self._played_on(assignment)) if row.requested else 0
+        alone = [instrument_name(table) for table in self._played_on(automatic(assignment))]
+        chosen = None if assignment.map_id is None else self._maps.get(assignment.map_id)
+        whole = None if chosen is None else instrument_name(chosen)
+        if players < 2:
+            players = 0
+        if players != len(cell.boxes):
+            own = [*assignment.voice_maps, *[None] * players]
+            boxes = []
+            for voice in range(players):
+                options = [(self.tr("import_dialog.automatic"), None), *self._instruments]
+                box = _box(f"instrument_{place}_{voice}", options, own[voice])
+                box.setSizeAdjustPolicy(ComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
+                box.setToolTip(self.tr("import_dialog.player_tip"))
+                box.currentIndexChanged.connect(partial(self._choose_for_player, place, voice, box))
+                boxes.append((self.tr("import_dialog.player").format(number=voice + 1), box))
+            cell.show_players(boxes)
+            self.setRowHeight(place, max(ROW_PX, cell.sizeHint().height()))
+        for voice, box in enumerate(cell.boxes):
+            # Without a choice of its own a player has the instrument of the part.
+            name = whole or (alone[voice] if voice < len(alone) else "")
+            if name:
+                box.setItemText(0, self.tr("import_dialog.automatic_2").format(name=name))
+
+    def _choose_for_player(self, place: int, voice: int, box: ComboBox, index: int) -> None:
+        chosen = [*self.rows[place].assignment.voice_maps]
+        chosen += [None] * (voice + 1 - len(chosen))
+        chosen[voice] = box.itemData(index)
+        while chosen and chosen[-1] is None:
+            chosen.pop()
+        self._assignment(place, voice_maps=tuple(chosen))
 
     def _tip(self, place: int) -> str:
         """The tip of a row; empty for most."""
@@ -292,9 +329,9 @@ class ImportTable(Retranslated, QTableWidget):
     def _request(self, place: int, requested: bool) -> None:
         """Have a row played, or not; what is percussion by choice is no longer."""
         self._set(place, requested=requested)
-        instrument = self.cellWidget(place, _INSTRUMENT)
-        if requested and self.rows[place].assignment.map_id == PERCUSSION and isinstance(instrument, ComboBox):
-            instrument.setCurrentIndex(0)
+        cell = self.cellWidget(place, _INSTRUMENT)
+        if requested and self.rows[place].assignment.map_id == PERCUSSION and isinstance(cell, _InstrumentCell):
+            cell.whole.setCurrentIndex(0)
 
     def _assignment(self, place: int, **changes: object) -> None:
         self._set(place, assignment=msgspec.structs.replace(self.rows[place].assignment, **changes))
@@ -314,6 +351,38 @@ class ImportTable(Retranslated, QTableWidget):
                 widget.setEnabled(row.requested or (column == _INSTRUMENT and self._can_choose(row)))
 
 
+class _InstrumentCell(QWidget):
+    """The instrument of a row, and of each of its players where several share it.
+
+    Attributes
+    ----------
+    whole : ComboBox
+        For all of them.
+    boxes : list of ComboBox
+        By voice.
+    """
+
+    def __init__(self, whole: ComboBox) -> None:
+        super().__init__()
+        self.whole = whole
+        self.boxes: list[ComboBox] = []
+        self._rows: list[QWidget] = []
+        self._column = in_column(whole, of=self, margins=0, spacing=2)
+
+    def show_players(self, boxes: Sequence[tuple[str, ComboBox]]) -> None:
+        """Show these boxes with their captions below the row's own."""
+        for row in self._rows:
+            self._column.removeWidget(row)
+            row.deleteLater()
+        self._rows = []
+        for text, box in boxes:
+            caption = Label(text)
+            caption.setContentsMargins(12, 0, 0, 0)
+            self._rows.append(panel(in_row(caption, (box, 1), margins=0)))
+            self._column.addWidget(self._rows[-1])
+        self.boxes = [box for _, box in boxes]
+
+
 class _Tick(QCheckBox):
     """A box without a word: all of it can be clicked, not the small square alone."""
 
@@ -323,6 +392,15 @@ class _Tick(QCheckBox):
 
     def hitButton(self, pos: QPoint) -> bool:
         return self.rect().contains(pos)
+
+
+def _box(name: str, options: Iterable[tuple[str, object]], chosen: object) -> ComboBox:
+    """A list of options by their texts; the first where what is chosen is not among them."""
+    box = named(ComboBox(), name)
+    for text, value in options:
+        box.addItem(text, value)
+    box.setCurrentIndex(max(box.findData(chosen), 0))
+    return box
 
 
 def _centred(widget: QWidget) -> QWidget:

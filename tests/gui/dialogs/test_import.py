@@ -9,7 +9,7 @@ from typing import Any
 import mido
 import msgspec
 import pytest
-from PySide6.QtCore import QPoint, Qt
+from PySide6.QtCore import QEvent, QPoint, Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import (
     QApplication,
@@ -504,3 +504,75 @@ def test_a_take_is_cleaned_by_a_switch_that_says_why(qt_app: QApplication, qtbot
 
 def test_where_no_track_is_a_take_there_is_no_such_switch(dialog: ImportDialog) -> None:
     assert dialog._table.isColumnHidden(8)
+
+
+def chords(folder: Path, name: str, stray: int = 0) -> Path:
+    """A track of two notes at a time for twelve quarters, or of a line with so many short notes over it."""
+    track = mido.MidiTrack([mido.MetaMessage("track_name", name=name)])
+    for number in range(36 if stray else 12):
+        pitches = (72, 65) if number < stray or not stray else (72,)
+        lengths = (480, 480) if not stray else (480, 60)
+        for pitch in pitches:
+            track.append(mido.Message("note_on", note=pitch, velocity=80))
+        if len(pitches) == 2:
+            track.append(mido.Message("note_off", note=pitches[1], time=lengths[1]))
+        track.append(mido.Message("note_off", note=72, time=480 - (lengths[1] if len(pitches) == 2 else 0)))
+    path = folder / "chords.mid"
+    mido.MidiFile(type=1, tracks=[track]).save(path)
+    return path
+
+
+@pytest.mark.parametrize("by", ["mouse", "keys"])
+def test_each_player_of_a_split_track_has_an_instrument_of_its_own(
+    qt_app: QApplication, qtbot: QtBot, tmp_path: Path, by: str
+) -> None:
+    path = chords(tmp_path, "Flutes")
+    contents = read_contents(path)
+    dialog = ImportDialog(contents, bundled_maps(), DARK, ImmediateTasks())
+    qtbot.addWidget(dialog)
+    dialog.show()
+    assert [part.map_id for part in imported(dialog).score.parts] == ["flute", "flute"]
+    second = child(dialog, QComboBox, "instrument_0_1")
+    assert second.isVisible()
+    assert (second.currentData(), second.currentText()) == (None, "Automatic: Flute")
+    if by == "keys":
+        choose(dialog, "instrument_0_1", "clarinet_Bb")
+    else:
+        QTest.mouseClick(second, Qt.MouseButton.LeftButton)
+        view = second.view()
+        view.scrollTo(view.model().index(second.findData("clarinet_Bb"), 0))
+        spot = view.visualRect(view.model().index(second.findData("clarinet_Bb"), 0)).center()
+        qtbot.wait(QApplication.doubleClickInterval() + 50)
+        QTest.mouseMove(view.viewport(), spot)
+        QTest.mouseClick(view.viewport(), Qt.MouseButton.LeftButton, pos=spot)
+    project = imported(dialog)
+    assert [part.map_id for part in project.score.parts] == ["flute", "clarinet_Bb"]
+    assert [player.instrument_id for player in project.players] == ["flute", "clarinet_Bb"]
+    # It is decided once: the same file read again says nothing new.
+    kept = import_project(contents, dialog.rows, bundled_maps(), str(path))
+    assert reimported(kept, path, bundled_maps()).project is kept
+    # The part's instrument is the other player's; one player needs no lists.
+    choose(dialog, "instrument_0", "oboe")
+    assert [part.map_id for part in imported(dialog).score.parts] == ["oboe", "clarinet_Bb"]
+    assert child(dialog, QComboBox, "instrument_0_0").currentText() == "Automatic: Oboe"
+    choose(dialog, "instrument_0_1", None)
+    assert [part.map_id for part in imported(dialog).score.parts] == ["oboe", "oboe"]
+    choose(dialog, "split_0", "never")
+    QApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
+    assert dialog.findChild(QComboBox, "instrument_0_1") is None
+
+
+def test_notes_left_out_do_not_read_as_a_lost_part(qt_app: QApplication, qtbot: QtBot, tmp_path: Path) -> None:
+    dialog = ImportDialog(read_contents(chords(tmp_path, "Flute", stray=2)), bundled_maps(), DARK, ImmediateTasks())
+    qtbot.addWidget(dialog)
+    dialog.show()
+    reported = child(dialog, QListWidget, "import_warnings")
+    (text,) = [reported.item(row).text() for row in range(reported.count())]
+    assert text.startswith("Flute: 2 notes that overlap others are left out, the first at 1.1.000 (F4)")
+    assert "will not be played" not in text
+    assert "All other notes of the part are played." in text
+    # It says what can be done, and that works.
+    assert "Overlapping notes to Split among players" in text
+    choose(dialog, "split_0", "every")
+    assert reported.count() == 0 or "left out" not in reported.item(0).text()
+    assert sum(len(part.notes) for part in imported(dialog).score.parts) >= 38

@@ -62,6 +62,7 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
         "{name} will not be played: {reason}. Dancers use it as percussion.",
         "{name} は演奏されません: {reason}。ダンサーが打楽器として使います。",
     ),
+    "import_dialog.left_out_of_part": ("{name}: {reason}.", "{name}: {reason}。"),
     "import_dialog.japanese": ("Japanese ({name})", "日本語（{name}）"),
     "import_dialog.korean": ("Korean ({name})", "韓国語（{name}）"),
     "import_dialog.make_one_part_of_selected": (
@@ -108,6 +109,11 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
     ),
     "import_dialog.pitches": ("Pitches", "音高"),
     "import_dialog.play": ("Play", "演奏"),
+    "import_dialog.player": ("Player {number}", "奏者 {number}"),
+    "import_dialog.player_tip": (
+        "The instrument of this player alone; Automatic takes that of the part",
+        "この奏者だけの楽器です。「自動」ではパートの楽器になります",
+    ),
     "import_dialog.players": ("Players: {count}", "奏者: {count} 人"),
     "import_dialog.share_among_players": ("Split among players", "複数の奏者で分担"),
     "import_dialog.sounding": ("Sounding", "実音"),
