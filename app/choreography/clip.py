@@ -10,7 +10,8 @@ import numpy as np
 
 from app.arrays import FloatArray
 from app.choreography.body import ENDS, PARENT_OF, SEGMENTS, body_skeleton
-from app.formats.bvh import BvhClip, write_bvh
+from app.formats.bvh.clip import BvhClip
+from app.formats.bvh.write import write_bvh
 from app.rig.model import Skeleton
 from app.rig.skeleton import JointTransforms, forward
 

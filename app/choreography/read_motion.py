@@ -27,7 +27,8 @@ from app.choreography.body import ENDS, FEET, PARENT_OF, SEGMENTS
 from app.choreography.clip import BodyShape, MotionClip
 from app.choreography.flips import Flip, lead_in, mend_flips, mend_steps
 from app.errors import FileError, Message
-from app.formats.bvh import BvhClip, read_bvh
+from app.formats.bvh.clip import BvhClip
+from app.formats.bvh.read import read_bvh
 from app.formats.motion_limits import require_frames, require_rate
 from app.rig import quaternion
 from app.rig.characters.joint_mapping import JointMapping, map_joints

@@ -28,7 +28,8 @@ from app.evaluation.imported_videos import require_covered
 from app.export.bind_pose import rest_transforms
 from app.export.file_names import REPORT, figure_stems
 from app.export.target import normalised_target
-from app.formats.bvh import BvhClip, read_bvh
+from app.formats.bvh.clip import BvhClip
+from app.formats.bvh.read import read_bvh
 from app.formats.files import cannot_read, read_file
 from app.formats.json_data import decode_json
 from app.formats.motion_limits import require_rate
@@ -174,7 +175,7 @@ def read_keyframes(
     Raises
     ------
     FileError
-        Those of this module, of `app.formats.bvh`, `app.formats.motion_limits` and `app.rig.node_motion`.
+        Those of this module, of `app.formats.bvh.read`, `app.formats.motion_limits` and `app.rig.node_motion`.
     AppError
         A player cannot be seen.
     """

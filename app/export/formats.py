@@ -103,7 +103,7 @@ def _read_fbx(path: Path) -> Scene:
 
 def _write_bvh(path: Path, scenes: Iterable[Scene], beside: WriteOptions) -> None:
     from app.export.skeleton import scene_bvh
-    from app.formats.bvh import write_bvh
+    from app.formats.bvh.write import write_bvh
 
     (scene,) = scenes
     write_bvh(path, scene_bvh(scene, beside.bone_names))

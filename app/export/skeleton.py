@@ -11,7 +11,7 @@ import numpy as np
 from app.arrays import FloatArray
 from app.export.joints import world_transforms
 from app.export.target import TargetSkeleton
-from app.formats.bvh import BvhClip
+from app.formats.bvh.clip import BvhClip
 from app.formats.names import numbered
 from app.formats.scene import Clip, Scene
 from app.rig import quaternion

@@ -19,7 +19,7 @@ import numpy as np
 
 from app.arrays import FloatArray
 from app.errors import FileError
-from app.formats.bvh import BvhClip
+from app.formats.bvh.clip import BvhClip
 from app.formats.fbx.foreign import read_foreign_motion
 from app.formats.gltf.animation import sampled
 from app.formats.gltf.model import GltfAnimation, GltfModel

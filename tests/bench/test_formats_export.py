@@ -19,7 +19,8 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from app.formats.bvh import BvhClip, write_bvh
+from app.formats.bvh.clip import BvhClip
+from app.formats.bvh.write import write_bvh
 from app.formats.fbx.write import write_scene
 from app.formats.gltf.write import write_glb
 from app.formats.scene import Bone, Clip, Material, MorphTarget, Scene, SkinnedMesh

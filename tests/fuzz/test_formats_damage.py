@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 
 from app.choreography.model_file import decode_model
 from app.errors import AppError
-from app.formats.bvh import decode_bvh
+from app.formats.bvh.read import decode_bvh
 from app.formats.fbx.read import decode_scene
 from app.formats.gltf.read import decode_gltf
 from tests.support.encoded import encode_bvh, encode_glb, encode_scene

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from app.formats.bvh import BvhClip, bvh_pieces
+from app.formats.bvh.clip import BvhClip
+from app.formats.bvh.write import bvh_pieces
 from app.formats.fbx.encode import Element, element_pieces
 from app.formats.fbx.write import scene_elements
 from app.formats.gltf.write import glb_pieces

@@ -357,7 +357,7 @@ def foreign_fbx(path: Path, folder: Path) -> None:
 
 def bvh(path: Path, folder: Path) -> None:
     """BVH clips."""
-    from app.formats.bvh import read_bvh
+    from app.formats.bvh.read import read_bvh
 
     read_bvh(path)
 

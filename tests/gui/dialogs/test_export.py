@@ -18,7 +18,7 @@ from app.errors import Message
 from app.export.request import ExportRequest
 from app.export.run import export
 from app.formats import usd_package
-from app.formats.bvh import read_bvh
+from app.formats.bvh.read import read_bvh
 from app.messages import text
 from app.performance.ensemble import Performance
 from app.performance.span import bars_span

@@ -17,7 +17,8 @@ from app.choreography.read_motion import read_motion
 from app.cli import main, parser
 from app.cli.choreography.command import PairFiles
 from app.cli.status import BAD_INPUT, BAD_USE, DONE
-from app.formats.bvh import BvhClip, write_bvh
+from app.formats.bvh.clip import BvhClip
+from app.formats.bvh.write import write_bvh
 from app.rig import quaternion
 from tests.support.dances import model
 from tests.unit.choreography.test_cuts import arm_swings

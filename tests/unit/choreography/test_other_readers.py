@@ -12,7 +12,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from app.arrays import FloatArray
-from app.formats.bvh import read_bvh
+from app.formats.bvh.read import read_bvh
 from tests.support.dance_measures import SHARED
 
 FRAMES = 8

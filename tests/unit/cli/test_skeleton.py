@@ -8,7 +8,7 @@ import pytest
 
 from app.cli import main
 from app.export.mannequin import MANNEQUIN
-from app.formats.bvh import read_bvh
+from app.formats.bvh.read import read_bvh
 
 QUARTET = Path(__file__).parents[3] / "resources" / "examples" / "quartet.mid"
 FOREIGN = Path(__file__).parents[2] / "data" / "characters" / "child_mixamo.fbx"

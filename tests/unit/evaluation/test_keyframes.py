@@ -16,7 +16,8 @@ from app.evaluation.keyframes import holds_motion, read_keyframes
 from app.export.character import character_scene
 from app.export.skeleton import scene_bvh
 from app.export.target import normalised_target
-from app.formats.bvh import read_bvh, write_bvh
+from app.formats.bvh.read import read_bvh
+from app.formats.bvh.write import write_bvh
 from app.motion.model import Motion
 from app.performance.cast import performer_of
 from app.performance.chunks import Pose

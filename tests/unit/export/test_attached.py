@@ -11,7 +11,7 @@ import pytest
 
 from app.cli import main
 from app.export.attachment import in_world
-from app.formats.bvh import read_bvh
+from app.formats.bvh.read import read_bvh
 from app.formats.fbx.read import read_scene, read_scenes
 from tests.unit.export.test_rig import world_m
 from tests.unit.export.unreal.conftest import QUARTET

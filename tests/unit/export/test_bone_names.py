@@ -15,7 +15,8 @@ from app.export.playback import ScenePlayback
 from app.export.skeleton import joint_names, profile_names, scene_bvh
 from app.export.target import SkeletonChoice, TargetSkeleton
 from app.export.targets import target_skeleton
-from app.formats.bvh import BvhClip, read_bvh
+from app.formats.bvh.clip import BvhClip
+from app.formats.bvh.read import read_bvh
 from app.formats.scene import Scene
 from app.motion.model import Motion
 from app.rig.characters.character_library import character_named

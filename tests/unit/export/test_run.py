@@ -22,7 +22,7 @@ from app.cli import main
 from app.export.playback import ScenePlayback
 from app.export.report import PlayerReport, failures
 from app.formats import usd_package
-from app.formats.bvh import read_bvh
+from app.formats.bvh.read import read_bvh
 from app.formats.fbx.read import read_scene
 from app.formats.gltf.read import read_glb
 from metadata.model import ARKIT_MORPHS

@@ -10,7 +10,9 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from app.errors import FileError
-from app.formats.bvh import BvhClip, decode_bvh, read_bvh, write_bvh
+from app.formats.bvh.clip import BvhClip
+from app.formats.bvh.read import decode_bvh, read_bvh
+from app.formats.bvh.write import write_bvh
 from tests.support.encoded import encode_bvh
 from tests.unit.formats import scenes
 

@@ -12,7 +12,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from app.formats.bvh import BvhClip, write_bvh
+from app.formats.bvh.clip import BvhClip
+from app.formats.bvh.write import write_bvh
 from app.formats.fbx.write import write_scene
 from app.formats.gltf.write import write_glb
 from app.formats.scene import Scene

@@ -1,9 +1,4 @@
-"""BVH (Biovision hierarchy) files, both ways.
-
-The dialect that bvhio, bvh, pybvh, Blender, assimp and three.js read alike: position channels on the root only, whose
-own OFFSET is zero (some readers add it to the channels, others replace it), rotation channels Z X Y on every joint,
-the frame time with enough digits for a long take. Source: M. Meredith, S. Maddock, "Motion Capture File Formats
-Explained" (University of Sheffield, 2001).
+"""BVH files of any program.
 
 Messages (with ``file``): ``file.cannot_read``, ``bvh.syntax``, ``bvh.truncated``, ``bvh.motion``,
 ``bvh.no_frames``, ``bvh.number``,
@@ -12,10 +7,8 @@ Messages (with ``file``): ``file.cannot_read``, ``bvh.syntax``, ``bvh.truncated`
 
 from __future__ import annotations
 
-import itertools
 import os
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Iterator
 from decimal import Decimal
 from fractions import Fraction
 
@@ -24,157 +17,15 @@ import numpy as np
 from app.arrays import AnyFloatArray, FloatArray
 from app.errors import FileError, shortened
 from app.formats import euler
-from app.formats.atomic import atomic_write
+from app.formats.bvh.clip import AXES, POSITIONS, BvhClip
 from app.formats.files import read_file
-from app.formats.fixed_point import table_text
 from app.formats.rates import exact_rate
 
-_ORDER = "ZXY"
-_AXES = "XYZ"
-_POSITIONS = [f"{axis}position" for axis in _AXES]
 _DEEPEST = 512
-_ROWS = 256
-"""Frames whose text is made at once."""
 _FREE_ROTATIONS = 2**20
 _MILLISECONDS = (2.0, 200.0)
 """A frame time in this range would be of 5 to 500 frames per second in milliseconds, and in seconds of no motion."""
 MOST_BYTES = 2**29
-
-
-@dataclass(frozen=True, eq=False)
-class BvhClip:
-    """A skeleton and its motion; centimetres, right-handed, Y up.
-
-    Attributes
-    ----------
-    names : tuple of str
-        Joints, parents first; the first is the one root.
-    parents : tuple of int
-        -1 for the root.
-    offsets_cm : ndarray, shape (J, 3)
-        Relative to the parent; the root's is zero.
-    end_sites_cm : mapping of int to ndarray, shape (3,)
-        Ends of the joints that have no child.
-    root_translation_cm : ndarray, shape (F, 3)
-    rotations_xyzw : ndarray, shape (F, J, 4)
-        Relative to the parent.
-    translations_cm : mapping of int to ndarray, shape (F, 3)
-        Joints below the root that are not always at their offset, relative to the parent; only in files of others.
-    milliseconds : float or None
-        Frame time of a file that has it in milliseconds, which is a mistake; None: it has seconds.
-    """
-
-    names: tuple[str, ...]
-    parents: tuple[int, ...]
-    offsets_cm: AnyFloatArray
-    end_sites_cm: Mapping[int, AnyFloatArray]
-    fps: Fraction
-    root_translation_cm: AnyFloatArray
-    rotations_xyzw: AnyFloatArray
-    translations_cm: Mapping[int, AnyFloatArray] = field(default_factory=dict)
-    milliseconds: float | None = None
-
-
-def write_bvh(path: str | os.PathLike[str], clip: BvhClip) -> None:
-    """Write a BVH file, whole or not at all.
-
-    Parameters
-    ----------
-    clip : BvhClip
-        Names have no blanks; children need not follow their parent directly (the file's order of joints is depth
-        first). The root's offset is not written: its place is in `root_translation_cm`. Every joint without a child
-        needs an end site.
-
-    Raises
-    ------
-    FileError
-        ``file.cannot_write``.
-    ValueError
-        If the values contradict each other.
-    """
-    pieces = bvh_pieces(clip)
-    with atomic_write(path) as stream:
-        stream.writelines(pieces)
-
-
-def bvh_pieces(clip: BvhClip) -> Iterator[bytes | bytearray]:
-    """The file's bytes, one piece after the other, made when they are asked for."""
-    _check(clip)
-    children: list[list[int]] = [[] for _ in clip.names]
-    for joint, parent in enumerate(clip.parents[1:], start=1):
-        children[parent].append(joint)
-    lines = ["HIERARCHY"]
-    order: list[int] = []
-    _joint_lines(clip, children, lines, order)
-    frames = len(clip.rotations_xyzw)
-    # A decimal more than a double holds at this size, so that the last frame of an hour is still in its place.
-    lines += ["MOTION", f"Frames: {frames}", f"Frame Time: {float(1 / clip.fps):.16f}", ""]
-    return itertools.chain(["\n".join(lines).encode("utf-8")], _table_pieces(clip, order))
-
-
-def _table_pieces(clip: BvhClip, order: list[int]) -> Iterator[bytearray]:
-    """The channels frame by frame, with joints in this order."""
-    angles = euler.euler_degrees(clip.rotations_xyzw, _ORDER)
-    frames = angles.shape[-1]
-    for first in range(0, frames, _ROWS):
-        rows = slice(first, first + _ROWS)
-        places = clip.root_translation_cm[rows]
-        turns = angles[order, :, rows].reshape(-1, len(places)).T
-        yield from table_text(np.concatenate([places, turns], axis=1, dtype=np.float64))
-
-
-def _joint_lines(clip: BvhClip, children: list[list[int]], lines: list[str], order: list[int]) -> None:
-    """Add the hierarchy, depth first, and say in which order the joints come."""
-    rotations = " ".join(f"{axis}rotation" for axis in _ORDER)
-    # What is still to be written, last first: a joint with its depth, or a closing brace of that depth.
-    pending: list[tuple[int | None, int]] = [(0, 0)]
-    while pending:
-        joint, depth = pending.pop()
-        indent = "\t" * depth
-        if joint is None:
-            lines.append(indent + "}")
-            continue
-        order.append(joint)
-        offset = np.zeros(3) if joint == 0 else clip.offsets_cm[joint]
-        channels = f"CHANNELS 6 {' '.join(_POSITIONS)} {rotations}" if joint == 0 else f"CHANNELS 3 {rotations}"
-        lines += [
-            f"{indent}{'JOINT' if joint else 'ROOT'} {clip.names[joint]}",
-            indent + "{",
-            f"{indent}\tOFFSET {_vector(offset)}",
-            f"{indent}\t{channels}",
-        ]
-        if not children[joint]:
-            end = _vector(clip.end_sites_cm[joint])
-            lines += [f"{indent}\tEnd Site", indent + "\t{", f"{indent}\t\tOFFSET {end}", indent + "\t}"]
-        pending.append((None, depth))
-        pending += [(child, depth + 1) for child in reversed(children[joint])]
-
-
-def _vector(values: AnyFloatArray) -> str:
-    return " ".join(f"{value + 0.0:.6f}" for value in values)
-
-
-def _check(clip: BvhClip) -> None:
-    count = len(clip.names)
-    if not count or clip.parents[0] != -1 or len(clip.parents) != count:
-        raise ValueError("one parent per joint, and the first joint is the root")
-    if any(not 0 <= parent < joint for joint, parent in enumerate(clip.parents[1:], start=1)):
-        raise ValueError("a parent must come before its joint, and only the first joint is a root")
-    if len(set(clip.names)) != count or any(name.split() != [name] for name in clip.names):
-        raise ValueError("joints must have different names without blanks")
-    missing = set(range(count)) - set(clip.parents) - set(clip.end_sites_cm)
-    if missing:
-        raise ValueError(f"no end site for {', '.join(clip.names[joint] for joint in sorted(missing))}")
-    frames = len(clip.rotations_xyzw)
-    if clip.rotations_xyzw.shape != (frames, count, 4) or clip.root_translation_cm.shape != (frames, 3) or not frames:
-        raise ValueError("rotations (F, J, 4) and root translations (F, 3) of at least one frame")
-    if clip.translations_cm:
-        raise ValueError("only the root moves")
-    if np.shape(clip.offsets_cm) != (count, 3) or not np.isfinite(clip.offsets_cm).all() or clip.fps <= 0:
-        raise ValueError("one finite offset per joint, and a frame rate above zero")
-
-
-# ---------------------------------------------------------------------------------------------------------- reading
 
 
 def read_bvh(path: str | os.PathLike[str]) -> BvhClip:
@@ -256,7 +107,7 @@ class _Hierarchy:
         names = words[2:]
         if words[1:2] != [str(len(names))]:
             raise self._syntax(number, words)
-        known = {*_POSITIONS, *(f"{axis}rotation" for axis in _AXES)}
+        known = {*POSITIONS, *(f"{axis}rotation" for axis in AXES)}
         if len(set(names)) != len(names) or not known.issuperset(names):
             raise FileError("bvh.unsupported", file=self.file, line=number, what=shortened(" ".join(names), 80))
         self.channels[joint] = names
@@ -316,13 +167,13 @@ def _motion(motion: str, hierarchy: _Hierarchy, file: str) -> BvhClip:
     for joint, channels in enumerate(hierarchy.channels):
         columns = table[:, column : column + len(channels)]
         column += len(channels)
-        turned = [at for at, name in enumerate(channels) if name not in _POSITIONS]
+        turned = [at for at, name in enumerate(channels) if name not in POSITIONS]
         if turned:
             rotations[:, joint] = _rotations(columns[:, turned], "".join(channels[at][0] for at in turned))
         if len(turned) < len(channels) or not joint:
             places = np.tile(offsets[joint], (frames, 1))
             for at in set(range(len(channels))) - set(turned):
-                places[:, _AXES.index(channels[at][0])] = columns[:, at]
+                places[:, AXES.index(channels[at][0])] = columns[:, at]
             translations[joint] = places
     root_translation = translations.pop(0)
     for joint in [joint for joint, places in translations.items() if (places == places[0]).all()]:
@@ -343,7 +194,7 @@ def _motion(motion: str, hierarchy: _Hierarchy, file: str) -> BvhClip:
 
 def _rotations(angles_degrees: AnyFloatArray, order: str) -> FloatArray:
     """Quaternions of angles (F, up to 3) about these axes; about the others by nothing."""
-    missing = "".join(axis for axis in _AXES if axis not in order)
+    missing = "".join(axis for axis in AXES if axis not in order)
     return euler.quaternions(np.pad(angles_degrees, ((0, 0), (0, len(missing)))), order + missing)
 
 

@@ -1,0 +1,1 @@
+"""BVH (Biovision hierarchy) files."""
