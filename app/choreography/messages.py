@@ -149,5 +149,25 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         "{rate} frames/s (the frame time {said:g} was read as milliseconds)",
         "{rate} フレーム/秒（フレーム時間 {said:g} はミリ秒とみなしました）",
     ),
+    "motion.rate_as_time": (
+        "{rate} frames/s (the frame time {said:g} was read as a frame rate)",
+        "{rate} フレーム/秒（フレーム時間 {said:g} はフレームレートとみなしました）",
+    ),
+    "motion.rows": (
+        "{found} {found:frame|frames} (the file states {frames})",
+        "{found} フレーム（ファイルの値は {frames}）",
+    ),
+    "motion.row_cut": (
+        "{found} {found:frame|frames} of {frames}; the last row is incomplete, so the file may have been cut off",
+        "{frames} フレーム中 {found} フレーム。最後の行が不完全です（ファイルが途中で切れている可能性があります）",
+    ),
+    "motion.figures": (
+        "several figures; only {name} was read (also in the file: {others})",
+        "複数の人物のうち {name} だけを読み込みました（ほかに {others}）",
+    ),
+    "motion.place_unit": (
+        "the positions of the hips were read as {unit}, the bones as {bones}",
+        "腰の位置の単位を {unit}、ボーンの単位を {bones} とみなしました",
+    ),
     "motion.rate": ("{rate} frames/s (the file states {said})", "{rate} フレーム/秒（ファイルの値は {said}）"),
 }

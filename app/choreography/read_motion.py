@@ -6,8 +6,8 @@ the segment beyond them: its world rotation is that of the file, its offset the 
 on the segment that carries it.
 
 Messages: ``motion.far``, ``motion.format``, ``motion.incomplete``, ``motion.rate``, ``motion.no_unit``,
-``motion.lead_in``, ``motion.flips``, ``motion.doubtful``, ``motion.apart``, ``motion.milliseconds`` and those of
-`app.formats.motion_limits`.
+``motion.lead_in``, ``motion.flips``, ``motion.doubtful``, ``motion.apart``, ``motion.place_unit``, and those of
+`app.formats.bvh.read` and `app.formats.motion_limits`.
 """
 
 from __future__ import annotations
@@ -28,16 +28,15 @@ from app.choreography.clip import BodyShape, MotionClip
 from app.choreography.flips import Flip, lead_in, mend_flips, mend_steps
 from app.errors import FileError, Message
 from app.formats.bvh.clip import BvhClip
-from app.formats.bvh.read import read_bvh
 from app.formats.motion_limits import require_frames, require_rate
 from app.rig import quaternion
 from app.rig.characters.joint_mapping import JointMapping, map_joints
 from app.rig.characters.t_pose import Rest, facing_ahead, rest_of, turned_figure, turns_to_t_pose, upright
 from app.rig.figure import Figure
-from app.rig.node_motion import read_fbx_motion, read_gltf_motion
+from app.rig.motion_file import read_motion_file
 from metadata.model import REQUIRED_JOINTS
 
-UNITS_M: Final = {"cm": 0.01, "m": 1.0, "inch": 0.0254, "CMU": 0.0254 / 0.45}
+UNITS_M: Final = {"cm": 0.01, "m": 1.0, "inch": 0.0254, "CMU": 0.0254 / 0.45, "mm": 0.001}
 """Lengths that BVH files are written in, metres; CMU: a 0.45th of an inch (its ASF files, and BVH made of them)."""
 FARTHEST_CM: Final = 1e9
 """No unit makes a body's way so long; larger numbers are damage."""
@@ -47,6 +46,10 @@ HEIGHT_M: Final = 1.7
 """Height of a figure that no unit fits."""
 FAR_M: Final = 0.05
 """Joints farther from their place in the file are reported."""
+HIPS_OVER_LEGS: Final = (0.5, 1.5)
+"""Height of the hips over the floor, most of the time, as a part of the legs' length."""
+FLAT_PART: Final = 0.05
+"""Part of the legs' length by which the lower foot's height may vary more with positions in another unit."""
 FLOOR_PERCENTILE: Final = 2.0
 """The floor is where the lower foot is in the lowest part of the frames."""
 HAND_PART: Final = 0.108
@@ -76,8 +79,8 @@ class ReadMotion:
         What was mended.
     joints_doubtful : tuple of str
         Whose bones were guessed.
-    milliseconds : float or None
-        See `BvhClip.milliseconds`.
+    rate_guess, file_guesses
+        See `BvhClip`; also how the unit of the hips' positions was understood.
     apart_m : float
         How far from its place in the file, relative to the hips, a joint is at most: a segment keeps its world
         rotation, but its joint has one place on the segment that carries it, also where collars or a neck move.
@@ -93,7 +96,8 @@ class ReadMotion:
     flips: tuple[Flip, ...]
     joints_doubtful: tuple[str, ...]
     apart_m: float
-    milliseconds: float | None = None
+    rate_guess: Message | None = None
+    file_guesses: tuple[Message, ...] = ()
 
     @property
     def start_s(self) -> float:
@@ -107,7 +111,7 @@ def read_motion(path: str | os.PathLike[str], fps: Fraction | None = None) -> Re
     Parameters
     ----------
     path : str or path-like
-        A BVH, FBX or glTF file.
+        A BVH, FBX or glTF file (also VRM Animation), by its content.
     fps : Fraction, optional
         The true frame rate, where the file's is wrong.
 
@@ -116,12 +120,8 @@ def read_motion(path: str | os.PathLike[str], fps: Fraction | None = None) -> Re
     FileError
         If it is none of these or has no animation, or a leg, an arm, the hips or the head cannot be found in it.
     """
-    readers = {".bvh": read_bvh, ".fbx": read_fbx_motion, ".glb": read_gltf_motion, ".gltf": read_gltf_motion}
     file = Path(path)
-    reader = readers.get(file.suffix.lower())
-    if reader is None:
-        raise FileError("motion.format", file=str(file))
-    bvh = reader(file)
+    bvh = read_motion_file(file)
     rate = fps or bvh.fps
     require_rate(rate, str(file))
     seconds = (len(bvh.rotations_xyzw) - 1) / float(rate)
@@ -134,8 +134,9 @@ def guesses(motion: ReadMotion) -> tuple[Message, ...]:
     found = []
     if motion.clip.fps != motion.file_fps:
         found.append(Message("motion.rate", {"rate": str(motion.clip.fps), "said": str(motion.file_fps)}))
-    elif motion.milliseconds is not None:
-        found.append(Message("motion.milliseconds", {"rate": str(motion.file_fps), "said": motion.milliseconds}))
+    elif motion.rate_guess is not None:
+        found.append(motion.rate_guess)
+    found += motion.file_guesses
     if not motion.unit:
         found.append(Message("motion.no_unit"))
     if motion.lead_in:
@@ -158,6 +159,10 @@ def motion_of(bvh: BvhClip, file: str, fps: Fraction | None = None) -> ReadMotio
     _require_whole(mapping, file)
     world = _world(bvh)
     turn, up = _up(world.positions, mapping.bones)
+    factor = _places_factor(quaternion.rotate(turn, world.positions), mapping.bones)
+    if factor != 1.0:
+        bvh = _with_places(bvh, mapping.bones["hips"], factor)
+        world = _world(bvh)
     standing = upright(figure, mapping.bones)
     standing = facing_ahead(standing, mapping.bones, _foot_tips(bvh, standing, mapping.bones))
     if standing is not figure:
@@ -189,7 +194,7 @@ def motion_of(bvh: BvhClip, file: str, fps: Fraction | None = None) -> ReadMotio
     clip = replace(clip, hips_m=clip.hips_m - clip.hips_m[0] * (1.0, 0.0, 1.0))
     return ReadMotion(
         clip, mapping.profile, unit, unit_m, up, bvh.fps, before, flips + steps, mapping.doubtful, apart_m,
-        bvh.milliseconds,
+        bvh.rate_guess, bvh.guesses,
     )  # fmt: skip
 
 
@@ -275,6 +280,41 @@ def _up(positions: FloatArray, bones: Mapping[str, int]) -> tuple[FloatArray, st
         "-X": Rotation.from_euler("z", -90.0, degrees=True),
     }
     return np.asarray(turns[names].as_quat(), np.float64), names
+
+
+def _places_factor(positions: FloatArray, bones: Mapping[str, int]) -> float:
+    """Return what takes the hips' positions into the unit of the bones: 100 or a hundredth where one is metres.
+
+    The hips are about as high over the floor as the legs are long, and then the lower foot stays where the floor is.
+
+    Parameters
+    ----------
+    positions : ndarray, shape (F, J, 3)
+        Y up.
+    """
+    hips, feet = positions[:, bones["hips"]], positions[:, [bones[name] for name in FEET]]
+    leg = [bones[f"left{name}"] for name in ("UpperLeg", "LowerLeg", "Foot")]
+    length = float(np.linalg.norm(np.diff(positions[0, leg], axis=0), axis=1).sum())
+    below = feet[..., 1].min(axis=1) - hips[:, 1]
+    for factor in (100.0, 0.01):
+        high = factor * float(np.median(hips[:, 1]))
+        if HIPS_OVER_LEGS[0] * length < high < HIPS_OVER_LEGS[1] * length:
+            spread = [np.ptp(np.percentile(scale * hips[:, 1] + below, (5, 95))) for scale in (factor, 1.0)]
+            if spread[0] <= spread[1] + FLAT_PART * length:
+                return factor
+    return 1.0
+
+
+def _with_places(bvh: BvhClip, hips: int, factor: float) -> BvhClip:
+    """Clip with other positions of the hips and what they hang from."""
+    above = {hips}
+    while (parent := bvh.parents[min(above)]) >= 0:
+        above.add(parent)
+    moved = {joint: way * factor if joint in above else way for joint, way in bvh.translations_cm.items()}
+    units = ("m", "cm") if factor > 1.0 else ("cm", "m")
+    guess = Message("motion.place_unit", {"unit": units[0], "bones": units[1]})
+    root = bvh.root_translation_cm * factor
+    return replace(bvh, root_translation_cm=root, translations_cm=moved, guesses=(*bvh.guesses, guess))
 
 
 def _segment_bones(bones: Mapping[str, int]) -> dict[str, int]:

@@ -5,7 +5,7 @@ not hold is that of the performance: the face, valves and slides. The instrument
 
 Messages
 --------
-evaluate.keyframes_format(file), evaluate.keyframes_skeleton(file), evaluate.keyframes_bones(file, bones),
+evaluate.keyframes_skeleton(file), evaluate.keyframes_bones(file, bones),
 evaluate.keyframes_body(file, bone, character), evaluate.keyframes_player(file, players),
 evaluate.keyframes_lacking(file, player, name), evaluate.keyframes_report(file, detail), evaluate.not_covered.
 """
@@ -15,6 +15,7 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from fractions import Fraction
 from pathlib import Path
 from typing import Final
 
@@ -29,7 +30,6 @@ from app.export.bind_pose import rest_transforms
 from app.export.file_names import REPORT, figure_stems
 from app.export.target import normalised_target
 from app.formats.bvh.clip import BvhClip
-from app.formats.bvh.read import read_bvh
 from app.formats.files import cannot_read, read_file
 from app.formats.json_data import decode_json
 from app.formats.motion_limits import require_rate
@@ -39,9 +39,9 @@ from app.performance.ensemble import Performance
 from app.rig import quaternion
 from app.rig.grip.grip_pose import hand_targets
 from app.rig.model import Character, Skeleton
+from app.rig.motion_file import SUFFIXES, read_motion_file
 from app.rig.skeleton import forward
 
-SUFFIXES: Final = (".bvh", ".fbx", ".glb", ".gltf")
 HIPS: Final = "hips"
 _OTHER_BODY_CM: Final = 1.0
 """Bones whose lengths differ by more are those of another body."""
@@ -236,19 +236,11 @@ def _start_s(performance: Performance, folder: Path) -> float:
 
 
 def _read(path: Path) -> BvhClip:
-    suffix = path.suffix.lower()
-    if suffix == ".bvh":
-        clip = read_bvh(path)
-        # Nothing here says that a frame time was taken for milliseconds, so it is refused.
-        require_rate(clip.fps if clip.milliseconds is None else clip.fps / 1000, str(path))
-        return clip
-    from app.rig.node_motion import read_fbx_motion, read_gltf_motion
-
-    if suffix == ".fbx":
-        return read_fbx_motion(path)
-    if suffix in SUFFIXES:
-        return read_gltf_motion(path)
-    raise FileError("evaluate.keyframes_format", file=str(path))
+    clip = read_motion_file(path)
+    # Nothing here reports how a frame time was understood, so it is taken as it is.
+    said = clip.rate_guess
+    require_rate(clip.fps if said is None else 1 / Fraction(said.arguments["said"]), str(path))
+    return clip
 
 
 def _on_skeleton(clip: BvhClip, path: Path, performer: Performer) -> tuple[FloatArray, FloatArray]:

@@ -65,23 +65,17 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         "{file} ends unexpectedly; copy or export it again",
         "{file} が途中で終わっています。コピーまたは書き出しをやり直してください",
     ),
-    "bvh.motion": (
-        (
-            "{file}: the motion does not match the skeleton ({found} numbers for {frames} frames of {width}); "
-            "export it again"
-        ),
-        (
-            "{file}: モーションがスケルトンに一致しません"
-            "（1 フレーム {width} 個、{frames} フレームに対して {found} 個）。書き出し直してください"
-        ),
+    "bvh.row": (
+        "{file}, line {line}: {found} {found:number|numbers} instead of {width} for a frame; export it again",
+        "{file}、{line} 行目: 数値が {found} 個あります（1 フレームは {width} 個）。書き出し直してください",
     ),
     "bvh.no_frames": (
-        "{file}: 'Frames:' and 'Frame Time:' are missing after MOTION; export it again",
-        "{file}: MOTION の後に 'Frames:' と 'Frame Time:' がありません。書き出し直してください",
+        "{file}, line {line}: 'Frames:' and 'Frame Time:' are missing after MOTION; export it again",
+        "{file}、{line} 行目: MOTION の後に 'Frames:' と 'Frame Time:' がありません。書き出し直してください",
     ),
     "bvh.number": (
-        "{file}: a number of the motion is missing, damaged or too large; export it again",
-        "{file}: モーションの数値が欠けているか、壊れているか、大きすぎます。書き出し直してください",
+        "{file}, line {line}: a number of the motion is damaged or too large; export it again",
+        "{file}、{line} 行目: モーションの数値が壊れているか、大きすぎます。書き出し直してください",
     ),
     "bvh.frame_time": (
         "{file}: 'Frame Time: {found}' is not the duration of a frame; enter it in seconds, such as 0.0333333 for 30 "
@@ -112,8 +106,8 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         "{file} は壊れています: 関節があり得ないほど遠くにあります。書き出し直してください",
     ),
     "motion.format": (
-        "{file} is not a supported motion file; export the motion as BVH, FBX or GLB",
-        "{file} は対応していないモーションファイルです。モーションを BVH、FBX または GLB で書き出してください",
+        "{file} is not a supported motion file; export the motion as BVH, FBX, GLB or VRMA",
+        "{file} は対応していないモーションファイルです。モーションを BVH、FBX、GLB または VRMA で書き出してください",
     ),
     "motion.no_animation": (
         "{file} has no animation; export it with baked animation",

@@ -24,10 +24,6 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         "the variant '{variant}' needs a file: choose one with {option}",
         "バリエーション '{variant}' にはファイルが必要です。{option} で指定してください",
     ),
-    "evaluate.keyframes_format": (
-        "{file} is neither a video nor a file of motion (BVH, FBX, GLB); choose one of these",
-        "{file} は動画でもモーションファイル（BVH、FBX、GLB）でもありません。いずれかを選んでください",
-    ),
     "evaluate.keyframes_skeleton": (
         (
             "the skeleton of {file} is not that of the players; retarget the motion to a file that Suisou exported on "

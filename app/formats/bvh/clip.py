@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 
 from app.arrays import AnyFloatArray
+from app.errors import Message
 
 AXES = "XYZ"
 POSITIONS = tuple(f"{axis}position" for axis in AXES)
@@ -31,8 +32,10 @@ class BvhClip:
         Relative to the parent.
     translations_cm : mapping of int to ndarray, shape (F, 3)
         Joints below the root that are not always at their offset, relative to the parent; only in files of others.
-    milliseconds : float or None
-        Frame time of a file that has it in milliseconds, which is a mistake; None: it has seconds.
+    rate_guess : Message or None
+        How the frame time of a file was understood that does not have it in seconds.
+    guesses : tuple of Message
+        What else had to be guessed where a file contradicts itself or the usual.
     """
 
     names: tuple[str, ...]
@@ -43,4 +46,5 @@ class BvhClip:
     root_translation_cm: AnyFloatArray
     rotations_xyzw: AnyFloatArray
     translations_cm: Mapping[int, AnyFloatArray] = field(default_factory=dict)
-    milliseconds: float | None = None
+    rate_guess: Message | None = None
+    guesses: tuple[Message, ...] = ()

@@ -1,59 +1,80 @@
 """BVH files of any program.
 
-Messages (with ``file``): ``file.cannot_read``, ``bvh.syntax``, ``bvh.truncated``, ``bvh.motion``,
-``bvh.no_frames``, ``bvh.number``,
-``bvh.frame_time`` (found), ``bvh.frames`` (found), ``bvh.too_large``, ``bvh.unsupported``.
+Programs differ in capitals, blanks and where braces stand; in how many rows "Frames:" announces; in the unit of the
+frame time; some write a byte order mark, scales, or several skeletons. What a file means without doubt is read, and
+what had to be guessed stands in the clip.
+
+Messages (with ``file``): ``file.cannot_read``, ``bvh.truncated``, ``bvh.too_large``, ``bvh.frame_time`` and
+``bvh.frames`` (found); with ``line`` too ``bvh.syntax``, ``bvh.unsupported``, ``bvh.no_frames``, ``bvh.number`` and
+``bvh.row``. Guesses: ``motion.rows``, ``motion.row_cut``, ``motion.figures``, ``motion.milliseconds`` and
+``motion.rate_as_time``.
 """
 
 from __future__ import annotations
 
+import codecs
 import os
+import re
 from collections.abc import Iterator
 from decimal import Decimal
 from fractions import Fraction
+from typing import Final
 
 import numpy as np
 
 from app.arrays import AnyFloatArray, FloatArray
-from app.errors import FileError, shortened
+from app.errors import FileError, Message, shortened
 from app.formats import euler
 from app.formats.bvh.clip import AXES, POSITIONS, BvhClip
 from app.formats.files import read_file
 from app.formats.rates import exact_rate
 
-_DEEPEST = 512
-_FREE_ROTATIONS = 2**20
-_MILLISECONDS = (2.0, 200.0)
+MOST_BYTES: Final = 2**29
+_DEEPEST: Final = 512
+_FREE_ROTATIONS: Final = 2**20
+_CHANNELS: Final = {name.lower(): name for axis in AXES for name in (f"{axis}position", f"{axis}rotation")}
+_SCALES: Final = frozenset(f"{axis.lower()}scale" for axis in AXES)
+_MILLISECONDS: Final = (2.0, 200.0)
 """A frame time in this range would be of 5 to 500 frames per second in milliseconds, and in seconds of no motion."""
-MOST_BYTES = 2**29
+_RATES: Final = (
+    *(12, 15, 23.976, 24, 25, 29.97, 30, 48, 50, 59.94, 60, 72, 75, 90),
+    *(100, 119.88, 120, 144, 150, 180, 200, 240, 250, 300, 360, 480, 500),
+)
+"""Rates of film, games and motion capture: a frame time of so much is a rate, unless it is one in milliseconds too."""
+_NEAR: Final = 0.002
+"""How far a rate may be off, as a part of it, to be one of `_RATES`."""
+_MOTION: Final = re.compile(r"(?:^|[\r\n])[ \t]*MOTION(?=\s|$)", re.IGNORECASE)
+_FRAMES: Final = re.compile(r"\s*Frames\s*:\s*(\S+)\s+Frame[ \t]*Time\s*:\s*(\S+)", re.IGNORECASE)
+_BRACES: Final = re.compile(r"([{}])")
 
 
 def read_bvh(path: str | os.PathLike[str]) -> BvhClip:
     """Read a BVH file with any channels in any order, also with positions of joints other than the root.
 
     Position channels take the place of the offset, as in most programs; a root offset is left out. Rotations are about
-    the axes in the order of their channels, where one is missing by 0.
+    the axes in the order of their channels, where one is missing by 0. Of several skeletons the first is read.
 
     Raises
     ------
     FileError
         If it is no such file.
     """
-    file = os.fspath(path)
-    text = read_file(path, MOST_BYTES).decode("utf-8", "replace")
-    return decode_bvh(text, file)
+    data = read_file(path, MOST_BYTES)
+    wide = data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE))
+    return decode_bvh(data.decode("utf-16" if wide else "utf-8-sig", "replace"), os.fspath(path))
 
 
 def decode_bvh(text: str, file: str) -> BvhClip:
     """Clip of a file's text, as `read_bvh`."""
-    head, _, motion = text.partition("MOTION")
-    hierarchy = _Hierarchy(file)
-    hierarchy.read(head)
-    return _motion(motion, hierarchy, file)
+    found = _MOTION.search(text)
+    head, motion = (text[: found.start()], text[found.end() :]) if found else (text, "")
+    skeleton = _Skeleton(file)
+    skeleton.read(head)
+    return _motion(motion, skeleton, len(text[: found.end()].splitlines()) if found else 0)
 
 
-class _Hierarchy:
-    """The skeleton as it is read."""
+class _Skeleton:
+    """The hierarchy as it is read, of all figures of the file."""
 
     def __init__(self, file: str) -> None:
         self.file = file
@@ -63,29 +84,31 @@ class _Hierarchy:
         self.channels: list[list[str]] = []
         self.end_sites: dict[int, FloatArray] = {}
 
+    @property
+    def roots(self) -> list[int]:
+        """First joint of each figure."""
+        return [joint for joint, parent in enumerate(self.parents) if parent < 0]
+
     def read(self, head: str) -> None:
-        lines = ((number, line.split()) for number, line in enumerate(head.splitlines(), start=1))
-        rows = ((number, words) for number, words in lines if words)
+        pieces = ((number, piece.split()) for number, line in _lines(head) for piece in _BRACES.split(line))
+        rows = ((number, words) for number, words in pieces if words)
         number, words = self._next(rows)
-        if words != ["HIERARCHY"]:
+        if [word.upper() for word in words] != ["HIERARCHY"]:
             raise self._syntax(number, words)
         open_joints: list[int] = []
         for number, words in rows:
-            if (
-                words[0] == ("JOINT" if self.names else "ROOT")
-                and len(words) > 1
-                and bool(open_joints or not self.names)
-            ):
+            key = words[0].upper()
+            if key == ("JOINT" if open_joints else "ROOT") and len(words) > 1:
                 self._open(number, "_".join(words[1:]), open_joints)
                 self._brace(rows)
-            elif words[:2] == ["End", "Site"] and open_joints:
+            elif open_joints and "".join(words[:2]).upper().startswith("ENDSITE"):
                 self._brace(rows)
                 number, words = self._next(rows)
                 self.end_sites[open_joints[-1]] = np.array(self._offset(number, words))
                 self._brace(rows, "}")
-            elif words[0] == "OFFSET" and open_joints:
+            elif key == "OFFSET" and open_joints:
                 self.offsets[open_joints[-1]] = self._offset(number, words)
-            elif words[0] == "CHANNELS" and open_joints:
+            elif key == "CHANNELS" and open_joints:
                 self._channels(number, words, open_joints[-1])
             elif words == ["}"] and open_joints:
                 open_joints.pop()
@@ -104,20 +127,19 @@ class _Hierarchy:
         self.channels.append([])
 
     def _channels(self, number: int, words: list[str], joint: int) -> None:
-        names = words[2:]
+        names = [name.lower() for name in words[2:]]
         if words[1:2] != [str(len(names))]:
             raise self._syntax(number, words)
-        known = {*POSITIONS, *(f"{axis}rotation" for axis in AXES)}
-        if len(set(names)) != len(names) or not known.issuperset(names):
-            raise FileError("bvh.unsupported", file=self.file, line=number, what=shortened(" ".join(names), 80))
-        self.channels[joint] = names
+        if len(set(names)) != len(names) or not set(names) <= _CHANNELS.keys() | _SCALES:
+            raise FileError("bvh.unsupported", file=self.file, line=number, what=shortened(" ".join(words[2:]), 80))
+        self.channels[joint] = [_CHANNELS.get(name, "") for name in names]
 
     def _offset(self, number: int, words: list[str]) -> list[float]:
         try:
             values = [float(word) for word in words[1:]]
         except ValueError as error:
             raise self._syntax(number, words) from error
-        if words[0] != "OFFSET" or len(values) != 3 or not np.isfinite(values).all():
+        if words[0].upper() != "OFFSET" or len(values) != 3 or not np.isfinite(values).all():
             raise self._syntax(number, words)
         return values
 
@@ -136,59 +158,129 @@ class _Hierarchy:
         return FileError("bvh.syntax", file=self.file, line=number, found=" ".join(words)[:40])
 
 
-def _motion(motion: str, hierarchy: _Hierarchy, file: str) -> BvhClip:
-    words = motion.split()
+def _lines(text: str) -> Iterator[tuple[int, str]]:
+    return enumerate(text.splitlines(), start=1)
+
+
+def _motion(motion: str, skeleton: _Skeleton, line: int) -> BvhClip:
+    """Read what follows MOTION, which is on a line."""
+    file = skeleton.file
+    said = _FRAMES.match(motion)
+    if said is None:
+        raise FileError("bvh.no_frames", file=file, line=max(1, line))
     try:
-        if words[0] != "Frames:" or words[2:4] != ["Frame", "Time:"]:
-            raise FileError("bvh.no_frames", file=file)
-        frames, frame_time = int(words[1]), float(words[4])
-        values = np.array(words[5:], dtype=np.float64)
-    except (IndexError, ValueError) as error:
-        raise FileError("bvh.number", file=file) from error
-    width = sum(len(channels) for channels in hierarchy.channels)
+        frames = int(said[1])
+    except ValueError as error:
+        raise FileError("bvh.frames", file=file, found=said[1][:40]) from error
+    try:
+        frame_time = float(said[2])
+    except ValueError as error:
+        raise FileError("bvh.frame_time", file=file, found=said[2][:40]) from error
     if not 1e-6 < frame_time < 1e6:
-        raise FileError("bvh.frame_time", file=file, found=words[4][:40])
+        raise FileError("bvh.frame_time", file=file, found=said[2][:40])
     if not 1 <= frames < 2**31:
-        raise FileError("bvh.frames", file=file, found=words[1][:40])
+        raise FileError("bvh.frames", file=file, found=said[1][:40])
+    width = sum(len(channels) for channels in skeleton.channels)
+    before = line - 1 + len(motion[: said.end()].splitlines())
+    values, guesses = _table(motion[said.end() :], frames, width, file, before)
+    roots = skeleton.roots
+    if len(roots) > 1:
+        others = ", ".join(skeleton.names[joint] for joint in roots[1:])
+        guesses += (Message("motion.figures", {"name": skeleton.names[0], "others": shortened(others, 80)}),)
+    fps, rate_guess = _rate(frame_time, said[2])
+    return _clip(values, skeleton, roots[1] if len(roots) > 1 else len(skeleton.names), fps, rate_guess, guesses)
+
+
+def _table(text: str, frames: int, width: int, file: str, line: int) -> tuple[FloatArray, tuple[Message, ...]]:
+    """Return the rows of the motion, and a guess where there are more or fewer than said.
+
+    Parameters
+    ----------
+    frames : int
+        How many rows the file announces.
+    line : int
+        Where the text begins.
+    """
+    rows = [line.split() for line in text.splitlines()]
+    values = _numbers(rows, file, line)
+    unlike = next((at for at, words in enumerate(rows) if words and len(words) != width), None)
+    if not width and unlike is None:
+        return np.zeros((frames, 0)), ()
+    # Where the count is right, a row may be broken into lines anywhere; else the lines must be the rows.
+    if width and len(values) == frames * width:
+        return values.reshape(frames, width), ()
+    whole = len(values) // max(1, width)
+    if unlike is not None and (not whole or any(rows[unlike + 1 :])):
+        raise FileError("bvh.row", file=file, line=line + unlike, found=len(rows[unlike]), width=width)
+    if not whole:
+        raise FileError("bvh.truncated", file=file)
+    guess = Message("motion.rows" if unlike is None else "motion.row_cut", {"frames": frames, "found": whole})
+    return values[: whole * width].reshape(whole, width), (guess,)
+
+
+def _numbers(rows: list[list[str]], file: str, line: int) -> FloatArray:
+    try:
+        values = np.array([word for words in rows for word in words], dtype=np.float64)
+    except ValueError:
+        values = np.array([np.nan])
     if not np.isfinite(values).all():
-        raise FileError("bvh.number", file=file)
-    if len(values) != frames * width:
-        raise FileError("bvh.motion", file=file, found=len(values), frames=frames, width=width)
-    if frames * len(hierarchy.names) > _FREE_ROTATIONS + 4 * len(values):
+        bad = next((at for at, words in enumerate(rows) if not all(map(_is_number, words))), 0)
+        raise FileError("bvh.number", file=file, line=bad + line)
+    return values
+
+
+def _is_number(word: str) -> bool:
+    try:
+        return bool(np.isfinite(float(word)))
+    except ValueError:
+        return False
+
+
+def _clip(
+    table: FloatArray,
+    skeleton: _Skeleton,
+    joints: int,
+    fps: Fraction,
+    rate_guess: Message | None,
+    guesses: tuple[Message, ...],
+) -> BvhClip:
+    """Make the clip of the first joints of the skeleton."""
+    frames = len(table)
+    if frames * joints > _FREE_ROTATIONS + 4 * table.size:
         # Joints need not have channels, and then cost the file nothing in a frame.
-        raise FileError("bvh.too_large", file=file)
-    table = values.reshape(frames, width)
-    offsets = np.array(hierarchy.offsets)
+        raise FileError("bvh.too_large", file=skeleton.file)
+    offsets = np.array(skeleton.offsets[:joints])
     offsets[0] = 0.0
-    rotations = np.zeros((frames, len(hierarchy.names), 4))
+    rotations = np.zeros((frames, joints, 4))
     rotations[..., 3] = 1.0
     translations: dict[int, AnyFloatArray] = {}
     column = 0
-    for joint, channels in enumerate(hierarchy.channels):
+    for joint, channels in enumerate(skeleton.channels[:joints]):
         columns = table[:, column : column + len(channels)]
         column += len(channels)
-        turned = [at for at, name in enumerate(channels) if name not in POSITIONS]
+        turned = [at for at, name in enumerate(channels) if name.endswith("rotation")]
+        placed = [at for at, name in enumerate(channels) if name in POSITIONS]
         if turned:
             rotations[:, joint] = _rotations(columns[:, turned], "".join(channels[at][0] for at in turned))
-        if len(turned) < len(channels) or not joint:
+        if placed or not joint:
             places = np.tile(offsets[joint], (frames, 1))
-            for at in set(range(len(channels))) - set(turned):
+            for at in placed:
                 places[:, AXES.index(channels[at][0])] = columns[:, at]
             translations[joint] = places
     root_translation = translations.pop(0)
     for joint in [joint for joint, places in translations.items() if (places == places[0]).all()]:
         offsets[joint] = translations.pop(joint)[0]
-    mistaken = _MILLISECONDS[0] <= frame_time <= _MILLISECONDS[1]
     return BvhClip(
-        tuple(hierarchy.names),
-        tuple(hierarchy.parents),
+        tuple(skeleton.names[:joints]),
+        tuple(skeleton.parents[:joints]),
         offsets,
-        hierarchy.end_sites,
-        _rate(frame_time, words[4], 1000 if mistaken else 1),
+        {joint: end for joint, end in skeleton.end_sites.items() if joint < joints},
+        fps,
         root_translation,
         rotations,
         translations,
-        frame_time if mistaken else None,
+        rate_guess,
+        guesses,
     )
 
 
@@ -198,7 +290,21 @@ def _rotations(angles_degrees: AnyFloatArray, order: str) -> FloatArray:
     return euler.quaternions(np.pad(angles_degrees, ((0, 0), (0, len(missing)))), order + missing)
 
 
-def _rate(frame_time: float, written: str, units_per_s: int) -> Fraction:
-    """The rate that a frame time means, which is often written with few digits: .03333 is 30 frames per second."""
+def _rate(frame_time: float, written: str) -> tuple[Fraction, Message | None]:
+    """Return the rate that a frame time means, which is often written with few digits: .03333 is 30 frames per second.
+
+    A number that is impossible as a time in seconds is one in milliseconds, or the rate itself.
+    """
     digit = float(Decimal(10) ** int(Decimal(written).as_tuple().exponent))
-    return exact_rate(units_per_s / frame_time, 0.5 * digit / frame_time)
+    accuracy = 0.5 * digit / frame_time
+    if frame_time >= _MILLISECONDS[0] and _is_usual(frame_time, 0.0) and not _is_usual(1000 / frame_time, accuracy):
+        rate = exact_rate(frame_time, accuracy)
+        return rate, Message("motion.rate_as_time", {"rate": str(rate), "said": frame_time})
+    if _MILLISECONDS[0] <= frame_time <= _MILLISECONDS[1]:
+        rate = exact_rate(1000 / frame_time, accuracy)
+        return rate, Message("motion.milliseconds", {"rate": str(rate), "said": frame_time})
+    return exact_rate(1 / frame_time, accuracy), None
+
+
+def _is_usual(fps: float, accuracy: float) -> bool:
+    return any(abs(fps - rate) <= max(_NEAR, accuracy) * rate for rate in _RATES)

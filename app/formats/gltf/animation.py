@@ -11,10 +11,17 @@ from app.arrays import FloatArray, IntArray
 from app.formats.gltf.model import GltfChannel
 from app.formats.keys import slerp
 
+_KEY_TOLERANCE = 1e-5
+"""Seconds, and part of a time: far below a frame, above the rounding of float32 and of sums of it."""
+
 
 def sampled(channel: GltfChannel, times_s: FloatArray) -> FloatArray:
     """Values (T, W) of a channel; before its first and after its last key it stands still. Rotations are unit ones."""
     known = channel.times_s
+    if channel.interpolation == "STEP":
+        # Keys are float32 seconds, which may lie after the frame that they are meant for.
+        reached = np.searchsorted(known, times_s + _KEY_TOLERANCE * np.maximum(1.0, np.abs(times_s)), side="right") - 1
+        return _unit(channel, channel.values[np.maximum(reached, 0)])
     after = np.clip(np.searchsorted(known, times_s, side="right"), 1, max(1, len(known) - 1))
     before = after - 1
     after = np.minimum(after, len(known) - 1)
@@ -22,12 +29,15 @@ def sampled(channel: GltfChannel, times_s: FloatArray) -> FloatArray:
     share = np.clip((times_s - known[before]) / np.where(length_s > 0.0, length_s, 1.0), 0.0, 1.0)[:, None]
     if channel.interpolation == "CUBICSPLINE":
         found = _spline(channel.values.reshape(len(known), 3, -1), before, after, share, length_s[:, None])
-    elif channel.interpolation == "STEP":
-        found = channel.values[np.where(share[:, 0] < 1.0, before, after)]
     elif channel.path == "rotation":
         found = slerp(channel.values[before], channel.values[after], share)
     else:
         found = channel.values[before] * (1.0 - share) + channel.values[after] * share
+    return _unit(channel, found)
+
+
+def _unit(channel: GltfChannel, found: FloatArray) -> FloatArray:
+    """Return rotations as unit quaternions, other values as they are."""
     if channel.path != "rotation":
         return found
     size = np.linalg.norm(found, axis=1, keepdims=True)

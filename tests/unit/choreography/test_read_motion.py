@@ -103,7 +103,9 @@ def bvh(turn: FloatArray, unit_m: float, frames: int = 20, toes: bool = True) ->
 Z_UP = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])
 
 
-@pytest.mark.parametrize(("unit", "unit_m"), [("m", 1.0), ("cm", 0.01), ("inch", 0.0254), ("CMU", 0.0254 / 0.45)])
+@pytest.mark.parametrize(
+    ("unit", "unit_m"), [("m", 1.0), ("cm", 0.01), ("inch", 0.0254), ("CMU", 0.0254 / 0.45), ("mm", 1e-3)]
+)
 @pytest.mark.parametrize(("turn", "up"), [(np.eye(3), "+Y"), (Z_UP, "+Z")], ids=["y", "z"])
 def test_a_figure_of_any_unit_and_axes_stands_on_the_floor(
     tmp_path: Path, turn: FloatArray, up: str, unit: str, unit_m: float
@@ -205,6 +207,46 @@ def test_a_frame_time_in_milliseconds_is_reported(tmp_path: Path) -> None:
     read = read_motion(path)
     assert read.clip.fps == 30
     assert [message.id for message in guesses(read) if message.id.startswith("motion.mill")] == ["motion.milliseconds"]
+
+
+@pytest.mark.parametrize(("factor", "unit"), [(0.01, "m"), (100.0, "cm")])
+def test_positions_in_another_unit_than_the_bones_are_understood(tmp_path: Path, factor: float, unit: str) -> None:
+    """A body that walks, squats and stands on the floor; some programs write its way in metres, its bones in cm."""
+    unit_m = 0.01 if factor < 1.0 else 1.0
+    text = bvh(np.eye(3), unit_m)
+    head, _, motion = text.partition("MOTION\n")
+    rows = [line.split() for line in motion.splitlines()[2:]]
+    for at, row in enumerate(rows):
+        row[:3] = [f"{value:.6f}" for value in (at * 0.1 / unit_m, 0.87 / unit_m, 0.0)]
+    files = {}
+    for name, scale in (("usual", 1.0), ("mixed", factor)):
+        mixed = [" ".join([*(f"{scale * float(value):.6f}" for value in row[:3]), *row[3:]]) for row in rows]
+        files[name] = tmp_path / f"{name}.bvh"
+        files[name].write_text("\n".join([f"{head}MOTION", *motion.splitlines()[:2], *mixed]))
+    usual, mixed_read = read_motion(files["usual"]), read_motion(files["mixed"])
+    np.testing.assert_allclose(mixed_read.clip.hips_m, usual.clip.hips_m, atol=1e-3)
+    assert not [message for message in guesses(usual) if message.id == "motion.place_unit"]
+    said = [message.arguments["unit"] for message in guesses(mixed_read) if message.id == "motion.place_unit"]
+    assert said == [unit]
+
+
+def test_a_body_that_is_captured_about_its_hips_keeps_its_unit(tmp_path: Path) -> None:
+    path = tmp_path / "centred.bvh"
+    head, _, motion = bvh(np.eye(3), 0.01).partition("MOTION\n")
+    lines = motion.splitlines()
+    rows = [" ".join(["0", f"{0.9 + 0.3 * np.sin(at):.4f}", "0", *row.split()[3:]]) for at, row in enumerate(lines[2:])]
+    path.write_text("\n".join([f"{head}MOTION", *lines[:2], *rows]))
+    read = read_motion(path)
+    assert "motion.place_unit" not in [message.id for message in guesses(read)]
+    assert np.ptp(read.clip.hips_m[:, 1]) < 0.01
+
+
+@pytest.mark.parametrize("suffix", [".vrma", ".bvh", ".txt"])
+def test_content_decides_what_a_file_is(tmp_path: Path, suffix: str) -> None:
+    example = Path("tests/data/motion/three_vrm_test.vrma")
+    path = tmp_path / f"motion{suffix}"
+    path.write_bytes(example.read_bytes())
+    assert len(read_motion(path).clip) == len(read_motion(example).clip) > 1
 
 
 def test_frames_of_seconds_are_counted_as_they_are_learned_from(tmp_path: Path) -> None:

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from app.errors import FileError
+from app.errors import FileError, Message
 from app.formats.bvh.clip import BvhClip
 from app.formats.bvh.read import decode_bvh, read_bvh
 from app.formats.bvh.write import write_bvh
@@ -176,8 +176,114 @@ def test_a_frame_time_of_few_digits_is_a_usual_rate(written: str, fps: Fraction)
 )
 def test_a_frame_time_in_milliseconds_is_understood(written: str, fps: Fraction) -> None:
     read = decode_bvh(ARM % ("1 Xrotation", "0", "0", written, "1 2"), "a.bvh")
-    assert (read.fps, read.milliseconds) == (fps, float(written))
-    assert decode_bvh(ARM % ("1 Xrotation", "0", "0", "0.04", "1 2"), "a.bvh").milliseconds is None
+    assert read.fps == fps
+    assert read.rate_guess == Message("motion.milliseconds", {"rate": str(fps), "said": float(written)})
+    assert decode_bvh(ARM % ("1 Xrotation", "0", "0", "0.04", "1 2"), "a.bvh").rate_guess is None
+
+
+@pytest.mark.parametrize(
+    ("written", "fps"),
+    [
+        *(("24", Fraction(24)), ("25", Fraction(25)), ("30", Fraction(30)), ("29.97", Fraction(30000, 1001))),
+        *(("50", Fraction(50)), ("60.0", Fraction(60)), ("100", Fraction(100)), ("120", Fraction(120))),
+        ("240", Fraction(240)),
+    ],
+)
+def test_a_rate_in_place_of_the_frame_time_is_understood(written: str, fps: Fraction) -> None:
+    read = decode_bvh(ARM % ("1 Xrotation", "0", "0", written, "1 2"), "a.bvh")
+    assert read.fps == fps
+    assert read.rate_guess == Message("motion.rate_as_time", {"rate": str(fps), "said": float(written)})
+
+
+DIALECTS = {
+    "channels in small letters": lambda text: re.sub("[XYZ](position|rotation)", lambda found: found[0].lower(), text),
+    "channels in capitals": lambda text: re.sub("[XYZ](position|rotation)", lambda found: found[0].upper(), text),
+    "End site": lambda text: text.replace("End Site", "End site"),
+    "EndSite with a name": lambda text: text.replace("End Site", "EndSite tip"),
+    "keywords in small letters": lambda text: re.sub("HIERARCHY|ROOT|JOINT|OFFSET|CHANNELS|MOTION", _lower, text),
+    "brace on the same line": lambda text: re.sub(r"\n\s*\{", " {", text),
+    "braces closed on one line": lambda text: re.sub(r"\}\s*\}", "}}", text),
+    "no space after Frames:": lambda text: text.replace("Frames: ", "Frames:").replace("Frame Time: ", "Frame Time:"),
+    "space before the colon": lambda text: text.replace("Frames:", "Frames :").replace("Time:", "Time :"),
+    "MOTION in a name": lambda text: text.replace("hips", "MOTION_hips"),
+    "motion on the line of MOTION": lambda text: text.replace("MOTION\n", "MOTION "),
+    "line ends of Windows": lambda text: text.replace("\n", "\r\n"),
+    "line ends of old Macs": lambda text: text.replace("\n", "\r"),
+    "blank lines": lambda text: text.replace("\n", "\n\n"),
+    "rows of several lines": lambda text: text[:-400] + text[-400:].replace(" ", "\n"),
+}
+
+
+def _lower(found: re.Match[str]) -> str:
+    return found[0].lower()
+
+
+@pytest.mark.parametrize("name", DIALECTS)
+def test_dialects_are_read_as_the_usual_one(name: str) -> None:
+    text = encode_bvh(clip(frames=5)).decode()
+    other = DIALECTS[name](text)
+    assert other != text
+    same(decode_bvh(other, "a.bvh"), decode_bvh(text, "a.bvh"))
+
+
+def same(found: BvhClip, expected: BvhClip) -> None:
+    assert [name.removeprefix("MOTION_") for name in found.names] == list(expected.names)
+    assert (found.parents, found.fps, found.guesses) == (expected.parents, expected.fps, ())
+    np.testing.assert_array_equal(found.offsets_cm, expected.offsets_cm)
+    np.testing.assert_array_equal(found.rotations_xyzw, expected.rotations_xyzw)
+    np.testing.assert_array_equal(found.root_translation_cm, expected.root_translation_cm)
+    assert found.end_sites_cm.keys() == expected.end_sites_cm.keys()
+
+
+@pytest.mark.parametrize("encoding", ["utf-8-sig", "utf-16"])
+def test_a_byte_order_mark_is_no_text(encoding: str, tmp_path: Path) -> None:
+    text = encode_bvh(clip(frames=2)).decode()
+    (tmp_path / "a.bvh").write_bytes(text.encode(encoding))
+    same(read_bvh(tmp_path / "a.bvh"), decode_bvh(text, "a.bvh"))
+
+
+def test_scales_are_left_out() -> None:
+    row = "1 2 3 4 5 6 1 1 1"
+    scaled = decode_bvh(ARM % (f"9 {SIX[2:]} Xscale Yscale Zscale", "0", "0", "0.04", f"{row}\n{row}"), "a.bvh")
+    plain = decode_bvh(ARM % (SIX, "0", "0", "0.04", f"{row[:11]}\n{row[:11]}"), "a.bvh")
+    same(scaled, plain)
+
+
+@pytest.mark.parametrize(("said", "guess"), [(4, "motion.rows"), (6, "motion.rows"), (500, "motion.rows")])
+def test_rows_are_counted_whatever_the_file_announces(said: int, guess: str) -> None:
+    text = encode_bvh(clip(frames=5)).decode()
+    found = decode_bvh(text.replace("Frames: 5", f"Frames: {said}"), "a.bvh")
+    assert found.guesses == (Message(guess, {"frames": said, "found": 5}),)
+    same(replace(found, guesses=()), decode_bvh(text, "a.bvh"))
+
+
+def test_a_file_that_is_cut_off_is_read_as_far_as_it_goes() -> None:
+    text = encode_bvh(clip(frames=5)).decode()
+    found = decode_bvh(text.rstrip().rpartition(" ")[0], "a.bvh")
+    assert found.guesses == (Message("motion.row_cut", {"frames": 5, "found": 4}),)
+    np.testing.assert_array_equal(found.rotations_xyzw, decode_bvh(text, "a.bvh").rotations_xyzw[:4])
+
+
+def test_of_several_figures_the_first_is_read() -> None:
+    text = encode_bvh(clip(frames=3)).decode()
+    head, motion = text.split("MOTION")
+    start, rows = motion.split("\n", 3)[:3], motion.split("\n", 3)[3].splitlines()
+    other = head[head.index("ROOT") :].replace("hips", "partner")
+    both = "\n".join([f"{head}{other}MOTION", *start[1:], *(f"{row} {row.replace('1', '2')}" for row in rows)])
+    found = decode_bvh(both, "a.bvh")
+    assert found.guesses == (Message("motion.figures", {"name": "hips", "others": "partner"}),)
+    same(replace(found, guesses=()), decode_bvh(text, "a.bvh"))
+
+
+def test_a_wrong_row_is_named_by_its_line() -> None:
+    text = encode_bvh(clip(frames=5)).decode()
+    lines = text.splitlines()
+    at = len(lines) - 3
+    for change, problem in ((lambda row: row + " 1", "bvh.row"), (lambda row: row.replace("1", "x", 1), "bvh.number")):
+        damaged = "\n".join([*lines[:at], change(lines[at]), *lines[at + 1 :]])
+        with pytest.raises(FileError) as raised:
+            decode_bvh(damaged, "a.bvh")
+        assert (raised.value.message.id, raised.value.message.arguments["line"]) == (problem, at + 1)
 
 
 GOOD = clip()
@@ -217,17 +323,18 @@ TEXT = encode_bvh(clip(frames=2)).decode()
         (TEXT.replace("OFFSET 0.000000 0.000000 0.000000", "OFFSET 0 zero 0", 1), "bvh.syntax"),
         (TEXT.replace("CHANNELS 3", "CHANNELS 4", 1), "bvh.syntax"),
         (TEXT.replace("CHANNELS 3 Zrotation", "CHANNELS 3 Xrotation", 1), "bvh.unsupported"),
-        (TEXT.replace("CHANNELS 3 Zrotation", "CHANNELS 3 Zscale", 1), "bvh.unsupported"),
-        (TEXT.replace("CHANNELS 3 Z", "CHANNELS 4 Xposition Z", 1), "bvh.motion"),
+        (TEXT.replace("CHANNELS 3 Zrotation", "CHANNELS 3 Wrotation", 1), "bvh.unsupported"),
+        (TEXT.replace("CHANNELS 3 Z", "CHANNELS 4 Xposition Z", 1), "bvh.row"),
         (TEXT.replace("MOTION", "MOTION\nMOTION"), "bvh.no_frames"),
-        (TEXT.replace("Frames: 2", "Frames: 3"), "bvh.motion"),
+        (TEXT.replace("Frames: 2", "Frames: two"), "bvh.frames"),
+        (TEXT[: TEXT.index("Frame Time:") + 30], "bvh.truncated"),
         (TEXT.replace("Frames: 2", "Frames: -2"), "bvh.frames"),
         (TEXT.replace("Frames: 2", "Frames: 0"), "bvh.frames"),
         (re.sub("Frame Time: .*", "Frame Time: -0.5", TEXT), "bvh.frame_time"),
         (re.sub("Frame Time: .*", "Frame Time: 0", TEXT), "bvh.frame_time"),
         (re.sub("Frame Time: .*", "Frame Time: nan", TEXT), "bvh.frame_time"),
         (re.sub("Frame Time: .*", "Frame Time: 1e300", TEXT), "bvh.frame_time"),
-        (TEXT + "1.0\n", "bvh.motion"),
+        (TEXT.replace("\t{", "\t{ {", 1), "bvh.syntax"),
         (TEXT + "word\n", "bvh.number"),
         ("HIERARCHY\n" + "JOINT a\n{\n" * 5, "bvh.syntax"),
         ("HIERARCHY\nROOT a\n{\n" + "JOINT a\n{\n" * 5000, "bvh.unsupported"),

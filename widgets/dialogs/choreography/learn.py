@@ -21,6 +21,7 @@ from app.editor.session import Session
 from app.encoding import shown
 from app.errors import AppError, Cancelled, Message, Progress, StopRequested
 from app.project.choreography_files import SUFFIX
+from app.rig.motion_file import SUFFIXES as MOTION_SUFFIXES
 from app.score.suffixes import MUSIC
 from widgets.common.clicks import on_click
 from widgets.common.controls import Button, Caption, named, selectable
@@ -30,7 +31,7 @@ from widgets.common.plain import Label
 from widgets.common.text import message_text, sentence
 from widgets.dialogs.automatic_number import TEXT_MARGIN_PX, AutomaticNumber
 from widgets.dialogs.choreography.cut_panel import CutHistory, CutPanel
-from widgets.dialogs.choreography.learn_draft import MOTION_SUFFIXES, PairContents, PairDraft, with_files
+from widgets.dialogs.choreography.learn_draft import PairContents, PairDraft, with_files
 from widgets.dialogs.choreography.learn_pair import PairForm
 from widgets.dialogs.choreography.learn_rows import (
     PairList,

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from fractions import Fraction
 from pathlib import Path
-from typing import Final
 
 import msgspec
 
@@ -13,9 +12,8 @@ from app.choreography.cuts_by_hand import Cuts
 from app.choreography.learn import Analysis
 from app.choreography.read_pair import CREDITS_SUFFIX, ReadPair
 from app.errors import Message
+from app.rig.motion_file import SUFFIXES as MOTION_SUFFIXES
 from app.score.suffixes import MUSIC
-
-MOTION_SUFFIXES: Final = (".bvh", ".fbx", ".glb", ".gltf")
 
 
 class PairDraft(msgspec.Struct, frozen=True):

@@ -15,13 +15,14 @@ from app.choreography.read_motion import guesses
 from app.choreography.read_pair import CREDITS_SUFFIX
 from app.encoding import shown
 from app.formats.rates import exact_rate
+from app.rig.motion_file import SUFFIXES as MOTION_SUFFIXES
 from app.score.suffixes import MUSIC
 from widgets.common.controls import Button, Caption, Retranslated, named, wrapped
 from widgets.common.paths import PathEdit, ask_for_file
 from widgets.common.plain import Label
 from widgets.common.text import message_text, sentence
 from widgets.dialogs.automatic_number import AutomaticNumber
-from widgets.dialogs.choreography.learn_draft import MOTION_SUFFIXES, PairContents, PairDraft
+from widgets.dialogs.choreography.learn_draft import PairContents, PairDraft
 
 _FILES = {"motion": MOTION_SUFFIXES, "music": MUSIC, "credits": (CREDITS_SUFFIX,)}
 _LABELS: Final = {

@@ -15,11 +15,11 @@ from app.editor.session import Session, Severity
 from app.encoding import restored, shown, stored
 from app.errors import AppError, Message, Progress, StopRequested
 from app.evaluation.key import KEY_FILE, Variant
-from app.evaluation.keyframes import SUFFIXES as MOTION_SUFFIXES
 from app.evaluation.process import EvaluationFinished, Report
 from app.evaluation.request import EXCERPTS, LEAST_S, MOST_EXCERPTS, MOST_S, SECONDS, EvaluationRequest
 from app.formats.video import SUFFIXES
 from app.project.model import Project
+from app.rig.motion_file import SUFFIXES as MOTION_SUFFIXES
 from widgets.common.controls import Button, Caption, Check, named, selectable, wrapped
 from widgets.common.layouts import in_column, in_form, in_row
 from widgets.common.paths import PathEdit, ask_for_file, ask_for_folder, show_folder

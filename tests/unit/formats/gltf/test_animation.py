@@ -117,3 +117,14 @@ def changed(data: bytes, document: dict[str, Any]) -> bytes:
     text += b" " * (-len(text) % 4)
     rest = data[20 + struct.unpack_from("<I", data, 12)[0] :]
     return struct.pack("<4sIIII", b"glTF", 2, 20 + len(text) + len(rest), len(text), 0x4E4F534A) + text + rest
+
+
+def test_a_step_at_a_frame_is_seen_at_that_frame() -> None:
+    """Keys are stored as float32: 12.6 s is a little later than a frame at 12.6."""
+    frames = np.arange(300)
+    keys_s = (frames / 30.0).astype(np.float32).astype(np.float64)
+    values = np.repeat(frames[:, None], 3, axis=1).astype(np.float64)
+    found = sampled(GltfChannel(0, "translation", "STEP", keys_s, values), frames / 30.0)
+    np.testing.assert_array_equal(found[:, 0], frames)
+    between = sampled(GltfChannel(0, "translation", "STEP", keys_s, values), (frames + 0.9) / 30.0)
+    np.testing.assert_array_equal(between[:, 0], frames)

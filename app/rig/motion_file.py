@@ -1,0 +1,49 @@
+"""Motion of other programs: the reader that a file's content asks for."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import Final
+
+from app.errors import FileError
+from app.formats.bvh.clip import BvhClip
+from app.formats.bvh.read import read_bvh
+from app.formats.files import open_file
+
+SUFFIXES: Final = (".bvh", ".fbx", ".glb", ".gltf", ".vrma")
+"""What files of motion are called; what is in them decides how they are read."""
+_HEAD_BYTES: Final = 4096
+
+
+def read_motion_file(path: str | os.PathLike[str]) -> BvhClip:
+    """Read the motion of a BVH, FBX or glTF file (.glb, .gltf, .vrma), whatever it is called.
+
+    Raises
+    ------
+    FileError
+        ``motion.format`` if it is none of these; those of the readers.
+    """
+    with open_file(path) as stream:
+        head = stream.read(_HEAD_BYTES)
+    kind = _kind(head) or Path(path).suffix.lower()
+    if kind == ".bvh":
+        return read_bvh(path)
+    # Their libraries take long to import.
+    from app.rig.node_motion import read_fbx_motion, read_gltf_motion
+
+    if kind == ".fbx":
+        return read_fbx_motion(Path(path))
+    if kind in SUFFIXES:
+        return read_gltf_motion(Path(path))
+    raise FileError("motion.format", file=os.fspath(path))
+
+
+def _kind(head: bytes) -> str:
+    """Return the suffix that a file with this beginning should have, empty where the beginning tells nothing."""
+    text = head.decode("utf-16" if head[:2] in (b"\xff\xfe", b"\xfe\xff") else "utf-8-sig", "replace").lstrip()
+    if text[:9].upper() == "HIERARCHY":
+        return ".bvh"
+    if text.startswith(("Kaydara FBX Binary", "; FBX")) or "FBXHeaderExtension" in text:
+        return ".fbx"
+    return ".glb" if text.startswith(("glTF", "{")) else ""
